@@ -1,0 +1,139 @@
+//! The one error type of the crate.
+
+use std::fmt;
+
+/// Everything that can go wrong, with what a reader needs to find the place: key, value, time, step, wall.
+///
+/// [`Error::is_request`] separates a request that no run could meet (bad scene, unknown name: exit code 2 of the tool)
+/// from a run that failed (exit code 1).
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A value of the scene, the scheme or the time grid that makes no sense.
+    Invalid {
+        /// Path of the value, for example `wall "upper": restitution`.
+        key: String,
+        /// The value found, as text.
+        value: String,
+        /// What would be accepted.
+        expected: String,
+    },
+    /// A name that nothing carries (a wall, a probe, a scheme, a case).
+    Unknown {
+        /// What kind of thing was named, for example `wall`.
+        kind: &'static str,
+        /// The name asked for.
+        name: String,
+        /// The names that exist.
+        known: Vec<String>,
+    },
+    /// A case file that cannot be read: the message already shows file, line and column.
+    Case(String),
+    /// A file or folder that cannot be read or written.
+    Io {
+        /// The path.
+        path: String,
+        /// What the operating system, or the format's reader, said.
+        reason: String,
+        /// True while reading a request or opening the output; false once a run was under way.
+        request: bool,
+    },
+    /// The convex programme of a step was not solved.
+    Qp {
+        /// Time at the start of the step, s.
+        time: f64,
+        /// Number of the step, from 0.
+        step: u64,
+        /// Name of the wall concerned, when one is.
+        wall: Option<String>,
+        /// What failed.
+        reason: String,
+    },
+    /// Newton's method did not converge within a step.
+    Newton {
+        /// Time at the start of the step, s.
+        time: f64,
+        /// Number of the step, from 0.
+        step: u64,
+        /// Last residual force, N.
+        residual: f64,
+    },
+    /// The motion left the numbers: an infinity or NaN appeared.
+    NotFinite {
+        /// Time at the end of the step, s.
+        time: f64,
+        /// Number of the step, from 0.
+        step: u64,
+        /// What stopped being finite.
+        what: &'static str,
+    },
+    /// More contact events than the stated bound in a window: the exact scheme gives up rather than hang.
+    TooManyEvents {
+        /// Time at which it gave up, s.
+        time: f64,
+        /// Name of the wall last touched.
+        wall: String,
+        /// Events counted in the window.
+        count: u64,
+        /// Length of the window, s.
+        window: f64,
+    },
+}
+
+/// What every function of the crate that can fail returns.
+pub type Result<T> = std::result::Result<T, Error>;
+
+impl Error {
+    /// An [`Error::Invalid`].
+    pub(crate) fn invalid(key: impl Into<String>, value: impl fmt::Display, expected: impl Into<String>) -> Self {
+        Self::Invalid { key: key.into(), value: value.to_string(), expected: expected.into() }
+    }
+
+    /// True where the request was wrong (exit code 2 of the tool), false where the run failed (exit code 1).
+    #[must_use]
+    pub fn is_request(&self) -> bool {
+        match self {
+            Self::Invalid { .. } | Self::Unknown { .. } | Self::Case(_) => true,
+            Self::Io { request, .. } => *request,
+            _ => false,
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Invalid { key, value, expected } => write!(f, "{key} is {value}; expected {expected}"),
+            Self::Unknown { kind, name, known } if known.is_empty() => {
+                write!(f, "no {kind} is named {name:?}: there is none")
+            }
+            Self::Unknown { kind, name, known } => {
+                write!(f, "no {kind} is named {name:?}; there is {}", known.join(", "))
+            }
+            Self::Case(text) => f.write_str(text),
+            Self::Io { path, reason, .. } => write!(f, "{path}: {reason}"),
+            Self::Qp { time, step, wall, reason } => {
+                write!(f, "the QP of step {step} at t = {time} s was not solved")?;
+                if let Some(wall) = wall {
+                    write!(f, " (wall {wall:?})")?;
+                }
+                write!(f, ": {reason}")
+            }
+            Self::Newton { time, step, residual } => write!(
+                f,
+                "Newton's method did not converge in step {step} at t = {time} s (residual {residual:e} N); \
+                 a smaller step or a softer penalty would"
+            ),
+            Self::NotFinite { time, step, what } => {
+                write!(f, "the {what} is no longer finite at t = {time} s, step {step}: the scheme has diverged")
+            }
+            Self::TooManyEvents { time, wall, count, window } => write!(
+                f,
+                "{count} contact events within {window:e} s at wall {wall:?}, t = {time} s: more than the exact scheme follows; \
+                 a stepping scheme (moreau-jean, paoli-schatzman) does not resolve them one by one"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,196 @@
+//! What is simulated: a linear system, its walls, its loads, its start and how long.
+
+mod load;
+mod row;
+mod system;
+mod wall;
+
+pub use load::{Forcing, Harmonic, Load, LoadKind, Table};
+pub use row::{Probe, Row};
+pub use system::{Oscillator, System};
+pub use wall::{Side, Wall, WallLaw};
+
+use crate::error::{Error, Result};
+use system::{finite, positive};
+
+/// Displacements and velocities at one instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// q, m; one value per degree of freedom.
+    pub q: Vec<f64>,
+    /// q̇, m/s; one value per degree of freedom.
+    pub v: Vec<f64>,
+}
+
+/// M q̈ + C q̇ + K q = f(t) + Gᵀ r(t), held by walls, from a start state over a duration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// M, C, K.
+    pub system: System,
+    /// The walls; results name them.
+    pub walls: Vec<Wall>,
+    /// The loads; they add up.
+    pub loads: Vec<Load>,
+    /// What is recorded of the displacement.
+    pub probes: Vec<Probe>,
+    /// The state before any impulse at t = 0.
+    pub initial: State,
+    /// How long, s.
+    pub duration: f64,
+}
+
+impl Scene {
+    /// An oscillator (kg, N s/m, N/m) at rest at 0, without walls or loads, for one second.
+    #[must_use]
+    pub fn oscillator(mass: f64, damping: f64, stiffness: f64) -> Self {
+        Self {
+            system: System::Oscillator(Oscillator { mass, damping, stiffness }),
+            walls: Vec::new(),
+            loads: Vec::new(),
+            probes: vec![Probe { name: String::new(), at: Row::dof(0) }],
+            initial: State { q: vec![0.0], v: vec![0.0] },
+            duration: 1.0,
+        }
+    }
+
+    /// The scene with one more wall.
+    #[must_use]
+    pub fn with_wall(mut self, wall: Wall) -> Self {
+        self.walls.push(wall);
+        self
+    }
+
+    /// The scene with one more load.
+    #[must_use]
+    pub fn with_load(mut self, load: Load) -> Self {
+        self.loads.push(load);
+        self
+    }
+
+    /// The scene started from displacements (m) and velocities (m/s), one of each per degree of freedom.
+    #[must_use]
+    pub fn with_initial(mut self, q: &[f64], v: &[f64]) -> Self {
+        self.initial = State { q: q.to_vec(), v: v.to_vec() };
+        self
+    }
+
+    /// The scene over another duration (s).
+    #[must_use]
+    pub fn with_duration(mut self, duration: f64) -> Self {
+        self.duration = duration;
+        self
+    }
+
+    /// Index of the wall of that name.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`], listing the walls there are.
+    pub fn wall_index(&self, name: &str) -> Result<usize> {
+        self.walls.iter().position(|w| w.name == name).ok_or_else(|| Error::Unknown {
+            kind: "wall",
+            name: name.to_owned(),
+            known: self.walls.iter().map(|w| w.name.clone()).collect(),
+        })
+    }
+
+    /// A typical length γ₀ of the scene, m: half the least distance between an upper and a lower wall on one row; else
+    /// the largest distance of a wall from the start; else the largest |position|; else the start's displacement; else
+    /// 1. Residuals and solvers are made dimensionless by it. Zero gaps are passed over.
+    #[must_use]
+    pub fn gap_scale(&self) -> f64 {
+        let positive = |x: &f64| x.is_finite() && *x > 0.0;
+        let mut spans = Vec::new();
+        for upper in self.walls.iter().filter(|w| w.side == Side::Upper) {
+            for lower in self.walls.iter().filter(|w| w.side == Side::Lower && w.at == upper.at) {
+                spans.push(0.5 * (upper.position - lower.position));
+            }
+        }
+        let start = |w: &Wall| w.gap(w.at.dot(&self.initial.q)).abs();
+        let least = spans.into_iter().filter(positive).reduce(f64::min);
+        least
+            .or_else(|| self.walls.iter().map(start).filter(positive).reduce(f64::max))
+            .or_else(|| self.walls.iter().map(|w| w.position.abs()).filter(positive).reduce(f64::max))
+            .or_else(|| self.initial.q.iter().map(|q| q.abs()).filter(positive).reduce(f64::max))
+            .unwrap_or(1.0)
+    }
+
+    /// Checks everything a scheme relies on.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for the first value that makes no sense: what it is, and what would be accepted.
+    pub fn validate(&self) -> Result<()> {
+        self.system.validate()?;
+        positive("time.end", self.duration)?;
+        let n = self.system.degrees_of_freedom();
+        for (key, values) in [("initial.displacement", &self.initial.q), ("initial.velocity", &self.initial.v)] {
+            if values.len() != n {
+                return Err(Error::invalid(
+                    key,
+                    format!("{} values", values.len()),
+                    format!("{n}, one per degree of freedom"),
+                ));
+            }
+            values.iter().try_for_each(|&x| finite(key, x))?;
+        }
+        for (index, load) in self.loads.iter().enumerate() {
+            load.validate(index)?;
+            self.check_row(&format!("load {}", index + 1), &load.at)?;
+        }
+        for probe in &self.probes {
+            self.check_row(&format!("probe {:?}", probe.name), &probe.at)?;
+        }
+        for (index, wall) in self.walls.iter().enumerate() {
+            wall.validate()?;
+            self.check_row(&format!("wall {:?}", wall.name), &wall.at)?;
+            if self.walls[..index].iter().any(|other| other.name == wall.name) {
+                return Err(Error::invalid(
+                    "wall name",
+                    format!("{:?}, twice", wall.name),
+                    "a name of its own for each wall",
+                ));
+            }
+            self.check_start(wall)?;
+            self.check_crossing(wall)?;
+        }
+        Ok(())
+    }
+
+    fn check_row(&self, owner: &str, row: &Row) -> Result<()> {
+        let n = self.system.degrees_of_freedom();
+        for &(i, weight) in row.entries() {
+            if i >= n {
+                let least = format!("a degree of freedom from 0 to {}", n - 1);
+                return Err(Error::invalid(format!("{owner}: at"), i, least));
+            }
+            finite(&format!("{owner}: weight"), weight)?;
+        }
+        Ok(())
+    }
+
+    fn check_start(&self, wall: &Wall) -> Result<()> {
+        let w = wall.at.dot(&self.initial.q);
+        if wall.law.is_rigid() && wall.gap(w) < 0.0 {
+            let relation = if wall.side == Side::Upper { "at most" } else { "at least" };
+            let expected = format!("{relation} {}, the position of the rigid wall {:?}", wall.position, wall.name);
+            return Err(Error::invalid("initial.displacement", w, expected));
+        }
+        Ok(())
+    }
+
+    fn check_crossing(&self, upper: &Wall) -> Result<()> {
+        let crossed = |lower: &&Wall| {
+            lower.side == Side::Lower && lower.at == upper.at && lower.law.is_rigid() && lower.position > upper.position
+        };
+        if upper.side == Side::Lower || !upper.law.is_rigid() {
+            return Ok(());
+        }
+        match self.walls.iter().find(crossed) {
+            Some(lower) => Err(Error::invalid(
+                format!("wall {:?}: position", upper.name),
+                upper.position,
+                format!("at least {}, the position of the rigid lower wall {:?}", lower.position, lower.name),
+            )),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Where on a structure something sits: a sparse row.
+
+/// A sparse row g of weights on the degrees of freedom: the displacement seen through it is w = g · q, and a force r
+/// behind it acts on the structure as gᵀ r.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    entries: Vec<(usize, f64)>,
+}
+
+impl Row {
+    /// The row that picks degree of freedom `index` (from 0).
+    #[must_use]
+    pub fn dof(index: usize) -> Self {
+        Self { entries: vec![(index, 1.0)] }
+    }
+
+    /// The pairs (degree of freedom, weight), in the order given.
+    #[must_use]
+    pub fn entries(&self) -> &[(usize, f64)] {
+        &self.entries
+    }
+
+    /// w = g · q for a vector `q` of one value per degree of freedom; degrees of freedom beyond its length count as 0.
+    #[must_use]
+    pub fn dot(&self, q: &[f64]) -> f64 {
+        self.entries.iter().map(|&(i, weight)| weight * q.get(i).copied().unwrap_or(0.0)).sum()
+    }
+}
+
+/// A named place whose displacement and velocity are recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Probe {
+    /// The name that tables and CSV headers carry; empty for the single probe of an oscillator.
+    pub name: String,
+    /// Where it looks.
+    pub at: Row,
+}

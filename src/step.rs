@@ -1,0 +1,112 @@
+//! One step of time as data: what a scheme hands to whoever records or judges it.
+
+use crate::flow::Arc;
+
+/// The momentum balance that every step of a scheme fulfils. With it a judge can hold a step to its word without
+/// knowing the scheme. F(t, q, v) = f(t) − C v − K q is the smooth force, p the contact impulse of the step, and
+/// v₋, v₊ are [`Step::velocity_before`] and [`Step::velocity_after`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Balance {
+    /// M(v₊ − v₋) = h[(1−θ)F(t, q, v₋) + θF(t⁺, q⁺, v₊)] + p and q⁺ − q = h[(1−θ)v₋ + θv₊].
+    Theta(f64),
+    /// M(v₊ − v₋) = h[f(t) − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + p with v₋ = (q − q⁻)/h, v₊ = (q⁺ − q)/h, and b this number:
+    /// ¼ averages the stiffness, 0 takes it at t.
+    Staggered(f64),
+    /// The differential equation itself, over the step's [`Arc`].
+    Exact,
+}
+
+/// What a scheme promises of the contact forces of a step. Depth s = −gap, |r| = pressure = |p|/h.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Promise {
+    /// Rigid: 0 ≤ gap(w⁺) ⟂ |r| ≥ 0, with r at t⁺. Elastic: |r| = (k_a s⁺ + c_a(s⁺ − max(s, 0))/h)₊.
+    EndPosition,
+    /// Rigid: 0 ≤ slack of (1+e_l)g_l − e_l w⁻ ≤ w⁺ ≤ (1+e_u)g_u − e_u w⁻ ⟂ |r| ≥ 0, with the smaller e in both where they would cross.
+    /// Elastic: |r| = (k_a s̄ + c_a(s⁺ − max(s⁻, 0))/2h)₊ at the mean depth s̄ = ¼s⁻ + ½s + ¼s⁺.
+    MeanPosition,
+    /// Rigid, for walls that w + ½hẇ reaches to within 1e-12 of the gap scale: 0 ≤ rebound ⟂ |r| ≥ 0, rebound = ±(ẇ⁺ + ε ẇ) away from
+    /// the wall, ε = e if approaching or at rest and 1 if separating; no force elsewhere.
+    /// Elastic: |r| = (k_a s_θ + c_a(s_θ − max(s, 0))/θh)₊ at s_θ = (1−θ)s + θs⁺.
+    Velocity,
+    /// Every wall: p = h[(1−θ)r(w, ẇ) + θ r(w⁺, ẇ⁺)] with the wall's law r and the θ of the balance.
+    LawAtEnds,
+    /// Every wall: p = h r(w, ẇ) at the step's start, with the mean of v₋ and v₊ for ẇ.
+    LawAtStart,
+    /// Every wall: p = h times the discrete gradient of the wall's energy between w and w⁺, plus its damping at the mean velocity.
+    DiscreteGradient,
+    /// The conditions themselves, at every instant of the step's [`Arc`].
+    Exact,
+}
+
+/// A scheme's word: constant over a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contract {
+    /// The momentum balance of a step.
+    pub balance: Balance,
+    /// What holds at the walls.
+    pub promise: Promise,
+    /// Where in the step a contact impulse belongs, as a fraction of it (0: its start, 1: its end).
+    pub instant: f64,
+}
+
+/// One episode of contact at one wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Index of the wall in the scene.
+    pub wall: usize,
+    /// When it began, s.
+    pub start: f64,
+    /// When it ended, s: equal to `start` for an instantaneous impact; none if still open at the end of the run.
+    pub end: Option<f64>,
+    /// Impulse of the wall on the body over the episode, N s; signed as the force (lower ≥ 0, upper ≤ 0).
+    pub impulse: f64,
+    /// Largest |force| in the episode, N; none where the force was not finite (an impact).
+    pub peak_force: Option<f64>,
+    /// Speed towards the wall just before, m/s, ≥ 0.
+    pub approach_speed: f64,
+    /// Speed away from the wall just after, m/s, ≥ 0; none if still open.
+    pub departure_speed: Option<f64>,
+}
+
+/// What lies between the two ends of a step.
+#[derive(Debug, Clone, Copy)]
+pub enum Path<'a> {
+    /// Nothing is known between the grid's instants.
+    Grid,
+    /// The exact motion and wall forces.
+    Exact(&'a Arc),
+}
+
+/// One step, lent by the stepper until the next one.
+///
+/// Slices over degrees of freedom have length n, slices over walls the number of walls, in the scene's order.
+#[derive(Debug, Clone, Copy)]
+pub struct Step<'a> {
+    /// Number of the step, from 0.
+    pub index: u64,
+    /// Time at its start, s.
+    pub start: f64,
+    /// Time at its end, s. Equal to `start` for an impact at the very start of an exact run.
+    pub end: f64,
+    /// Displacement at the end, m.
+    pub q: &'a [f64],
+    /// Velocity at the end, m/s, right-continuous: after an impact at that instant.
+    pub v: &'a [f64],
+    /// Velocity that enters the momentum balance, m/s: (q − q⁻)/h for a staggered scheme, else that of the step's start.
+    pub velocity_before: &'a [f64],
+    /// Velocity that leaves the momentum balance, m/s: (q⁺ − q)/h for a staggered scheme, else `v`.
+    pub velocity_after: &'a [f64],
+    /// Impulse of each wall on the body over the step, N s, signed.
+    pub impulse: &'a [f64],
+    /// The part of `impulse` that acted in the instant `end`, N s; all zero for schemes on a grid, which know no instants.
+    pub jump: &'a [f64],
+    /// Force of each wall: at the instant `end` for the exact scheme, else the multiplier the scheme computed, which is
+    /// impulse/h unless the scheme's impulse averages two of them; N, signed.
+    pub force: &'a [f64],
+    /// Extra force given by the caller, constant over the step, N; length n.
+    pub extra: &'a [f64],
+    /// Contact episodes that ended in this step.
+    pub closed: &'a [Contact],
+    /// What is known of the motion inside the step.
+    pub path: Path<'a>,
+}
