@@ -16,23 +16,26 @@ pub enum Balance {
     Exact,
 }
 
-/// What a scheme promises of the contact forces of a step. Depth s = −gap, |r| = pressure = |p|/h.
+/// What a scheme promises of the contact forces of a step. Depth s = −gap, s₊ = max(s, 0), |r| = pressure.
+///
+/// Wherever a step stands for a stretch of time, a dashpot c_a feels the mean rate of penetration, (s⁺₊ − s₊)/h, which
+/// makes its impulse exact, and the sum of spring and dashpot is never negative: a wall does not pull.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Promise {
-    /// Rigid: 0 ≤ gap(w⁺) ⟂ |r| ≥ 0, with r at t⁺. Elastic: |r| = (k_a s⁺ + c_a(s⁺ − max(s, 0))/h)₊.
+    /// Rigid: 0 ≤ gap(w⁺) ⟂ |r| ≥ 0, with r at t⁺. Elastic: |r| = (k_a s⁺ + c_a(s⁺ − s₊)/h)₊.
     EndPosition,
-    /// Rigid: 0 ≤ slack of (1+e_l)g_l − e_l w⁻ ≤ w⁺ ≤ (1+e_u)g_u − e_u w⁻ ⟂ |r| ≥ 0, with the smaller e in both where they would cross.
-    /// Elastic: |r| = (k_a s̄ + c_a(s⁺ − max(s⁻, 0))/2h)₊ at the mean depth s̄ = ¼s⁻ + ½s + ¼s⁺.
+    /// Rigid: 0 ≤ slack of (1+e_l)g_l − e_l w⁻ ≤ w⁺ ≤ (1+e_u)g_u − e_u w⁻ ⟂ |r| ≥ 0, the smaller e in both where unequal ones would make
+    /// them cross. Elastic: |r| = (k_a s̄ + c_a(s⁺ − s⁻₊)/2h)₊ at the mean depth s̄ = ¼s⁻ + ½s + ¼s⁺.
     MeanPosition,
-    /// Rigid, for walls that w + ½hẇ reaches to within 1e-12 of the gap scale: 0 ≤ rebound ⟂ |r| ≥ 0, rebound = ±(ẇ⁺ + ε ẇ) away from
+    /// Rigid, for walls that w + ½hẇ reaches to within 1e-12 of the gap scale: 0 ≤ rebound ⟂ |p| ≥ 0, rebound = ±(ẇ⁺ + ε ẇ) away from
     /// the wall, ε = e if approaching or at rest and 1 if separating; no force elsewhere.
-    /// Elastic: |r| = (k_a s_θ + c_a(s_θ − max(s, 0))/θh)₊ at s_θ = (1−θ)s + θs⁺.
+    /// Elastic: |p|/h = (k_a s_θ + c_a(s_θ − s₊)/θh)₊ at s_θ = (1−θ)s + θs⁺.
     Velocity,
-    /// Every wall: p = h[(1−θ)r(w, ẇ) + θ r(w⁺, ẇ⁺)] with the wall's law r and the θ of the balance.
+    /// Every wall: |p|/h = ((1−θ)|r|(s) + θ|r|(s⁺) + c_a(s⁺₊ − s₊)/h)₊ with the wall's spring |r|(s) and the θ of the balance.
     LawAtEnds,
-    /// Every wall: p = h r(w, ẇ) at the step's start, with the mean of v₋ and v₊ for ẇ.
+    /// Every wall: |p|/h = (|r|(s) + c_a ṡ)₊ while s > 0, at the step's start, with the mean of v₋ and v₊ for ṡ.
     LawAtStart,
-    /// Every wall: p = h times the discrete gradient of the wall's energy between w and w⁺, plus its damping at the mean velocity.
+    /// Every wall: |p|/h = (ΔU/Δs + c_a(s⁺₊ − s₊)/h)₊, the discrete gradient of the wall's energy U between s and s⁺.
     DiscreteGradient,
     /// The conditions themselves, at every instant of the step's [`Arc`].
     Exact,

@@ -30,6 +30,51 @@ impl System {
         }
     }
 
+    /// aᵀ M b; for velocities (m/s) twice the kinetic energy, J.
+    #[must_use]
+    pub fn mass_form(&self, a: &[f64], b: &[f64]) -> f64 {
+        match self {
+            Self::Oscillator(o) => o.mass * first(a) * first(b),
+        }
+    }
+
+    /// aᵀ C b; for velocities (m/s) the power that damping takes, W.
+    #[must_use]
+    pub fn damping_form(&self, a: &[f64], b: &[f64]) -> f64 {
+        match self {
+            Self::Oscillator(o) => o.damping * first(a) * first(b),
+        }
+    }
+
+    /// aᵀ K b; for displacements (m) twice the strain energy, J.
+    #[must_use]
+    pub fn stiffness_form(&self, a: &[f64], b: &[f64]) -> f64 {
+        match self {
+            Self::Oscillator(o) => o.stiffness * first(a) * first(b),
+        }
+    }
+
+    /// Adds `scale_m` M a + `scale_c` C b + `scale_k` K d to `out`, all of length n.
+    pub fn add_product(
+        &self,
+        scale_m: f64,
+        a: &[f64],
+        scale_c: f64,
+        b: &[f64],
+        scale_k: f64,
+        d: &[f64],
+        out: &mut [f64],
+    ) {
+        match self {
+            Self::Oscillator(o) => {
+                if let Some(y) = out.first_mut() {
+                    *y +=
+                        scale_m * o.mass * first(a) + scale_c * o.damping * first(b) + scale_k * o.stiffness * first(d);
+                }
+            }
+        }
+    }
+
     pub(crate) fn validate(&self) -> Result<()> {
         match self {
             Self::Oscillator(o) => {
@@ -39,6 +84,10 @@ impl System {
             }
         }
     }
+}
+
+fn first(x: &[f64]) -> f64 {
+    x.first().copied().unwrap_or(0.0)
 }
 
 pub(crate) fn positive(key: &str, value: f64) -> Result<()> {

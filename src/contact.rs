@@ -1,0 +1,121 @@
+//! Contact episodes: consecutive steps in which a wall pushes, joined into one row of a table.
+
+use crate::scene::{Scene, Side};
+use crate::step::{Contact, Contract};
+
+/// An impact on a rigid wall takes one step on the velocity level and up to two on the position level. Longer episodes
+/// are lasting contact, whose force is finite after those first steps.
+const IMPACT_STEPS: u64 = 2;
+
+/// An episode under way at one wall.
+#[derive(Debug, Clone, Copy)]
+struct Open {
+    first: f64,
+    last: f64,
+    steps: u64,
+    impulse: f64,
+    /// ∫ t dp, for the instant of an impact spread over two steps.
+    moment: f64,
+    peak: f64,
+    approach: f64,
+    departure: f64,
+}
+
+/// Watches the steps of a scheme on a grid and closes an episode when a wall stops pushing.
+#[derive(Debug, Clone)]
+pub(crate) struct Episodes {
+    instant: f64,
+    rigid: Vec<bool>,
+    side: Vec<Side>,
+    open: Vec<Option<Open>>,
+    any: bool,
+    closed: Vec<Contact>,
+}
+
+impl Episodes {
+    pub(crate) fn new(scene: &Scene, contract: Contract) -> Self {
+        let walls = scene.walls.len();
+        Self {
+            instant: contract.instant,
+            rigid: scene.walls.iter().map(|w| w.law.is_rigid()).collect(),
+            side: scene.walls.iter().map(|w| w.side).collect(),
+            open: vec![None; walls],
+            any: false,
+            closed: Vec::with_capacity(walls),
+        }
+    }
+
+    /// Episodes that the last step closed.
+    pub(crate) fn closed(&self) -> &[Contact] {
+        &self.closed
+    }
+
+    /// True if a step without impulses would change nothing: the common case, kept cheap.
+    #[inline]
+    pub(crate) fn idle(&self) -> bool {
+        !self.any && self.closed.is_empty()
+    }
+
+    /// Takes in one step from `start` over `h` (s) with its impulses (N s) and, per wall, the velocities ẇ before and
+    /// after it (m/s).
+    pub(crate) fn see(&mut self, start: f64, h: f64, impulse: &[f64], rate: impl Fn(usize) -> (f64, f64)) {
+        self.closed.clear();
+        self.any = false;
+        let instant = start + self.instant * h;
+        for (wall, (open, &p)) in self.open.iter_mut().zip(impulse).enumerate() {
+            let sign = self.side[wall].sign();
+            if p == 0.0 {
+                if let Some(episode) = open.take() {
+                    self.closed.push(contact(wall, sign, self.rigid[wall], &episode, true));
+                }
+                continue;
+            }
+            let (before, after) = rate(wall);
+            let fresh = Open {
+                first: instant,
+                last: instant,
+                steps: 0,
+                impulse: 0.0,
+                moment: 0.0,
+                peak: 0.0,
+                approach: (-sign * before).max(0.0),
+                departure: 0.0,
+            };
+            let episode = open.get_or_insert(fresh);
+            episode.steps += 1;
+            episode.last = instant;
+            episode.impulse += p.abs();
+            episode.moment += p.abs() * instant;
+            episode.departure = (sign * after).max(0.0);
+            if !self.rigid[wall] || episode.steps > IMPACT_STEPS {
+                episode.peak = episode.peak.max(p.abs() / h);
+            }
+            self.any = true;
+        }
+    }
+
+    /// Episodes still open at the end of the run.
+    pub(crate) fn still_open(&self) -> Vec<Contact> {
+        let rows = self.open.iter().enumerate().filter_map(|(wall, open)| open.as_ref().map(|e| (wall, e)));
+        rows.map(|(wall, e)| contact(wall, self.side[wall].sign(), self.rigid[wall], e, false)).collect()
+    }
+}
+
+fn contact(wall: usize, sign: f64, rigid: bool, episode: &Open, ended: bool) -> Contact {
+    let impact = rigid && episode.steps <= IMPACT_STEPS;
+    let (start, end) = if impact {
+        let mean = episode.moment / episode.impulse;
+        (mean, mean)
+    } else {
+        (episode.first, episode.last)
+    };
+    Contact {
+        wall,
+        start,
+        end: ended.then_some(end),
+        impulse: sign * episode.impulse,
+        peak_force: (!impact).then_some(episode.peak),
+        approach_speed: episode.approach,
+        departure_speed: ended.then_some(episode.departure),
+    }
+}

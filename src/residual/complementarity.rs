@@ -1,0 +1,126 @@
+//! What a wall may do, read off the positions and velocities of a step.
+
+use crate::scene::{Scene, Wall, WallLaw};
+use crate::step::{Balance, Contract, Promise};
+
+/// Pairs (γ, |r|) that should be complementary, kept so that the scales may come at the end of the run: of the
+/// positive pairs only those that no other exceeds in both.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Pairs {
+    /// Largest −γ and largest −|r| (a pull).
+    outside: f64,
+    pull: f64,
+    staircase: Vec<(f64, f64)>,
+}
+
+/// A run whose pairs violate complementarity in more ways than this is merged into fewer, upwards.
+const STAIRS: usize = 64;
+
+impl Pairs {
+    pub fn add(&mut self, slack: f64, pressure: f64) {
+        self.outside = self.outside.max(-slack);
+        self.pull = self.pull.max(-pressure);
+        if slack <= 0.0 || pressure <= 0.0 {
+            return;
+        }
+        if self.staircase.iter().any(|&(s, p)| s >= slack && p >= pressure) {
+            return;
+        }
+        self.staircase.retain(|&(s, p)| s > slack || p > pressure);
+        if self.staircase.len() == STAIRS
+            && let Some((s, p)) = self.staircase.pop()
+        {
+            self.staircase.push((s.max(slack), p.max(pressure)));
+        } else {
+            self.staircase.push((slack, pressure));
+        }
+    }
+
+    /// Largest |min(γ/γ₀, r/r₀)|.
+    pub fn worst(&self, gap_scale: f64, force_scale: f64) -> f64 {
+        let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
+        let both = |&(s, p): &(f64, f64)| over(s, gap_scale).min(over(p, force_scale));
+        let stairs = self.staircase.iter().map(both).fold(0.0, f64::max);
+        stairs.max(over(self.outside, gap_scale)).max(over(self.pull, force_scale))
+    }
+}
+
+/// γ of a rigid wall at what the scheme promises; `None` where it promises no force at all.
+pub(super) fn slack(
+    scene: &Scene,
+    index: usize,
+    contract: Contract,
+    h: f64,
+    (w0, w1): (f64, f64),
+    (before, after): (f64, f64),
+    gap_scale: f64,
+) -> Option<f64> {
+    let wall = &scene.walls[index];
+    let WallLaw::Rigid { restitution } = wall.law else { return None };
+    let sign = wall.side.sign();
+    match contract.promise {
+        Promise::MeanPosition => {
+            let e = shared_restitution(scene, wall).min(restitution);
+            let back = w0 - h * before;
+            Some(sign * ((w1 - wall.position) + e * (back - wall.position)))
+        }
+        Promise::Velocity => {
+            let reaches = wall.gap(w0 + 0.5 * h * before) <= 1e-12 * gap_scale;
+            let epsilon = if sign * before <= 0.0 { restitution } else { 1.0 };
+            reaches.then_some(sign * (after + epsilon * before))
+        }
+        _ => Some(wall.gap(w1)),
+    }
+}
+
+/// The smallest restitution of the scene if rigid walls stand on both sides, else 1.
+fn shared_restitution(scene: &Scene, wall: &Wall) -> f64 {
+    let rigid = |w: &&Wall| w.law.is_rigid();
+    let e = |w: &Wall| if let WallLaw::Rigid { restitution } = w.law { restitution } else { 1.0 };
+    if scene.walls.iter().filter(rigid).all(|w| w.side == wall.side) {
+        return 1.0;
+    }
+    scene.walls.iter().filter(rigid).map(e).fold(1.0, f64::min)
+}
+
+/// |r| of an elastic or penalised wall as the scheme promises it for a step.
+pub(super) fn expected_pressure(
+    wall: &Wall,
+    contract: Contract,
+    h: f64,
+    (w0, w1): (f64, f64),
+    (before, after): (f64, f64),
+) -> f64 {
+    let (s0, s1) = (-wall.gap(w0), -wall.gap(w1));
+    let law = &wall.law;
+    let c = if let WallLaw::Elastic { damping, .. } = *law { damping } else { 0.0 };
+    let k = if let WallLaw::Elastic { stiffness, .. } = *law { stiffness } else { 0.0 };
+    let theta = if let Balance::Theta(theta) = contract.balance { theta } else { 0.5 };
+    let rate = (s1.max(0.0) - s0.max(0.0)) / h;
+    let pressure = match contract.promise {
+        Promise::EndPosition => k * s1 + c * (s1 - s0.max(0.0)) / h,
+        Promise::MeanPosition => {
+            let back = -wall.gap(w0 - h * before);
+            0.25 * k * (back + 2.0 * s0 + s1) + 0.5 * c * (s1 - back.max(0.0)) / h
+        }
+        Promise::Velocity => {
+            let at = (1.0 - theta) * s0 + theta * s1;
+            k * at + c * (at - s0.max(0.0)) / (theta * h)
+        }
+        Promise::LawAtEnds => (1.0 - theta) * law.pressure(s0, 0.0) + theta * law.pressure(s1, 0.0) + c * rate,
+        Promise::LawAtStart if s0 <= 0.0 => 0.0,
+        Promise::LawAtStart => law.pressure(s0, 0.0) - wall.side.sign() * c * 0.5 * (before + after),
+        Promise::DiscreteGradient => mean_pressure(law, s0, s1) + c * rate,
+        Promise::Exact => 0.0,
+    };
+    pressure.max(0.0)
+}
+
+/// The mean of |r|(s) over depths from `s0` to `s1`: ΔU/Δs, by Simpson's rule, which is exact for these polynomials.
+fn mean_pressure(law: &WallLaw, s0: f64, s1: f64) -> f64 {
+    let (a, b) = (s0.max(0.0), s1.max(0.0));
+    let p = |s: f64| law.pressure(s, 0.0);
+    let mean = (p(a) + 4.0 * p(0.5 * (a + b)) + p(b)) / 6.0;
+    // Both ends inside, or at one place: the whole way is inside.
+    if a == s0 && b == s1 { mean } else { mean * (b - a) / (s1 - s0) }
+}

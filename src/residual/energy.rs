@@ -1,0 +1,240 @@
+//! The energy ledger: E(t) − E(0) = work of the load − damping − losses at the walls + residual.
+
+use super::quadrature::integrate;
+use crate::flow::Arc;
+use crate::scene::{Forcing, Scene, Wall, WallLaw};
+use crate::step::{Balance, Contract, Step};
+use serde::Serialize;
+
+/// The ledger of a run, J. E is kinetic and strain energy plus what elastic and penalised walls store while they touch.
+///
+/// For a staggered scheme E is the energy at half steps, which is the one it conserves.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Energy {
+    /// E at the start.
+    pub initial_j: f64,
+    /// E at the end.
+    pub final_j: f64,
+    /// Largest E seen.
+    pub largest_j: f64,
+    /// Work of the loads.
+    pub load_work_j: f64,
+    /// Taken by the structure's damping.
+    pub damping_j: f64,
+    /// Taken by impacts on rigid walls, −Σ p(ẇ⁻ + ẇ⁺)/2; negative if the scheme made energy there.
+    pub impact_loss_j: f64,
+    /// Taken by the dashpots of elastic walls.
+    pub wall_damping_j: f64,
+    /// E(t) − E(0) − work + damping + losses.
+    pub residual_j: f64,
+    /// Energy exchanged: the largest E, and the magnitudes of all that flowed.
+    pub exchanged_j: f64,
+    /// |residual| / exchanged.
+    pub residual: f64,
+}
+
+/// What an arc's ends leave for the momentum balance.
+pub(super) struct ArcBalance {
+    pub balance: f64,
+    pub largest_force: f64,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Ledger {
+    contract: Contract,
+    pub gap_scale: f64,
+    report: Energy,
+    /// E after the last step, J.
+    energy: f64,
+    /// Σ of the magnitudes of all flows, J.
+    flowed: f64,
+    started: bool,
+    /// Σ of the steps' residuals, and what that sum has lost to rounding (Kahan): 1e7 steps are judged at rounding.
+    residual: f64,
+    lost: f64,
+    /// Two vectors of length n.
+    shift: Vec<f64>,
+    middle: Vec<f64>,
+}
+
+/// What a step moves, J.
+#[derive(Debug, Clone, Copy, Default)]
+struct Flows {
+    work: f64,
+    damping: f64,
+    impact: f64,
+    dashpot: f64,
+}
+
+impl Ledger {
+    pub fn new(scene: &Scene, contract: Contract, q: &[f64], v: &[f64]) -> Self {
+        let touching = |wall: &Wall| {
+            let (w, rate) = (wall.at.dot(q), wall.at.dot(v));
+            stored(wall, w, wall.law_force(w, rate) != 0.0)
+        };
+        let walls: f64 = scene.walls.iter().map(touching).sum();
+        let energy = 0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + walls;
+        Self {
+            contract,
+            gap_scale: scene.gap_scale(),
+            report: Energy { initial_j: energy, largest_j: energy, ..Energy::default() },
+            energy,
+            flowed: 0.0,
+            started: false,
+            residual: 0.0,
+            lost: 0.0,
+            shift: vec![0.0; q.len()],
+            middle: vec![0.0; q.len()],
+        }
+    }
+
+    /// One step on a grid from `q0`, with the mean load (N) and the blows (N s) that acted.
+    pub fn see_grid(&mut self, scene: &Scene, h: f64, q0: &[f64], step: &Step<'_>, load: &[f64], blow: &[f64]) {
+        let (before, after) = (step.velocity_before, step.velocity_after);
+        let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
+        if let (Some(b), false) = (staggered, self.started) {
+            self.energy = self.half_step(scene, -h, b, q0, before);
+            self.report.initial_j = self.energy;
+        }
+        self.started = true;
+        let mut flows = Flows::default();
+        for i in 0..load.len() {
+            let mean = 0.5 * (before[i] + after[i]);
+            self.shift[i] = if staggered.is_some() { h * mean } else { step.q[i] - q0[i] };
+            flows.work += load[i] * self.shift[i] + blow[i] * mean;
+        }
+        flows.damping = scene.system.damping_form(&self.shift, &self.shift) / h;
+        let mut walls = 0.0;
+        for (wall, &p) in scene.walls.iter().zip(step.impulse) {
+            let rate = 0.5 * (wall.at.dot(before) + wall.at.dot(after));
+            let (w0, w1) = (wall.at.dot(q0), wall.at.dot(step.q));
+            if wall.law.is_rigid() {
+                flows.impact -= p * rate;
+                continue;
+            }
+            walls += stored(wall, w1, p != 0.0);
+            if let (WallLaw::Elastic { damping, .. }, true) = (wall.law, p != 0.0) {
+                let plate = |w: f64| (-wall.gap(w)).max(0.0);
+                let rate = if staggered.is_some() { rate } else { (plate(w1) - plate(w0)) / h };
+                flows.dashpot += damping * rate * rate * h;
+            }
+        }
+        let energy = match staggered {
+            Some(b) => self.half_step(scene, h, b, q0, after),
+            None => {
+                let kinetic = scene.system.mass_form(step.v, step.v);
+                0.5 * (kinetic + scene.system.stiffness_form(step.q, step.q)) + walls
+            }
+        };
+        self.book(energy, flows);
+    }
+
+    /// Energy half a step from `q`, on the way to q + h v: ½vᵀMv + ½[x̄ᵀKx̄ − (1−4b)(½hv)ᵀK(½hv)] with x̄ = q + ½hv, conserved by the
+    /// staggered balance; walls at the mean of both ends. A negative `h` looks back.
+    fn half_step(&mut self, scene: &Scene, h: f64, b: f64, q: &[f64], v: &[f64]) -> f64 {
+        for i in 0..q.len() {
+            self.shift[i] = 0.5 * h * v[i];
+            self.middle[i] = q[i] + self.shift[i];
+        }
+        let system = &scene.system;
+        let strain = system.stiffness_form(&self.middle, &self.middle)
+            - (1.0 - 4.0 * b) * system.stiffness_form(&self.shift, &self.shift);
+        let mut walls = 0.0;
+        for wall in &scene.walls {
+            let (w, move_by) = (wall.at.dot(q), h * wall.at.dot(v));
+            let held = |w: f64| stored(wall, w, wall.law_force(w, move_by / h) != 0.0);
+            walls += 0.5 * (held(w) + held(w + move_by));
+        }
+        0.5 * (system.mass_form(v, v) + strain) + walls
+    }
+
+    /// One exact arc from `q0` and the instant at its end.
+    pub fn see_arc(
+        &mut self,
+        scene: &Scene,
+        step: &Step<'_>,
+        arc: &Arc,
+        forcing: &[Forcing],
+        blow: &[f64],
+    ) -> ArcBalance {
+        let system = &scene.system;
+        let mut flows = Flows::default();
+        let mut largest_force = 0.0_f64;
+        let mut momentum = 0.0;
+        let v_end = if step.end > step.start { arc.state(step.end).1 } else { first(step.velocity_before) };
+        if step.end > step.start {
+            // Tables jump at their ends: the arc stops there, so a load read just inside is the load of the arc.
+            let mut integrand = |t: f64| {
+                let (q, v) = arc.state(t);
+                let load = forcing.first().map_or(0.0, |f| f.force(t)) + first(step.extra);
+                let mut net = load;
+                let mut dashpot = 0.0;
+                for (index, wall) in scene.walls.iter().enumerate() {
+                    let r = arc.contact_force(index, t);
+                    net += r;
+                    if let (WallLaw::Elastic { damping, .. }, true) = (wall.law, r != 0.0) {
+                        dashpot += damping * v * v;
+                    }
+                }
+                largest_force = largest_force.max(load.abs());
+                let internal = system.damping_form(&[1.0], &[v]) + system.stiffness_form(&[1.0], &[q]);
+                [load * v, system.damping_form(&[v], &[v]), dashpot, net - internal]
+            };
+            let [work, damping, dashpot, net] = integrate(step.start, step.end, &mut integrand);
+            flows = Flows { work, damping, dashpot, impact: 0.0 };
+            let v_start = first(step.velocity_before);
+            momentum = system.mass_form(&[1.0], &[v_end - v_start]) - net;
+        }
+        let mid = v_end + first(blow) / system.mass_form(&[1.0], &[1.0]);
+        flows.work += first(blow) * 0.5 * (v_end + mid);
+        let mut walls = 0.0;
+        for (index, wall) in scene.walls.iter().enumerate() {
+            flows.impact -= 0.5 * step.jump[index] * (mid + first(step.v));
+            let w = wall.at.dot(step.q);
+            // A damped wall that lets go keeps its energy to itself.
+            let held = stored(wall, w, step.force[index] != 0.0);
+            walls += held;
+            let touched = step.end > step.start && arc.contact_force(index, 0.5 * (step.start + step.end)) != 0.0;
+            if touched && held == 0.0 {
+                flows.dashpot += wall.law.energy(-wall.gap(w));
+            }
+        }
+        let energy = 0.5 * (system.mass_form(step.v, step.v) + system.stiffness_form(step.q, step.q)) + walls;
+        self.book(energy, flows);
+        ArcBalance { balance: momentum, largest_force }
+    }
+
+    fn book(&mut self, energy: f64, flows: Flows) {
+        let Flows { work, damping, impact, dashpot } = flows;
+        let residual = (energy - self.energy) - work + damping + impact + dashpot - self.lost;
+        let sum = self.residual + residual;
+        self.lost = (sum - self.residual) - residual;
+        self.residual = sum;
+        self.energy = energy;
+        let r = &mut self.report;
+        r.largest_j = r.largest_j.max(energy);
+        r.load_work_j += work;
+        r.damping_j += damping;
+        r.impact_loss_j += impact;
+        r.wall_damping_j += dashpot;
+        self.flowed += work.abs() + damping.abs() + impact.abs() + dashpot.abs();
+    }
+
+    pub fn report(&self) -> Energy {
+        let exchanged = self.report.largest_j.max(self.report.initial_j) + self.flowed;
+        let residual = if self.residual == 0.0 { 0.0 } else { self.residual.abs() / exchanged };
+        Energy { final_j: self.energy, residual_j: self.residual, exchanged_j: exchanged, residual, ..self.report }
+    }
+}
+
+fn first(x: &[f64]) -> f64 {
+    x.first().copied().unwrap_or(0.0)
+}
+
+/// Energy in a wall at displacement `w`, J; a damped wall that has let go of the body holds none that the body can have.
+fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
+    match wall.law {
+        WallLaw::Elastic { damping, .. } if damping > 0.0 && !touching => 0.0,
+        _ => wall.law.energy(-wall.gap(w)),
+    }
+}

@@ -1,0 +1,251 @@
+//! The judge: sees every step as it is made, and knows the scene and the step only — no scheme and no QP.
+
+mod complementarity;
+mod energy;
+mod quadrature;
+
+pub use energy::Energy;
+
+use crate::scene::{Forcing, Scene};
+use crate::step::{Balance, Contract, Path, Promise, Step};
+use complementarity::{Pairs, expected_pressure};
+use serde::Serialize;
+
+/// How well a run kept its word; all of it seen step by step, however few rows were recorded.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Residuals {
+    /// Largest |min(γ/γ₀, |r|/r₀)| over steps and rigid walls, and of | |r| − law |/r₀ over elastic ones; dimensionless. γ and r are
+    /// taken where the scheme promises them ([`Promise`]).
+    pub complementarity: f64,
+    /// Deepest position behind each wall at the end of a step, m, ≥ 0, in the scene's order.
+    pub depth_m: Vec<f64>,
+    /// Deepest position behind a rigid wall, m.
+    pub penetration_m: f64,
+    /// Largest force with which a wall pulled, N, ≥ 0.
+    pub tension_n: f64,
+    /// Largest residual of the step's momentum balance, per h, N.
+    pub force_balance_n: f64,
+    /// The same over the largest force in that balance, or the mismatch of q⁺ − q with the velocities over the gap scale if that is more.
+    pub force_balance: f64,
+    /// The energy ledger.
+    pub energy: Energy,
+    /// γ₀: what gaps are measured by, m; for a velocity-level promise the run's largest speed, m/s.
+    pub gap_scale: f64,
+    /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid).
+    pub force_scale_n: f64,
+}
+
+/// Watches a run.
+#[derive(Debug, Clone)]
+pub struct Judge {
+    scene: Scene,
+    contract: Contract,
+    h: f64,
+    forcing: Vec<Forcing>,
+    q: Vec<f64>,
+    /// Load at the end of the last step, N.
+    load: Vec<f64>,
+    scratch: Scratch,
+    pairs: Pairs,
+    law_error: f64,
+    depth: Vec<f64>,
+    tension: f64,
+    balance: f64,
+    balance_scale: f64,
+    kinematics: f64,
+    force_scale: f64,
+    speed_scale: f64,
+    energy: energy::Ledger,
+}
+
+/// Vectors of length n that a step needs.
+#[derive(Debug, Clone)]
+struct Scratch {
+    load_end: Vec<f64>,
+    load: Vec<f64>,
+    blow: Vec<f64>,
+    mean_q: Vec<f64>,
+    mean_v: Vec<f64>,
+    residual: Vec<f64>,
+}
+
+impl Judge {
+    /// A judge of a run on `scene` (the scene as the scheme sees it) under `contract` with steps of `h` seconds, started
+    /// from the state `q` (m), `v` (m/s).
+    #[must_use]
+    pub fn new(scene: &Scene, contract: Contract, h: f64, q: &[f64], v: &[f64]) -> Self {
+        let n = scene.system.degrees_of_freedom();
+        let forcing: Vec<Forcing> = (0..n).map(|i| Forcing::on(i, &scene.loads)).collect();
+        let load = forcing.iter().map(|f| f.force(0.0)).collect();
+        let zero = || vec![0.0; n];
+        let scratch =
+            Scratch { load_end: zero(), load: zero(), blow: zero(), mean_q: zero(), mean_v: zero(), residual: zero() };
+        Self {
+            contract,
+            h,
+            forcing,
+            q: q.to_vec(),
+            load,
+            scratch,
+            pairs: Pairs::default(),
+            law_error: 0.0,
+            depth: vec![0.0; scene.walls.len()],
+            tension: 0.0,
+            balance: 0.0,
+            balance_scale: 0.0,
+            kinematics: 0.0,
+            force_scale: 0.0,
+            speed_scale: 0.0,
+            energy: energy::Ledger::new(scene, contract, q, v),
+            scene: scene.clone(),
+        }
+    }
+
+    /// Takes in one step. Steps must come in order, none left out.
+    pub fn see(&mut self, step: &Step<'_>) {
+        for ((end, blow), forcing) in self.scratch.load_end.iter_mut().zip(&mut self.scratch.blow).zip(&self.forcing) {
+            *end = forcing.force(step.end);
+            *blow = match self.contract.balance {
+                Balance::Staggered(_) => {
+                    forcing.impulse((step.start - 0.5 * self.h).max(0.0), step.start + 0.5 * self.h)
+                }
+                _ => forcing.impulse(step.start, step.end),
+            };
+        }
+        match step.path {
+            Path::Grid => self.see_grid(step),
+            Path::Exact(arc) => self.see_arc(step, arc),
+        }
+        for (wall, depth) in self.scene.walls.iter().zip(&mut self.depth) {
+            *depth = depth.max(-wall.gap(wall.at.dot(step.q)));
+        }
+        self.speed_scale = step.velocity_after.iter().fold(self.speed_scale, |a, v| a.max(v.abs()));
+        self.q.copy_from_slice(step.q);
+        std::mem::swap(&mut self.load, &mut self.scratch.load_end);
+    }
+
+    fn see_grid(&mut self, step: &Step<'_>) {
+        self.walls_on_grid(step);
+        let h = self.h;
+        let s = &mut self.scratch;
+        let (before, after) = (step.velocity_before, step.velocity_after);
+        for i in 0..s.residual.len() {
+            let (q0, q1) = (self.q[i], step.q[i]);
+            match self.contract.balance {
+                Balance::Theta(theta) => {
+                    let mean = |a: f64, b: f64| (1.0 - theta) * a + theta * b;
+                    s.load[i] = mean(self.load[i], s.load_end[i]);
+                    s.mean_q[i] = mean(q0, q1);
+                    s.mean_v[i] = mean(before[i], after[i]);
+                    self.kinematics = self.kinematics.max((q1 - q0 - h * s.mean_v[i]).abs());
+                }
+                Balance::Staggered(b) => {
+                    let back = q0 - h * before[i];
+                    s.load[i] = self.load[i];
+                    s.mean_q[i] = b * back + (1.0 - 2.0 * b) * q0 + b * q1;
+                    s.mean_v[i] = 0.5 * (before[i] + after[i]);
+                    self.kinematics = self.kinematics.max((q1 - q0 - h * after[i]).abs());
+                }
+                Balance::Exact => {}
+            }
+            s.load[i] += step.extra[i];
+            s.residual[i] = -h * s.load[i] - s.blow[i];
+            self.balance_scale = self.balance_scale.max(s.load[i].abs());
+        }
+        let system = &self.scene.system;
+        system.add_product(1.0, after, h, &s.mean_v, h, &s.mean_q, &mut s.residual);
+        system.add_product(-1.0, before, 0.0, &s.mean_v, 0.0, &s.mean_q, &mut s.residual);
+        for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
+            for &(i, weight) in wall.at.entries() {
+                s.residual[i] -= weight * p;
+            }
+        }
+        for r in &s.residual {
+            self.balance = self.balance.max(r.abs() / h);
+        }
+        self.energy.see_grid(&self.scene, h, &self.q, step, &s.load, &s.blow);
+    }
+
+    fn walls_on_grid(&mut self, step: &Step<'_>) {
+        for (index, wall) in self.scene.walls.iter().enumerate() {
+            let sign = wall.side.sign();
+            // The multiplier where the promise is made on it, else the mean force of the step.
+            let force = if self.contract.promise == Promise::EndPosition {
+                step.force[index]
+            } else {
+                step.impulse[index] / self.h
+            };
+            let pressure = sign * force;
+            self.force_scale = self.force_scale.max(pressure.abs()).max(step.impulse[index].abs() / self.h);
+            self.tension = self.tension.max(-pressure);
+            let (w0, w1) = (wall.at.dot(&self.q), wall.at.dot(step.q));
+            let rates = (wall.at.dot(step.velocity_before), wall.at.dot(step.velocity_after));
+            if wall.law.is_rigid() {
+                let gap_scale = self.energy.gap_scale;
+                match complementarity::slack(&self.scene, index, self.contract, self.h, (w0, w1), rates, gap_scale) {
+                    Some(slack) => self.pairs.add(slack, pressure),
+                    None => self.law_error = self.law_error.max(pressure.abs()),
+                }
+            } else {
+                let expected = expected_pressure(wall, self.contract, self.h, (w0, w1), rates);
+                self.law_error = self.law_error.max((pressure - expected).abs());
+            }
+        }
+    }
+
+    fn see_arc(&mut self, step: &Step<'_>, arc: &crate::flow::Arc) {
+        let ends = self.energy.see_arc(&self.scene, step, arc, &self.forcing, &self.scratch.blow);
+        let span = (step.end - step.start).max(f64::MIN_POSITIVE);
+        if step.end > step.start {
+            self.balance = self.balance.max(ends.balance.abs() / span);
+        }
+        self.balance_scale = self.balance_scale.max(ends.largest_force);
+        for (index, wall) in self.scene.walls.iter().enumerate() {
+            let sign = wall.side.sign();
+            for t in quadrature::nodes(step.start, step.end) {
+                let (q, v) = arc.state(t);
+                let (w, wdot) = (wall.at.dot(&[q]), wall.at.dot(&[v]));
+                let pressure = sign * arc.contact_force(index, t);
+                self.force_scale = self.force_scale.max(pressure.abs());
+                self.tension = self.tension.max(-pressure);
+                self.depth[index] = self.depth[index].max(-wall.gap(w));
+                if wall.law.is_rigid() {
+                    self.pairs.add(wall.gap(w), pressure);
+                } else {
+                    let law = wall.law.pressure(-wall.gap(w), -sign * wdot);
+                    self.law_error = self.law_error.max((pressure - law).abs());
+                }
+            }
+            self.tension = self.tension.max(-sign * step.jump[index]);
+        }
+    }
+
+    /// A force the scene knows of itself, N: its springs over the gap scale, so that a run without loads and contacts has a scale too.
+    fn spring_scale(&self) -> f64 {
+        self.scene.system.stiffness_form(&[1.0], &[1.0]) * self.energy.gap_scale
+    }
+
+    /// The verdict so far.
+    #[must_use]
+    pub fn residuals(&self) -> Residuals {
+        let gap_scale = match self.contract.promise {
+            Promise::Velocity => self.speed_scale,
+            _ => self.energy.gap_scale,
+        };
+        let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
+        let law = over(self.law_error, self.force_scale);
+        let scale = self.balance_scale.max(self.force_scale).max(self.spring_scale());
+        let rigid = self.scene.walls.iter().zip(&self.depth).filter(|(w, _)| w.law.is_rigid());
+        Residuals {
+            complementarity: self.pairs.worst(gap_scale, self.force_scale).max(law),
+            depth_m: self.depth.clone(),
+            penetration_m: rigid.fold(0.0, |a, (_, d)| a.max(*d)),
+            tension_n: self.tension,
+            force_balance_n: self.balance,
+            force_balance: over(self.balance, scale).max(self.kinematics / self.energy.gap_scale),
+            energy: self.energy.report(),
+            gap_scale,
+            force_scale_n: self.force_scale,
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! What every scheme on a fixed grid shares: the oscillator's numbers, its walls in scalar form, and the frame it fills.
+
+use crate::error::{Error, Result};
+use crate::scene::{Forcing, Scene, Side, System, WallLaw};
+
+/// The scene of one degree of freedom as a kernel wants it.
+#[derive(Debug, Clone)]
+pub(super) struct Scalar {
+    pub m: f64,
+    pub c: f64,
+    pub k: f64,
+    pub h: f64,
+    pub forcing: Forcing,
+    pub walls: Vec<ScalarWall>,
+    /// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
+    pub touch: f64,
+}
+
+/// A wall of that scene.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ScalarWall {
+    pub upper: bool,
+    /// +1 lower, −1 upper: the sign of its force.
+    pub sign: f64,
+    pub g: f64,
+    pub law: WallLaw,
+}
+
+impl ScalarWall {
+    /// Depth behind the wall, m.
+    #[inline]
+    pub fn depth(&self, w: f64) -> f64 {
+        self.sign * (self.g - w)
+    }
+
+    /// The larger of the depth and zero, as a coordinate: where a dashpot's plate stands when the body is at `w`.
+    #[inline]
+    pub fn plate(&self, w: f64) -> f64 {
+        if self.upper { w.max(self.g) } else { w.min(self.g) }
+    }
+}
+
+impl Scalar {
+    pub fn new(scene: &Scene, h: f64) -> Self {
+        let System::Oscillator(o) = &scene.system;
+        let walls = scene.walls.iter().map(|w| ScalarWall {
+            upper: w.side == Side::Upper,
+            sign: w.side.sign(),
+            g: w.position,
+            law: w.law,
+        });
+        Self {
+            m: o.mass,
+            c: o.damping,
+            k: o.stiffness,
+            h,
+            forcing: Forcing::on(0, &scene.loads),
+            walls: walls.collect(),
+            touch: 1e-12 * scene.gap_scale(),
+        }
+    }
+
+    /// Displacement and velocity after any impulse at t = 0.
+    pub fn start(&self, scene: &Scene) -> (f64, f64) {
+        let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);
+        (first(&scene.initial.q), first(&scene.initial.v) + self.forcing.initial_impulse() / self.m)
+    }
+
+    /// Smooth force at t = 0 plus what the walls answer there: elastic walls by their law, a rigid wall that is touched
+    /// at rest by whatever keeps the body from accelerating through it.
+    pub fn start_force(&self, q: f64, v: f64) -> StartForce {
+        let smooth = self.forcing.force(0.0) - self.c * v - self.k * q;
+        let mut wall = vec![0.0; self.walls.len()];
+        for (r, w) in wall.iter_mut().zip(&self.walls) {
+            *r = w.sign * w.law.pressure(w.depth(q), -w.sign * v);
+        }
+        let mut total = smooth + wall.iter().sum::<f64>();
+        for (r, w) in wall.iter_mut().zip(&self.walls) {
+            let rests = w.law.is_rigid() && w.depth(q) >= -self.touch && v == 0.0;
+            if rests && w.sign * total < 0.0 {
+                *r = -total;
+                total = 0.0;
+            }
+        }
+        StartForce { total, wall }
+    }
+}
+
+/// Forces at t = 0, N.
+pub(super) struct StartForce {
+    /// Smooth force and wall forces together.
+    pub total: f64,
+    /// Force of each wall, signed.
+    pub wall: Vec<f64>,
+}
+
+/// What a kernel writes of each step; the stepper lends it out as a [`crate::step::Step`].
+#[derive(Debug, Clone)]
+pub(super) struct Frame {
+    pub start: f64,
+    pub end: f64,
+    pub q: [f64; 1],
+    pub v: [f64; 1],
+    pub before: [f64; 1],
+    pub after: [f64; 1],
+    pub extra: [f64; 1],
+    pub impulse: Vec<f64>,
+    pub force: Vec<f64>,
+    pub jump: Vec<f64>,
+    /// True if any impulse of the step is not zero.
+    pub touched: bool,
+}
+
+impl Frame {
+    pub fn new(q: f64, v: f64, walls: usize) -> Self {
+        Self {
+            start: 0.0,
+            end: 0.0,
+            q: [q],
+            v: [v],
+            before: [v],
+            after: [v],
+            extra: [0.0],
+            impulse: vec![0.0; walls],
+            force: vec![0.0; walls],
+            jump: vec![0.0; walls],
+            touched: false,
+        }
+    }
+
+    /// Clears the walls of the last step, if they were touched.
+    #[inline]
+    pub fn clear(&mut self) {
+        if self.touched {
+            self.impulse.fill(0.0);
+            self.force.fill(0.0);
+            self.touched = false;
+        }
+    }
+
+    /// Writes the motion of a step whose momentum balance joins its end velocities.
+    #[inline]
+    pub fn arrive(&mut self, start: f64, end: f64, v_before: f64, q: f64, v: f64) {
+        self.start = start;
+        self.end = end;
+        self.before[0] = v_before;
+        self.after[0] = v;
+        self.q[0] = q;
+        self.v[0] = v;
+    }
+
+    /// Refuses a state that is not finite.
+    #[inline]
+    pub fn check(&self, step: u64) -> Result<()> {
+        if self.q[0].is_finite() && self.v[0].is_finite() {
+            return Ok(());
+        }
+        let what = if self.q[0].is_finite() { "velocity" } else { "displacement" };
+        Err(Error::NotFinite { time: self.end, step, what })
+    }
+}
+
+/// What a run has cost, in units that do not depend on the machine.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Counters {
+    /// Steps taken (for the exact scheme: arcs between events).
+    pub steps: u64,
+    /// Steps that met a wall and solved a quadratic programme.
+    pub qp_solves: u64,
+    /// Interior-point iterations of those.
+    pub interior_point_iterations: u64,
+    /// Pivots of those.
+    pub pivots: u64,
+    /// Newton iterations of the penalty schemes.
+    pub newton_iterations: u64,
+    /// Contact events of the exact scheme.
+    pub events: u64,
+    /// Evaluations of the closed-form motion by the exact scheme's search for events.
+    pub flow_evaluations: u64,
+    /// Steps in which opposite walls took turns, so that the body stood still between them: the step is too large.
+    pub frozen_steps: u64,
+}

@@ -1,0 +1,104 @@
+//! `moreau-jean`: the impact law on the velocity, for the walls the body is about to reach.
+//!
+//! Jean 1999, Comput. Methods Appl. Mech. Engrg. 177, doi:10.1016/S0045-7825(98)00383-1; Acary & Brogliato 2008, doi:10.1007/978-3-540-75392-6,
+//! ch. 10. With v⁺ = v + δ, v_θ = v + θδ, q⁺ = q + h v_θ,
+//!
+//! M δ = h[f_θ − C v_θ − K(q + hθ v_θ)] + J + p        (J: load impulses in the step)
+//!
+//! is the optimality condition A δ = b + p of
+//!
+//! minimise ½ A δ² − b δ   subject to   ẇ⁺ + ε ẇ ≤ 0 (upper), ≥ 0 (lower),    A = M + hθC + h²θ²K,
+//!
+//! over the walls that q + ½h v reaches, with ε = e where the body approaches or rests, 1 where it separates.
+//! With θ = ½, e = 1, no damping and no load the energy is conserved exactly.
+
+use super::grid::{Counters, Frame, Scalar};
+use super::programme::{FREE, Programme, compliances, elastic_row};
+use crate::error::Result;
+use crate::qp::{Backend, ScalarRow};
+use crate::scene::{Scene, WallLaw};
+
+#[derive(Debug)]
+pub(super) struct MoreauJean {
+    s: Scalar,
+    theta: f64,
+    q: f64,
+    v: f64,
+    /// f(t) at the step's start, N.
+    load: f64,
+    programme: Programme,
+    /// Side (sign of its force) of the rigid wall that pushed in the last step; 0 if none did.
+    last_side: f64,
+    frozen: u64,
+}
+
+impl MoreauJean {
+    pub fn new(scene: &Scene, theta: f64, h: f64, backend: Backend) -> Result<Self> {
+        let s = Scalar::new(scene, h);
+        let (q, v) = s.start(scene);
+        let ht = h * theta;
+        let a = s.m + ht * s.c + ht * ht * s.k;
+        let rows = compliances(&s, |k, c| ht * ht * (k + c / ht));
+        let programme = Programme::new(a, scene.gap_scale() / h, &rows, backend)?;
+        let load = s.forcing.force(0.0);
+        Ok(Self { s, theta, q, v, load, programme, last_side: 0.0, frozen: 0 })
+    }
+
+    #[inline]
+    pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
+        let s = &self.s;
+        let (h, theta) = (s.h, self.theta);
+        let ht = h * theta;
+        let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
+        let (q, v) = (self.q, self.v);
+        let load_end = s.forcing.force(end);
+        let load = (1.0 - theta) * self.load + theta * load_end + extra;
+        let b = h * (load - s.c * v - s.k * (q + ht * v)) + s.forcing.impulse(start, end);
+        let reach = q + 0.5 * h * v;
+        for (row, wall) in self.programme.rows.iter_mut().zip(&s.walls) {
+            *row = match wall.law {
+                WallLaw::Elastic { stiffness, damping } => {
+                    // p = −h[k_a(w_θ − g) + c_a(w_θ − plate)/θh] with w_θ = q + hθ v + hθ²δ.
+                    let stiff = stiffness + damping / ht;
+                    let offset = h * (stiffness * (q + ht * v - wall.g) + damping * (q + ht * v - wall.plate(q)) / ht);
+                    elastic_row(wall.upper, ht * ht * stiff, offset)
+                }
+                WallLaw::Rigid { restitution } if wall.depth(reach) >= -s.touch => {
+                    let epsilon = if wall.sign * v <= 0.0 { restitution } else { 1.0 };
+                    let bound = -(1.0 + epsilon) * v;
+                    let (lo, hi) = if wall.upper { (f64::NEG_INFINITY, bound) } else { (bound, f64::INFINITY) };
+                    ScalarRow { lo, hi, compliance: 0.0 }
+                }
+                _ => FREE,
+            };
+        }
+        frame.clear();
+        let mut delta = self.programme.free(b);
+        let mut side = 0.0;
+        if !self.programme.admits(delta) {
+            delta = self.programme.solve(b, start, step)?;
+            for (i, &p) in self.programme.multiplier.iter().enumerate() {
+                frame.impulse[i] = p;
+                frame.force[i] = p / h;
+                if p != 0.0 && s.walls[i].law.is_rigid() {
+                    side = p.signum();
+                }
+            }
+            frame.touched = true;
+            if side * self.last_side < 0.0 {
+                self.frozen += 1;
+            }
+        }
+        self.last_side = side;
+        let q_end = q + h * (v + theta * delta);
+        let v_end = v + delta;
+        (self.q, self.v, self.load) = (q_end, v_end, load_end);
+        frame.arrive(start, end, v, q_end, v_end);
+        frame.check(step)
+    }
+
+    pub fn count(&self, counters: &mut Counters) {
+        self.programme.count(counters);
+        counters.frozen_steps = self.frozen;
+    }
+}

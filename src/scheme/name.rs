@@ -1,0 +1,141 @@
+//! Schemes as words: `moreau-jean:theta=0.6`, `penalty:epsilon=1e-9,integrator=trapezoidal`.
+
+use super::{Integrator, PenaltyLaw, Scheme};
+use crate::error::{Error, Result};
+use std::fmt;
+use std::str::FromStr;
+
+/// The schemes by name, in the order in which tables list them.
+pub const NAMES: [&str; 6] = ["implicit-euler", "paoli-schatzman", "moreau-jean", "newmark", "penalty", "event"];
+
+impl fmt::Display for Scheme {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::ImplicitEuler => f.write_str("implicit-euler"),
+            Self::PaoliSchatzman => f.write_str("paoli-schatzman"),
+            Self::MoreauJean { theta: 0.5 } => f.write_str("moreau-jean"),
+            Self::MoreauJean { theta } => write!(f, "moreau-jean:theta={theta}"),
+            Self::Newmark => f.write_str("newmark"),
+            Self::Event => f.write_str("event"),
+            Self::Penalty { law: PenaltyLaw::Quartic { epsilon }, integrator } => {
+                write!(f, "penalty:epsilon={epsilon:e},integrator={integrator}")
+            }
+            Self::Penalty { law: PenaltyLaw::Linear { stiffness, damping: 0.0 }, integrator } => {
+                write!(f, "penalty:stiffness={stiffness:e},integrator={integrator}")
+            }
+            Self::Penalty { law: PenaltyLaw::Linear { stiffness, damping }, integrator } => {
+                write!(f, "penalty:stiffness={stiffness:e},damping={damping:e},integrator={integrator}")
+            }
+        }
+    }
+}
+
+/// Settings behind the colon of a scheme's name, as given.
+#[derive(Debug, Default)]
+struct Settings {
+    theta: Option<f64>,
+    epsilon: Option<f64>,
+    stiffness: Option<f64>,
+    damping: Option<f64>,
+    integrator: Option<Integrator>,
+}
+
+impl Settings {
+    fn parse(text: &str, keys: &[&str]) -> Result<Self> {
+        let mut settings = Self::default();
+        for part in text.split(',').map(str::trim).filter(|part| !part.is_empty()) {
+            let accepted = || format!("key=value with one of the keys {}", keys.join(", "));
+            let (key, value) =
+                part.split_once('=').ok_or_else(|| Error::invalid("scheme setting", part, accepted()))?;
+            let number = || {
+                let parsed = value.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+                parsed.ok_or_else(|| Error::invalid(format!("scheme setting {key}"), value, "a finite number"))
+            };
+            match key.trim() {
+                key if !keys.contains(&key) => return Err(Error::invalid("scheme setting", key, accepted())),
+                "theta" => settings.theta = Some(number()?),
+                "epsilon" => settings.epsilon = Some(number()?),
+                "stiffness" => settings.stiffness = Some(number()?),
+                "damping" => settings.damping = Some(number()?),
+                _ => settings.integrator = Some(value.trim().parse()?),
+            }
+        }
+        Ok(settings)
+    }
+}
+
+impl FromStr for Scheme {
+    type Err = Error;
+
+    /// Parses a name as [`fmt::Display`] writes it; settings may be left out where they have a default (θ = ½, the discrete-gradient
+    /// integrator, no damping), but a penalty needs its epsilon or its stiffness.
+    fn from_str(text: &str) -> Result<Self> {
+        let (name, settings) = text.split_once(':').unwrap_or((text, ""));
+        let keys: &[&str] = match name {
+            "moreau-jean" => &["theta"],
+            "penalty" => &["epsilon", "stiffness", "damping", "integrator"],
+            _ => &[],
+        };
+        let unknown = || Error::Unknown {
+            kind: "scheme",
+            name: name.to_owned(),
+            known: NAMES.iter().map(|&n| n.to_owned()).collect(),
+        };
+        if !NAMES.contains(&name) {
+            return Err(unknown());
+        }
+        if keys.is_empty() && !settings.trim().is_empty() {
+            return Err(Error::invalid(format!("setting of {name}"), settings, "none: this scheme has no settings"));
+        }
+        let settings = Settings::parse(settings, keys)?;
+        let scheme = match name {
+            "implicit-euler" => Self::ImplicitEuler,
+            "paoli-schatzman" => Self::PaoliSchatzman,
+            "moreau-jean" => Self::MoreauJean { theta: settings.theta.unwrap_or(0.5) },
+            "newmark" => Self::Newmark,
+            "event" => Self::Event,
+            _ => Self::Penalty {
+                law: penalty_law(&settings)?,
+                integrator: settings.integrator.unwrap_or(Integrator::DiscreteGradient),
+            },
+        };
+        scheme.validate()?;
+        Ok(scheme)
+    }
+}
+
+fn penalty_law(settings: &Settings) -> Result<PenaltyLaw> {
+    match (settings.epsilon, settings.stiffness) {
+        (Some(epsilon), None) if settings.damping.is_none() => Ok(PenaltyLaw::Quartic { epsilon }),
+        (None, Some(stiffness)) => Ok(PenaltyLaw::Linear { stiffness, damping: settings.damping.unwrap_or(0.0) }),
+        (Some(_), None) => Err(Error::invalid("setting of penalty", "damping with epsilon", "damping with stiffness")),
+        (Some(_), Some(_)) => Err(Error::invalid("setting of penalty", "epsilon and stiffness", "one of the two")),
+        (None, None) => Err(Error::invalid("setting of penalty", "neither epsilon nor stiffness", "one of the two")),
+    }
+}
+
+impl Scheme {
+    /// Checks the scheme's own numbers.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`]: θ outside [½, 1], an ε or stiffness that is not positive, a negative damping.
+    pub fn validate(&self) -> Result<()> {
+        let positive = |key: &str, x: f64| {
+            if x > 0.0 && x.is_finite() { Ok(()) } else { Err(Error::invalid(key, x, "a finite number above 0")) }
+        };
+        match *self {
+            Self::MoreauJean { theta } if !(0.5..=1.0).contains(&theta) => {
+                Err(Error::invalid("theta", theta, "a number from 0.5 to 1: below 0.5 the rule is unstable"))
+            }
+            Self::Penalty { law: PenaltyLaw::Quartic { epsilon }, .. } => positive("penalty.epsilon", epsilon),
+            Self::Penalty { law: PenaltyLaw::Linear { stiffness, damping }, .. } => {
+                positive("penalty.stiffness", stiffness)?;
+                if damping >= 0.0 && damping.is_finite() {
+                    return Ok(());
+                }
+                Err(Error::invalid("penalty.damping", damping, "a finite number, 0 or more"))
+            }
+            _ => Ok(()),
+        }
+    }
+}

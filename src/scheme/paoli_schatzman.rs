@@ -1,0 +1,133 @@
+//! `paoli-schatzman`: central differences with the restitution written into the bound.
+//!
+//! Paoli & Schatzman 2002, SIAM J. Numer. Anal. 40(2), doi:10.1137/S003614290037873X. With q⁺ = q + Δ and q⁻ = q − h v₋,
+//!
+//! M(Δ/h − v₋)/h + C(Δ/h + v₋)/2 + K(¼q⁻ + ½q + ¼q⁺) = f(t) + r
+//!
+//! is the optimality condition A Δ = b + r of
+//!
+//! minimise ½ A Δ² − b Δ   subject to   (1+e_l)g_l − e_l q⁻ ≤ q⁺ ≤ (1+e_u)g_u − e_u q⁻,    A = M/h² + C/2h + K/4.
+//!
+//! The multiplier r is the force at t. The velocity between the grid's instants is what the scheme carries: v₋ and
+//! v₊ = Δ/h; without walls it is the trapezoidal rule on the half steps, so it conserves their energy.
+
+use super::grid::{Counters, Frame, Scalar, StartForce};
+use super::programme::{Programme, compliances, elastic_row};
+use crate::error::Result;
+use crate::qp::{Backend, ScalarRow};
+use crate::scene::{Scene, WallLaw};
+
+#[derive(Debug)]
+pub(super) struct PaoliSchatzman {
+    s: Scalar,
+    q: f64,
+    /// v₋ = (q − q⁻)/h, m/s.
+    v: f64,
+    /// f(t) at the step's start, N.
+    load: f64,
+    /// Restitution of each wall as the rows use it.
+    restitution: Vec<f64>,
+    programme: Programme,
+}
+
+impl PaoliSchatzman {
+    pub fn new(scene: &Scene, h: f64, backend: Backend) -> Result<Self> {
+        let s = Scalar::new(scene, h);
+        let (q, v0) = s.start(scene);
+        // q⁻ = q − h v + ½h² a with the wall's reaction in a: without it a body at rest on a wall with e = 1 would bounce.
+        let StartForce { total, .. } = s.start_force(q, v0);
+        let v = v0 - 0.5 * h * total / s.m;
+        let a = s.m / (h * h) + 0.5 * s.c / h + 0.25 * s.k;
+        let rows = compliances(&s, |k, c| 0.25 * k + 0.5 * c / h);
+        let programme = Programme::new(a, scene.gap_scale(), &rows, backend)?;
+        let load = s.forcing.force(0.0);
+        let restitution = restitutions(&s);
+        Ok(Self { s, q, v, load, restitution, programme })
+    }
+
+    #[inline]
+    pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
+        let s = &self.s;
+        let h = s.h;
+        let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
+        let (q, v) = (self.q, self.v);
+        let back = q - h * v;
+        let blow = s.forcing.impulse((start - 0.5 * h).max(0.0), start + 0.5 * h);
+        let load = self.load + extra;
+        let b = s.m * v / h - 0.5 * s.c * v - s.k * (q - 0.25 * h * v) + load + blow / h;
+        for ((row, wall), &e) in self.programme.rows.iter_mut().zip(&s.walls).zip(&self.restitution) {
+            *row = match wall.law {
+                WallLaw::Elastic { stiffness, damping } => {
+                    // |r| = k_a s̄ + c_a(s⁺ − s⁻₊)/2h, written in Δ.
+                    let offset = stiffness * (q - 0.25 * h * v - wall.g) + 0.5 * damping * (q - wall.plate(back)) / h;
+                    elastic_row(wall.upper, 0.25 * stiffness + 0.5 * damping / h, offset)
+                }
+                _ => {
+                    let bound = (1.0 + e) * (wall.g - q) + e * h * v;
+                    let (lo, hi) = if wall.upper { (f64::NEG_INFINITY, bound) } else { (bound, f64::INFINITY) };
+                    ScalarRow { lo, hi, compliance: 0.0 }
+                }
+            };
+        }
+        frame.clear();
+        let mut delta = self.programme.free(b);
+        if !self.programme.admits(delta) {
+            delta = self.programme.solve(b, start, step)?;
+            for ((p, force), &r) in frame.impulse.iter_mut().zip(&mut frame.force).zip(&self.programme.multiplier) {
+                (*p, *force) = (h * r, r);
+            }
+            frame.touched = true;
+        }
+        let q_end = q + delta;
+        let v_half = delta / h;
+        let load_end = s.forcing.force(end);
+        let v_end = arrival(s, q_end, v_half, load_end + extra);
+        (self.q, self.v, self.load) = (q_end, v_half, load_end);
+        frame.arrive(start, end, v, q_end, v_end);
+        frame.after[0] = v_half;
+        frame.check(step)
+    }
+
+    pub fn count(&self, counters: &mut Counters) {
+        self.programme.count(counters);
+    }
+}
+
+/// Velocity at t⁺ from v₊ at t⁺ − ½h: half a step under the smooth force, (1 + hC/2M)v⁺ = v₊ + (h/2M)(f⁺ − K q⁺ + r⁺).
+/// A body at or behind a rigid wall is not accelerated further into it, and an elastic wall too stiff for the step is left out: there v₊
+/// is all that is known.
+#[inline]
+pub(super) fn arrival(s: &Scalar, q: f64, v_half: f64, load: f64) -> f64 {
+    let mut force = load - s.k * q;
+    for wall in &s.walls {
+        let depth = wall.depth(q);
+        if depth < -s.touch {
+            continue;
+        }
+        let tangent = wall.law.tangent(depth);
+        if wall.law.is_rigid() {
+            if wall.sign * (force - s.c * v_half) < 0.0 {
+                return v_half;
+            }
+        } else if s.h * s.h * tangent > s.m {
+            return v_half;
+        } else {
+            force += wall.sign * wall.law.pressure(depth, -wall.sign * v_half);
+        }
+    }
+    let half = 0.5 * s.h / s.m;
+    (v_half + half * force) / (1.0 + half * s.c)
+}
+
+/// The e of each wall; where an upper and a lower rigid wall differ, the smaller for both, or their bounds could cross.
+fn restitutions(s: &Scalar) -> Vec<f64> {
+    let own = |law: WallLaw| if let WallLaw::Rigid { restitution } = law { restitution } else { 0.0 };
+    let least = |upper: bool| {
+        let side = s.walls.iter().filter(|w| w.upper == upper && w.law.is_rigid());
+        side.map(|w| own(w.law)).reduce(f64::min)
+    };
+    match (least(true), least(false)) {
+        (Some(u), Some(l)) => vec![u.min(l); s.walls.len()],
+        _ => s.walls.iter().map(|w| own(w.law)).collect(),
+    }
+}

@@ -1,0 +1,216 @@
+//! The stepper: one public type over all schemes.
+
+use super::central_difference::CentralDifference;
+use super::grid::{Counters, Frame, Scalar};
+use super::moreau_jean::MoreauJean;
+use super::paoli_schatzman::PaoliSchatzman;
+use super::penalty::{Mean, Penalty};
+use super::position::Position;
+use super::{Integrator, Scheme};
+use crate::contact::Episodes;
+use crate::error::{Error, Result};
+use crate::qp::Backend;
+use crate::scene::{Scene, State};
+use crate::step::{Contact, Contract, Path, Step};
+
+/// The state and constants of one scheme on one scene. Smallness is a variant's content: these hold floats, no matrices.
+#[derive(Debug)]
+enum Kernel {
+    Position(Position),
+    PaoliSchatzman(PaoliSchatzman),
+    MoreauJean(MoreauJean),
+    Penalty(Penalty),
+    CentralDifference(CentralDifference),
+}
+
+/// Advances a scene step by step.
+///
+/// ```
+/// use signorini::{Scene, Scheme, Stepper, Wall};
+///
+/// let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop", 0.1)).with_initial(&[0.0], &[1.0]);
+/// let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3)?;
+/// while stepper.time() < 0.2 {
+///     let step = stepper.step()?;
+///     assert!(step.q[0] < 0.1 + 1e-3);
+/// }
+/// assert_eq!(stepper.state().v, [-1.0]);
+/// # Ok::<(), signorini::Error>(())
+/// ```
+///
+/// A step allocates nothing, apart from Clarabel's own single allocation where that solver was asked for.
+#[derive(Debug)]
+pub struct Stepper {
+    scene: Scene,
+    scheme: Scheme,
+    contract: Contract,
+    step: f64,
+    backend: Backend,
+    index: u64,
+    kernel: Kernel,
+    frame: Frame,
+    episodes: Episodes,
+}
+
+impl Stepper {
+    /// A stepper for `scene` by `scheme` with steps of `step` seconds. For the exact scheme, which steps from event to
+    /// event, `step` is the longest stretch of one step.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a scene, scheme or step that makes no sense.
+    pub fn new(scene: &Scene, scheme: &Scheme, step: f64) -> Result<Self> {
+        Self::with_backend(scene, scheme, step, Backend::Auto)
+    }
+
+    /// The same, with a named solver for the quadratic programmes of the steps that meet a wall.
+    ///
+    /// # Errors
+    /// As [`Stepper::new`].
+    pub fn with_backend(scene: &Scene, scheme: &Scheme, step: f64, backend: Backend) -> Result<Self> {
+        scene.validate()?;
+        scheme.validate()?;
+        if !(step.is_finite() && step > 0.0) {
+            return Err(Error::invalid("time.step", step, "a finite number above 0"));
+        }
+        let scene = match *scheme {
+            Scheme::Penalty { law, .. } => scene.penalised(law)?,
+            _ => scene.clone(),
+        };
+        // One degree of freedom: the programme has one unknown, and a clamp solves it exactly.
+        let backend = if backend == Backend::Auto { Backend::Clamp } else { backend };
+        let kernel = match *scheme {
+            Scheme::ImplicitEuler => Kernel::Position(Position::new(&scene, 1.0, step, backend)?),
+            Scheme::Newmark => Kernel::Position(Position::new(&scene, 0.5, step, backend)?),
+            Scheme::PaoliSchatzman => Kernel::PaoliSchatzman(PaoliSchatzman::new(&scene, step, backend)?),
+            Scheme::MoreauJean { theta } => Kernel::MoreauJean(MoreauJean::new(&scene, theta, step, backend)?),
+            Scheme::Penalty { integrator, .. } => match integrator {
+                Integrator::Trapezoidal => Kernel::Penalty(Penalty::new(&scene, 0.5, Mean::Ends, step)),
+                Integrator::ImplicitEuler => Kernel::Penalty(Penalty::new(&scene, 1.0, Mean::Ends, step)),
+                Integrator::DiscreteGradient => {
+                    Kernel::Penalty(Penalty::new(&scene, 0.5, Mean::DiscreteGradient, step))
+                }
+                Integrator::CentralDifference => Kernel::CentralDifference(CentralDifference::new(&scene, step)),
+            },
+            Scheme::Event => return Err(Error::invalid("scheme", "event", "x")),
+        };
+        let (q, v) = Scalar::new(&scene, step).start(&scene);
+        let frame = Frame::new(q, v, scene.walls.len());
+        let contract = scheme.contract();
+        let episodes = Episodes::new(&scene, contract);
+        Ok(Self { scene, scheme: *scheme, contract, step, backend, index: 0, kernel, frame, episodes })
+    }
+
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// [`Error::Qp`], [`Error::Newton`], [`Error::NotFinite`] or [`Error::TooManyEvents`], with the time and the step.
+    #[inline]
+    pub fn step(&mut self) -> Result<Step<'_>> {
+        self.advance(0.0)
+    }
+
+    /// Advances by one step under an extra force (N, one value per degree of freedom), constant over the step: for
+    /// co-simulation with another program.
+    ///
+    /// # Errors
+    /// As [`Stepper::step`]; [`Error::Invalid`] for a force of the wrong length or not finite.
+    #[inline]
+    pub fn step_with(&mut self, extra: &[f64]) -> Result<Step<'_>> {
+        match *extra {
+            [force] if force.is_finite() => self.advance(force),
+            [force] => Err(Error::invalid("extra force", force, "a finite number")),
+            _ => Err(Error::invalid("extra force", format!("{} values", extra.len()), "one per degree of freedom")),
+        }
+    }
+
+    #[inline]
+    fn advance(&mut self, extra: f64) -> Result<Step<'_>> {
+        let (index, frame) = (self.index, &mut self.frame);
+        frame.extra[0] = extra;
+        match &mut self.kernel {
+            Kernel::MoreauJean(kernel) => kernel.advance(index, extra, frame),
+            Kernel::PaoliSchatzman(kernel) => kernel.advance(index, extra, frame),
+            Kernel::Position(kernel) => kernel.advance(index, extra, frame),
+            Kernel::Penalty(kernel) => kernel.advance(index, extra, frame),
+            Kernel::CentralDifference(kernel) => kernel.advance(index, extra, frame),
+        }?;
+        self.index += 1;
+        if frame.touched || !self.episodes.idle() {
+            let (before, after) = (&frame.before, &frame.after);
+            let walls = &self.scene.walls;
+            let rate = |wall: usize| walls.get(wall).map_or((0.0, 0.0), |w| (w.at.dot(before), w.at.dot(after)));
+            self.episodes.see(frame.start, self.step, &frame.impulse, rate);
+        }
+        Ok(Step {
+            index,
+            start: frame.start,
+            end: frame.end,
+            q: &frame.q,
+            v: &frame.v,
+            velocity_before: &frame.before,
+            velocity_after: &frame.after,
+            impulse: &frame.impulse,
+            jump: &frame.jump,
+            force: &frame.force,
+            extra: &frame.extra,
+            closed: self.episodes.closed(),
+            path: Path::Grid,
+        })
+    }
+
+    /// Time reached, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.frame.end
+    }
+
+    /// State reached; at the start, the state after any impulse at t = 0.
+    #[must_use]
+    pub fn state(&self) -> State {
+        State { q: self.frame.q.to_vec(), v: self.frame.v.to_vec() }
+    }
+
+    /// The scene as the scheme sees it: a penalty's walls are springs here.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The scheme.
+    #[must_use]
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// What every step keeps, for whoever judges it.
+    #[must_use]
+    pub fn contract(&self) -> Contract {
+        self.contract
+    }
+
+    /// The solver of the quadratic programmes: the one in force.
+    #[must_use]
+    pub fn backend(&self) -> Backend {
+        self.backend
+    }
+
+    /// Contact episodes that are still open.
+    #[must_use]
+    pub fn open_contacts(&self) -> Vec<Contact> {
+        self.episodes.still_open()
+    }
+
+    /// What the run has cost so far.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        let mut counters = Counters { steps: self.index, ..Counters::default() };
+        match &self.kernel {
+            Kernel::Position(kernel) => kernel.count(&mut counters),
+            Kernel::PaoliSchatzman(kernel) => kernel.count(&mut counters),
+            Kernel::MoreauJean(kernel) => kernel.count(&mut counters),
+            Kernel::Penalty(kernel) => kernel.count(&mut counters),
+            Kernel::CentralDifference(_) => {}
+        }
+        counters
+    }
+}

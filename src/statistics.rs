@@ -1,0 +1,89 @@
+//! Contact statistics: what wear models ask of a run.
+
+use crate::scene::{Scene, System};
+use crate::step::Contact;
+use serde::Serialize;
+
+/// Mean, largest and root-mean-square of a set of magnitudes; all `None` if the set is empty.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Summary {
+    /// Arithmetic mean.
+    pub mean: Option<f64>,
+    /// Largest.
+    pub max: Option<f64>,
+    /// Root mean square.
+    pub rms: Option<f64>,
+}
+
+impl Summary {
+    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let count = values.clone().count();
+        if count == 0 {
+            return Self::default();
+        }
+        let n = count as f64;
+        let max = values.clone().fold(0.0, f64::max);
+        let mean = values.clone().sum::<f64>() / n;
+        let rms = (values.map(|x| x * x).sum::<f64>() / n).sqrt();
+        Self { mean: Some(mean), max: Some(max), rms: Some(rms) }
+    }
+}
+
+/// Contacts at one wall within the window: the episodes that began in it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WallStatistics {
+    /// The wall's name.
+    pub wall: String,
+    /// Number of contact episodes.
+    pub contacts: usize,
+    /// Largest |force| of each episode whose force is finite, N.
+    pub peak_force_n: Summary,
+    /// |impulse| of each episode, N s.
+    pub impulse_ns: Summary,
+    /// Time in contact over the window's length.
+    pub contact_time_ratio: f64,
+    /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W. The motion is normal to the wall and frictionless: this is
+    /// impact power, there is no sliding wear in it.
+    pub impact_power_w: f64,
+    /// The part of it that did not leave again, W.
+    pub dissipated_power_w: f64,
+}
+
+/// Contact statistics of a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Start of the window, s.
+    pub from_s: f64,
+    /// End of the window, s.
+    pub to_s: f64,
+    /// One entry a wall, in the scene's order.
+    pub walls: Vec<WallStatistics>,
+}
+
+impl Statistics {
+    /// Statistics of `contacts` from the time `from` (s) to the scene's end.
+    #[must_use]
+    pub fn new(scene: &Scene, contacts: &[Contact], from: f64) -> Self {
+        let to = scene.duration;
+        let window = to - from;
+        let wall = |(index, wall): (usize, &crate::scene::Wall)| {
+            let here = contacts.iter().filter(move |c| c.wall == index && c.start >= from);
+            let System::Oscillator(oscillator) = &scene.system;
+            let energy = |speed: f64| 0.5 * oscillator.mass * speed * speed;
+            let touching = contacts.iter().filter(|c| c.wall == index);
+            let time: f64 = touching.map(|c| (c.end.unwrap_or(to).min(to) - c.start.max(from)).max(0.0)).sum();
+            let arrived: f64 = here.clone().map(|c| energy(c.approach_speed)).sum();
+            let lost = |c: &Contact| c.departure_speed.map_or(0.0, |d| energy(c.approach_speed) - energy(d));
+            WallStatistics {
+                wall: wall.name.clone(),
+                contacts: here.clone().count(),
+                peak_force_n: Summary::of(here.clone().filter_map(|c| c.peak_force)),
+                impulse_ns: Summary::of(here.clone().map(|c| c.impulse.abs())),
+                contact_time_ratio: time / window,
+                impact_power_w: arrived / window,
+                dissipated_power_w: here.map(lost).sum::<f64>() / window,
+            }
+        };
+        Self { from_s: from, to_s: to, walls: scene.walls.iter().enumerate().map(wall).collect() }
+    }
+}

@@ -1,0 +1,239 @@
+//! The recorded motion: columns in time, and the contacts.
+
+use crate::error::{Error, Result};
+use crate::scene::{Scene, Wall};
+use crate::step::{Contact, Path, Step};
+
+/// A motion sampled at given times, with every newton second of contact accounted for.
+///
+/// Row 0 is the start, after any impulse at t = 0; the last row is exactly the end. States are right-continuous. For a
+/// scheme on a grid a force is that of the step which ends at the row; for the exact scheme it is the force at that instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trajectory {
+    walls: Vec<String>,
+    probes: Vec<String>,
+    time: Vec<f64>,
+    displacement: Vec<Vec<f64>>,
+    velocity: Vec<Vec<f64>>,
+    force: Vec<Vec<f64>>,
+    impulse: Vec<Vec<f64>>,
+    contacts: Vec<Contact>,
+}
+
+impl Trajectory {
+    /// Times of the rows, s.
+    #[must_use]
+    pub fn time(&self) -> &[f64] {
+        &self.time
+    }
+
+    /// Names of the walls, in the scene's order.
+    #[must_use]
+    pub fn walls(&self) -> &[String] {
+        &self.walls
+    }
+
+    /// Names of the probes; a single empty name for an oscillator.
+    #[must_use]
+    pub fn probes(&self) -> &[String] {
+        &self.probes
+    }
+
+    /// Displacement of the first probe at each row, m.
+    #[must_use]
+    pub fn displacement(&self) -> &[f64] {
+        self.displacement.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// Velocity of the first probe at each row, m/s.
+    #[must_use]
+    pub fn velocity(&self) -> &[f64] {
+        self.velocity.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// Displacement (m) and velocity (m/s) of the probe of that name at each row.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`], listing the probes there are.
+    pub fn probe(&self, name: &str) -> Result<(&[f64], &[f64])> {
+        let index = find("probe", name, &self.probes)?;
+        Ok((&self.displacement[index], &self.velocity[index]))
+    }
+
+    /// Force of a wall on the body at each row, N: ≥ 0 for a lower wall, ≤ 0 for an upper one.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`], listing the walls there are.
+    pub fn contact_force(&self, wall: &str) -> Result<&[f64]> {
+        Ok(&self.force[find("wall", wall, &self.walls)?])
+    }
+
+    /// Impulse of a wall on the body since the previous row, N s; signed as the force.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`], listing the walls there are.
+    pub fn contact_impulse(&self, wall: &str) -> Result<&[f64]> {
+        Ok(&self.impulse[find("wall", wall, &self.walls)?])
+    }
+
+    /// Impulse of a wall on the body over the whole run, N s; signed as the force.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`], listing the walls there are.
+    pub fn impulse(&self, wall: &str) -> Result<f64> {
+        Ok(self.contact_impulse(wall)?.iter().sum())
+    }
+
+    /// The contact episodes, in the order in which they began.
+    #[must_use]
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts
+    }
+}
+
+fn find(kind: &'static str, name: &str, known: &[String]) -> Result<usize> {
+    let missing = || Error::Unknown { kind, name: name.to_owned(), known: known.to_vec() };
+    known.iter().position(|k| k == name).ok_or_else(missing)
+}
+
+/// Builds a [`Trajectory`] from the steps of a run, at the rows it was asked for.
+#[derive(Debug, Clone)]
+pub struct Recorder {
+    trajectory: Trajectory,
+    walls: Vec<Wall>,
+    probes: Vec<crate::scene::Row>,
+    end: f64,
+    rows: u64,
+    /// Impulse per wall since the last row, N s.
+    pending: Vec<f64>,
+    partial: Vec<f64>,
+}
+
+impl Recorder {
+    /// A recorder of `rows` equal intervals over the scene's duration, starting from the state `q` (m), `v` (m/s).
+    #[must_use]
+    pub fn new(scene: &Scene, rows: u64, q: &[f64], v: &[f64]) -> Self {
+        let capacity = usize::try_from(rows).unwrap_or(0).saturating_add(1).min(1 << 24);
+        let column = || Vec::with_capacity(capacity);
+        let m = scene.walls.len();
+        let columns = |count: usize| (0..count).map(|_| column()).collect::<Vec<_>>();
+        let mut recorder = Self {
+            trajectory: Trajectory {
+                walls: scene.walls.iter().map(|w| w.name.clone()).collect(),
+                probes: scene.probes.iter().map(|p| p.name.clone()).collect(),
+                time: column(),
+                displacement: columns(scene.probes.len()),
+                velocity: columns(scene.probes.len()),
+                force: columns(m),
+                impulse: columns(m),
+                contacts: Vec::new(),
+            },
+            walls: scene.walls.clone(),
+            probes: scene.probes.iter().map(|p| p.at.clone()).collect(),
+            end: scene.duration,
+            rows,
+            pending: vec![0.0; m],
+            partial: vec![0.0; m],
+        };
+        let force: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(q), w.at.dot(v))).collect();
+        recorder.push(0.0, q, v, &force);
+        recorder
+    }
+
+    /// Time of row `k`, s; the last is the end itself.
+    fn row_time(&self, k: u64) -> f64 {
+        if k >= self.rows { self.end } else { self.end * (k as f64 / self.rows as f64) }
+    }
+
+    /// Takes in one step.
+    pub fn see(&mut self, step: &Step<'_>) {
+        self.trajectory.contacts.extend_from_slice(step.closed);
+        match step.path {
+            Path::Grid => {
+                for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
+                    *sum += p;
+                }
+                // The grid divides the rows' spacing, so a row's time and a step's end differ by rounding at most.
+                let due = self.row_time(self.trajectory.time.len() as u64);
+                if step.end > due - 0.5 * (step.end - step.start) {
+                    self.push(due, step.q, step.v, step.force);
+                }
+            }
+            Path::Exact(arc) => self.see_arc(step, arc),
+        }
+    }
+
+    fn see_arc(&mut self, step: &Step<'_>, arc: &crate::flow::Arc) {
+        let mut from = step.start;
+        if step.start == 0.0 && step.end == 0.0 {
+            self.restart(step);
+            return;
+        }
+        // Right-continuity: a row at the very end of this arc is the next arc's, or the run's last.
+        loop {
+            let row = self.trajectory.time.len() as u64;
+            let due = self.row_time(row);
+            if row >= self.rows || due >= step.end {
+                break;
+            }
+            let (q, v) = arc.state(due);
+            let mut force = std::mem::take(&mut self.partial);
+            for (wall, (sum, f)) in self.pending.iter_mut().zip(&mut force).enumerate() {
+                *sum += arc.contact_impulse(wall, from, due);
+                *f = arc.contact_force(wall, due);
+            }
+            self.push(due, &[q], &[v], &force);
+            self.partial = force;
+            from = due;
+        }
+        for (wall, sum) in self.pending.iter_mut().enumerate() {
+            let smooth = if from > step.start {
+                arc.contact_impulse(wall, from, step.end) + step.jump[wall]
+            } else {
+                step.impulse[wall]
+            };
+            *sum += smooth;
+        }
+        if step.end >= self.end {
+            self.push(self.end, step.q, step.v, step.force);
+        }
+    }
+
+    /// An impact at t = 0 belongs to the first row.
+    fn restart(&mut self, step: &Step<'_>) {
+        let t = &mut self.trajectory;
+        for (column, row) in t.displacement.iter_mut().zip(&self.probes) {
+            column[0] = row.dot(step.q);
+        }
+        for (column, row) in t.velocity.iter_mut().zip(&self.probes) {
+            column[0] = row.dot(step.v);
+        }
+        for (column, &f) in t.force.iter_mut().zip(step.force) {
+            column[0] = f;
+        }
+        for (column, &p) in t.impulse.iter_mut().zip(step.impulse) {
+            column[0] += p;
+        }
+    }
+
+    fn push(&mut self, time: f64, q: &[f64], v: &[f64], force: &[f64]) {
+        let t = &mut self.trajectory;
+        t.time.push(time);
+        for (index, row) in self.probes.iter().enumerate() {
+            t.displacement[index].push(row.dot(q));
+            t.velocity[index].push(row.dot(v));
+        }
+        for (index, sum) in self.pending.iter_mut().enumerate() {
+            t.force[index].push(force.get(index).copied().unwrap_or(0.0));
+            t.impulse[index].push(std::mem::take(sum));
+        }
+    }
+
+    /// The trajectory, with the episodes `open` at the end of the run.
+    #[must_use]
+    pub fn finish(mut self, open: &[Contact]) -> Trajectory {
+        self.trajectory.contacts.extend_from_slice(open);
+        self.trajectory.contacts.sort_by(|a, b| a.start.total_cmp(&b.start));
+        self.trajectory
+    }
+}
