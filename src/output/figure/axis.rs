@@ -145,7 +145,9 @@ impl Axis {
                 if numbered {
                     let body = if digit == 1 { "10".to_owned() } else { format!("{digit}×10") };
                     self.ticks.push(Tick { even, body, exponent: Some(power) });
-                } else if digit == 1 || whole <= 12 {
+                } else if digit == 1 {
+                    self.ticks.push(Tick { even, body: String::new(), exponent: None });
+                } else if whole <= 12 {
                     self.minor.push(even);
                 }
             }

@@ -22,7 +22,7 @@ impl Curve {
         Self { label: label.into(), points, role: Role::Ordinary, marked: false, look: None }
     }
 
-    /// Also draws a marker at every point (of more than 200 points, at 200 of them).
+    /// Also draws a marker at every point (of very many, at some 200 evenly chosen ones).
     #[must_use]
     pub fn marked(mut self) -> Self {
         self.marked = true;

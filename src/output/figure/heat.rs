@@ -109,6 +109,7 @@ impl HeatMap {
         let top = 24.0 + 17.0 * title.len() as f64;
         let legend_rows = if let Cells::Classes(classes, _) = &self.cells { classes.len().div_ceil(3) } else { 0 };
         let total = top + HEIGHT + 50.0 + 18.0 * legend_rows as f64;
+        let missing = self.has_missing(x_edges.len().saturating_sub(1) * y_edges.len().saturating_sub(1));
         let mut canvas = Canvas::new(WIDTH, total, &self.title);
         for (i, line) in title.iter().enumerate() {
             let y = 22.0 + 17.0 * i as f64;
@@ -117,7 +118,7 @@ impl HeatMap {
         let frame = Frame { x: left, y: top, width, height: HEIGHT, x_axis: &x_axis, y_axis: &y_axis };
         self.draw_cells(&mut canvas, &frame, &x_edges, &y_edges);
         draw_axes(&mut canvas, &frame, true);
-        let label = text::shorten(&x_side.label, LABEL, width);
+        let label = text::shorten(&x_side.label, LABEL, width - 150.0);
         canvas.text(Text::new(left + width / 2.0, top + HEIGHT + 33.0, &label, LABEL, Anchor::Middle));
         for (i, line) in text::wrap(&y_side.label, LABEL, HEIGHT, 2).iter().enumerate() {
             let text = Text::new(18.0 + 14.0 * i as f64, top + HEIGHT / 2.0, line, LABEL, Anchor::Middle);
@@ -130,7 +131,23 @@ impl HeatMap {
                 draw_bar(&mut canvas, label, &number_axis(*scale, values), left + width + 18.0, top);
             }
         }
+        if missing {
+            let (x, y) = (left + width - 66.0, top + HEIGHT + 24.0);
+            canvas.frame(x, y, 16.0, 10.0, Stroke::solid("#999", 0.6));
+            canvas.line((x, y + 10.0), (x + 16.0, y), Stroke::solid("#999", 0.6));
+            canvas.text(Text::new(x + 20.0, y + 9.0, "no value", SMALL, Anchor::Start));
+        }
         canvas.finish()
+    }
+
+    /// True where one of `count` cells has nothing that could be drawn.
+    fn has_missing(&self, count: usize) -> bool {
+        let drawn = match &self.cells {
+            Cells::Empty => 0,
+            Cells::Classes(classes, cells) => cells.iter().take(count).filter(|c| **c < classes.len()).count(),
+            Cells::Numbers(_, scale, values) => values.iter().take(count).filter_map(|v| scale.even(*v)).count(),
+        };
+        drawn < count
     }
 
     fn draw_cells(&self, canvas: &mut Canvas, frame: &Frame<'_>, x_edges: &[f64], y_edges: &[f64]) {
@@ -168,7 +185,10 @@ impl HeatMap {
                             (if column < columns { 0.5 } else { 0.0 }, if row > 0 { 0.5 } else { 0.0 });
                         canvas.rect(from, above, to - from + over_x, below - above + over_y, fill);
                     }
-                    None => strokes.push(vec![(from, below), (to, above)]),
+                    None => {
+                        let crossed = xs.windows(2).skip(column - run.len()).take(run.len());
+                        strokes.extend(crossed.filter_map(|x| Some(vec![(*x.first()?, below), (*x.last()?, above)])));
+                    }
                 }
             }
         }

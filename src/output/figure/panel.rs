@@ -66,6 +66,15 @@ impl Panel {
         self
     }
 
+    /// What the legend has to tell apart, in the order of drawing.
+    pub(super) fn entries(&self) -> Vec<Entry<'_>> {
+        let curve = |c: &Curve| (c.role, c.marked, c.look);
+        let curves = self.curves.iter().map(|c| (c.label.as_str(), curve(c), true));
+        let stems = self.stems.iter().map(|s| (s.label.as_str(), (Role::Ordinary, true, s.look), false));
+        let entry = |(label, (role, marked, look), line)| Entry { label, role, marked, line, look };
+        curves.chain(stems).map(entry).collect()
+    }
+
     /// Range of what is drawn: (horizontal, vertical), before padding and without marks.
     pub(super) fn extents(&self, x_scale: Scale) -> (Extent, Extent) {
         let (mut xs, mut ys) = (Extent::EMPTY, Extent::EMPTY);
@@ -101,6 +110,17 @@ impl Panel {
         };
         Axis::new(self.y_scale, extent, wanted)
     }
+}
+
+/// One label of a panel and how what bears it is drawn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entry<'a> {
+    pub label: &'a str,
+    pub role: Role,
+    pub marked: bool,
+    /// False for stems, which have no dash pattern.
+    pub line: bool,
+    pub look: Option<usize>,
 }
 
 /// Grows a range to hold the marks, as long as a fifth of it is left to the data.
@@ -146,7 +166,7 @@ impl Frame<'_> {
     pub(super) fn draw_marks(&self, canvas: &mut Canvas, marks: &[Mark]) {
         for mark in marks {
             let stroke = match mark.kind {
-                MarkKind::Wall => Stroke::solid("#333", 1.0),
+                MarkKind::Wall => Stroke::solid("#555", 1.8),
                 MarkKind::Floor => Stroke { colour: "#666", width: 1.0, dash: "5 3" },
             };
             let axis = if mark.upright { self.x_axis } else { self.y_axis };
@@ -161,26 +181,27 @@ impl Frame<'_> {
         }
     }
 
-    /// A curve of at most about `budget` points, and its markers.
+    /// A curve of at most about `budget` points, and at most a hundredth as many markers.
     pub(super) fn draw_curve(&self, canvas: &mut Canvas, curve: &Curve, look: Look, budget: usize) {
         let spots: Vec<Spot> = curve.points.iter().map(|p| self.spot(*p)).collect();
         canvas.path(&thin(&spots, budget), look.stroke);
         if look.marker.is_some() {
             let drawn = spots.iter().flatten().count();
-            for (x, y) in spots.iter().flatten().step_by(drawn.div_ceil(200).max(1)) {
+            for (x, y) in spots.iter().flatten().step_by(drawn.div_ceil((budget / 100).clamp(4, 200)).max(1)) {
                 look.mark(canvas, *x, *y);
             }
         }
     }
 
     /// Stems from zero; of those that share a column of the page the lowest and the highest.
-    pub(super) fn draw_stems(&self, canvas: &mut Canvas, stems: &Stems, look: Look) {
+    pub(super) fn draw_stems(&self, canvas: &mut Canvas, stems: &Stems, look: Look, budget: usize) {
+        let columns = (budget as f64 / (4.0 * self.width)).min(2.0);
         let foot = self.up(self.y_axis.share(0.0).unwrap_or(0.0).clamp(0.0, 1.0));
         let spots: Vec<Spot> = stems.points.iter().map(|p| self.spot(*p)).collect();
         let mut ends: Vec<(f64, f64)> = spots.into_iter().flatten().collect();
         ends.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut kept: Vec<(f64, f64)> = Vec::new();
-        for column in ends.chunk_by(|a, b| (2.0 * a.0).floor() == (2.0 * b.0).floor()) {
+        for column in ends.chunk_by(|a, b| (columns * a.0).floor() == (columns * b.0).floor()) {
             let lowest = column.iter().copied().reduce(|a, b| if b.1 > a.1 { b } else { a });
             let highest = column.iter().copied().reduce(|a, b| if b.1 < a.1 { b } else { a });
             kept.extend(lowest);

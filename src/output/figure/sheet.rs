@@ -3,7 +3,7 @@
 use super::axis::{Axis, Extent, Scale};
 use super::legend::Legend;
 use super::look::{FRAME, GRID, LABEL, Look, Role, SMALL, TITLE, look};
-use super::panel::{Frame, Panel, include_marks};
+use super::panel::{Entry, Frame, Panel, include_marks};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 
@@ -106,49 +106,57 @@ impl Figure {
         }
         let marks = self.panels.iter().flat_map(|p| &p.marks).filter(|m| m.upright).map(|m| m.value);
         let forward = self.x_scale == Scale::Linear && self.panels.iter().all(Panel::goes_forward);
-        let share = if forward { 0.0 } else { 0.05 };
+        let share = match forward {
+            true if self.panels.iter().all(|p| p.stems.is_empty()) => 0.0,
+            true => 0.01,
+            false => 0.05,
+        };
         let extent = include_marks(extent, marks, self.x_scale).padded(share, self.x_scale);
-        Axis::new(self.x_scale, extent, (width / 64.0) as usize)
+        Axis::new(self.x_scale, extent, (width / 50.0) as usize)
     }
 
     /// Distinct labels in the order of appearance, each with its look.
     fn entries(&self) -> Vec<(String, Look)> {
-        let curves = |p: &Panel| -> Vec<(String, Role, bool, Option<usize>)> {
-            let curves = p.curves.iter().map(|c| (c.label.clone(), c.role, c.marked, c.look));
-            curves.chain(p.stems.iter().map(|s| (s.label.clone(), Role::Ordinary, true, s.look))).collect()
-        };
-        let mut known: Vec<(String, Role, bool, usize)> = Vec::new();
+        let mut known: Vec<Entry<'_>> = Vec::new();
         let mut next = 0;
-        for (label, role, marked, chosen) in self.panels.iter().flat_map(curves) {
-            if let Some(entry) = known.iter_mut().find(|entry| entry.0 == label) {
-                entry.2 |= marked;
+        for entry in self.panels.iter().flat_map(Panel::entries) {
+            if let Some(known) = known.iter_mut().find(|known| known.label == entry.label) {
+                known.marked |= entry.marked;
+                known.line |= entry.line;
             } else {
-                known.push((label, role, marked, chosen.unwrap_or(next)));
-                next += usize::from(role == Role::Ordinary);
+                next += usize::from(entry.role == Role::Ordinary);
+                known.push(Entry { look: Some(entry.look.unwrap_or(next.max(1) - 1)), ..entry });
             }
         }
-        known.into_iter().map(|(label, role, marked, number)| (label, look(number, role, marked))).collect()
+        let shown = |entry: Entry<'_>| {
+            let mut look = look(entry.look.unwrap_or(0), entry.role, entry.marked);
+            if !entry.line {
+                look.stroke = Stroke::solid(look.stroke.colour, 1.0);
+            }
+            (entry.label.to_owned(), look)
+        };
+        known.into_iter().map(shown).collect()
     }
 
     fn draw_inside(&self, canvas: &mut Canvas, panel: &Panel, frame: &Frame<'_>, entries: &[(String, Look)]) {
-        let curves = self.panels.iter().map(|p| p.curves.len()).sum::<usize>().max(1);
+        let budget = BUDGET / self.panels.iter().map(|p| p.curves.len() + p.stems.len()).sum::<usize>().max(1);
         let found = |label: &str| entries.iter().find(|(known, _)| known == label).map(|(_, look)| *look);
         canvas.open_window(frame.x, frame.y, frame.width, frame.height);
         for role in [Role::Front, Role::Backdrop] {
             for curve in panel.curves.iter().filter(|c| c.role == role) {
-                frame.draw_curve(canvas, curve, look(0, role, true), BUDGET / curves);
+                frame.draw_curve(canvas, curve, look(0, role, true), budget);
             }
         }
         frame.draw_marks(canvas, &panel.marks);
         for curve in panel.curves.iter().filter(|c| c.role == Role::Ordinary) {
             if let Some(found) = found(&curve.label) {
                 let marker = found.marker.filter(|_| curve.marked);
-                frame.draw_curve(canvas, curve, Look { marker, ..found }, BUDGET / curves);
+                frame.draw_curve(canvas, curve, Look { marker, ..found }, budget);
             }
         }
         for stems in &panel.stems {
             if let Some(found) = found(&stems.label) {
-                frame.draw_stems(canvas, stems, found);
+                frame.draw_stems(canvas, stems, found, budget);
             }
         }
         canvas.close_window();

@@ -69,7 +69,8 @@ impl Canvas {
         escape_into(&mut out, name);
         out.push_str("</title>\n");
         let mut canvas = Self { out };
-        canvas.rect(0.0, 0.0, width, height, "#fff");
+        // A little beyond the edge: renderers round the page up to whole pixels.
+        canvas.rect(0.0, 0.0, width + 4.0, height + 4.0, "#fff");
         canvas
     }
 

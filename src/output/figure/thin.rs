@@ -161,11 +161,9 @@ fn straightened(spots: &[Spot], grain: f64, always: &[usize; 4]) -> Vec<Spot> {
             }
             _ => false,
         };
-        if bends {
-            if let Some(turn) = pending.take() {
-                out.push(Some(turn));
-                (anchor, ahead) = (Some(turn), None);
-            }
+        if let Some(turn) = pending.take_if(|_| bends) {
+            out.push(Some(turn));
+            (anchor, ahead) = (Some(turn), None);
         }
         match anchor {
             None => {
