@@ -22,7 +22,7 @@ fn bouncing(restitution: f64, phase: f64, step: f64) -> Motion {
         u += step * v;
         if u.abs() > 5e-3 && u * v > 0.0 {
             impulses.push((t, -(1.0 + restitution) * v));
-            v = -restitution * v;
+            v *= -restitution;
         }
         if i % per_sample == 0 {
             samples.push([t, u, v]);
@@ -173,4 +173,28 @@ fn a_stability_map_of_classes_and_one_of_numbers() {
     );
     keep("stability-classes", &map.clone().classes(classes, cells).to_svg());
     keep("stability-numbers", &map.numbers("Energy growth per impact (–)", Scale::Log, growth).to_svg());
+}
+
+#[test]
+fn crowded_labels_and_long_chaotic_orbits_stay_legible() {
+    let mut x = (0.1_f64, 0.0_f64);
+    let points: Vec<(f64, f64)> = (0..400_000)
+        .map(|i| {
+            let t = f64::from(i) * 0.01;
+            x.1 += 0.01 * (-0.05 * x.1 + x.0 - x.0.powi(3) + 0.35 * (1.2 * t).cos());
+            x.0 += 0.01 * x.1;
+            x
+        })
+        .collect();
+    let mut panel = Panel::new("A velocity with a long name that will not fit beside its axis on one line (mm/s)")
+        .curve(Curve::new("a label that is far too long for any legend, of a method with very many options, each of which its author found worth spelling out", points));
+    for k in 0..5 {
+        let at = 1.0 + 0.02 * f64::from(k);
+        panel = panel.mark(Mark::wall(at, format!("wall {k}")));
+        panel = panel.mark(Mark::wall(at, format!("wall {k}")).upright());
+    }
+    panel = panel.mark(Mark::wall(900.0, "far wall").upright());
+    let title = "A title of <&\"> three lines, since the one who wrote the case file wanted to tell the whole story of the \
+                 scene before the reader had a chance to look at the picture, which is a thing that happens";
+    keep("crowded", &Figure::new(title, "Displacement (mm)").panel(panel).to_svg());
 }

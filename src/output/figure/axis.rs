@@ -14,6 +14,8 @@ impl Scale {
     /// The value in the units in which the axis is even, where it can be drawn.
     pub(super) fn even(self, value: f64) -> Option<f64> {
         match self {
+            // What is too small to be numbered is zero.
+            Self::Linear if value.abs() < 1e-290 => Some(0.0),
             Self::Linear => (value.abs() <= 1e300).then_some(value),
             Self::Log => (1e-300..=1e300).contains(&value).then(|| value.log10()),
         }

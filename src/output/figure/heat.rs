@@ -1,12 +1,13 @@
 //! A heat map: classes or numbers over two axes, readable in grey.
 
 use super::axis::{Axis, Extent, Scale};
-use super::look::{FRAME, LABEL, SMALL, TITLE};
+use super::look::{LABEL, SMALL, TITLE};
 use super::panel::Frame;
 use super::regions::letter_places;
 use super::sheet::{WIDTH, draw_axes};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
+use super::tone::{TONES, draw_bar, draw_keys, ramp};
 
 /// Height of the map itself.
 const HEIGHT: f64 = 300.0;
@@ -27,21 +28,24 @@ impl Class {
     }
 }
 
-/// Fillings of the classes in their order, from light to dark, and the ink of letters upon them.
-const TONES: [(&str, &str); 6] = [
-    ("#f7f7f7", "#000"),
-    ("#b8d4ea", "#000"),
-    ("#eab54e", "#000"),
-    ("#c0502a", "#fff"),
-    ("#5a2f63", "#fff"),
-    ("#111111", "#fff"),
-];
-
-/// Colours of numbers from small to large: lightness falls steadily, so that grey copies keep the order.
-const RAMP: [(f64, f64, f64); 5] =
-    [(247.0, 247.0, 235.0), (190.0, 215.0, 190.0), (100.0, 165.0, 185.0), (45.0, 90.0, 150.0), (20.0, 20.0, 70.0)];
-
 /// A grid of cells over two axes, each a class or a number.
+///
+/// Classes differ in lightness and carry a letter on the map; numbers have a bar whose lightness falls steadily. Equal
+/// neighbours along a row are drawn as one; a map of 40 × 40 different numbers takes 110 kB.
+///
+/// ```
+/// use signorini::output::figure::{Class, HeatMap, Scale};
+///
+/// let (steps, stiffnesses) = ([0.01, 0.1, 1.0], [1e2, 1e4]);
+/// let svg = HeatMap::new(
+///     "Stability",
+///     ("Step × angular frequency (–)", Scale::Log, &steps),
+///     ("Wall stiffness (N/m)", Scale::Log, &stiffnesses),
+/// )
+/// .classes(vec![Class::new("stable", 'S'), Class::new("diverged", 'X')], vec![0, 0, 0, 0, 0, 1])
+/// .to_svg();
+/// assert!(svg.contains("diverged"));
+/// ```
 #[derive(Debug, Clone)]
 pub struct HeatMap {
     title: String,
@@ -128,7 +132,7 @@ impl HeatMap {
             Cells::Empty => {}
             Cells::Classes(classes, _) => draw_keys(&mut canvas, classes, left, top + HEIGHT + 44.0, width),
             Cells::Numbers(label, scale, values) => {
-                draw_bar(&mut canvas, label, &number_axis(*scale, values), left + width + 18.0, top);
+                draw_bar(&mut canvas, label, &number_axis(*scale, values), (left + width + 18.0, top), HEIGHT);
             }
         }
         if missing {
@@ -239,52 +243,4 @@ fn number_axis(scale: Scale, values: &[f64]) -> Axis {
     let mut extent = Extent::EMPTY;
     values.iter().filter_map(|value| scale.even(*value)).for_each(|even| extent.include(even));
     Axis::new(scale, extent.padded(0.0, scale), 6)
-}
-
-fn ramp(share: f64) -> String {
-    let place = share.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
-    let i = (place.floor() as usize).min(RAMP.len() - 2);
-    let t = place - i as f64;
-    let (a, b) = (RAMP.get(i).copied().unwrap_or_default(), RAMP.get(i + 1).copied().unwrap_or_default());
-    let mix = |a: f64, b: f64| (a + t * (b - a)).round() as u8;
-    format!("#{:02x}{:02x}{:02x}", mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
-}
-
-/// The bar that says what a tone means.
-fn draw_bar(canvas: &mut Canvas, label: &str, axis: &Axis, x: f64, top: f64) {
-    const STEPS: u32 = 60;
-    let slice = HEIGHT / f64::from(STEPS);
-    for k in 0..STEPS {
-        let fill = ramp((f64::from(k) + 0.5) / f64::from(STEPS));
-        let y = top + HEIGHT - f64::from(k + 1) * slice;
-        canvas.rect(x, y, 12.0, slice + if k > 0 { 0.5 } else { 0.0 }, &fill);
-    }
-    canvas.frame(x, top, 12.0, HEIGHT, FRAME);
-    for tick in &axis.ticks {
-        let y = top + HEIGHT * (1.0 - axis.share_of_even(tick.even));
-        canvas.line((x + 12.0, y), (x + 16.0, y), FRAME);
-        let text = Text::new(x + 18.0, y + 3.6, &tick.body, SMALL, Anchor::Start);
-        canvas.text(Text { exponent: tick.exponent, ..text });
-    }
-    if let Some(power) = axis.factor {
-        let text = Text::new(x, top - 6.0, "×10", SMALL, Anchor::Start);
-        canvas.text(Text { exponent: Some(power), ..text });
-    }
-    let label = text::shorten(label, LABEL, HEIGHT);
-    let text = Text::new(x + 68.0, top + HEIGHT / 2.0, &label, LABEL, Anchor::Middle);
-    canvas.text(Text { upwards: true, ..text });
-}
-
-/// The legend of classes: filled boxes with their letters.
-fn draw_keys(canvas: &mut Canvas, classes: &[Class], x: f64, y: f64, width: f64) {
-    let column = width / 3.0;
-    for (i, (class, (fill, ink))) in classes.iter().zip(TONES).enumerate() {
-        let (x, y) = (x + column * (i % 3) as f64, y + 18.0 * (i / 3) as f64);
-        canvas.rect(x, y, 22.0, 13.0, fill);
-        canvas.frame(x, y, 22.0, 13.0, FRAME);
-        let letter = class.letter.to_string();
-        canvas.text(Text { bold: true, colour: ink, ..Text::new(x + 11.0, y + 10.2, &letter, SMALL, Anchor::Middle) });
-        let name = text::shorten(&class.name, LABEL, column - 34.0);
-        canvas.text(Text::new(x + 28.0, y + 10.5, &name, LABEL, Anchor::Start));
-    }
 }

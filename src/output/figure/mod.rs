@@ -43,6 +43,7 @@ mod sheet;
 mod svg;
 mod text;
 mod thin;
+mod tone;
 
 pub use axis::Scale;
 pub use curve::{Curve, Mark, Stems};

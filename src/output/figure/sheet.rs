@@ -253,15 +253,21 @@ fn draw_labels(canvas: &mut Canvas, panel: &Panel, frame: &Frame<'_>) {
     let mut free = frame.x + if frame.y_axis.factor.is_some() { 34.0 } else { 0.0 };
     let mut upright: Vec<_> = panel.marks.iter().filter(|m| m.upright).collect();
     upright.sort_by(|a, b| a.value.total_cmp(&b.value));
+    let mut placed: Vec<(f64, f64, String)> = Vec::new();
     for mark in upright {
         let Some(share) = frame.x_axis.share(mark.value) else { continue };
         let (share, label) = arrowed(share, &mark.label, ["← ", "→ "]);
+        let label = text::shorten(&label, SMALL, 180.0);
         let width = text::width(&label, SMALL);
-        let x = frame.across(share) - width / 2.0;
-        let x = x.max(free).min((WIDTH - 4.0 - width).max(free));
-        let label = text::shorten(&label, SMALL, WIDTH - 4.0 - x);
-        canvas.text(Text::new(x, frame.y - 4.0, &label, SMALL, Anchor::Start));
+        let x = (frame.across(share) - width / 2.0).max(free);
         free = x + width + 6.0;
+        placed.push((x, width, label));
+    }
+    let mut limit = WIDTH - 4.0;
+    for (x, width, label) in placed.iter().rev() {
+        let x = x.min(limit - width).max(4.0);
+        limit = x - 6.0;
+        canvas.text(Text::new(x, frame.y - 4.0, label, SMALL, Anchor::Start));
     }
     if !panel.heading.is_empty() {
         let y = frame.y - head_height(panel, frame.y_axis) + 17.0;

@@ -12,10 +12,12 @@ pub(super) type Spot = Option<(f64, f64)>;
 /// line between their neighbours and strokes drawn before.
 pub(super) fn thin(spots: &[Spot], budget: usize) -> Vec<Vec<(f64, f64)>> {
     let drawn = spots.iter().flatten().count();
-    if drawn <= budget {
-        return runs(spots.iter().copied());
+    match never_goes_back(spots) {
+        true if drawn > budget => columns(spots, budget / 4),
+        // An orbit drawn over and over fills the gaps of its own dashes.
+        false if drawn > budget.min(1000) => strokes(spots, budget),
+        _ => runs(spots.iter().copied()),
     }
-    if never_goes_back(spots) { columns(spots, budget / 4) } else { strokes(spots, budget) }
 }
 
 /// True where x never decreases.
