@@ -78,7 +78,7 @@ impl Stems {
 /// A labelled straight line across the panel.
 ///
 /// The range grows to show it, unless that would leave less than a fifth of the panel to the curves; then its label
-/// stands at the edge with an arrow and its value.
+/// stands at the edge with an arrow towards it.
 #[derive(Debug, Clone)]
 pub struct Mark {
     pub(super) value: f64,

@@ -177,8 +177,8 @@ fn widest(axis: &Axis) -> f64 {
 }
 
 fn mark_width(label: &str) -> f64 {
-    // An arrow and a value may follow where the mark lies outside.
-    (text::width(label, SMALL) + 12.0).clamp(18.0, 150.0)
+    // An arrow stands before it where the mark lies outside.
+    (text::width(label, SMALL) + 18.0).clamp(18.0, 150.0)
 }
 
 fn draw_grid(canvas: &mut Canvas, frame: &Frame<'_>) {
