@@ -1,24 +1,29 @@
 //! signorini
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "cli")]
+pub mod case;
 mod contact;
 mod error;
 pub mod flow;
 mod notes;
+#[cfg(feature = "cli")]
+pub mod output;
 pub mod qp;
 pub mod residual;
-pub mod run;
+mod run;
 mod scene;
 mod scheme;
-pub mod statistics;
+mod statistics;
 mod step;
+mod time;
 mod trajectory;
 
 pub use error::{Error, Result};
-pub use run::{Options, Run, TimeGrid, run};
-pub use scene::{
-    Forcing, Harmonic, Load, LoadKind, Oscillator, Probe, Row, Scene, Side, State, System, Table, Wall, WallLaw,
-};
+pub use run::{Options, Run, run, run_with_progress};
+pub use scene::{Forcing, Harmonic, Load, LoadKind, Oscillator, Probe, Row, Scene, Side, State, System, Table, Wall, WallLaw};
 pub use scheme::{Counters, Integrator, PenaltyLaw, Scheme, Stepper};
+pub use statistics::{Statistics, Summary, WallStatistics};
 pub use step::{Balance, Contact, Contract, Path, Promise, Step};
+pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
 pub use trajectory::{Recorder, Trajectory};

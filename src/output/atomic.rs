@@ -1,0 +1,136 @@
+//! Files that appear whole or not at all: written beside their final place, then renamed onto it.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::error::{Error, Result};
+
+/// Writes `bytes` to `path`, creating its folders; a reader sees the old file or the whole new one, never a part.
+///
+/// # Errors
+/// [`Error::Io`] with the path and what the operating system said; nothing is left behind then.
+///
+/// ```
+/// # fn main() -> signorini::error::Result<()> {
+/// let folder = std::env::temp_dir().join("signorini-doc-write-whole");
+/// signorini::output::atomic::write_whole(&folder.join("a/picture.svg"), b"<svg/>")?;
+/// # let _ = std::fs::remove_dir_all(folder);
+/// # Ok(())
+/// # }
+/// ```
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+    let mut file = WholeFile::create(path)?;
+    file.write_all(bytes).map_err(|e| failure(path, &e, false))?;
+    file.finish()
+}
+
+/// A long file being written: [`finish`](Self::finish) puts it in its place, dropping it before that removes it.
+///
+/// Writes are buffered. The place itself is untouched until `finish`.
+#[derive(Debug)]
+pub struct WholeFile {
+    /// Where the file will stand.
+    path: PathBuf,
+    /// Where it is being written.
+    partial: Partial,
+    /// Buffered handle; `None` once finished.
+    writer: Option<BufWriter<File>>,
+}
+
+/// The temporary sibling; removed when dropped, unless it has been renamed.
+#[derive(Debug)]
+struct Partial {
+    path: PathBuf,
+    kept: bool,
+}
+
+impl Drop for Partial {
+    fn drop(&mut self) {
+        if !self.kept {
+            // Nobody is left to tell; the name says what it is.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+impl WholeFile {
+    /// Opens a temporary sibling of `path`, creating the folders that lead there.
+    ///
+    /// # Errors
+    /// [`Error::Io`] marked as a wrong request: the place asked for cannot be written.
+    pub fn create(path: &Path) -> Result<Self> {
+        let wrong = |reason: &str| Error::Io { path: shown(path), reason: reason.to_owned(), request: true };
+        let name = path.file_name().ok_or_else(|| wrong("this is no file name"))?;
+        if path.is_dir() {
+            return Err(wrong("this is a folder, where a file is to be written"));
+        }
+        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            fs::create_dir_all(folder).map_err(|e| failure(folder, &e, true))?;
+        }
+        loop {
+            let (partial, file) = open_sibling(path, name).map_err(|e| failure(path, &e, true))?;
+            if let Some(file) = file {
+                let partial = Partial { path: partial, kept: false };
+                return Ok(Self {
+                    path: path.to_owned(),
+                    partial,
+                    writer: Some(BufWriter::with_capacity(1 << 16, file)),
+                });
+            }
+        }
+    }
+
+    /// The place where the file will stand.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes what is buffered and renames the file into its place.
+    ///
+    /// # Errors
+    /// [`Error::Io`] when the disk refuses; nothing is left behind then, and an older file stays as it was.
+    pub fn finish(mut self) -> Result<()> {
+        if let Some(writer) = self.writer.take() {
+            let file = writer.into_inner().map_err(|e| failure(&self.path, e.error(), false))?;
+            drop(file);
+        }
+        fs::rename(&self.partial.path, &self.path).map_err(|e| failure(&self.path, &e, false))?;
+        self.partial.kept = true;
+        Ok(())
+    }
+}
+
+impl Write for WholeFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.writer.as_mut().map_or_else(|| Err(io::ErrorKind::NotConnected.into()), |writer| writer.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.as_mut().map_or(Ok(()), BufWriter::flush)
+    }
+}
+
+/// A new sibling `.NAME.PROCESS-NUMBER.partial`; no file where that name is taken (by a run that was killed).
+fn open_sibling(path: &Path, name: &std::ffi::OsStr) -> io::Result<(PathBuf, Option<File>)> {
+    static NUMBER: AtomicU64 = AtomicU64::new(0);
+    let mut sibling = std::ffi::OsString::from(".");
+    sibling.push(name);
+    sibling.push(format!(".{}-{}.partial", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed)));
+    let sibling = path.with_file_name(sibling);
+    match File::create_new(&sibling) {
+        Ok(file) => Ok((sibling, Some(file))),
+        Err(e) if e.kind() == io::ErrorKind::AlreadyExists => Ok((sibling, None)),
+        Err(e) => Err(e),
+    }
+}
+
+fn failure(path: &Path, error: &io::Error, request: bool) -> Error {
+    Error::Io { path: shown(path), reason: error.to_string(), request }
+}
+
+fn shown(path: &Path) -> String {
+    path.display().to_string()
+}

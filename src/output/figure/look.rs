@@ -1,0 +1,127 @@
+//! The one look: what tells a curve from its neighbours, in colour and in grey.
+
+use super::svg::{Canvas, Stroke};
+
+/// Sizes in quarters of a millimetre: body text of a paper at 160 mm width.
+pub(super) const TITLE: f64 = 13.0;
+/// Axis labels, legend.
+pub(super) const LABEL: f64 = 11.5;
+/// Tick numbers, wall labels.
+pub(super) const SMALL: f64 = 10.0;
+/// Frame and ticks.
+pub(super) const FRAME: Stroke = Stroke::solid("#000", 0.8);
+/// Lines at the ticks.
+pub(super) const GRID: Stroke = Stroke::solid("#e6e6e6", 0.6);
+
+/// Neighbours differ in lightness as well as in hue (after Okabe and Ito).
+const COLOURS: [&str; 8] = ["#000000", "#0072b2", "#d55e00", "#56b4e9", "#7b3294", "#e69f00", "#00614a", "#8a8a8a"];
+const DASHES: [&str; 8] = ["", "7 2.5", "2 2", "7 2 1.5 2", "12 3", "4 1.5", "9 2 1.5 2 1.5 2", "1.2 1.6"];
+const MARKERS: [Marker; 10] = [
+    Marker::Disc,
+    Marker::Square,
+    Marker::Triangle,
+    Marker::Diamond,
+    Marker::Cross,
+    Marker::Ring,
+    Marker::OpenSquare,
+    Marker::Down,
+    Marker::OpenDiamond,
+    Marker::Plus,
+];
+
+/// Shapes told apart without colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Marker {
+    Disc,
+    Square,
+    Triangle,
+    Diamond,
+    Cross,
+    Ring,
+    OpenSquare,
+    Down,
+    OpenDiamond,
+    Plus,
+}
+
+/// Part that a curve plays in its figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Role {
+    /// One of several.
+    #[default]
+    Ordinary,
+    /// What the others are held against: a wide pale line beneath them.
+    Backdrop,
+    /// The best of all: a wide pale line and a ring round every point.
+    Front,
+}
+
+/// Everything needed to draw a curve and its legend sample.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Look {
+    pub stroke: Stroke,
+    pub marker: Option<Marker>,
+    pub role: Role,
+}
+
+/// The look of the `number`-th label of a figure; 80 of them before one comes back.
+pub(super) fn look(number: usize, role: Role, marked: bool) -> Look {
+    let nth = |list: &[&'static str; 8], n: usize| list.get(n % 8).copied().unwrap_or_default();
+    let stroke = match role {
+        Role::Ordinary => Stroke { colour: nth(&COLOURS, number), width: 1.2, dash: nth(&DASHES, number + number / 8) },
+        Role::Backdrop => Stroke::solid("#c4c4c4", 3.6),
+        Role::Front => Stroke::solid("#d9d9d9", 7.0),
+    };
+    let marker = match role {
+        Role::Ordinary => MARKERS.get(number % MARKERS.len()).copied().filter(|_| marked),
+        Role::Backdrop => None,
+        Role::Front => Some(Marker::Ring),
+    };
+    Look { stroke, marker, role }
+}
+
+impl Look {
+    /// One marker at its place.
+    pub(super) fn mark(&self, canvas: &mut Canvas, x: f64, y: f64) {
+        let Some(marker) = self.marker else { return };
+        if self.role == Role::Front {
+            canvas.circle(x, y, 5.0, "none", Stroke::solid("#444", 1.1));
+            return;
+        }
+        marker.draw(canvas, x, y, 2.8, self.stroke.colour);
+    }
+
+    /// The sample of the legend: from `x` to `x + length` at height `y`.
+    pub(super) fn sample(&self, canvas: &mut Canvas, x: f64, y: f64, length: f64) {
+        canvas.line((x, y), (x + length, y), self.stroke);
+        self.mark(canvas, x + length / 2.0, y);
+    }
+}
+
+impl Marker {
+    /// Draws the shape, `r` from its middle to its edge.
+    pub(super) fn draw(self, canvas: &mut Canvas, x: f64, y: f64, r: f64, colour: &'static str) {
+        let solid = Stroke::solid(colour, 0.8);
+        let open = Stroke::solid(colour, 1.1);
+        let square = [(x - r, y - r), (x + r, y - r), (x + r, y + r), (x - r, y + r)];
+        let d = 1.35 * r;
+        let diamond = [(x, y - d), (x + d, y), (x, y + d), (x - d, y)];
+        match self {
+            Self::Disc => canvas.circle(x, y, 1.1 * r, colour, solid),
+            Self::Ring => canvas.circle(x, y, 1.1 * r, "#fff", open),
+            Self::Square => canvas.shape(&square, colour, solid),
+            Self::OpenSquare => canvas.shape(&square, "#fff", open),
+            Self::Triangle => canvas.shape(&[(x, y - d), (x + d, y + r), (x - d, y + r)], colour, solid),
+            Self::Down => canvas.shape(&[(x, y + d), (x + d, y - r), (x - d, y - r)], colour, solid),
+            Self::Diamond => canvas.shape(&diamond, colour, solid),
+            Self::OpenDiamond => canvas.shape(&diamond, "#fff", open),
+            Self::Cross => canvas.path(
+                &[vec![(x - r, y - r), (x + r, y + r)], vec![(x - r, y + r), (x + r, y - r)]],
+                Stroke::solid(colour, 1.4),
+            ),
+            Self::Plus => {
+                canvas.path(&[vec![(x - d, y), (x + d, y)], vec![(x, y - d), (x, y + d)]], Stroke::solid(colour, 1.4));
+            }
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Figures for a paper: data in, SVG text out. This room knows no scene and no scheme.
+//!
+//! | type | what it draws |
+//! |---|---|
+//! | [`Figure`] | panels under one another sharing the horizontal axis: responses, phase plots, work–precision charts |
+//! | [`Panel`] | one frame: [`Curve`]s, [`Stems`] (impulses) and [`Mark`]s (walls, floors) |
+//! | [`HeatMap`] | classes or numbers over two axes |
+//!
+//! One look throughout: 160 mm wide, any sans-serif font, legend below the frame, every curve told from its neighbours
+//! by dash pattern and lightness as well as by colour. The same data give the same bytes. Values that cannot be drawn
+//! (NaN, infinite, not positive on a logarithmic axis) break a line and leave the axes alone; long curves are thinned
+//! to what the width can show, extremes kept.
+//!
+//! The SVG is written directly. kuva 0.6 was tried: it swallows `$` in titles as mathematics, numbers its clip paths by
+//! a process-wide counter (two runs differ), has no legend entry with line and marker together, shows dashes too short
+//! to tell apart, puts wall labels over the curves, knows no logarithmic heat map, and doubles the build. plotters draws
+//! each dash as an element of its own and leaves legends, panels and hatching to the caller. What remains to be written
+//! by hand is a page of axes and a page of tags.
+//!
+//! ```
+//! use signorini::output::figure::{Curve, Figure, Mark, Panel};
+//!
+//! let points = (0..=1000).map(|i| f64::from(i) * 1e-2).map(|t| (t, 4.0 * t.sin()));
+//! let svg = Figure::new("Free motion", "Time (s)")
+//!     .panel(
+//!         Panel::new("Displacement (mm)")
+//!             .curve(Curve::new("event", points))
+//!             .mark(Mark::wall(5.0, "upper wall"))
+//!             .mark(Mark::wall(-5.0, "lower wall")),
+//!     )
+//!     .to_svg();
+//! assert!(svg.starts_with("<svg"));
+//! ```
+
+mod axis;
+mod curve;
+mod heat;
+mod legend;
+mod look;
+mod panel;
+mod regions;
+mod sheet;
+mod svg;
+mod text;
+mod thin;
+mod tone;
+
+pub use axis::Scale;
+pub use curve::{Curve, Mark, Stems};
+pub use heat::{Class, HeatMap};
+pub use panel::Panel;
+pub use sheet::Figure;
