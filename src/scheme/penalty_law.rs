@@ -1,0 +1,176 @@
+//! What the penalty puts in place of a rigid wall, and how it is integrated.
+
+use crate::error::{Error, Result};
+use crate::scene::{Side, Wall, WallLaw};
+use std::fmt;
+use std::str::FromStr;
+
+/// The spring that stands in for every rigid wall of a scene in a penalty run. Elastic walls stay as they are.
+///
+/// Both are springs that lose nothing (but for the damping of the linear one): the stiffer, the nearer to rigid walls
+/// of restitution 1, whatever restitution the walls carry.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PenaltyLaw {
+    /// The φ² law: energy φ²/(2ε) with φ = (u − g_u)(u − g_l) > 0. Needs an upper and a lower wall.
+    Quartic {
+        /// ε, m³/N.
+        epsilon: f64,
+    },
+    /// A linear spring, with a dashpot that never pulls.
+    Linear {
+        /// N/m.
+        stiffness: f64,
+        /// N s/m.
+        damping: f64,
+    },
+}
+
+impl PenaltyLaw {
+    /// The law that stands in at `wall`, one of `walls`: its own unless it is rigid.
+    ///
+    /// The φ² law spans from the wall to the nearest wall on the other side of the same row.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] where the φ² law finds no wall on the other side, or none a positive distance away.
+    pub fn at(&self, wall: &Wall, walls: &[Wall]) -> Result<WallLaw> {
+        match *self {
+            _ if !wall.law.is_rigid() => Ok(wall.law),
+            Self::Linear { stiffness, damping } => Ok(WallLaw::Elastic { stiffness, damping }),
+            Self::Quartic { epsilon } => {
+                let span = span(wall, walls).ok_or_else(|| {
+                    let facing = if wall.side == Side::Upper { "a lower" } else { "an upper" };
+                    Error::invalid(
+                        "epsilon",
+                        format!("{epsilon:e} with nothing facing the wall {:?}", wall.name),
+                        format!(
+                            "{facing} wall a positive distance from it, or the linear penalty: stiffness, in N/m, \
+                             in place of epsilon"
+                        ),
+                    )
+                })?;
+                Ok(WallLaw::Quartic { epsilon, span })
+            }
+        }
+    }
+
+    /// Checks the numbers, and that the law has rigid walls to stand in for.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] naming `epsilon`, `stiffness` or `damping`.
+    pub fn validate(&self, walls: &[Wall]) -> Result<()> {
+        let positive = |key: &str, x: f64| match x.is_finite() && x > 0.0 {
+            true => Ok(()),
+            false => Err(Error::invalid(key, format_args!("{x:?}"), "a finite number above 0")),
+        };
+        let key = match *self {
+            Self::Quartic { epsilon } => positive("epsilon", epsilon).map(|()| "epsilon")?,
+            Self::Linear { stiffness, damping } => {
+                positive("stiffness", stiffness)?;
+                if !(damping.is_finite() && damping >= 0.0) {
+                    return Err(Error::invalid("damping", format_args!("{damping:?}"), "a finite number, 0 or more"));
+                }
+                "stiffness"
+            }
+        };
+        if !walls.iter().any(|wall| wall.law.is_rigid()) {
+            return Err(Error::invalid(key, self, "a scene with a rigid wall for the penalty to stand in for"));
+        }
+        walls.iter().try_for_each(|wall| self.at(wall, walls).map(|_| ()))
+    }
+}
+
+/// Distance from `wall` to the nearest wall that faces it on its row, m; none where that is not positive.
+fn span(wall: &Wall, walls: &[Wall]) -> Option<f64> {
+    let facing = walls.iter().filter(|other| other.side != wall.side && other.at == wall.at);
+    facing.map(|other| wall.side.sign() * (other.position - wall.position)).reduce(f64::min).filter(|span| *span > 0.0)
+}
+
+impl fmt::Display for PenaltyLaw {
+    /// `epsilon=1e-9`, `stiffness=1e8` or `stiffness=1e8,damping=2e1`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Quartic { epsilon } => write!(f, "epsilon={epsilon:e}"),
+            Self::Linear { stiffness, damping: 0.0 } => write!(f, "stiffness={stiffness:e}"),
+            Self::Linear { stiffness, damping } => write!(f, "stiffness={stiffness:e},damping={damping:e}"),
+        }
+    }
+}
+
+/// How a penalty run advances in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Integrator {
+    /// The trapezoidal rule: order 2, gains energy once the wall is stiffer than the step resolves.
+    Trapezoidal,
+    /// Implicit Euler: order 1, damps; the step silently sets a restitution below 1.
+    ImplicitEuler,
+    /// Central difference: explicit, order 2, unstable once the wall is stiffer than the step resolves.
+    CentralDifference,
+    /// The discrete gradient: order 2, keeps the energy of the penalised system at any step.
+    #[default]
+    DiscreteGradient,
+}
+
+impl Integrator {
+    /// Every integrator, in the order of the documentation.
+    pub const ALL: [Self; 4] =
+        [Self::Trapezoidal, Self::ImplicitEuler, Self::CentralDifference, Self::DiscreteGradient];
+
+    /// The name that the command line, case files and tables carry.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Trapezoidal => "trapezoidal",
+            Self::ImplicitEuler => "implicit-euler",
+            Self::CentralDifference => "central-difference",
+            Self::DiscreteGradient => "discrete-gradient",
+        }
+    }
+}
+
+impl fmt::Display for Integrator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Integrator {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self> {
+        Self::ALL.into_iter().find(|i| i.name() == name).ok_or_else(|| Error::Unknown {
+            kind: "integrator",
+            name: name.to_owned(),
+            known: Self::ALL.iter().map(|i| i.name().to_owned()).collect(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_integrators_round_trip() {
+        for integrator in Integrator::ALL {
+            assert_eq!(integrator.to_string().parse::<Integrator>(), Ok(integrator));
+        }
+        assert!("leapfrog".parse::<Integrator>().is_err_and(|e| e.to_string().contains("discrete-gradient")));
+    }
+
+    #[test]
+    fn the_quartic_law_spans_to_the_nearest_facing_wall_and_leaves_elastic_walls_alone() {
+        let walls = [
+            Wall::upper("upper", 5e-3),
+            Wall::lower("near", -4e-3).with_elasticity(100.0, 0.0),
+            Wall::lower("far", -5e-3),
+        ];
+        let law = PenaltyLaw::Quartic { epsilon: 1e-9 };
+        let spans: Vec<_> = walls.iter().map(|w| law.at(w, &walls)).collect();
+        assert_eq!(spans[0], Ok(WallLaw::Quartic { epsilon: 1e-9, span: 9e-3 }));
+        assert_eq!(spans[1], Ok(walls[1].law));
+        assert_eq!(spans[2], Ok(WallLaw::Quartic { epsilon: 1e-9, span: 1e-2 }));
+        assert!(law.validate(&walls[..1]).is_err_and(|e| e.to_string().contains("stiffness")));
+        assert!(law.validate(&walls[1..2]).is_err_and(|e| e.to_string().contains("rigid wall")));
+        assert!(PenaltyLaw::Linear { stiffness: 1e8, damping: 0.0 }.validate(&walls[..1]).is_ok());
+    }
+}

@@ -1,0 +1,176 @@
+//! Wrong case files: each gives one error that names file, line, column, key and what would be accepted.
+#![cfg(feature = "cli")]
+
+use proptest::prelude::*;
+use signorini::case::{Case, Embedded};
+use signorini::error::Error;
+use std::fs;
+
+/// A case file that is right. Each wrong one differs from it in one place.
+const RIGHT: &str = r#"title = "right"
+
+[system.oscillator]
+mass = 1.0
+damping = 0.2
+stiffness = 100.0
+
+[[wall]]
+name = "upper"
+side = "upper"
+position = 5e-3
+
+[[wall]]
+name = "lower"
+side = "lower"
+position = -5e-3
+
+[[load]]
+harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }
+
+[initial]
+displacement = 0.0
+velocity = 0.0
+
+[time]
+end = 10.0
+step = 1e-4
+sample = 1e-3
+
+[penalty]
+epsilon = [1e-12, 1e-9]
+"#;
+
+/// What is wrong; the text of `RIGHT` that is replaced, and by what; line:column of the error; what it must say.
+type Wrong = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
+
+#[rustfmt::skip]
+const WRONG: &[Wrong] = &[
+    // Syntax.
+    ("unclosed table", "[time]", "[time", "25:6", &["unclosed table"]),
+    ("no value", "mass = 1.0", "mass =", "4:7", &[]),
+    ("comma for a point", "mass = 1.0", "mass = 1,0", "4:9", &[]),
+    ("unclosed string", "name = \"upper\"", "name = \"upper", "9:14", &["string"]),
+    ("key twice", "damping = 0.2", "mass = 2.0", "5:1", &["duplicate key"]),
+    ("table twice", "[initial]", "[time]\nend = 1.0\nstep = 0.1\n[initial]", "28:2", &["duplicate key"]),
+    ("bare word", "side = \"upper\"", "side = upper", "10:8", &["quoted"]),
+    ("no TOML at all", "title = \"right\"", "<xml/>", "1:1", &[]),
+    // Types.
+    ("text for a number", "mass = 1.0", "mass = \"heavy\"", "4:8", &["system.oscillator.mass", "a number", "kg"]),
+    ("truth for a number", "position = 5e-3", "position = true", "11:12", &["wall.position", "a number, in m"]),
+    ("date for a number", "end = 10.0", "end = 2020-01-01", "26:7", &["time.end", "a number"]),
+    ("list for a number", "step = 1e-4", "step = [1e-4]", "27:8", &["time.step", "a list"]),
+    ("number for a name", "name = \"upper\"", "name = 3", "9:8", &["wall.name", "letters"]),
+    ("number for a list", "epsilon = [1e-12, 1e-9]", "epsilon = 1e-9", "31:11", &["penalty.epsilon", "a list"]),
+    ("text in a list", "1e-9]", "\"1e-9\"]", "31:19", &["penalty.epsilon", "a list of numbers"]),
+    ("number too large", "mass = 1.0", "mass = 1e400", "4:8", &["overflow", "mass = a number above 0"]),
+    ("a load by position", "{ amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "[3.0, 5.0, 0.0]", "19:12", &["load.harmonic", "amplitude"]),
+    ("one wall in single brackets", "[[wall]]\nname = \"lower\"\nside = \"lower\"\nposition = -5e-3\n", "[[wall.x]]\n", "13:8", &["unknown key `x`", "position"]),
+    ("number for a table", "[initial]\ndisplacement = 0.0\nvelocity = 0.0", "", "20:1", &["TEXT AT TOP"]),
+    // Keys.
+    ("unknown key", "mass = 1.0", "mass = 1.0\nmas = 2.0", "5:1", &["unknown key `mas`", "mass, damping, stiffness"]),
+    ("unknown table", "[initial]", "[inital]", "21:2", &["unknown key `inital`", "initial"]),
+    ("unknown kind of load", "harmonic =", "sine =", "19:1", &["unknown key `sine`", "harmonic"]),
+    ("unknown key of a load", "phase = 0.0", "phi = 0.0", "19:49", &["unknown key `phi`", "phase"]),
+    ("mass missing", "mass = 1.0\n", "", "3:1", &["`mass` is missing in `system.oscillator`", "kg"]),
+    ("end missing", "end = 10.0\n", "", "25:1", &["`end` is missing in `time`", "in s"]),
+    ("position missing", "position = -5e-3\n", "", "13:1", &["`position` is missing in `wall`", "in m"]),
+    ("amplitude missing", "amplitude = 3.0, ", "", "19:12", &["`amplitude` is missing in `load.harmonic`", "in N"]),
+    // Values.
+    ("negative mass", "mass = 1.0", "mass = -1.0", "4:8", &["system.oscillator.mass", "-1.0", "above 0"]),
+    ("no mass", "mass = 1.0", "mass = 0", "4:8", &["system.oscillator.mass", "above 0"]),
+    ("mass not a number", "mass = 1.0", "mass = nan", "4:8", &["system.oscillator.mass", "NaN", "finite"]),
+    ("negative damping", "damping = 0.2", "damping = -0.2", "5:11", &["system.oscillator.damping", "0 or more"]),
+    ("infinite stiffness", "stiffness = 100.0", "stiffness = inf", "6:13", &["system.oscillator.stiffness", "finite"]),
+    ("negative stiffness", "stiffness = 100.0", "stiffness = -1e308", "6:13", &["system.oscillator.stiffness", "-1e308"]),
+    ("wall nowhere", "position = 5e-3", "position = nan", "11:12", &["wall \"upper\": position", "finite"]),
+    ("wall infinitely far", "position = -5e-3", "position = -inf", "16:12", &["wall \"lower\": position", "finite"]),
+    ("restitution above 1", "position = 5e-3", "position = 5e-3\nrestitution = 1.5", "12:15", &["wall \"upper\": restitution", "from 0 to 1"]),
+    ("restitution below 0", "position = 5e-3", "position = 5e-3\nrestitution = -0.1", "12:15", &["restitution", "from 0 to 1"]),
+    ("restitution of an elastic wall", "position = 5e-3", "position = 5e-3\nstiffness = 1e3\nrestitution = 1", "13:15", &["restitution and stiffness", "elastic"]),
+    ("dashpot of a rigid wall", "position = 5e-3", "position = 5e-3\ndamping = 1.0", "12:11", &["damping without stiffness", "stiffness"]),
+    ("soft wall of no stiffness", "position = 5e-3", "position = 5e-3\nstiffness = 0", "12:13", &["wall \"upper\": stiffness", "above 0"]),
+    ("elastic wall with negative damping", "position = 5e-3", "position = 5e-3\nstiffness = 1\ndamping = -1", "13:11", &["wall \"upper\": damping", "0 or more"]),
+    ("bad side", "side = \"upper\"", "side = \"left\"", "10:8", &["wall \"upper\": side", "\"upper\" or \"lower\""]),
+    ("bad name", "name = \"upper\"", "name = \"the upper\"", "9:8", &["wall 1: name", "letters, digits"]),
+    ("empty name", "name = \"lower\"", "name = \"\"", "14:8", &["wall 2: name", "letters, digits"]),
+    ("two walls of one name", "name = \"lower\"", "name = \"upper\"", "14:8", &["wall 2: name", "a name of its own"]),
+    ("walls crossing", "position = -5e-3", "position = 6e-3", "11:12", &["wall \"upper\": position", "0.006", "\"lower\""]),
+    ("start above a wall", "displacement = 0.0", "displacement = 6e-3", "22:16", &["initial.displacement", "at most 0.005"]),
+    ("start behind a wall, unsaid", "position = -5e-3", "position = 1e-3\n[initial]\nvelocity = 0\n[other]", "19:2", &["unknown key `other`"]),
+    ("start not finite", "velocity = 0.0", "velocity = inf", "23:12", &["initial.velocity", "finite"]),
+    ("amplitude not a number", "amplitude = 3.0", "amplitude = nan", "19:26", &["load 1: amplitude", "finite"]),
+    ("negative frequency", "frequency = 5.0", "frequency = -5.0", "19:43", &["load 1: frequency", "0 or more"]),
+    ("infinite phase", "phase = 0.0", "phase = inf", "19:56", &["load 1: phase", "finite"]),
+    ("blow before the start", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "impulse = { impulse = 1, time = -1 }", "19:33", &["load 1: time", "0 or more"]),
+    ("infinite weight", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "constant = { force = inf }", "19:22", &["load 1: force", "finite"]),
+    ("two kinds", "[[load]]", "[[load]]\nconstant = { force = 1.0 }", "20:12", &["two kinds", "one kind in each"]),
+    ("no kind", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "", "18:1", &["load 1 has no kind", "constant"]),
+    ("table that is not there", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\" }", "19:18", &["no.csv", "no such file", "time_s,force_N"]),
+    ("table that is a folder", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \".\" }", "19:18", &["a folder", "time_s,force_N"]),
+    // Times.
+    ("no time", "end = 10.0", "end = 0.0", "26:7", &["time.end", "above 0"]),
+    ("endless", "end = 10.0", "end = inf", "26:7", &["time.end", "finite"]),
+    ("step of nothing", "step = 1e-4", "step = 0", "27:8", &["time.step", "above 0"]),
+    ("step backwards", "step = 1e-4", "step = -1e-4", "27:8", &["time.step", "above 0"]),
+    ("step not a number", "step = 1e-4", "step = nan", "27:8", &["time.step", "finite"]),
+    ("step as long as the run", "step = 1e-4", "step = 10.0", "27:8", &["time.step", "less than time.end, 10.0"]),
+    ("too many steps", "step = 1e-4", "step = 1e-10", "27:8", &["time.step", "at most 1e10 steps"]),
+    ("too many samples", "sample = 1e-3", "sample = 1e-7", "28:10", &["time.sample", "at most 1e7 rows"]),
+    ("too many samples, unsaid", "step = 1e-4\nsample = 1e-3", "step = 1e-8", "27:8", &["time.step", "time.sample"]),
+    ("sample beyond the end", "sample = 1e-3", "sample = 11", "28:10", &["time.sample", "at most time.end"]),
+    ("negative sample", "sample = 1e-3", "sample = -1e-3", "28:10", &["time.sample", "above 0"]),
+    ("statistics after the end", "sample = 1e-3", "statistics_from = 10.0", "28:19", &["time.statistics_from", "less than time.end"]),
+    ("statistics before the start", "sample = 1e-3", "statistics_from = -1", "28:19", &["time.statistics_from", "0 or more"]),
+    // Penalty.
+    ("no epsilon", "[1e-12, 1e-9]", "[]", "31:11", &["penalty.epsilon", "one value or more"]),
+    ("epsilon of nothing", "1e-9]", "0.0]", "31:19", &["penalty law 2: epsilon", "above 0"]),
+    ("negative epsilon", "[1e-12,", "[-1e-12,", "31:12", &["penalty law 1: epsilon", "above 0"]),
+    ("epsilon twice", "1e-9]", "1e-12]", "31:19", &["penalty law 2", "each law once"]),
+    ("epsilon and stiffness", "1e-9]", "1e-9]\nstiffness = [1e8]", "32:13", &["both epsilon and stiffness", "linear"]),
+    ("damping beside epsilon", "1e-9]", "1e-9]\ndamping = 1.0", "32:11", &["penalty.damping", "beside stiffness"]),
+    ("negative penalty damping", "epsilon = [1e-12, 1e-9]", "stiffness = [1e8]\ndamping = -1", "32:11", &["penalty law 1: damping", "0 or more"]),
+    ("penalty of no stiffness", "epsilon = [1e-12, 1e-9]", "stiffness = [1e8, 0]", "31:19", &["penalty law 2: stiffness", "above 0"]),
+    ("unknown integrator", "1e-9]", "1e-9]\nintegrator = \"leapfrog\"", "32:14", &["penalty.integrator", "trapezoidal, implicit-euler, central-difference, discrete-gradient"]),
+    ("epsilon with one wall", "[[wall]]\nname = \"lower\"\nside = \"lower\"\nposition = -5e-3\n", "", "27:12", &["penalty law 1: epsilon", "stiffness, in N/m"]),
+    ("epsilon with walls that touch", "position = -5e-3", "position = 5e-3 # start: below", "22:16", &["initial.displacement", "at least 0.005"]),
+];
+
+fn message(text: &str) -> String {
+    match Case::parse(text, "wrong.toml", "") {
+        Ok(_) => panic!("accepted:\n{text}"),
+        Err(error) => {
+            assert!(error.is_request(), "exit code 2");
+            assert!(matches!(error, Error::Case(_)), "{error:?}");
+            error.to_string()
+        }
+    }
+}
+
+#[test]
+fn the_case_that_the_wrong_ones_start_from_is_right() {
+    assert!(Case::parse(RIGHT, "right.toml", "").is_ok());
+}
+
+#[test]
+fn every_wrong_case_file_is_refused_at_its_place() {
+    assert!(WRONG.len() >= 40);
+    let mut failures = String::new();
+    for (what, old, new, place, words) in WRONG {
+        assert!(RIGHT.contains(old), "{what}: nothing to replace");
+        let text = RIGHT.replacen(old, new, 1);
+        let said = match Case::parse(&text, "wrong.toml", "") {
+            Ok(_) => "ACCEPTED".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        let at = format!("--> wrong.toml:{place}\n");
+        let fits = said.starts_with("error: ")
+            && said.contains(&at)
+            && said.contains("expected")
+            && words.iter().all(|w| said.contains(w))
+            && said.is_ascii();
+        if !fits {
+            failures += &format!("{what}: wanted {place} and {words:?}\n{said}\n\n");
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
