@@ -53,7 +53,7 @@ const WRONG: &[Wrong] = &[
     ("key twice", "damping = 0.2", "mass = 2.0", "5:1", &["duplicate key"]),
     ("table twice", "[initial]", "[time]\nend = 1.0\nstep = 0.1\n[initial]", "28:2", &["duplicate key"]),
     ("bare word", "side = \"upper\"", "side = upper", "10:8", &["quoted"]),
-    ("no TOML at all", "title = \"right\"", "<xml/>", "1:1", &[]),
+    ("no TOML at all", "title = \"right\"", "<xml/>", "1:7", &[]),
     // Types.
     ("text for a number", "mass = 1.0", "mass = \"heavy\"", "4:8", &["system.oscillator.mass", "a number", "kg"]),
     ("truth for a number", "position = 5e-3", "position = true", "11:12", &["wall.position", "a number, in m"]),
@@ -65,12 +65,16 @@ const WRONG: &[Wrong] = &[
     ("number too large", "mass = 1.0", "mass = 1e400", "4:8", &["overflow", "mass = a number above 0"]),
     ("a load by position", "{ amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "[3.0, 5.0, 0.0]", "19:12", &["load.harmonic", "amplitude"]),
     ("one wall in single brackets", "[[wall]]\nname = \"lower\"\nside = \"lower\"\nposition = -5e-3\n", "[[wall.x]]\n", "13:8", &["unknown key `x`", "position"]),
-    ("number for a table", "[initial]\ndisplacement = 0.0\nvelocity = 0.0", "", "20:1", &["TEXT AT TOP"]),
+    ("number for a table", "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0", "system = 3", "3:10", &["`system` takes a table", "[system.oscillator]"]),
+    ("number for an inner table", "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0", "[system]\noscillator = 3", "4:14", &["`system.oscillator` takes a table", "mass (kg)"]),
+    ("one table for a list of them", "[[load]]", "[load]", "18:1", &["`load` takes a list", "double brackets"]),
+    ("system missing", "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0", "", "1:1", &["`system` is missing", "[system.oscillator]"]),
+    ("times missing", "[time]\nend = 10.0\nstep = 1e-4\nsample = 1e-3\n", "", "1:1", &["`time` is missing", "end (s)"]),
     // Keys.
     ("unknown key", "mass = 1.0", "mass = 1.0\nmas = 2.0", "5:1", &["unknown key `mas`", "mass, damping, stiffness"]),
     ("unknown table", "[initial]", "[inital]", "21:2", &["unknown key `inital`", "initial"]),
     ("unknown kind of load", "harmonic =", "sine =", "19:1", &["unknown key `sine`", "harmonic"]),
-    ("unknown key of a load", "phase = 0.0", "phi = 0.0", "19:49", &["unknown key `phi`", "phase"]),
+    ("unknown key of a load", "phase = 0.0", "phi = 0.0", "19:48", &["unknown key `phi`", "phase"]),
     ("mass missing", "mass = 1.0\n", "", "3:1", &["`mass` is missing in `system.oscillator`", "kg"]),
     ("end missing", "end = 10.0\n", "", "25:1", &["`end` is missing in `time`", "in s"]),
     ("position missing", "position = -5e-3\n", "", "13:1", &["`position` is missing in `wall`", "in m"]),
@@ -96,7 +100,7 @@ const WRONG: &[Wrong] = &[
     ("two walls of one name", "name = \"lower\"", "name = \"upper\"", "14:8", &["wall 2: name", "a name of its own"]),
     ("walls crossing", "position = -5e-3", "position = 6e-3", "11:12", &["wall \"upper\": position", "0.006", "\"lower\""]),
     ("start above a wall", "displacement = 0.0", "displacement = 6e-3", "22:16", &["initial.displacement", "at most 0.005"]),
-    ("start behind a wall, unsaid", "position = -5e-3", "position = 1e-3\n[initial]\nvelocity = 0\n[other]", "19:2", &["unknown key `other`"]),
+    ("start below one of three walls", "position = -5e-3", "position = 1e-3\n[[wall]]\nname = \"a\"\nside = \"lower\"\nposition = 2e-3", "26:16", &["initial.displacement", "at least 0.001"]),
     ("start not finite", "velocity = 0.0", "velocity = inf", "23:12", &["initial.velocity", "finite"]),
     ("amplitude not a number", "amplitude = 3.0", "amplitude = nan", "19:26", &["load 1: amplitude", "finite"]),
     ("negative frequency", "frequency = 5.0", "frequency = -5.0", "19:43", &["load 1: frequency", "0 or more"]),
@@ -135,17 +139,6 @@ const WRONG: &[Wrong] = &[
     ("epsilon with walls that touch", "position = -5e-3", "position = 5e-3 # start: below", "22:16", &["initial.displacement", "at least 0.005"]),
 ];
 
-fn message(text: &str) -> String {
-    match Case::parse(text, "wrong.toml", "") {
-        Ok(_) => panic!("accepted:\n{text}"),
-        Err(error) => {
-            assert!(error.is_request(), "exit code 2");
-            assert!(matches!(error, Error::Case(_)), "{error:?}");
-            error.to_string()
-        }
-    }
-}
-
 #[test]
 fn the_case_that_the_wrong_ones_start_from_is_right() {
     assert!(Case::parse(RIGHT, "right.toml", "").is_ok());
@@ -173,4 +166,230 @@ fn every_wrong_case_file_is_refused_at_its_place() {
         }
     }
     assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn a_start_that_is_not_written_down_is_refused_at_the_wall() {
+    let text = RIGHT.replace("displacement = 0.0\n", "").replace("position = 5e-3", "position = -1e-3");
+    let said = Case::parse(&text, "wrong.toml", "").unwrap_err().to_string();
+    assert!(said.contains("--> wrong.toml:11:12\n") && said.contains("initial.displacement is 0.0"), "{said}");
+}
+
+#[test]
+fn an_error_reads_like_a_compilers() {
+    let text = RIGHT.replace("mass = 1.0", "mass = -1.0   # kg");
+    let said = Case::parse(&text, "wrong.toml", "").unwrap_err().to_string();
+    let expected = "\
+error: system.oscillator.mass is -1.0
+ --> wrong.toml:4:8
+  |
+4 | mass = -1.0   # kg
+  |        ^^^^
+  |
+  = help: expected a finite number above 0";
+    assert_eq!(said, expected);
+}
+
+#[test]
+fn an_elastic_wall_may_hold_the_start() {
+    let text = RIGHT
+        .replace("displacement = 0.0", "displacement = 6e-3")
+        .replace("position = 5e-3", "position = 5e-3\nstiffness = 100.0");
+    assert!(Case::parse(&text, "preload.toml", "").is_ok());
+}
+
+#[test]
+fn a_malformed_table_is_refused_at_its_own_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    let table = folder.path().join("force.csv");
+    let text = RIGHT.replace("[initial]", "[[load]]\ntable = { file = \"force.csv\" }\n\n[initial]");
+    fs::write(&case, text).unwrap();
+    let wrong: &[(&[u8], &str, &str)] = &[
+        (b"", "1:1", "0 rows"),
+        (b"time,force\n0,0\n1,1\n", "1:1", "time_s,force_N"),
+        (b"0,0\n1,1\n", "1:1", "time_s,force_N"),
+        (b"time_s,force_N\n", "1:15", "two rows"),
+        (b"time_s,force_N\n0,1\n", "2:4", "1 row"),
+        (b"time_s,force_N\n0,1\n0,2\n", "3:1", "more than the row before"),
+        (b"time_s,force_N\n0,1\n\n-1,2\n", "4:1", "more than the row before"),
+        (b"time_s,force_N\n0,1\n1,two\n", "3:3", "force_N is \"two\""),
+        (b"time_s,force_N\n0,1\nnan,2\n", "3:1", "time_s is \"nan\""),
+        (b"time_s,force_N\r\n0,1\r\n1,inf\r\n", "3:3", "finite"),
+        (b"time_s,force_N\n0,1\n1,2,3\n", "3:1", "3 values"),
+        (b"time_s,force_N\n0,1\n1\n", "3:1", "1 value in"),
+        (b"time_s,force_N\n0;1\n1;2\n", "2:1", "1 value in"),
+        (b"time_s,force_N\n0,\"1\n1,2\n", "2:3", "finite"),
+    ];
+    for (bytes, place, words) in wrong {
+        fs::write(&table, bytes).unwrap();
+        let said = Case::read(&case).unwrap_err().to_string();
+        let at = format!("--> {}:{place}\n", table.display());
+        assert!(said.contains(&at) && said.contains("expected") && said.contains(words), "{bytes:?} {place}\n{said}");
+    }
+    fs::write(&table, b"time_s,force_N\n0,1\n1,\xff\n").unwrap();
+    let said = Case::read(&case).unwrap_err().to_string();
+    assert!(said.contains("line 3 is not UTF-8") && said.contains("case.toml:22:18"), "{said}");
+    fs::write(&table, b"\xef\xbb\xbftime_s,force_N\r\n0, 1\r\n1, 2\r\n").unwrap();
+    assert!(Case::read(&case).is_ok(), "{:?}", Case::read(&case));
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_a_wrong_request() {
+    let folder = tempfile::tempdir().unwrap();
+    let binary = folder.path().join("binary.toml");
+    fs::write(&binary, b"title = \"a\"\n\xff\xfe").unwrap();
+    let large = folder.path().join("large.toml");
+    fs::write(&large, vec![b'\n'; (1 << 20) + 1]).unwrap();
+    let missing = folder.path().join("rigid-walls-sine.toml");
+    let wrong = [
+        (missing.as_path(), "signorini new rigid-walls-sine"),
+        (folder.path(), "a folder, not a file"),
+        (binary.as_path(), "line 2 is not UTF-8"),
+        (large.as_path(), "more than 1048576 bytes"),
+        (std::path::Path::new("/dev/null"), "not a regular file"),
+    ];
+    for (path, words) in wrong {
+        let error = Case::read(path).unwrap_err();
+        assert!(matches!(error, Error::Io { request: true, .. }), "{error:?}");
+        let said = error.to_string();
+        assert!(said.contains(&path.display().to_string()) && said.contains(words), "{said}");
+    }
+}
+
+/// One change to a text: at a place (a fraction of its length), something cut, doubled or replaced.
+#[derive(Debug, Clone)]
+enum Change {
+    Cut(f64, usize),
+    Double(f64, usize),
+    Byte(f64, u8),
+    Number(f64, usize),
+    Token(f64, f64),
+}
+
+const NUMBERS: &[&str] = &[
+    "nan",
+    "-nan",
+    "inf",
+    "-inf",
+    "-1",
+    "0",
+    "-0.0",
+    "1e308",
+    "-1e308",
+    "5e-324",
+    "1e400",
+    "9223372036854775808",
+    "[]",
+];
+
+fn changes() -> impl Strategy<Value = Vec<Change>> {
+    let at = || 0.0..1.0;
+    let one = prop_oneof![
+        (at(), 1..20_usize).prop_map(|(a, n)| Change::Cut(a, n)),
+        (at(), 1..40_usize).prop_map(|(a, n)| Change::Double(a, n)),
+        (at(), any::<u8>()).prop_map(|(a, b)| Change::Byte(a, b)),
+        (at(), 0..NUMBERS.len()).prop_map(|(a, n)| Change::Number(a, n)),
+        (at(), 0..NUMBERS.len()).prop_map(|(a, n)| Change::Number(a, n)),
+        (at(), at()).prop_map(|(a, b)| Change::Token(a, b)),
+    ];
+    prop::collection::vec(one, 1..4)
+}
+
+/// Where the words of a text start and end.
+fn words(text: &[u8], is: impl Fn(u8) -> bool) -> Vec<std::ops::Range<usize>> {
+    let mut found = Vec::new();
+    let mut start = 0;
+    for end in 0..=text.len() {
+        if text.get(end).is_none_or(|b| !is(*b)) {
+            if end > start {
+                found.push(start..end);
+            }
+            start = end + 1;
+        }
+    }
+    found
+}
+
+fn pick(from: usize, fraction: f64) -> usize {
+    ((from as f64 * fraction) as usize).min(from.saturating_sub(1))
+}
+
+fn apply(text: &mut Vec<u8>, change: &Change) {
+    if text.is_empty() {
+        return;
+    }
+    let word = |b: u8| b.is_ascii_alphanumeric() || b"+-._[]".contains(&b);
+    match *change {
+        Change::Cut(at, n) => {
+            let at = pick(text.len(), at);
+            text.drain(at..(at + n).min(text.len()));
+        }
+        Change::Double(at, n) => {
+            let at = pick(text.len(), at);
+            let end = (at + n).min(text.len());
+            let copy = text[at..end].to_vec();
+            text.splice(at..at, copy);
+        }
+        Change::Byte(at, byte) => {
+            let at = pick(text.len(), at);
+            text[at] = byte;
+        }
+        Change::Number(at, n) => {
+            let mut numbers = words(text, |b| b.is_ascii_digit() || b"+-.e".contains(&b));
+            numbers.retain(|r| text[r.clone()].iter().any(u8::is_ascii_digit));
+            if !numbers.is_empty() {
+                let place = numbers[pick(numbers.len(), at)].clone();
+                text.splice(place, NUMBERS[n].bytes());
+            }
+        }
+        Change::Token(at, from) => {
+            let tokens = words(text, word);
+            if !tokens.is_empty() {
+                let copy = text[tokens[pick(tokens.len(), from)].clone()].to_vec();
+                text.splice(tokens[pick(tokens.len(), at)].clone(), copy);
+            }
+        }
+    }
+}
+
+/// Lines without their remarks, so that changes fall on what counts.
+fn bare(text: &str) -> String {
+    text.lines().map(|line| line.split('#').next().unwrap_or_default().trim_end().to_owned() + "\n").collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn mutated_case_files_never_panic_and_what_is_accepted_makes_sense(
+        which in 0..Embedded::all().len(),
+        stripped in any::<bool>(),
+        changes in changes(),
+    ) {
+        let embedded = &Embedded::all()[which];
+        let mut text = if stripped { bare(embedded.text) } else { embedded.text.to_owned() }.into_bytes();
+        for change in &changes {
+            apply(&mut text, change);
+        }
+        let text = String::from_utf8_lossy(&text);
+        match Case::parse(&text, "mutated.toml", "cases") {
+            Ok(case) => {
+                prop_assert!(case.scene.validate().is_ok());
+                prop_assert!(case.validate().is_ok());
+            }
+            Err(error) => {
+                prop_assert!(matches!(error, Error::Case(_)), "{error:?}");
+                let said = error.to_string();
+                prop_assert!(said.starts_with("error: "), "{}", said);
+                prop_assert!(said.contains("--> mutated.toml:") || said.contains("tabulated-pulse.csv:"), "{}", said);
+                prop_assert!(said.contains("help: expected "), "{}", said);
+            }
+        }
+    }
+
+    #[test]
+    fn any_text_at_all_is_read_or_refused(text in ".{0,200}") {
+        prop_assert!(Case::parse(&text, "any.toml", "").is_err());
+    }
 }

@@ -36,7 +36,7 @@ const ALL: &[Embedded] = embed![
     "code-aster-sdnd101",
     "code-aster-sdnd108a",
     "siconos-oscillator",
-    "tabulated-pulse" ["tabulated-pulse.csv"],
+    "tabulated-pulse"["tabulated-pulse.csv"],
 ];
 
 impl Embedded {

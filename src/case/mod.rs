@@ -55,7 +55,9 @@ impl Case {
             let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
             let hint = match Embedded::named(stem) {
                 Ok(embedded) => format!("`signorini new {}` writes the case of that name", embedded.name),
-                Err(_) => "a case file is a TOML text; `signorini new rigid-walls-sine` writes one to start from".into(),
+                Err(_) => {
+                    "a case file is a TOML text; `signorini new rigid-walls-sine` writes one to start from".into()
+                }
             };
             Error::Io { path: path.display().to_string(), reason: format!("{reason}\nhelp: {hint}"), request: true }
         })?;

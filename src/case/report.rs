@@ -73,7 +73,8 @@ impl Source<'_> {
             let known = known.trim_start_matches("expected ").trim_start_matches("one of ");
             return self.error(span, &format!("unknown key `{key}` in {place}"), &format!("expected {known}"));
         }
-        if let Some((found, wanted)) = message.strip_prefix("invalid type: ").and_then(|m| m.split_once(", expected ")) {
+        if let Some((found, wanted)) = message.strip_prefix("invalid type: ").and_then(|m| m.split_once(", expected "))
+        {
             let found = found.replace("map", "a table or a date").replace("sequence", "a list");
             let wanted = wanted.replace("a sequence", "a list");
             let title = format!("`{path}` takes {wanted}, not {found}");

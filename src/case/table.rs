@@ -48,7 +48,8 @@ pub(super) fn read(name: &str, text: &str) -> Result<Table> {
     }
     if time.len() < 2 {
         let title = format!("the table has {} row{}", time.len(), if time.len() == 1 { "" } else { "s" });
-        return Err(source.error(text.len()..text.len(), &title, &format!("{FORMAT}; two rows or more")));
+        let end = text.trim_end().len();
+        return Err(source.error(end..end, &title, &format!("{FORMAT}; two rows or more")));
     }
     Table::new(time, force)
 }

@@ -42,7 +42,11 @@ impl System {
 }
 
 pub(crate) fn positive(key: &str, value: f64) -> Result<()> {
-    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(Error::invalid(key, format_args!("{value:?}"), "a finite number above 0")) }
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(Error::invalid(key, format_args!("{value:?}"), "a finite number above 0"))
+    }
 }
 
 pub(crate) fn nonnegative(key: &str, value: f64) -> Result<()> {
