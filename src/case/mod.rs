@@ -59,7 +59,8 @@ impl Case {
                     "a case file is a TOML text; `signorini new rigid-walls-sine` writes one to start from".into()
                 }
             };
-            Error::Io { path: path.display().to_string(), reason: format!("{reason}\nhelp: {hint}"), request: true }
+            let shown = if path.as_os_str().is_empty() { "\"\"".to_owned() } else { path.display().to_string() };
+            Error::Io { path: shown, reason: format!("{reason}\nhelp: {hint}"), request: true }
         })?;
         Self::parse(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new("")))
     }

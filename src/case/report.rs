@@ -80,13 +80,38 @@ impl Source<'_> {
             let title = format!("`{path}` takes {wanted}, not {found}");
             return self.error(span, &title, &or(path, &wanted));
         }
-        if let Some((title, wanted)) = message.split_once(", expected ") {
-            return self.error(span, title, &format!("expected {wanted}; a case file is TOML"));
+        let (title, wanted) = message.split_once(", expected ").unwrap_or((message, "TOML"));
+        if title == "duplicate key" {
+            let title = format!("duplicate key `{}`", self.slice(span.clone()));
+            return self.error(span, &title, "expected each key once in a table");
         }
-        let help = match message {
-            "duplicate key" => "expected each key once in a table",
-            _ => "expected TOML: [table] lines, and `key = value` lines below them",
-        };
-        self.error(span, message, accepted(path).map_or(help.to_owned(), |a| format!("expected {a}")).as_str())
+        let path = if path.is_empty() { self.key_at(span.start) } else { path.to_owned() };
+        match accepted(&path) {
+            Some(wanted) => self.error(span, &format!("`{path}`: {title}"), &format!("expected {wanted}")),
+            None => {
+                let help =
+                    format!("expected {wanted}: a case file has [table] lines with `key = value` lines below them");
+                self.error(span, title, &help)
+            }
+        }
+    }
+
+    /// Path of the key that is written on the line of the byte `at`, as far as lines alone can tell.
+    fn key_at(&self, at: usize) -> String {
+        let mut table = "";
+        let mut key = "";
+        let mut start = 0;
+        for line in self.text.split_inclusive('\n') {
+            if start > at {
+                break;
+            }
+            start += line.len();
+            let line = line.trim();
+            key = line.split('=').next().filter(|_| line.contains('=')).unwrap_or_default().trim();
+            if let Some(header) = line.strip_prefix('[').filter(|_| key.is_empty()) {
+                table = header.trim_start_matches('[').split(']').next().unwrap_or_default().trim();
+            }
+        }
+        if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") }
     }
 }
