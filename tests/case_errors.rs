@@ -103,6 +103,7 @@ const WRONG: &[Wrong] = &[
     ("start not finite", "velocity = 0.0", "velocity = inf", "23:12", &["initial.velocity", "finite"]),
     ("amplitude not a number", "amplitude = 3.0", "amplitude = nan", "19:26", &["load 1: amplitude", "finite"]),
     ("negative frequency", "frequency = 5.0", "frequency = -5.0", "19:43", &["load 1: frequency", "0 or more"]),
+    ("frequency too large", "frequency = 5.0", "frequency = 1e308", "19:43", &["load 1: frequency", "finite"]),
     ("infinite phase", "phase = 0.0", "phase = inf", "19:56", &["load 1: phase", "finite"]),
     ("blow before the start", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "impulse = { impulse = 1, time = -1 }", "19:33", &["load 1: time", "0 or more"]),
     ("infinite weight", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "constant = { force = inf }", "19:22", &["load 1: force", "finite"]),
