@@ -29,7 +29,10 @@ fn main() {
                 match run(
                     &scene(e).with_duration(end),
                     &scheme,
-                    &Options { sample: Some(1e-2), ..Options::with_step(h) },
+                    &Options {
+                        time: TimeOptions { sample: Some(1e-2), ..TimeOptions::with_step(h) },
+                        backend: signorini::qp::Backend::Auto,
+                    },
                 ) {
                     Ok(r) => {
                         let d = r.trajectory.displacement().last().unwrap();

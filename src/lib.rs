@@ -21,7 +21,9 @@ mod trajectory;
 
 pub use error::{Error, Result};
 pub use run::{Options, Run, run, run_with_progress};
-pub use scene::{Forcing, Harmonic, Load, LoadKind, Oscillator, Probe, Row, Scene, Side, State, System, Table, Wall, WallLaw};
+pub use scene::{
+    Forcing, Harmonic, Load, LoadKind, Oscillator, Probe, Row, Scene, Side, State, System, Table, Wall, WallLaw,
+};
 pub use scheme::{Counters, Integrator, PenaltyLaw, Scheme, Stepper};
 pub use statistics::{Statistics, Summary, WallStatistics};
 pub use step::{Balance, Contact, Contract, Path, Promise, Step};

@@ -1,7 +1,7 @@
 //! The recorded motion: columns in time, and the contacts.
 
 use crate::error::{Error, Result};
-use crate::scene::{Scene, Wall};
+use crate::scene::{Row, Scene};
 use crate::step::{Contact, Path, Step};
 
 /// A motion sampled at given times, with every newton second of contact accounted for.
@@ -100,8 +100,7 @@ fn find(kind: &'static str, name: &str, known: &[String]) -> Result<usize> {
 #[derive(Debug, Clone)]
 pub struct Recorder {
     trajectory: Trajectory,
-    walls: Vec<Wall>,
-    probes: Vec<crate::scene::Row>,
+    probes: Vec<Row>,
     end: f64,
     rows: u64,
     /// Impulse per wall since the last row, N s.
@@ -128,7 +127,6 @@ impl Recorder {
                 impulse: columns(m),
                 contacts: Vec::new(),
             },
-            walls: scene.walls.clone(),
             probes: scene.probes.iter().map(|p| p.at.clone()).collect(),
             end: scene.duration,
             rows,

@@ -4,7 +4,7 @@
 use std::fs;
 use std::io::Write;
 
-use signorini::error::Error;
+use signorini::Error;
 use signorini::output::atomic::{WholeFile, write_whole};
 
 #[test]

@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 /// [`Error::Io`] with the path and what the operating system said; nothing is left behind then.
 ///
 /// ```
-/// # fn main() -> signorini::error::Result<()> {
+/// # fn main() -> signorini::Result<()> {
 /// let folder = std::env::temp_dir().join("signorini-doc-write-whole");
 /// signorini::output::atomic::write_whole(&folder.join("a/picture.svg"), b"<svg/>")?;
 /// # let _ = std::fs::remove_dir_all(folder);

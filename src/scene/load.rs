@@ -133,6 +133,7 @@ impl Load {
             LoadKind::Harmonic { amplitude, frequency, phase } => {
                 finite(&key("amplitude"), *amplitude)?;
                 nonnegative(&key("frequency"), *frequency)?;
+                finite(&key("frequency"), TAU * frequency)?;
                 finite(&key("phase"), *phase)
             }
             LoadKind::Impulse { impulse, time } => {

@@ -140,17 +140,24 @@ impl Scene {
             self.check_row(&format!("probe {:?}", probe.name), &probe.at)?;
         }
         for (index, wall) in self.walls.iter().enumerate() {
-            wall.validate()?;
-            self.check_row(&format!("wall {:?}", wall.name), &wall.at)?;
+            wall.validate_name(index)?;
             if self.walls[..index].iter().any(|other| other.name == wall.name) {
                 return Err(Error::invalid(
-                    "wall name",
-                    format!("{:?}, twice", wall.name),
+                    format!("wall {}: name", index + 1),
+                    format!("{:?}, which another wall has", wall.name),
                     "a name of its own for each wall",
                 ));
             }
-            self.check_start(wall)?;
+        }
+        for wall in &self.walls {
+            wall.validate()?;
+            self.check_row(&format!("wall {:?}", wall.name), &wall.at)?;
+        }
+        for wall in &self.walls {
             self.check_crossing(wall)?;
+        }
+        for wall in &self.walls {
+            self.check_start(wall)?;
         }
         Ok(())
     }
@@ -171,8 +178,8 @@ impl Scene {
         let w = wall.at.dot(&self.initial.q);
         if wall.law.is_rigid() && wall.gap(w) < 0.0 {
             let relation = if wall.side == Side::Upper { "at most" } else { "at least" };
-            let expected = format!("{relation} {}, the position of the rigid wall {:?}", wall.position, wall.name);
-            return Err(Error::invalid("initial.displacement", w, expected));
+            let expected = format!("{relation} {:?}, the position of the rigid wall {:?}", wall.position, wall.name);
+            return Err(Error::invalid("initial.displacement", format_args!("{w:?}"), expected));
         }
         Ok(())
     }
@@ -187,8 +194,8 @@ impl Scene {
         match self.walls.iter().find(crossed) {
             Some(lower) => Err(Error::invalid(
                 format!("wall {:?}: position", upper.name),
-                upper.position,
-                format!("at least {}, the position of the rigid lower wall {:?}", lower.position, lower.name),
+                format_args!("{:?}", upper.position),
+                format!("at least {:?}, the position of the rigid lower wall {:?}", lower.position, lower.name),
             )),
             None => Ok(()),
         }

@@ -91,17 +91,21 @@ fn first(x: &[f64]) -> f64 {
 }
 
 pub(crate) fn positive(key: &str, value: f64) -> Result<()> {
-    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(Error::invalid(key, value, "a finite number above 0")) }
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(Error::invalid(key, format_args!("{value:?}"), "a finite number above 0"))
+    }
 }
 
 pub(crate) fn nonnegative(key: &str, value: f64) -> Result<()> {
     if value.is_finite() && value >= 0.0 {
         Ok(())
     } else {
-        Err(Error::invalid(key, value, "a finite number, 0 or more"))
+        Err(Error::invalid(key, format_args!("{value:?}"), "a finite number, 0 or more"))
     }
 }
 
 pub(crate) fn finite(key: &str, value: f64) -> Result<()> {
-    if value.is_finite() { Ok(()) } else { Err(Error::invalid(key, value, "a finite number")) }
+    if value.is_finite() { Ok(()) } else { Err(Error::invalid(key, format_args!("{value:?}"), "a finite number")) }
 }

@@ -156,17 +156,22 @@ impl Wall {
         sign * self.law.pressure(-self.gap(w), -sign * wdot)
     }
 
-    pub(crate) fn validate(&self) -> Result<()> {
-        let key = |what: &str| format!("wall {:?}: {what}", self.name);
+    pub(crate) fn validate_name(&self, index: usize) -> Result<()> {
         let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         if self.name.is_empty() || !self.name.chars().all(fits) {
-            return Err(Error::invalid("wall name", format!("{:?}", self.name), "letters, digits, - and _"));
+            let key = format!("wall {}: name", index + 1);
+            return Err(Error::invalid(key, format!("{:?}", self.name), "letters, digits, - and _"));
         }
+        Ok(())
+    }
+
+    pub(crate) fn validate(&self) -> Result<()> {
+        let key = |what: &str| format!("wall {:?}: {what}", self.name);
         finite(&key("position"), self.position)?;
         match self.law {
             WallLaw::Rigid { restitution } if (0.0..=1.0).contains(&restitution) => Ok(()),
             WallLaw::Rigid { restitution } => {
-                Err(Error::invalid(key("restitution"), restitution, "a number from 0 to 1"))
+                Err(Error::invalid(key("restitution"), format_args!("{restitution:?}"), "a number from 0 to 1"))
             }
             WallLaw::Elastic { stiffness, damping } => {
                 positive(&key("stiffness"), stiffness)?;

@@ -17,15 +17,7 @@ impl fmt::Display for Scheme {
             Self::MoreauJean { theta } => write!(f, "moreau-jean:theta={theta}"),
             Self::Newmark => f.write_str("newmark"),
             Self::Event => f.write_str("event"),
-            Self::Penalty { law: PenaltyLaw::Quartic { epsilon }, integrator } => {
-                write!(f, "penalty:epsilon={epsilon:e},integrator={integrator}")
-            }
-            Self::Penalty { law: PenaltyLaw::Linear { stiffness, damping: 0.0 }, integrator } => {
-                write!(f, "penalty:stiffness={stiffness:e},integrator={integrator}")
-            }
-            Self::Penalty { law: PenaltyLaw::Linear { stiffness, damping }, integrator } => {
-                write!(f, "penalty:stiffness={stiffness:e},damping={damping:e},integrator={integrator}")
-            }
+            Self::Penalty { law, integrator } => write!(f, "penalty:{law},integrator={integrator}"),
         }
     }
 }
@@ -94,10 +86,7 @@ impl FromStr for Scheme {
             "moreau-jean" => Self::MoreauJean { theta: settings.theta.unwrap_or(0.5) },
             "newmark" => Self::Newmark,
             "event" => Self::Event,
-            _ => Self::Penalty {
-                law: penalty_law(&settings)?,
-                integrator: settings.integrator.unwrap_or(Integrator::DiscreteGradient),
-            },
+            _ => Self::Penalty { law: penalty_law(&settings)?, integrator: settings.integrator.unwrap_or_default() },
         };
         scheme.validate()?;
         Ok(scheme)

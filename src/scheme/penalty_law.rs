@@ -160,15 +160,15 @@ mod tests {
     #[test]
     fn the_quartic_law_spans_to_the_nearest_facing_wall_and_leaves_elastic_walls_alone() {
         let walls = [
-            Wall::upper("upper", 5e-3),
-            Wall::lower("near", -4e-3).with_elasticity(100.0, 0.0),
-            Wall::lower("far", -5e-3),
+            Wall::upper("upper", 0.5),
+            Wall::lower("near", -0.25).with_elasticity(100.0, 0.0),
+            Wall::lower("far", -0.5),
         ];
         let law = PenaltyLaw::Quartic { epsilon: 1e-9 };
         let spans: Vec<_> = walls.iter().map(|w| law.at(w, &walls)).collect();
-        assert_eq!(spans[0], Ok(WallLaw::Quartic { epsilon: 1e-9, span: 9e-3 }));
+        assert_eq!(spans[0], Ok(WallLaw::Quartic { epsilon: 1e-9, span: 0.75 }));
         assert_eq!(spans[1], Ok(walls[1].law));
-        assert_eq!(spans[2], Ok(WallLaw::Quartic { epsilon: 1e-9, span: 1e-2 }));
+        assert_eq!(spans[2], Ok(WallLaw::Quartic { epsilon: 1e-9, span: 1.0 }));
         assert!(law.validate(&walls[..1]).is_err_and(|e| e.to_string().contains("stiffness")));
         assert!(law.validate(&walls[1..2]).is_err_and(|e| e.to_string().contains("rigid wall")));
         assert!(PenaltyLaw::Linear { stiffness: 1e8, damping: 0.0 }.validate(&walls[..1]).is_ok());

@@ -44,10 +44,6 @@ impl Position {
         Ok(Self { s, theta, q, v, force, held, holds, programme })
     }
 
-    pub fn state(&self) -> (f64, f64) {
-        (self.q, self.v)
-    }
-
     #[inline]
     pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
         let s = &self.s;

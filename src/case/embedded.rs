@@ -1,0 +1,71 @@
+//! The case files that come with the crate.
+
+use super::{Case, build};
+use crate::error::{Error, Result};
+
+/// A case file, as text, with the tables it reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Embedded {
+    /// Its name: the file name without `.toml`.
+    pub name: &'static str,
+    /// Its text.
+    pub text: &'static str,
+    /// File name and text of each table that it reads.
+    pub tables: &'static [(&'static str, &'static str)],
+}
+
+macro_rules! embed {
+    ($($name:literal $([$($table:literal),+])?),+ $(,)?) => {
+        &[$(Embedded {
+            name: $name,
+            text: include_str!(concat!("../../cases/", $name, ".toml")),
+            tables: &[$($(($table, include_str!(concat!("../../cases/", $table)))),+)?],
+        }),+]
+    };
+}
+
+const ALL: &[Embedded] = embed![
+    "linear-sine",
+    "linear-impulse",
+    "rigid-walls-sine",
+    "penalty-epsilon",
+    "independent-code",
+    "rigid-walls-impulse",
+    "elastic-wall",
+    "bouncing-ball",
+    "code-aster-sdnd101",
+    "code-aster-sdnd108a",
+    "siconos-oscillator",
+    "tabulated-pulse"["tabulated-pulse.csv"],
+];
+
+impl Embedded {
+    /// Every case: those of the source in the order of its figures, then those of the field.
+    #[must_use]
+    pub fn all() -> &'static [Self] {
+        ALL
+    }
+
+    /// The case of that name.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`], listing the names there are.
+    pub fn named(name: &str) -> Result<&'static Self> {
+        ALL.iter().find(|case| case.name == name).ok_or_else(|| Error::Unknown {
+            kind: "case",
+            name: name.to_owned(),
+            known: ALL.iter().map(|case| case.name.to_owned()).collect(),
+        })
+    }
+
+    /// The case that the text holds.
+    ///
+    /// # Errors
+    /// None for the texts that come with the crate, which its tests read.
+    pub fn case(&self) -> Result<Case> {
+        build::case(self.text, &format!("{}.toml", self.name), &|file| {
+            let table = self.tables.iter().find(|(name, _)| *name == file);
+            table.map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).ok_or_else(|| "no such file".to_owned())
+        })
+    }
+}

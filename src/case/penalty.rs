@@ -1,0 +1,36 @@
+//! The `[penalty]` table.
+
+use crate::error::{Error, Result};
+use crate::scene::Wall;
+use crate::scheme::{Integrator, PenaltyLaw};
+
+/// What the penalty runs of a case put in place of its rigid walls. Elastic walls stay as they are.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PenaltyOptions {
+    /// The laws, in the order of the file: each is a run of its own in a comparison. Empty if the case has none.
+    pub laws: Vec<PenaltyLaw>,
+    /// The integrator; none where the case leaves it to the scheme.
+    pub integrator: Option<Integrator>,
+}
+
+impl PenaltyOptions {
+    /// Checks every law against the walls.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`], its key starting with `penalty law` and the number of the law from 1.
+    pub fn validate(&self, walls: &[Wall]) -> Result<()> {
+        for (index, law) in self.laws.iter().enumerate() {
+            law.validate(walls).map_err(|error| match error {
+                Error::Invalid { key, value, expected } => {
+                    Error::Invalid { key: format!("penalty law {}: {key}", index + 1), value, expected }
+                }
+                other => other,
+            })?;
+            if self.laws.iter().take(index).any(|other| other == law) {
+                let key = format!("penalty law {}", index + 1);
+                return Err(Error::invalid(key, format_args!("{law}, given twice"), "each law once"));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,117 @@
+//! Errors that show the place in the file: what is wrong, file, line and column, the line itself, what would do.
+
+use super::file::accepted;
+use crate::error::Error;
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use std::ops::Range;
+
+/// A text that was read, and the name it goes by in messages.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Source<'a> {
+    pub name: &'a str,
+    pub text: &'a str,
+}
+
+impl Source<'_> {
+    /// The error `title` at `span` (bytes of the text), with what would be accepted.
+    pub fn error(&self, span: Range<usize>, title: &str, help: &str) -> Error {
+        self.error_with_note(span, title, help, None)
+    }
+
+    /// The same, with a remark below.
+    pub fn error_with_note(&self, span: Range<usize>, title: &str, help: &str, note: Option<&str>) -> Error {
+        let place = AnnotationKind::Primary.span(self.within(span));
+        let mut report = Level::ERROR
+            .primary_title(title)
+            .element(Snippet::source(self.text).path(self.name).annotation(place))
+            .element(Level::HELP.message(help));
+        if let Some(note) = note {
+            report = report.element(Level::NOTE.message(note));
+        }
+        Error::Case(Renderer::plain().render(&[report]))
+    }
+
+    /// The text at `span`.
+    pub fn slice(&self, span: Range<usize>) -> &str {
+        self.text.get(self.within(span)).unwrap_or_default()
+    }
+
+    /// `span` on its first line only, within the text, on the borders of characters.
+    fn within(&self, span: Range<usize>) -> Range<usize> {
+        let floor = |mut at: usize| {
+            at = at.min(self.text.len());
+            while !self.text.is_char_boundary(at) {
+                at -= 1;
+            }
+            at
+        };
+        let start = floor(span.start);
+        let end = floor(span.end).max(start);
+        let line = self.text.get(start..end).and_then(|s| s.lines().next()).map_or(0, str::len);
+        start..start + line
+    }
+
+    /// What the TOML reader said, in the words of a case file.
+    pub fn toml(&self, mut error: toml::de::Error) -> Error {
+        error.set_input(None);
+        let span = error.span().unwrap_or(0..0);
+        let said = error.to_string();
+        let path = said.lines().find_map(|line| line.strip_prefix("in `")?.strip_suffix('`')).unwrap_or_default();
+        let message = error.message();
+        let quoted = |text: &str| text.split('`').nth(1).unwrap_or_default().to_owned();
+        let dotted = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+        let place = if path.is_empty() { "the case file".to_owned() } else { format!("`{path}`") };
+        let or = |path: &str, text: &str| format!("expected {}", accepted(path).unwrap_or(text));
+
+        if message.starts_with("missing field") {
+            let key = quoted(message);
+            return self.error(span, &format!("`{key}` is missing in {place}"), &or(&dotted(&key), "that key"));
+        }
+        if message.starts_with("unknown field") {
+            let key = quoted(message);
+            let known = message.split_once(", ").map_or("", |(_, known)| known).replace('`', "");
+            let known = known.trim_start_matches("expected ").trim_start_matches("one of ");
+            return self.error(span, &format!("unknown key `{key}` in {place}"), &format!("expected {known}"));
+        }
+        if let Some((found, wanted)) = message.strip_prefix("invalid type: ").and_then(|m| m.split_once(", expected "))
+        {
+            let found = found.replace("map", "a table or a date").replace("sequence", "a list");
+            let wanted = wanted.replace("a sequence", "a list");
+            let title = format!("`{path}` takes {wanted}, not {found}");
+            return self.error(span, &title, &or(path, &wanted));
+        }
+        let (title, wanted) = message.split_once(", expected ").unwrap_or((message, "TOML"));
+        if title == "duplicate key" {
+            let title = format!("duplicate key `{}`", self.slice(span.clone()));
+            return self.error(span, &title, "expected each key once in a table");
+        }
+        let path = if path.is_empty() { self.key_at(span.start) } else { path.to_owned() };
+        match accepted(&path) {
+            Some(wanted) => self.error(span, &format!("`{path}`: {title}"), &format!("expected {wanted}")),
+            None => {
+                let help =
+                    format!("expected {wanted}: a case file has [table] lines with `key = value` lines below them");
+                self.error(span, title, &help)
+            }
+        }
+    }
+
+    /// Path of the key that is written on the line of the byte `at`, as far as lines alone can tell.
+    fn key_at(&self, at: usize) -> String {
+        let mut table = "";
+        let mut key = "";
+        let mut start = 0;
+        for line in self.text.split_inclusive('\n') {
+            if start > at {
+                break;
+            }
+            start += line.len();
+            let line = line.trim();
+            key = line.split('=').next().filter(|_| line.contains('=')).unwrap_or_default().trim();
+            if let Some(header) = line.strip_prefix('[').filter(|_| key.is_empty()) {
+                table = header.trim_start_matches('[').split(']').next().unwrap_or_default().trim();
+            }
+        }
+        if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") }
+    }
+}

@@ -1,0 +1,118 @@
+//! The times of a run that are not the scene's: step, recording, statistics, and the grid they make.
+
+use crate::error::{Error, Result};
+
+/// Most steps that a run may take: minutes of a scalar scheme, and far from the end of a `u64`.
+pub const MOST_STEPS: f64 = 1e10;
+/// Most rows that a trajectory may have: half a gigabyte of CSV.
+pub const MOST_ROWS: f64 = 1e7;
+
+/// Step, recording and statistics of a run: a case's `[time]` table without `end`, which is the duration of the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeOptions {
+    /// Step asked of the stepping schemes, s: above 0, below the end. A run shortens it to divide its duration.
+    pub step: f64,
+    /// Spacing of the recorded trajectory, s; none records every step. A spacing below the step does too.
+    pub sample: Option<f64>,
+    /// Start of the window for statistics, s: 0 or more, below the end.
+    pub statistics_from: f64,
+}
+
+impl TimeOptions {
+    /// Steps of `step` seconds, all of them recorded, statistics from the start.
+    #[must_use]
+    pub fn with_step(step: f64) -> Self {
+        Self { step, sample: None, statistics_from: 0.0 }
+    }
+
+    /// Checks the times against one another and against the duration (s) of the run.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] naming `time.step`, `time.sample` or `time.statistics_from`.
+    pub fn validate(&self, duration: f64) -> Result<()> {
+        let Self { step, sample, statistics_from } = *self;
+        let refuse = |key: &str, value: f64, expected: String| {
+            Err(Error::invalid(format!("time.{key}"), format_args!("{value:?}"), expected))
+        };
+        if !(step.is_finite() && step > 0.0) {
+            return refuse("step", step, "a finite number above 0".to_owned());
+        }
+        if step >= duration {
+            return refuse("step", step, format!("less than time.end, {duration:?}"));
+        }
+        if duration / step > MOST_STEPS {
+            let least = duration / MOST_STEPS;
+            return refuse("step", step, format!("{least:e} or more: at most 1e10 steps up to time.end"));
+        }
+        match sample {
+            None if duration / step > MOST_ROWS => {
+                let expected = "time.sample beside it: without one every step is recorded, and 1e7 rows are the most";
+                return refuse("step", step, expected.to_owned());
+            }
+            Some(sample) if !(sample.is_finite() && sample > 0.0) => {
+                return refuse("sample", sample, "a finite number above 0".to_owned());
+            }
+            Some(sample) if sample > duration => {
+                return refuse("sample", sample, format!("at most time.end, {duration:?}"));
+            }
+            Some(sample) if duration / sample > MOST_ROWS => {
+                let least = duration / MOST_ROWS;
+                return refuse("sample", sample, format!("{least:e} or more: at most 1e7 rows up to time.end"));
+            }
+            _ => {}
+        }
+        if !(statistics_from >= 0.0 && statistics_from < duration) {
+            return refuse("statistics_from", statistics_from, format!("0 or more, less than time.end, {duration:?}"));
+        }
+        Ok(())
+    }
+}
+
+/// Equal steps that end exactly at the end, and equal rows that fall on steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeGrid {
+    /// The end, s.
+    pub end: f64,
+    /// The step used, s: the one asked for or a little shorter.
+    pub step: f64,
+    /// Number of steps.
+    pub steps: u64,
+    /// Number of recorded intervals; the rows are one more.
+    pub rows: u64,
+    /// True if the step had to be shortened.
+    pub shortened: bool,
+}
+
+/// Rows of the exact scheme, which has no step of its own, where no spacing is given.
+const EVENT_ROWS: f64 = 1000.0;
+
+impl TimeGrid {
+    /// The grid of a stepping scheme over [0, `duration`] seconds.
+    ///
+    /// # Errors
+    /// As [`TimeOptions::validate`].
+    pub fn stepping(duration: f64, options: &TimeOptions) -> Result<Self> {
+        options.validate(duration)?;
+        let step = options.step;
+        let rows = intervals(duration, options.sample.map_or(step, |sample| sample.max(step)));
+        let steps = rows * intervals(duration / rows as f64, step);
+        let used = duration / steps as f64;
+        Ok(Self { end: duration, step: used, steps, rows, shortened: used < step * (1.0 - 1e-9) })
+    }
+
+    /// The rows of the exact scheme, which steps from event to event: a thousand unless a spacing is given.
+    ///
+    /// # Errors
+    /// As [`TimeOptions::validate`].
+    pub fn exact(duration: f64, options: &TimeOptions) -> Result<Self> {
+        let sample = options.sample.unwrap_or(duration / EVENT_ROWS);
+        TimeOptions { step: 0.5 * duration, sample: Some(sample), ..*options }.validate(duration)?;
+        Ok(Self { end: duration, step: duration, steps: 1, rows: intervals(duration, sample), shortened: false })
+    }
+}
+
+/// The least number of equal intervals of at most `step` that fill `span`, forgiving the rounding of their ratio.
+fn intervals(span: f64, step: f64) -> u64 {
+    // In range: the options bound the ratio by MOST_STEPS.
+    (span / step * (1.0 - 1e-12)).ceil().max(1.0) as u64
+}

@@ -1,0 +1,258 @@
+//! Wrong case files: each gives one error that names file, line, column, key and what would be accepted.
+#![cfg(feature = "cli")]
+
+use signorini::Error;
+use signorini::case::Case;
+use std::fs;
+
+/// A case file that is right. Each wrong one differs from it in one place.
+const RIGHT: &str = r#"title = "right"
+
+[system.oscillator]
+mass = 1.0
+damping = 0.2
+stiffness = 100.0
+
+[[wall]]
+name = "upper"
+side = "upper"
+position = 5e-3
+
+[[wall]]
+name = "lower"
+side = "lower"
+position = -5e-3
+
+[[load]]
+harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }
+
+[initial]
+displacement = 0.0
+velocity = 0.0
+
+[time]
+end = 10.0
+step = 1e-4
+sample = 1e-3
+
+[penalty]
+epsilon = [1e-12, 1e-9]
+"#;
+
+/// What is wrong; the text of `RIGHT` that is replaced, and by what; line:column of the error; what it must say.
+type Wrong = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
+
+#[rustfmt::skip]
+const WRONG: &[Wrong] = &[
+    // Syntax.
+    ("unclosed table", "[time]", "[time", "25:6", &["unclosed table"]),
+    ("no value", "mass = 1.0", "mass =", "4:7", &["system.oscillator.mass", "kg"]),
+    ("comma for a point", "mass = 1.0", "mass = 1,0", "4:9", &["system.oscillator.mass", "kg"]),
+    ("unclosed string", "name = \"upper\"", "name = \"upper", "9:14", &["wall.name", "string", "in quotes"]),
+    ("key twice", "damping = 0.2", "mass = 2.0", "5:1", &["duplicate key `mass`"]),
+    ("table twice", "[initial]", "[time]\nend = 1.0\nstep = 0.1\n[initial]", "28:2", &["duplicate key `time`"]),
+    ("bare word", "side = \"upper\"", "side = upper", "10:8", &["wall.side", "quoted"]),
+    ("no TOML at all", "title = \"right\"", "<xml/>", "1:7", &[]),
+    // Types.
+    ("text for a number", "mass = 1.0", "mass = \"heavy\"", "4:8", &["system.oscillator.mass", "a number", "kg"]),
+    ("truth for a number", "position = 5e-3", "position = true", "11:12", &["wall.position", "a number, in m"]),
+    ("date for a number", "end = 10.0", "end = 2020-01-01", "26:7", &["time.end", "a number"]),
+    ("list for a number", "step = 1e-4", "step = [1e-4]", "27:8", &["time.step", "a list"]),
+    ("number for a name", "name = \"upper\"", "name = 3", "9:8", &["wall.name", "letters"]),
+    ("number for a list", "epsilon = [1e-12, 1e-9]", "epsilon = 1e-9", "31:11", &["penalty.epsilon", "a list"]),
+    ("text in a list", "1e-9]", "\"1e-9\"]", "31:19", &["penalty.epsilon", "a list of numbers"]),
+    ("number too large", "mass = 1.0", "mass = 1e400", "4:8", &["overflow", "mass = a number above 0"]),
+    ("a load by position", "{ amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "[3.0, 5.0, 0.0]", "19:12", &["load.harmonic", "amplitude"]),
+    ("one wall in single brackets", "[[wall]]\nname = \"lower\"\nside = \"lower\"\nposition = -5e-3\n", "[[wall.x]]\n", "13:8", &["unknown key `x`", "position"]),
+    ("number for a table", "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0", "system = 3", "3:10", &["`system` takes a table", "[system.oscillator]"]),
+    ("number for an inner table", "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0", "[system]\noscillator = 3", "4:14", &["`system.oscillator` takes a table", "mass (kg)"]),
+    ("one table for a list of them", "[[load]]", "[load]", "18:1", &["`load` takes a list", "double brackets"]),
+    ("system missing", "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0", "", "1:1", &["`system` is missing", "[system.oscillator]"]),
+    ("times missing", "[time]\nend = 10.0\nstep = 1e-4\nsample = 1e-3\n", "", "1:1", &["`time` is missing", "end (s)"]),
+    // Keys.
+    ("unknown key", "mass = 1.0", "mass = 1.0\nmas = 2.0", "5:1", &["unknown key `mas`", "mass, damping, stiffness"]),
+    ("unknown table", "[initial]", "[inital]", "21:2", &["unknown key `inital`", "initial"]),
+    ("unknown kind of load", "harmonic =", "sine =", "19:1", &["unknown key `sine`", "harmonic"]),
+    ("unknown key of a load", "phase = 0.0", "phi = 0.0", "19:48", &["unknown key `phi`", "phase"]),
+    ("mass missing", "mass = 1.0\n", "", "3:1", &["`mass` is missing in `system.oscillator`", "kg"]),
+    ("end missing", "end = 10.0\n", "", "25:1", &["`end` is missing in `time`", "in s"]),
+    ("position missing", "position = -5e-3\n", "", "13:1", &["`position` is missing in `wall`", "in m"]),
+    ("amplitude missing", "amplitude = 3.0, ", "", "19:12", &["`amplitude` is missing in `load.harmonic`", "in N"]),
+    // Values.
+    ("negative mass", "mass = 1.0", "mass = -1.0", "4:8", &["system.oscillator.mass", "-1.0", "above 0"]),
+    ("no mass", "mass = 1.0", "mass = 0", "4:8", &["system.oscillator.mass", "above 0"]),
+    ("mass not a number", "mass = 1.0", "mass = nan", "4:8", &["system.oscillator.mass", "NaN", "finite"]),
+    ("negative damping", "damping = 0.2", "damping = -0.2", "5:11", &["system.oscillator.damping", "0 or more"]),
+    ("infinite stiffness", "stiffness = 100.0", "stiffness = inf", "6:13", &["system.oscillator.stiffness", "finite"]),
+    ("negative stiffness", "stiffness = 100.0", "stiffness = -1e308", "6:13", &["system.oscillator.stiffness", "-1e308"]),
+    ("wall nowhere", "position = 5e-3", "position = nan", "11:12", &["wall \"upper\": position", "finite"]),
+    ("wall infinitely far", "position = -5e-3", "position = -inf", "16:12", &["wall \"lower\": position", "finite"]),
+    ("restitution above 1", "position = 5e-3", "position = 5e-3\nrestitution = 1.5", "12:15", &["wall \"upper\": restitution", "from 0 to 1"]),
+    ("restitution below 0", "position = 5e-3", "position = 5e-3\nrestitution = -0.1", "12:15", &["restitution", "from 0 to 1"]),
+    ("restitution of an elastic wall", "position = 5e-3", "position = 5e-3\nstiffness = 1e3\nrestitution = 1", "13:15", &["restitution and stiffness", "elastic"]),
+    ("dashpot of a rigid wall", "position = 5e-3", "position = 5e-3\ndamping = 1.0", "12:11", &["damping without stiffness", "stiffness"]),
+    ("soft wall of no stiffness", "position = 5e-3", "position = 5e-3\nstiffness = 0", "12:13", &["wall \"upper\": stiffness", "above 0"]),
+    ("elastic wall with negative damping", "position = 5e-3", "position = 5e-3\nstiffness = 1\ndamping = -1", "13:11", &["wall \"upper\": damping", "0 or more"]),
+    ("bad side", "side = \"upper\"", "side = \"left\"", "10:8", &["wall \"upper\": side", "\"upper\" or \"lower\""]),
+    ("bad name", "name = \"upper\"", "name = \"the upper\"", "9:8", &["wall 1: name", "letters, digits"]),
+    ("empty name", "name = \"lower\"", "name = \"\"", "14:8", &["wall 2: name", "letters, digits"]),
+    ("two walls of one name", "name = \"lower\"", "name = \"upper\"", "14:8", &["wall 2: name", "a name of its own"]),
+    ("walls crossing", "position = -5e-3", "position = 6e-3", "11:12", &["wall \"upper\": position", "0.006", "\"lower\""]),
+    ("start above a wall", "displacement = 0.0", "displacement = 6e-3", "22:16", &["initial.displacement", "at most 0.005"]),
+    ("start below one of three walls", "position = -5e-3", "position = 1e-3\n[[wall]]\nname = \"a\"\nside = \"lower\"\nposition = 2e-3", "26:16", &["initial.displacement", "at least 0.001"]),
+    ("start not finite", "velocity = 0.0", "velocity = inf", "23:12", &["initial.velocity", "finite"]),
+    ("amplitude not a number", "amplitude = 3.0", "amplitude = nan", "19:26", &["load 1: amplitude", "finite"]),
+    ("negative frequency", "frequency = 5.0", "frequency = -5.0", "19:43", &["load 1: frequency", "0 or more"]),
+    ("frequency too large", "frequency = 5.0", "frequency = 1e308", "19:43", &["load 1: frequency", "finite"]),
+    ("infinite phase", "phase = 0.0", "phase = inf", "19:56", &["load 1: phase", "finite"]),
+    ("blow before the start", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "impulse = { impulse = 1, time = -1 }", "19:33", &["load 1: time", "0 or more"]),
+    ("infinite weight", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "constant = { force = inf }", "19:22", &["load 1: force", "finite"]),
+    ("two kinds", "[[load]]", "[[load]]\nconstant = { force = 1.0 }", "20:12", &["two kinds", "one kind in each"]),
+    ("no kind", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "", "18:1", &["load 1 has no kind", "constant"]),
+    ("table that is not there", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\" }", "19:18", &["no.csv", "no such file", "time_s,force_N"]),
+    ("table that is a folder", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \".\" }", "19:18", &["a folder", "time_s,force_N"]),
+    // Times.
+    ("no time", "end = 10.0", "end = 0.0", "26:7", &["time.end", "above 0"]),
+    ("endless", "end = 10.0", "end = inf", "26:7", &["time.end", "finite"]),
+    ("step of nothing", "step = 1e-4", "step = 0", "27:8", &["time.step", "above 0"]),
+    ("step backwards", "step = 1e-4", "step = -1e-4", "27:8", &["time.step", "above 0"]),
+    ("step not a number", "step = 1e-4", "step = nan", "27:8", &["time.step", "finite"]),
+    ("step as long as the run", "step = 1e-4", "step = 10.0", "27:8", &["time.step", "less than time.end, 10.0"]),
+    ("too many steps", "step = 1e-4", "step = 1e-10", "27:8", &["time.step", "at most 1e10 steps"]),
+    ("too many samples", "sample = 1e-3", "sample = 1e-7", "28:10", &["time.sample", "at most 1e7 rows"]),
+    ("too many samples, unsaid", "step = 1e-4\nsample = 1e-3", "step = 1e-8", "27:8", &["time.step", "time.sample"]),
+    ("sample beyond the end", "sample = 1e-3", "sample = 11", "28:10", &["time.sample", "at most time.end"]),
+    ("negative sample", "sample = 1e-3", "sample = -1e-3", "28:10", &["time.sample", "above 0"]),
+    ("statistics after the end", "sample = 1e-3", "statistics_from = 10.0", "28:19", &["time.statistics_from", "less than time.end"]),
+    ("statistics before the start", "sample = 1e-3", "statistics_from = -1", "28:19", &["time.statistics_from", "0 or more"]),
+    // Penalty.
+    ("no epsilon", "[1e-12, 1e-9]", "[]", "31:11", &["penalty.epsilon", "one value or more"]),
+    ("epsilon of nothing", "1e-9]", "0.0]", "31:19", &["penalty law 2: epsilon", "above 0"]),
+    ("negative epsilon", "[1e-12,", "[-1e-12,", "31:12", &["penalty law 1: epsilon", "above 0"]),
+    ("epsilon twice", "1e-9]", "1e-12]", "31:19", &["penalty law 2", "each law once"]),
+    ("epsilon and stiffness", "1e-9]", "1e-9]\nstiffness = [1e8]", "32:13", &["both epsilon and stiffness", "linear"]),
+    ("damping beside epsilon", "1e-9]", "1e-9]\ndamping = 1.0", "32:11", &["penalty.damping", "beside stiffness"]),
+    ("negative penalty damping", "epsilon = [1e-12, 1e-9]", "stiffness = [1e8]\ndamping = -1", "32:11", &["penalty law 1: damping", "0 or more"]),
+    ("penalty of no stiffness", "epsilon = [1e-12, 1e-9]", "stiffness = [1e8, 0]", "31:19", &["penalty law 2: stiffness", "above 0"]),
+    ("unknown integrator", "1e-9]", "1e-9]\nintegrator = \"leapfrog\"", "32:14", &["penalty.integrator", "trapezoidal, implicit-euler, central-difference, discrete-gradient"]),
+    ("epsilon with one wall", "[[wall]]\nname = \"lower\"\nside = \"lower\"\nposition = -5e-3\n", "", "27:12", &["penalty law 1: epsilon", "stiffness, in N/m"]),
+    ("epsilon with walls that touch", "position = -5e-3", "position = 5e-3 # start: below", "22:16", &["initial.displacement", "at least 0.005"]),
+];
+
+#[test]
+fn the_case_that_the_wrong_ones_start_from_is_right() {
+    assert!(Case::parse(RIGHT, "right.toml", "").is_ok());
+}
+
+#[test]
+fn every_wrong_case_file_is_refused_at_its_place() {
+    assert!(WRONG.len() >= 40);
+    let mut failures = String::new();
+    for (what, old, new, place, words) in WRONG {
+        assert!(RIGHT.contains(old), "{what}: nothing to replace");
+        let text = RIGHT.replacen(old, new, 1);
+        let said = match Case::parse(&text, "wrong.toml", "") {
+            Ok(_) => "ACCEPTED".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        let at = format!("--> wrong.toml:{place}\n");
+        let fits = said.starts_with("error: ")
+            && said.contains(&at)
+            && said.contains("expected")
+            && words.iter().all(|w| said.contains(w))
+            && said.is_ascii();
+        if !fits {
+            failures += &format!("{what}: wanted {place} and {words:?}\n{said}\n\n");
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn a_start_that_is_not_written_down_is_refused_at_the_wall() {
+    let text = RIGHT.replace("displacement = 0.0\n", "").replace("position = 5e-3", "position = -1e-3");
+    let said = Case::parse(&text, "wrong.toml", "").unwrap_err().to_string();
+    assert!(said.contains("--> wrong.toml:11:12\n") && said.contains("initial.displacement is 0.0"), "{said}");
+}
+
+#[test]
+fn an_error_reads_like_a_compilers() {
+    let text = RIGHT.replace("mass = 1.0", "mass = -1.0   # kg");
+    let said = Case::parse(&text, "wrong.toml", "").unwrap_err().to_string();
+    let expected = "\
+error: system.oscillator.mass is -1.0
+ --> wrong.toml:4:8
+  |
+4 | mass = -1.0   # kg
+  |        ^^^^
+  |
+  = help: expected a finite number above 0";
+    assert_eq!(said, expected);
+}
+
+#[test]
+fn an_elastic_wall_may_hold_the_start() {
+    let text = RIGHT
+        .replace("displacement = 0.0", "displacement = 6e-3")
+        .replace("position = 5e-3", "position = 5e-3\nstiffness = 100.0");
+    assert!(Case::parse(&text, "preload.toml", "").is_ok());
+}
+
+#[test]
+fn a_malformed_table_is_refused_at_its_own_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    let table = folder.path().join("force.csv");
+    let text = RIGHT.replace("[initial]", "[[load]]\ntable = { file = \"force.csv\" }\n\n[initial]");
+    fs::write(&case, text).unwrap();
+    let wrong: &[(&[u8], &str, &str)] = &[
+        (b"", "1:1", "0 rows"),
+        (b"time,force\n0,0\n1,1\n", "1:1", "time_s,force_N"),
+        (b"0,0\n1,1\n", "1:1", "time_s,force_N"),
+        (b"time_s,force_N\n", "1:15", "two rows"),
+        (b"time_s,force_N\n0,1\n", "2:4", "1 row"),
+        (b"time_s,force_N\n0,1\n0,2\n", "3:1", "more than the row before"),
+        (b"time_s,force_N\n0,1\n\n-1,2\n", "4:1", "more than the row before"),
+        (b"time_s,force_N\n0,1\n1,two\n", "3:3", "force_N is \"two\""),
+        (b"time_s,force_N\n0,1\nnan,2\n", "3:1", "time_s is \"nan\""),
+        (b"time_s,force_N\r\n0,1\r\n1,inf\r\n", "3:3", "finite"),
+        (b"time_s,force_N\n0,1\n1,2,3\n", "3:1", "3 values"),
+        (b"time_s,force_N\n0,1\n1\n", "3:1", "1 value in"),
+        (b"time_s,force_N\n0;1\n1;2\n", "2:1", "1 value in"),
+        (b"time_s,force_N\n0,\"1\n1,2\n", "2:3", "finite"),
+    ];
+    for (bytes, place, words) in wrong {
+        fs::write(&table, bytes).unwrap();
+        let said = Case::read(&case).unwrap_err().to_string();
+        let at = format!("--> {}:{place}\n", table.display());
+        assert!(said.contains(&at) && said.contains("expected") && said.contains(words), "{bytes:?} {place}\n{said}");
+    }
+    fs::write(&table, b"time_s,force_N\n0,1\n1,\xff\n").unwrap();
+    let said = Case::read(&case).unwrap_err().to_string();
+    assert!(said.contains("line 3 is not UTF-8") && said.contains("case.toml:22:18"), "{said}");
+    fs::write(&table, b"\xef\xbb\xbftime_s,force_N\r\n0, 1\r\n1, 2\r\n").unwrap();
+    assert!(Case::read(&case).is_ok(), "{:?}", Case::read(&case));
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_a_wrong_request() {
+    let folder = tempfile::tempdir().unwrap();
+    let binary = folder.path().join("binary.toml");
+    fs::write(&binary, b"title = \"a\"\n\xff\xfe").unwrap();
+    let large = folder.path().join("large.toml");
+    fs::write(&large, vec![b'\n'; (1 << 20) + 1]).unwrap();
+    let missing = folder.path().join("rigid-walls-sine.toml");
+    let wrong = [
+        (missing.as_path(), "signorini new rigid-walls-sine"),
+        (folder.path(), "a folder, not a file"),
+        (binary.as_path(), "line 2 is not UTF-8"),
+        (large.as_path(), "more than 1048576 bytes"),
+        (std::path::Path::new("/dev/null"), "not a regular file"),
+    ];
+    for (path, words) in wrong {
+        let error = Case::read(path).unwrap_err();
+        assert!(matches!(error, Error::Io { request: true, .. }), "{error:?}");
+        let said = error.to_string();
+        assert!(said.contains(&path.display().to_string()) && said.contains(words), "{said}");
+    }
+}

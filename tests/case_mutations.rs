@@ -1,0 +1,143 @@
+//! Case files with random changes: refused at a place or accepted and sound, never a panic.
+#![cfg(feature = "cli")]
+
+use proptest::prelude::*;
+use signorini::Error;
+use signorini::case::{Case, Embedded};
+
+/// One change to a text: at a place (a fraction of its length), something cut, doubled or replaced.
+#[derive(Debug, Clone)]
+enum Change {
+    Cut(f64, usize),
+    Double(f64, usize),
+    Byte(f64, u8),
+    Number(f64, usize),
+    Token(f64, f64),
+}
+
+const NUMBERS: &[&str] = &[
+    "nan",
+    "-nan",
+    "inf",
+    "-inf",
+    "-1",
+    "0",
+    "-0.0",
+    "1e308",
+    "-1e308",
+    "5e-324",
+    "1e400",
+    "9223372036854775808",
+    "[]",
+];
+
+fn changes() -> impl Strategy<Value = Vec<Change>> {
+    let at = || 0.0..1.0;
+    let one = prop_oneof![
+        (at(), 1..20_usize).prop_map(|(a, n)| Change::Cut(a, n)),
+        (at(), 1..40_usize).prop_map(|(a, n)| Change::Double(a, n)),
+        (at(), any::<u8>()).prop_map(|(a, b)| Change::Byte(a, b)),
+        (at(), 0..NUMBERS.len()).prop_map(|(a, n)| Change::Number(a, n)),
+        (at(), 0..NUMBERS.len()).prop_map(|(a, n)| Change::Number(a, n)),
+        (at(), at()).prop_map(|(a, b)| Change::Token(a, b)),
+    ];
+    prop::collection::vec(one, 1..4)
+}
+
+/// Where the words of a text start and end.
+fn words(text: &[u8], is: impl Fn(u8) -> bool) -> Vec<std::ops::Range<usize>> {
+    let mut found = Vec::new();
+    let mut start = 0;
+    for end in 0..=text.len() {
+        if text.get(end).is_none_or(|b| !is(*b)) {
+            if end > start {
+                found.push(start..end);
+            }
+            start = end + 1;
+        }
+    }
+    found
+}
+
+fn pick(from: usize, fraction: f64) -> usize {
+    ((from as f64 * fraction) as usize).min(from.saturating_sub(1))
+}
+
+fn apply(text: &mut Vec<u8>, change: &Change) {
+    if text.is_empty() {
+        return;
+    }
+    let word = |b: u8| b.is_ascii_alphanumeric() || b"+-._[]".contains(&b);
+    match *change {
+        Change::Cut(at, n) => {
+            let at = pick(text.len(), at);
+            text.drain(at..(at + n).min(text.len()));
+        }
+        Change::Double(at, n) => {
+            let at = pick(text.len(), at);
+            let end = (at + n).min(text.len());
+            let copy = text[at..end].to_vec();
+            text.splice(at..at, copy);
+        }
+        Change::Byte(at, byte) => {
+            let at = pick(text.len(), at);
+            text[at] = byte;
+        }
+        Change::Number(at, n) => {
+            let mut numbers = words(text, |b| b.is_ascii_digit() || b"+-.e".contains(&b));
+            numbers.retain(|r| text[r.clone()].iter().any(u8::is_ascii_digit));
+            if !numbers.is_empty() {
+                let place = numbers[pick(numbers.len(), at)].clone();
+                text.splice(place, NUMBERS[n].bytes());
+            }
+        }
+        Change::Token(at, from) => {
+            let tokens = words(text, word);
+            if !tokens.is_empty() {
+                let copy = text[tokens[pick(tokens.len(), from)].clone()].to_vec();
+                text.splice(tokens[pick(tokens.len(), at)].clone(), copy);
+            }
+        }
+    }
+}
+
+/// Lines without their remarks, so that changes fall on what counts.
+fn bare(text: &str) -> String {
+    text.lines().map(|line| line.split('#').next().unwrap_or_default().trim_end().to_owned() + "\n").collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn mutated_case_files_never_panic_and_what_is_accepted_makes_sense(
+        which in 0..Embedded::all().len(),
+        stripped in any::<bool>(),
+        changes in changes(),
+    ) {
+        let embedded = &Embedded::all()[which];
+        let mut text = if stripped { bare(embedded.text) } else { embedded.text.to_owned() }.into_bytes();
+        for change in &changes {
+            apply(&mut text, change);
+        }
+        let text = String::from_utf8_lossy(&text);
+        match Case::parse(&text, "mutated.toml", "cases") {
+            Ok(case) => {
+                prop_assert!(case.scene.validate().is_ok());
+                prop_assert!(case.validate().is_ok());
+            }
+            Err(error) => {
+                prop_assert!(matches!(error, Error::Case(_)), "{error:?}");
+                let said = error.to_string();
+                prop_assert!(said.starts_with("error: "), "{}", said);
+                prop_assert!(said.contains("--> mutated.toml:") || said.contains("tabulated-pulse.csv:"), "{}", said);
+                prop_assert!(said.contains("help: expected "), "{}", said);
+            }
+        }
+    }
+
+    #[test]
+    fn any_text_at_all_is_read_or_refused(text in ".{0,200}") {
+        prop_assert!(Case::parse(&text, "any.toml", "").is_err());
+    }
+}
