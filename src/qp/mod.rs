@@ -3,8 +3,32 @@
 //! minimise ½ xᵀA x − bᵀx + Σ sᵢ²/(2cᵢ)   subject to   lᵢ ≤ gᵢ·x ≤ uᵢ (cᵢ = 0),   lᵢ − sᵢ ≤ gᵢ·x ≤ uᵢ + sᵢ (cᵢ > 0).
 //!
 //! The multipliers r are signed so that A x = b + Gᵀ r: rᵢ ≥ 0 at a lower bound, rᵢ ≤ 0 at an upper bound.
+//! Written on the rows alone, with y = G x + diag(c) r = G A⁻¹ b + W r and the Delassus operator
+//! W = G A⁻¹ Gᵀ + diag(c), rigid and elastic rows obey one law:
+//!
+//! lᵢ ≤ yᵢ ≤ uᵢ,   rᵢ ≥ 0 only where yᵢ = lᵢ,   rᵢ ≤ 0 only where yᵢ = uᵢ.
+//!
+//! | solver | what it does |
+//! |---|---|
+//! | [`Backend::Clamp`] | one unknown: exact, finite, nanoseconds |
+//! | [`Backend::Clarabel`] | any number: an interior point finds the rows in play, then they are solved exactly |
+//!
+//! [`clamp()`] is the same scalar programme without matrices, for kernels that hold floats only.
 
 use nalgebra::{DMatrix, DVector};
+
+mod active_set;
+mod backend;
+mod clamp;
+mod clarabel;
+mod delassus;
+mod failure;
+mod solver;
+
+pub use backend::Backend;
+pub use clamp::{ScalarRow, clamp};
+pub use failure::Failure;
+pub use solver::{Counters, Solver};
 
 /// What stays the same over all steps of a run.
 #[derive(Debug, Clone)]
@@ -17,14 +41,14 @@ pub struct Problem {
     pub compliance: DVector<f64>,
 }
 
-/// What changes from step to step. Infinite bounds are rows without that side.
+/// What changes from step to step. Infinite bounds are rows without that side, in this step.
 #[derive(Debug, Clone, Copy)]
 pub struct Rhs<'a> {
-    /// b, n entries.
+    /// b, n entries, finite.
     pub b: &'a [f64],
-    /// l, m entries.
+    /// l, m entries, finite or −∞.
     pub lo: &'a [f64],
-    /// u, m entries.
+    /// u, m entries, finite or +∞.
     pub hi: &'a [f64],
 }
 
@@ -35,4 +59,51 @@ pub struct Solution {
     pub x: Vec<f64>,
     /// r, m entries, signed.
     pub multiplier: Vec<f64>,
+}
+
+/// How far bounds may cross, relative to the lengths in play, and still count as one place (dimensionless): walls at
+/// one place give bounds some ulps apart, 1e-16 each, after a scheme has combined them with states.
+const ROUNDING: f64 = 1e-12;
+
+impl Problem {
+    /// Sizes agree and every entry is a number: n ≥ 1, A n × n, G m × n, compliance m entries, none negative.
+    fn check(&self) -> Result<(), Failure> {
+        let n = self.a.ncols();
+        shape("unknowns", 1, n.min(1))?;
+        shape("rows of A", n, self.a.nrows())?;
+        shape("columns of G", n, self.g.ncols())?;
+        shape("compliances", self.g.nrows(), self.compliance.len())?;
+        finite("A", self.a.as_slice(), |v| v.is_finite())?;
+        finite("G", self.g.as_slice(), |v| v.is_finite())?;
+        finite("compliance", self.compliance.as_slice(), |v| v.is_finite() && v >= 0.0)
+    }
+}
+
+impl Rhs<'_> {
+    /// Sizes agree, b is finite, l < +∞, u > −∞, and no row's own bounds cross by more than rounding.
+    fn check(&self, n: usize, m: usize, scale: f64) -> Result<(), Failure> {
+        shape("entries of b", n, self.b.len())?;
+        shape("lower bounds", m, self.lo.len())?;
+        shape("upper bounds", m, self.hi.len())?;
+        finite("b", self.b, |v| v.is_finite())?;
+        finite("lower bound", self.lo, |v| v < f64::INFINITY)?;
+        finite("upper bound", self.hi, |v| v > f64::NEG_INFINITY)?;
+        for (row, (&lo, &hi)) in self.lo.iter().zip(self.hi).enumerate() {
+            if lo - hi > ROUNDING * scale.max(lo.abs()).max(hi.abs()) {
+                return Err(Failure::Infeasible { row, against: row });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn shape(what: &'static str, expected: usize, found: usize) -> Result<(), Failure> {
+    if expected == found { Ok(()) } else { Err(Failure::Shape { what, expected, found }) }
+}
+
+fn finite(what: &'static str, values: &[f64], sound: impl Fn(f64) -> bool) -> Result<(), Failure> {
+    match values.iter().position(|&v| !sound(v)) {
+        Some(index) => Err(Failure::NotFinite { what, index }),
+        None => Ok(()),
+    }
 }

@@ -1,0 +1,50 @@
+//! The choice of solver.
+
+use crate::error::Error;
+use std::fmt;
+use std::str::FromStr;
+
+/// Who solves the programme.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Backend {
+    /// One unknown: [`Backend::Clamp`]; several: [`Backend::Clarabel`].
+    #[default]
+    Auto,
+    /// The exact solution of the scalar programme. One unknown only.
+    Clamp,
+    /// The interior-point solver Clarabel, polished to rounding.
+    Clarabel,
+}
+
+impl Backend {
+    /// Every choice, in the order in which they are listed to users.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Clamp, Self::Clarabel];
+
+    /// The name by which a user asks for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Clamp => "clamp",
+            Self::Clarabel => "clarabel",
+        }
+    }
+}
+
+impl fmt::Display for Backend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Backend {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self, Error> {
+        Self::ALL.into_iter().find(|backend| backend.name() == name).ok_or_else(|| Error::Unknown {
+            kind: "QP solver",
+            name: name.to_owned(),
+            known: Self::ALL.iter().map(ToString::to_string).collect(),
+        })
+    }
+}

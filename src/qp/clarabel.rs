@@ -1,0 +1,180 @@
+//! The interior-point solver Clarabel: finds which rows are in play. The only file that names it.
+//!
+//! What it is given is dimensionless and free of the free motion. With x = x_free + v D x̂, D = diag(A)^(−1/2),
+//! ρᵢ = √Wᵢᵢ and v the largest violation (l − y)/ρ or (y − u)/ρ of the free motion,
+//!
+//! minimise ½ x̂ᵀ D A D x̂   subject to   ±(ρ⁻¹ G D) x̂ ≤ ±(bound − y_free)/(ρ v),
+//!
+//! so that every diagonal of the matrix and of its Delassus operator is 1, the largest violation is 1 whatever the
+//! units (its stopping test compares with 1), the linear term is 0 and only `update_b` is needed. An elastic row is a
+//! rigid one with an unknown yield s of cost s²/(2c) added to g·x.
+
+use super::active_set::{ActiveSet, Side};
+use super::clamp::meet;
+use super::delassus::Delassus;
+use super::{Failure, Problem, Rhs};
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
+use nalgebra::DMatrix;
+
+/// Stopping tolerance of gap and feasibility (dimensionless). It has to tell force from gap, which polishing then makes
+/// exact; beyond 1e-12 the solver stalls.
+const TOLERANCE: f64 = 1e-9;
+
+/// A bound further than this from the free motion, in largest violations, is brought here: infinite and distant bounds
+/// would set the scale of the stopping test. The polishing checks the true bounds of every row afterwards.
+const DISTANT: f64 = 1e3;
+
+/// Every bound is opened by this many largest violations, so that walls at one place leave an interior; far above
+/// [`TOLERANCE`], far below what tells a touching row from a free one. The polishing returns to the true bounds.
+const OPENING: f64 = 1e-7;
+
+/// One persistent solver over the sides of rows that have been finite so far.
+pub(super) struct Clarabel {
+    /// D A D with the yields of elastic rows behind it; upper triangle.
+    cost: CscMatrix<f64>,
+    /// ρ⁻¹ [G D, yields], m rows.
+    rows: DMatrix<f64>,
+    /// Inequality ↔ side of a row, in the solver's order.
+    sides: Vec<(usize, Side)>,
+    /// Whether a side is among them: lower and upper of each row.
+    known: Vec<[bool; 2]>,
+    bound: Vec<f64>,
+    solver: Option<Box<DefaultSolver<f64>>>,
+}
+
+impl Clarabel {
+    pub(super) fn new(problem: &Problem, system: &Delassus) -> Self {
+        let (n, m) = (problem.a.ncols(), problem.g.nrows());
+        let unit: Vec<f64> = problem.a.diagonal().iter().map(|d| 1.0 / d.sqrt()).collect();
+        let elastic: Vec<usize> = (0..m).filter(|&i| problem.compliance[i] > 0.0).collect();
+        let mut cost = DMatrix::identity(n + elastic.len(), n + elastic.len());
+        let mut rows = DMatrix::zeros(m, n + elastic.len());
+        for j in 0..n {
+            for i in 0..j {
+                cost[(i, j)] = unit[i] * problem.a[(i, j)] * unit[j];
+            }
+            for i in 0..m {
+                rows[(i, j)] = problem.g[(i, j)] * unit[j] / system.weight[i];
+            }
+        }
+        for (k, &i) in elastic.iter().enumerate() {
+            rows[(i, n + k)] = problem.compliance[i].sqrt() / system.weight[i];
+        }
+        Self {
+            cost: sparse(&cost),
+            rows,
+            sides: Vec::with_capacity(2 * m),
+            known: vec![[false; 2]; m],
+            bound: Vec::with_capacity(2 * m),
+            solver: None,
+        }
+    }
+
+    /// Solves for the free motion held in `system`, whose largest violation is `violation` > 0, and calls into `play`
+    /// the rows whose multiplier exceeds their gap. Returns the number of iterations.
+    pub(super) fn find(
+        &mut self,
+        system: &Delassus,
+        rhs: &Rhs,
+        violation: f64,
+        play: &mut ActiveSet,
+    ) -> Result<u64, Failure> {
+        self.learn(rhs);
+        self.bound.clear();
+        for &(row, side) in &self.sides {
+            let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
+            let gap = if side == Side::Lower { system.y[row] - lo } else { hi - system.y[row] };
+            self.bound.push((gap / (system.weight[row] * violation)).min(DISTANT) + OPENING);
+        }
+        match &mut self.solver {
+            Some(solver) => {
+                solver.update_b(&self.bound).map_err(|_| Failure::NotSolved { status: "update refused" })?;
+            }
+            None => self.solver = Some(self.build()?),
+        }
+        let Some(solver) = &mut self.solver else { return Err(Failure::NotSolved { status: "not built" }) };
+        solver.solve();
+        let solution = &solver.solution;
+        if solution.status != SolverStatus::Solved {
+            return Err(Failure::NotSolved { status: words(solution.status) });
+        }
+        for (i, &(row, side)) in self.sides.iter().enumerate() {
+            if solution.z[i] > solution.s[i] {
+                play.push(system, row, side);
+            }
+        }
+        Ok(u64::from(solution.iterations))
+    }
+
+    /// Adds sides that are finite for the first time; a side once seen stays, at most [`DISTANT`] away when absent.
+    fn learn(&mut self, rhs: &Rhs) {
+        for (row, known) in self.known.iter_mut().enumerate() {
+            let finite = [rhs.lo[row].is_finite(), rhs.hi[row].is_finite()];
+            for (side, index) in [(Side::Lower, 0), (Side::Upper, 1)] {
+                if finite[index] && !known[index] {
+                    known[index] = true;
+                    self.sides.push((row, side));
+                    self.solver = None;
+                }
+            }
+        }
+    }
+
+    fn build(&self) -> Result<Box<DefaultSolver<f64>>, Failure> {
+        let inequality = DMatrix::from_fn(self.sides.len(), self.rows.ncols(), |i, j| {
+            let (row, side) = self.sides[i];
+            -side.sign() * self.rows[(row, j)]
+        });
+        let settings = DefaultSettings {
+            verbose: false,
+            max_threads: 1,
+            // Updates are refused where presolve may have removed something.
+            presolve_enable: false,
+            tol_gap_abs: TOLERANCE,
+            tol_gap_rel: TOLERANCE,
+            tol_feas: TOLERANCE,
+            ..DefaultSettings::default()
+        };
+        DefaultSolver::new(
+            &self.cost,
+            &vec![0.0; self.cost.n],
+            &sparse(&inequality),
+            &self.bound,
+            &[NonnegativeConeT(self.sides.len())],
+            settings,
+        )
+        .map(Box::new)
+        .map_err(|_| Failure::NotSolved { status: "programme refused" })
+    }
+}
+
+/// Compressed columns without the zeros.
+fn sparse(full: &DMatrix<f64>) -> CscMatrix<f64> {
+    let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+    for column in full.column_iter() {
+        for (i, &value) in column.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            rows.push(i);
+            values.push(value);
+        }
+        starts.push(rows.len());
+    }
+    CscMatrix::new(full.nrows(), full.ncols(), starts, rows, values)
+}
+
+const fn words(status: SolverStatus) -> &'static str {
+    match status {
+        SolverStatus::Unsolved => "not run",
+        SolverStatus::Solved => "solved",
+        SolverStatus::PrimalInfeasible => "primal infeasible",
+        SolverStatus::DualInfeasible => "dual infeasible",
+        SolverStatus::AlmostSolved => "solved to reduced accuracy only",
+        SolverStatus::AlmostPrimalInfeasible => "probably primal infeasible",
+        SolverStatus::AlmostDualInfeasible => "probably dual infeasible",
+        SolverStatus::MaxIterations => "too many iterations",
+        SolverStatus::MaxTime => "out of time",
+        SolverStatus::NumericalError => "numerical error",
+        SolverStatus::InsufficientProgress => "no progress",
+        SolverStatus::CallbackTerminated => "interrupted",
+    }
+}
