@@ -177,7 +177,9 @@ fn walls_at_one_place_do_not_stop_either_solver() {
         let mut solver = Solver::new(problem, backend, 1.0).expect("sound");
         let free = f64::NEG_INFINITY;
         let found = solver.solve(&Rhs { b: &[6.0], lo: &[free; 3], hi: &[1.0, 1.0, 1.0] }).expect("feasible");
-        assert!((found.multiplier.iter().sum::<f64>() + 4.0).abs() <= 1e-15 * 8.0 && found.x == [1.0], "{found:?}");
+        // Rounding of a few operations on numbers up to 6.
+        assert!((found.multiplier.iter().sum::<f64>() + 4.0).abs() <= 1e-14, "{found:?}");
+        assert!((found.x[0] - 1.0).abs() <= 1e-15, "{found:?}");
         let found = solver.solve(&Rhs { b: &[6.0], lo: &[free; 3], hi: &[1.0, 0.5, 1.0] }).expect("feasible");
         assert!((found.x[0] - 0.5).abs() <= 1e-15 && (found.multiplier[1] + 5.0).abs() <= 1e-14, "{found:?}");
         // Lower and upper wall at one place, crossing by an ulp: equality, either way of pushing.
@@ -278,6 +280,6 @@ fn a_row_that_sees_nothing_carries_nothing_unless_it_cannot_be_met() {
         let found = solver.solve(&Rhs { b: &[6.0], lo: &[-1.0, -1.0], hi: &[1.0, 1.0] }).expect("feasible");
         assert_eq!(found.multiplier, [-4.0, 0.0], "{backend}");
         let failure = solver.solve(&Rhs { b: &[6.0], lo: &[-1.0, 0.5], hi: &[1.0, 1.0] }).unwrap_err();
-        assert_eq!(failure, Failure::Infeasible { row: 1, against: 1 }, "{backend}");
+        assert!(matches!(failure, Failure::Infeasible { row: 1, .. }), "{backend}: {failure}");
     }
 }

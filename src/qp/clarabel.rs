@@ -23,11 +23,16 @@ const TOLERANCE: f64 = 1e-9;
 
 /// A bound further than this from the free motion, in largest violations, is brought here: infinite and distant bounds
 /// would set the scale of the stopping test. The polishing checks the true bounds of every row afterwards.
-const DISTANT: f64 = 1e3;
+const DISTANT: f64 = 1e2;
 
 /// Every bound is opened by this many largest violations, so that walls at one place leave an interior; far above
 /// [`TOLERANCE`], far below what tells a touching row from a free one. The polishing returns to the true bounds.
-const OPENING: f64 = 1e-7;
+/// Some 3 programmes in 1e5 run into Clarabel's limit of iterations; the second opening is tried on those.
+const OPENINGS: [f64; 2] = [1e-7, 1e-6];
+
+/// Rounding of bounds and free motion, relative to the lengths in play: opened too, since at a violation of this size
+/// the bounds of walls at one place cross by as much.
+pub(super) const NOISE: f64 = 16.0 * f64::EPSILON;
 
 /// One persistent solver over the sides of rows that have been finite so far.
 pub(super) struct Clarabel {
@@ -78,33 +83,44 @@ impl Clarabel {
         system: &Delassus,
         rhs: &Rhs,
         violation: f64,
+        scale: f64,
         play: &mut ActiveSet,
     ) -> Result<u64, Failure> {
         self.learn(rhs);
-        self.bound.clear();
-        for &(row, side) in &self.sides {
-            let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
-            let gap = if side == Side::Lower { system.y[row] - lo } else { hi - system.y[row] };
-            self.bound.push((gap / (system.weight[row] * violation)).min(DISTANT) + OPENING);
-        }
-        match &mut self.solver {
-            Some(solver) => {
-                solver.update_b(&self.bound).map_err(|_| Failure::NotSolved { status: "update refused" })?;
+        let mut iterations = 0;
+        let mut outcome = SolverStatus::Unsolved;
+        for opening in OPENINGS {
+            self.bound.clear();
+            for &(row, side) in &self.sides {
+                let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
+                let gap = if side == Side::Lower { system.y[row] - lo } else { hi - system.y[row] };
+                let unit = system.weight[row] * violation;
+                self.bound.push((gap / unit).min(DISTANT) + opening + NOISE * scale / unit);
             }
-            None => self.solver = Some(self.build()?),
-        }
-        let Some(solver) = &mut self.solver else { return Err(Failure::NotSolved { status: "not built" }) };
-        solver.solve();
-        let solution = &solver.solution;
-        if solution.status != SolverStatus::Solved {
-            return Err(Failure::NotSolved { status: words(solution.status) });
-        }
-        for (i, &(row, side)) in self.sides.iter().enumerate() {
-            if solution.z[i] > solution.s[i] {
-                play.push(system, row, side);
+            match &mut self.solver {
+                Some(solver) => {
+                    solver.update_b(&self.bound).map_err(|_| Failure::NotSolved { status: "update refused" })?;
+                }
+                None => self.solver = Some(self.build()?),
+            }
+            let Some(solver) = &mut self.solver else { return Err(Failure::NotSolved { status: "not built" }) };
+            solver.solve();
+            let solution = &solver.solution;
+            iterations += u64::from(solution.iterations);
+            outcome = solution.status;
+            if outcome == SolverStatus::Solved {
+                for (i, &(row, side)) in self.sides.iter().enumerate() {
+                    if solution.z[i] > solution.s[i] {
+                        play.push(system, row, side);
+                    }
+                }
+                return Ok(iterations);
+            }
+            if outcome == SolverStatus::PrimalInfeasible {
+                break;
             }
         }
-        Ok(u64::from(solution.iterations))
+        Err(Failure::NotSolved { status: words(outcome) })
     }
 
     /// Adds sides that are finite for the first time; a side once seen stays, at most [`DISTANT`] away when absent.
