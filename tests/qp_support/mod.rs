@@ -65,7 +65,7 @@ pub fn random_case(random: &mut Random, n: usize, m: usize) -> Case {
     // Bounds around a point, so that the programme is feasible; touching ones are degenerate.
     let point = DVector::from_fn(n, |_, _| random.between(-1.0, 1.0) * length);
     let seen = &g * &point;
-    let mut side = |random: &mut Random| {
+    let side = |random: &mut Random| {
         if random.chance(0.3) {
             f64::INFINITY
         } else if random.chance(0.1) {
