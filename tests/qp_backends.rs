@@ -283,3 +283,29 @@ fn a_row_that_sees_nothing_carries_nothing_unless_it_cannot_be_met() {
         assert!(matches!(failure, Failure::Infeasible { row: 1, .. }), "{backend}: {failure}");
     }
 }
+
+#[test]
+fn a_programme_on_which_the_interior_point_goes_round_in_circles_is_solved() {
+    // At Clarabel's default step fraction its iterates repeat with period four; shorter steps end it.
+    let problem = Problem {
+        a: DMatrix::from_element(1, 1, 3055.2878678605825),
+        g: DMatrix::from_column_slice(
+            5,
+            1,
+            &[0.7898905926830451, 0.24071841997348065, 0.5854201079716461, -0.892151449047154, 0.16823158006553562],
+        ),
+        compliance: DVector::from_column_slice(&[0.010763075897447781, 0.007824520999232702, 0.0, 0.0, 0.0]),
+    };
+    let (free, inf) = (f64::NEG_INFINITY, f64::INFINITY);
+    let case = Case {
+        problem,
+        b: vec![-0.29847879318872467],
+        lo: vec![-0.002285260348153094, free, -0.00048595586968765256, free, -0.0007649787351108934],
+        hi: vec![0.0034351111187768553, -0.00011386073175148528, inf, 0.0007352108525535764, inf],
+        scale: 0.003855593818009572,
+    };
+    let mut reference = solver(&case, Backend::Clarabel);
+    let found = reference.solve(&case.rhs()).expect("feasible").clone();
+    assert!(reference.counters().iterations > 40, "no cycle any more: the shorter steps may go");
+    assert!(judge(&case, &found).worst() <= 1e-12, "{found:?}"); // rounding, as in the scalar programmes above
+}
