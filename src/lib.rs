@@ -3,6 +3,8 @@
 
 #[cfg(feature = "cli")]
 pub mod case;
+#[cfg(feature = "cli")]
+pub mod cli;
 mod contact;
 mod error;
 pub mod flow;
@@ -16,6 +18,8 @@ mod scene;
 mod scheme;
 mod statistics;
 mod step;
+#[cfg(feature = "cli")]
+pub mod study;
 mod time;
 mod trajectory;
 
@@ -24,7 +28,7 @@ pub use run::{Options, Run, run, run_with_progress};
 pub use scene::{
     Forcing, Harmonic, Load, LoadKind, Oscillator, Probe, Row, Scene, Side, State, System, Table, Wall, WallLaw,
 };
-pub use scheme::{Counters, Integrator, PenaltyLaw, Scheme, Stepper};
+pub use scheme::{Counters, Integrator, Method, PenaltyLaw, Scheme, Stepper};
 pub use statistics::{Statistics, Summary, WallStatistics};
 pub use step::{Balance, Contact, Contract, Path, Promise, Step};
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};

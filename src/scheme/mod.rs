@@ -2,6 +2,7 @@
 
 mod central_difference;
 mod grid;
+mod method;
 mod moreau_jean;
 mod name;
 mod paoli_schatzman;
@@ -13,6 +14,7 @@ mod programme;
 mod stepper;
 
 pub use grid::Counters;
+pub use method::Method;
 pub use penalty_law::{Integrator, PenaltyLaw};
 pub use stepper::Stepper;
 
