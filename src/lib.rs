@@ -5,4 +5,5 @@ pub mod error;
 pub mod flow;
 pub mod qp;
 pub mod scene;
+pub mod scheme;
 pub mod step;

@@ -1,0 +1,3 @@
+//! How time advances.
+
+pub mod event;
