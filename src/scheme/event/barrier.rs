@@ -78,7 +78,7 @@ impl Barrier {
         }
         self.phase = if -self.gap(q) > resolution {
             if self.sum(q, v) > 0.0 { Phase::Touching } else { Phase::Detached }
-        } else if -self.sign * v > 0.0 {
+        } else if self.gap(q) <= resolution && -self.sign * v > 0.0 {
             Phase::Touching
         } else {
             Phase::Outside

@@ -139,7 +139,11 @@ impl Event {
             }
         }
         let carrier = struck.or(held).or(hit).filter(|i| closed.contains(&Some(*i))).unwrap_or(first);
-        let next = if self.v == 0.0 { self.pressed(closed, carrier, extra) } else { None };
+        let mut next = if self.v == 0.0 { self.pressed(closed, carrier, extra) } else { None };
+        if held.is_some() && held == hit && next == held {
+            // The force of this wall has just vanished: only one behind the body could hold it.
+            next = if caught { closed.into_iter().flatten().find(|&w| Some(w) != held) } else { None };
+        }
         if let Some(old) = held.filter(|&old| next != Some(old)) {
             let (time, v) = (self.time, self.v);
             if let Some(b) = self.barriers.get_mut(old) {

@@ -312,7 +312,9 @@ impl Event {
         let support = self.support.and_then(|wall| Some(Support { wall, side: self.barriers.get(wall)?.side }));
         self.arc.begin(&from, touching, support);
         let [_, _, force, rate] = self.arc.sizes();
-        self.force_size = [force / self.body.mass, rate / self.body.mass];
+        // The instant itself is known to an ulp of the time only.
+        let (mass, fastest) = (self.body.mass, self.arc.fastest());
+        self.force_size = [(force + rate * self.time) / mass, rate * (1.0 + fastest * self.time) / mass];
     }
 
     /// Adds the impulses of the arc just run through to the step and to the episodes under way.

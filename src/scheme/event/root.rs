@@ -107,8 +107,9 @@ fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, 
         let at = |s: f64| c0 + s * (c1 + s * (0.5 * c2 + s * (c3 / 6.0 - s * b / 24.0)));
         let value = at(next);
         if value <= enough {
-            // Rounding may put the value below 0: the step is then good to rounding.
-            return (if value < -enough { s } else { next }, value.abs().min(p));
+            // Rounding may put the value below 0: a step a little shorter is then above it.
+            let safe = if value < -enough { s + 0.999 * u } else { next };
+            return (safe, if value < -enough { p } else { value.abs() });
         }
         if next == s {
             return (s, p);

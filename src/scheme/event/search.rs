@@ -135,8 +135,11 @@ impl Event {
         let [q, v, force, rate] = self.arc.sizes();
         let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
         let (mass, rub) = (self.body.mass, self.body.damping / self.body.mass);
-        let a = force / mass + rub * v;
-        [noise(q + wall), noise(v), noise(a), noise(rate / mass + rub * a + self.body.stiffness / mass * v)]
+        // The instant itself is known to an ulp of the time only, and the load with it.
+        let fastest = self.arc.fastest();
+        let a = (force + rate * self.time) / mass + rub * v;
+        let jerk = rate * (1.0 + fastest * self.time) / mass + rub * a + self.body.stiffness / mass * v;
+        [noise(q + wall), noise(v), noise(a), noise(jerk)]
     }
 
     /// The search at rest: the first root of the pressing force.
@@ -150,7 +153,10 @@ impl Event {
         let bound = self.arc.pressing_bound();
         let fastest = self.arc.fastest();
         let longest = if fastest > 0.0 { WINDOW_RADIANS / fastest } else { f64::INFINITY };
-        let noise = [noise(force), noise(rate), noise(rate * fastest), noise(rate * fastest * fastest)];
+        // The instant itself is known to an ulp of the time only.
+        let late = 1.0 + fastest * self.time;
+        let curve = rate * fastest;
+        let noise = [noise(force + rate * self.time), noise(rate * late), noise(curve * late), noise(curve * fastest)];
         let jet = self.arc.jet(0.0);
         self.note_pressures(&jet);
         let (mut tau, mut pressing) = (0.0, self.arc.pressing(support, 0.0));
