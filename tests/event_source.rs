@@ -159,7 +159,7 @@ fn an_elastic_wall_matches_50_digits() {
         .with_load(sine());
     let (states, contacts, impulse) = run(&scene);
     assert_state(&states, (1.0, 0.008889837391506387, -0.2346978410388732), 1e-11);
-    assert_eq!(contacts.len(), 31);
+    assert_eq!(contacts.iter().filter(|c| c.wall == 1).count(), 31);
     let first = contacts[0];
     assert!((first.start - 0.076102054389197125067).abs() < 1e-11);
     assert!((first.end.unwrap() - 0.20540780239347182315).abs() < 1e-11);

@@ -48,6 +48,8 @@ pub struct Arc {
     start: f64,
     end: f64,
     body: Oscillator,
+    /// 1/m, 1/kg.
+    inverse: f64,
     force: LocalForce,
     touching: Vec<Touch>,
     support: Option<Support>,
@@ -79,6 +81,7 @@ impl Arc {
             start: 0.0,
             end: 0.0,
             body,
+            inverse: 1.0 / body.mass,
             force: LocalForce::default(),
             touching: Vec::with_capacity(walls),
             support: None,
@@ -234,17 +237,12 @@ impl Arc {
     /// ẏ(τ+u) = S′(u) ẏ − κ y S(u) + ∫S′ψ′, where |S′| ≤ 1 and |S| ≤ min(u, 1/√κ, 1/2δ) at any damping.
     #[inline]
     pub(crate) fn bounds(&self, jet: &Jet, window: f64) -> [f64; 2] {
-        let Oscillator { mass, mut damping, mut stiffness } = self.body;
-        for a in &self.touching {
-            damping += a.damping;
-            stiffness += a.stiffness;
-        }
-        let (kappa, inverse) = (stiffness / mass, 1.0 / mass);
+        let (kappa, rub, inverse) = (self.response.kappa, 2.0 * self.response.sigma, self.inverse);
         let reach = kappa * window.min(self.response.longest);
         let load = self.force.bounds.map(|b| b * inverse);
         let fourth = jet[4].abs() + reach * jet[3].abs() + window * load[1];
         // The fifth at τ from the equation itself.
-        let fifth_now = load[1] + damping * inverse * jet[4].abs() + kappa * jet[3].abs();
+        let fifth_now = load[1] + rub * jet[4].abs() + kappa * jet[3].abs();
         let fifth = fifth_now + reach * jet[4].abs() + window * load[2];
         [fourth, fifth]
     }

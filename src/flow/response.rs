@@ -39,8 +39,10 @@ struct Part {
 /// motion it explains, and else as the response from rest by divided differences, which is never larger.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Response {
-    sigma: f64,
-    kappa: f64,
+    /// σ = c/2m, 1/s.
+    pub sigma: f64,
+    /// κ = k/m, 1/s².
+    pub kappa: f64,
     roots: Roots,
     /// Free motion. Pair: Re(Z e^{λτ}). Real: re e^{slow τ} + im S(τ), S the impulse response.
     free: Complex<f64>,
@@ -49,6 +51,8 @@ pub(super) struct Response {
     /// The constant and ramp that enter from rest, m/s² and m/s³.
     rest: [f64; 2],
     parts: Vec<Part>,
+    /// True if a sine enters from rest.
+    resonant: bool,
     /// Σ of the sizes of the terms at τ = 0: displacement (m) and velocity (m/s). Their rounding is the motion's.
     pub size: [f64; 2],
     /// The largest |S|: min(1/√κ, 1/2δ), s; infinite for a free body.
@@ -73,6 +77,7 @@ impl Default for Response {
             line: [0.0; 2],
             rest: [0.0; 2],
             parts: Vec::new(),
+            resonant: false,
             size: [0.0; 2],
             longest: f64::INFINITY,
             extent: [f64::NEG_INFINITY, f64::INFINITY],
@@ -132,6 +137,7 @@ impl Response {
             }
             self.parts.push(Part { omega: w.omega, gain, steady: is_steady });
         }
+        self.resonant = self.parts.iter().any(|p| !p.steady);
         self.free = match self.roots {
             Roots::Pair { omega } => Complex::new(x, -(dx + sigma * x) / omega),
             Roots::Real { slow, .. } => Complex::new(x, dx - slow * x),
@@ -141,7 +147,7 @@ impl Response {
 
     /// Bounds the motion by the sizes of its terms.
     fn bound_extent(&mut self, span: f64) {
-        if self.rest != [0.0; 2] || self.parts.iter().any(|p| !p.steady) {
+        if self.resonant || self.rest != [0.0; 2] {
             self.extent = [f64::NEG_INFINITY, f64::INFINITY];
             return;
         }
@@ -190,7 +196,7 @@ impl Response {
     /// Free motion, and S with its derivatives (not computed where nothing enters from rest).
     #[inline]
     fn free_jet(&self, tau: f64) -> (Jet, Jet) {
-        let wanted = self.rest != [0.0; 2] || self.parts.iter().any(|p| !p.steady);
+        let wanted = self.resonant || self.rest != [0.0; 2];
         let mut impulse = [0.0; 5];
         match self.roots {
             Roots::Pair { omega } => {

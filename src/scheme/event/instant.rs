@@ -51,7 +51,7 @@ impl Event {
 
     /// Moves an elastic wall into its next phase and sets the body onto the surface it has reached.
     fn cross(&mut self, index: usize) {
-        let (q, v, time, resolution) = (self.q, self.v, self.time, self.resolution());
+        let (q, v, time, resolution) = (self.q, self.v, self.time, self.resolution);
         let Some(b) = self.barriers.get_mut(index) else { return };
         let at_surface = b.gap(q).abs() <= resolution;
         let next = match b.phase {
@@ -74,7 +74,7 @@ impl Event {
 
     /// After a jump of velocity: elastic walls with damping may let go or take hold.
     pub(super) fn reclassify(&mut self) {
-        let (q, v, time, resolution) = (self.q, self.v, self.time, self.resolution());
+        let (q, v, time, resolution) = (self.q, self.v, self.time, self.resolution);
         for (index, b) in self.barriers.iter_mut().enumerate() {
             b.classify(q, v, resolution);
             settle(b, index, time, v, &mut self.closed);
@@ -86,7 +86,7 @@ impl Event {
     /// Of several closed walls on one side, Newton's law holds as ẇ⁺ + e ẇ⁻ ≥ 0 for each, so the largest e decides, and
     /// the first wall that has it takes the impulse. Closed walls on both sides hold the body fast.
     fn meet_rigid(&mut self, hit: Option<usize>, extra: f64, held: Option<usize>) {
-        let resolution = self.resolution();
+        let resolution = self.resolution;
         let side = if self.v < 0.0 { Side::Lower } else { Side::Upper };
         let (mut struck, mut restitution) = (None, -1.0);
         let (mut closed, mut first) = ([None, None], None);
@@ -183,13 +183,20 @@ impl Event {
     /// Sticking at once takes the momentum and the energy of the whole tail: m p (t∞ − t) of steady pressing is what its
     /// impacts sum up to. The body is displaced by less than the height, and t∞ is kept for who asks.
     fn sticks(&mut self, away: f64, e: f64, extra: f64) -> bool {
+        let speed = self.v.abs();
+        // What presses is at most this; a flight far too high then needs no closer look.
+        let most = self.force_size[0] + self.body.damping * speed / self.body.mass;
+        let (low, short) = (TAIL_HEIGHT * self.length + self.resolution, TIME_UNITS * f64::EPSILON * self.time);
+        if !self.arc.touches() && speed * speed > 4.0 * most * low && speed > most * short {
+            return false;
+        }
         let [a, rate] = self.acceleration(self.v, extra);
-        let (press, speed) = (-away * a, self.v.abs());
+        let press = -away * a;
         if press <= noise(self.force_size[0]) {
             return false;
         }
         let (height, flight) = (0.5 * speed * speed / press, 2.0 * speed / press);
-        if height <= self.resolution() || flight <= TIME_UNITS * f64::EPSILON * self.time {
+        if height <= self.resolution || flight <= TIME_UNITS * f64::EPSILON * self.time {
             return true;
         }
         let remaining = flight / (1.0 - e);

@@ -40,7 +40,7 @@ pub struct Event {
     body: Oscillator,
     forcing: Forcing,
     barriers: Vec<Barrier>,
-    /// Names of no wall, for an error that no wall explains.
+    /// s.
     duration: f64,
     stride: f64,
     /// A displacement of ordinary size, m.
@@ -59,6 +59,10 @@ pub struct Event {
     last_wall: Option<usize>,
     /// Sizes of acceleration (m/s²) and its rate (m/s³), whose rounding is no pressing.
     force_size: [f64; 2],
+    /// A gap below this is none, m: rounding of the displacement.
+    resolution: f64,
+    /// [`Arc::sizes`] of the present arc.
+    sizes: [f64; 4],
     guard: Guard,
     steps: u64,
     // The last step, as `Step` wants it.
@@ -119,6 +123,8 @@ impl Event {
             accumulation: None,
             last_wall: None,
             force_size: [0.0; 2],
+            resolution: noise(scene.walls.iter().map(|w| w.position.abs()).fold(0.0, f64::max)),
+            sizes: [0.0; 4],
             guard: Guard::default(),
             steps: 0,
             start: 0.0,
@@ -311,7 +317,11 @@ impl Event {
         let touching = self.barriers.iter().enumerate().filter_map(|(index, b)| b.touch(index));
         let support = self.support.and_then(|wall| Some(Support { wall, side: self.barriers.get(wall)?.side }));
         self.arc.begin(&from, touching, support);
-        let [_, _, force, rate] = self.arc.sizes();
+        let sizes = self.arc.sizes();
+        let [q, _, force, rate] = sizes;
+        let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
+        self.resolution = noise(q + wall);
+        self.sizes = sizes;
         // The instant itself is known to an ulp of the time only.
         let (mass, fastest) = (self.body.mass, self.arc.fastest());
         self.force_size = [(force + rate * self.time) / mass, rate * (1.0 + fastest * self.time) / mass];
@@ -371,14 +381,8 @@ impl Event {
         if sum.abs() > noise(size / self.body.mass) { sum } else { 0.0 }
     }
 
-    /// A gap below this is none, m: rounding of the displacement.
-    fn resolution(&self) -> f64 {
-        let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
-        noise(self.arc.sizes()[0] + wall)
-    }
-
     fn set_forces(&mut self, extra: f64) {
-        let push = -self.body.mass * self.acceleration(0.0, extra)[0];
+        let push = if self.support.is_some() { -self.body.mass * self.acceleration(0.0, extra)[0] } else { 0.0 };
         for (index, b) in self.barriers.iter().enumerate() {
             let Some(force) = self.force.get_mut(index) else { continue };
             *force = if self.support == Some(index) {

@@ -29,6 +29,8 @@ pub(super) enum Step {
 /// Newton steps after which a safe step is taken as it is: each is one-sided, so stopping early costs time, not safety.
 const INNER_STEPS: usize = 16;
 
+const SIXTH: f64 = 1.0 / 6.0;
+
 impl Below {
     /// How far one can go, at most `window`, without passing a root of g.
     #[inline]
@@ -89,6 +91,10 @@ impl Below {
 fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, f64) {
     let (mut s, mut p, mut p1, mut p2) = (0.0, c0, c1, c2);
     let last = c2 + c3 * w - 0.5 * b * w * w;
+    // Every falling term at its worst still leaves p above 0: no root in the window.
+    if c0 + w * (c1.min(0.0) + w * (0.5 * c2.min(0.0) + w * (SIXTH * c3.min(0.0) - w * b * SIXTH * 0.25))) > enough {
+        return (w, p);
+    }
     for _ in 0..INNER_STEPS {
         let m = (-p2.min(last)).max(0.0);
         let root = (p1 * p1 + 2.0 * m * p).sqrt();
@@ -104,7 +110,7 @@ fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, 
         if next >= w || next.is_nan() {
             return (if next.is_nan() { s } else { w }, p);
         }
-        let at = |s: f64| c0 + s * (c1 + s * (0.5 * c2 + s * (c3 / 6.0 - s * b / 24.0)));
+        let at = |s: f64| c0 + s * (c1 + s * (0.5 * c2 + s * (c3 * SIXTH - s * b * (0.25 * SIXTH))));
         let value = at(next);
         if value <= enough {
             // Rounding may put the value below 0: a step a little shorter is then above it.
@@ -115,7 +121,7 @@ fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, 
             return (s, p);
         }
         (s, p) = (next, value);
-        p1 = c1 + s * (c2 + s * (0.5 * c3 - s * b / 6.0));
+        p1 = c1 + s * (c2 + s * (0.5 * c3 - s * b * SIXTH));
         p2 = c2 + s * (c3 - 0.5 * s * b);
     }
     (s, p)

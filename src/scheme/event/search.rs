@@ -132,7 +132,7 @@ impl Event {
 
     /// The sizes below which displacement and three derivatives are rounding on this arc.
     fn flow_noise(&self) -> [f64; 4] {
-        let [q, v, force, rate] = self.arc.sizes();
+        let [q, v, force, rate] = self.sizes;
         let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
         let (mass, rub) = (self.body.mass, self.body.damping / self.body.mass);
         // The instant itself is known to an ulp of the time only, and the load with it.
@@ -149,7 +149,7 @@ impl Event {
             return Ok(Hit { tau: span, state, wall: None });
         };
         let support = Support { wall: index, side };
-        let [.., force, rate] = self.arc.sizes();
+        let [.., force, rate] = self.sizes;
         let bound = self.arc.pressing_bound();
         let fastest = self.arc.fastest();
         let longest = if fastest > 0.0 { WINDOW_RADIANS / fastest } else { f64::INFINITY };
