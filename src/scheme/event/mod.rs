@@ -42,6 +42,8 @@ pub struct Event {
     barriers: Vec<Barrier>,
     /// s.
     duration: f64,
+    /// The guard's, s.
+    window: f64,
     stride: f64,
     /// A displacement of ordinary size, m.
     length: f64,
@@ -111,6 +113,7 @@ impl Event {
             forcing,
             barriers,
             duration: scene.duration,
+            window: scene.duration / WINDOWS,
             stride,
             length: if walls > 0 { scene.gap_scale() } else { 0.0 },
             arc: Arc::new(body, walls),
@@ -401,7 +404,7 @@ impl Event {
     }
 
     fn check_guard(&mut self, time: f64) -> Result<()> {
-        let window = self.duration / WINDOWS;
+        let window = self.window;
         let Some(count) = self.guard.exceeded(time, window) else { return Ok(()) };
         let wall = self.last_wall.and_then(|i| self.barriers.get(i)).or(self.barriers.first());
         Err(Error::TooManyEvents { time, wall: wall.map_or_else(String::new, |b| b.name.clone()), count, window })

@@ -46,7 +46,8 @@ impl Event {
             let bounds = self.arc.bounds(&jet, window);
             let (mut step, mut wall, mut is_root) = (window, None, false);
             for index in 0..self.barriers.len() {
-                for below in self.watch(index, &jet, &bounds, &noise).into_iter().flatten() {
+                for which in 0..2 {
+                    let Some(below) = self.watch(index, which, &jet, &bounds, &noise) else { break };
                     match below.step(step) {
                         Step::Now => return Ok(Hit { tau, state: [jet[0], jet[1]], wall: Some(index) }),
                         Step::Root(s) if s < step => (step, wall, is_root) = (s, Some(index), true),
@@ -93,15 +94,16 @@ impl Event {
     /// A wall met just at the end of the arc. What is not yet below 0 there is found at the start of the next.
     fn hit_at_end(&self, jet: &Jet, noise: &[f64; 4]) -> Option<usize> {
         (0..self.barriers.len()).find(|&index| {
-            let watched = self.watch(index, jet, &[0.0; 2], noise);
-            watched.into_iter().flatten().any(|b| b.c[0] <= b.noise[0] && b.c[1] < -b.noise[1])
+            let watched = (0..2).map_while(|which| self.watch(index, which, jet, &[0.0; 2], noise));
+            { watched }.any(|b| b.c[0] <= b.noise[0] && b.c[1] < -b.noise[1])
         })
     }
 
-    /// The functions of wall `index` whose first root is an event.
+    /// The functions of wall `index` whose first root is an event, numbered by `which`: two where the body is in an
+    /// elastic wall that has let go, else one.
     #[inline]
-    fn watch(&self, index: usize, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> [Option<Below>; 2] {
-        let Some(b) = self.barriers.get(index) else { return [None, None] };
+    fn watch(&self, index: usize, which: u8, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Option<Below> {
+        let b = self.barriers.get(index)?;
         let sign = b.sign;
         let gap = |sign: f64, passes_touch: bool| Below {
             c: [sign * (jet[0] - b.position), sign * jet[1], sign * jet[2], sign * jet[3]],
@@ -122,11 +124,13 @@ impl Event {
                 passes_touch: true,
             }
         };
-        match b.phase {
-            Phase::Rigid(_) => [Some(gap(sign, false)), None],
-            Phase::Outside => [Some(gap(sign, true)), None],
-            Phase::Touching => [Some(sum(sign)), None],
-            Phase::Detached => [Some(sum(-sign)), Some(gap(-sign, true))],
+        match (b.phase, which) {
+            (Phase::Rigid(_), 0) => Some(gap(sign, false)),
+            (Phase::Outside, 0) => Some(gap(sign, true)),
+            (Phase::Touching, 0) => Some(sum(sign)),
+            (Phase::Detached, 0) => Some(sum(-sign)),
+            (Phase::Detached, _) => Some(gap(-sign, true)),
+            _ => None,
         }
     }
 
