@@ -15,7 +15,7 @@ pub mod qp;
 pub mod residual;
 mod run;
 mod scene;
-mod scheme;
+pub mod scheme;
 mod statistics;
 mod step;
 #[cfg(feature = "cli")]

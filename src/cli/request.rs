@@ -93,7 +93,11 @@ impl Request {
         let bare_penalty = name.trim() == "penalty" || name.trim().starts_with("penalty:integrator=");
         let mut method: Method = if bare_penalty {
             let law = case.penalty.laws.first().ok_or_else(|| {
-                Error::invalid("scheme", "penalty", "an --epsilon, or a case with a [penalty] table, or penalty:stiffness=…")
+                Error::invalid(
+                    "scheme",
+                    "penalty",
+                    "an --epsilon, or a case with a [penalty] table, or penalty:stiffness=…",
+                )
             })?;
             let settings = name.trim().strip_prefix("penalty:").unwrap_or("");
             format!("penalty:{law},{settings}").parse()?

@@ -62,7 +62,8 @@ pub(super) fn perform(case: &Case, method: &Method, ui: &Ui) -> Result<Run> {
     let progress = ui.progress(&method.to_string(), UNITS as u64);
     let end = case.scene.duration;
     let options = Options { time: case.time, backend: method.backend };
-    let run = run_with_progress(&case.scene, &method.scheme, &options, &mut |time| progress.set((UNITS * time / end) as u64));
+    let run =
+        run_with_progress(&case.scene, &method.scheme, &options, &mut |time| progress.set((UNITS * time / end) as u64));
     progress.finish();
     run
 }
@@ -82,7 +83,15 @@ pub(super) fn write(folder: &Path, case: &Case, run: &Run, method: &Method, reas
 }
 
 fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
-    let headers = ["wall", "contacts", "impulse (N s)", "largest force (N)", "contact time (%)", "impact power (W)", "dissipated (W)"];
+    let headers = [
+        "wall",
+        "contacts",
+        "impulse (N s)",
+        "largest force (N)",
+        "contact time (%)",
+        "impact power (W)",
+        "dissipated (W)",
+    ];
     let mut rows = Vec::new();
     for wall in &run.statistics.walls {
         rows.push(vec![

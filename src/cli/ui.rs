@@ -60,7 +60,7 @@ impl Ui {
             return;
         }
         let mut table = Table::new();
-        table.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+        table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
         table.set_header(headers.iter().copied());
         for row in rows {
             table.add_row(row);

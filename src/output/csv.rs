@@ -33,15 +33,8 @@ pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
 /// # Errors
 /// As [`trajectory`].
 pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
-    let header = [
-        "wall",
-        "start_s",
-        "end_s",
-        "impulse_Ns",
-        "peak_force_N",
-        "approach_speed_m_per_s",
-        "departure_speed_m_per_s",
-    ];
+    let header =
+        ["wall", "start_s", "end_s", "impulse_Ns", "peak_force_N", "approach_speed_m_per_s", "departure_speed_m_per_s"];
     let rows = trajectory.contacts().iter().map(|c| {
         vec![
             trajectory.walls().get(c.wall).cloned().unwrap_or_default(),
@@ -67,7 +60,11 @@ pub fn table(path: &Path, header: &[String], rows: impl Iterator<Item = Vec<Stri
     for row in rows {
         writer.write_record(&row).map_err(failed)?;
     }
-    let said = |e: &dyn std::fmt::Display| Error::Io { path: path.display().to_string(), reason: e.to_string(), request: false };
+    let said = |e: &dyn std::fmt::Display| Error::Io {
+        path: path.display().to_string(),
+        reason: e.to_string(),
+        request: false,
+    };
     writer.into_inner().map_err(|e| said(&e.error()))?.finish()
 }
 

@@ -77,7 +77,8 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons) -> Result<(
         wear: "impact power only: contact is frictionless and the motion normal to the wall, so there is no sliding wear here",
         notes: &run.notes,
     };
-    let failed = |e: serde_json::Error| Error::Io { path: path.display().to_string(), reason: e.to_string(), request: false };
+    let failed =
+        |e: serde_json::Error| Error::Io { path: path.display().to_string(), reason: e.to_string(), request: false };
     let mut text = serde_json::to_string_pretty(&summary).map_err(failed)?;
     text.push('\n');
     write_whole(path, text.as_bytes())

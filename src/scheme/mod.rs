@@ -1,6 +1,7 @@
 //! How time advances: one file per scheme, and the [`Stepper`] that drives any of them.
 
 mod central_difference;
+pub mod event;
 mod grid;
 mod method;
 mod moreau_jean;

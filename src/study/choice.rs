@@ -65,7 +65,10 @@ pub fn model(scene: &Scene) -> Vec<String> {
             WallLaw::Rigid { restitution } => format!("rigid, restitution {restitution}"),
             WallLaw::Elastic { stiffness, damping } => {
                 let omega = ((o.stiffness + stiffness) / o.mass).sqrt();
-                format!("elastic, {stiffness:e} N/m and {damping:e} N s/m: a contact lasts about {:.3e} s", std::f64::consts::PI / omega)
+                format!(
+                    "elastic, {stiffness:e} N/m and {damping:e} N s/m: a contact lasts about {:.3e} s",
+                    std::f64::consts::PI / omega
+                )
             }
             WallLaw::Quartic { epsilon, .. } => format!("penalty, ε = {epsilon:e} m³/N"),
         };
