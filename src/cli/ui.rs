@@ -23,6 +23,12 @@ impl Ui {
         Self { quiet, json }
     }
 
+    /// True if tables are to be JSON.
+    #[must_use]
+    pub fn json(&self) -> bool {
+        self.json
+    }
+
     /// A line on stderr, unless quiet.
     pub fn message(&self, text: &str) {
         if !self.quiet {

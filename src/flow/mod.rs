@@ -168,6 +168,38 @@ impl Arc {
         self.force.integral(from - self.start, to - self.start)
     }
 
+    /// Mass of the body, kg.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.body.mass
+    }
+
+    /// Damping of the body and of the elastic walls that touch, N s/m.
+    #[must_use]
+    pub fn damping(&self) -> f64 {
+        self.body.damping + self.touching.iter().map(|w| w.damping).sum::<f64>()
+    }
+
+    /// ∂(q, q̇ at the end)/∂(q, q̇ at the start), rows by rows: the free flow; zero for a body at rest on a wall, whose start is
+    /// forgotten.
+    #[must_use]
+    pub fn propagator(&self) -> [[f64; 2]; 2] {
+        if self.support.is_some() {
+            return [[0.0; 2]; 2];
+        }
+        let Oscillator { mass, stiffness, .. } = self.body;
+        let damping = self.damping();
+        let stiffness = stiffness + self.touching.iter().map(|w| w.stiffness).sum::<f64>();
+        let tau = self.end - self.start;
+        let free = |state| {
+            let mut response = Response::default();
+            response.set([mass, damping, stiffness], &LocalForce::default(), state, tau, 1.0);
+            response.jet(tau)
+        };
+        let (from_q, from_v) = (free([1.0, 0.0]), free([0.0, 1.0]));
+        [[from_q[0], from_v[0]], [from_q[1], from_v[1]]]
+    }
+
     /// Force of wall `wall` on the body at `t`, N, signed: 0 if it does not touch.
     #[must_use]
     pub fn contact_force(&self, wall: usize, t: f64) -> f64 {
