@@ -114,7 +114,9 @@ fn independent(case: &Case, title: &str, labels: &[String], runs: &[Run]) -> Res
     }
     let points = Embedded::reference_points()
         .ok_or_else(|| Error::Case("error: the built-in reference values cannot be read".into()))?;
-    let shown = points.into_iter().filter(|p| p.0 <= case.scene.duration).map(|(t, u)| (t, 1e3 * u));
+    let shown = points.into_iter().filter(|p| p.0 <= case.scene.duration);
+    // A point that cannot be drawn between two that can leaves markers without a line.
+    let shown = shown.flat_map(|(t, u)| [(t, 1e3 * u), (t, f64::NAN)]);
     panel = panel.curve(Curve::new("50-digit reference", shown).marked());
     for wall in &case.scene.walls {
         panel = panel.mark(Mark::wall(1e3 * wall.position, wall.name.as_str()));

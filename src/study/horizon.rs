@@ -10,9 +10,9 @@ use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
 use crate::step::Path;
 
-/// A perturbation that has grown by this much turns an error of 1e-4 of the gap into a tenth of it: beyond, curves part for reasons that
+/// A perturbation that has grown by this much turns an error of 1e-3 of the gap into a tenth of it: beyond, curves part for reasons that
 /// are the scene's, not the scheme's.
-pub const LARGEST_GROWTH: f64 = 1e3;
+pub const LARGEST_GROWTH: f64 = 1e2;
 
 /// Growth over time.
 #[derive(Debug, Clone, PartialEq)]
