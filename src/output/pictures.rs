@@ -155,15 +155,12 @@ impl Sheet<'_> {
             let end = c.end.unwrap_or(self.until);
             let sign = self.scene.walls.get(c.wall).map_or(0.0, |w| if w.side == Side::Upper { -1.0 } else { 1.0 });
             let Some(peak) = c.peak_force else {
-                // impulse/h of a step that met a rigid wall is no force.
-                let near =
-                    |point: &&mut (f64, f64)| (point.0 - c.start).abs() <= 1.5 * spacing.max(2.0 * run.grid.step);
+                let near = |point: &&mut (f64, f64)| (point.0 - c.start).abs() <= blur;
                 points.iter_mut().filter(near).for_each(|point| point.1 = 0.0);
                 continue;
             };
             if rigid(c) {
-                let start =
-                    |point: &&mut (f64, f64)| (point.0 - c.start).abs() <= 1.5 * spacing && point.1.abs() > peak;
+                let start = |point: &&mut (f64, f64)| (point.0 - c.start).abs() <= blur && point.1.abs() > peak;
                 points.iter_mut().filter(start).for_each(|point| point.1 = 0.0);
             } else if end - c.start < 3.0 * spacing {
                 points.extend([(c.start, 0.0), (0.5 * (c.start + end), sign * peak), (end, 0.0)]);
