@@ -89,8 +89,8 @@ impl Below {
 
 /// A number not above the first root of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 in [0, w], or w, with p there; p(0) > 0.
 ///
-/// p″ is concave for b ≥ 0, so its least value L over [s, e] is at an end; p(s + u) ≥ p + p′u + ½Lu² there, whose root is
-/// the next s. Where p falls, e is half as far again as the tangent's root, and L almost p″: the convergence is cubic.
+/// p″ is concave for b ≥ 0, so its least value over [s, w] is at an end, and p(s + u) ≥ p + p′u − ½Mu² there with
+/// M = max(0, −least). Where p falls, the root of that is at least Halley's 2p|p′|/(2p′² + Mp), which needs no root.
 #[inline]
 fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, f64) {
     let (mut s, mut p, mut p1, mut p2) = (0.0, c0, c1, c2);
@@ -98,18 +98,17 @@ fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, 
     if c0 + w * (c1.min(0.0) + w * (0.5 * c2.min(0.0) + w * (SIXTH * c3.min(0.0) - w * b * SIXTH * 0.25))) > enough {
         return (w, p);
     }
+    let last = c2 + c3 * w - 0.5 * b * w * w;
     for _ in 0..INNER_STEPS {
-        let end = if p1 < 0.0 { (s - 1.5 * p / p1).min(w) } else { w };
-        let least = p2.min(c2 + end * (c3 - 0.5 * b * end));
-        let square = p1 * p1 - 2.0 * least * p;
-        let u = if square < 0.0 || (p1 >= 0.0 && least >= 0.0) {
-            end - s
-        } else if p1 >= 0.0 {
-            (square.sqrt() + p1) / -least
+        let m = (-p2.min(last)).max(0.0);
+        let u = if p1 < 0.0 {
+            -2.0 * p * p1 / (2.0 * p1 * p1 + m * p)
+        } else if m > 0.0 {
+            ((p1 * p1 + 2.0 * m * p).sqrt() + p1) / m
         } else {
-            2.0 * p / (square.sqrt() - p1)
+            w
         };
-        let next = (s + u).min(end);
+        let next = s + u;
         if next >= w || next.is_nan() {
             return (if next.is_nan() { s } else { w }, p);
         }

@@ -18,7 +18,7 @@ pub(super) struct Hit {
 }
 
 /// The longest window of a bound, in radians of the fastest sine: beyond it the bounds grow faster than the window.
-const WINDOW_RADIANS: f64 = 2.0;
+const WINDOW_RADIANS: f64 = 1.5;
 
 /// Halvings, or Newton steps, after which the place of a peak is known to rounding.
 const PEAK_STEPS: usize = 60;
