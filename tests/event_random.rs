@@ -107,13 +107,4 @@ fn extreme_scenes_end_or_say_why_not() {
                         .with_duration(1.0);
                     match follow(&scene, 1e-2) {
                         Ok(_) => {}
-                        Err(Error::TooManyEvents { .. }) => named += 1,
-                        Err(error) => panic!("{error}"),
-                    }
-                }
-            }
-        }
-    }
-    // A third of them ask for 1e9 impacts a second and more.
-    assert!(named <= 18, "{named}");
-}
+                        Err(Error::TooManyEvents { time, .. }) => named += 1,

@@ -90,7 +90,8 @@ impl Below {
 /// A number not above the first root of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 in [0, w], or w, with p there; p(0) > 0.
 ///
 /// p″ is concave for b ≥ 0, so its least value over [s, w] is at an end, and p(s + u) ≥ p + p′u − ½Mu² there with
-/// M = max(0, −least). Where p falls, the root of that is at least Halley's 2p|p′|/(2p′² + Mp), which needs no root.
+/// M = max(0, −least). Where p falls, the root of that is at least Halley's 2p|p′|/(2p′² + Mp), which is
+/// near enough to it for Mp ≤ p′².
 #[inline]
 fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, f64) {
     let (mut s, mut p, mut p1, mut p2) = (0.0, c0, c1, c2);
@@ -101,10 +102,11 @@ fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, 
     let last = c2 + c3 * w - 0.5 * b * w * w;
     for _ in 0..INNER_STEPS {
         let m = (-p2.min(last)).max(0.0);
-        let u = if p1 < 0.0 {
+        let u = if p1 < 0.0 && m * p <= p1 * p1 {
             -2.0 * p * p1 / (2.0 * p1 * p1 + m * p)
         } else if m > 0.0 {
-            ((p1 * p1 + 2.0 * m * p).sqrt() + p1) / m
+            let square = (p1 * p1 + 2.0 * m * p).sqrt();
+            if p1 < 0.0 { 2.0 * p / (square - p1) } else { (square + p1) / m }
         } else {
             w
         };
