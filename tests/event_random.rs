@@ -107,4 +107,13 @@ fn extreme_scenes_end_or_say_why_not() {
                         .with_duration(1.0);
                     match follow(&scene, 1e-2) {
                         Ok(_) => {}
-                        Err(Error::TooManyEvents { time, .. }) => named += 1,
+                        Err(Error::TooManyEvents { .. }) => named += 1,
+                        Err(error) => panic!("{error}"),
+                    }
+                }
+            }
+        }
+    }
+    // Those that ask for 1e10 impacts a second, or where friction stops the body in 1e-11 s.
+    assert!(named <= 16, "{named}");
+}
