@@ -5,7 +5,7 @@ use super::run::write;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
-use crate::output::atomic::write_whole;
+use crate::output::atomic::{check_folder, write_whole};
 use crate::output::csv;
 use crate::output::pictures::{Labelled, Sheet};
 use crate::output::summary::Reasons;
@@ -51,6 +51,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     };
     args.request.check_use(&methods)?;
     let folder = args.request.folder(&case, "compare");
+    check_folder(&folder)?;
     let progress = ui.progress("comparing", methods.len() as u64 + 1);
     let comparison = compare(&case.scene, &methods, &case.time, &|done| progress.set(done))?;
     progress.finish();
