@@ -36,7 +36,7 @@ pub struct Request {
     /// Integrator of the penalty: trapezoidal, implicit-euler, central-difference, discrete-gradient
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<Integrator>,
-    /// Folder for the results [default: out/<case>/<command>]
+    /// Folder for the results [default: out/CASE/COMMAND]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -139,7 +139,7 @@ impl Request {
         }
     }
 
-    /// Where results go: `--out`, or out/<case>/<command>.
+    /// Where results go: `--out`, or `out/<case>/<command>`.
     #[must_use]
     pub fn folder(&self, case: &Case, command: &str) -> PathBuf {
         self.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join(command))
