@@ -13,7 +13,6 @@ fn the_event_driven_solution_holds_the_fifty_digit_values() {
         let mut motion = EventDriven::new(scene);
         for &(t, u, v) in values {
             let (q, w) = motion.advance(t);
-            println!("{t}: {:e} {:e}", q - u, w - v);
             assert!((q - u).abs() < tolerance && (w - v).abs() < 40.0 * tolerance, "at {t} s: {q} {w}");
         }
     };
@@ -52,8 +51,7 @@ fn the_schemes_that_honour_restitution_converge_at_order_one_through_impacts() {
         let scene = common::source(e, e);
         let exact = EventDriven::displacements(&scene, 1e-3, end);
         for scheme in [Scheme::PaoliSchatzman, MOREAU_JEAN] {
-            let order = report(&format!("{scheme} e = {e}"), &errors(&scene, &scheme, &exact, &parts));
-            assert!((order - 1.0).abs() < 0.2, "{scheme} at e = {e}: order {order}");
+            expect(&format!("{scheme} e = {e}"), &errors(&scene, &scheme, &exact, &parts), 1.0);
         }
     }
 }
@@ -63,66 +61,81 @@ fn at_restitution_zero_paoli_schatzman_is_of_order_two_and_implicit_euler_of_ord
     let scene = common::source(0.0, 0.0);
     let exact = EventDriven::displacements(&scene, 1e-3, 2.0);
     let points = errors(&scene, &Scheme::PaoliSchatzman, &exact, &spread(1, 1000, 22));
-    let order = report("paoli-schatzman e = 0", &points);
-    assert!((order - 1.9).abs() < 0.2, "order {order}");
+    expect("paoli-schatzman e = 0", &points, 1.9);
     let at = error(&on_grid(&scene, &Scheme::PaoliSchatzman, 1e-3, 10, 2.0), &exact);
-    println!("paoli-schatzman e = 0 at 1e-4: {at:e}");
+    // 1.5e-6 of the gap at 1e-4 s, as printed: two digits.
+    assert!((at - 1.5e-6).abs() < 0.05e-6, "{at:e}");
     let points = errors(&scene, &Scheme::ImplicitEuler, &exact, &spread(1, 1000, 22));
-    let order = report("implicit-euler e = 0", &points);
-    println!("implicit-euler e = 0: {} h", points[10].1 / points[10].0);
-    assert!((order - 1.0).abs() < 0.2, "order {order}");
+    expect("implicit-euler e = 0", &points, 1.0);
+    // 36 h gaps, as printed: two digits.
+    for (h, e) in points {
+        assert!((e / h - 36.0).abs() < 0.5, "{e:e} at {h:e}");
+    }
+}
+
+/// Asserts an order to 0.2, the tolerance of all slopes here: single pairs of steps scatter by more, since the phase of an impact
+/// within its step is as good as random.
+fn expect(what: &str, points: &[(f64, f64)], order: f64) {
+    let found = report(what, points);
+    assert!((found - order).abs() < 0.2, "{what}: order {found}, expected {order}");
 }
 
 #[test]
 fn an_elastic_wall_is_met_at_the_order_of_every_scheme() {
-    let integrators = Integrator::ALL.map(|i| penalty(1e-9, i));
+    let parts = spread(1, 300, 20);
+    let theta = |theta| Scheme::MoreauJean { theta };
     for damping in [0.0, 3.0] {
-        // Beside a rigid wall of restitution 1: the schemes that honour it.
+        // Beside a rigid wall of restitution 1: the schemes that honour it, at their order through impacts.
         let scene = common::elastic(damping, 1.0);
         let exact = EventDriven::displacements(&scene, 1e-3, 1.0);
-        for scheme in [Scheme::PaoliSchatzman, MOREAU_JEAN, Scheme::MoreauJean { theta: 1.0 }] {
-            let points = errors(&scene, &scheme, &exact, &spread(1, 300, 20));
-            report(&format!("{scheme} elastic, c = {damping}, rigid e = 1"), &points);
+        for scheme in [Scheme::PaoliSchatzman, MOREAU_JEAN, theta(1.0)] {
+            expect(&format!("{scheme}, c = {damping}, rigid e = 1"), &errors(&scene, &scheme, &exact, &parts), 1.0);
         }
         // Beside one of restitution 0.
         let scene = common::elastic(damping, 0.0);
         let exact = EventDriven::displacements(&scene, 1e-3, 1.0);
-        for scheme in [Scheme::PaoliSchatzman, Scheme::ImplicitEuler] {
-            let points = errors(&scene, &scheme, &exact, &spread(1, 300, 20));
-            report(&format!("{scheme} elastic, c = {damping}, rigid e = 0"), &points);
+        for (scheme, order) in [(Scheme::PaoliSchatzman, 2.0), (Scheme::ImplicitEuler, 1.0)] {
+            expect(&format!("{scheme}, c = {damping}, rigid e = 0"), &errors(&scene, &scheme, &exact, &parts), order);
         }
-        // Without a rigid wall: all of them.
+        // Without a rigid wall: all of them. A dashpot's rate taken at one end of the step, or a contact that begins with a jump
+        // of force on a whole step, costs an order.
         let scene = common::all_elastic(damping);
         let exact = EventDriven::displacements(&scene, 1e-3, 1.0);
-        let grid = [
-            Scheme::ImplicitEuler,
-            Scheme::PaoliSchatzman,
-            MOREAU_JEAN,
-            Scheme::MoreauJean { theta: 0.75 },
-            Scheme::Newmark,
+        let undamped_only = if damping > 0.0 { 1.0 } else { 2.0 };
+        let schemes = [
+            (Scheme::ImplicitEuler, 1.0),
+            (Scheme::PaoliSchatzman, 2.0),
+            (MOREAU_JEAN, undamped_only),
+            (theta(0.75), 1.0),
+            (Scheme::Newmark, undamped_only),
+            (penalty(1e-9, Integrator::Trapezoidal), 2.0),
+            (penalty(1e-9, Integrator::ImplicitEuler), 1.0),
+            (penalty(1e-9, Integrator::CentralDifference), undamped_only),
+            (penalty(1e-9, Integrator::DiscreteGradient), 2.0),
         ];
-        for scheme in grid.into_iter().chain(integrators) {
-            let points = errors(&scene, &scheme, &exact, &spread(1, 300, 20));
-            report(&format!("{scheme} elastic, c = {damping}, both"), &points);
+        for (scheme, order) in schemes {
+            expect(&format!("{scheme}, c = {damping}"), &errors(&scene, &scheme, &exact, &parts), order);
         }
     }
 }
 
+/// Steps are chosen by h√(k_w/m), with k_w = (10 mm)²/ε the stiffness at the wall. The integrators of order two need its square small:
+/// from 0.1 down. Implicit Euler loses a share of h√(k_w/m) in each contact and needs that itself small: from 0.01 down, and over
+/// the first two contacts only where the wall is stiffest. Below, the values' own 2e-10 m (4e-8 of the gap) end the fit.
 #[test]
 fn each_penalty_integrator_converges_to_its_own_epsilon_at_its_own_order() {
-    for (epsilon, coarse, fine, end) in [(1e-12, 1e-5, 5e-7, 1.0), (1e-9, 2e-4, 2e-6, 1.0), (1e-6, 1e-3, 1e-5, 2.0)] {
-        let (_, exact) = PENALTY.iter().find(|(e, _)| *e == epsilon).expect("a value of each");
-        let rows = (end / 0.05_f64).round() as usize;
-        let scene = common::source(1.0, 1.0);
-        for integrator in Integrator::ALL {
+    let scene = common::source(1.0, 1.0);
+    let second = [(1e-12, 1e-5, 5e-7, 1.0), (1e-9, 2e-4, 2e-6, 1.0), (1e-6, 1e-3, 1e-5, 2.0)];
+    let first = [(1e-12, 1e-6, 5e-8, 0.2), (1e-9, 2e-5, 1e-6, 1.0), (1e-6, 5e-4, 1e-5, 1.0)];
+    for integrator in Integrator::ALL {
+        let (ranges, order) = if integrator == Integrator::ImplicitEuler { (first, 1.0) } else { (second, 2.0) };
+        for (epsilon, coarse, fine, end) in ranges {
+            let (_, exact) = PENALTY.iter().find(|(e, _)| *e == epsilon).expect("a value of each");
+            let exact = &exact[..(end / 0.05_f64).round() as usize];
             let scheme = penalty(epsilon, integrator);
             let parts = spread((0.05_f64 / coarse).round() as u64, (0.05_f64 / fine).round() as u64, 20);
-            let points: Vec<(f64, f64)> = parts
-                .iter()
-                .map(|&n| (0.05 / n as f64, error(&on_grid(&scene, &scheme, 0.05, n, end), &exact[..rows])))
-                .collect();
-            let order = report(&scheme.to_string(), &points);
-            let _ = order;
+            let at = |&n: &u64| (0.05 / n as f64, error(&on_grid(&scene, &scheme, 0.05, n, end), exact));
+            expect(&scheme.to_string(), &parts.iter().map(at).collect::<Vec<_>>(), order);
         }
     }
 }
