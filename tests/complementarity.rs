@@ -412,7 +412,8 @@ fn the_judge_reports_a_wrong_restitution_though_momentum_is_kept() {
 #[test]
 fn the_judge_reports_energy_that_is_lost_or_made() {
     for (factor, sign) in [(0.9, -1.0), (1.1, 1.0)] {
-        let r = judged(&source(0.8, 0.8), &MOREAU_JEAN, |step, a| {
+        // From some step on all velocities are a tenth off; nothing touches, so that only kinetic energy is.
+        let r = judged(&common::driven(), &MOREAU_JEAN, |step, a| {
             if step.index >= 40 {
                 a.v *= factor;
                 a.after *= factor;
