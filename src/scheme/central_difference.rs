@@ -4,7 +4,7 @@
 //! velocity, so they cost no stability.
 
 use super::grid::{Frame, Scalar};
-use super::paoli_schatzman::{arrival, centred};
+use super::paoli_schatzman::{arrival, back, centred};
 use crate::error::Result;
 use crate::scene::{Scene, WallLaw};
 
@@ -23,7 +23,7 @@ impl CentralDifference {
     pub fn new(scene: &Scene, h: f64) -> Self {
         let s = Scalar::new(scene, h);
         let (q, v0) = s.start(scene);
-        let v = v0 - 0.5 * h * s.start_force(q, v0).total / s.m;
+        let v = back(&s, v0, s.start_force(q, v0).total);
         let load = s.forcing.force(0.0);
         Self { s, q, v, load, extra: 0.0 }
     }

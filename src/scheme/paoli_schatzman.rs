@@ -38,7 +38,7 @@ impl PaoliSchatzman {
         let (q, v0) = s.start(scene);
         // q⁻ = q − h v + ½h² a with the wall's reaction in a: without it a body at rest on a wall with e = 1 would bounce.
         let StartForce { total, .. } = s.start_force(q, v0);
-        let v = v0 - 0.5 * h * total / s.m;
+        let v = back(&s, v0, total);
         let a = s.m / (h * h) + 0.5 * s.c / h + 0.25 * s.k;
         let rows = compliances(&s, |k, c| 0.25 * k + 0.5 * c / h);
         let programme = Programme::new(a, scene.gap_scale(), &rows, backend)?;
@@ -121,6 +121,12 @@ pub(super) fn arrival(s: &Scalar, q: f64, v_half: f64, load: f64) -> f64 {
     }
     let half = 0.5 * s.h / s.m;
     (v_half + half * force) / (1.0 + half * s.c)
+}
+
+/// v₋ half a step before the start, v − ½h a, from the velocity (m/s) and the force (N) there. The damping that a contains is divided
+/// as an implicit half step would: h² apart, and a heavy damper does not throw the extrapolation by h C v/2M.
+pub(super) fn back(s: &Scalar, v: f64, force: f64) -> f64 {
+    v - 0.5 * s.h * force / (s.m + 0.5 * s.h * s.c)
 }
 
 /// The extra force over t ± ½h, when `extra` is constant over the step from t on and `last` was so before it; takes `extra` for `last`.
