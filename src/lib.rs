@@ -1,8 +1,16 @@
-//! signorini
+#![doc = include_str!("../README.md")]
+//!
+//! # The rooms
+//!
+//! [`Scene`] says what is simulated, [`Scheme`] how time advances, [`Stepper`] does it a step at a time, [`run()`] from start to end under the eyes of
+//! [`residual::Judge`], and [`Trajectory`] is what was recorded. [`qp`] is the convex programme of a step, [`flow`] the exact motion between events.
+//! Case files, output and the tool itself come with the default feature `cli`.
 #![forbid(unsafe_code)]
 
 #[cfg(feature = "cli")]
 pub mod case;
+#[cfg(feature = "cli")]
+pub mod cli;
 mod contact;
 mod error;
 pub mod flow;
@@ -13,9 +21,10 @@ pub mod qp;
 pub mod residual;
 mod run;
 mod scene;
-mod scheme;
+pub mod scheme;
 mod statistics;
 mod step;
+pub mod study;
 mod time;
 mod trajectory;
 
@@ -24,7 +33,7 @@ pub use run::{Options, Run, run, run_with_progress};
 pub use scene::{
     Forcing, Harmonic, Load, LoadKind, Oscillator, Probe, Row, Scene, Side, State, System, Table, Wall, WallLaw,
 };
-pub use scheme::{Counters, Integrator, PenaltyLaw, Scheme, Stepper};
+pub use scheme::{Counters, Integrator, Method, PenaltyLaw, Scheme, Stepper};
 pub use statistics::{Statistics, Summary, WallStatistics};
 pub use step::{Balance, Contact, Contract, Path, Promise, Step};
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};

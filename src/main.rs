@@ -1,2 +1,7 @@
-//! tool
-fn main() {}
+//! The command-line tool.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    signorini::cli::main()
+}

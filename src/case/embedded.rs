@@ -58,6 +58,18 @@ impl Embedded {
         })
     }
 
+    /// Time (s) and displacement (m) of the first impacts, and of two states, of the case `independent-code`, from 50-digit arithmetic;
+    /// `None` if the embedded table were malformed, which its test rules out.
+    #[must_use]
+    pub fn reference_points() -> Option<Vec<(f64, f64)>> {
+        let lines = include_str!("../../cases/independent-code-reference.csv").lines().skip(1);
+        let point = |line: &str| {
+            let mut cells = line.split(',');
+            Some((cells.next()?.parse().ok()?, cells.next()?.parse().ok()?))
+        };
+        lines.map(point).collect()
+    }
+
     /// The case that the text holds.
     ///
     /// # Errors

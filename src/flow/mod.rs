@@ -1,31 +1,317 @@
 //! The closed-form motion of one degree of freedom between two events.
 
+mod divided;
+mod force;
+mod response;
+
+pub(crate) use response::Jet;
+
+use crate::scene::{Forcing, Oscillator, Side};
+use force::LocalForce;
+use response::Response;
+
+/// An elastic wall that touches during an arc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Touch {
+    /// Index of the wall in the scene.
+    pub wall: usize,
+    /// Its position g, m.
+    pub position: f64,
+    /// k_a, N/m.
+    pub stiffness: f64,
+    /// c_a, N s/m.
+    pub damping: f64,
+}
+
+/// The rigid wall that carries a body at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Support {
+    /// Index of the wall in the scene.
+    pub wall: usize,
+    /// The side on which it stands.
+    pub side: Side,
+}
+
 /// A stretch of exact motion on which the set of touching walls does not change.
 ///
 /// Either the body flows, m q̈ + (c + Σc_a) q̇ + (k + Σk_a) q = f(t) + Σk_a g over the touching elastic walls a, or it
-/// rests against a rigid wall.
+/// rests against a rigid wall, where q̇ = 0 and r = k q − f(t) − Σr_a.
+///
+/// Times are the scene's, and good from [`Arc::start`] to [`Arc::end`]. With τ = t − start the flow is
+///
+/// q(τ) = Re(Z e^{λτ}) + p₀ + p₁τ + Σ Im(P e^{iωτ}),
+///
+/// or, for a load whose steady solution would be much larger than the motion (near resonance, for a vanishing
+/// stiffness), the same load's response from rest by divided differences of exp.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Arc {}
+pub struct Arc {
+    start: f64,
+    end: f64,
+    body: Oscillator,
+    /// 1/m, 1/kg.
+    inverse: f64,
+    force: LocalForce,
+    touching: Vec<Touch>,
+    support: Option<Support>,
+    /// The state at the start: displacement (m) and velocity (m/s).
+    initial: [f64; 2],
+    response: Response,
+}
+
+/// What an arc starts from.
+pub(crate) struct Start<'a> {
+    /// When, s.
+    pub time: f64,
+    /// Displacement, m, and velocity, m/s.
+    pub state: [f64; 2],
+    /// The loads.
+    pub forcing: &'a Forcing,
+    /// A constant force on top, N.
+    pub extra: f64,
+    /// How far the arc may reach, s.
+    pub span: f64,
+    /// A displacement of ordinary size, m.
+    pub length: f64,
+}
 
 impl Arc {
+    /// An arc of no length for `body`; [`Arc::begin`] fills it, again and again without allocating.
+    pub(crate) fn new(body: Oscillator, walls: usize) -> Self {
+        Self {
+            start: 0.0,
+            end: 0.0,
+            body,
+            inverse: 1.0 / body.mass,
+            force: LocalForce::default(),
+            touching: Vec::with_capacity(walls),
+            support: None,
+            initial: [0.0; 2],
+            response: Response::default(),
+        }
+    }
+
+    /// Starts anew: in flight, or at rest against `support`.
+    pub(crate) fn begin(&mut self, from: &Start, touching: impl Iterator<Item = Touch>, support: Option<Support>) {
+        self.start = from.time;
+        self.end = from.time + from.span;
+        self.initial = from.state;
+        self.force.set(from.forcing, from.time, from.extra);
+        self.touching.clear();
+        self.touching.extend(touching);
+        self.support = support;
+        if support.is_some() {
+            return;
+        }
+        let Oscillator { mass, damping, stiffness } = self.body;
+        let mut total = [mass, damping, stiffness];
+        let outer = self.force.constant;
+        for wall in &self.touching {
+            total[1] += wall.damping;
+            total[2] += wall.stiffness;
+            self.force.constant += wall.stiffness * wall.position;
+        }
+        self.response.set(total, &self.force, from.state, from.span, from.length);
+        self.force.constant = outer;
+    }
+
+    /// Cuts the arc off at `end` (s).
+    pub(crate) fn cut(&mut self, end: f64) {
+        self.end = end;
+    }
+
+    /// Time at which it starts, s.
+    #[must_use]
+    pub fn start(&self) -> f64 {
+        self.start
+    }
+
+    /// Time at which it ends, s.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.end
+    }
+
+    /// The rigid wall it rests against; none in flight.
+    #[must_use]
+    pub fn rests_on(&self) -> Option<usize> {
+        self.support.map(|s| s.wall)
+    }
+
+    /// True if the body rests against a rigid wall.
+    #[must_use]
+    pub fn is_rest(&self) -> bool {
+        self.support.is_some()
+    }
+
     /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at the end.
     #[must_use]
-    pub fn state(&self, _t: f64) -> (f64, f64) {
-        todo!()
+    pub fn state(&self, t: f64) -> (f64, f64) {
+        let [q, v, ..] = self.jet(t - self.start);
+        (q, v)
     }
+
     /// Acceleration (m/s²) at `t`.
     #[must_use]
-    pub fn acceleration(&self, _t: f64) -> f64 {
-        todo!()
+    pub fn acceleration(&self, t: f64) -> f64 {
+        self.jet(t - self.start)[2]
     }
+
+    /// Load at `t`, N, with the extra force of the step.
+    #[must_use]
+    pub fn load(&self, t: f64) -> f64 {
+        self.force.jet(t - self.start)[0]
+    }
+
+    /// Impulse of the load over [from, to] within the arc, N s.
+    #[must_use]
+    pub fn load_impulse(&self, from: f64, to: f64) -> f64 {
+        self.force.integral(from - self.start, to - self.start)
+    }
+
+    /// Mass of the body, kg.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.body.mass
+    }
+
+    /// Damping of the body and of the elastic walls that touch, N s/m.
+    #[must_use]
+    pub fn damping(&self) -> f64 {
+        self.body.damping + self.touching.iter().map(|w| w.damping).sum::<f64>()
+    }
+
+    /// ∂(q, q̇ at the end)/∂(q, q̇ at the start), rows by rows: the free flow; zero for a body at rest on a wall, whose start is
+    /// forgotten.
+    #[must_use]
+    pub fn propagator(&self) -> [[f64; 2]; 2] {
+        if self.support.is_some() {
+            return [[0.0; 2]; 2];
+        }
+        let Oscillator { mass, stiffness, .. } = self.body;
+        let damping = self.damping();
+        let stiffness = stiffness + self.touching.iter().map(|w| w.stiffness).sum::<f64>();
+        let tau = self.end - self.start;
+        let free = |state| {
+            let mut response = Response::default();
+            response.set([mass, damping, stiffness], &LocalForce::default(), state, tau, 1.0);
+            response.jet(tau)
+        };
+        let (from_q, from_v) = (free([1.0, 0.0]), free([0.0, 1.0]));
+        [[from_q[0], from_v[0]], [from_q[1], from_v[1]]]
+    }
+
     /// Force of wall `wall` on the body at `t`, N, signed: 0 if it does not touch.
     #[must_use]
-    pub fn contact_force(&self, _wall: usize, _t: f64) -> f64 {
-        todo!()
+    pub fn contact_force(&self, wall: usize, t: f64) -> f64 {
+        if let Some(support) = self.support.filter(|s| s.wall == wall) {
+            return support.side.sign() * self.pressing(support, t - self.start)[0].max(0.0);
+        }
+        let Some(touch) = self.touching.iter().find(|a| a.wall == wall) else { return 0.0 };
+        let (q, v) = self.state(t);
+        -touch.stiffness * (q - touch.position) - touch.damping * v
     }
+
     /// Impulse of wall `wall` on the body over [from, to] within the arc, N s, in closed form.
+    ///
+    /// For an elastic wall from the balance of momentum, K ∫q = ∫f + Σk_a g T − mΔv − CΔq with K and C the sums with
+    /// the touching walls; since k_a ≤ K nothing is amplified.
     #[must_use]
-    pub fn contact_impulse(&self, _wall: usize, _from: f64, _to: f64) -> f64 {
-        todo!()
+    pub fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
+        let (span, load) = (to - from, self.load_impulse(from, to));
+        if let Some(support) = self.support {
+            let others = self.elastic_at_rest();
+            if support.wall == wall {
+                let push = (self.body.stiffness * self.initial[0] - others) * span - load;
+                return support.side.sign() * (support.side.sign() * push).max(0.0);
+            }
+        }
+        let Some(touch) = self.touching.iter().find(|a| a.wall == wall) else { return 0.0 };
+        if self.support.is_some() {
+            return -touch.stiffness * (self.initial[0] - touch.position) * span;
+        }
+        let ((q0, v0), (q1, v1)) = (self.state(from), self.state(to));
+        // Shifted to this wall's position, x = q − g, so that a stiff wall far from the origin cancels nothing.
+        let (mut k, mut c) = (self.body.stiffness, self.body.damping);
+        let mut push = load - self.body.stiffness * touch.position * span;
+        for a in &self.touching {
+            k += a.stiffness;
+            c += a.damping;
+            push += a.stiffness * (a.position - touch.position) * span;
+        }
+        let area = (push - self.body.mass * (v1 - v0) - c * (q1 - q0)) / k;
+        -touch.stiffness * area - touch.damping * (q1 - q0)
+    }
+
+    /// Displacement and four derivatives `tau` after the start.
+    #[inline]
+    pub(crate) fn jet(&self, tau: f64) -> Jet {
+        if self.support.is_some() {
+            return [self.initial[0], 0.0, 0.0, 0.0, 0.0];
+        }
+        self.response.jet(tau)
+    }
+
+    /// The pressing force R ≥ 0 of the supporting wall and three derivatives, N, N/s …
+    pub(crate) fn pressing(&self, support: Support, tau: f64) -> [f64; 4] {
+        let (f, sign) = (self.force.jet(tau), support.side.sign());
+        let steady = self.body.stiffness * self.initial[0] - self.elastic_at_rest();
+        [sign * (steady - f[0]), -sign * f[1], -sign * f[2], -sign * f[3]]
+    }
+
+    /// Σ r_a of the touching elastic walls at the rest position, N, signed.
+    fn elastic_at_rest(&self) -> f64 {
+        self.touching.iter().map(|a| -a.stiffness * (self.initial[0] - a.position)).sum()
+    }
+
+    /// Bounds on the magnitudes of the fourth and fifth derivative of q over [τ, τ + `window`], given `jet` at τ.
+    ///
+    /// Each derivative y of q solves ÿ + 2σẏ + κy = ψ with ψ a derivative of the load, so that
+    /// ẏ(τ+u) = S′(u) ẏ − κ y S(u) + ∫S′ψ′, where |S′| ≤ 1 and |S| ≤ min(u, 1/√κ, 1/2δ) at any damping.
+    #[inline]
+    pub(crate) fn bounds(&self, jet: &Jet, window: f64) -> [f64; 2] {
+        let (kappa, rub, inverse) = (self.response.kappa, 2.0 * self.response.sigma, self.inverse);
+        let reach = kappa * window.min(self.response.longest);
+        let load = self.force.bounds.map(|b| b * inverse);
+        let fourth = jet[4].abs() + reach * jet[3].abs() + window * load[1];
+        // The fifth at τ from the equation itself.
+        let fifth_now = load[1] + rub * jet[4].abs() + kappa * jet[3].abs();
+        let fifth = fifth_now + reach * jet[4].abs() + window * load[2];
+        [fourth, fifth]
+    }
+
+    /// Bound on |R⁗|, N/s⁴.
+    pub(crate) fn pressing_bound(&self) -> f64 {
+        self.force.bounds[2]
+    }
+
+    /// The largest ω of the load, rad/s; 0 without sines.
+    pub(crate) fn fastest(&self) -> f64 {
+        self.force.fastest()
+    }
+
+    /// The fastest lasting oscillation, rad/s: of the load, or the body's own if it oscillates; 0 if nothing does.
+    pub(crate) fn fastest_motion(&self) -> f64 {
+        self.fastest().max(self.response.oscillation())
+    }
+
+    /// True if an elastic wall touches.
+    #[inline]
+    pub(crate) fn touches(&self) -> bool {
+        !self.touching.is_empty()
+    }
+
+    /// An interval that the flow never leaves, m.
+    pub(crate) fn extent(&self) -> [f64; 2] {
+        self.response.extent
+    }
+
+    /// Sizes whose rounding limits displacement (m), velocity (m/s), force (N) and its rate (N/s).
+    pub(crate) fn sizes(&self) -> [f64; 4] {
+        let span = self.end - self.start;
+        let elastic: f64 = self.touching.iter().map(|a| a.stiffness * (self.initial[0] - a.position).abs()).sum();
+        let force = self.force.size(span) + self.body.stiffness * self.initial[0].abs() + elastic;
+        let rate = self.force.slope.abs() + self.force.waves.iter().map(|w| w.amplitude.abs() * w.omega).sum::<f64>();
+        let [q, v] = if self.is_rest() { [self.initial[0].abs(), 0.0] } else { self.response.size };
+        [q, v, force, rate]
     }
 }

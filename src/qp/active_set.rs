@@ -200,7 +200,10 @@ impl ActiveSet {
     /// The row in play that resists an impossible push most.
     fn strongest(&self, system: &Delassus) -> Option<usize> {
         let resistance = |i: usize| self.change[i].abs() * system.weight[self.rows[i]];
-        (0..self.rows.len()).max_by(|&i, &j| resistance(i).total_cmp(&resistance(j))).map(|i| self.rows[i])
+        (0..self.rows.len())
+            .filter(|&i| self.change[i] != 0.0)
+            .max_by(|&i, &j| resistance(i).total_cmp(&resistance(j)))
+            .map(|i| self.rows[i])
     }
 
     /// Forces that put every row in play exactly on its bound: W_SS r = bound − y_free.

@@ -179,14 +179,10 @@ fn unsound(rows: &[ScalarRow]) -> Failure {
 impl ScalarRow {
     /// Force of an elastic row at x.
     fn elastic(&self, x: f64) -> f64 {
-        if !(self.compliance > 0.0) {
-            0.0
-        } else if x < self.lo {
-            (self.lo - x) / self.compliance
-        } else if x > self.hi {
-            (self.hi - x) / self.compliance
-        } else {
-            0.0
+        match self.compliance > 0.0 {
+            true if x < self.lo => (self.lo - x) / self.compliance,
+            true if x > self.hi => (self.hi - x) / self.compliance,
+            _ => 0.0,
         }
     }
 }
@@ -206,7 +202,7 @@ impl Clamp {
     pub(super) fn new(problem: &Problem, scale: f64) -> Result<Self, Failure> {
         super::shape("unknowns of the clamp", 1, problem.a.ncols())?;
         let a = problem.a.as_slice().first().copied().unwrap_or(f64::NAN);
-        if !(a > 0.0) {
+        if a <= 0.0 || a.is_nan() {
             return Err(Failure::NotPositiveDefinite);
         }
         let coefficient = problem.g.as_slice().to_vec();

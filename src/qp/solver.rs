@@ -2,7 +2,7 @@
 
 use super::active_set::ActiveSet;
 use super::clamp::{Clamp, meet};
-use super::clarabel::Clarabel;
+use super::clarabel::{Clarabel, NOISE};
 use super::delassus::Delassus;
 use super::{Backend, Failure, Problem, Rhs, Solution};
 use std::fmt;
@@ -143,7 +143,8 @@ impl Polished {
     ) -> Result<(), Failure> {
         let Self { system, interior, play } = self;
         system.release(rhs.b)?;
-        let violation = violation(system, rhs);
+        let scale = scale.max(system.y.amax());
+        let violation = violation(system, rhs, NOISE * scale);
         if violation <= 0.0 {
             counters.free += 1;
             solution.multiplier.fill(0.0);
@@ -151,9 +152,8 @@ impl Polished {
             return Ok(());
         }
         super::finite("violation", &[violation], f64::is_finite)?;
-        let scale = scale.max(system.y.amax());
         play.clear();
-        match interior.find(system, rhs, violation, play) {
+        match interior.find(system, rhs, violation, scale, play) {
             Ok(iterations) => counters.iterations += iterations,
             Err(failure) => {
                 // The interior point cannot say which bounds cross; the active set, from nothing, can.
@@ -168,10 +168,11 @@ impl Polished {
     }
 }
 
-/// The largest violation of a bound by the free motion, in units of √Wᵢᵢ; 0 or below where there is none.
-fn violation(system: &Delassus, rhs: &Rhs) -> f64 {
+/// The largest violation of a bound by the free motion that is more than `noise`, in units of √Wᵢᵢ; 0 without one.
+fn violation(system: &Delassus, rhs: &Rhs, noise: f64) -> f64 {
     (0..system.y.len()).fold(0.0, |most, row| {
         let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
-        f64::max(most, (lo - system.y[row]).max(system.y[row] - hi) / system.weight[row])
+        let excess = (lo - system.y[row]).max(system.y[row] - hi);
+        if excess > noise { f64::max(most, excess / system.weight[row]) } else { most }
     })
 }

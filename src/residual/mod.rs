@@ -171,11 +171,10 @@ impl Judge {
             (s.inertia[i], s.damper[i], s.spring[i]) = (0.0, 0.0, 0.0);
         }
         let system = &self.scene.system;
-        let (v, q) = (&s.mean_v, &s.mean_q);
-        system.add_product(1.0, after, 0.0, v, 0.0, q, &mut s.inertia);
-        system.add_product(-1.0, before, 0.0, v, 0.0, q, &mut s.inertia);
-        system.add_product(0.0, after, h, v, 0.0, q, &mut s.damper);
-        system.add_product(0.0, after, 0.0, v, h, q, &mut s.spring);
+        system.add_mass(1.0, after, &mut s.inertia);
+        system.add_mass(-1.0, before, &mut s.inertia);
+        system.add_damping(h, &s.mean_v, &mut s.damper);
+        system.add_stiffness(h, &s.mean_q, &mut s.spring);
         for i in 0..s.residual.len() {
             let (inertia, damper, spring) = (s.inertia[i], s.damper[i], s.spring[i]);
             s.residual[i] += inertia + damper + spring;

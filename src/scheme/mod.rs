@@ -1,7 +1,9 @@
 //! How time advances: one file per scheme, and the [`Stepper`] that drives any of them.
 
 mod central_difference;
+pub mod event;
 mod grid;
+mod method;
 mod moreau_jean;
 mod name;
 mod paoli_schatzman;
@@ -13,6 +15,7 @@ mod programme;
 mod stepper;
 
 pub use grid::Counters;
+pub use method::Method;
 pub use penalty_law::{Integrator, PenaltyLaw};
 pub use stepper::Stepper;
 

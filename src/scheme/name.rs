@@ -17,6 +17,7 @@ impl fmt::Display for Scheme {
             Self::MoreauJean { theta } => write!(f, "moreau-jean:theta={theta}"),
             Self::Newmark => f.write_str("newmark"),
             Self::Event => f.write_str("event"),
+            Self::Penalty { law, integrator } if integrator == Integrator::default() => write!(f, "penalty:{law}"),
             Self::Penalty { law, integrator } => write!(f, "penalty:{law},integrator={integrator}"),
         }
     }

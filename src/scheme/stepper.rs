@@ -1,6 +1,7 @@
 //! The stepper: one public type over all schemes.
 
 use super::central_difference::CentralDifference;
+use super::event::Event;
 use super::grid::{Counters, Frame, Scalar};
 use super::moreau_jean::MoreauJean;
 use super::paoli_schatzman::PaoliSchatzman;
@@ -21,6 +22,7 @@ enum Kernel {
     MoreauJean(MoreauJean),
     Penalty(Penalty),
     CentralDifference(CentralDifference),
+    Event(Box<Event>),
 }
 
 /// Advances a scene step by step.
@@ -91,7 +93,7 @@ impl Stepper {
                 }
                 Integrator::CentralDifference => Kernel::CentralDifference(CentralDifference::new(&scene, step)),
             },
-            Scheme::Event => return Err(Error::invalid("scheme", "event", "x")),
+            Scheme::Event => Kernel::Event(Box::new(Event::new(&scene, step)?)),
         };
         let (q, v) = Scalar::new(&scene, step).start(&scene);
         let frame = Frame::new(q, v, scene.walls.len());
@@ -133,6 +135,25 @@ impl Stepper {
             Kernel::Position(kernel) => kernel.advance(index, extra, frame),
             Kernel::Penalty(kernel) => kernel.advance(index, extra, frame),
             Kernel::CentralDifference(kernel) => kernel.advance(index, extra, frame),
+            Kernel::Event(event) => {
+                event.advance(extra)?;
+                self.index += 1;
+                return Ok(Step {
+                    index,
+                    start: event.start(),
+                    end: event.end(),
+                    q: event.q(),
+                    v: event.v(),
+                    velocity_before: event.velocity_before(),
+                    velocity_after: event.v(),
+                    impulse: event.impulse(),
+                    jump: event.jump(),
+                    force: event.force(),
+                    extra: &frame.extra,
+                    closed: event.closed(),
+                    path: Path::Exact(event.arc()),
+                });
+            }
         }?;
         self.index += 1;
         if frame.touched || !self.episodes.idle() {
@@ -161,13 +182,19 @@ impl Stepper {
     /// Time reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.frame.end
+        match &self.kernel {
+            Kernel::Event(event) => event.end(),
+            _ => self.frame.end,
+        }
     }
 
     /// State reached; at the start, the state after any impulse at t = 0.
     #[must_use]
     pub fn state(&self) -> State {
-        State { q: self.frame.q.to_vec(), v: self.frame.v.to_vec() }
+        match &self.kernel {
+            Kernel::Event(event) => State { q: event.q().to_vec(), v: event.v().to_vec() },
+            _ => State { q: self.frame.q.to_vec(), v: self.frame.v.to_vec() },
+        }
     }
 
     /// The scene as the scheme sees it: a penalty's walls are springs here.
@@ -197,7 +224,10 @@ impl Stepper {
     /// Contact episodes that are still open.
     #[must_use]
     pub fn open_contacts(&self) -> Vec<Contact> {
-        self.episodes.still_open()
+        match &self.kernel {
+            Kernel::Event(event) => event.open_contacts().copied().collect(),
+            _ => self.episodes.still_open(),
+        }
     }
 
     /// What the run has cost so far.
@@ -210,6 +240,11 @@ impl Stepper {
             Kernel::MoreauJean(kernel) => kernel.count(&mut counters),
             Kernel::Penalty(kernel) => kernel.count(&mut counters),
             Kernel::CentralDifference(_) => {}
+            Kernel::Event(event) => {
+                let inner = event.counters();
+                counters.events = inner.events;
+                counters.flow_evaluations = inner.evaluations;
+            }
         }
         counters
     }

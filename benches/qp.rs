@@ -1,0 +1,158 @@
+//! Cost of a step's programme: the clamp, bare Clarabel (`update_q`, `update_b`, `solve`), and the polished solver,
+//! measured in turn in one run. Prints a table; asserts nothing about time.
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT};
+use nalgebra::{DMatrix, DVector};
+use signorini::qp::{Backend, Problem, Rhs, ScalarRow, Solver, clamp};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Best of these rounds counts; sides take turns within each.
+const ROUNDS: usize = 15;
+
+/// A chain of n springs with a box of ±1 on every unknown; loads that push a varying part of it against the walls.
+fn chain(n: usize) -> (Problem, Vec<Vec<f64>>) {
+    let a = DMatrix::from_fn(n, n, |i, j| match i.abs_diff(j) {
+        0 => 3.0,
+        1 => -1.0,
+        _ => 0.0,
+    });
+    let problem = Problem { a, g: DMatrix::identity(n, n), compliance: DVector::zeros(n) };
+    let loads = (0..64)
+        .map(|step| (0..n).map(|i| 5.0 * (0.37 * f64::from(step) + 0.9 * i as f64).sin() + 4.0).collect())
+        .collect();
+    (problem, loads)
+}
+
+/// Clarabel as one would call it by hand, at the same tolerance, on the same (already dimensionless) programme.
+fn bare(problem: &Problem) -> DefaultSolver<f64> {
+    let n = problem.a.ncols();
+    let upper = |matrix: &DMatrix<f64>, keep: fn(usize, usize) -> bool| {
+        let (mut starts, mut rows, mut values) = (vec![0], vec![], vec![]);
+        for j in 0..matrix.ncols() {
+            for i in (0..matrix.nrows()).filter(|&i| keep(i, j) && matrix[(i, j)] != 0.0) {
+                rows.push(i);
+                values.push(matrix[(i, j)]);
+            }
+            starts.push(rows.len());
+        }
+        CscMatrix::new(matrix.nrows(), matrix.ncols(), starts, rows, values)
+    };
+    let mut sides = DMatrix::zeros(2 * n, n);
+    sides.view_mut((0, 0), (n, n)).copy_from(&problem.g);
+    sides.view_mut((n, 0), (n, n)).copy_from(&-&problem.g);
+    let settings = DefaultSettings {
+        verbose: false,
+        presolve_enable: false,
+        max_threads: 1,
+        tol_gap_abs: 1e-9,
+        tol_gap_rel: 1e-9,
+        tol_feas: 1e-9,
+        ..DefaultSettings::default()
+    };
+    let cost = upper(&problem.a, |i, j| i <= j);
+    let rows = upper(&sides, |_, _| true);
+    DefaultSolver::new(&cost, &vec![0.0; n], &rows, &vec![1.0; 2 * n], &[NonnegativeConeT(2 * n)], settings)
+        .expect("a sound programme")
+}
+
+/// Nanoseconds for each call of `work`, over `calls` of them.
+fn time(calls: usize, mut work: impl FnMut(usize)) -> f64 {
+    let start = Instant::now();
+    for call in 0..calls {
+        work(call);
+    }
+    start.elapsed().as_secs_f64() * 1e9 / calls as f64
+}
+
+fn main() {
+    println!("{:>5} {:>14} {:>14} {:>8} {:>18}", "n", "bare ns", "polished ns", "ratio", "iterations a step");
+    for n in [1, 5, 20, 40] {
+        let (problem, loads) = chain(n);
+        // Only steps that meet a wall: the free ones cost the polished solver next to nothing.
+        let mut polished = Solver::new(problem.clone(), Backend::Clarabel, 1.0).expect("a sound problem");
+        let (lo, hi) = (vec![-1.0; n], vec![1.0; n]);
+        let mut met = |b: &Vec<f64>| {
+            let found = polished.solve(&Rhs { b, lo: &lo, hi: &hi }).expect("feasible");
+            found.multiplier.iter().any(|&r| r != 0.0)
+        };
+        let loads: Vec<_> = loads.into_iter().filter(|b| met(b)).collect();
+        let mut direct = bare(&problem);
+        let bounds = vec![1.0; 2 * n];
+        let calls = loads.len() * (400 / n).max(1);
+        let (mut best_bare, mut best_polished) = (f64::INFINITY, f64::INFINITY);
+        let mut q = vec![0.0; n];
+        let (mut hand, mut before) = (0_u64, polished.counters());
+        for _ in 0..ROUNDS {
+            hand = 0;
+            best_bare = best_bare.min(time(calls, |call| {
+                for (q, b) in q.iter_mut().zip(&loads[call % loads.len()]) {
+                    *q = -b;
+                }
+                direct.update_q(&q).expect("updatable");
+                direct.update_b(&bounds).expect("updatable");
+                direct.solve();
+                hand += u64::from(direct.solution.iterations);
+                black_box(&direct.solution.x);
+            }));
+            before = polished.counters();
+            best_polished = best_polished.min(time(calls, |call| {
+                let rhs = Rhs { b: &loads[call % loads.len()], lo: &lo, hi: &hi };
+                black_box(polished.solve(&rhs).expect("feasible"));
+            }));
+        }
+        let ours = polished.counters().iterations - before.iterations;
+        println!(
+            "{n:>5} {best_bare:>14.0} {best_polished:>14.0} {:>8.2} {:>8.1} / {:>7.1}",
+            best_polished / best_bare,
+            hand as f64 / calls as f64,
+            ours as f64 / calls as f64
+        );
+    }
+
+    let rows = [
+        ScalarRow { lo: -1.0, hi: f64::INFINITY, compliance: 0.0 },
+        ScalarRow { lo: f64::NEG_INFINITY, hi: 1.0, compliance: 0.0 },
+    ];
+    let layer = [ScalarRow { compliance: 0.1, ..rows[0] }, rows[1]];
+    let (mut r, calls) = ([0.0; 2], 1_000_000);
+    let problem = Problem {
+        a: DMatrix::from_element(1, 1, 3.0),
+        g: DMatrix::from_element(2, 1, 1.0),
+        compliance: DVector::zeros(2),
+    };
+    let mut matrices = Solver::new(problem, Backend::Clamp, 1.0).expect("a sound problem");
+    let (lo, hi) = ([-1.0, f64::NEG_INFINITY], [f64::INFINITY, 1.0]);
+    let mut best = [f64::INFINITY; 5];
+    for _ in 0..ROUNDS {
+        let costs = [
+            time(calls, |_| {
+                let b: f64 = black_box(6.0);
+                let x = (b / 3.0).clamp(-1.0, 1.0);
+                black_box((x, 3.0 * x - b));
+            }),
+            time(calls, |_| {
+                black_box(clamp(3.0, black_box(1.0), &rows, &mut r)).ok();
+            }),
+            time(calls, |_| {
+                black_box(clamp(3.0, black_box(6.0), &rows, &mut r)).ok();
+            }),
+            time(calls, |_| {
+                black_box(clamp(3.0, black_box(-6.0), &layer, &mut r)).ok();
+            }),
+            time(calls, |_| {
+                black_box(matrices.solve(&Rhs { b: &[black_box(6.0)], lo: &lo, hi: &hi })).ok();
+            }),
+        ];
+        for (best, cost) in best.iter_mut().zip(costs) {
+            *best = best.min(cost);
+        }
+    }
+    println!("\nscalar, ns a call");
+    let names =
+        ["bare clamp of one float", "clamp(), free", "clamp(), rigid contact", "clamp(), elastic", "Solver, clamp"];
+    for (name, best) in names.iter().zip(best) {
+        println!("{name:<26} {best:>8.1}");
+    }
+}

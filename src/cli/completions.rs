@@ -1,0 +1,20 @@
+//! `signorini completions`: for the shell.
+
+use super::ui::Ui;
+use crate::error::Result;
+use clap_complete::Shell;
+
+/// Print completions for a shell
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  signorini completions bash > /etc/bash_completion.d/signorini")]
+pub struct Args {
+    /// The shell
+    shell: Shell,
+}
+
+pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+    let mut text = Vec::new();
+    clap_complete::generate(args.shell, &mut super::command(), "signorini", &mut text);
+    ui.answer(&String::from_utf8_lossy(&text));
+    Ok(())
+}

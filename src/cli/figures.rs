@@ -1,0 +1,126 @@
+//! `signorini figures`: the figures of the source, from the built-in cases.
+
+use super::run::perform;
+use super::ui::Ui;
+use crate::case::{Case, Embedded};
+use crate::error::{Error, Result};
+use crate::output::atomic::{check_folder, write_whole};
+use crate::output::figure::{Curve, Figure, Mark, Panel};
+use crate::output::pictures::{Labelled, Sheet};
+use crate::run::Run;
+use crate::scheme::{Method, Scheme};
+use crate::study::choice;
+use std::path::PathBuf;
+
+/// Draw all figures of the source (2 to 9) from the built-in cases
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  signorini figures --out figures")]
+pub struct Args {
+    /// Folder for the figures
+    #[arg(long, value_name = "DIR", default_value = "out/figures")]
+    out: PathBuf,
+}
+
+/// What stands in one figure of the source: its number, the case, and whether it is the contact force alone.
+struct Plate {
+    number: u32,
+    case: &'static str,
+    content: Content,
+}
+
+/// What a plate draws.
+#[derive(Clone, Copy, PartialEq)]
+enum Content {
+    /// Displacement, velocity and phase plot of the constrained QP over the exact motion.
+    Response,
+    /// The same for every penalty of the case.
+    Penalties,
+    /// Displacement over the 50-digit reference values.
+    Independent,
+    /// Contact force in time.
+    Force,
+}
+
+const PLATES: [Plate; 8] = [
+    Plate { number: 2, case: "linear-sine", content: Content::Response },
+    Plate { number: 3, case: "linear-impulse", content: Content::Response },
+    Plate { number: 4, case: "rigid-walls-sine", content: Content::Response },
+    Plate { number: 5, case: "penalty-epsilon", content: Content::Penalties },
+    Plate { number: 6, case: "independent-code", content: Content::Independent },
+    Plate { number: 7, case: "rigid-walls-impulse", content: Content::Response },
+    Plate { number: 8, case: "elastic-wall", content: Content::Response },
+    Plate { number: 9, case: "elastic-wall", content: Content::Force },
+];
+
+/// Time shown, s: enough periods to see, few enough to tell apart.
+const SHOWN: f64 = 2.0;
+
+pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+    check_folder(&args.out)?;
+    for plate in &PLATES {
+        let mut case = Case::embedded(plate.case)?;
+        case.scene.duration = case.scene.duration.min(SHOWN);
+        case.time.sample = Some(case.time.step.max(case.scene.duration / 4000.0));
+        for (name, svg) in plate.draw(&case, ui)? {
+            let path = args.out.join(format!("fig{}-{name}", plate.number));
+            write_whole(&path, svg.as_bytes())?;
+            ui.message(&format!("wrote {}", path.display()));
+        }
+    }
+    Ok(())
+}
+
+impl Plate {
+    fn draw(&self, case: &Case, ui: &Ui) -> Result<Vec<(&'static str, String)>> {
+        let chosen = choice::choose(&case.scene).method;
+        let integrator = case.penalty.integrator.unwrap_or_default();
+        let mut methods = vec![chosen];
+        if self.content == Content::Penalties {
+            methods.extend(case.penalty.laws.iter().map(|&law| Method::new(Scheme::Penalty { law, integrator })));
+        } else {
+            methods.push(Method::new(Scheme::Event));
+        }
+        let runs = methods.iter().map(|m| perform(case, m, ui)).collect::<Result<Vec<Run>>>()?;
+        let labels: Vec<String> = methods.iter().map(|m| label(m, integrator)).collect();
+        let title =
+            format!("{} ({})", case.title.as_deref().unwrap_or(&case.name), case.source.as_deref().unwrap_or("source"));
+        if self.content == Content::Independent {
+            return Ok(vec![("displacement.svg", independent(case, &title, &labels, &runs)?)]);
+        }
+        let labelled: Vec<Labelled<'_>> = methods
+            .iter()
+            .zip(&labels)
+            .zip(&runs)
+            .map(|((m, label), run)| Labelled { label, run, reference: m.scheme == Scheme::Event })
+            .collect();
+        let sheet = Sheet { title: &title, scene: &case.scene, runs: &labelled, until: case.scene.duration };
+        let figures = sheet.figures()?.into_iter();
+        let force = self.content == Content::Force;
+        Ok(figures.filter(|(name, _)| (*name == "contact-force.svg") == force).collect())
+    }
+}
+
+/// The method without what all of a figure's penalties share.
+fn label(method: &Method, integrator: crate::scheme::Integrator) -> String {
+    let text = method.to_string().replace(&format!(",integrator={integrator}"), "");
+    if method.scheme == Scheme::Event { "event (exact)".into() } else { text }
+}
+
+/// The 50-digit impacts and states over the computed displacement, mm.
+fn independent(case: &Case, title: &str, labels: &[String], runs: &[Run]) -> Result<String> {
+    let mut panel = Panel::new("Displacement (mm)");
+    for (label, run) in labels.iter().zip(runs) {
+        let rows = run.trajectory.time().iter().zip(run.trajectory.displacement());
+        panel = panel.curve(Curve::new(label.as_str(), rows.map(|(&t, &u)| (t, 1e3 * u))));
+    }
+    let points = Embedded::reference_points()
+        .ok_or_else(|| Error::Case("error: the built-in reference values cannot be read".into()))?;
+    let shown = points.into_iter().filter(|p| p.0 <= case.scene.duration);
+    // A point that cannot be drawn between two that can leaves markers without a line.
+    let shown = shown.flat_map(|(t, u)| [(t, 1e3 * u), (t, f64::NAN)]);
+    panel = panel.curve(Curve::new("50-digit reference", shown).marked());
+    for wall in &case.scene.walls {
+        panel = panel.mark(Mark::wall(1e3 * wall.position, wall.name.as_str()));
+    }
+    Ok(Figure::new(title, "Time (s)").panel(panel).to_svg())
+}

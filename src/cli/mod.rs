@@ -1,0 +1,79 @@
+//! The command-line tool: parse, call, print. One file per command.
+
+mod compare;
+mod completions;
+mod explain;
+mod figures;
+mod new;
+pub mod request;
+mod run;
+pub mod ui;
+
+use crate::error::Result;
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+use ui::Ui;
+
+const EXAMPLES: &str = "\
+Examples:
+  signorini compare cases/rigid-walls-sine.toml      the constrained QP against the penalty, side by side
+  signorini run rigid-walls-sine --restitution 0.8   one run of a built-in case
+  signorini explain elastic-wall                     what would be chosen, and why
+  signorini new bouncing-ball                        a case file to start from
+
+Exit codes: 0 done, 1 the run failed, 2 the request was wrong.";
+
+/// Vibrating structures between walls: contact forces by one convex QP per time step, by penalty, and exactly.
+#[derive(Debug, Parser)]
+#[command(name = "signorini", version, about, after_help = EXAMPLES, arg_required_else_help = true)]
+struct Cli {
+    /// Say nothing but errors and results
+    #[arg(long, short, global = true)]
+    quiet: bool,
+    /// Print tables as JSON
+    #[arg(long, global = true)]
+    json: bool,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Args),
+    Compare(compare::Args),
+    Explain(explain::Args),
+    Figures(figures::Args),
+    New(new::Args),
+    Completions(completions::Args),
+}
+
+/// Runs the tool on the process's arguments: data to stdout, messages to stderr.
+#[must_use]
+pub fn main() -> ExitCode {
+    // Clap answers --help and --version with 0 and a wrong request with 2, as this tool does.
+    let cli = Cli::parse();
+    let ui = Ui::new(cli.quiet, cli.json);
+    match execute(&cli.command, &ui) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            ui.error(&error);
+            ExitCode::from(if error.is_request() { 2 } else { 1 })
+        }
+    }
+}
+
+fn execute(command: &Command, ui: &Ui) -> Result<()> {
+    match command {
+        Command::Run(args) => run::execute(args, ui),
+        Command::Compare(args) => compare::execute(args, ui),
+        Command::Explain(args) => explain::execute(args, ui),
+        Command::Figures(args) => figures::execute(args, ui),
+        Command::New(args) => new::execute(args, ui),
+        Command::Completions(args) => completions::execute(args, ui),
+    }
+}
+
+/// The tool's command, for the completions.
+fn command() -> clap::Command {
+    <Cli as clap::CommandFactory>::command()
+}

@@ -1,0 +1,147 @@
+//! The case a command is about, and what the command line changes of it.
+
+use crate::case::{Case, Embedded};
+use crate::error::{Error, Result};
+use crate::qp::Backend;
+use crate::scene::WallLaw;
+use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
+use std::path::{Path, PathBuf};
+
+/// What `run` and `compare` share.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Request {
+    /// Case file, or the name of a built-in case
+    pub case: String,
+    /// Step of the stepping schemes, s
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub step: Option<f64>,
+    /// End of the run, s
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub end: Option<f64>,
+    /// Spacing of the recorded rows, s
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    pub sample: Option<f64>,
+    /// Restitution of every rigid wall, 0 to 1
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    pub restitution: Option<f64>,
+    /// Penalty parameter ε, m³/N, in place of the case's
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true)]
+    pub epsilon: Option<f64>,
+    /// Solver of the quadratic programmes: auto, clamp, clarabel
+    #[arg(long, value_name = "NAME")]
+    pub qp: Option<Backend>,
+    /// θ of moreau-jean, 0.5 to 1
+    #[arg(long, value_name = "θ", allow_hyphen_values = true)]
+    pub theta: Option<f64>,
+    /// Integrator of the penalty: trapezoidal, implicit-euler, central-difference, discrete-gradient
+    #[arg(long, value_name = "NAME")]
+    pub integrator: Option<Integrator>,
+    /// Folder for the results [default: out/CASE/COMMAND]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// Reads the case file at `path`; a bare name that is no file is looked for among the built-in cases.
+///
+/// # Errors
+/// As [`Case::read`].
+pub fn case(path: &str) -> Result<Case> {
+    match Embedded::named(path) {
+        Ok(embedded) if !Path::new(path).exists() => embedded.case(),
+        _ => Case::read(path),
+    }
+}
+
+impl Request {
+    /// The case with the command line's changes, checked.
+    ///
+    /// # Errors
+    /// As [`case`], and [`Error::Invalid`] for a change that makes no sense.
+    pub fn case(&self) -> Result<Case> {
+        let mut case = case(&self.case)?;
+        if let Some(end) = self.end {
+            case.scene.duration = end;
+            let until_end = |x: &f64| *x <= end;
+            case.time.sample = case.time.sample.filter(until_end);
+        }
+        case.time.step = self.step.unwrap_or(case.time.step);
+        case.time.sample = self.sample.or(case.time.sample);
+        if let Some(e) = self.restitution {
+            let rigid = |law: &WallLaw| law.is_rigid();
+            if !case.scene.walls.iter().any(|wall| rigid(&wall.law)) {
+                return Err(Error::invalid("--restitution", e, "a case with a rigid wall; this one has none"));
+            }
+            for wall in case.scene.walls.iter_mut().filter(|wall| rigid(&wall.law)) {
+                wall.law = WallLaw::Rigid { restitution: e };
+            }
+        }
+        if let Some(epsilon) = self.epsilon {
+            case.penalty.laws = vec![PenaltyLaw::Quartic { epsilon }];
+        }
+        if self.integrator.is_some() {
+            case.penalty.integrator = self.integrator;
+        }
+        case.validate()?;
+        Ok(case)
+    }
+
+    /// The method that the word `name` asks for: settings it leaves open come from the command line and the case.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] or [`Error::Invalid`] for a word that names none.
+    pub fn method(&self, name: &str, case: &Case) -> Result<Method> {
+        let bare_penalty = name.trim() == "penalty" || name.trim().starts_with("penalty:integrator=");
+        let mut method: Method = if bare_penalty {
+            let law = case.penalty.laws.first().ok_or_else(|| {
+                Error::invalid(
+                    "scheme",
+                    "penalty",
+                    "an --epsilon, or a case with a [penalty] table, or penalty:stiffness=…",
+                )
+            })?;
+            let settings = name.trim().strip_prefix("penalty:").unwrap_or("");
+            format!("penalty:{law},{settings}").parse()?
+        } else {
+            name.parse()?
+        };
+        let names_integrator = name.contains("integrator=");
+        match &mut method.scheme {
+            Scheme::MoreauJean { theta } if !name.contains("theta=") => *theta = self.theta.unwrap_or(*theta),
+            Scheme::Penalty { integrator, .. } if !names_integrator => {
+                *integrator = case.penalty.integrator.unwrap_or_default();
+            }
+            _ => {}
+        }
+        if !name.contains("qp=") {
+            method.backend = self.qp.unwrap_or(method.backend);
+        }
+        method.scheme.validate()?;
+        Ok(method)
+    }
+
+    /// Refuses settings that no method of the request has any use for.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] naming the option.
+    pub fn check_use(&self, methods: &[Method]) -> Result<()> {
+        let any = |test: fn(&Scheme) -> bool| methods.iter().any(|m| test(&m.scheme));
+        let penalty = |s: &Scheme| matches!(s, Scheme::Penalty { .. });
+        let unused = |option: &str, value: String, scheme: &str| {
+            Err(Error::invalid(option, value, format!("a request with {scheme} in it")))
+        };
+        match (self.theta, self.epsilon, self.integrator) {
+            (Some(theta), _, _) if !any(|s| matches!(s, Scheme::MoreauJean { .. })) => {
+                unused("--theta", theta.to_string(), "moreau-jean")
+            }
+            (_, Some(epsilon), _) if !any(penalty) => unused("--epsilon", epsilon.to_string(), "penalty"),
+            (_, _, Some(integrator)) if !any(penalty) => unused("--integrator", integrator.to_string(), "penalty"),
+            _ => Ok(()),
+        }
+    }
+
+    /// Where results go: `--out`, or `out/<case>/<command>`.
+    #[must_use]
+    pub fn folder(&self, case: &Case, command: &str) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join(command))
+    }
+}

@@ -1,0 +1,93 @@
+//! The load over one arc, as a function of the time since its start.
+
+use crate::scene::Forcing;
+
+/// One sine, A sin(ω τ + θ), with its phase at the arc's start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Wave {
+    /// A, N.
+    pub amplitude: f64,
+    /// ω, rad/s; above 0.
+    pub omega: f64,
+    /// sin θ and cos θ.
+    pub sin: f64,
+    /// See `sin`.
+    pub cos: f64,
+}
+
+/// f(τ) = f₀ + f₁ τ + Σ A sin(ωτ + θ), N, for τ from the arc's start (s).
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct LocalForce {
+    /// f₀, N.
+    pub constant: f64,
+    /// f₁, N/s.
+    pub slope: f64,
+    /// The sines.
+    pub waves: Vec<Wave>,
+    /// Bounds on |f″|, |f‴| and |f⁗|, N/s² and so on.
+    pub bounds: [f64; 3],
+}
+
+impl LocalForce {
+    /// Takes the loads as they are just after `start`, plus `extra` (N); valid up to the next row of a table.
+    pub fn set(&mut self, forcing: &Forcing, start: f64, extra: f64) {
+        self.constant = forcing.constant + extra;
+        self.slope = 0.0;
+        self.bounds = [0.0; 3];
+        for table in &forcing.tables {
+            let (value, slope) = table.piece(start);
+            self.constant += value;
+            self.slope += slope;
+        }
+        self.waves.clear();
+        for h in &forcing.harmonics {
+            let (sin, cos) = (h.omega * start + h.phase).sin_cos();
+            if h.omega == 0.0 {
+                self.constant += h.amplitude * sin;
+                continue;
+            }
+            self.waves.push(Wave { amplitude: h.amplitude, omega: h.omega, sin, cos });
+            let second = h.amplitude.abs() * h.omega * h.omega;
+            self.bounds[0] += second;
+            self.bounds[1] += second * h.omega;
+            self.bounds[2] += second * h.omega * h.omega;
+        }
+    }
+
+    /// f, f′, f″, f‴ at `tau`.
+    pub fn jet(&self, tau: f64) -> [f64; 4] {
+        let mut f = [self.constant + self.slope * tau, self.slope, 0.0, 0.0];
+        for w in &self.waves {
+            let (s, c) = (w.omega * tau).sin_cos();
+            let (sin, cos) = (w.amplitude * (w.sin * c + w.cos * s), w.amplitude * (w.cos * c - w.sin * s));
+            f[0] += sin;
+            f[1] += w.omega * cos;
+            f[2] -= w.omega * w.omega * sin;
+            f[3] -= w.omega * w.omega * w.omega * cos;
+        }
+        f
+    }
+
+    /// ∫ f over [from, to], N s: A Δ sin(ω mid + θ) sinc(ωΔ/2) for a sine, which knows no small ω.
+    pub fn integral(&self, from: f64, to: f64) -> f64 {
+        let (span, mid) = (to - from, 0.5 * (from + to));
+        let mut sum = (self.constant + self.slope * mid) * span;
+        for w in &self.waves {
+            let (s, c) = (w.omega * mid).sin_cos();
+            let half = 0.5 * w.omega * span;
+            let sinc = if half == 0.0 { 1.0 } else { half.sin() / half };
+            sum += w.amplitude * span * (w.sin * c + w.cos * s) * sinc;
+        }
+        sum
+    }
+
+    /// |f₀| + |f₁| `span` + Σ|A|: what the force does not exceed, N.
+    pub fn size(&self, span: f64) -> f64 {
+        self.constant.abs() + self.slope.abs() * span + self.waves.iter().map(|w| w.amplitude.abs()).sum::<f64>()
+    }
+
+    /// The largest ω, rad/s; 0 without sines.
+    pub fn fastest(&self) -> f64 {
+        self.waves.iter().map(|w| w.omega).fold(0.0, f64::max)
+    }
+}

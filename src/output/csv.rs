@@ -1,0 +1,74 @@
+//! `trajectory.csv` and `contacts.csv`: 17 significant digits, so that what is read back is what was computed.
+
+use super::atomic::WholeFile;
+use crate::error::{Error, Result};
+use crate::trajectory::Trajectory;
+use std::path::Path;
+
+/// Writes the rows of `trajectory`: time, displacement and velocity of each probe, force and impulse of each wall. Forces are signed (lower
+/// ≥ 0, upper ≤ 0); an impulse is all of it since the previous row, so that the column sums to the run's.
+///
+/// # Errors
+/// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
+pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
+    let mut header = vec!["time_s".to_owned()];
+    let mut columns: Vec<&[f64]> = vec![trajectory.time()];
+    for probe in trajectory.probes() {
+        let suffix = if probe.is_empty() { String::new() } else { format!("_{probe}") };
+        let (displacement, velocity) = trajectory.probe(probe)?;
+        header.extend([format!("displacement{suffix}_m"), format!("velocity{suffix}_m_per_s")]);
+        columns.extend([displacement, velocity]);
+    }
+    for wall in trajectory.walls() {
+        header.extend([format!("contact_force_{wall}_N"), format!("contact_impulse_{wall}_Ns")]);
+        columns.extend([trajectory.contact_force(wall)?, trajectory.contact_impulse(wall)?]);
+    }
+    let rows = (0..trajectory.time().len()).map(|i| columns.iter().map(move |c| digits(c.get(i).copied())).collect());
+    table(path, &header, rows)
+}
+
+/// Writes the contact episodes of `trajectory`, one a row, in time order. A rigid impact has no peak force, an episode
+/// still open at the end of the run no end: those cells are empty.
+///
+/// # Errors
+/// As [`trajectory`].
+pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
+    let header =
+        ["wall", "start_s", "end_s", "impulse_Ns", "peak_force_N", "approach_speed_m_per_s", "departure_speed_m_per_s"];
+    let rows = trajectory.contacts().iter().map(|c| {
+        vec![
+            trajectory.walls().get(c.wall).cloned().unwrap_or_default(),
+            digits(Some(c.start)),
+            digits(c.end),
+            digits(Some(c.impulse)),
+            digits(c.peak_force),
+            digits(Some(c.approach_speed)),
+            digits(c.departure_speed),
+        ]
+    });
+    table(path, &header.map(str::to_owned), rows)
+}
+
+/// Writes a table of text cells under a header.
+///
+/// # Errors
+/// As [`trajectory`].
+pub fn table(path: &Path, header: &[String], rows: impl Iterator<Item = Vec<String>>) -> Result<()> {
+    let failed = |e: csv::Error| Error::Io { path: path.display().to_string(), reason: e.to_string(), request: false };
+    let mut writer = csv::Writer::from_writer(WholeFile::create(path)?);
+    writer.write_record(header).map_err(failed)?;
+    for row in rows {
+        writer.write_record(&row).map_err(failed)?;
+    }
+    let said = |e: &dyn std::fmt::Display| Error::Io {
+        path: path.display().to_string(),
+        reason: e.to_string(),
+        request: false,
+    };
+    writer.into_inner().map_err(|e| said(&e.error()))?.finish()
+}
+
+/// 17 significant digits; an empty cell where there is no value.
+fn digits(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |x| format!("{x:.16e}"))
+}

@@ -1,0 +1,118 @@
+//! A wall as the exact scheme sees it: its law, whether it touches, and the episode under way.
+
+use crate::flow::Touch;
+use crate::scene::{Side, Wall, WallLaw};
+use crate::step::Contact;
+
+/// Where the body is with respect to one wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Phase {
+    /// A rigid wall, with its restitution e.
+    Rigid(f64),
+    /// An elastic wall, before it: s ≤ 0.
+    Outside,
+    /// In it and pushed: k_a s + c_a ṡ > 0.
+    Touching,
+    /// In it but let go: k_a s + c_a ṡ ≤ 0 < s.
+    Detached,
+}
+
+/// One wall of a run.
+#[derive(Debug, Clone)]
+pub(super) struct Barrier {
+    pub name: String,
+    pub side: Side,
+    /// Away from the wall: +1 at a lower wall, −1 at an upper one.
+    pub sign: f64,
+    /// Position g, m.
+    pub position: f64,
+    /// k_a, N/m, and c_a, N s/m; zero for a rigid wall.
+    pub stiffness: f64,
+    pub damping: f64,
+    pub phase: Phase,
+    /// The episode under way.
+    pub open: Option<Contact>,
+}
+
+impl Barrier {
+    /// None for a law that the exact scheme does not follow.
+    pub fn new(wall: &Wall) -> Option<Self> {
+        let (stiffness, damping, phase) = match wall.law {
+            WallLaw::Rigid { restitution } => (0.0, 0.0, Phase::Rigid(restitution)),
+            WallLaw::Elastic { stiffness, damping } => (stiffness, damping, Phase::Outside),
+            WallLaw::Quartic { .. } => return None,
+        };
+        Some(Self {
+            name: wall.name.clone(),
+            side: wall.side,
+            sign: wall.side.sign(),
+            position: wall.position,
+            stiffness,
+            damping,
+            phase,
+            open: None,
+        })
+    }
+
+    /// Gap at `q`, m.
+    #[inline]
+    pub fn gap(&self, q: f64) -> f64 {
+        self.sign * (q - self.position)
+    }
+
+    /// The sum k_a s + c_a ṡ at (`q`, `v`), N.
+    pub fn sum(&self, q: f64, v: f64) -> f64 {
+        -self.sign * (self.stiffness * (q - self.position) + self.damping * v)
+    }
+
+    /// The same wall as the flow needs it, while it touches.
+    pub fn touch(&self, wall: usize) -> Option<Touch> {
+        let Self { position, stiffness, damping, .. } = *self;
+        (self.phase == Phase::Touching).then_some(Touch { wall, position, stiffness, damping })
+    }
+
+    /// Puts an elastic wall in the phase that the state asks for; a body on the surface touches if it moves inwards.
+    pub fn classify(&mut self, q: f64, v: f64, resolution: f64) {
+        if matches!(self.phase, Phase::Rigid(_)) {
+            return;
+        }
+        self.phase = if -self.gap(q) > resolution {
+            if self.sum(q, v) > 0.0 { Phase::Touching } else { Phase::Detached }
+        } else if self.gap(q) <= resolution && -self.sign * v > 0.0 {
+            Phase::Touching
+        } else {
+            Phase::Outside
+        };
+    }
+
+    /// Begins an episode unless one is under way.
+    pub fn open(&mut self, wall: usize, start: f64, approach_speed: f64) {
+        if self.open.is_none() {
+            self.open = Some(Contact {
+                wall,
+                start,
+                end: None,
+                impulse: 0.0,
+                peak_force: None,
+                approach_speed: approach_speed.max(0.0),
+                departure_speed: None,
+            });
+        }
+    }
+
+    /// Ends the episode under way and hands it over.
+    pub fn close(&mut self, end: f64, departure_speed: f64) -> Option<Contact> {
+        let mut contact = self.open.take()?;
+        (contact.end, contact.departure_speed) = (Some(end), Some(departure_speed.max(0.0)));
+        Some(contact)
+    }
+
+    /// Notes a pressure of the episode under way, N.
+    #[inline]
+    pub fn note(&mut self, pressure: f64) {
+        if let Some(contact) = &mut self.open {
+            let peak = contact.peak_force.unwrap_or(0.0);
+            contact.peak_force = Some(peak.max(pressure));
+        }
+    }
+}

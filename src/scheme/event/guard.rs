@@ -1,0 +1,40 @@
+//! Work counters, and the bound that keeps a run from never ending.
+
+/// Events, or root-search evaluations, that are followed within one window before a run is given up.
+pub const EVENTS_PER_WINDOW: u64 = 1_000_000;
+
+/// Windows into which the duration of a scene is divided.
+pub const WINDOWS: f64 = 1000.0;
+
+/// Work done since the start of a run.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Changes of contact: impacts, entries, releases.
+    pub events: u64,
+    /// Impacts on rigid walls.
+    pub impacts: u64,
+    /// Evaluations of the flow in the search for events.
+    pub evaluations: u64,
+}
+
+/// Counts within the current window.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Guard {
+    pub total: Counters,
+    since: f64,
+    at_since: Counters,
+}
+
+impl Guard {
+    /// Count of events or evaluations in the window if it is above the bound. `window` in s.
+    #[inline]
+    pub fn exceeded(&mut self, time: f64, window: f64) -> Option<u64> {
+        if time >= self.since + window {
+            self.since = time;
+            self.at_since = self.total;
+        }
+        let events = self.total.events - self.at_since.events;
+        let count = events.max(self.total.evaluations - self.at_since.evaluations);
+        (count > EVENTS_PER_WINDOW).then_some(count)
+    }
+}

@@ -1,0 +1,317 @@
+//! The exact scheme: closed-form motion between events, and the events to rounding.
+
+mod barrier;
+mod guard;
+mod instant;
+mod root;
+mod search;
+mod view;
+
+pub use guard::{Counters, EVENTS_PER_WINDOW, WINDOWS};
+
+use crate::error::{Error, Result};
+use crate::flow::{Arc, Start, Support};
+use crate::scene::{Forcing, Oscillator, Scene, System};
+use crate::step::{Balance, Contact, Contract, Promise};
+use barrier::{Barrier, Phase};
+use guard::Guard;
+
+/// What a sum of terms of this size may err by: four units in the last place.
+pub(crate) fn noise(size: f64) -> f64 {
+    4.0 * f64::EPSILON * size
+}
+
+/// One degree of freedom between walls, from event to event:
+///
+/// m q̈ + c q̇ + k q = f(t) + r,  0 ≤ gap ⟂ |r| ≥ 0 and ẇ⁺ = −e ẇ⁻ at a rigid wall, |r| = max(0, k_a s + c_a ṡ) for s > 0
+/// at an elastic one.
+///
+/// Between events the motion is an [`Arc`]. The first root of each gap, and of the force of each wall that touches, is
+/// approached from one side by polynomials that lie below the function (bounds from [`Arc`]), so that no root is passed:
+/// neither a graze nor a wall is missed. Gaps are resolved to rounding; a miss by less counts as a touch.
+///
+/// - An approach to a rigid wall is an impact, −m(1 + e)v. If the flight after it is unresolved in double precision, or
+///   (e < 1) lower than 1e-12 of [`Scene::gap_scale`] while the pressing acceleration changes by less than 1e-6 until
+///   t∞ = t + flight/(1 − e), the body sticks: the rest that follows carries the impulse of the tail.
+/// - A body at rest leaves where the pressing force becomes tensile; a touch of zero does not release it.
+/// - More than [`EVENTS_PER_WINDOW`] events, or evaluations in search of one, in 1/[`WINDOWS`] of the duration are
+///   [`Error::TooManyEvents`].
+#[derive(Debug, Clone)]
+pub struct Event {
+    body: Oscillator,
+    forcing: Forcing,
+    barriers: Vec<Barrier>,
+    /// s.
+    duration: f64,
+    /// The guard's, s.
+    window: f64,
+    stride: f64,
+    /// A displacement of ordinary size, m.
+    length: f64,
+    arc: Arc,
+    time: f64,
+    q: f64,
+    v: f64,
+    /// The rigid wall that carries the body at rest.
+    support: Option<usize>,
+    /// Multiples of the stride passed.
+    marks: u64,
+    /// Index of the next impulsive load.
+    blow: usize,
+    accumulation: Option<f64>,
+    last_wall: Option<usize>,
+    /// Sizes of acceleration (m/s²) and its rate (m/s³), whose rounding is no pressing.
+    force_size: [f64; 2],
+    /// A gap below this is none, m: rounding of the displacement.
+    resolution: f64,
+    /// [`Arc::sizes`] of the present arc.
+    sizes: [f64; 4],
+    guard: Guard,
+    steps: u64,
+    // The last step, as `Step` wants it.
+    start: f64,
+    velocity_before: f64,
+    velocity_left: f64,
+    impulse: Vec<f64>,
+    jump: Vec<f64>,
+    force: Vec<f64>,
+    closed: Vec<Contact>,
+}
+
+/// Mode changes that take no time, within one advance: beyond them the step is handed over with no length, and the
+/// guard counts.
+const CHANGES_AT_ONCE: usize = 16;
+
+impl Event {
+    /// The promise of the scheme.
+    pub const CONTRACT: Contract = Contract { balance: Balance::Exact, promise: Promise::Exact, instant: 1.0 };
+
+    /// The scene at its start, after the impulses at t = 0. Steps end at events and at multiples of `stride` (s).
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a scene that does not validate, a stride that is not a finite number above 0, or a wall of
+    /// the φ² penalty, which has no closed-form motion.
+    pub fn new(scene: &Scene, stride: f64) -> Result<Self> {
+        scene.validate()?;
+        if !(stride.is_finite() && stride > 0.0) {
+            return Err(Error::invalid("stride", stride, "a finite number above 0"));
+        }
+        let System::Oscillator(body) = scene.system;
+        let mut barriers = Vec::with_capacity(scene.walls.len());
+        for wall in &scene.walls {
+            let barrier = Barrier::new(wall).ok_or_else(|| {
+                let key = format!("wall {:?}: law", wall.name);
+                Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
+            })?;
+            barriers.push(barrier);
+        }
+        let forcing = Forcing::on(0, &scene.loads);
+        let q = scene.initial.q.first().copied().unwrap_or(0.0);
+        let v = scene.initial.v.first().copied().unwrap_or(0.0) + forcing.initial_impulse() / body.mass;
+        let walls = barriers.len();
+        let mut event = Self {
+            body,
+            forcing,
+            barriers,
+            duration: scene.duration,
+            window: scene.duration / WINDOWS,
+            stride,
+            length: if walls > 0 { scene.gap_scale() } else { 0.0 },
+            arc: Arc::new(body, walls),
+            time: 0.0,
+            q,
+            v,
+            support: None,
+            marks: 0,
+            blow: 0,
+            accumulation: None,
+            last_wall: None,
+            force_size: [0.0; 2],
+            resolution: noise(scene.walls.iter().map(|w| w.position.abs()).fold(0.0, f64::max)),
+            sizes: [0.0; 4],
+            guard: Guard::default(),
+            steps: 0,
+            start: 0.0,
+            velocity_before: v,
+            velocity_left: v,
+            impulse: vec![0.0; walls],
+            jump: vec![0.0; walls],
+            force: vec![0.0; walls],
+            closed: Vec::with_capacity(2 * walls + 2),
+        };
+        event.reclassify();
+        event.set_forces(0.0);
+        Ok(event)
+    }
+
+    /// Moves on to the next event, multiple of the stride, or the end of the scene, whichever is first, under a constant
+    /// extra force (N). A step of no length happens where the body starts on a wall and moves into it. At the end of the
+    /// scene nothing moves any more.
+    ///
+    /// # Errors
+    /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow.
+    pub fn advance(&mut self, extra: f64) -> Result<()> {
+        self.closed.clear();
+        self.impulse.fill(0.0);
+        self.jump.fill(0.0);
+        (self.start, self.velocity_before, self.velocity_left) = (self.time, self.v, self.v);
+        if self.is_done() {
+            return Ok(());
+        }
+        self.steps += 1;
+        for _ in 0..CHANGES_AT_ONCE {
+            let limit = self.limit();
+            self.begin_arc(limit - self.time, extra);
+            let hit = self.search(limit - self.time)?;
+            if !(hit.state[0].is_finite() && hit.state[1].is_finite()) {
+                return Err(Error::NotFinite { time: limit, step: self.steps, what: "state" });
+            }
+            let end = if hit.tau >= limit - self.time { limit } else { (self.time + hit.tau).min(limit) };
+            self.time = end;
+            [self.q, self.v] = hit.state;
+            self.velocity_left = self.v;
+            self.arc.cut(end);
+            self.gather_impulses();
+            let changed = self.happen(hit.wall, extra);
+            let jumped = self.jump.iter().any(|&p| p != 0.0);
+            if end > self.start || jumped || !changed {
+                break;
+            }
+        }
+        if self.time >= self.next_mark() {
+            self.marks += 1;
+        }
+        for (impulse, jump) in self.impulse.iter_mut().zip(&self.jump) {
+            *impulse += jump;
+        }
+        self.set_forces(extra);
+        self.check_guard(self.time)
+    }
+
+    fn counters_mut(&mut self) -> &mut Counters {
+        &mut self.guard.total
+    }
+
+    /// The next multiple of the stride, s; the end of the scene where only rounding would separate the two.
+    fn next_mark(&self) -> f64 {
+        let mark = (self.marks + 1) as f64 * self.stride;
+        if self.duration - mark < 1e-9 * self.stride { self.duration } else { mark }
+    }
+
+    /// How far the next arc can reach: a mark, a row of a table, a blow, the end; s.
+    fn limit(&self) -> f64 {
+        let mut limit = self.next_mark().min(self.duration);
+        if let Some(&(time, _)) = self.forcing.impulses.get(self.blow).filter(|b| b.0 > self.time) {
+            limit = limit.min(time);
+        }
+        for table in &self.forcing.tables {
+            let rows = table.time();
+            if let Some(&next) = rows.get(rows.partition_point(|&t| t <= self.time)) {
+                limit = limit.min(next);
+            }
+        }
+        limit
+    }
+
+    fn begin_arc(&mut self, span: f64, extra: f64) {
+        let from = Start {
+            time: self.time,
+            state: [self.q, self.v],
+            forcing: &self.forcing,
+            extra,
+            span,
+            length: self.length,
+        };
+        let touching = self.barriers.iter().enumerate().filter_map(|(index, b)| b.touch(index));
+        let support = self.support.and_then(|wall| Some(Support { wall, side: self.barriers.get(wall)?.side }));
+        self.arc.begin(&from, touching, support);
+        let sizes = self.arc.sizes();
+        let [q, _, force, rate] = sizes;
+        let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
+        self.resolution = noise(q + wall);
+        self.sizes = sizes;
+        // The instant itself is known to an ulp of the time only.
+        let (mass, fastest) = (self.body.mass, self.arc.fastest());
+        self.force_size = [(force + rate * self.time) / mass, rate * (1.0 + fastest * self.time) / mass];
+    }
+
+    /// Adds the impulses of the arc just run through to the step and to the episodes under way.
+    fn gather_impulses(&mut self) {
+        let (from, to) = (self.arc.start(), self.arc.end());
+        for (index, b) in self.barriers.iter_mut().enumerate() {
+            if self.support == Some(index) || b.phase == Phase::Touching {
+                let impulse = self.arc.contact_impulse(index, from, to);
+                if let Some(total) = self.impulse.get_mut(index) {
+                    *total += impulse;
+                }
+                if let Some(open) = &mut b.open {
+                    open.impulse += impulse;
+                }
+            }
+        }
+    }
+
+    /// Acceleration (m/s²) of the body here at velocity `v`, free of rigid walls, from the right of the present; and the
+    /// rate (m/s³) at which the load changes it.
+    fn acceleration(&self, v: f64, extra: f64) -> [f64; 2] {
+        let Oscillator { mass, damping, stiffness } = self.body;
+        let (f, rate) = self.load_now();
+        let mut sum = f + extra - damping * v - stiffness * self.q;
+        for b in self.barriers.iter().filter(|b| !matches!(b.phase, Phase::Rigid(_)) && b.gap(self.q) < 0.0) {
+            sum += b.sign * b.sum(self.q, v).max(0.0);
+        }
+        [sum / mass, rate / mass]
+    }
+
+    /// Load (N) from the right and its rate (N/s), without the extra force.
+    fn load_now(&self) -> (f64, f64) {
+        let (mut f, mut rate) = (self.forcing.constant, 0.0);
+        for h in &self.forcing.harmonics {
+            let (s, c) = (h.omega * self.time + h.phase).sin_cos();
+            f += h.amplitude * s;
+            rate += h.amplitude * h.omega * c;
+        }
+        for table in &self.forcing.tables {
+            let (value, slope) = table.piece(self.time);
+            f += value;
+            rate += slope;
+        }
+        (f, rate)
+    }
+
+    /// f″/m at the present, m/s⁴: what decides where force and rate vanish.
+    fn curvature(&self) -> f64 {
+        let second = |h: &crate::scene::Harmonic| {
+            -h.amplitude * h.omega * h.omega * (h.omega * self.time + h.phase).sin() / self.body.mass
+        };
+        let sum: f64 = self.forcing.harmonics.iter().map(second).sum();
+        let size: f64 = self.forcing.harmonics.iter().map(|h| h.amplitude.abs() * h.omega * h.omega).sum();
+        if sum.abs() > noise(size / self.body.mass) { sum } else { 0.0 }
+    }
+
+    fn set_forces(&mut self, extra: f64) {
+        let push = if self.support.is_some() { -self.body.mass * self.acceleration(0.0, extra)[0] } else { 0.0 };
+        for (index, b) in self.barriers.iter().enumerate() {
+            let Some(force) = self.force.get_mut(index) else { continue };
+            *force = if self.support == Some(index) {
+                b.sign * (b.sign * push).max(0.0)
+            } else if b.phase == Phase::Touching {
+                b.sign * b.sum(self.q, self.v).max(0.0)
+            } else {
+                0.0
+            };
+        }
+    }
+
+    fn count_evaluation(&mut self, tau: f64) -> Result<()> {
+        self.guard.total.evaluations += 1;
+        self.check_guard(self.time + tau)
+    }
+
+    fn check_guard(&mut self, time: f64) -> Result<()> {
+        let window = self.window;
+        let Some(count) = self.guard.exceeded(time, window) else { return Ok(()) };
+        let wall = self.last_wall.and_then(|i| self.barriers.get(i)).or(self.barriers.first());
+        Err(Error::TooManyEvents { time, wall: wall.map_or_else(String::new, |b| b.name.clone()), count, window })
+    }
+}

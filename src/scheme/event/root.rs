@@ -1,0 +1,134 @@
+//! First roots that are never passed: one-sided steps by polynomials that lie below a function.
+
+/// A function from one instant on: g(u) ≥ Σ cₙ uⁿ/n! (n ≤ 3) − b u⁴/24 for 0 ≤ u ≤ w.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Below {
+    /// g, g′, g″, g‴ at the instant.
+    pub c: [f64; 4],
+    /// g⁗ at the instant; asked for only where all the others vanish.
+    pub fourth: f64,
+    /// A bound on |g⁗| over the window, ≥ 0.
+    pub bound: f64,
+    /// The sizes below which the first four are rounding.
+    pub noise: [f64; 4],
+    /// True if a touch without a change of sign is no event.
+    pub passes_touch: bool,
+}
+
+/// What a [`Below`] promises.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Step {
+    /// g is at 0, within rounding, and goes below it at once.
+    Now,
+    /// g has its first root here, within rounding, and the polynomial is exact to rounding up to it.
+    Root(f64),
+    /// g has no root before this; it is the window where there is none in it.
+    Free(f64),
+}
+
+/// Newton steps after which a safe step is taken as it is: each is one-sided, so stopping early costs time, not safety.
+const INNER_STEPS: usize = 16;
+
+/// A tenth of the 1/24 with which the bound enters.
+const BLUR: f64 = 0.1 / 24.0;
+
+const SIXTH: f64 = 1.0 / 6.0;
+
+impl Below {
+    /// How far one can go, at most `window`, without passing a root of g.
+    #[inline]
+    pub fn step(&self, window: f64) -> Step {
+        if self.c[0] > self.noise[0] {
+            let (s, left) = first_root(self.c, self.bound, window, self.noise[0]);
+            return if s >= window {
+                Step::Free(window)
+            } else if left <= self.noise[0] && self.bound * s.powi(4) <= 24.0 * self.noise[0] {
+                Step::Root(s)
+            } else {
+                Step::Free(s)
+            };
+        }
+        self.depart(window)
+    }
+
+    /// g is 0 now: the root at 0 is divided out as often as it occurs.
+    fn depart(&self, window: f64) -> Step {
+        let [c0, c1, c2, c3] = self.c;
+        if c0 < -self.noise[0] && !self.passes_touch && c1 <= 0.0 {
+            return Step::Now;
+        }
+        if self.passes_touch {
+            if c0 < -4.0 * self.noise[0] {
+                return Step::Now;
+            }
+            if c1 < 0.0 && c2 > 0.0 && c0 - 0.5 * c1 * c1 / c2 >= -4.0 * self.noise[0] {
+                // A touch: pass the minimum by twice the distance at which g is above its noise again.
+                return Step::Free(window.min(2.0 * (-c1 / c2) + 4.0 * (self.noise[0] / c2).sqrt()));
+            }
+        }
+        let tail = if c1.abs() > self.noise[1] {
+            (c1, [c1, c2 / 2.0, c3 / 3.0, -self.bound / 4.0])
+        } else if c2.abs() > self.noise[2] {
+            (c2, [c2 / 2.0, c3 / 6.0, -self.bound / 12.0, 0.0])
+        } else if c3.abs() > self.noise[3] {
+            (c3, [c3 / 6.0, -self.bound / 24.0, 0.0, 0.0])
+        } else if self.fourth > 0.0 {
+            // Both u⁴ terms: a root of g lies no nearer than where a growth of the bound by a window would put it.
+            return Step::Free(window * (self.fourth / self.bound).min(1.0));
+        } else if self.fourth < 0.0 {
+            return Step::Now;
+        } else {
+            return Step::Free(window);
+        };
+        if tail.0 < 0.0 {
+            return Step::Now;
+        }
+        Step::Free(first_root(tail.1, 0.0, window, 0.0).0)
+    }
+}
+
+/// A number not above the first root of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 in [0, w], or w, with p there; p(0) > 0.
+///
+/// p″ is concave for b ≥ 0, so its least value over [s, w] is at an end, and p(s + u) ≥ p + p′u − ½Mu² there with
+/// M = max(0, −least). Where p falls, the root of that is at least Halley's 2p|p′|/(2p′² + Mp), which is
+/// near enough to it for Mp ≤ p′².
+#[inline]
+fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, f64) {
+    let (mut s, mut p, mut p1, mut p2) = (0.0, c0, c1, c2);
+    // Every falling term at its worst still leaves p above 0: no root in the window.
+    if c0 + w * (c1.min(0.0) + w * (0.5 * c2.min(0.0) + w * (SIXTH * c3.min(0.0) - w * b * SIXTH * 0.25))) > enough {
+        return (w, p);
+    }
+    let last = c2 + c3 * w - 0.5 * b * w * w;
+    for _ in 0..INNER_STEPS {
+        let m = (-p2.min(last)).max(0.0);
+        let u = if p1 < 0.0 && m * p <= p1 * p1 {
+            -2.0 * p * p1 / (2.0 * p1 * p1 + m * p)
+        } else if m > 0.0 {
+            let square = (p1 * p1 + 2.0 * m * p).sqrt();
+            if p1 < 0.0 { 2.0 * p / (square - p1) } else { (square + p1) / m }
+        } else {
+            w
+        };
+        let next = s + u;
+        if next >= w || next.is_nan() {
+            return (if next.is_nan() { s } else { w }, p);
+        }
+        let at = |s: f64| c0 + s * (c1 + s * (0.5 * c2 + s * (c3 * SIXTH - s * b * (0.25 * SIXTH))));
+        let value = at(next);
+        if value <= enough {
+            // Rounding may put the value below 0: a step a little shorter is then above it.
+            let safe = if value < -enough { s + 0.999 * u } else { next };
+            return (safe, if value < -enough { p } else { value.abs() });
+        }
+        // The bound's own share of p outweighs what is left: the next evaluation of g gains more than a closer root of p.
+        let blur = if enough > 0.0 { BLUR * b * next.powi(4) } else { f64::INFINITY };
+        if next == s || (u <= 0.1 * next && value <= blur) {
+            return (next, value);
+        }
+        (s, p) = (next, value);
+        p1 = c1 + s * (c2 + s * (0.5 * c3 - s * b * SIXTH));
+        p2 = c2 + s * (c3 - 0.5 * s * b);
+    }
+    (s, p)
+}

@@ -1,0 +1,255 @@
+//! The search for the next event of an arc.
+
+use super::barrier::Phase;
+use super::root::{Below, Step};
+use super::{Event, noise};
+use crate::error::Result;
+use crate::flow::{Jet, Support};
+
+/// Where the search ended.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hit {
+    /// Time since the arc's start, s.
+    pub tau: f64,
+    /// Displacement (m) and velocity (m/s) there, from the left.
+    pub state: [f64; 2],
+    /// The wall with which something happens; none where nothing does up to the end.
+    pub wall: Option<usize>,
+}
+
+/// The longest window of a bound, in radians of the fastest oscillation: beyond it the bounds grow faster than the window.
+const WINDOW_RADIANS: f64 = 1.5;
+
+/// Halvings, or Newton steps, after which the place of a peak is known to rounding.
+const PEAK_STEPS: usize = 60;
+
+impl Event {
+    /// Follows the arc for `span` (s) or up to its first event.
+    pub(super) fn search(&mut self, span: f64) -> Result<Hit> {
+        if let Some(support) = self.support {
+            return self.search_rest(support, span);
+        }
+        if self.nothing_in_reach() {
+            let [q, v, ..] = self.arc.jet(span);
+            return Ok(Hit { tau: span, state: [q, v], wall: None });
+        }
+        let noise = self.flow_noise();
+        let fastest = self.arc.fastest_motion();
+        let longest = if fastest > 0.0 { WINDOW_RADIANS / fastest } else { f64::INFINITY };
+        let (mut tau, mut jet) = (0.0, self.arc.jet(0.0));
+        // The start is known exactly, whatever the terms sum up to.
+        (jet[0], jet[1]) = (self.q, self.v);
+        self.note_pressures(&jet);
+        loop {
+            self.count_evaluation(tau)?;
+            let window = longest.min(span - tau);
+            let bounds = self.arc.bounds(&jet, window);
+            let (mut step, mut wall, mut is_root) = (window, None, false);
+            for index in 0..self.barriers.len() {
+                for which in 0..2 {
+                    let Some(below) = self.watch(index, which, &jet, &bounds, &noise) else { break };
+                    match below.step(step) {
+                        Step::Now => return Ok(Hit { tau, state: [jet[0], jet[1]], wall: Some(index) }),
+                        Step::Root(s) if s < step => (step, wall, is_root) = (s, Some(index), true),
+                        Step::Free(s) if s < step => (step, wall, is_root) = (s, Some(index), false),
+                        Step::Root(_) | Step::Free(_) => {}
+                    }
+                }
+            }
+            let next = tau + step;
+            if wall.is_some() && (is_root || next == tau) {
+                // So near that the series is exact to rounding, and saves an evaluation.
+                let s = step;
+                let q = jet[0] + s * (jet[1] + s * (0.5 * jet[2] + s * jet[3] / 6.0));
+                let v = jet[1] + s * (jet[2] + s * (0.5 * jet[3] + s * jet[4] / 6.0));
+                if self.arc.touches() {
+                    let end = self.arc.jet(next);
+                    self.note_between((tau, &jet), (next, &end));
+                }
+                return Ok(Hit { tau: next, state: [q, v], wall });
+            }
+            let next = if wall.is_none() && step >= span - tau { span } else { next };
+            let before = jet;
+            jet = self.arc.jet(next);
+            if self.arc.touches() {
+                self.note_between((tau, &before), (next, &jet));
+            }
+            tau = next;
+            if tau >= span {
+                self.count_evaluation(tau)?;
+                return Ok(Hit { tau: span, state: [jet[0], jet[1]], wall: self.hit_at_end(&jet, &noise) });
+            }
+        }
+    }
+
+    /// True where the sizes of the motion's terms keep it before every wall.
+    fn nothing_in_reach(&self) -> bool {
+        let [low, high] = self.arc.extent();
+        self.barriers.iter().all(|b| {
+            let apart = b.sign * ((if b.sign > 0.0 { low } else { high }) - b.position);
+            apart > 0.0 && matches!(b.phase, Phase::Rigid(_) | Phase::Outside)
+        })
+    }
+
+    /// A wall met just at the end of the arc. What is not yet below 0 there is found at the start of the next.
+    fn hit_at_end(&self, jet: &Jet, noise: &[f64; 4]) -> Option<usize> {
+        (0..self.barriers.len()).find(|&index| {
+            let watched = (0..2).map_while(|which| self.watch(index, which, jet, &[0.0; 2], noise));
+            { watched }.any(|b| b.c[0] <= b.noise[0] && b.c[1] < -b.noise[1])
+        })
+    }
+
+    /// The functions of wall `index` whose first root is an event, numbered by `which`: two where the body is in an
+    /// elastic wall that has let go, else one.
+    #[inline]
+    fn watch(&self, index: usize, which: u8, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Option<Below> {
+        let b = self.barriers.get(index)?;
+        let sign = b.sign;
+        let gap = |sign: f64, passes_touch: bool| Below {
+            c: [sign * (jet[0] - b.position), sign * jet[1], sign * jet[2], sign * jet[3]],
+            fourth: sign * jet[4],
+            bound: bounds[0],
+            noise: *noise,
+            passes_touch,
+        };
+        let sum = |sign: f64| {
+            let at = |n: usize| -sign * (b.stiffness * jet[n] + b.damping * jet[n + 1]);
+            let at0 = -sign * (b.stiffness * (jet[0] - b.position) + b.damping * jet[1]);
+            let scale = |n: usize| b.stiffness * noise[n] + b.damping * noise[(n + 1).min(3)];
+            Below {
+                c: [at0, at(1), at(2), at(3)],
+                fourth: 0.0,
+                bound: b.stiffness * bounds[0] + b.damping * bounds[1],
+                noise: [scale(0), scale(1), scale(2), scale(3)],
+                passes_touch: true,
+            }
+        };
+        match (b.phase, which) {
+            (Phase::Rigid(_), 0) => Some(gap(sign, false)),
+            (Phase::Outside, 0) => Some(gap(sign, true)),
+            (Phase::Touching, 0) => Some(sum(sign)),
+            (Phase::Detached, 0) => Some(sum(-sign)),
+            (Phase::Detached, _) => Some(gap(-sign, true)),
+            _ => None,
+        }
+    }
+
+    /// The sizes below which displacement and three derivatives are rounding on this arc.
+    fn flow_noise(&self) -> [f64; 4] {
+        let [q, v, force, rate] = self.sizes;
+        let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
+        let (mass, rub) = (self.body.mass, self.body.damping / self.body.mass);
+        // The instant itself is known to an ulp of the time only, and the load with it.
+        let fastest = self.arc.fastest();
+        let a = (force + rate * self.time) / mass + rub * v;
+        let jerk = rate * (1.0 + fastest * self.time) / mass + rub * a + self.body.stiffness / mass * v;
+        [noise(q + wall), noise(v), noise(a), noise(jerk)]
+    }
+
+    /// The search at rest: the first root of the pressing force.
+    fn search_rest(&mut self, index: usize, span: f64) -> Result<Hit> {
+        let state = [self.q, 0.0];
+        let Some(side) = self.barriers.get(index).map(|b| b.side) else {
+            return Ok(Hit { tau: span, state, wall: None });
+        };
+        let support = Support { wall: index, side };
+        let [.., force, rate] = self.sizes;
+        let bound = self.arc.pressing_bound();
+        let fastest = self.arc.fastest();
+        let longest = if fastest > 0.0 { WINDOW_RADIANS / fastest } else { f64::INFINITY };
+        // The instant itself is known to an ulp of the time only.
+        let late = 1.0 + fastest * self.time;
+        let curve = rate * fastest;
+        let noise = [noise(force + rate * self.time), noise(rate * late), noise(curve * late), noise(curve * fastest)];
+        let jet = self.arc.jet(0.0);
+        self.note_pressures(&jet);
+        let (mut tau, mut pressing) = (0.0, self.arc.pressing(support, 0.0));
+        loop {
+            self.count_evaluation(tau)?;
+            if let Some(b) = self.barriers.get_mut(index) {
+                b.note(pressing[0]);
+            }
+            if tau >= span {
+                return Ok(Hit { tau: span, state, wall: None });
+            }
+            let window = longest.min(span - tau);
+            let below = Below { c: pressing, fourth: 0.0, bound, noise, passes_touch: true };
+            let (step, is_root) = match below.step(window) {
+                Step::Now => return Ok(Hit { tau, state, wall: Some(index) }),
+                Step::Root(s) => (s, true),
+                Step::Free(s) => (s, false),
+            };
+            let next = if step >= span - tau { span } else { tau + step };
+            if is_root || next == tau {
+                return Ok(Hit { tau: next, state, wall: Some(index) });
+            }
+            let before = pressing;
+            pressing = self.arc.pressing(support, next);
+            if before[1] > 0.0 && pressing[1] < 0.0 {
+                let arc = &self.arc;
+                let peak = highest((tau, next), |t| {
+                    let p = arc.pressing(support, t);
+                    [p[0], p[1], p[2]]
+                });
+                if let Some(b) = self.barriers.get_mut(index) {
+                    b.note(peak);
+                }
+            }
+            tau = next;
+        }
+    }
+
+    /// Notes the pressures of the touching elastic walls at one state.
+    fn note_pressures(&mut self, jet: &Jet) {
+        for b in &mut self.barriers {
+            if b.phase == Phase::Touching {
+                let sum = b.sum(jet[0], jet[1]);
+                b.note(sum);
+            }
+        }
+    }
+
+    /// Notes the pressures at the end of a step of the search, and those of a peak inside it.
+    fn note_between(&mut self, from: (f64, &Jet), to: (f64, &Jet)) {
+        let arc = &self.arc;
+        for b in &mut self.barriers {
+            if b.phase != Phase::Touching {
+                continue;
+            }
+            let (position, k, c, sign) = (b.position, b.stiffness, b.damping, -b.sign);
+            let rate = |x: &Jet| sign * (k * x[1] + c * x[2]);
+            if rate(from.1) > 0.0 && rate(to.1) < 0.0 {
+                let peak = highest((from.0, to.0), |t| {
+                    let x = arc.jet(t);
+                    [sign * (k * (x[0] - position) + c * x[1]), rate(&x), sign * (k * x[2] + c * x[3])]
+                });
+                b.note(peak);
+            }
+            let sum = b.sum(to.1[0], to.1[1]);
+            b.note(sum);
+        }
+    }
+}
+
+/// The maximum of g in an interval over which g′ goes from + to −, by Newton's method on g′ kept inside it by halving.
+/// `jet` gives g, g′, g″.
+fn highest((mut low, mut high): (f64, f64), jet: impl Fn(f64) -> [f64; 3]) -> f64 {
+    let (mut t, mut best) = (0.5 * (low + high), f64::NEG_INFINITY);
+    for _ in 0..PEAK_STEPS {
+        let [g, rate, second] = jet(t);
+        best = best.max(g);
+        if rate > 0.0 {
+            low = t
+        } else {
+            high = t
+        }
+        let newton = t - rate / second;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        // The value is flat at the peak: a displacement by 1e-9 of the interval changes it by 1e-18 of its variation.
+        if rate == 0.0 || (next - t).abs() <= 1e-9 * (high - low).max(t.abs() * f64::EPSILON) || next == t {
+            return best.max(jet(next)[0]);
+        }
+        t = next;
+    }
+    best
+}

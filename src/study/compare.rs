@@ -1,0 +1,254 @@
+//! Several methods on one scene, held against the exact motion.
+
+use super::horizon::{Growth, LARGEST_GROWTH};
+use crate::error::{Error, Result};
+use crate::qp::Backend;
+use crate::run::{Options, Run, run};
+use crate::scene::{Scene, WallLaw};
+use crate::scheme::{Method, Scheme, Stepper};
+use crate::time::{TimeGrid, TimeOptions};
+use std::time::Instant;
+
+/// Error over the gap beyond which a run no longer agrees with the reference.
+pub const AGREEMENT: f64 = 0.1;
+
+/// Steps of the bare timing runs, at most, and how many of these runs.
+const TIMED_STEPS: u64 = 20_000;
+const TIMED_RUNS: usize = 3;
+
+/// Impacts slower than this share of the fastest say nothing about restitution: rounding and loads do.
+const SLOW: f64 = 1e-2;
+
+/// Departure over approach speed at the rigid walls of a scene, as a run realised it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Restitution {
+    /// Smallest of all impacts.
+    pub least: f64,
+    /// Median of all impacts.
+    pub median: f64,
+    /// Largest of all impacts.
+    pub largest: f64,
+}
+
+/// One method's line of the comparison.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// The method.
+    pub method: Method,
+    /// The run, or why there is none.
+    pub outcome: Result<Run>,
+    /// Restitution at the rigid walls; none without impacts.
+    pub restitution: Option<Restitution>,
+    /// Largest |Δu| against the reference over the gap scale, up to the horizon.
+    pub error: Option<f64>,
+    /// Time up to which |Δu| stays below [`AGREEMENT`] of the gap scale, s.
+    pub agrees_until: Option<f64>,
+    /// Nanoseconds a step takes: stepping alone, nothing recorded or judged, best of three; one exact step goes from event to event.
+    pub step_ns: Option<f64>,
+}
+
+/// A comparison.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// The methods in the order asked for, the reference last.
+    pub rows: Vec<Row>,
+    /// The exact run, or why there is none.
+    pub reference: Result<Run>,
+    /// Time up to which a pointwise error means something, s.
+    pub horizon: f64,
+    /// Growth of a small perturbation over the whole run; none without a reference.
+    pub growth: Option<f64>,
+    /// What differs and why, in sentences.
+    pub findings: Vec<String>,
+}
+
+/// The methods of the main comparison: the constrained QP by its own solver and through Clarabel, and every penalty.
+#[must_use]
+pub fn default_methods(chosen: Method, penalties: impl Iterator<Item = Method>) -> Vec<Method> {
+    let mut methods = vec![chosen];
+    if chosen.backend != Backend::Clarabel {
+        methods.push(Method { backend: Backend::Clarabel, ..chosen });
+    }
+    methods.extend(penalties);
+    methods
+}
+
+/// Runs every method on `scene`; `progress` hears how many are done. A method that fails is a row with the reason in it.
+///
+/// # Errors
+/// [`Error::Invalid`] for times that make no sense. What a method refuses or fails at is in its row.
+pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: &dyn Fn(u64)) -> Result<Comparison> {
+    // One set of rows for all, the exact run's too, so that they can be subtracted.
+    let grid = TimeGrid::stepping(scene.duration, time)?;
+    let time = TimeOptions { sample: Some(grid.end / grid.rows as f64), ..*time };
+    let reference = run(scene, &Scheme::Event, &Options { time, backend: Backend::Auto });
+    let growth = Growth::of(scene).ok();
+    let horizon = growth.as_ref().map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH));
+    let mut rows = Vec::new();
+    let exact = Method::new(Scheme::Event);
+    let others = methods.iter().filter(|m| m.scheme != Scheme::Event);
+    for (index, method) in others.chain(std::iter::once(&exact)).enumerate() {
+        let outcome = match method.scheme {
+            Scheme::Event => reference.clone(),
+            _ => run(scene, &method.scheme, &Options { time, backend: method.backend }),
+        };
+        rows.push(row(scene, *method, outcome, reference.as_ref().ok(), horizon, &time));
+        progress(index as u64 + 1);
+    }
+    let growth = growth.map(|g| g.until(scene.duration));
+    let mut comparison = Comparison { rows, reference, horizon, growth, findings: Vec::new() };
+    comparison.findings = findings(scene, &comparison);
+    Ok(comparison)
+}
+
+fn row(
+    scene: &Scene,
+    method: Method,
+    outcome: Result<Run>,
+    reference: Option<&Run>,
+    horizon: f64,
+    time: &TimeOptions,
+) -> Row {
+    let mut row = Row { method, outcome, restitution: None, error: None, agrees_until: None, step_ns: None };
+    let Ok(run) = &row.outcome else { return row };
+    row.restitution = restitution(scene, run);
+    if let Some(reference) = reference.filter(|_| method.scheme != Scheme::Event) {
+        (row.error, row.agrees_until) = against(scene, run, reference, horizon);
+    }
+    row.step_ns = step_ns(scene, &method, time).ok();
+    row
+}
+
+/// Largest error over the gap up to the horizon, and the time up to which the two agree.
+fn against(scene: &Scene, run: &Run, reference: &Run, horizon: f64) -> (Option<f64>, Option<f64>) {
+    let gap = scene.gap_scale();
+    let (mut error, mut until) = (0.0_f64, None);
+    let pairs = run.trajectory.displacement().iter().zip(reference.trajectory.displacement());
+    for (&t, (&u, &exact)) in run.trajectory.time().iter().zip(pairs) {
+        let difference = (u - exact).abs() / gap;
+        if t <= horizon * (1.0 + 1e-12) {
+            error = error.max(difference);
+        }
+        // A difference that is no number is none that agrees.
+        if until.is_none() && (difference.is_nan() || difference > AGREEMENT) {
+            until = Some(t);
+        }
+    }
+    (Some(error), Some(until.unwrap_or(scene.duration)))
+}
+
+/// Restitution at the walls that are rigid in `scene`, whatever the method put in their place.
+fn restitution(scene: &Scene, run: &Run) -> Option<Restitution> {
+    let rigid = |wall: usize| scene.walls.get(wall).is_some_and(|w| w.law.is_rigid());
+    let seen = run.trajectory.contacts().iter().filter(|c| rigid(c.wall));
+    let fastest = seen.clone().map(|c| c.approach_speed).fold(0.0, f64::max);
+    let counted = seen.filter(|c| c.approach_speed > SLOW * fastest);
+    let mut ratios: Vec<f64> = counted.filter_map(|c| c.departure_speed.map(|d| d / c.approach_speed)).collect();
+    ratios.sort_by(f64::total_cmp);
+    Some(Restitution { least: *ratios.first()?, median: *ratios.get(ratios.len() / 2)?, largest: *ratios.last()? })
+}
+
+fn step_ns(scene: &Scene, method: &Method, time: &TimeOptions) -> Result<f64> {
+    let exact = method.scheme == Scheme::Event;
+    let grid = TimeGrid::stepping(scene.duration, time)?;
+    let step = if exact { scene.duration } else { grid.step };
+    let mut best = f64::INFINITY;
+    for _ in 0..TIMED_RUNS {
+        let mut stepper = Stepper::with_backend(scene, &method.scheme, step, method.backend)?;
+        let mut steps = 0;
+        let started = Instant::now();
+        while steps < grid.steps.min(TIMED_STEPS) && stepper.time() < scene.duration {
+            stepper.step()?;
+            steps += 1;
+        }
+        best = best.min(started.elapsed().as_secs_f64() * 1e9 / steps as f64);
+    }
+    Ok(best)
+}
+
+fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
+    let mut findings = Vec::new();
+    let own = |law: WallLaw| if let WallLaw::Rigid { restitution } = law { Some(restitution) } else { None };
+    let asked: Vec<f64> = scene.walls.iter().filter_map(|w| own(w.law)).collect();
+    let any = |test: fn(&Scheme) -> bool| comparison.rows.iter().any(|r| test(&r.method.scheme));
+    if any(|s| matches!(s, Scheme::Penalty { .. })) {
+        findings.push(if asked.iter().all(|&e| e == 1.0) {
+            "every wall has e = 1, the limit of a lossless penalty spring: QP and penalty converge to one motion, the penalty as ε → 0 and h²k_w/m → 0 both"
+                .into()
+        } else {
+            let e = asked.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+            format!("the walls ask for e = {e}, a lossless penalty spring tends to e = 1: the two do not converge to one another")
+        });
+    }
+    if any(|s| *s == Scheme::ImplicitEuler) && asked.iter().any(|&e| e > 0.0) {
+        findings.push("implicit-euler on positions tends to e = 0: it does not converge to walls that rebound".into());
+    }
+    if any(|s| *s == Scheme::Newmark) && !asked.is_empty() {
+        findings.push("newmark is an exhibit: it takes e between 1/3 and 3 by chance and gains energy".into());
+    }
+    if let Some(line) = clarabel_difference(scene, comparison) {
+        findings.push(line);
+    }
+    match (&comparison.reference, comparison.growth) {
+        (Err(error), _) => findings.push(format!("no reference: {error}")),
+        (_, Some(growth)) if comparison.horizon < scene.duration => findings.push(format!(
+            "chaos: a perturbation of the start grows {growth:.1e}-fold over the run, and {LARGEST_GROWTH:e}-fold by t = {:.3} s; errors are taken up to \
+             then, later compare impulses, contact counts and RMS",
+            comparison.horizon
+        )),
+        (_, Some(growth)) => findings.push(format!(
+            "not chaotic: a perturbation of the start never grows beyond {growth:.1}-fold, so errors are taken over the whole run"
+        )),
+        _ => {}
+    }
+    findings
+}
+
+/// What going through Clarabel changed, where a method was run both ways.
+fn clarabel_difference(scene: &Scene, comparison: &Comparison) -> Option<String> {
+    let through = comparison.rows.iter().find(|r| r.method.backend == Backend::Clarabel)?;
+    let own = comparison
+        .rows
+        .iter()
+        .find(|r| r.method.scheme == through.method.scheme && r.method.backend != Backend::Clarabel)?;
+    let (a, b) = (own.outcome.as_ref().ok()?, through.outcome.as_ref().ok()?);
+    let gap = scene.gap_scale();
+    let times = a.trajectory.time().iter();
+    let pairs = a.trajectory.displacement().iter().zip(b.trajectory.displacement());
+    let (mut near, mut all) = (0.0_f64, 0.0_f64);
+    for (&t, (&x, &y)) in times.zip(pairs) {
+        let difference = (x - y).abs() / gap;
+        all = all.max(difference);
+        if t <= comparison.horizon {
+            near = near.max(difference);
+        }
+    }
+    let mut force = 0.0_f64;
+    for wall in a.trajectory.walls() {
+        let forces = a.trajectory.contact_force(wall).ok()?.iter().zip(b.trajectory.contact_force(wall).ok()?);
+        let until = a.trajectory.time().iter().take_while(|t| **t <= comparison.horizon).count();
+        force = forces.take(until).map(|(x, y)| (x - y).abs()).fold(force, f64::max);
+    }
+    let scale = a.residuals.force_scale_n.max(f64::MIN_POSITIVE);
+    Some(format!(
+        "{} by {} against every contact step through Clarabel ({} QPs, {} interior-point iterations): displacement differs by at most {near:.1e} of the gap \
+         up to the horizon ({all:.1e} over the run), force by {:.1e} of the largest",
+        own.method.scheme,
+        a.backend,
+        b.counters.qp_solves,
+        b.counters.interior_point_iterations,
+        force / scale
+    ))
+}
+
+/// The first failure among the rows, if every method failed: then the comparison itself has.
+///
+/// # Errors
+/// That failure.
+pub fn any_succeeded(comparison: &Comparison) -> Result<()> {
+    let mut failures = comparison.rows.iter().map(|row| row.outcome.as_ref().err());
+    match failures.clone().all(|failure| failure.is_some()) {
+        true => failures.find_map(|failure| failure).map_or(Ok(()), |error: &Error| Err(error.clone())),
+        false => Ok(()),
+    }
+}

@@ -1,0 +1,5 @@
+//! Questions asked of many runs.
+
+pub mod choice;
+pub mod compare;
+pub mod horizon;

@@ -1,0 +1,113 @@
+//! The scalar programme against closed forms.
+
+use signorini::qp::{Failure, ScalarRow, clamp};
+
+const INF: f64 = f64::INFINITY;
+
+fn rigid(lo: f64, hi: f64) -> ScalarRow {
+    ScalarRow { lo, hi, compliance: 0.0 }
+}
+
+fn elastic(lo: f64, hi: f64, compliance: f64) -> ScalarRow {
+    ScalarRow { lo, hi, compliance }
+}
+
+fn solve<const M: usize>(a: f64, b: f64, rows: [ScalarRow; M]) -> (f64, [f64; M]) {
+    let mut r = [f64::NAN; M];
+    (clamp(a, b, &rows, &mut r).expect("feasible"), r)
+}
+
+#[test]
+fn a_free_step_carries_no_force() {
+    assert_eq!(solve(2.0, 3.0, [rigid(-2.0, 2.0), elastic(-INF, 1.5, 0.1)]), (1.5, [0.0, 0.0]));
+    assert_eq!(solve(2.0, 3.0, []), (1.5, []));
+}
+
+#[test]
+fn a_rigid_wall_holds_with_the_force_that_balances() {
+    assert_eq!(solve(2.0, 6.0, [rigid(-1.0, INF), rigid(-INF, 1.0)]), (1.0, [0.0, -4.0]));
+    assert_eq!(solve(2.0, -6.0, [rigid(-1.0, INF), rigid(-INF, 1.0)]), (-1.0, [4.0, 0.0]));
+}
+
+#[test]
+fn the_first_of_the_walls_at_one_place_carries_the_force() {
+    assert_eq!(solve(2.0, 6.0, [rigid(-1.0, 2.0), rigid(-INF, 1.0), rigid(0.0, 1.0)]), (1.0, [0.0, -4.0, 0.0]));
+}
+
+#[test]
+fn an_elastic_wall_yields_in_proportion() {
+    // (a + 1/c) x = b + u/c: x = (6 + 4)/(2 + 4).
+    let (x, [r]) = solve(2.0, 6.0, [elastic(-INF, 1.0, 0.25)]);
+    let exact = 10.0 / 6.0;
+    // Two roundings of numbers below 4.
+    assert!((x - exact).abs() <= 4.0 * f64::EPSILON && (r + (exact - 1.0) * 4.0).abs() <= 8.0 * f64::EPSILON);
+}
+
+#[test]
+fn a_stiff_elastic_wall_tends_to_the_rigid_one() {
+    for compliance in [1e-6, 1e-12, 1e-18, 1e-30, 1e-300] {
+        let (x, [r]) = solve(2.0, 6.0, [elastic(-INF, 1.0, compliance)]);
+        // It yields c |r|; the balance a x = b + r holds to rounding of its terms.
+        assert!((x - 1.0 - compliance * 4.0).abs() <= 8.0 * compliance * compliance + 4e-16, "{x}");
+        assert!((r + 4.0).abs() <= 16.0 * compliance + 4e-15, "{r}");
+    }
+}
+
+#[test]
+fn elastic_walls_in_layers_take_up_one_after_the_other() {
+    // Bounds 1, 2, 3 of stiffness 1 each and a = 1: at x = 2.5 the first two push with 1.5 and 0.5.
+    let rows = [1.0, 2.0, 3.0].map(|place| elastic(-INF, place, 1.0));
+    assert_eq!(solve(1.0, 4.5, rows), (2.5, [-1.5, -0.5, 0.0]));
+    // A lower layer pushes up as well, if the body starts below it.
+    let rows = [elastic(0.0, INF, 1.0), elastic(-INF, -1.0, 1.0)];
+    assert_eq!(solve(1.0, -2.0, rows).0, -1.0);
+}
+
+#[test]
+fn a_rigid_stop_behind_an_elastic_layer_takes_the_rest() {
+    let rows = [elastic(-INF, 1.0, 0.5), rigid(-INF, 2.0)];
+    assert_eq!(solve(1.0, 10.0, rows), (2.0, [-2.0, -6.0]));
+    // Soft enough a load and the layer alone suffices.
+    let (x, r) = solve(1.0, 2.5, rows);
+    assert_eq!((x, r), (1.5, [-1.0, 0.0]));
+}
+
+#[test]
+fn preload_of_a_layer_pushes_against_the_opposite_stop() {
+    // Free motion is at 0, inside the rigid stop, but the elastic wall pushes it through.
+    let rows = [rigid(-1.0, 1.0), elastic(5.0, INF, 0.1)];
+    let (x, r) = solve(1.0, 0.0, rows);
+    assert_eq!((x, r), (1.0, [-39.0, 40.0]));
+}
+
+#[test]
+fn touching_without_force_is_no_contact() {
+    assert_eq!(solve(3.0, 3.0, [rigid(-1.0, 1.0), elastic(-INF, 1.0, 1.0)]), (1.0, [0.0, 0.0]));
+    assert_eq!(solve(3.0, 0.0, [rigid(0.0, 0.0)]), (0.0, [0.0]));
+}
+
+#[test]
+fn bounds_that_cross_by_rounding_are_one_place() {
+    let (x, r) = solve(1.0, 7.0, [rigid(0.1 + 0.2, INF), rigid(-INF, 0.3)]);
+    assert!((x - 0.3).abs() <= f64::EPSILON && r[0] == 0.0 && r[1] < 0.0);
+    let crossing = clamp(1.0, 7.0, &[rigid(0.31, INF), rigid(-INF, 0.3)], &mut [0.0; 2]);
+    assert_eq!(crossing, Err(Failure::Infeasible { row: 0, against: 1 }));
+}
+
+#[test]
+fn what_is_no_number_is_named() {
+    let rows = [rigid(-1.0, 1.0)];
+    let nan = f64::NAN;
+    assert_eq!(clamp(1.0, nan, &rows, &mut [0.0]), Err(Failure::NotFinite { what: "b", index: 0 }));
+    assert_eq!(clamp(1.0, INF, &rows, &mut [0.0]), Err(Failure::NotFinite { what: "b", index: 0 }));
+    assert_eq!(clamp(nan, 1.0, &rows, &mut [0.0]), Err(Failure::NotFinite { what: "A", index: 0 }));
+    assert_eq!(clamp(0.0, 1.0, &rows, &mut [0.0]), Err(Failure::NotPositiveDefinite));
+    assert_eq!(clamp(-1.0, 1.0, &rows, &mut [0.0]), Err(Failure::NotPositiveDefinite));
+    let bad = |row| clamp(1.0, 0.5, &[rigid(-1.0, 1.0), row], &mut [0.0; 2]);
+    assert_eq!(bad(rigid(nan, 1.0)), Err(Failure::NotFinite { what: "lower bound", index: 1 }));
+    assert_eq!(bad(rigid(0.0, nan)), Err(Failure::NotFinite { what: "upper bound", index: 1 }));
+    assert_eq!(bad(elastic(1.0, 2.0, -1.0)), Err(Failure::NotFinite { what: "compliance", index: 1 }));
+    assert_eq!(bad(elastic(2.0, 1.0, 1.0)), Err(Failure::Infeasible { row: 1, against: 1 }));
+    let short = clamp(1.0, 0.5, &rows, &mut []);
+    assert_eq!(short, Err(Failure::Shape { what: "forces", expected: 1, found: 0 }));
+}
