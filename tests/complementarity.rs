@@ -57,7 +57,7 @@ fn complementarity_holds_to_1e_12_with_the_clamp_at_every_step_of_every_scheme()
             for step in [1e-2, 1e-3, 1e-4] {
                 let r = run(&scene, &scheme, &options(step, Backend::Clamp)).expect("a run").residuals;
                 let what = format!("{scheme}, {name}, h = {step}");
-                // The tolerance asked; rounding of positions leaves some 1e-15 of the scales.
+                // Rounding of positions leaves some 1e-15 of the scales.
                 assert!(r.complementarity <= 1e-12, "{what}: {r:?}");
                 assert!(r.tension_n <= 1e-12 * r.force_scale_n, "{what}: {r:?}");
                 // Newmark throws the body about at speeds whose rounding is no longer small against the gap.

@@ -31,7 +31,7 @@ fn restitution(scene: &Scene, scheme: &Scheme, steps: u32) -> (f64, Vec<Contact>
     (-stepper.state().v[0], contacts)
 }
 
-/// To 1e-9, as asked; found: rounding of positions of 1e-2 m over steps of 1e-3 s, some 1e-14.
+/// Found: rounding of positions of 1e-2 m over steps of 1e-3 s, some 1e-14.
 const CLOSE: f64 = 1e-9;
 
 #[test]

@@ -509,6 +509,18 @@ fn rigid_walls_are_passed_by_no_more_than_the_bounds_of_each_scheme() {
     }
 }
 
+#[test]
+fn moreau_jean_says_so_where_the_body_crosses_the_gap_within_a_step_and_freezes() {
+    // 10 m/s across 10 mm in steps of 10 ms: each wall is reached from the other before the body has moved.
+    let scene = source(1.0, 1.0).with_initial(&[0.0], &[10.0]);
+    let run = run(&scene, &MOREAU_JEAN, &Options::with_step(1e-2)).expect("a run");
+    assert!(run.counters.frozen_steps > 90, "{:?}", run.counters);
+    assert!(run.notes.iter().any(|n| n.contains("stands still")), "{:?}", run.notes);
+    // With a step that resolves the crossing it does not.
+    let run = signorini::run(&scene, &MOREAU_JEAN, &Options::with_step(1e-4)).expect("a run");
+    assert_eq!(run.counters.frozen_steps, 0);
+}
+
 /// A scene at the edge of what numbers hold, in units that scale it: ω = √(k/m), or √(1/m) without a spring.
 #[derive(Debug, Clone, Copy)]
 struct Extreme {
@@ -616,7 +628,7 @@ fn survives(extreme: &Extreme, scheme: &Scheme) {
     assert!(r.tension_n <= 1e-12 * r.force_scale_n, "{what}: {r:?}");
     let bound = match scheme {
         Scheme::Penalty { .. } => f64::INFINITY,
-        // e(g − q⁻) with q⁻ two steps back, and half a step and a turn of velocity: wider than design's bounds, which are for small h.
+        // e(g − q⁻) with q⁻ two steps back, and half a step and a turn of velocity: wider than the bounds above, which are for small h.
         Scheme::PaoliSchatzman | Scheme::MoreauJean { .. } => 2.0 * h * speed,
         _ => 0.0,
     };

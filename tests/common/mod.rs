@@ -1,5 +1,9 @@
 //! What the tests of the schemes share: scenes, reference values, an independent event-driven solution, and a slope.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
+#![allow(
+    clippy::excessive_precision,
+    reason = "reference values stand as they were computed, to more digits than a double holds"
+)]
 
 pub mod event_driven;
 pub mod penalty_values;
