@@ -153,8 +153,10 @@ impl Judge {
             self.balance_scale = self.balance_scale.max(s.load[i].abs());
         }
         let system = &self.scene.system;
-        system.add_product(1.0, after, h, &s.mean_v, h, &s.mean_q, &mut s.residual);
-        system.add_product(-1.0, before, 0.0, &s.mean_v, 0.0, &s.mean_q, &mut s.residual);
+        system.add_mass(1.0, after, &mut s.residual);
+        system.add_mass(-1.0, before, &mut s.residual);
+        system.add_damping(h, &s.mean_v, &mut s.residual);
+        system.add_stiffness(h, &s.mean_q, &mut s.residual);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
             for &(i, weight) in wall.at.entries() {
                 s.residual[i] -= weight * p;

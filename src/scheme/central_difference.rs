@@ -41,7 +41,7 @@ impl CentralDifference {
         }
         let q_end = q + h * v_end;
         let load_end = s.forcing.force(end);
-        let v_reported = arrival(s, q_end, v_end, load_end + extra);
+        let v_reported = arrival(s, q_end, v_end, load_end + extra) + s.forcing.impulse(end - 0.5 * h, end) / s.m;
         (self.q, self.v, self.load) = (q_end, v_end, load_end);
         frame.arrive(start, end, v, q_end, v_reported);
         frame.after[0] = v_end;

@@ -81,7 +81,7 @@ impl PaoliSchatzman {
         let q_end = q + delta;
         let v_half = delta / h;
         let load_end = s.forcing.force(end);
-        let v_end = arrival(s, q_end, v_half, load_end + extra);
+        let v_end = arrival(s, q_end, v_half, load_end + extra) + s.forcing.impulse(end - 0.5 * h, end) / s.m;
         (self.q, self.v, self.load) = (q_end, v_half, load_end);
         frame.arrive(start, end, v, q_end, v_end);
         frame.after[0] = v_half;
@@ -95,7 +95,7 @@ impl PaoliSchatzman {
 
 /// Velocity at t⁺ from v₊ at t⁺ − ½h: half a step under the smooth force, (1 + hC/2M)v⁺ = v₊ + (h/2M)(f⁺ − K q⁺ + r⁺).
 /// A body at or behind a rigid wall is not accelerated further into it, and an elastic wall too stiff for the step is left out: there v₊
-/// is all that is known.
+/// is all that is known. A blow since t⁺ − ½h is not in v₊ yet, and the caller's to add.
 #[inline]
 pub(super) fn arrival(s: &Scalar, q: f64, v_half: f64, load: f64) -> f64 {
     let mut force = load - s.k * q;

@@ -1,0 +1,208 @@
+//! The stepper at its edges: allocations, co-simulation, the recorder's sums, contacts, rest, and extreme scenes.
+
+mod common;
+
+use common::{MOREAU_JEAN, penalty, source, spring};
+use signorini::qp::Backend;
+use signorini::{Contact, Error, Integrator, Load, Options, Scene, Scheme, Stepper, TimeOptions, Wall, run};
+
+mod counting {
+    //! An allocator that counts what the current thread asks of it.
+
+    use std::alloc::{GlobalAlloc, Layout, System};
+    use std::cell::Cell;
+
+    thread_local! {
+        static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+    }
+
+    pub struct Counting;
+
+    // SAFETY: everything is passed on to the system's allocator unchanged.
+    unsafe impl GlobalAlloc for Counting {
+        unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+            let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
+            // SAFETY: as the caller promises.
+            unsafe { System.alloc(layout) }
+        }
+
+        unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+            // SAFETY: as the caller promises.
+            unsafe { System.dealloc(pointer, layout) }
+        }
+    }
+
+    pub fn count() -> u64 {
+        ALLOCATIONS.with(Cell::get)
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: counting::Counting = counting::Counting;
+
+const INTEGRATORS: [Integrator; 4] = Integrator::ALL;
+
+/// Every scheme on a grid; the penalty with a spring that a step of 0.1 ms resolves.
+fn schemes() -> Vec<Scheme> {
+    let mut all = vec![
+        Scheme::ImplicitEuler,
+        Scheme::PaoliSchatzman,
+        MOREAU_JEAN,
+        Scheme::MoreauJean { theta: 0.75 },
+        Scheme::MoreauJean { theta: 1.0 },
+        Scheme::Newmark,
+    ];
+    all.extend(INTEGRATORS.map(|i| spring(1e6, i)));
+    all
+}
+
+#[test]
+fn no_step_after_the_first_allocates() {
+    let mut scheme_list = schemes();
+    scheme_list.extend(INTEGRATORS.map(|i| penalty(1e-9, i)));
+    for scene in [source(0.8, 0.8), common::elastic(3.0, 0.5), common::all_elastic(1.0)] {
+        for scheme in &scheme_list {
+            if matches!(scheme, Scheme::Penalty { .. }) && scene.walls.iter().any(|w| !w.law.is_rigid()) {
+                continue;
+            }
+            let mut stepper = Stepper::with_backend(&scene, scheme, 1e-4, Backend::Clamp).expect("a sound scene");
+            stepper.step().expect("a step");
+            let before = counting::count();
+            let mut contacts = 0;
+            for _ in 0..20_000 {
+                contacts += stepper.step().expect("a step").closed.len();
+            }
+            for _ in 0..1000 {
+                stepper.step_with(&[0.5]).expect("a step");
+            }
+            assert_eq!(counting::count() - before, 0, "{scheme}");
+            assert!(contacts > 2, "{scheme}: {contacts} contacts only");
+        }
+    }
+}
+
+/// A scheme's states over `steps` steps of 0.1 ms, with an extra force.
+fn states(scene: &Scene, scheme: &Scheme, steps: u32, extra: f64) -> Vec<(f64, f64, f64)> {
+    let mut stepper = Stepper::new(scene, scheme, 1e-4).expect("a sound scene");
+    let mut out = Vec::new();
+    for _ in 0..steps {
+        let step = stepper.step_with(&[extra]).expect("a step");
+        out.push((step.q[0], step.v[0], step.impulse.iter().sum()));
+    }
+    out
+}
+
+#[test]
+fn a_force_given_step_by_step_does_what_a_constant_load_does() {
+    // Over a quarter of a second: to the start of chaos, with impacts. Rounding enters in another order: 1e-12 of the gap.
+    for scheme in schemes() {
+        let loaded = states(&source(0.8, 0.8).with_load(Load::constant(1.5)), &scheme, 2500, 0.0);
+        let pushed = states(&source(0.8, 0.8), &scheme, 2500, 1.5);
+        // Staggered schemes know the load before the first step, an extra force only in it: half a step of its impulse apart.
+        let start = matches!(scheme, Scheme::PaoliSchatzman)
+            || matches!(scheme, Scheme::Penalty { integrator: Integrator::CentralDifference, .. });
+        for (i, (a, b)) in loaded.iter().zip(&pushed).enumerate() {
+            if start {
+                assert!((a.0 - b.0).abs() < 1e-2 * 5e-3, "{scheme}, step {i}: {a:?} {b:?}");
+                continue;
+            }
+            assert!((a.0 - b.0).abs() < 1e-12 * 5e-3 && (a.1 - b.1).abs() < 1e-12, "{scheme}, step {i}: {a:?} {b:?}");
+            assert!((a.2 - b.2).abs() < 1e-12, "{scheme}, step {i}: {a:?} {b:?}");
+        }
+    }
+    let mut stepper = Stepper::new(&source(1.0, 1.0), &MOREAU_JEAN, 1e-3).expect("a sound scene");
+    assert!(matches!(stepper.step_with(&[]), Err(Error::Invalid { .. })));
+    assert!(matches!(stepper.step_with(&[f64::NAN]), Err(Error::Invalid { .. })));
+    assert!(matches!(stepper.step_with(&[1.0, 2.0]), Err(Error::Invalid { .. })));
+    assert_eq!(stepper.time(), 0.0);
+}
+
+#[test]
+fn a_run_is_its_steps_and_its_columns_sum_to_its_impulses() {
+    let scenes = [
+        source(0.8, 0.8),
+        source(0.0, 0.0),
+        common::elastic(3.0, 0.5),
+        source(0.4, 0.9).with_load(Load::impulse(0.1, 0.25)).with_load(Load::impulse(-0.05, 0.0)),
+    ];
+    for scene in scenes {
+        for scheme in schemes() {
+            // 7 ms do not divide a second: rows of a 143rd, steps that divide them.
+            for (step, sample) in [(1e-4, None), (1e-4, Some(7e-3)), (3e-4, Some(1e-2))] {
+                let time = TimeOptions { step, sample, statistics_from: 0.0 };
+                let options = Options { time, ..Options::with_step(step) };
+                let run = run(&scene, &scheme, &options).expect("a run");
+                let what = format!("{scheme}, h = {step}, rows every {sample:?}");
+                let (grid, t) = (run.grid, &run.trajectory);
+                assert!(grid.step <= step * (1.0 + 1e-9) && grid.steps % grid.rows == 0, "{what}: {grid:?}");
+                let mut stepper = Stepper::new(&scene, &scheme, grid.step).expect("a sound scene");
+                assert_eq!(
+                    (t.time()[0], t.displacement()[0], t.velocity()[0]),
+                    (0.0, 0.0, stepper.state().v[0]),
+                    "{what}"
+                );
+                let mut sums = vec![0.0; scene.walls.len()];
+                let (mut row, mut contacts) = (1, Vec::new());
+                for i in 0..grid.steps {
+                    let step = stepper.step().expect("a step");
+                    for (sum, p) in sums.iter_mut().zip(step.impulse) {
+                        *sum += p;
+                    }
+                    contacts.extend_from_slice(step.closed);
+                    if (i + 1) % (grid.steps / grid.rows) == 0 {
+                        assert_eq!(
+                            (t.displacement()[row], t.velocity()[row]),
+                            (step.q[0], step.v[0]),
+                            "{what}, row {row}"
+                        );
+                        assert!((t.time()[row] - step.end).abs() < 1e-12, "{what}, row {row}");
+                        row += 1;
+                    }
+                }
+                assert_eq!((t.time().len(), t.time()[row - 1]), (row, 1.0), "{what}");
+                contacts.extend(stepper.open_contacts());
+                contacts.sort_by(|a: &Contact, b| a.start.total_cmp(&b.start));
+                assert_eq!(t.contacts(), contacts, "{what}");
+                for (index, wall) in scene.walls.iter().enumerate() {
+                    let columns: f64 = t.contact_impulse(&wall.name).expect("its wall").iter().sum();
+                    let total = t.impulse(&wall.name).expect("its wall");
+                    let episodes: f64 = contacts.iter().filter(|c| c.wall == index).map(|c| c.impulse).sum();
+                    // Sums of the same 1e4 numbers in another order.
+                    let close = |a: f64| (a - sums[index]).abs() <= 1e-12 * sums[index].abs();
+                    assert!(
+                        total == columns && close(total) && close(episodes),
+                        "{what}: {total} {episodes} {}",
+                        sums[index]
+                    );
+                    assert!(wall.side.sign() * total > 0.0 || scheme == Scheme::Newmark, "{what}: {total}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_blow_at_the_start_is_the_velocity_it_gives_and_one_in_mid_run_arrives_in_time() {
+    for scheme in schemes() {
+        // 2 kg; 0.1 N s at once make 0.05 m/s.
+        let struck = Scene::oscillator(2.0, 0.3, 50.0).with_load(Load::impulse(0.1, 0.0));
+        let moving = Scene::oscillator(2.0, 0.3, 50.0).with_initial(&[0.0], &[0.05]);
+        let go = |scene: &Scene, step: f64| run(scene, &scheme, &Options::with_step(step)).expect("a run").trajectory;
+        let with_wall = |scene: &Scene| scene.clone().with_wall(Wall::upper("far", 1.0));
+        let (a, b) = (go(&with_wall(&struck), 1e-3), go(&with_wall(&moving), 1e-3));
+        assert_eq!((a.displacement(), a.velocity()), (b.displacement(), b.velocity()), "{scheme}");
+        // At half time, on a grid instant and between two: free motion of an undamped mass, 1 N s on 1 kg.
+        for time in [0.5, 0.5003] {
+            let mass = Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::impulse(1.0, time));
+            let t = go(&with_wall(&mass).with_duration(1.0), 1e-3);
+            let (q, v) = (t.displacement(), t.velocity());
+            // The whole blow, and within a step of its time.
+            assert!((v[1000] - 1.0).abs() < 1e-12 && v[499] == 0.0, "{scheme}: {} {}", v[1000], v[499]);
+            assert!((q[1000] - (1.0 - time)).abs() <= 1.000_001e-3, "{scheme}: {}", q[1000]);
+            if time == 0.5 {
+                // States are right-continuous: the row at the instant of the blow is after it.
+                assert!((v[500] - 1.0).abs() < 1e-12, "{scheme}: {} at the blow", v[500]);
+            }
+        }
+    }
+}
