@@ -290,12 +290,13 @@ fn main() {
 
     let (scene, steps) = (pressed(), 100);
     let (mut direct, mut stepper, mut n) = (bare_clarabel(), stepper(&scene, Backend::Clarabel), 0);
-    let (mut by_hand, before) = (0, stepper.counters());
+    let (mut linear, mut by_hand, before) = (vec![0.0], 0, stepper.counters());
     let best = race(ROUNDS, || {
         let hand = time(steps, |step| {
             // The force that presses, over its mean.
             let press = (2.5 + (TAU * 5.0 * H * (n + step) as f64).sin()) / 2.5;
-            direct.update_q(&[-press][..]).expect("updatable");
+            linear[0] = -press;
+            direct.update_q(&linear).expect("updatable");
             direct.solve();
             by_hand += u64::from(direct.solution.iterations);
             black_box(&direct.solution.x);
