@@ -56,7 +56,7 @@ impl Source {
 fn bare_moreau_jean(s: Source, theta: f64, h: f64, steps: u64) -> Outcome {
     let ht = h * theta;
     let a = s.m + ht * s.c + ht * ht * s.k;
-    let touch = 1e-12 * 2.0 * s.g;
+    let touch = 1e-12 * s.g;
     let force = |t: f64| s.amplitude * (s.omega * t + s.phase).sin();
     let (mut q, mut v, mut load) = (0.0, 0.0, force(0.0));
     let (mut sum, mut impulse) = (0.0, 0.0);
