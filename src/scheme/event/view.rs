@@ -2,9 +2,28 @@
 
 use super::{Counters, Event};
 use crate::flow::Arc;
-use crate::step::Contact;
+use crate::step::{Contact, Path, Step};
 
 impl Event {
+    /// The last step, number `index`, under the extra force `extra` (N).
+    pub(crate) fn step<'a>(&'a self, index: u64, extra: &'a [f64]) -> Step<'a> {
+        Step {
+            index,
+            start: self.start,
+            end: self.time,
+            q: self.q(),
+            v: self.v(),
+            velocity_before: self.velocity_before(),
+            velocity_after: self.v(),
+            impulse: &self.impulse,
+            jump: &self.jump,
+            force: &self.force,
+            extra,
+            closed: &self.closed,
+            path: Path::Exact(&self.arc),
+        }
+    }
+
     /// True once the end of the scene is reached.
     #[must_use]
     pub fn is_done(&self) -> bool {
