@@ -102,20 +102,26 @@ impl Parameter {
         let walls = case.scene.walls.iter().map(|w| w.law);
         let laws = case.penalty.laws.iter();
         let mut values: Vec<f64> = match self {
-            Self::Restitution => {
-                walls.filter_map(|l| if let WallLaw::Rigid { restitution } = l { Some(restitution) } else { None }).collect()
-            }
-            Self::Epsilon => {
-                laws.filter_map(|l| if let PenaltyLaw::Quartic { epsilon } = l { Some(*epsilon) } else { None }).collect()
-            }
+            Self::Restitution => walls
+                .filter_map(|l| if let WallLaw::Rigid { restitution } = l { Some(restitution) } else { None })
+                .collect(),
+            Self::Epsilon => laws
+                .filter_map(|l| if let PenaltyLaw::Quartic { epsilon } = l { Some(*epsilon) } else { None })
+                .collect(),
             Self::PenaltyStiffness => {
-                let stiffness = |l: &PenaltyLaw| if let PenaltyLaw::Linear { stiffness, .. } = l { Some(*stiffness) } else { None };
+                let stiffness =
+                    |l: &PenaltyLaw| if let PenaltyLaw::Linear { stiffness, .. } = l { Some(*stiffness) } else { None };
                 laws.filter_map(stiffness).collect()
             }
             Self::WallStiffness => walls.filter_map(wall_stiffness).collect(),
         };
         let mut seen = Vec::new();
-        values.retain(|v| !seen.contains(v) && { seen.push(*v); true });
+        values.retain(|v| {
+            !seen.contains(v) && {
+                seen.push(*v);
+                true
+            }
+        });
         values
     }
 

@@ -92,8 +92,7 @@ impl Plan {
         let ratio = 10_f64.powf(1.0 / PER_DECADE);
         let columns = ((coarsest / finest).ln() / ratio.ln() + 1e-9).floor() as i32;
         let steps = (0..=columns).map(|i| finest * ratio.powi(i)).collect();
-        let mut plan =
-            Self { scale, horizon, steps, subjects: Vec::new(), rulers: Vec::new(), references: Vec::new() };
+        let mut plan = Self { scale, horizon, steps, subjects: Vec::new(), rulers: Vec::new(), references: Vec::new() };
         for family in Family::all() {
             let parameter = Parameter::of(family, case);
             let own = parameter.own(case);
