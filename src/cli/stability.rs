@@ -19,12 +19,13 @@ Writes impact-map.csv and .svg (the restitution of one free impact by its phase 
 every map) and one stability-*.svg a scheme: classes over step and restitution, ε or wall stiffness.
 
 Classes, from harmless to worst, against a fine run of the same scene:
-  stable           energy, speeds and contacts as the reference has them
-  dissipative      more than 5 % of the energy lost per impact, or mean speed below 0.7 of the reference's
-  frozen           the body crosses the gap in less than a step and stands still
-  contacts missed  a wall passed deeper than the scheme's bound, or contacts off by a factor of 2
-  energy-gaining   more than 1 % of the energy gained per impact, speeds above 1.5 times, or no rest where rest is due
-  diverged         speeds above 10 times, not finite, or a step that cannot be solved";
+  stable           energy kept as the walls' law has it; speeds, contacts and rest as in the reference (right in kind, not exact)
+  dissipative      more than 5 % of the energy arriving at the walls lost per impact, beyond what restitution takes
+  frozen           the body stands still: it crosses the gap in less than a step
+  astray           another motion: a wall passed beyond the scheme's bound, contacts off by a factor of 2, speeds above 1.5 or
+                   below 0.7 of the reference's, or no rest where rest is due
+  energy-gaining   more than 1 % of the energy arriving at the walls made per impact
+  diverged         speeds above 10 times the reference's, not finite, or a step that cannot be solved";
 
 /// Map where each scheme fails on a case: steps against restitution, ε or wall stiffness
 #[derive(Debug, clap::Args)]
@@ -80,13 +81,16 @@ fn line(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> Vec<String> {
     let subject = &row.subject;
     let step = row.safe.as_ref().and_then(|safe| safe.step);
     let beyond = row.safe.as_ref().and_then(|safe| safe.beyond.as_ref());
-    let kappa = step.or(beyond.map(|cell| cell.step)).and_then(|h| subject.kappa(&maps.scale, h));
+    let kappa = step.and_then(|h| subject.kappa(&maps.scale, h));
     vec![
         subject.scheme.to_string(),
         step.map_or_else(|| "none".to_owned(), |h| format!("{h:.2e}")),
         step.map_or_else(String::new, |h| format!("{:.2e}", h * maps.scale.omega)),
         kappa.map_or_else(String::new, |k| format!("{k:.2e}")),
-        beyond.map_or_else(|| "stable on the whole grid".to_owned(), |cell| format!("{}: {}", cell.class, cell.reason)),
+        beyond.map_or_else(
+            || "stable on the whole grid".to_owned(),
+            |cell| format!("{:.2e} s {}: {}", cell.step, cell.class, cell.reason),
+        ),
         range(&subject.scheme, impacts),
     ]
 }

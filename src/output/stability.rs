@@ -71,7 +71,8 @@ pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
         "largest_speed_over_reference",
         "rms_speed_over_reference",
         "contacts",
-        "reference_contacts",
+        "reference_contacts_least",
+        "reference_contacts_most",
         "missed",
         "spurious",
         "depth_m",
@@ -94,7 +95,7 @@ pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
             cell.reason.clone(),
         ];
         let Some(m) = &cell.measured else {
-            line.extend(failure(10, String::new()));
+            line.extend(failure(11, String::new()));
             return line;
         };
         line.extend([
@@ -102,7 +103,8 @@ pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
             number(Some(m.speed)),
             number(Some(m.rms_speed)),
             m.contacts.to_string(),
-            row.contacts.to_string(),
+            row.contacts.low.to_string(),
+            row.contacts.high.to_string(),
             m.missed.to_string(),
             m.spurious.to_string(),
             number(Some(m.depth)),

@@ -1,6 +1,6 @@
 //! The maps of a case: every scheme, step and parameter, in parallel.
 
-use super::class::Ruler;
+use super::class::{Range, Ruler};
 use super::family::{self, Family, Parameter};
 use super::row::{Cell, Safe, Subject};
 use super::scale::Scale;
@@ -25,9 +25,11 @@ pub const CONTACTS: usize = 100;
 pub const MOST_STEPS: f64 = 1e6;
 /// Steps of the coarsest cell at least.
 const LEAST_STEPS: f64 = 20.0;
-/// References take this many steps for one of the finest cell.
-const FINER: f64 = 2.0;
-
+/// Reference runs of a scene, and by what their starting speeds differ, as a share of gap scale times ω: less than anybody could tell,
+/// enough for chaotic motions to part and for those between two attractors to find both.
+pub const STARTS: u32 = 4;
+/// See [`STARTS`].
+pub const NUDGE: f64 = 1e-3;
 /// All that is to be run for the maps of a case.
 #[derive(Debug, Clone)]
 pub struct Plan {
@@ -52,7 +54,7 @@ pub struct Row {
     /// One cell a step.
     pub cells: Vec<Cell>,
     /// Contacts of its reference.
-    pub contacts: usize,
+    pub contacts: Range,
     /// For the case's own parameters, the largest safe step.
     pub safe: Option<Safe>,
 }
@@ -81,9 +83,9 @@ impl Plan {
         let first = Scale::of(scene, None);
         let finest = |scale: &Scale, horizon: f64| (FINEST / scale.omega).max(horizon / MOST_STEPS);
         let own = reference_of(scene, None);
-        let h = finest(&first, scene.duration) / FINER;
+        let h = finest(&first, scene.duration);
         let record = watch(&own.0, &own.1, h, scene.duration, f64::INFINITY)?;
-        let ruler = Ruler::new(&record);
+        let ruler = Ruler::new(std::slice::from_ref(&record));
         let times: Vec<f64> = ruler.contact_times(&record).collect();
         let horizon = times.get(CONTACTS).copied().unwrap_or(scene.duration).min(scene.duration);
         let scale = Scale::of(scene, times.first().copied());
@@ -138,7 +140,8 @@ impl Plan {
     #[must_use]
     pub fn work(&self) -> u64 {
         let row: u64 = self.steps.iter().map(|h| self.cost(*h)).sum();
-        row * self.subjects.len() as u64 + self.cost(self.reference_step()) * self.references.len() as u64
+        row * self.subjects.len() as u64
+            + self.cost(self.reference_step()) * self.references.len() as u64 * u64::from(STARTS)
     }
 
     fn cost(&self, h: f64) -> u64 {
@@ -146,7 +149,7 @@ impl Plan {
     }
 
     fn reference_step(&self) -> f64 {
-        self.steps.first().copied().unwrap_or(self.horizon) / FINER
+        self.steps.first().copied().unwrap_or(self.horizon)
     }
 
     /// Runs everything, telling `progress` the steps taken, of [`Plan::work`]. The result does not depend on the number of threads.
@@ -158,9 +161,15 @@ impl Plan {
         let tell = |steps: u64| progress(done.fetch_add(steps, Ordering::Relaxed) + steps);
         let h = self.reference_step();
         let reference = |(scene, scheme): &(Scene, Scheme)| -> Result<Ruler> {
-            let record: Record = watch(scene, scheme, h, self.horizon, f64::INFINITY)?;
-            tell(self.cost(h));
-            Ok(Ruler::new(&record))
+            let run = |start: u32| -> Result<Record> {
+                let mut scene = scene.clone();
+                let nudge = f64::from(start) * NUDGE * scene.gap_scale() * self.scale.omega;
+                scene.initial.v.iter_mut().for_each(|v| *v += nudge);
+                let record = watch(&scene, scheme, h, self.horizon, f64::INFINITY)?;
+                tell(self.cost(h));
+                Ok(record)
+            };
+            Ok(Ruler::new(&(0..STARTS).map(run).collect::<Result<Vec<_>>>()?))
         };
         let rulers: Vec<Ruler> = self.references.par_iter().map(reference).collect::<Result<_>>()?;
         let ruled: Vec<(&Subject, &Ruler)> =
@@ -184,7 +193,7 @@ impl Plan {
 }
 
 /// What the runs on a scene are held against: moreau-jean with θ = ½, which keeps energy between impacts and the law at them; for a
-/// penalty the discrete gradient on the same springs, which keeps theirs. Both with a fine step.
+/// penalty the discrete gradient on the same springs, which keeps theirs. Both with the finest step of the grid.
 fn reference_of(scene: &Scene, law: Option<PenaltyLaw>) -> (Scene, Scheme) {
     let scheme = match law {
         Some(law) => Scheme::Penalty { law, integrator: Integrator::DiscreteGradient },

@@ -56,7 +56,7 @@ impl Subject {
     #[must_use]
     pub fn cell(&self, ruler: &Ruler, scale: &Scale, h: f64, horizon: f64) -> Cell {
         // Well beyond what makes a class, so that the speed reached is still measured there.
-        let limit = 10.0 * super::class::DIVERGED * ruler.speed.max(f64::MIN_POSITIVE);
+        let limit = 10.0 * super::class::DIVERGED * ruler.speed.high.max(f64::MIN_POSITIVE);
         match watch(&self.scene, &self.scheme, h, horizon, limit) {
             Err(error) => Cell { step: h, measured: None, class: Class::Diverged, reason: error.to_string() },
             Ok(record) => {
