@@ -7,7 +7,7 @@ use crate::output::atomic::write_whole;
 use crate::output::stability as output;
 use crate::scheme::Scheme;
 use crate::study::stability::impact::{self, ImpactMap};
-use crate::study::stability::plan::{Maps, Plan, Row};
+use crate::study::stability::plan::{Grid, Maps, Plan, Row};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -45,7 +45,7 @@ pub struct Args {
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let case = request::case(&args.case)?;
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join("stability"));
-    let plan = Plan::new(&case)?;
+    let plan = Plan::new(&case, &Grid::default())?;
     let e = impact::wall_restitution(&case.scene);
     let impacts = impact::maps(plan.scale.mass, case.time.step, e);
     output::impacts(&folder.join("impact-map.csv"), &impacts)?;

@@ -144,7 +144,7 @@ pub fn impact_figure(maps: &[ImpactMap], e: f64) -> String {
         let (low, high) = wide.fold((1.0_f64, 1.0_f64), |(a, b), (low, high)| (a.min(low), b.max(high)));
         let mut panel = Panel::new("Restitution (–)").heading(format!("Penalty, h²k_w/m = {kappa}"));
         panel = if high / low.max(f64::MIN_POSITIVE) > 100.0 { panel.log() } else { panel };
-        for (map, look) in maps.iter().filter(|m| m.kappa == Some(kappa)).zip(1..) {
+        for (map, look) in maps.iter().filter(|m| m.kappa == Some(kappa)).zip(7..) {
             let name = map.label.split(", ").nth(1).unwrap_or_default();
             panel = panel.curve(Curve::new(format!("penalty, {name}"), points(map)).look(look));
         }
@@ -172,7 +172,8 @@ fn map_figure(maps: &Maps, family: Family, title: &str) -> String {
     let cells = rows.iter().flat_map(|row| row.cells.iter().map(|cell| number(cell.class))).collect();
     let classes = Class::ALL.iter().map(|class| Tone::new(class.name(), class.letter())).collect();
     let label = format!("Step hω (–), {}", maps.scale.origin.describe());
-    HeatMap::new(format!("{title}: {family}"), (&label, Scale::Log, &steps), (parameter.label(), scale, &values))
+    let name = family.to_string().replace(":integrator=", ", ");
+    HeatMap::new(format!("{title}: {name}"), (&label, Scale::Log, &steps), (parameter.label(), scale, &values))
         .classes(classes, cells)
         .to_svg()
 }

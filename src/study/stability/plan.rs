@@ -4,7 +4,7 @@ use super::class::{Range, Ruler};
 use super::family::{self, Family, Parameter};
 use super::row::{Cell, Safe, Subject};
 use super::scale::Scale;
-use super::watch::{Record, watch};
+use super::watch::{Record, STARTS, nudged, watch};
 use crate::case::Case;
 use crate::error::Result;
 use crate::scene::Scene;
@@ -12,24 +12,34 @@ use crate::scheme::{Integrator, PenaltyLaw, Scheme};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Smallest and largest step of the grid as h·ω, and steps a decade. A natural period has 6 × 10⁴ of the smallest, which resolves
-/// the stiffest of the source's penalties (h²k_w/m = 0.01), and two of the largest.
-pub const FINEST: f64 = 1e-4;
-/// See [`FINEST`].
-pub const COARSEST: f64 = 3.2;
-/// See [`FINEST`].
-pub const PER_DECADE: f64 = 7.0;
-/// Contacts after which the horizon ends: enough for a gain of 1 % each to show, few enough for a hundred thousand runs.
-pub const CONTACTS: usize = 100;
-/// Steps of a cell at most: where the finest step would need more over the horizon, the grid starts at a coarser one.
-pub const MOST_STEPS: f64 = 1e6;
 /// Steps of the coarsest cell at least.
 const LEAST_STEPS: f64 = 20.0;
-/// Reference runs of a scene, and by what their starting speeds differ, as a share of gap scale times ω: less than anybody could tell,
-/// enough for chaotic motions to part and for those between two attractors to find both.
-pub const STARTS: u32 = 4;
-/// See [`STARTS`].
-pub const NUDGE: f64 = 1e-3;
+
+/// How much is to be mapped.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// Smallest step as hω. A natural period has 6 × 10⁴ of the default, 10⁻⁴: that resolves the stiffest penalty of the source
+    /// (h²k_w/m = 0.01).
+    pub finest: f64,
+    /// Largest step as hω: two to the natural period by default.
+    pub coarsest: f64,
+    /// Steps a decade.
+    pub per_decade: f64,
+    /// Contacts of the reference at which the horizon ends, if the duration does not end it before: by default a hundred, enough
+    /// for a gain of 1 % each to show.
+    pub contacts: usize,
+    /// Most steps of a cell: where the finest step would need more over the horizon, the grid starts at a coarser one.
+    pub most_steps: f64,
+    /// The schemes.
+    pub families: Vec<Family>,
+}
+
+impl Default for Grid {
+    fn default() -> Self {
+        Self { finest: 1e-4, coarsest: 3.2, per_decade: 7.0, contacts: 100, most_steps: 1e6, families: Family::all() }
+    }
+}
+
 /// All that is to be run for the maps of a case.
 #[derive(Debug, Clone)]
 pub struct Plan {
@@ -73,29 +83,29 @@ pub struct Maps {
 }
 
 impl Plan {
-    /// The plan for a case.
+    /// The plan for a case. It takes one run of the case, at the finest step over its whole duration.
     ///
     /// # Errors
     /// [`crate::Error::Invalid`] for a case without walls, and what the reference run of the case itself reports.
-    pub fn new(case: &Case) -> Result<Self> {
+    pub fn new(case: &Case, grid: &Grid) -> Result<Self> {
         family::check(case)?;
         let scene = &case.scene;
         let first = Scale::of(scene, None);
-        let finest = |scale: &Scale, horizon: f64| (FINEST / scale.omega).max(horizon / MOST_STEPS);
+        let finest = |scale: &Scale, horizon: f64| (grid.finest / scale.omega).max(horizon / grid.most_steps);
         let own = reference_of(scene, None);
         let h = finest(&first, scene.duration);
         let record = watch(&own.0, &own.1, h, scene.duration, f64::INFINITY)?;
         let ruler = Ruler::new(std::slice::from_ref(&record));
         let times: Vec<f64> = ruler.contact_times(&record).collect();
-        let horizon = times.get(CONTACTS).copied().unwrap_or(scene.duration).min(scene.duration);
+        let horizon = times.get(grid.contacts).copied().unwrap_or(scene.duration).min(scene.duration);
         let scale = Scale::of(scene, times.first().copied());
         let finest = finest(&scale, horizon);
-        let coarsest = (COARSEST / scale.omega).min(horizon / LEAST_STEPS).max(finest);
-        let ratio = 10_f64.powf(1.0 / PER_DECADE);
+        let coarsest = (grid.coarsest / scale.omega).min(horizon / LEAST_STEPS).max(finest);
+        let ratio = 10_f64.powf(1.0 / grid.per_decade);
         let columns = ((coarsest / finest).ln() / ratio.ln() + 1e-9).floor() as i32;
         let steps = (0..=columns).map(|i| finest * ratio.powi(i)).collect();
         let mut plan = Self { scale, horizon, steps, subjects: Vec::new(), rulers: Vec::new(), references: Vec::new() };
-        for family in Family::all() {
+        for &family in &grid.families {
             let parameter = Parameter::of(family, case);
             let own = parameter.own(case);
             let several = parameter != Parameter::Epsilon && parameter != Parameter::PenaltyStiffness && own.len() > 1;
@@ -162,9 +172,7 @@ impl Plan {
         let h = self.reference_step();
         let reference = |(scene, scheme): &(Scene, Scheme)| -> Result<Ruler> {
             let run = |start: u32| -> Result<Record> {
-                let mut scene = scene.clone();
-                let nudge = f64::from(start) * NUDGE * scene.gap_scale() * self.scale.omega;
-                scene.initial.v.iter_mut().for_each(|v| *v += nudge);
+                let scene = nudged(scene, start, &self.scale);
                 let record = watch(&scene, scheme, h, self.horizon, f64::INFINITY)?;
                 tell(self.cost(h));
                 Ok(record)

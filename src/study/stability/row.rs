@@ -1,9 +1,9 @@
 //! One scheme on one scene, over all steps.
 
-use super::class::{Class, Measurement, Ruler};
+use super::class::{Class, DIVERGED, Measurement, Ruler};
 use super::family::{Family, Parameter};
 use super::scale::Scale;
-use super::watch::{wall_stiffness, watch};
+use super::watch::{STARTS, nudged, wall_stiffness, watch};
 use crate::scene::Scene;
 use crate::scheme::Scheme;
 
@@ -53,11 +53,24 @@ impl Subject {
     }
 
     /// The run with steps of `h` (s) over `horizon` (s), held against `ruler`.
+    ///
+    /// A motion that goes astray is tried from the other starts of the ruler's runs: one that stays on course from any of them went astray
+    /// by the scene's choice between two motions, not by the scheme's.
     #[must_use]
     pub fn cell(&self, ruler: &Ruler, scale: &Scale, h: f64, horizon: f64) -> Cell {
+        let first = self.attempt(0, ruler, scale, h, horizon);
+        if first.class != Class::Astray {
+            return first;
+        }
+        let others = (1..STARTS).map(|start| self.attempt(start, ruler, scale, h, horizon));
+        let mut on_course = others.filter(|cell| cell.class != Class::Astray);
+        on_course.next().unwrap_or(first)
+    }
+
+    fn attempt(&self, start: u32, ruler: &Ruler, scale: &Scale, h: f64, horizon: f64) -> Cell {
         // Well beyond what makes a class, so that the speed reached is still measured there.
-        let limit = 10.0 * super::class::DIVERGED * ruler.speed.high.max(f64::MIN_POSITIVE);
-        match watch(&self.scene, &self.scheme, h, horizon, limit) {
+        let limit = 10.0 * DIVERGED * ruler.speed.high.max(f64::MIN_POSITIVE);
+        match watch(&nudged(&self.scene, start, scale), &self.scheme, h, horizon, limit) {
             Err(error) => Cell { step: h, measured: None, class: Class::Diverged, reason: error.to_string() },
             Ok(record) => {
                 let measured = Measurement::new(&record, ruler, &self.seen, &self.scheme, scale, h);

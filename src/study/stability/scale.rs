@@ -3,6 +3,11 @@
 use crate::scene::{LoadKind, Scene};
 use std::f64::consts::TAU;
 
+/// A frequency with less than this many periods in the duration sets no scale: the body hardly begins to swing.
+const SLOWEST: f64 = 0.01;
+/// Nor does a first contact after less than a thousandth of the duration: the body starts at the wall.
+const FASTEST_FLIGHT: f64 = 1e3;
+
 /// Where the circular frequency of a scene comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
@@ -50,14 +55,14 @@ impl Scale {
             LoadKind::Harmonic { frequency, .. } => Some(TAU * frequency),
             _ => None,
         });
-        let flight = first_contact.map(|t| TAU / t);
         let slowest = TAU / scene.duration;
+        let flight = first_contact.map(|t| TAU / t).filter(|w| *w < FASTEST_FLIGHT * slowest);
         let candidates = [
             (Some(spring), Origin::Spring),
             (sine.filter(|w| *w > 0.0).reduce(f64::min), Origin::Load),
             (flight, Origin::Flight),
         ];
-        let usable = |w: &f64| w.is_finite() && *w > slowest;
+        let usable = |w: &f64| w.is_finite() && *w > SLOWEST * slowest;
         let found = candidates.into_iter().find_map(|(w, origin)| Some((w.filter(usable)?, origin)));
         let (omega, origin) = found.unwrap_or((slowest, Origin::Duration));
         Self { omega, origin, mass }

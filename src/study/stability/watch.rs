@@ -8,11 +8,13 @@ use crate::step::{Balance, Contact, Step};
 
 /// The share of the horizon, at its end, in which a body that is due to rest must rest.
 const LAST: f64 = 0.1;
+/// Steps after which a contact that has not ended at the horizon is a lasting one: the body stays at the wall, and leaves with nothing.
+const LASTING: f64 = 10.0;
 
 /// What was seen of one run.
 #[derive(Debug, Clone, Default)]
 pub struct Record {
-    /// Contact episodes that ended within the horizon, in the order of their ends.
+    /// Contact episodes that ended within the horizon, in the order of their ends, then lasting ones, with a departure speed of 0.
     pub contacts: Vec<Contact>,
     /// Energy that the scheme made between impacts, J: away from walls and in the springs of elastic and penalised ones.
     pub made: f64,
@@ -75,10 +77,28 @@ pub fn watch(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -
             break;
         }
     }
+    let (time, open) = (stepper.time(), stepper.open_contacts());
+    let lasting = open.into_iter().filter(|c| c.start < time - LASTING * h);
+    record.contacts.extend(lasting.map(|c| Contact { departure_speed: Some(0.0), ..c }));
     record.made = ledger.made;
     record.rms_speed = (squares / record.steps as f64).sqrt();
     record.frozen_steps = stepper.counters().frozen_steps;
     Ok(record)
+}
+
+/// Starts from which a scene is tried, and by what their speeds differ, as a share of gap scale times ω: less than anybody could tell,
+/// enough for chaotic motions to part and for those between two attractors to find both.
+pub const STARTS: u32 = 4;
+/// See [`STARTS`].
+pub const NUDGE: f64 = 1e-3;
+
+/// The scene from start number `start`, 0 its own.
+#[must_use]
+pub fn nudged(scene: &Scene, start: u32, scale: &Scale) -> Scene {
+    let mut scene = scene.clone();
+    let nudge = f64::from(start) * NUDGE * scene.gap_scale() * scale.omega;
+    scene.initial.v.iter_mut().for_each(|v| *v += nudge);
+    scene
 }
 
 /// One degree of freedom: the walls' rows are the displacement itself.
