@@ -3,4 +3,5 @@
 pub mod choice;
 pub mod compare;
 pub mod horizon;
+#[cfg(feature = "cli")]
 pub mod stability;
