@@ -39,18 +39,13 @@ impl Below {
     #[inline]
     pub fn step(&self, window: f64) -> Step {
         if self.c[0] > self.noise[0] {
-            return if self.stays_above(window) { Step::Free(window) } else { self.approach(window) };
+            return if stays_above(self.c, self.bound, window, self.noise[0]) {
+                Step::Free(window)
+            } else {
+                self.approach(window)
+            };
         }
         self.depart(window)
-    }
-
-    /// True if every falling term at its worst still leaves the polynomial above its noise: the common case, kept cheap.
-    #[inline]
-    fn stays_above(&self, w: f64) -> bool {
-        let [c0, c1, c2, c3] = self.c;
-        let b = self.bound;
-        let fall = c1.min(0.0) + w * (0.5 * c2.min(0.0) + w * (SIXTH * c3.min(0.0) - w * b * SIXTH * 0.25));
-        c0 + w * fall > self.noise[0]
     }
 
     /// g is above 0 now.
@@ -99,8 +94,19 @@ impl Below {
         if tail.0 < 0.0 {
             return Step::Now;
         }
+        if stays_above(tail.1, 0.0, window, 0.0) {
+            return Step::Free(window);
+        }
         Step::Free(first_root(tail.1, 0.0, window, 0.0).0)
     }
+}
+
+/// True if every falling term of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 at its worst in [0, w] still leaves it above `enough`: the common
+/// case, kept cheap.
+#[inline]
+fn stays_above([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> bool {
+    let cubic = SIXTH * c3.min(0.0) - w * b * (0.25 * SIXTH);
+    c0 + w * (c1.min(0.0) + w * (0.5 * c2.min(0.0) + w * cubic)) > enough
 }
 
 /// A number not above the first root of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 in [0, w], or w, with p there; p(0) > 0.
