@@ -4,6 +4,7 @@ mod common;
 
 use common::{MOREAU_JEAN, penalty, source, spring};
 use signorini::qp::Backend;
+use signorini::residual::Judge;
 use signorini::{Contact, Error, Integrator, Load, Options, Scene, Scheme, Stepper, TimeOptions, Wall, run};
 
 mod counting {
@@ -203,6 +204,26 @@ fn a_blow_at_the_start_is_the_velocity_it_gives_and_one_in_mid_run_arrives_in_ti
                 // States are right-continuous: the row at the instant of the blow is after it.
                 assert!((v[500] - 1.0).abs() < 1e-12, "{scheme}: {} at the blow", v[500]);
             }
+        }
+    }
+}
+
+#[test]
+fn blows_half_way_between_two_steps_act_once() {
+    let step = 1e-4;
+    for half in (0..2000).map(|n| f64::from(2 * n + 1) * 5e-5) {
+        let half = (half * 1e6).round() / 1e6;
+        let scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::impulse(1.0, half)).with_duration(0.3);
+        for scheme in [Scheme::PaoliSchatzman, spring(1.0, Integrator::CentralDifference)] {
+            let mut stepper = Stepper::new(&scene, &scheme, step).expect("a sound scene");
+            let start = stepper.state();
+            let mut judge = Judge::new(&scene, stepper.contract(), step, &start.q, &start.v);
+            while stepper.time() < half + 3.0 * step {
+                judge.see(&stepper.step().expect("a step"));
+            }
+            let v = stepper.state().v[0];
+            assert!((v - 1.0).abs() < 1e-12, "{scheme}: velocity {v} m/s after a blow of 1 N s at {half} s");
+            assert!(judge.residuals().force_balance < 1e-12, "{scheme}: {:?}", judge.residuals());
         }
     }
 }

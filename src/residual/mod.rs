@@ -102,13 +102,14 @@ impl Judge {
     }
 
     /// Takes in one step. Steps must come in order, none left out.
+    ///
+    /// # Panics
+    /// For a step of another scene: one with other numbers of walls or degrees of freedom than the judge was made for.
     pub fn see(&mut self, step: &Step<'_>) {
         for ((end, blow), forcing) in self.scratch.load_end.iter_mut().zip(&mut self.scratch.blow).zip(&self.forcing) {
             *end = forcing.force(step.end);
             *blow = match self.contract.balance {
-                Balance::Staggered(_) => {
-                    forcing.impulse((step.start - 0.5 * self.h).max(0.0), step.start + 0.5 * self.h)
-                }
+                Balance::Staggered(_) => forcing.impulse_about(step.index, self.h),
                 _ => forcing.impulse(step.start, step.end),
             };
         }
