@@ -5,7 +5,7 @@ mod common;
 use common::{MOREAU_JEAN, penalty, source, spring};
 use signorini::qp::Backend;
 use signorini::residual::Judge;
-use signorini::{Contact, Error, Integrator, Load, Options, Scene, Scheme, Stepper, TimeOptions, Wall, run};
+use signorini::{Contact, Error, Integrator, Load, Options, Recorder, Scene, Scheme, Stepper, TimeOptions, Wall, run};
 
 mod counting {
     //! An allocator that counts what the current thread asks of it.
@@ -226,4 +226,31 @@ fn blows_half_way_between_two_steps_act_once() {
             assert!(judge.residuals().force_balance < 1e-12, "{scheme}: {:?}", judge.residuals());
         }
     }
+}
+
+#[test]
+fn a_recorder_that_sees_steps_beyond_its_last_row_keeps_to_its_rows() {
+    let scene = source(0.8, 0.8).with_duration(0.5);
+    for scheme in [MOREAU_JEAN, Scheme::PaoliSchatzman, Scheme::Event] {
+        let mut stepper = Stepper::new(&scene, &scheme, 1e-3).expect("a sound scene");
+        let start = stepper.state();
+        let mut recorder = Recorder::new(&scene, 50, &start.q, &start.v);
+        for _ in 0..700 {
+            recorder.see(&stepper.step().expect("a step"));
+        }
+        let trajectory = recorder.finish(&[]);
+        assert_eq!(trajectory.time().len(), 51, "{scheme}");
+        assert!(trajectory.time().is_sorted_by(|a, b| a < b), "{scheme}");
+        assert!(trajectory.contacts().iter().all(|c| c.start <= 0.5), "{scheme}");
+    }
+}
+
+#[test]
+fn the_first_row_of_an_exact_run_has_the_force_of_a_body_that_starts_at_rest_on_a_wall() {
+    let scene = Scene::oscillator(2.0, 0.0, 0.0)
+        .with_wall(Wall::lower("floor", 0.0).with_restitution(0.5))
+        .with_load(Load::constant(-10.0));
+    let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-2)).expect("a run");
+    let force = exact.trajectory.contact_force("floor").expect("a wall");
+    assert!(force.iter().all(|&f| f == 10.0), "{:?}", &force[..3]);
 }
