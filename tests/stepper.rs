@@ -5,7 +5,9 @@ mod common;
 use common::{MOREAU_JEAN, penalty, source, spring};
 use signorini::qp::Backend;
 use signorini::residual::Judge;
-use signorini::{Contact, Error, Integrator, Load, Options, Recorder, Scene, Scheme, Stepper, TimeOptions, Wall, run};
+use signorini::{
+    Contact, Error, Integrator, Load, Options, Recorder, Scene, Scheme, Stepper, TimeOptions, Wall, WallLaw, run,
+};
 
 mod counting {
     //! An allocator that counts what the current thread asks of it.
@@ -243,6 +245,17 @@ fn a_recorder_that_sees_steps_beyond_its_last_row_keeps_to_its_rows() {
         assert!(trajectory.time().is_sorted_by(|a, b| a < b), "{scheme}");
         assert!(trajectory.contacts().iter().all(|c| c.start <= 0.5), "{scheme}");
     }
+}
+
+#[test]
+fn a_wall_of_the_quartic_law_is_refused_by_schemes_that_would_not_feel_it() {
+    let mut scene = source(1.0, 1.0);
+    scene.walls[0].law = WallLaw::Quartic { epsilon: 1e-9, span: 1e-2 };
+    for scheme in [MOREAU_JEAN, Scheme::PaoliSchatzman, Scheme::ImplicitEuler, Scheme::Newmark, Scheme::Event] {
+        let refused = Stepper::new(&scene, &scheme, 1e-4).map(|_| ());
+        assert!(refused.as_ref().is_err_and(Error::is_request), "{scheme}: {refused:?}");
+    }
+    assert!(Stepper::new(&scene, &penalty(1e-9, Integrator::Trapezoidal), 1e-4).is_ok());
 }
 
 #[test]
