@@ -7,8 +7,8 @@ use common::{MOREAU_JEAN, penalty, source, spring};
 use signorini::qp::Backend;
 use signorini::residual::Judge;
 use signorini::{
-    Balance, Contact, Error, Integrator, Load, Options, Promise, Scene, Scheme, Stepper, System, Table, TimeOptions,
-    Wall, run,
+    Balance, Contact, Error, Integrator, Load, Options, Promise, Recorder, Scene, Scheme, Stepper, System, Table,
+    TimeOptions, Wall, WallLaw, run,
 };
 
 mod counting {
@@ -682,4 +682,62 @@ proptest::proptest! {
             survives(&extreme, &scheme);
         }
     }
+}
+
+#[test]
+fn blows_half_way_between_two_steps_act_once() {
+    let step = 1e-4;
+    for half in (0..2000).map(|n| f64::from(2 * n + 1) * 5e-5) {
+        let half = (half * 1e6).round() / 1e6;
+        let scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::impulse(1.0, half)).with_duration(0.3);
+        for scheme in [Scheme::PaoliSchatzman, spring(1.0, Integrator::CentralDifference)] {
+            let mut stepper = Stepper::new(&scene, &scheme, step).expect("a sound scene");
+            let start = stepper.state();
+            let mut judge = Judge::new(&scene, stepper.contract(), step, &start.q, &start.v);
+            while stepper.time() < half + 3.0 * step {
+                judge.see(&stepper.step().expect("a step"));
+            }
+            let v = stepper.state().v[0];
+            assert!((v - 1.0).abs() < 1e-12, "{scheme}: velocity {v} m/s after a blow of 1 N s at {half} s");
+            assert!(judge.residuals().force_balance < 1e-12, "{scheme}: {:?}", judge.residuals());
+        }
+    }
+}
+
+#[test]
+fn a_recorder_that_sees_steps_beyond_its_last_row_keeps_to_its_rows() {
+    let scene = source(0.8, 0.8).with_duration(0.5);
+    for scheme in [MOREAU_JEAN, Scheme::PaoliSchatzman, Scheme::Event] {
+        let mut stepper = Stepper::new(&scene, &scheme, 1e-3).expect("a sound scene");
+        let start = stepper.state();
+        let mut recorder = Recorder::new(&scene, 50, &start.q, &start.v);
+        for _ in 0..700 {
+            recorder.see(&stepper.step().expect("a step"));
+        }
+        let trajectory = recorder.finish(&[]);
+        assert_eq!(trajectory.time().len(), 51, "{scheme}");
+        assert!(trajectory.time().is_sorted_by(|a, b| a < b), "{scheme}");
+        assert!(trajectory.contacts().iter().all(|c| c.start <= 0.5), "{scheme}");
+    }
+}
+
+#[test]
+fn a_wall_of_the_quartic_law_is_refused_by_schemes_that_would_not_feel_it() {
+    let mut scene = source(1.0, 1.0);
+    scene.walls[0].law = WallLaw::Quartic { epsilon: 1e-9, span: 1e-2 };
+    for scheme in [MOREAU_JEAN, Scheme::PaoliSchatzman, Scheme::ImplicitEuler, Scheme::Newmark, Scheme::Event] {
+        let refused = Stepper::new(&scene, &scheme, 1e-4).map(|_| ());
+        assert!(refused.as_ref().is_err_and(Error::is_request), "{scheme}: {refused:?}");
+    }
+    assert!(Stepper::new(&scene, &penalty(1e-9, Integrator::Trapezoidal), 1e-4).is_ok());
+}
+
+#[test]
+fn the_first_row_of_an_exact_run_has_the_force_of_a_body_that_starts_at_rest_on_a_wall() {
+    let scene = Scene::oscillator(2.0, 0.0, 0.0)
+        .with_wall(Wall::lower("floor", 0.0).with_restitution(0.5))
+        .with_load(Load::constant(-10.0));
+    let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-2)).expect("a run");
+    let force = exact.trajectory.contact_force("floor").expect("a wall");
+    assert!(force.iter().all(|&f| f == 10.0), "{:?}", &force[..3]);
 }
