@@ -178,6 +178,7 @@ impl Ledger {
         let v_end = if step.end > step.start { arc.state(step.end).1 } else { first(step.velocity_before) };
         if step.end > step.start {
             let fastest = (2.0 * self.report.largest_j / system.mass_form(&[1.0], &[1.0])).sqrt();
+            let radians = arc.fastest_motion() * (step.end - step.start);
             // Tables jump at their ends: the arc stops there, so a load read just inside is the load of the arc.
             let mut integrand = |t: f64| {
                 let (q, v) = arc.state(t);
@@ -193,14 +194,15 @@ impl Ledger {
                         dashpot += damping * v * v;
                     }
                 }
-                largest_force = largest_force.max(load.abs());
+                largest_force = largest_force.max(load.abs()).max(rub.abs());
                 // A body that hardly moves has a velocity of rounding: powers are held to those at the speed the run's energy allows.
                 let speed = v.abs().max(fastest);
                 let (taken, lost) = (system.damping_form(&[v], &[v]), system.damping_form(&[speed], &[speed]));
                 let value = [load * v, taken, dashpot, net];
                 Sample { value, size: [load.abs() * speed, lost, dashpot.max(lost), forces] }
             };
-            let [work, damping, dashpot, net] = integrate(step.start, step.end, &mut integrand);
+            let [work, damping, dashpot, net] =
+                integrate(step.start, step.end, arc.damping() / arc.mass(), radians, &mut integrand);
             flows = Flows { work, damping, dashpot, impact: 0.0 };
             let v_start = first(step.velocity_before);
             momentum = system.mass_form(&[1.0], &[v_end - v_start]) - net;

@@ -172,6 +172,8 @@ impl Judge {
             self.balance_scale = self.balance_scale.max(s.load[i].abs()).max(s.blow[i].abs() / h);
             (s.inertia[i], s.damper[i], s.spring[i]) = (0.0, 0.0, 0.0);
         }
+        let rub = self.scene.system.damping_form(&[1.0], &s.mean_v).abs();
+        self.balance_scale = self.balance_scale.max(rub);
         let system = &self.scene.system;
         system.add_mass(1.0, after, &mut s.inertia);
         system.add_mass(-1.0, before, &mut s.inertia);

@@ -12,8 +12,10 @@ const GAUSS: [(f64, f64); 5] = [
 /// Panels are halved this often at most; a panel then is 1e-12 of the arc, and its error what it is.
 const DEPTH: u32 = 40;
 
-/// Panels that one arc may take: beyond them what is left is taken as it is, so that no integrand, be it noise, holds up a run.
-const MOST_PANELS: u32 = 20_000;
+/// Panels that one arc may take, and those beside them for each radian of its fastest oscillation: beyond them what is left is taken as it
+/// is, so that no integrand, be it noise, holds up a run.
+const MOST_PANELS: f64 = 2000.0;
+const PANELS_PER_RADIAN: f64 = 16.0;
 
 /// What is integrated at an instant: values, and the sizes of the terms that they are sums of.
 pub(super) struct Sample<const N: usize> {
@@ -29,10 +31,28 @@ pub(super) fn nodes(start: f64, end: f64) -> impl Iterator<Item = f64> {
 /// ∫ f dt over [start, end] for several integrands at once. A panel is halved until its two halves change no integral by
 /// more than 1e-14 of the integral of the sizes so far: with the error of a tenth-order rule the halves are then far better. Sizes are
 /// those of the terms, not of their sum: where terms cancel, as the forces on a body at rest do, the sum is rounding, which no halving settles.
-pub(super) fn integrate<const N: usize>(start: f64, end: f64, f: &mut impl FnMut(f64) -> Sample<N>) -> [f64; N] {
-    let whole = panel(start, end, f);
-    let mut sums = Sums { total: [0.0; N], scale: whole.size, left: MOST_PANELS };
-    refine(start, end, whole.value, &mut sums, f, DEPTH);
+///
+/// What decays does so from the start, at `rate` (1/s) at most: the first panel is no longer than 1/rate and each that follows twice as
+/// long as the one before, or a few nodes over the whole arc would miss it. What oscillates does so over `radians` at most.
+pub(super) fn integrate<const N: usize>(
+    start: f64,
+    end: f64,
+    rate: f64,
+    radians: f64,
+    f: &mut impl FnMut(f64) -> Sample<N>,
+) -> [f64; N] {
+    let mut sums = Sums { total: [0.0; N], scale: [0.0; N], left: (MOST_PANELS + PANELS_PER_RADIAN * radians) as u64 };
+    let (mut from, mut width) = (start, if rate > 0.0 { 1.0 / rate } else { f64::INFINITY });
+    while from < end {
+        // Too short a layer for the clock is none that it can see.
+        let to = if from + width > from { (from + width).min(end) } else { end };
+        let whole = panel(from, to, f);
+        for (scale, size) in sums.scale.iter_mut().zip(whole.size) {
+            *scale = scale.max(size);
+        }
+        refine(from, to, whole.value, &mut sums, f, DEPTH);
+        (from, width) = (to, 2.0 * width);
+    }
     sums.total
 }
 
@@ -40,7 +60,7 @@ pub(super) fn integrate<const N: usize>(start: f64, end: f64, f: &mut impl FnMut
 struct Sums<const N: usize> {
     total: [f64; N],
     scale: [f64; N],
-    left: u32,
+    left: u64,
 }
 
 fn refine<const N: usize>(
