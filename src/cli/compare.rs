@@ -8,10 +8,11 @@ use crate::error::Result;
 use crate::output::atomic::write_whole;
 use crate::output::csv;
 use crate::output::pictures::{Labelled, Sheet};
-use crate::output::summary::Reasons;
+use crate::output::summary::{Checks, Reasons};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice;
 use crate::study::compare::{Comparison, Row, any_succeeded, compare, default_methods};
+use crate::study::verdict::{self, Verdict};
 use std::path::Path;
 
 const EXAMPLES: &str = "\
@@ -32,6 +33,9 @@ pub struct Args {
     /// Methods to compare [default: the constrained QP, the same through Clarabel, every penalty of the case]; the exact one is always there
     #[arg(long, value_name = "A,B,…", alias = "scheme")]
     schemes: Option<String>,
+    /// Do not repeat the methods with half the step
+    #[arg(long)]
+    no_verdict: bool,
 }
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
@@ -47,11 +51,16 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     };
     args.request.check_use(&methods)?;
     let folder = args.request.folder(&case, "compare");
-    let progress = ui.progress("comparing", methods.len() as u64 + 1);
+    let count = methods.len() as u64 + 1;
+    let progress = ui.progress("comparing", if args.no_verdict { count } else { count + count * verdict::COST as u64 });
     let comparison = compare(&case.scene, &methods, &case.time, &|done| progress.set(done))?;
+    let mut verdicts = vec![None; comparison.rows.len()];
+    if !args.no_verdict {
+        verdicts = check(&case, &comparison, &|rows| progress.set(count + rows * verdict::COST as u64));
+    }
     progress.finish();
     any_succeeded(&comparison)?;
-    files(&folder, &case, &comparison)?;
+    files(&folder, &case, &comparison, &verdicts)?;
     table(&case, &comparison, ui);
     for finding in &comparison.findings {
         ui.message(&format!("- {finding}"));
@@ -60,7 +69,52 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         ui.message("- the case has no [penalty] table: no penalty was compared");
     }
     ui.message(&format!("results in {}", folder.display()));
+    if !args.no_verdict {
+        ui.message(&format!("refinement: {}", verdict_line(&comparison, &verdicts)));
+    }
     Ok(())
+}
+
+/// The verdict on every method that ran; `progress` hears how many rows are done. The step's effect is the scheme's, not the solver's: a
+/// scheme is checked once, by the first of its solvers.
+fn check(case: &Case, comparison: &Comparison, progress: &dyn Fn(u64)) -> Vec<Option<Verdict>> {
+    let mut verdicts: Vec<Option<Verdict>> = Vec::new();
+    for (index, row) in comparison.rows.iter().enumerate() {
+        let same = comparison.rows.iter().take(index).position(|r| r.method.scheme == row.method.scheme);
+        let verdict = match (same.and_then(|i| verdicts.get(i)), &row.outcome) {
+            (Some(verdict), _) => verdict.clone(),
+            (None, Ok(run)) => Verdict::of(&case.scene, &row.method, run, &case.time, &mut |_| {}).ok(),
+            (None, Err(_)) => None,
+        };
+        verdicts.push(verdict);
+        progress(index as u64 + 1);
+    }
+    verdicts
+}
+
+/// What half the step changes, method by method, in one line; all the numbers are in each summary.
+fn verdict_line(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    for (row, verdict) in comparison.rows.iter().zip(verdicts) {
+        let scheme = row.method.scheme.to_string();
+        if row.method.scheme == Scheme::Event || parts.iter().any(|part| part.starts_with(&format!("{scheme} "))) {
+            continue;
+        }
+        parts.push(match verdict {
+            Some(v) => format!(
+                "{scheme} displacement {:.1e} of the gap until {:.3} s, impulse {:.1e}, contacts {:+}",
+                v.displacement,
+                v.horizon_s,
+                v.impulse_change(),
+                v.contacts_gained()
+            ),
+            None => format!("{scheme} was not checked"),
+        });
+    }
+    match parts.is_empty() {
+        true => "the exact scheme has no step".into(),
+        false => format!("half the step changes: {}", parts.join("; ")),
+    }
 }
 
 /// Methods separated by semicolons, or by those commas that begin a new method rather than a setting.
@@ -86,11 +140,12 @@ pub(super) fn folder_name(method: &Method) -> String {
     method.to_string().replace([':', ',', '='], "-")
 }
 
-fn files(folder: &Path, case: &Case, comparison: &Comparison) -> Result<()> {
-    for row in &comparison.rows {
+fn files(folder: &Path, case: &Case, comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Result<()> {
+    for (row, verdict) in comparison.rows.iter().zip(verdicts) {
         if let Ok(run) = &row.outcome {
             let reasons = Reasons { scheme: "part of a comparison".into(), qp: choice::qp_reason(&row.method) };
-            write(&folder.join(folder_name(&row.method)), case, run, &row.method, &reasons)?;
+            let checks = Checks { refinement: verdict.as_ref(), accuracy: None };
+            write(&folder.join(folder_name(&row.method)), case, run, &row.method, &reasons, checks)?;
         }
     }
     let labels: Vec<String> = comparison.rows.iter().map(|row| row.method.to_string()).collect();

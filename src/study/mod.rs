@@ -1,5 +1,9 @@
 //! Questions asked of many runs.
 
+pub mod accuracy;
+pub mod change;
 pub mod choice;
 pub mod compare;
 pub mod horizon;
+mod replay;
+pub mod verdict;
