@@ -6,7 +6,9 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeCone
 use nalgebra::{DMatrix, DVector};
 use signorini::qp::{Backend, Problem, Rhs, ScalarRow, Solver, clamp};
 use std::hint::black_box;
-use std::time::Instant;
+
+mod support;
+use support::{race, time};
 
 /// Best of these rounds counts; sides take turns within each.
 const ROUNDS: usize = 15;
@@ -57,15 +59,6 @@ fn bare(problem: &Problem) -> DefaultSolver<f64> {
         .expect("a sound programme")
 }
 
-/// Nanoseconds for each call of `work`, over `calls` of them.
-fn time(calls: usize, mut work: impl FnMut(usize)) -> f64 {
-    let start = Instant::now();
-    for call in 0..calls {
-        work(call);
-    }
-    start.elapsed().as_secs_f64() * 1e9 / calls as f64
-}
-
 fn main() {
     println!("{:>5} {:>14} {:>14} {:>8} {:>18}", "n", "bare ns", "polished ns", "ratio", "iterations a step");
     for n in [1, 5, 20, 40] {
@@ -81,12 +74,11 @@ fn main() {
         let mut direct = bare(&problem);
         let bounds = vec![1.0; 2 * n];
         let calls = loads.len() * (400 / n).max(1);
-        let (mut best_bare, mut best_polished) = (f64::INFINITY, f64::INFINITY);
         let mut q = vec![0.0; n];
         let (mut hand, mut before) = (0_u64, polished.counters());
-        for _ in 0..ROUNDS {
+        let [best_bare, best_polished] = race(ROUNDS, || {
             hand = 0;
-            best_bare = best_bare.min(time(calls, |call| {
+            let by_hand = time(calls, |call| {
                 for (q, b) in q.iter_mut().zip(&loads[call % loads.len()]) {
                     *q = -b;
                 }
@@ -95,13 +87,14 @@ fn main() {
                 direct.solve();
                 hand += u64::from(direct.solution.iterations);
                 black_box(&direct.solution.x);
-            }));
+            });
             before = polished.counters();
-            best_polished = best_polished.min(time(calls, |call| {
+            let ours = time(calls, |call| {
                 let rhs = Rhs { b: &loads[call % loads.len()], lo: &lo, hi: &hi };
                 black_box(polished.solve(&rhs).expect("feasible"));
-            }));
-        }
+            });
+            [by_hand, ours]
+        });
         let ours = polished.counters().iterations - before.iterations;
         println!(
             "{n:>5} {best_bare:>14.0} {best_polished:>14.0} {:>8.2} {:>8.1} / {:>7.1}",
@@ -124,9 +117,8 @@ fn main() {
     };
     let mut matrices = Solver::new(problem, Backend::Clamp, 1.0).expect("a sound problem");
     let (lo, hi) = ([-1.0, f64::NEG_INFINITY], [f64::INFINITY, 1.0]);
-    let mut best = [f64::INFINITY; 5];
-    for _ in 0..ROUNDS {
-        let costs = [
+    let best = race(ROUNDS, || {
+        [
             time(calls, |_| {
                 let b: f64 = black_box(6.0);
                 let x = (b / 3.0).clamp(-1.0, 1.0);
@@ -144,11 +136,8 @@ fn main() {
             time(calls, |_| {
                 black_box(matrices.solve(&Rhs { b: &[black_box(6.0)], lo: &lo, hi: &hi })).ok();
             }),
-        ];
-        for (best, cost) in best.iter_mut().zip(costs) {
-            *best = best.min(cost);
-        }
-    }
+        ]
+    });
     println!("\nscalar, ns a call");
     let names =
         ["bare clamp of one float", "clamp(), free", "clamp(), rigid contact", "clamp(), elastic", "Solver, clamp"];

@@ -46,6 +46,7 @@ impl Episodes {
     }
 
     /// Episodes that the last step closed.
+    #[inline]
     pub(crate) fn closed(&self) -> &[Contact] {
         &self.closed
     }

@@ -1,4 +1,10 @@
-//! signorini
+#![doc = include_str!("../README.md")]
+//!
+//! # The rooms
+//!
+//! [`Scene`] says what is simulated, [`Scheme`] how time advances, [`Stepper`] does it a step at a time, [`run()`] from start to end under the eyes of
+//! [`residual::Judge`], and [`Trajectory`] is what was recorded. [`qp`] is the convex programme of a step, [`flow`] the exact motion between events.
+//! Case files, output and the tool itself come with the default feature `cli`.
 #![forbid(unsafe_code)]
 
 #[cfg(feature = "cli")]
@@ -18,7 +24,6 @@ mod scene;
 pub mod scheme;
 mod statistics;
 mod step;
-#[cfg(feature = "cli")]
 pub mod study;
 mod time;
 mod trajectory;

@@ -56,7 +56,7 @@ pub struct Run {
 /// Runs `scene` by `scheme` to its end.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a request that makes no sense, and what [`Stepper::step`] reports.
+/// [`crate::Error::Invalid`] for a request that makes no sense, and what [`Stepper::step`] reports.
 pub fn run(scene: &Scene, scheme: &Scheme, options: &Options) -> Result<Run> {
     run_with_progress(scene, scheme, options, &mut |_| {})
 }

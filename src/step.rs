@@ -106,7 +106,8 @@ pub struct Step<'a> {
     /// Force of each wall: at the instant `end` for the exact scheme, else the multiplier the scheme computed, which is
     /// impulse/h unless the scheme's impulse averages two of them; N, signed.
     pub force: &'a [f64],
-    /// Extra force given by the caller, constant over the step, N; length n.
+    /// Extra force given by the caller, N, as it enters the momentum balance: constant over the step, or for a staggered scheme, whose
+    /// balance is centred at `start`, the mean of the last step's and this one's; length n.
     pub extra: &'a [f64],
     /// Contact episodes that ended in this step.
     pub closed: &'a [Contact],

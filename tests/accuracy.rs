@@ -1,9 +1,9 @@
 //! An error asked for is kept, and the step found for it is not far from the best.
 #![cfg(feature = "cli")]
 
+use signorini::qp::Backend;
 use signorini::study::accuracy::{Against, Target, reach};
 use signorini::study::change::Change;
-use signorini::qp::Backend;
 use signorini::{Load, Method, Options, Run, Scene, Scheme, Table, TimeOptions, Wall, run};
 
 const MOREAU: Scheme = Scheme::MoreauJean { theta: 0.5 };
@@ -43,7 +43,10 @@ fn scenes() -> Vec<(String, Scene)> {
     let mut add = |name: &str, scene: Scene| scenes.push((name.to_owned(), scene));
     for e in [0.0, 0.3, 0.5, 0.8, 0.9, 1.0] {
         let duration = if e == 1.0 { 1.0 } else { 1.5 };
-        add(&format!("two walls, e = {e}"), driven(3.0, 5.0, duration).with_wall(upper(5e-3, e)).with_wall(lower(-5e-3, e)));
+        add(
+            &format!("two walls, e = {e}"),
+            driven(3.0, 5.0, duration).with_wall(upper(5e-3, e)).with_wall(lower(-5e-3, e)),
+        );
     }
     for e in [0.0, 0.5, 0.8, 1.0] {
         add(&format!("one wall, e = {e}"), driven(3.0, 5.0, 1.0).with_wall(upper(3e-3, e)));
@@ -105,26 +108,51 @@ fn at_step(scene: &Scene, scheme: &Scheme, step: f64, sample: f64) -> Run {
 #[test]
 #[ignore]
 fn measure() {
-    for (scheme, against) in [(MOREAU, Against::Exact), (MOREAU, Against::Refinements), (Scheme::PaoliSchatzman, Against::Refinements)] {
+    for (scheme, against) in
+        [(MOREAU, Against::Exact), (MOREAU, Against::Refinements), (Scheme::PaoliSchatzman, Against::Refinements)]
+    {
         for tolerance in [3e-2, 3e-3] {
-            let clock = std::time::Instant::now(); let talk = std::env::var("TALK").is_ok();
+            let clock = std::time::Instant::now();
+            let talk = std::env::var("TALK").is_ok();
             let (mut missed, mut short) = (0, 0);
             let mut accepted = Vec::new();
             let mut total = Vec::new();
             let mut suff = Vec::new();
             for (name, scene) in scenes() {
-                if talk { println!("{name} {:.1}", clock.elapsed().as_secs_f64()); }
-                let target = Target { method: Some(Method::new(scheme)), against, most_steps: 1 << 20, ..Target::new(tolerance, time()) };
-                let outcome = match reach(&scene, &target, &mut |_| {}) { Ok(o) => o, Err(e) => { println!("  {name}: {e}"); continue } };
-                if let Some(e) = &outcome.shortfall { short += 1; println!("  {scheme} {tolerance} {name}: {e}"); continue }
+                if talk {
+                    println!("{name} {:.1}", clock.elapsed().as_secs_f64());
+                }
+                let target = Target {
+                    method: Some(Method::new(scheme)),
+                    against,
+                    most_steps: 1 << 20,
+                    ..Target::new(tolerance, time())
+                };
+                let outcome = match reach(&scene, &target, &mut |_| {}) {
+                    Ok(o) => o,
+                    Err(e) => {
+                        println!("  {name}: {e}");
+                        continue;
+                    }
+                };
+                if let Some(e) = &outcome.shortfall {
+                    short += 1;
+                    println!("  {scheme} {tolerance} {name}: {e}");
+                    continue;
+                }
                 let a = &outcome.accuracy;
                 let (error, what) = true_error(&scene, &outcome.run);
-                if !(error <= tolerance) { missed += 1; println!("  {scheme} {against:?} {tolerance} {name}: MISS {error:.2e} {what} step {:?}", a.step_s); }
+                if !(error <= tolerance) {
+                    missed += 1;
+                    println!("  {scheme} {against:?} {tolerance} {name}: MISS {error:.2e} {what} step {:?}", a.step_s);
+                }
                 let sample = outcome.run.grid.end / outcome.run.grid.rows as f64;
                 let s = a.sufficient_step_s.unwrap();
                 let rs = at_step(&scene, &scheme, s, sample);
                 let (es, ws) = true_error(&scene, &rs);
-                if !(es <= tolerance) { println!("  {scheme} {against:?} {tolerance} {name}: SUFF MISS {es:.2e} {ws} step {s:?}"); }
+                if !(es <= tolerance) {
+                    println!("  {scheme} {against:?} {tolerance} {name}: SUFF MISS {es:.2e} {ws} step {s:?}");
+                }
                 // best in hindsight
                 let per_row0 = (outcome.run.grid.steps / outcome.run.grid.rows) >> (a.levels.len() - 1);
                 let mut best = outcome.run.grid.steps;
@@ -133,17 +161,32 @@ fn measure() {
                     let n = (per_row0 as f64 * 2f64.powf(f64::from(k) / 2.0)).round() as u64;
                     k += 1;
                     let steps = n * outcome.run.grid.rows;
-                    if steps >= outcome.run.grid.steps { break }
+                    if steps >= outcome.run.grid.steps {
+                        break;
+                    }
                     let r = at_step(&scene, &scheme, sample / n as f64, sample);
-                    if true_error(&scene, &r).0 <= tolerance { best = steps; break }
+                    if true_error(&scene, &r).0 <= tolerance {
+                        best = steps;
+                        break;
+                    }
                 }
                 let b = best as f64;
                 accepted.push(outcome.run.grid.steps as f64 / b);
                 total.push(a.total_steps as f64 / b);
                 suff.push(rs.grid.steps as f64 / b);
             }
-            let show = |mut v: Vec<f64>| { v.sort_by(f64::total_cmp); format!("median {:.1} p90 {:.1} max {:.1}", v[v.len()/2], v[v.len()*9/10], v[v.len()-1]) };
-            println!("{scheme} {against:?} {tolerance}: n {} missed {missed} short {short} | accepted {} | total {} | sufficient {} | {:.1} s", accepted.len(), show(accepted.clone()), show(total), show(suff), clock.elapsed().as_secs_f64());
+            let show = |mut v: Vec<f64>| {
+                v.sort_by(f64::total_cmp);
+                format!("median {:.1} p90 {:.1} max {:.1}", v[v.len() / 2], v[v.len() * 9 / 10], v[v.len() - 1])
+            };
+            println!(
+                "{scheme} {against:?} {tolerance}: n {} missed {missed} short {short} | accepted {} | total {} | sufficient {} | {:.1} s",
+                accepted.len(),
+                show(accepted.clone()),
+                show(total),
+                show(suff),
+                clock.elapsed().as_secs_f64()
+            );
         }
     }
 }

@@ -9,7 +9,6 @@ use signorini::{Load, Scene, Table, Wall, WallLaw};
 fn follow(scene: &Scene, stride: f64) -> Result<u64, Error> {
     let mut event = Event::new(scene, stride)?;
     let mut steps = 0;
-    let clock = std::time::Instant::now();
     let mut speed = event.v()[0];
     while !event.is_done() {
         event.advance(0.0)?;
@@ -42,9 +41,6 @@ fn follow(scene: &Scene, stride: f64) -> Result<u64, Error> {
         speed += event.v()[0];
         assert!(speed.is_finite());
     }
-    if clock.elapsed().as_secs_f64() > 1.0 {
-        println!("SLOW {steps} {:?} {scene:?}", event.counters());
-    }
     Ok(steps)
 }
 
@@ -58,7 +54,7 @@ fn wall() -> impl Strategy<Value = WallLaw> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn random_scenes_keep_their_promises(
@@ -118,6 +114,6 @@ fn extreme_scenes_end_or_say_why_not() {
             }
         }
     }
-    println!("named {named}");
-    assert!(named < 54, "{named}");
+    // Those that ask for 1e10 impacts a second, or where friction stops the body in 1e-11 s.
+    assert!(named <= 16, "{named}");
 }

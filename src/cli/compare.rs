@@ -5,7 +5,7 @@ use super::run::write;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
-use crate::output::atomic::write_whole;
+use crate::output::atomic::{check_folder, write_whole};
 use crate::output::csv;
 use crate::output::pictures::{Labelled, Sheet};
 use crate::output::summary::{Checks, Reasons};
@@ -46,11 +46,16 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
             let chosen = args.request.method(&choice::choose(&case.scene).method.to_string(), &case)?;
             let integrator = case.penalty.integrator.unwrap_or_default();
             let penalty = |&law| Method::new(Scheme::Penalty { law, integrator });
-            default_methods(chosen, case.penalty.laws.iter().map(penalty))
+            if case.scene.walls.is_empty() {
+                vec![chosen]
+            } else {
+                default_methods(chosen, case.penalty.laws.iter().map(penalty))
+            }
         }
     };
     args.request.check_use(&methods)?;
     let folder = args.request.folder(&case, "compare");
+    check_folder(&folder)?;
     let count = methods.len() as u64 + 1;
     let progress = ui.progress("comparing", if args.no_verdict { count } else { count + count * verdict::COST as u64 });
     let comparison = compare(&case.scene, &methods, &case.time, &|done| progress.set(done))?;
@@ -241,10 +246,14 @@ fn table(case: &Case, comparison: &Comparison, ui: &Ui) {
         return;
     }
     let rows: Vec<_> = comparison.rows.iter().map(|row| terminal_row(case, comparison, row)).collect();
-    ui.table(&TERMINAL_HEADER, &rows);
+    let walls: Vec<&str> = case.scene.walls.iter().map(|w| w.name.as_str()).collect();
+    let of_walls = format!("impulse {} (N s)", walls.join(" "));
+    let mut header = TERMINAL_HEADER;
+    header[IMPULSE_COLUMN] = of_walls.trim();
+    ui.table(&header, &rows);
 }
 
-/// The columns a reader compares, in few characters; the CSV and `--json` have them all.
+/// The columns a reader compares, in few characters; the CSV and `--json` have them all. Columns of walls list them in the scene's order.
 const TERMINAL_HEADER: [&str; 13] = [
     "method",
     "step (s)",
@@ -260,6 +269,9 @@ const TERMINAL_HEADER: [&str; 13] = [
     "compl. res.",
     "ns/step",
 ];
+
+/// Where the impulses stand among them.
+const IMPULSE_COLUMN: usize = 8;
 
 fn terminal_row(case: &Case, comparison: &Comparison, row: &Row) -> Vec<String> {
     let short = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") };

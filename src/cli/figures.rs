@@ -4,7 +4,7 @@ use super::run::perform;
 use super::ui::Ui;
 use crate::case::{Case, Embedded};
 use crate::error::{Error, Result};
-use crate::output::atomic::write_whole;
+use crate::output::atomic::{check_folder, write_whole};
 use crate::output::figure::{Curve, Figure, Mark, Panel};
 use crate::output::pictures::{Labelled, Sheet};
 use crate::run::Run;
@@ -56,6 +56,7 @@ const PLATES: [Plate; 8] = [
 const SHOWN: f64 = 2.0;
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+    check_folder(&args.out)?;
     for plate in &PLATES {
         let mut case = Case::embedded(plate.case)?;
         case.scene.duration = case.scene.duration.min(SHOWN);

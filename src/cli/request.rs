@@ -13,30 +13,30 @@ pub struct Request {
     /// Case file, or the name of a built-in case
     pub case: String,
     /// Step of the stepping schemes, s
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub step: Option<f64>,
     /// End of the run, s
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub end: Option<f64>,
     /// Spacing of the recorded rows, s
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub sample: Option<f64>,
     /// Restitution of every rigid wall, 0 to 1
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     pub restitution: Option<f64>,
     /// Penalty parameter ε, m³/N, in place of the case's
-    #[arg(long, value_name = "EPS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true)]
     pub epsilon: Option<f64>,
     /// Solver of the quadratic programmes: auto, clamp, clarabel
     #[arg(long, value_name = "NAME")]
     pub qp: Option<Backend>,
     /// θ of moreau-jean, 0.5 to 1
-    #[arg(long, value_name = "θ", allow_negative_numbers = true)]
+    #[arg(long, value_name = "θ", allow_hyphen_values = true)]
     pub theta: Option<f64>,
     /// Integrator of the penalty: trapezoidal, implicit-euler, central-difference, discrete-gradient
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<Integrator>,
-    /// Folder for the results [default: out/<case>/<command>]
+    /// Folder for the results [default: out/CASE/COMMAND]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -139,7 +139,7 @@ impl Request {
         }
     }
 
-    /// Where results go: `--out`, or out/<case>/<command>.
+    /// Where results go: `--out`, or `out/<case>/<command>`.
     #[must_use]
     pub fn folder(&self, case: &Case, command: &str) -> PathBuf {
         self.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join(command))

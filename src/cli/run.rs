@@ -4,9 +4,10 @@ use super::request::Request;
 use super::ui::{Progress, Ui};
 use crate::case::Case;
 use crate::error::{Error, Result};
+use crate::output::atomic::{check_folder, write_whole};
+use crate::output::csv;
 use crate::output::pictures::{Labelled, Sheet};
 use crate::output::summary::{self, Checks, Reasons};
-use crate::output::{atomic::write_whole, csv};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scheme::Method;
 use crate::study::accuracy::{Outcome, Target, reach};
@@ -55,6 +56,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     };
     args.request.check_use(&[method])?;
     let folder = args.request.folder(&case, "run");
+    check_folder(&folder)?;
     let bar = Bar::new(&method, &case, if args.no_verdict { 1.0 } else { 1.0 + verdict::COST }, ui);
     let run = bar.run(&case, &method)?;
     let verdict = if args.no_verdict { None } else { Some(bar.verdict(&case, &method, &run)) };
@@ -83,6 +85,7 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
         args.request.check_use(&[method])?;
     }
     let folder = args.request.folder(case, "run");
+    check_folder(&folder)?;
     let bar = ui.progress("refining", UNITS as u64);
     let target = Target { method, ..Target::new(tolerance, case.time) };
     let end = case.scene.duration;

@@ -289,6 +289,11 @@ impl Arc {
         self.force.fastest()
     }
 
+    /// The fastest lasting oscillation, rad/s: of the load, or the body's own if it oscillates; 0 if nothing does.
+    pub(crate) fn fastest_motion(&self) -> f64 {
+        self.fastest().max(self.response.oscillation())
+    }
+
     /// True if an elastic wall touches.
     #[inline]
     pub(crate) fn touches(&self) -> bool {

@@ -145,6 +145,11 @@ impl Response {
         self.bound_extent(span);
     }
 
+    /// √κ of a body that oscillates, rad/s; 0 of one that creeps.
+    pub fn oscillation(&self) -> f64 {
+        if matches!(self.roots, Roots::Pair { .. }) { self.kappa.sqrt() } else { 0.0 }
+    }
+
     /// Bounds the motion by the sizes of its terms.
     fn bound_extent(&mut self, span: f64) {
         if self.resonant || self.rest != [0.0; 2] {

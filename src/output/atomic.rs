@@ -26,6 +26,15 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     file.finish()
 }
 
+/// Makes sure that files can be written into `folder`, creating it: asked before a long run rather than after.
+///
+/// # Errors
+/// [`Error::Io`] marked as a wrong request.
+pub fn check_folder(folder: &Path) -> Result<()> {
+    // Opened beside its place and dropped: nothing stays.
+    WholeFile::create(&folder.join("summary.json")).map(drop)
+}
+
 /// A long file being written: [`finish`](Self::finish) puts it in its place, dropping it before that removes it.
 ///
 /// Writes are buffered. The place itself is untouched until `finish`.

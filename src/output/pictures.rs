@@ -150,7 +150,9 @@ impl Sheet<'_> {
         // An exact run knows its forces at every row; a step that met a rigid wall reports impulse/h, which is none.
         let exact = run.scheme == crate::scheme::Scheme::Event;
         let blur = if exact { 0.0 } else { 1.5 * spacing.max(2.0 * run.grid.step) };
-        let rigid = |c: &Contact| self.scene.walls.get(c.wall).is_some_and(|w| w.law.is_rigid());
+        // A penalty's walls are springs, whatever the scene calls them.
+        let springs = matches!(run.scheme, crate::scheme::Scheme::Penalty { .. });
+        let rigid = |c: &Contact| !springs && self.scene.walls.get(c.wall).is_some_and(|w| w.law.is_rigid());
         for c in t.contacts().iter().filter(|c| c.start <= self.until) {
             let end = c.end.unwrap_or(self.until);
             let sign = self.scene.walls.get(c.wall).map_or(0.0, |w| if w.side == Side::Upper { -1.0 } else { 1.0 });

@@ -49,6 +49,8 @@ pub(super) struct Ledger {
     /// Σ of the magnitudes of all flows, J.
     flowed: f64,
     started: bool,
+    /// The part of E that each wall stored after the last step on a grid, J.
+    held: Vec<f64>,
     /// Σ of the steps' residuals, and what that sum has lost to rounding (Kahan): 1e7 steps are judged at rounding.
     residual: f64,
     lost: f64,
@@ -72,8 +74,9 @@ impl Ledger {
             let (w, rate) = (wall.at.dot(q), wall.at.dot(v));
             stored(wall, w, wall.law_force(w, rate) != 0.0)
         };
-        let walls: f64 = scene.walls.iter().map(touching).sum();
-        let energy = 0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + walls;
+        let held: Vec<f64> = scene.walls.iter().map(touching).collect();
+        let energy =
+            0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + held.iter().sum::<f64>();
         Self {
             contract,
             gap_scale: scene.gap_scale(),
@@ -81,6 +84,7 @@ impl Ledger {
             energy,
             flowed: 0.0,
             started: false,
+            held,
             residual: 0.0,
             lost: 0.0,
             shift: vec![0.0; q.len()],
@@ -93,7 +97,11 @@ impl Ledger {
         let (before, after) = (step.velocity_before, step.velocity_after);
         let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
         if let (Some(b), false) = (staggered, self.started) {
-            self.energy = self.half_step(scene, -h, b, q0, before);
+            for (wall, held) in scene.walls.iter().zip(&mut self.held) {
+                let (w, rate) = (wall.at.dot(q0), wall.at.dot(before));
+                *held = half(wall, w, -h * rate, wall.law_force(w, rate) != 0.0);
+            }
+            self.energy = self.half_step(scene, -h, b, q0, before) + self.held.iter().sum::<f64>();
             self.report.initial_j = self.energy;
         }
         self.started = true;
@@ -105,32 +113,44 @@ impl Ledger {
         }
         flows.damping = scene.system.damping_form(&self.shift, &self.shift) / h;
         let mut walls = 0.0;
-        for (wall, &p) in scene.walls.iter().zip(step.impulse) {
+        for (index, (wall, &p)) in scene.walls.iter().zip(step.impulse).enumerate() {
             let rate = 0.5 * (wall.at.dot(before) + wall.at.dot(after));
             let (w0, w1) = (wall.at.dot(q0), wall.at.dot(step.q));
             if wall.law.is_rigid() {
                 flows.impact -= p * rate;
                 continue;
             }
-            walls += stored(wall, w1, p != 0.0);
-            if let (WallLaw::Elastic { damping, .. }, true) = (wall.law, p != 0.0) {
-                let plate = |w: f64| (-wall.gap(w)).max(0.0);
-                let rate = if staggered.is_some() { rate } else { (plate(w1) - plate(w0)) / h };
-                flows.dashpot += damping * rate * rate * h;
+            let touches = p != 0.0;
+            let now = match staggered {
+                Some(_) => half(wall, w0, h * wall.at.dot(after), touches),
+                None => stored(wall, w1, touches),
+            };
+            walls += now;
+            let held = std::mem::replace(&mut self.held[index], now);
+            if let WallLaw::Elastic { damping, .. } = wall.law
+                && damping > 0.0
+            {
+                if touches {
+                    let plate = |w: f64| (-wall.gap(w)).max(0.0);
+                    let rate = if staggered.is_some() { rate } else { (plate(w1) - plate(w0)) / h };
+                    flows.dashpot += damping * rate * rate * h;
+                    // Where it takes hold of a body behind its face, its law supplies what the spring holds there.
+                    flows.dashpot -= if held == 0.0 { wall.law.energy(-wall.gap(w0)) } else { 0.0 };
+                } else {
+                    // A damped wall that lets go keeps its energy to itself: spring and dashpot relax against each other.
+                    flows.dashpot += held;
+                }
             }
         }
         let energy = match staggered {
             Some(b) => self.half_step(scene, h, b, q0, after),
-            None => {
-                let kinetic = scene.system.mass_form(step.v, step.v);
-                0.5 * (kinetic + scene.system.stiffness_form(step.q, step.q)) + walls
-            }
+            None => 0.5 * (scene.system.mass_form(step.v, step.v) + scene.system.stiffness_form(step.q, step.q)),
         };
-        self.book(energy, flows);
+        self.book(energy + walls, flows);
     }
 
     /// Energy half a step from `q`, on the way to q + h v: ½vᵀMv + ½[x̄ᵀKx̄ − (1−4b)(½hv)ᵀK(½hv)] with x̄ = q + ½hv, conserved by the
-    /// staggered balance; walls at the mean of both ends. A negative `h` looks back.
+    /// staggered balance; without the walls. A negative `h` looks back.
     fn half_step(&mut self, scene: &Scene, h: f64, b: f64, q: &[f64], v: &[f64]) -> f64 {
         for i in 0..q.len() {
             self.shift[i] = 0.5 * h * v[i];
@@ -139,13 +159,7 @@ impl Ledger {
         let system = &scene.system;
         let strain = system.stiffness_form(&self.middle, &self.middle)
             - (1.0 - 4.0 * b) * system.stiffness_form(&self.shift, &self.shift);
-        let mut walls = 0.0;
-        for wall in &scene.walls {
-            let (w, move_by) = (wall.at.dot(q), h * wall.at.dot(v));
-            let held = |w: f64| stored(wall, w, wall.law_force(w, move_by / h) != 0.0);
-            walls += 0.5 * (held(w) + held(w + move_by));
-        }
-        0.5 * (system.mass_form(v, v) + strain) + walls
+        0.5 * (system.mass_form(v, v) + strain)
     }
 
     /// One exact arc from `q0` and the instant at its end.
@@ -237,4 +251,9 @@ fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
         WallLaw::Elastic { damping, .. } if damping > 0.0 && !touching => 0.0,
         _ => wall.law.energy(-wall.gap(w)),
     }
+}
+
+/// The same half a step on the way from `w` to `w + shift`: the mean of both ends.
+fn half(wall: &Wall, w: f64, shift: f64, touching: bool) -> f64 {
+    0.5 * (stored(wall, w, touching) + stored(wall, w + shift, touching))
 }

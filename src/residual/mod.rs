@@ -25,7 +25,8 @@ pub struct Residuals {
     pub tension_n: f64,
     /// Largest residual of the step's momentum balance, per h, N.
     pub force_balance_n: f64,
-    /// The same over the largest force in that balance, or the mismatch of q⁺ − q with the velocities over the gap scale if that is more.
+    /// The same over the largest force in that balance, or the mismatch of q⁺ − q with the velocities over the gap scale or the
+    /// largest |q|, if that is more.
     pub force_balance: f64,
     /// The energy ledger.
     pub energy: Energy,
@@ -53,6 +54,8 @@ pub struct Judge {
     balance: f64,
     balance_scale: f64,
     kinematics: f64,
+    /// Largest |q|, m.
+    reach: f64,
     force_scale: f64,
     speed_scale: f64,
     energy: energy::Ledger,
@@ -67,6 +70,9 @@ struct Scratch {
     mean_q: Vec<f64>,
     mean_v: Vec<f64>,
     residual: Vec<f64>,
+    inertia: Vec<f64>,
+    damper: Vec<f64>,
+    spring: Vec<f64>,
 }
 
 impl Judge {
@@ -78,8 +84,17 @@ impl Judge {
         let forcing: Vec<Forcing> = (0..n).map(|i| Forcing::on(i, &scene.loads)).collect();
         let load = forcing.iter().map(|f| f.force(0.0)).collect();
         let zero = || vec![0.0; n];
-        let scratch =
-            Scratch { load_end: zero(), load: zero(), blow: zero(), mean_q: zero(), mean_v: zero(), residual: zero() };
+        let scratch = Scratch {
+            load_end: zero(),
+            load: zero(),
+            blow: zero(),
+            mean_q: zero(),
+            mean_v: zero(),
+            residual: zero(),
+            inertia: zero(),
+            damper: zero(),
+            spring: zero(),
+        };
         Self {
             contract,
             h,
@@ -94,6 +109,7 @@ impl Judge {
             balance: 0.0,
             balance_scale: 0.0,
             kinematics: 0.0,
+            reach: 0.0,
             force_scale: 0.0,
             speed_scale: 0.0,
             energy: energy::Ledger::new(scene, contract, q, v),
@@ -120,6 +136,7 @@ impl Judge {
             *depth = depth.max(-wall.gap(wall.at.dot(step.q)));
         }
         self.speed_scale = step.velocity_after.iter().fold(self.speed_scale, |a, v| a.max(v.abs()));
+        self.reach = step.q.iter().fold(self.reach, |a, q| a.max(q.abs()));
         self.q.copy_from_slice(step.q);
         std::mem::swap(&mut self.load, &mut self.scratch.load_end);
     }
@@ -151,10 +168,18 @@ impl Judge {
             s.load[i] += step.extra[i];
             s.residual[i] = -h * s.load[i] - s.blow[i];
             self.balance_scale = self.balance_scale.max(s.load[i].abs());
+            (s.inertia[i], s.damper[i], s.spring[i]) = (0.0, 0.0, 0.0);
         }
         let system = &self.scene.system;
-        system.add_product(1.0, after, h, &s.mean_v, h, &s.mean_q, &mut s.residual);
-        system.add_product(-1.0, before, 0.0, &s.mean_v, 0.0, &s.mean_q, &mut s.residual);
+        system.add_mass(1.0, after, &mut s.inertia);
+        system.add_mass(-1.0, before, &mut s.inertia);
+        system.add_damping(h, &s.mean_v, &mut s.damper);
+        system.add_stiffness(h, &s.mean_q, &mut s.spring);
+        for i in 0..s.residual.len() {
+            let (inertia, damper, spring) = (s.inertia[i], s.damper[i], s.spring[i]);
+            s.residual[i] += inertia + damper + spring;
+            self.balance_scale = self.balance_scale.max(inertia.abs().max(damper.abs()).max(spring.abs()) / h);
+        }
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
             for &(i, weight) in wall.at.entries() {
                 s.residual[i] -= weight * p;
@@ -242,7 +267,7 @@ impl Judge {
             penetration_m: rigid.fold(0.0, |a, (_, d)| a.max(*d)),
             tension_n: self.tension,
             force_balance_n: self.balance,
-            force_balance: over(self.balance, scale).max(self.kinematics / self.energy.gap_scale),
+            force_balance: over(self.balance, scale).max(self.kinematics / self.energy.gap_scale.max(self.reach)),
             energy: self.energy.report(),
             gap_scale,
             force_scale_n: self.force_scale,

@@ -22,10 +22,7 @@ pub(super) fn nodes(start: f64, end: f64) -> impl Iterator<Item = f64> {
 pub(super) fn integrate<const N: usize>(start: f64, end: f64, f: &mut impl FnMut(f64) -> [f64; N]) -> [f64; N] {
     let whole = panel(start, end, f);
     let mut total = [0.0; N];
-    let mut scale = [0.0; N];
-    for i in 0..N {
-        scale[i] = whole.1[i];
-    }
+    let mut scale = whole.1;
     refine(start, end, whole.0, &mut scale, f, &mut total, DEPTH);
     total
 }
@@ -47,8 +44,8 @@ fn refine<const N: usize>(
         settled &= (left.0[i] + right.0[i] - whole[i]).abs() <= 1e-14 * scale[i];
     }
     if settled || depth == 0 {
-        for i in 0..N {
-            total[i] += left.0[i] + right.0[i];
+        for (total, (left, right)) in total.iter_mut().zip(left.0.iter().zip(right.0)) {
+            *total += left + right;
         }
         return;
     }

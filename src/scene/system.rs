@@ -54,24 +54,24 @@ impl System {
         }
     }
 
-    /// Adds `scale_m` M a + `scale_c` C b + `scale_k` K d to `out`, all of length n.
-    pub fn add_product(
-        &self,
-        scale_m: f64,
-        a: &[f64],
-        scale_c: f64,
-        b: &[f64],
-        scale_k: f64,
-        d: &[f64],
-        out: &mut [f64],
-    ) {
+    /// Adds `scale` M x to `out`, both of length n.
+    pub fn add_mass(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         match self {
-            Self::Oscillator(o) => {
-                if let Some(y) = out.first_mut() {
-                    *y +=
-                        scale_m * o.mass * first(a) + scale_c * o.damping * first(b) + scale_k * o.stiffness * first(d);
-                }
-            }
+            Self::Oscillator(o) => add(scale * o.mass, x, out),
+        }
+    }
+
+    /// Adds `scale` C x to `out`, both of length n.
+    pub fn add_damping(&self, scale: f64, x: &[f64], out: &mut [f64]) {
+        match self {
+            Self::Oscillator(o) => add(scale * o.damping, x, out),
+        }
+    }
+
+    /// Adds `scale` K x to `out`, both of length n.
+    pub fn add_stiffness(&self, scale: f64, x: &[f64], out: &mut [f64]) {
+        match self {
+            Self::Oscillator(o) => add(scale * o.stiffness, x, out),
         }
     }
 
@@ -83,6 +83,12 @@ impl System {
                 nonnegative("system.oscillator.stiffness", o.stiffness)
             }
         }
+    }
+}
+
+fn add(factor: f64, x: &[f64], out: &mut [f64]) {
+    if let (Some(y), Some(x)) = (out.first_mut(), x.first()) {
+        *y += factor * x;
     }
 }
 

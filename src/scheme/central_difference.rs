@@ -4,7 +4,7 @@
 //! velocity, so they cost no stability.
 
 use super::grid::{Frame, Scalar};
-use super::paoli_schatzman::arrival;
+use super::paoli_schatzman::{arrival, back, centred};
 use crate::error::Result;
 use crate::scene::{Scene, WallLaw};
 
@@ -15,15 +15,17 @@ pub(super) struct CentralDifference {
     /// v₋ = (q − q⁻)/h, m/s.
     v: f64,
     load: f64,
+    /// The caller's extra force in the last step, N; 0 before the first.
+    extra: f64,
 }
 
 impl CentralDifference {
     pub fn new(scene: &Scene, h: f64) -> Self {
         let s = Scalar::new(scene, h);
         let (q, v0) = s.start(scene);
-        let v = v0 - 0.5 * h * s.start_force(q, v0).total / s.m;
+        let v = back(&s, v0, s.start_force(q, v0).total);
         let load = s.forcing.force(0.0);
-        Self { s, q, v, load }
+        Self { s, q, v, load, extra: 0.0 }
     }
 
     #[inline]
@@ -33,7 +35,9 @@ impl CentralDifference {
         let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
         let (q, v) = (self.q, self.v);
         let blow = s.forcing.impulse((start - 0.5 * h).max(0.0), start + 0.5 * h);
-        let smooth = self.load + extra + blow / h - s.k * q;
+        let felt = centred(&mut self.extra, extra);
+        frame.extra[0] = felt;
+        let smooth = self.load + felt + blow / h - s.k * q;
         frame.clear();
         let mut v_end = velocity(s.m / h, s.c, v, smooth);
         if s.walls.iter().any(|wall| wall.depth(q) > 0.0) {
@@ -41,7 +45,7 @@ impl CentralDifference {
         }
         let q_end = q + h * v_end;
         let load_end = s.forcing.force(end);
-        let v_reported = arrival(s, q_end, v_end, load_end + extra);
+        let v_reported = arrival(s, q_end, v_end, load_end + extra) + s.forcing.impulse(end - 0.5 * h, end) / s.m;
         (self.q, self.v, self.load) = (q_end, v_end, load_end);
         frame.arrive(start, end, v, q_end, v_reported);
         frame.after[0] = v_end;

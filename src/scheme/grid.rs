@@ -60,6 +60,19 @@ impl Scalar {
         }
     }
 
+    /// Where a body is certain to touch no wall: an open interval, m, with twice the touching distance to spare; empty
+    /// where a wall is not rigid, and asks for a look in every step.
+    pub fn clear(&self) -> (f64, f64) {
+        if self.walls.iter().any(|w| !w.law.is_rigid()) {
+            return (f64::INFINITY, f64::NEG_INFINITY);
+        }
+        let ends = |(lo, hi): (f64, f64), w: &ScalarWall| match w.upper {
+            true => (lo, hi.min(w.g - 2.0 * self.touch)),
+            false => (lo.max(w.g + 2.0 * self.touch), hi),
+        };
+        self.walls.iter().fold((f64::NEG_INFINITY, f64::INFINITY), ends)
+    }
+
     /// Displacement and velocity after any impulse at t = 0.
     pub fn start(&self, scene: &Scene) -> (f64, f64) {
         let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);

@@ -27,6 +27,9 @@ pub(super) struct MoreauJean {
     /// f(t) at the step's start, N.
     load: f64,
     programme: Programme,
+    /// The open interval, m: a body that reaches no further meets no wall. Empty with an elastic wall, whose spring
+    /// decides for itself.
+    clear: (f64, f64),
     /// Side (sign of its force) of the rigid wall that pushed in the last step; 0 if none did.
     last_side: f64,
     frozen: u64,
@@ -41,20 +44,41 @@ impl MoreauJean {
         let rows = compliances(&s, |k, c| ht * ht * (k + c / ht));
         let programme = Programme::new(a, scene.gap_scale() / h, &rows, backend)?;
         let load = s.forcing.force(0.0);
-        Ok(Self { s, theta, q, v, load, programme, last_side: 0.0, frozen: 0 })
+        let clear = s.clear();
+        Ok(Self { s, theta, q, v, load, programme, clear, last_side: 0.0, frozen: 0 })
     }
 
-    #[inline]
     pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
         let s = &self.s;
         let (h, theta) = (s.h, self.theta);
-        let ht = h * theta;
         let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
-        let (q, v) = (self.q, self.v);
+        // Before the state is read: no number has to outlive the call of a sine.
         let load_end = s.forcing.force(end);
+        let blows = s.forcing.impulse(start, end);
+        let (q, v) = (self.q, self.v);
         let load = (1.0 - theta) * self.load + theta * load_end + extra;
-        let b = h * (load - s.c * v - s.k * (q + ht * v)) + s.forcing.impulse(start, end);
+        let b = h * (load - s.c * v - s.k * (q + h * theta * v)) + blows;
         let reach = q + 0.5 * h * v;
+        frame.clear();
+        let delta = if reach > self.clear.0 && reach < self.clear.1 {
+            self.last_side = 0.0;
+            self.programme.free(b)
+        } else {
+            self.meet(step, b, reach, frame)?
+        };
+        let q_end = q + h * (v + theta * delta);
+        let v_end = v + delta;
+        (self.q, self.v, self.load) = (q_end, v_end, load_end);
+        frame.arrive(start, end, v, q_end, v_end);
+        frame.check(step)
+    }
+
+    /// δ of a step that may meet a wall, whose impulses it writes. Out of line: most steps are none.
+    #[inline(never)]
+    fn meet(&mut self, step: u64, b: f64, reach: f64, frame: &mut Frame) -> Result<f64> {
+        let s = &self.s;
+        let (h, q, v) = (s.h, self.q, self.v);
+        let ht = h * self.theta;
         for (row, wall) in self.programme.rows.iter_mut().zip(&s.walls) {
             *row = match wall.law {
                 WallLaw::Elastic { stiffness, damping } => {
@@ -72,11 +96,10 @@ impl MoreauJean {
                 _ => FREE,
             };
         }
-        frame.clear();
         let mut delta = self.programme.free(b);
         let mut side = 0.0;
         if !self.programme.admits(delta) {
-            delta = self.programme.solve(b, start, step)?;
+            delta = self.programme.solve(b, step as f64 * h, step)?;
             for (i, &p) in self.programme.multiplier.iter().enumerate() {
                 frame.impulse[i] = p;
                 frame.force[i] = p / h;
@@ -90,11 +113,7 @@ impl MoreauJean {
             }
         }
         self.last_side = side;
-        let q_end = q + h * (v + theta * delta);
-        let v_end = v + delta;
-        (self.q, self.v, self.load) = (q_end, v_end, load_end);
-        frame.arrive(start, end, v, q_end, v_end);
-        frame.check(step)
+        Ok(delta)
     }
 
     pub fn count(&self, counters: &mut Counters) {

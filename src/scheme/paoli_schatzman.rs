@@ -25,6 +25,8 @@ pub(super) struct PaoliSchatzman {
     v: f64,
     /// f(t) at the step's start, N.
     load: f64,
+    /// The caller's extra force in the last step, N; 0 before the first.
+    extra: f64,
     /// Restitution of each wall as the rows use it.
     restitution: Vec<f64>,
     programme: Programme,
@@ -36,13 +38,13 @@ impl PaoliSchatzman {
         let (q, v0) = s.start(scene);
         // q⁻ = q − h v + ½h² a with the wall's reaction in a: without it a body at rest on a wall with e = 1 would bounce.
         let StartForce { total, .. } = s.start_force(q, v0);
-        let v = v0 - 0.5 * h * total / s.m;
+        let v = back(&s, v0, total);
         let a = s.m / (h * h) + 0.5 * s.c / h + 0.25 * s.k;
         let rows = compliances(&s, |k, c| 0.25 * k + 0.5 * c / h);
         let programme = Programme::new(a, scene.gap_scale(), &rows, backend)?;
         let load = s.forcing.force(0.0);
         let restitution = restitutions(&s);
-        Ok(Self { s, q, v, load, restitution, programme })
+        Ok(Self { s, q, v, load, extra: 0.0, restitution, programme })
     }
 
     #[inline]
@@ -53,7 +55,9 @@ impl PaoliSchatzman {
         let (q, v) = (self.q, self.v);
         let back = q - h * v;
         let blow = s.forcing.impulse((start - 0.5 * h).max(0.0), start + 0.5 * h);
-        let load = self.load + extra;
+        let felt = centred(&mut self.extra, extra);
+        frame.extra[0] = felt;
+        let load = self.load + felt;
         let b = s.m * v / h - 0.5 * s.c * v - s.k * (q - 0.25 * h * v) + load + blow / h;
         for ((row, wall), &e) in self.programme.rows.iter_mut().zip(&s.walls).zip(&self.restitution) {
             *row = match wall.law {
@@ -81,7 +85,7 @@ impl PaoliSchatzman {
         let q_end = q + delta;
         let v_half = delta / h;
         let load_end = s.forcing.force(end);
-        let v_end = arrival(s, q_end, v_half, load_end + extra);
+        let v_end = arrival(s, q_end, v_half, load_end + extra) + s.forcing.impulse(end - 0.5 * h, end) / s.m;
         (self.q, self.v, self.load) = (q_end, v_half, load_end);
         frame.arrive(start, end, v, q_end, v_end);
         frame.after[0] = v_half;
@@ -95,7 +99,7 @@ impl PaoliSchatzman {
 
 /// Velocity at t⁺ from v₊ at t⁺ − ½h: half a step under the smooth force, (1 + hC/2M)v⁺ = v₊ + (h/2M)(f⁺ − K q⁺ + r⁺).
 /// A body at or behind a rigid wall is not accelerated further into it, and an elastic wall too stiff for the step is left out: there v₊
-/// is all that is known.
+/// is all that is known. A blow since t⁺ − ½h is not in v₊ yet, and the caller's to add.
 #[inline]
 pub(super) fn arrival(s: &Scalar, q: f64, v_half: f64, load: f64) -> f64 {
     let mut force = load - s.k * q;
@@ -117,6 +121,19 @@ pub(super) fn arrival(s: &Scalar, q: f64, v_half: f64, load: f64) -> f64 {
     }
     let half = 0.5 * s.h / s.m;
     (v_half + half * force) / (1.0 + half * s.c)
+}
+
+/// v₋ half a step before the start, v − ½h a, from the velocity (m/s) and the force (N) there. The damping that a contains is divided
+/// as an implicit half step would: h² apart, and a heavy damper does not throw the extrapolation by h C v/2M.
+pub(super) fn back(s: &Scalar, v: f64, force: f64) -> f64 {
+    v - 0.5 * s.h * force / (s.m + 0.5 * s.h * s.c)
+}
+
+/// The extra force over t ± ½h, when `extra` is constant over the step from t on and `last` was so before it; takes `extra` for `last`.
+/// At t = 0 the first half acts before the start, on nothing: v₋ is extrapolated without it.
+#[inline]
+pub(super) fn centred(last: &mut f64, extra: f64) -> f64 {
+    0.5 * (std::mem::replace(last, extra) + extra)
 }
 
 /// The e of each wall; where an upper and a lower rigid wall differ, the smaller for both, or their bounds could cross.

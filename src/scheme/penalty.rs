@@ -1,12 +1,13 @@
 //! `penalty`: every rigid wall becomes a spring, and each step solves for the displacement by Newton's method.
 //!
-//! With q⁺ = q + Δ and v⁺ = (Δ/h − (1−θ)v)/θ as in the position-level schemes, the balance
+//! With v_θ = (1−θ)v + θv⁺, q⁺ = q + h v_θ as in the velocity-level scheme, the balance
 //!
-//! A Δ = b + (1/θ) Σ ± P̄(s, s⁺),    A = M/(hθ)² + C/(hθ) + K,
+//! A (v_θ − v)/θ = b + h Σ ± P̄(s, s⁺),    A = M + hθC + h²θ²K,
 //!
 //! holds a mean pressure P̄ per wall: (1−θ)|r|(s) + θ|r|(s⁺) for `trapezoidal` (θ = ½) and `implicit-euler` (θ = 1), or, with
 //! θ = ½, the discrete gradient ΔU/Δs of the wall's energy (Gonzalez 1996, doi:10.1007/BF02440162), which keeps the energy of the penalised
-//! system at any step. The trapezoidal rule does not, once h²k_w/m is not small: "unconditionally stable" is a statement about linear systems.
+//! system at any step. (With a displacement for unknown, v⁺ would be a quotient by h, whose rounding has a constant part: the energy
+//! drifts by 1e-16 a step. The mean velocity is small where a stiff wall turns the body round, and so is the work of its rounding.) The trapezoidal rule does not, once h²k_w/m is not small: "unconditionally stable" is a statement about linear systems.
 
 use super::grid::{Counters, Frame, Scalar, ScalarWall};
 use crate::error::{Error, Result};
@@ -48,76 +49,79 @@ impl Penalty {
     pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
         let s = &self.s;
         let (h, theta) = (s.h, self.theta);
-        let (ht, rest) = (h * theta, (1.0 - theta) / theta);
+        let ht = h * theta;
         let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
         let (q, v) = (self.q, self.v);
         let load_end = s.forcing.force(end);
-        let a = s.m / (ht * ht) + s.c / ht + s.k;
-        // (1−θ)/θ times F + C v = f − K q, then the end's share.
-        let b = s.m * v / (ht * theta)
-            + rest * (self.load + extra - s.k * q)
-            + (load_end + extra - s.k * q)
-            + s.forcing.impulse(start, end) / ht;
+        let load = (1.0 - theta) * self.load + theta * load_end + extra;
+        let a = s.m + ht * s.c + ht * ht * s.k;
+        let b = h * (load - s.c * v - s.k * (q + ht * v)) + s.forcing.impulse(start, end);
         frame.clear();
-        let mut delta = b / a;
+        let delta = b / a;
+        let mut mean = v + theta * delta;
+        let mut v_end = v + delta;
         let inside = |w: f64| s.walls.iter().any(|wall| wall.depth(w) > 0.0);
-        if inside(q) || inside(q + delta) {
-            delta = self.newton(a, b, delta, start, step)?;
+        if inside(q) || inside(q + h * mean) {
+            mean = self.newton(a / theta, b, mean, start, step)?;
+            v_end = (mean - (1.0 - theta) * v) / theta;
             for ((p, force), wall) in frame.impulse.iter_mut().zip(&mut frame.force).zip(&self.s.walls) {
-                *force = wall.sign * self.pressure(wall, q, q + delta).0;
+                *force = wall.sign * self.pressure(wall, q, h * mean).0;
                 *p = h * *force;
             }
             frame.touched = true;
         }
-        let q_end = q + delta;
-        let v_end = (delta / h - (1.0 - theta) * v) / theta;
+        let q_end = q + h * mean;
         (self.q, self.v, self.load) = (q_end, v_end, load_end);
         frame.arrive(start, end, v, q_end, v_end);
         frame.check(step)
     }
 
-    /// The root of A Δ − b − (1/θ) Σ ± P̄, a function that increases with Δ: Newton from the free step, kept in a bracket.
+    /// The v_θ at which a (v_θ − v) − b − h Σ ± P̄ = 0, a function that increases with it: Newton from the free step, kept in a
+    /// bracket.
     fn newton(&mut self, a: f64, b: f64, free: f64, time: f64, step: u64) -> Result<f64> {
+        let h = self.s.h;
         let (mut lo, mut hi) = (f64::NEG_INFINITY, f64::INFINITY);
-        let mut delta = free;
+        let mut mean = free;
         let mut residual = f64::NAN;
         for _ in 0..NEWTON_LIMIT {
             self.newton += 1;
-            residual = a * delta - b;
+            let shift = h * mean;
+            residual = a * (mean - self.v) - b;
             let mut slope = a;
-            let mut size = (a * delta).abs() + b.abs();
+            let mut size = a * (mean.abs() + self.v.abs()) + b.abs();
             for wall in &self.s.walls {
-                let (pressure, tangent) = self.pressure(wall, self.q, self.q + delta);
-                residual -= wall.sign * pressure / self.theta;
-                slope += tangent / self.theta;
-                // The depth itself is known to rounding of the position only.
-                size += (pressure + tangent * wall.g.abs()) / self.theta;
+                let (pressure, tangent) = self.pressure(wall, self.q, shift);
+                residual -= h * wall.sign * pressure;
+                slope += h * h * tangent;
+                // The depth itself is known to rounding of its parts only.
+                size += h * (pressure + tangent * (wall.depth(self.q).abs() + shift.abs()));
             }
-            // Below two units of rounding of the terms that cancel, the residual is noise.
+            let next = mean - residual / slope;
+            // Below two units of rounding of the terms that cancel, the residual is noise. Newton comes from one side: the last
+            // correction takes that bias out of the energy.
             if residual.abs() <= 2.0 * f64::EPSILON * size {
-                return Ok(delta);
-            }
-            if residual > 0.0 {
-                hi = hi.min(delta);
-            } else {
-                lo = lo.max(delta);
-            }
-            let mut next = delta - residual / slope;
-            if !(next > lo && next < hi) && lo.is_finite() && hi.is_finite() {
-                next = 0.5 * (lo + hi);
-            }
-            if next == delta || next == lo || next == hi {
                 return Ok(next);
             }
-            delta = next;
+            if residual > 0.0 {
+                hi = hi.min(mean);
+            } else {
+                lo = lo.max(mean);
+            }
+            let bracketed = lo.is_finite() && hi.is_finite() && !(next > lo && next < hi);
+            let next = if bracketed { 0.5 * (lo + hi) } else { next };
+            if next == mean || next == lo || next == hi {
+                return Ok(next);
+            }
+            mean = next;
         }
-        Err(Error::Newton { time, step, residual: residual.abs() })
+        Err(Error::Newton { time, step, residual: residual.abs() / h })
     }
 
-    /// Mean pressure of a wall while the body goes from `w` to `w_end`, and its derivative with respect to the end's depth.
+    /// Mean pressure of a wall while the body goes from `w` to `w + shift`, and its derivative with respect to the end's depth.
     #[inline]
-    fn pressure(&self, wall: &ScalarWall, w: f64, w_end: f64) -> (f64, f64) {
-        let (s0, s1) = (wall.depth(w), wall.depth(w_end));
+    fn pressure(&self, wall: &ScalarWall, w: f64, shift: f64) -> (f64, f64) {
+        let s0 = wall.depth(w);
+        let s1 = s0 - wall.sign * shift;
         if s0 <= 0.0 && s1 <= 0.0 {
             return (0.0, 0.0);
         }

@@ -108,7 +108,8 @@ impl Stepper {
     /// [`Error::Qp`], [`Error::Newton`], [`Error::NotFinite`] or [`Error::TooManyEvents`], with the time and the step.
     #[inline]
     pub fn step(&mut self) -> Result<Step<'_>> {
-        self.advance(0.0)
+        self.advance(0.0)?;
+        Ok(self.last())
     }
 
     /// Advances by one step under an extra force (N, one value per degree of freedom), constant over the step: for
@@ -119,14 +120,17 @@ impl Stepper {
     #[inline]
     pub fn step_with(&mut self, extra: &[f64]) -> Result<Step<'_>> {
         match *extra {
-            [force] if force.is_finite() => self.advance(force),
-            [force] => Err(Error::invalid("extra force", force, "a finite number")),
-            _ => Err(Error::invalid("extra force", format!("{} values", extra.len()), "one per degree of freedom")),
+            [force] if force.is_finite() => self.advance(force)?,
+            [force] => return Err(Error::invalid("extra force", force, "a finite number")),
+            _ => {
+                let found = format!("{} values", extra.len());
+                return Err(Error::invalid("extra force", found, "one per degree of freedom"));
+            }
         }
+        Ok(self.last())
     }
 
-    #[inline]
-    fn advance(&mut self, extra: f64) -> Result<Step<'_>> {
+    fn advance(&mut self, extra: f64) -> Result<()> {
         let (index, frame) = (self.index, &mut self.frame);
         frame.extra[0] = extra;
         match &mut self.kernel {
@@ -135,34 +139,27 @@ impl Stepper {
             Kernel::Position(kernel) => kernel.advance(index, extra, frame),
             Kernel::Penalty(kernel) => kernel.advance(index, extra, frame),
             Kernel::CentralDifference(kernel) => kernel.advance(index, extra, frame),
-            Kernel::Event(event) => {
-                event.advance(extra)?;
-                self.index += 1;
-                return Ok(Step {
-                    index,
-                    start: event.start(),
-                    end: event.end(),
-                    q: event.q(),
-                    v: event.v(),
-                    velocity_before: event.velocity_before(),
-                    velocity_after: event.v(),
-                    impulse: event.impulse(),
-                    jump: event.jump(),
-                    force: event.force(),
-                    extra: &frame.extra,
-                    closed: event.closed(),
-                    path: Path::Exact(event.arc()),
-                });
-            }
+            Kernel::Event(event) => event.advance(extra),
         }?;
         self.index += 1;
+        // The exact scheme leaves the frame untouched and keeps its own episodes.
         if frame.touched || !self.episodes.idle() {
             let (before, after) = (&frame.before, &frame.after);
             let walls = &self.scene.walls;
             let rate = |wall: usize| walls.get(wall).map_or((0.0, 0.0), |w| (w.at.dot(before), w.at.dot(after)));
             self.episodes.see(frame.start, self.step, &frame.impulse, rate);
         }
-        Ok(Step {
+        Ok(())
+    }
+
+    /// The step just made. Inlined, so that a caller pays for the fields it reads only.
+    #[inline]
+    fn last(&self) -> Step<'_> {
+        let (index, frame) = (self.index - 1, &self.frame);
+        if let Kernel::Event(event) = &self.kernel {
+            return event.step(index, &frame.extra);
+        }
+        Step {
             index,
             start: frame.start,
             end: frame.end,
@@ -176,7 +173,7 @@ impl Stepper {
             extra: &frame.extra,
             closed: self.episodes.closed(),
             path: Path::Grid,
-        })
+        }
     }
 
     /// Time reached, s.

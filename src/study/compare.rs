@@ -129,7 +129,8 @@ fn against(scene: &Scene, run: &Run, reference: &Run, horizon: f64) -> (Option<f
         if t <= horizon * (1.0 + 1e-12) {
             error = error.max(difference);
         }
-        if until.is_none() && !(difference <= AGREEMENT) {
+        // A difference that is no number is none that agrees.
+        if until.is_none() && (difference.is_nan() || difference > AGREEMENT) {
             until = Some(t);
         }
     }

@@ -72,7 +72,7 @@ impl Growth {
         let last = self.time.last().copied().unwrap_or(0.0);
         let mut before = 0.0;
         for (&t, &factor) in self.time.iter().zip(&self.factor) {
-            if !(factor <= most) {
+            if factor.is_nan() || factor > most {
                 return before;
             }
             before = t;

@@ -170,7 +170,7 @@ impl Event {
             on(0)
         } else if push > 0.0 {
             on(1)
-        } else if self.arc_curvature(extra) * side.sign() > 0.0 && !(closed[0].is_some() && closed[1].is_some()) {
+        } else if self.curvature() * side.sign() > 0.0 && !(closed[0].is_some() && closed[1].is_some()) {
             None
         } else {
             Some(carrier)

@@ -5,6 +5,7 @@ mod guard;
 mod instant;
 mod root;
 mod search;
+mod view;
 
 pub use guard::{Counters, EVENTS_PER_WINDOW, WINDOWS};
 
@@ -187,102 +188,6 @@ impl Event {
         self.check_guard(self.time)
     }
 
-    /// True once the end of the scene is reached.
-    #[must_use]
-    pub fn is_done(&self) -> bool {
-        self.time >= self.duration
-    }
-
-    /// Time at the start of the last step, s.
-    #[must_use]
-    pub fn start(&self) -> f64 {
-        self.start
-    }
-
-    /// Time at its end, s: the present.
-    #[must_use]
-    pub fn end(&self) -> f64 {
-        self.time
-    }
-
-    /// Displacement now, m: a slice of one.
-    #[must_use]
-    pub fn q(&self) -> &[f64] {
-        std::slice::from_ref(&self.q)
-    }
-
-    /// Velocity now, m/s, after what happened in this instant: a slice of one.
-    #[must_use]
-    pub fn v(&self) -> &[f64] {
-        std::slice::from_ref(&self.v)
-    }
-
-    /// Velocity at the start of the last step, m/s, from the right: a slice of one.
-    #[must_use]
-    pub fn velocity_before(&self) -> &[f64] {
-        std::slice::from_ref(&self.velocity_before)
-    }
-
-    /// Velocity at the end of the last step from the left, m/s: before what happened in that instant.
-    #[must_use]
-    pub fn velocity_left(&self) -> f64 {
-        self.velocity_left
-    }
-
-    /// Impulse of each wall over the last step, N s, signed, with its jump.
-    #[must_use]
-    pub fn impulse(&self) -> &[f64] {
-        &self.impulse
-    }
-
-    /// The part of it that acted in the instant at the end, N s.
-    #[must_use]
-    pub fn jump(&self) -> &[f64] {
-        &self.jump
-    }
-
-    /// Force of each wall now, N, signed.
-    #[must_use]
-    pub fn force(&self) -> &[f64] {
-        &self.force
-    }
-
-    /// Contact episodes that ended in the last step.
-    #[must_use]
-    pub fn closed(&self) -> &[Contact] {
-        &self.closed
-    }
-
-    /// Contact episodes under way.
-    pub fn open_contacts(&self) -> impl Iterator<Item = &Contact> {
-        self.barriers.iter().filter_map(|b| b.open.as_ref())
-    }
-
-    /// The motion of the last step.
-    #[must_use]
-    pub fn arc(&self) -> &Arc {
-        &self.arc
-    }
-
-    /// The rigid wall the body rests against now, if it does.
-    #[must_use]
-    pub fn rests_on(&self) -> Option<usize> {
-        self.support
-    }
-
-    /// Time t∞ (s) to which the last tail of impacts accumulates, if one has been closed into lasting contact. The rest
-    /// begins at the impact that opened the tail, earlier by flight/(1 − e).
-    #[must_use]
-    pub fn accumulation(&self) -> Option<f64> {
-        self.accumulation
-    }
-
-    /// Work done so far.
-    #[must_use]
-    pub fn counters(&self) -> Counters {
-        self.guard.total
-    }
-
     fn counters_mut(&mut self) -> &mut Counters {
         &mut self.guard.total
     }
@@ -375,7 +280,7 @@ impl Event {
     }
 
     /// f″/m at the present, m/s⁴: what decides where force and rate vanish.
-    fn arc_curvature(&self, _extra: f64) -> f64 {
+    fn curvature(&self) -> f64 {
         let second = |h: &crate::scene::Harmonic| {
             -h.amplitude * h.omega * h.omega * (h.omega * self.time + h.phase).sin() / self.body.mass
         };

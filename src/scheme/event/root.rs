@@ -29,6 +29,9 @@ pub(super) enum Step {
 /// Newton steps after which a safe step is taken as it is: each is one-sided, so stopping early costs time, not safety.
 const INNER_STEPS: usize = 16;
 
+/// A tenth of the 1/24 with which the bound enters.
+const BLUR: f64 = 0.1 / 24.0;
+
 const SIXTH: f64 = 1.0 / 6.0;
 
 impl Below {
@@ -86,25 +89,26 @@ impl Below {
 
 /// A number not above the first root of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 in [0, w], or w, with p there; p(0) > 0.
 ///
-/// p″ is concave for b ≥ 0, so its least value over [s, w] is at an end, −M; p(s + u) ≥ p + p′u − ½Mu² there.
+/// p″ is concave for b ≥ 0, so its least value over [s, w] is at an end, and p(s + u) ≥ p + p′u − ½Mu² there with
+/// M = max(0, −least). Where p falls, the root of that is at least Halley's 2p|p′|/(2p′² + Mp), which is
+/// near enough to it for Mp ≤ p′².
 #[inline]
 fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, f64) {
     let (mut s, mut p, mut p1, mut p2) = (0.0, c0, c1, c2);
-    let last = c2 + c3 * w - 0.5 * b * w * w;
     // Every falling term at its worst still leaves p above 0: no root in the window.
     if c0 + w * (c1.min(0.0) + w * (0.5 * c2.min(0.0) + w * (SIXTH * c3.min(0.0) - w * b * SIXTH * 0.25))) > enough {
         return (w, p);
     }
+    let last = c2 + c3 * w - 0.5 * b * w * w;
     for _ in 0..INNER_STEPS {
         let m = (-p2.min(last)).max(0.0);
-        let root = (p1 * p1 + 2.0 * m * p).sqrt();
-        let u = if p1 >= 0.0 {
-            if m == 0.0 {
-                return (w, p);
-            }
-            (root + p1) / m
+        let u = if p1 < 0.0 && m * p <= p1 * p1 {
+            -2.0 * p * p1 / (2.0 * p1 * p1 + m * p)
+        } else if m > 0.0 {
+            let square = (p1 * p1 + 2.0 * m * p).sqrt();
+            if p1 < 0.0 { 2.0 * p / (square - p1) } else { (square + p1) / m }
         } else {
-            2.0 * p / (root - p1)
+            w
         };
         let next = s + u;
         if next >= w || next.is_nan() {
@@ -117,8 +121,10 @@ fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, 
             let safe = if value < -enough { s + 0.999 * u } else { next };
             return (safe, if value < -enough { p } else { value.abs() });
         }
-        if next == s {
-            return (s, p);
+        // The bound's own share of p outweighs what is left: the next evaluation of g gains more than a closer root of p.
+        let blur = if enough > 0.0 { BLUR * b * next.powi(4) } else { f64::INFINITY };
+        if next == s || (u <= 0.1 * next && value <= blur) {
+            return (next, value);
         }
         (s, p) = (next, value);
         p1 = c1 + s * (c2 + s * (0.5 * c3 - s * b * SIXTH));

@@ -17,8 +17,8 @@ pub(super) struct Hit {
     pub wall: Option<usize>,
 }
 
-/// The longest window of a bound, in radians of the fastest sine: beyond it the bounds grow faster than the window.
-const WINDOW_RADIANS: f64 = 2.0;
+/// The longest window of a bound, in radians of the fastest oscillation: beyond it the bounds grow faster than the window.
+const WINDOW_RADIANS: f64 = 1.5;
 
 /// Halvings, or Newton steps, after which the place of a peak is known to rounding.
 const PEAK_STEPS: usize = 60;
@@ -34,7 +34,7 @@ impl Event {
             return Ok(Hit { tau: span, state: [q, v], wall: None });
         }
         let noise = self.flow_noise();
-        let fastest = self.arc.fastest();
+        let fastest = self.arc.fastest_motion();
         let longest = if fastest > 0.0 { WINDOW_RADIANS / fastest } else { f64::INFINITY };
         let (mut tau, mut jet) = (0.0, self.arc.jet(0.0));
         // The start is known exactly, whatever the terms sum up to.

@@ -1,0 +1,274 @@
+//! The tool as a user meets it: commands, files, exit codes.
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Runs the tool in `folder`.
+fn signorini(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Runs it and expects success; gives stdout.
+fn done(folder: &Path, args: &[&str]) -> String {
+    let output = signorini(folder, args);
+    assert_eq!(output.status.code(), Some(0), "{args:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// Runs it and expects the exit code; gives stderr.
+fn refused(folder: &Path, args: &[&str], code: i32) -> String {
+    let output = signorini(folder, args);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {message}");
+    assert!(message.starts_with("error: "), "{args:?}: {message}");
+    assert!(!message.contains("panicked"), "{args:?}: {message}");
+    assert!(output.stdout.is_empty(), "{args:?} printed data: {}", text(&output.stdout));
+    message
+}
+
+fn csv(path: &Path) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let header = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let rows = reader.records().map(|r| r.unwrap().iter().map(str::to_owned).collect()).collect();
+    (header, rows)
+}
+
+fn json(path: &Path) -> serde_json::Value {
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn assert_svg(path: &Path) {
+    let svg = fs::read_to_string(path).unwrap();
+    roxmltree::Document::parse(&svg).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+}
+
+#[test]
+fn a_run_writes_everything_it_promises() {
+    let dir = tempfile::tempdir().unwrap();
+    done(dir.path(), &["run", "rigid-walls-sine", "--end", "1", "--restitution", "0.8"]);
+    let out = dir.path().join("out/rigid-walls-sine/run");
+    let (header, rows) = csv(&out.join("trajectory.csv"));
+    let expected = "time_s,displacement_m,velocity_m_per_s,contact_force_upper_N,contact_impulse_upper_Ns,contact_force_lower_N,contact_impulse_lower_Ns";
+    assert_eq!(header.join(","), expected);
+    assert_eq!(rows.len(), 1001);
+    assert_eq!(rows[0][0].parse::<f64>().unwrap(), 0.0);
+    assert_eq!(rows[1000][0].parse::<f64>().unwrap(), 1.0);
+    let mantissa = rows[500][1].split('e').next().unwrap().trim_start_matches('-').len();
+    assert_eq!(mantissa, 18, "17 significant digits and a point");
+    let summary = json(&out.join("summary.json"));
+    for (column, wall, sign) in [(4, "upper", -1.0), (6, "lower", 1.0)] {
+        let impulses: Vec<f64> = rows.iter().map(|r| r[column].parse().unwrap()).collect();
+        assert!(impulses.iter().all(|p| p * sign >= 0.0));
+        // A sum of a thousand terms in another order: rounding.
+        let total = summary["impulse_ns"][wall].as_f64().unwrap();
+        assert!((impulses.iter().sum::<f64>() - total).abs() < 1e-12);
+        assert!(total * sign > 0.1);
+    }
+    let (header, contacts) = csv(&out.join("contacts.csv"));
+    assert_eq!(
+        header.join(","),
+        "wall,start_s,end_s,impulse_Ns,peak_force_N,approach_speed_m_per_s,departure_speed_m_per_s"
+    );
+    for contact in &contacts {
+        assert_eq!(contact[1], contact[2], "an impact is an instant");
+        assert_eq!(contact[4], "", "and its force is not finite");
+        let (approach, departure): (f64, f64) = (contact[5].parse().unwrap(), contact[6].parse().unwrap());
+        // moreau-jean puts e into the velocities themselves.
+        assert!((departure / approach - 0.8).abs() < 1e-12);
+    }
+    assert!(summary["residuals"]["complementarity"].as_f64().unwrap() <= 1e-12);
+    for key in
+        ["scheme", "scheme_reason", "qp_solver", "qp_reason", "steps", "counters", "wall_clock_s", "statistics", "wear"]
+    {
+        assert!(!summary[key].is_null(), "{key}");
+    }
+    for name in ["displacement.svg", "velocity.svg", "phase.svg", "contact-force.svg"] {
+        assert_svg(&out.join(name));
+    }
+}
+
+#[test]
+fn the_exact_scheme_records_the_50_digit_states() {
+    let dir = tempfile::tempdir().unwrap();
+    done(dir.path(), &["run", "independent-code", "--scheme", "event", "--sample", "1", "--out", "here"]);
+    let (_, rows) = csv(&dir.path().join("here/trajectory.csv"));
+    // 50-digit arithmetic, exact between impacts; double precision holds it to rounding up to 2 s.
+    for (row, u) in [(1, -0.004_273_265_748_152_696), (2, 0.004_819_844_401_208_915)] {
+        assert!((rows[row][1].parse::<f64>().unwrap() - u).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn compare_puts_qp_penalty_and_the_exact_motion_side_by_side() {
+    let dir = tempfile::tempdir().unwrap();
+    let table = done(dir.path(), &["compare", "rigid-walls-sine", "--end", "1", "--json"]);
+    let rows: Vec<serde_json::Value> = serde_json::from_str(&table).unwrap();
+    let methods: Vec<_> = rows.iter().map(|r| r["method"].as_str().unwrap()).collect();
+    let expected = [
+        "moreau-jean",
+        "moreau-jean:qp=clarabel",
+        "penalty:epsilon=1e-12",
+        "penalty:epsilon=1e-9",
+        "penalty:epsilon=1e-6",
+        "event",
+    ];
+    assert_eq!(methods, expected);
+    let out = dir.path().join("out/rigid-walls-sine/compare");
+    let (header, lines) = csv(&out.join("compare.csv"));
+    assert_eq!(lines.len(), 6);
+    for column in
+        ["error_over_gap", "horizon_s", "impulse_upper_Ns", "contacts_lower", "complementarity_residual", "step_ns"]
+    {
+        assert!(header.iter().any(|h| h == column), "{column}");
+    }
+    // The softest penalty is off by the gap itself, the QP by its step.
+    let error = |row: usize| rows[row]["error_over_gap"].as_f64().unwrap();
+    assert!(error(0) < 0.05 && error(4) > 0.5);
+    for method in methods {
+        let folder = out.join(method.replace([':', ',', '='], "-"));
+        assert!(folder.join("trajectory.csv").exists(), "{}", folder.display());
+        assert!(folder.join("contacts.csv").exists());
+    }
+    for name in ["displacement.svg", "velocity.svg", "phase.svg", "contact-force.svg"] {
+        assert_svg(&out.join(name));
+    }
+}
+
+#[test]
+fn methods_are_named_as_the_table_prints_them() {
+    let dir = tempfile::tempdir().unwrap();
+    let list = "moreau-jean:theta=0.75,paoli-schatzman,penalty:epsilon=1e-9,integrator=trapezoidal,implicit-euler,newmark:qp=clarabel";
+    let table = done(dir.path(), &["compare", "rigid-walls-sine", "--end", "0.2", "--schemes", list, "--json"]);
+    let rows: Vec<serde_json::Value> = serde_json::from_str(&table).unwrap();
+    let methods: Vec<_> = rows.iter().map(|r| r["method"].as_str().unwrap().to_owned()).collect();
+    assert_eq!(methods.join(","), format!("{list},event"));
+}
+
+#[test]
+fn a_failed_method_is_a_row_with_its_reason() {
+    let dir = tempfile::tempdir().unwrap();
+    let list = "moreau-jean,penalty:stiffness=1e14,integrator=central-difference";
+    let table = done(dir.path(), &["compare", "rigid-walls-sine", "--end", "1", "--schemes", list, "--json"]);
+    let rows: Vec<serde_json::Value> = serde_json::from_str(&table).unwrap();
+    assert!(rows[0]["failure"].is_null());
+    assert!(rows[1]["failure"].as_str().unwrap().contains("diverged"), "{}", rows[1]);
+}
+
+#[test]
+fn a_run_that_fails_exits_with_1_and_leaves_older_results_alone() {
+    let dir = tempfile::tempdir().unwrap();
+    done(dir.path(), &["run", "rigid-walls-sine", "--end", "0.1", "--out", "o"]);
+    let before = fs::read(dir.path().join("o/trajectory.csv")).unwrap();
+    let scheme = "penalty:stiffness=1e14,integrator=central-difference";
+    let message = refused(dir.path(), &["run", "rigid-walls-sine", "--end", "1", "--scheme", scheme, "--out", "o"], 1);
+    assert!(message.contains("t = "), "{message}");
+    assert_eq!(fs::read(dir.path().join("o/trajectory.csv")).unwrap(), before);
+    let left: Vec<_> = fs::read_dir(dir.path().join("o")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert_eq!(left.len(), 7, "{left:?}");
+}
+
+#[test]
+fn a_wrong_request_exits_with_2_and_says_what_would_be_accepted() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("taken"), "a file").unwrap();
+    let case = "rigid-walls-sine";
+    let requests: &[(&[&str], &str)] = &[
+        (&["run", "nowhere.toml"], "nowhere.toml"),
+        (&["compare", "nowhere"], "signorini new"),
+        (&["run", case, "--scheme", "runge-kutta"], "moreau-jean"),
+        (&["run", case, "--scheme", "moreau-jean:theta=0.2"], "0.5 to 1"),
+        (&["run", case, "--scheme", "moreau-jean:tetha=0.5"], "theta"),
+        (&["run", case, "--scheme", "event:step=1"], "no settings"),
+        (&["run", case, "--scheme", "penalty:epsilon=nan"], "finite"),
+        (&["run", case, "--theta", "0.6", "--scheme", "paoli-schatzman"], "moreau-jean"),
+        (&["run", case, "--epsilon", "1e-9"], "penalty"),
+        (&["run", case, "--integrator", "trapezoidal"], "penalty"),
+        (&["run", case, "--scheme", "penalty", "--epsilon", "-1"], "above 0"),
+        (&["run", case, "--step", "nan"], "above 0"),
+        (&["run", case, "--step", "0"], "above 0"),
+        (&["run", case, "--step", "-1e-3"], "above 0"),
+        (&["run", case, "--step", "20"], "time.end"),
+        (&["run", case, "--step", "1e-12"], "1e10"),
+        (&["run", case, "--sample", "1e-9"], "1e7"),
+        (&["run", case, "--end", "inf"], "finite"),
+        (&["run", case, "--end", "-1"], "above 0"),
+        (&["run", case, "--restitution", "1.5"], "0 to 1"),
+        (&["run", "linear-sine", "--restitution", "0.5"], "rigid wall"),
+        (&["run", case, "--out", "taken/here"], "taken"),
+        (&["compare", case, "--end", "0.1", "--out", "taken"], "taken"),
+        (&["compare", "bouncing-ball", "--end", "0.1", "--epsilon", "1e-9"], "stiffness"),
+        (&["new", "no-such-case"], "rigid-walls-sine"),
+        (&["explain", "nowhere"], "nowhere"),
+    ];
+    for (request, hint) in requests {
+        let message = refused(dir.path(), request, 2);
+        assert!(message.contains(hint), "{request:?} does not mention {hint}: {message}");
+    }
+    assert_eq!(fs::read_to_string(dir.path().join("taken")).unwrap(), "a file");
+}
+
+#[test]
+fn words_that_are_no_command_exit_with_2() {
+    let dir = tempfile::tempdir().unwrap();
+    for args in [
+        &["walk"][..],
+        &["run"],
+        &["run", "a", "b"],
+        &["run", "a", "--step", "fast"],
+        &["run", "a", "--qp", "simplex"],
+        &[],
+    ] {
+        assert_eq!(signorini(dir.path(), args).status.code(), Some(2), "{args:?}");
+    }
+}
+
+#[test]
+fn new_writes_a_case_that_runs_and_never_overwrites() {
+    let dir = tempfile::tempdir().unwrap();
+    assert!(done(dir.path(), &["new"]).contains("bouncing-ball"));
+    done(dir.path(), &["new", "tabulated-pulse"]);
+    done(dir.path(), &["run", "tabulated-pulse.toml"]);
+    assert!(refused(dir.path(), &["new", "tabulated-pulse"], 2).contains("exists"));
+    done(dir.path(), &["new", "bouncing-ball", "--out", "sub/ball.toml"]);
+    done(dir.path(), &["explain", "sub/ball.toml"]);
+}
+
+#[test]
+fn figures_draws_all_figures_of_the_source() {
+    let dir = tempfile::tempdir().unwrap();
+    done(dir.path(), &["figures", "--out", "f"]);
+    let mut numbers: Vec<char> = Vec::new();
+    for entry in fs::read_dir(dir.path().join("f")).unwrap() {
+        let path = entry.unwrap().path();
+        assert_svg(&path);
+        numbers.push(path.file_name().unwrap().to_str().unwrap().chars().nth(3).unwrap());
+    }
+    numbers.sort_unstable();
+    numbers.dedup();
+    assert_eq!(numbers, ['2', '3', '4', '5', '6', '7', '8', '9']);
+}
+
+#[test]
+fn help_has_examples_everywhere_and_quiet_is_quiet() {
+    let dir = tempfile::tempdir().unwrap();
+    for command in [
+        &["--help"][..],
+        &["run", "--help"],
+        &["compare", "--help"],
+        &["explain", "--help"],
+        &["figures", "--help"],
+        &["new", "--help"],
+    ] {
+        assert!(done(dir.path(), command).contains("Example"), "{command:?}");
+    }
+    assert!(done(dir.path(), &["--version"]).contains(env!("CARGO_PKG_VERSION")));
+    assert!(done(dir.path(), &["completions", "bash"]).contains("compare"));
+    let output = signorini(dir.path(), &["run", "linear-sine", "--quiet"]);
+    assert!(output.status.success() && output.stderr.is_empty());
+}

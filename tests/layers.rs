@@ -1,0 +1,115 @@
+//! Imports go one way, and ARCHITECTURE.md names what exists.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The rooms from the ground up: each may import those before it.
+const ROOMS: [&str; 16] = [
+    "error",
+    "scene",
+    "qp",
+    "flow",
+    "step",
+    "contact",
+    "trajectory",
+    "time",
+    "residual",
+    "statistics",
+    "scheme",
+    "run",
+    "study",
+    "case",
+    "output",
+    "cli",
+];
+
+/// Rooms that must not meet although the order would let them.
+const STRANGERS: [(&str, &str); 6] = [
+    ("qp", "scene"),
+    ("residual", "qp"),
+    ("residual", "scheme"),
+    ("flow", "qp"),
+    ("study", "case"),
+    ("study", "output"),
+];
+
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+fn room_of(path: &Path) -> String {
+    let inside = path.strip_prefix(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).unwrap();
+    let first = inside.components().next().unwrap().as_os_str().to_str().unwrap();
+    let room = first.trim_end_matches(".rs");
+    // notes.rs is part of the run.
+    if room == "notes" { "run".into() } else { room.into() }
+}
+
+#[test]
+fn a_room_imports_only_rooms_below_it() {
+    let mut files = Vec::new();
+    sources(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src")), &mut files);
+    let rank = |room: &str| ROOMS.iter().position(|r| *r == room);
+    let mut checked = 0;
+    for file in files {
+        let room = room_of(&file);
+        if ["lib", "main"].contains(&room.as_str()) {
+            continue;
+        }
+        let own = rank(&room).unwrap_or_else(|| panic!("{room} stands in no layer: {}", file.display()));
+        let text = fs::read_to_string(&file).unwrap();
+        let code = text.lines().filter(|l| !l.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+        for import in code.split("crate::").skip(1) {
+            let name: String = import.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
+            let name = if name == "notes" { "run".to_owned() } else { name };
+            let Some(other) = rank(&name) else {
+                panic!("{} imports crate::{name}, which is no room", file.display());
+            };
+            assert!(other <= own, "{} ({room}) imports {name}, which stands above it", file.display());
+            let strangers = STRANGERS.contains(&(room.as_str(), name.as_str()));
+            assert!(!strangers, "{} ({room}) imports {name}: they are to be strangers", file.display());
+            checked += 1;
+        }
+    }
+    // Guards the scan itself: a pattern that finds nothing would pass for ever.
+    assert!(checked > 80, "only {checked} imports found");
+}
+
+#[test]
+fn only_one_file_names_clarabel_as_a_crate() {
+    let mut files = Vec::new();
+    sources(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src")), &mut files);
+    let names = |path: &&PathBuf| fs::read_to_string(path).unwrap().contains("clarabel::solver");
+    let found: Vec<_> = files.iter().filter(names).map(|p| p.file_name().unwrap().to_owned()).collect();
+    assert_eq!(found, ["clarabel.rs"]);
+}
+
+#[test]
+fn every_path_that_the_architecture_names_exists() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap();
+    let mut checked = 0;
+    for line in text.lines().filter(|l| l.starts_with("| `src/")) {
+        let mut room = PathBuf::new();
+        for name in line.split('`').skip(1).step_by(2) {
+            let path = if name.starts_with("src/") {
+                room = root.join(name);
+                room.clone()
+            } else if name.ends_with(".rs") || name.ends_with('/') {
+                room.join(name)
+            } else {
+                continue;
+            };
+            assert!(path.exists(), "ARCHITECTURE.md names {name}, which does not exist");
+            checked += 1;
+        }
+    }
+    assert!(checked > 25, "only {checked} names found");
+}
