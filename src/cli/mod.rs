@@ -7,6 +7,7 @@ mod figures;
 mod new;
 pub mod request;
 mod run;
+mod stability;
 pub mod ui;
 
 use crate::error::Result;
@@ -44,6 +45,7 @@ enum Command {
     Explain(explain::Args),
     Figures(figures::Args),
     New(new::Args),
+    Stability(stability::Args),
     Completions(completions::Args),
 }
 
@@ -69,6 +71,7 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
         Command::Explain(args) => explain::execute(args, ui),
         Command::Figures(args) => figures::execute(args, ui),
         Command::New(args) => new::execute(args, ui),
+        Command::Stability(args) => stability::execute(args, ui),
         Command::Completions(args) => completions::execute(args, ui),
     }
 }

@@ -6,10 +6,12 @@
 //! | [`csv`] | `trajectory.csv` and `contacts.csv` |
 //! | [`summary`] | `summary.json` |
 //! | [`pictures`] | the figures of one or several runs |
+//! | [`stability`] | tables and maps of a stability study |
 //! | [`figure`] | data in, SVG text out |
 
 pub mod atomic;
 pub mod csv;
 pub mod figure;
 pub mod pictures;
+pub mod stability;
 pub mod summary;

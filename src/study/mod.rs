@@ -6,4 +6,5 @@ pub mod choice;
 pub mod compare;
 pub mod horizon;
 mod replay;
+pub mod stability;
 pub mod verdict;

@@ -1,0 +1,109 @@
+//! `signorini stability`: where each scheme fails on a case.
+
+use super::request;
+use super::ui::Ui;
+use crate::error::Result;
+use crate::output::atomic::write_whole;
+use crate::output::stability as output;
+use crate::scheme::Scheme;
+use crate::study::stability::impact::{self, ImpactMap};
+use crate::study::stability::plan::{Grid, Maps, Plan, Row};
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  signorini stability cases/rigid-walls-sine.toml
+  signorini stability bouncing-ball --out results
+
+Writes impact-map.csv and .svg (the restitution of one free impact by its phase within the step), stability.csv (every run of
+every map) and one stability-*.svg a scheme: classes over step and restitution, ε or wall stiffness.
+
+Classes, from harmless to worst, against a fine run of the same scene:
+  stable           energy kept as the walls' law has it; speeds, contacts and rest as in the reference (right in kind, not exact)
+  dissipative      more than 5 % of the energy arriving at the walls lost per impact, beyond what restitution takes
+  frozen           the body stands still: it crosses the gap in less than a step
+  astray           another motion: a wall passed beyond the scheme's bound, contacts off by a factor of 2, speeds above 1.5 or
+                   below 0.7 of the reference's, or no rest where rest is due
+  energy-gaining   more than 1 % of the energy arriving at the walls made per impact
+  diverged         speeds above 10 times the reference's, not finite, or a step that cannot be solved";
+
+/// Map where each scheme fails on a case: steps against restitution, ε or wall stiffness
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// Case file, or the name of a built-in case
+    case: String,
+    /// Folder for the results [default: out/<case>/stability]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A case that makes no sense or has no wall, a folder that cannot be written, a reference run that fails.
+pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+    let case = request::case(&args.case)?;
+    let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join("stability"));
+    let plan = Plan::new(&case, &Grid::default())?;
+    let e = impact::wall_restitution(&case.scene);
+    let impacts = impact::maps(plan.scale.mass, case.time.step, e);
+    output::impacts(&folder.join("impact-map.csv"), &impacts)?;
+    write_whole(&folder.join("impact-map.svg"), output::impact_figure(&impacts, e).as_bytes())?;
+    let bar = ui.progress("stability", plan.work());
+    let maps = plan.run(&|done| bar.set(done));
+    bar.finish();
+    let maps = maps?;
+    output::cells(&folder.join("stability.csv"), &maps)?;
+    for (name, svg) in output::maps_figures(&maps, case.title.as_deref().unwrap_or(&case.name)) {
+        write_whole(&folder.join(name), svg.as_bytes())?;
+    }
+    report(&maps, &impacts, ui);
+    ui.message(&format!("results in {}", folder.display()));
+    Ok(())
+}
+
+fn report(maps: &Maps, impacts: &[ImpactMap], ui: &Ui) {
+    let (first, last) = (maps.steps.first().copied().unwrap_or(0.0), maps.steps.last().copied().unwrap_or(0.0));
+    ui.message(&format!(
+        "{} steps from {first:.2e} to {last:.2e} s, runs of {:.4} s, {} ({:.4} rad/s)",
+        maps.steps.len(),
+        maps.horizon,
+        maps.scale.origin.describe(),
+        maps.scale.omega
+    ));
+    let headers = ["scheme", "largest safe step (s)", "hω", "h²k_w/m", "beyond it", "restitution of one free impact"];
+    let rows: Vec<Vec<String>> = maps.own().map(|row| line(row, maps, impacts)).collect();
+    ui.table(&headers, &rows);
+}
+
+fn line(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> Vec<String> {
+    let subject = &row.subject;
+    let step = row.safe.as_ref().and_then(|safe| safe.step);
+    let beyond = row.safe.as_ref().and_then(|safe| safe.beyond.as_ref());
+    let kappa = step.and_then(|h| subject.kappa(&maps.scale, h));
+    vec![
+        subject.scheme.to_string(),
+        step.map_or_else(|| "none".to_owned(), |h| format!("{h:.2e}")),
+        step.map_or_else(String::new, |h| format!("{:.2e}", h * maps.scale.omega)),
+        kappa.map_or_else(String::new, |k| format!("{k:.2e}")),
+        beyond.map_or_else(
+            || "stable on the whole grid".to_owned(),
+            |cell| format!("{:.2e} s {}: {}", cell.step, cell.class, cell.reason),
+        ),
+        range(&subject.scheme, impacts),
+    ]
+}
+
+/// The restitution over all phases; of a penalty at h²k_w/m = 1.
+fn range(scheme: &Scheme, impacts: &[ImpactMap]) -> String {
+    let same = |map: &&ImpactMap| match (map.scheme, *scheme) {
+        (Scheme::Penalty { integrator: a, .. }, Scheme::Penalty { integrator: b, .. }) => {
+            a == b && map.kappa == Some(1.0)
+        }
+        (a, b) => a == b,
+    };
+    let Some((low, high)) = impacts.iter().find(same).and_then(ImpactMap::range) else { return String::new() };
+    let at = if matches!(scheme, Scheme::Penalty { .. }) { " at h²k_w/m = 1" } else { "" };
+    if high - low < 1e-9 { format!("{low:.4}{at}") } else { format!("{low:.4} to {high:.4}{at}") }
+}

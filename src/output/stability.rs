@@ -1,0 +1,184 @@
+//! `impact-map.csv`, `stability.csv` and the pictures of a stability study.
+
+use super::csv;
+use super::figure::{Class as Tone, Curve, Figure, HeatMap, Mark, Panel, Scale};
+use crate::error::Result;
+use crate::scheme::Scheme;
+use crate::study::stability::class::Class;
+use crate::study::stability::family::{Family, Parameter};
+use crate::study::stability::impact::{ImpactMap, KAPPAS};
+use crate::study::stability::plan::{Maps, Row};
+use std::path::Path;
+
+/// Writes one row for every scheme and phase.
+///
+/// # Errors
+/// [`crate::Error::Io`] where the file cannot be written.
+pub fn impacts(path: &Path, maps: &[ImpactMap]) -> Result<()> {
+    let header = [
+        "scheme",
+        "integrator_or_theta",
+        "kappa",
+        "phase",
+        "restitution",
+        "theory",
+        "depth_over_step_length",
+        "contact_steps",
+        "failure",
+    ];
+    let row = |map: &ImpactMap, i: usize| {
+        let kind = match map.scheme {
+            Scheme::MoreauJean { theta } => theta.to_string(),
+            Scheme::Penalty { integrator, .. } => integrator.to_string(),
+            _ => String::new(),
+        };
+        let name = map.scheme.to_string();
+        let mut row = vec![name.split(':').next().unwrap_or_default().to_owned(), kind, number(map.kappa)];
+        match map.impacts.get(i) {
+            Some(Ok(impact)) => row.extend([
+                number(Some(impact.phase)),
+                number(Some(impact.restitution)),
+                number(impact.theory),
+                number(Some(impact.depth)),
+                impact.contact_steps.to_string(),
+                String::new(),
+            ]),
+            Some(Err(error)) => row.extend(failure(5, error.to_string())),
+            None => row.extend(failure(5, String::new())),
+        }
+        row
+    };
+    let rows = maps.iter().flat_map(|map| (0..map.impacts.len()).map(move |i| row(map, i)));
+    csv::table(path, &header.map(str::to_owned), rows)
+}
+
+/// Writes one row for every cell of every map, failed ones with the reason.
+///
+/// # Errors
+/// [`crate::Error::Io`] where the file cannot be written.
+pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
+    let header = [
+        "scheme",
+        "parameter",
+        "value",
+        "case_value",
+        "step_s",
+        "step_times_omega",
+        "kappa",
+        "class",
+        "reason",
+        "energy_growth_per_impact",
+        "largest_speed_over_reference",
+        "rms_speed_over_reference",
+        "contacts",
+        "reference_contacts_least",
+        "reference_contacts_most",
+        "missed",
+        "spurious",
+        "depth_m",
+        "depth_over_bound",
+        "frozen_share",
+        "rest",
+    ];
+    let rows = maps.rows.iter().flat_map(|row| row.cells.iter().map(move |cell| (row, cell)));
+    let line = |(row, cell): (&Row, &crate::study::stability::row::Cell)| {
+        let subject = &row.subject;
+        let mut line = vec![
+            subject.family.to_string(),
+            subject.parameter.name().to_owned(),
+            number(subject.value.is_finite().then_some(subject.value)),
+            subject.own.to_string(),
+            number(Some(cell.step)),
+            number(Some(cell.step * maps.scale.omega)),
+            number(subject.kappa(&maps.scale, cell.step)),
+            cell.class.to_string(),
+            cell.reason.clone(),
+        ];
+        let Some(m) = &cell.measured else {
+            line.extend(failure(11, String::new()));
+            return line;
+        };
+        line.extend([
+            number(m.growth),
+            number(Some(m.speed)),
+            number(Some(m.rms_speed)),
+            m.contacts.to_string(),
+            row.contacts.low.to_string(),
+            row.contacts.high.to_string(),
+            m.missed.to_string(),
+            m.spurious.to_string(),
+            number(Some(m.depth)),
+            number(Some(m.passed)),
+            number(Some(m.frozen)),
+            m.rest.to_string(),
+        ]);
+        line
+    };
+    csv::table(path, &header.map(str::to_owned), rows.map(line))
+}
+
+/// Nine significant digits, enough for what is a measurement; empty where there is none.
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |x| format!("{x:.8e}"))
+}
+
+/// Empty cells, then why.
+fn failure(empty: usize, reason: String) -> impl Iterator<Item = String> {
+    std::iter::repeat_n(String::new(), empty).chain([reason])
+}
+
+/// The restitution over the phase of the impact: the schemes that take walls as they are, then the penalty at each κ.
+#[must_use]
+pub fn impact_figure(maps: &[ImpactMap], e: f64) -> String {
+    let points = |map: &ImpactMap| map.measured().map(|i| (i.phase, i.restitution)).collect::<Vec<_>>();
+    let title = format!("Restitution of one free impact, wall with e = {e}");
+    let mut figure = Figure::new(title, "Phase of the impact within the step, τ (–)");
+    let mut panel = Panel::new("Restitution (–)").heading("Walls as constraints").range(-0.15, 3.15);
+    for map in maps.iter().filter(|map| map.kappa.is_none()) {
+        let curve = Curve::new(map.label.clone(), points(map));
+        panel = panel.curve(if map.scheme == Scheme::Event { curve.backdrop() } else { curve });
+    }
+    figure = figure.panel(panel);
+    for kappa in KAPPAS {
+        let wide = maps.iter().filter(|m| m.kappa == Some(kappa)).filter_map(ImpactMap::range);
+        let (low, high) = wide.fold((1.0_f64, 1.0_f64), |(a, b), (low, high)| (a.min(low), b.max(high)));
+        let mut panel = Panel::new("Restitution (–)").heading(format!("Penalty, h²k_w/m = {kappa}"));
+        panel = if high / low.max(f64::MIN_POSITIVE) > 100.0 { panel.log() } else { panel };
+        for (map, look) in maps.iter().filter(|m| m.kappa == Some(kappa)).zip(7..) {
+            let name = map.label.split(", ").nth(1).unwrap_or_default();
+            panel = panel.curve(Curve::new(format!("penalty, {name}"), points(map)).look(look));
+        }
+        figure = figure.panel(panel.mark(Mark::floor(1.0, "no loss")));
+    }
+    figure.to_svg()
+}
+
+/// One map of classes for each family: file name and SVG text.
+#[must_use]
+pub fn maps_figures(maps: &Maps, title: &str) -> Vec<(String, String)> {
+    Family::all()
+        .into_iter()
+        .map(|family| (format!("stability-{}.svg", slug(family)), map_figure(maps, family, title)))
+        .collect()
+}
+
+fn map_figure(maps: &Maps, family: Family, title: &str) -> String {
+    let rows: Vec<&Row> = maps.map(family).collect();
+    let values: Vec<f64> = rows.iter().map(|row| row.subject.value).collect();
+    let parameter = rows.first().map_or(Parameter::Restitution, |row| row.subject.parameter);
+    let scale = if parameter == Parameter::Restitution { Scale::Linear } else { Scale::Log };
+    let steps: Vec<f64> = maps.steps.iter().map(|h| h * maps.scale.omega).collect();
+    let number = |class: Class| Class::ALL.iter().position(|c| *c == class).unwrap_or(Class::ALL.len());
+    let cells = rows.iter().flat_map(|row| row.cells.iter().map(|cell| number(cell.class))).collect();
+    let classes = Class::ALL.iter().map(|class| Tone::new(class.name(), class.letter())).collect();
+    let label = format!("Step hω (–), {}", maps.scale.origin.describe());
+    let name = family.to_string().replace(":integrator=", ", ");
+    HeatMap::new(format!("{title}: {name}"), (&label, Scale::Log, &steps), (parameter.label(), scale, &values))
+        .classes(classes, cells)
+        .to_svg()
+}
+
+/// A family's name as part of a file name.
+fn slug(family: Family) -> String {
+    family.to_string().replace("integrator=", "").replace([':', '='], "-")
+}

@@ -1,0 +1,299 @@
+//! What the measurements of a run amount to.
+
+use super::scale::Scale;
+use super::watch::{Record, depth_bound};
+use crate::scene::{Scene, WallLaw};
+use crate::scheme::Scheme;
+use crate::step::Contact;
+use std::fmt;
+
+/// Speeds over this many times the reference's largest have left the motion: energy is up by more than a hundred.
+pub const DIVERGED: f64 = 10.0;
+/// Share of the arriving energy made per impact above which a scheme gains: 1 % compounds to a factor e in a hundred impacts, one run
+/// of the source scene.
+pub const GAIN: f64 = 0.01;
+/// Share of the arriving energy lost per impact above which a scheme dissipates: 5 % is a restitution off by 0.025, less than what
+/// restitution is known to for any real wall. A loss does not compound: a load makes up for it.
+pub const LOSS: f64 = 0.05;
+/// Speed over the reference's largest above which the motion is another one: twice its energy.
+pub const FAST: f64 = 1.5;
+/// Root-mean-square speed over the reference's below which the motion is another one: half its energy.
+pub const SLOW: f64 = 0.7;
+/// Share of steps in which opposite walls took turns above which a body is frozen: a body that crosses a gap in one step now and then
+/// is not.
+pub const FROZEN: f64 = 0.01;
+/// Root-mean-square speed over the reference's below which a body stands still.
+pub const STILL: f64 = 0.01;
+/// Contacts are counted where the approach is faster than this share of the reference's largest: the number of slower ones,
+/// in chatter and accumulations, depends on resolution alone.
+pub const COUNTED: f64 = 0.05;
+/// Contact counts off by more than this factor are wrong.
+pub const MISCOUNTED: f64 = 2.0;
+/// Fewer contacts than this are too few to be held against a factor.
+pub const FEW: usize = 4;
+/// Depth over the stated bound above which a wall was passed: 5 % for the terms of higher order in it.
+pub const PASSED: f64 = 1.05;
+/// Depths below this share of the scene's gap scale are rounding, for bounds of 0.
+pub const TOUCH: f64 = 1e-9;
+/// Speeds below this share of the reference's largest are rest.
+pub const REST: f64 = 1e-3;
+
+/// What becomes of a scene under a scheme at a step, from harmless to worst.
+///
+/// Stable is not accurate: it says that nothing went wrong of itself, and that the motion is of the right kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// Energy kept as the walls' law has it, speeds, contacts and rest as in the reference.
+    Stable,
+    /// More than [`LOSS`] of the energy that arrives at the walls is lost per impact, beyond what restitution takes.
+    Dissipative,
+    /// The body stands still where it should move: it crosses the gap in less than a step, or the steps see no load.
+    Frozen,
+    /// The energy is kept but the motion is another one: a wall passed beyond the scheme's bound, contacts off by more than
+    /// [`MISCOUNTED`], speeds above [`FAST`] or below [`SLOW`], or no rest where rest is due.
+    Astray,
+    /// More than [`GAIN`] of the energy that arrives at the walls is made per impact.
+    Gaining,
+    /// Speeds beyond [`DIVERGED`], numbers that are not finite, or a step that cannot be solved.
+    Diverged,
+}
+
+impl Class {
+    /// Every class, from harmless to worst.
+    pub const ALL: [Self; 6] =
+        [Self::Stable, Self::Dissipative, Self::Frozen, Self::Astray, Self::Gaining, Self::Diverged];
+
+    /// The name in tables and legends.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Dissipative => "dissipative",
+            Self::Frozen => "frozen",
+            Self::Astray => "astray",
+            Self::Gaining => "energy-gaining",
+            Self::Diverged => "diverged",
+        }
+    }
+
+    /// The letter on a map.
+    #[must_use]
+    pub fn letter(self) -> char {
+        match self {
+            Self::Stable => 'S',
+            Self::Dissipative => 'D',
+            Self::Frozen => 'F',
+            Self::Astray => 'A',
+            Self::Gaining => 'G',
+            Self::Diverged => 'X',
+        }
+    }
+}
+
+impl fmt::Display for Class {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Whether the body comes to rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rest {
+    /// The reference does not rest.
+    NotDue,
+    /// It rests, as the reference does.
+    Reached,
+    /// It moves where the reference rests.
+    Missing,
+}
+
+impl fmt::Display for Rest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::NotDue => "not due",
+            Self::Reached => "reached",
+            Self::Missing => "missing",
+        })
+    }
+}
+
+/// Fine runs that others are held against: several, from starts that differ by next to nothing. Where the motion is
+/// chaotic they scatter, and only what lies outside their scatter is wrong.
+#[derive(Debug, Clone)]
+pub struct Ruler {
+    /// Largest speed of each run, m/s: least and largest.
+    pub speed: Range,
+    /// Root-mean-square speed of each run, m/s.
+    pub rms_speed: Range,
+    /// Contacts counted in each run.
+    pub contacts: Range,
+    /// Approach speed above which a contact is counted, m/s.
+    threshold: f64,
+    rests: bool,
+}
+
+/// Least and largest of several values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// The least.
+    pub low: f64,
+    /// The largest.
+    pub high: f64,
+}
+
+impl Range {
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let all = Self { low: f64::INFINITY, high: 0.0 };
+        values.fold(all, |r, x| Self { low: r.low.min(x), high: r.high.max(x) })
+    }
+
+    /// The value over the nearest one of the range: 1 within it.
+    fn ratio(self, x: f64) -> f64 {
+        let nearest = x.clamp(self.low.min(self.high), self.high);
+        if x == nearest { 1.0 } else { x / nearest }
+    }
+}
+
+impl Ruler {
+    /// The ruler that fine runs make.
+    #[must_use]
+    pub fn new(records: &[Record]) -> Self {
+        let approach = |record: &Record| record.contacts.iter().map(|c| c.approach_speed).fold(0.0, f64::max);
+        let threshold = COUNTED * Range::of(records.iter().map(approach)).high;
+        let speed = Range::of(records.iter().map(|r| r.speed));
+        Self {
+            speed,
+            rms_speed: Range::of(records.iter().map(|r| r.rms_speed)),
+            contacts: Range::of(records.iter().map(|r| counted(&r.contacts, threshold).count() as f64)),
+            threshold,
+            rests: records.iter().all(|r| r.last_speed < REST * speed.high),
+        }
+    }
+
+    /// Times of the contacts counted, s.
+    pub fn contact_times<'a>(&self, record: &'a Record) -> impl Iterator<Item = f64> + use<'a> {
+        counted(&record.contacts, self.threshold).map(|c| c.start)
+    }
+}
+
+fn counted(contacts: &[Contact], threshold: f64) -> impl Iterator<Item = &Contact> {
+    contacts.iter().filter(move |c| c.approach_speed > threshold)
+}
+
+/// A run held against its ruler.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measurement {
+    /// Energy that the scheme made, beyond what restitution takes, over the kinetic energy that arrived at the walls: a share of it
+    /// gained (+) or lost (−) per impact; none without a contact.
+    pub growth: Option<f64>,
+    /// Largest speed over the reference's.
+    pub speed: f64,
+    /// Root-mean-square speed over the reference's.
+    pub rms_speed: f64,
+    /// Contacts counted ([`COUNTED`]).
+    pub contacts: usize,
+    /// How many fewer than in any reference run.
+    pub missed: usize,
+    /// How many more than in any reference run.
+    pub spurious: usize,
+    /// Contacts over the reference's.
+    pub contact_ratio: f64,
+    /// Deepest position behind a wall at the end of a step, m.
+    pub depth: f64,
+    /// The largest ratio of depth and stated bound over the walls ([`depth_bound`]); 0 where no wall is passed.
+    pub passed: f64,
+    /// Share of steps in which opposite walls took turns.
+    pub frozen: f64,
+    /// Whether it rests.
+    pub rest: Rest,
+    /// When the speed left all bounds, s.
+    pub escaped: Option<f64>,
+}
+
+impl Measurement {
+    /// The run `record` of `scene` (as the scheme sees it) by `scheme` with steps of `h` (s) against `ruler`.
+    #[must_use]
+    pub fn new(record: &Record, ruler: &Ruler, scene: &Scene, scheme: &Scheme, scale: &Scale, h: f64) -> Self {
+        let contacts = counted(&record.contacts, ruler.threshold).count();
+        let touch = TOUCH * scene.gap_scale();
+        let passed = scene.walls.iter().zip(&record.depth).filter(|(_, depth)| **depth > touch);
+        let bound = |law| depth_bound(law, scheme, scale, h, record.speed, record.acceleration).max(touch);
+        Self {
+            growth: growth(record, scene, scale.mass),
+            speed: ruler.speed.ratio(record.speed),
+            rms_speed: ruler.rms_speed.ratio(record.rms_speed),
+            contacts,
+            missed: (ruler.contacts.low as usize).saturating_sub(contacts),
+            spurious: contacts.saturating_sub(ruler.contacts.high as usize),
+            contact_ratio: ruler.contacts.ratio(contacts as f64),
+            depth: record.depth.iter().copied().fold(0.0, f64::max),
+            passed: passed.map(|(wall, depth)| depth / bound(wall.law)).fold(0.0, f64::max),
+            frozen: record.frozen_steps as f64 / record.steps.max(1) as f64,
+            rest: match (ruler.rests, record.last_speed < REST * ruler.speed.high) {
+                (false, _) => Rest::NotDue,
+                (true, true) => Rest::Reached,
+                (true, false) => Rest::Missing,
+            },
+            escaped: record.escaped,
+        }
+    }
+
+    /// The class, and the finding that decided it.
+    #[must_use]
+    pub fn classify(&self) -> (Class, String) {
+        let growth = self.growth.unwrap_or(0.0);
+        let percent = |x: f64| format!("{:.1} %", 100.0 * x);
+        let many = self.contacts + self.missed >= FEW;
+        if let Some(time) = self.escaped {
+            return (Class::Diverged, format!("speed {:.0} times the reference's at t = {time:.4} s", self.speed));
+        }
+        if self.speed > DIVERGED {
+            return (Class::Diverged, format!("speed {:.1} times the reference's", self.speed));
+        }
+        if self.frozen > FROZEN {
+            return (Class::Frozen, format!("opposite walls take turns in {} of the steps", percent(self.frozen)));
+        }
+        if self.rms_speed < STILL {
+            return (Class::Frozen, "the body stands still".to_owned());
+        }
+        if growth > GAIN {
+            return (Class::Gaining, format!("{} of the energy gained per impact", percent(growth)));
+        }
+        if growth < -LOSS {
+            return (Class::Dissipative, format!("{} of the energy lost per impact", percent(-growth)));
+        }
+        if self.passed > PASSED {
+            return (Class::Astray, format!("a wall passed by {:.2} times the stated depth", self.passed));
+        }
+        if many && self.contact_ratio > MISCOUNTED {
+            return (Class::Astray, format!("{} contacts too many", self.spurious));
+        }
+        if many && self.contact_ratio < 1.0 / MISCOUNTED {
+            return (Class::Astray, format!("{} contacts missed", self.missed));
+        }
+        if self.speed > FAST {
+            return (Class::Astray, format!("speed {:.2} times the reference's", self.speed));
+        }
+        if self.rms_speed < SLOW {
+            return (Class::Astray, format!("mean speed {:.2} times the reference's", self.rms_speed));
+        }
+        if self.rest == Rest::Missing {
+            return (Class::Astray, "still moving where rest is due".to_owned());
+        }
+        (Class::Stable, String::new())
+    }
+}
+
+/// Kinetic energy with which the body leaves rigid walls beyond e² of that with which it came, and what the scheme made elsewhere, over
+/// the kinetic energy that arrived at all walls.
+fn growth(record: &Record, scene: &Scene, mass: f64) -> Option<f64> {
+    let energy = |speed: f64| 0.5 * mass * speed * speed;
+    let arrived: f64 = record.contacts.iter().map(|c| energy(c.approach_speed)).sum();
+    let beyond = |c: &Contact| match (scene.walls.get(c.wall).map(|w| w.law), c.departure_speed) {
+        (Some(WallLaw::Rigid { restitution: e }), Some(departure)) => {
+            energy(departure) - e * e * energy(c.approach_speed)
+        }
+        _ => 0.0,
+    };
+    (arrived > 0.0).then(|| (record.made + record.contacts.iter().map(beyond).sum::<f64>()) / arrived)
+}

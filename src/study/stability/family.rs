@@ -1,0 +1,207 @@
+//! The schemes of the maps, and what is varied beside the step.
+
+use super::watch::wall_stiffness;
+use crate::case::Case;
+use crate::error::{Error, Result};
+use crate::scene::{Scene, WallLaw};
+use crate::scheme::{Integrator, PenaltyLaw, Scheme};
+use std::fmt;
+
+/// Decades of penalty parameters at least, and how many values a decade has.
+const DECADES: f64 = 6.0;
+const PER_DECADE: f64 = 2.0;
+/// Spacing of restitutions.
+const RESTITUTIONS: u32 = 10;
+
+/// One scheme with its second parameter left open: one map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Family {
+    /// A scheme that takes walls as they are.
+    Constrained(Scheme),
+    /// A penalty with this integrator.
+    Penalty(Integrator),
+}
+
+impl Family {
+    /// Every family, in the order of tables.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let constrained = [
+            Scheme::MoreauJean { theta: 0.5 },
+            Scheme::MoreauJean { theta: 1.0 },
+            Scheme::PaoliSchatzman,
+            Scheme::ImplicitEuler,
+            Scheme::Newmark,
+        ];
+        constrained.map(Self::Constrained).into_iter().chain(Integrator::ALL.map(Self::Penalty)).collect()
+    }
+}
+
+impl fmt::Display for Family {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Constrained(scheme) => scheme.fmt(f),
+            Self::Penalty(integrator) => write!(f, "penalty:integrator={integrator}"),
+        }
+    }
+}
+
+/// What is varied beside the step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parameter {
+    /// e of every rigid wall.
+    Restitution,
+    /// ε of the penalty, m³/N.
+    Epsilon,
+    /// Stiffness of the penalty spring, N/m.
+    PenaltyStiffness,
+    /// Stiffness of every elastic wall, N/m, in a scene without rigid walls; dampers stay in proportion.
+    WallStiffness,
+}
+
+impl Parameter {
+    /// The parameter of a family on a case.
+    #[must_use]
+    pub fn of(family: Family, case: &Case) -> Self {
+        let walls = &case.scene.walls;
+        let quartic = PenaltyLaw::Quartic { epsilon: 1.0 };
+        let linear_asked = matches!(case.penalty.laws.first(), Some(PenaltyLaw::Linear { .. }));
+        match family {
+            _ if !walls.iter().any(|w| w.law.is_rigid()) => Self::WallStiffness,
+            Family::Constrained(_) => Self::Restitution,
+            Family::Penalty(_) if linear_asked || quartic.validate(walls).is_err() => Self::PenaltyStiffness,
+            Family::Penalty(_) => Self::Epsilon,
+        }
+    }
+
+    /// The label of an axis.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Restitution => "Restitution e (–)",
+            Self::Epsilon => "Penalty parameter ε (m³/N)",
+            Self::PenaltyStiffness => "Penalty stiffness (N/m)",
+            Self::WallStiffness => "Wall stiffness (N/m)",
+        }
+    }
+
+    /// The word in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Restitution => "restitution",
+            Self::Epsilon => "epsilon_m3_per_N",
+            Self::PenaltyStiffness => "penalty_stiffness_N_per_m",
+            Self::WallStiffness => "wall_stiffness_N_per_m",
+        }
+    }
+
+    /// The values that the case itself has, in its order.
+    #[must_use]
+    pub fn own(self, case: &Case) -> Vec<f64> {
+        let walls = case.scene.walls.iter().map(|w| w.law);
+        let laws = case.penalty.laws.iter();
+        let mut values: Vec<f64> = match self {
+            Self::Restitution => walls
+                .filter_map(|l| if let WallLaw::Rigid { restitution } = l { Some(restitution) } else { None })
+                .collect(),
+            Self::Epsilon => laws
+                .filter_map(|l| if let PenaltyLaw::Quartic { epsilon } = l { Some(*epsilon) } else { None })
+                .collect(),
+            Self::PenaltyStiffness => {
+                let stiffness =
+                    |l: &PenaltyLaw| if let PenaltyLaw::Linear { stiffness, .. } = l { Some(*stiffness) } else { None };
+                laws.filter_map(stiffness).collect()
+            }
+            Self::WallStiffness => walls.filter_map(wall_stiffness).collect(),
+        };
+        let mut seen = Vec::new();
+        values.retain(|v| {
+            !seen.contains(v) && {
+                seen.push(*v);
+                true
+            }
+        });
+        values
+    }
+
+    /// The values of a map, rising: those of the case among them. Of penalties without any, walls from as stiff as a
+    /// spring that would swing the mass at `stiffness` (N/m) up to 10⁶ times that.
+    #[must_use]
+    pub fn values(self, case: &Case, stiffness: f64) -> Vec<f64> {
+        let own = self.own(case);
+        let mut values: Vec<f64> = match self {
+            Self::Restitution => (0..=RESTITUTIONS).map(|i| f64::from(i) / f64::from(RESTITUTIONS)).collect(),
+            _ => {
+                let exponent = |x: f64| x.log10();
+                let low = own.iter().copied().map(exponent).reduce(f64::min);
+                let high = own.iter().copied().map(exponent).reduce(f64::max);
+                let (low, high) = match (low, high) {
+                    (Some(low), Some(high)) => (low, high),
+                    _ if self == Self::Epsilon => {
+                        let span2 = (2.0 * case.scene.gap_scale()).powi(2);
+                        ((span2 / stiffness).log10() - DECADES, (span2 / stiffness).log10())
+                    }
+                    _ => (stiffness.log10(), stiffness.log10() + DECADES),
+                };
+                let widen = (0.5 * (DECADES - (high - low))).max(0.0);
+                let (low, high) = ((PER_DECADE * (low - widen)).floor(), (PER_DECADE * (high + widen)).ceil());
+                (low as i32..=high as i32).map(|i| 10_f64.powf(f64::from(i) / PER_DECADE)).collect()
+            }
+        };
+        // The case's own value takes the place of one that differs from it by rounding.
+        values.retain(|v| !own.iter().any(|o| (v - o).abs() <= 1e-9 * o.abs()));
+        values.extend(own);
+        values.sort_by(f64::total_cmp);
+        values
+    }
+
+    /// The scene and scheme of a family at a value of the parameter.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a value that makes no sense.
+    pub fn at(self, family: Family, value: f64, scene: &Scene) -> Result<(Scene, Scheme)> {
+        let mut scene = scene.clone();
+        match self {
+            Self::Restitution => {
+                for wall in scene.walls.iter_mut().filter(|w| w.law.is_rigid()) {
+                    wall.law = WallLaw::Rigid { restitution: value };
+                }
+            }
+            Self::WallStiffness => {
+                for wall in &mut scene.walls {
+                    if let WallLaw::Elastic { stiffness, damping } = &mut wall.law {
+                        *damping *= value / *stiffness;
+                        *stiffness = value;
+                    }
+                }
+            }
+            Self::Epsilon | Self::PenaltyStiffness => {}
+        }
+        let scheme = match family {
+            Family::Constrained(scheme) => scheme,
+            Family::Penalty(integrator) => {
+                let law = match self {
+                    Self::Epsilon => PenaltyLaw::Quartic { epsilon: value },
+                    // In a scene of elastic walls only, a penalty has none to stand in for: its integrator steps through theirs.
+                    _ => PenaltyLaw::Linear { stiffness: value, damping: 0.0 },
+                };
+                Scheme::Penalty { law, integrator }
+            }
+        };
+        scene.validate()?;
+        scheme.validate()?;
+        Ok((scene, scheme))
+    }
+}
+
+/// Refuses a case in which nothing can be hit.
+///
+/// # Errors
+/// [`Error::Invalid`] for a case without walls.
+pub fn check(case: &Case) -> Result<()> {
+    if case.scene.walls.is_empty() {
+        return Err(Error::invalid("case", format!("{:?}, without a wall", case.name), "a case with a wall to hit"));
+    }
+    Ok(())
+}

@@ -1,0 +1,139 @@
+//! One free impact: the restitution that a scheme realises, as a function of where in its step the contact falls.
+//!
+//! A free particle (no spring, no load) flies at 1 m/s towards one wall and would reach it when the fraction τ of a step
+//! has gone by. Departure speed over approach speed is what the step makes of the wall: nothing but scheme, τ, e and,
+//! for a penalty, κ = h²k_w/m enters, so one map serves every mass and step.
+
+use super::theory;
+use crate::error::Result;
+use crate::scene::{Scene, Wall, WallLaw};
+use crate::scheme::{Integrator, PenaltyLaw, Scheme, Stepper};
+use rayon::prelude::*;
+
+/// κ = h²k_w/m of the maps: resolved, one radian a step, beyond one radian, and a wall that the step cannot see.
+pub const KAPPAS: [f64; 4] = [0.01, 1.0, 3.0, 1e4];
+/// θ of the moreau-jean maps.
+pub const THETAS: [f64; 3] = [0.5, 0.75, 1.0];
+/// Phases of a map: midpoints of equal parts of the step, so that none falls on the instant of a grid point.
+pub const PHASES: usize = 200;
+
+/// Free steps before the impact: enough for schemes that remember a step to have forgotten the start.
+const RUN_UP: f64 = 2.0;
+/// Steps after which a body that has not left is taken to stay. At κ = 0.01 a contact lasts 32.
+const MOST_STEPS: u64 = 400;
+/// Free steps in a row after which the body has left.
+const LEFT: u32 = 2;
+
+/// One impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// τ, the fraction of the step gone by at contact, in [0, 1).
+    pub phase: f64,
+    /// Departure speed over approach speed, ≥ 0; 0 for a body that stays.
+    pub restitution: f64,
+    /// Deepest position behind the wall at the end of a step, over h·v.
+    pub depth: f64,
+    /// Steps in which the wall pushed.
+    pub contact_steps: u64,
+    /// The closed form, where there is one.
+    pub theory: Option<f64>,
+}
+
+/// The impacts of one scheme over all phases.
+#[derive(Debug, Clone)]
+pub struct ImpactMap {
+    /// The scheme; for a penalty, with the stiffness that κ amounts to.
+    pub scheme: Scheme,
+    /// What tables and legends call it, without the numbers of mass and step.
+    pub label: String,
+    /// κ = h²k_w/m of a penalty.
+    pub kappa: Option<f64>,
+    /// One impact a phase, or why there is none.
+    pub impacts: Vec<Result<Impact>>,
+}
+
+impl ImpactMap {
+    /// The impacts that came about.
+    pub fn measured(&self) -> impl Iterator<Item = &Impact> {
+        self.impacts.iter().flatten()
+    }
+
+    /// Least and largest restitution over the phases; none if every impact failed.
+    #[must_use]
+    pub fn range(&self) -> Option<(f64, f64)> {
+        let e = || self.measured().map(|i| i.restitution);
+        Some((e().reduce(f64::min)?, e().reduce(f64::max)?))
+    }
+
+    /// Mean of e² over the phases: what an impact at a random phase makes of the kinetic energy.
+    #[must_use]
+    pub fn mean_energy_ratio(&self) -> Option<f64> {
+        let count = self.measured().count();
+        (count > 0).then(|| self.measured().map(|i| i.restitution.powi(2)).sum::<f64>() / count as f64)
+    }
+
+    /// Largest distance from the closed form, where there is one.
+    #[must_use]
+    pub fn error(&self) -> Option<f64> {
+        self.measured().filter_map(|i| i.theory.map(|e| (e - i.restitution).abs())).reduce(f64::max)
+    }
+}
+
+/// The maps of all schemes for a body of `mass` (kg), steps of `h` (s) and a rigid wall of restitution `e`.
+#[must_use]
+pub fn maps(mass: f64, h: f64, e: f64) -> Vec<ImpactMap> {
+    let mut schemes: Vec<(Scheme, String, Option<f64>)> = Vec::new();
+    let rigid = [Scheme::Event, Scheme::PaoliSchatzman].into_iter();
+    let jean = THETAS.into_iter().map(|theta| Scheme::MoreauJean { theta });
+    for scheme in rigid.chain(jean).chain([Scheme::ImplicitEuler, Scheme::Newmark]) {
+        schemes.push((scheme, scheme.to_string(), None));
+    }
+    for kappa in KAPPAS {
+        for integrator in Integrator::ALL {
+            let law = PenaltyLaw::Linear { stiffness: kappa * mass / (h * h), damping: 0.0 };
+            let label = format!("penalty, {integrator}, κ = {kappa}");
+            schemes.push((Scheme::Penalty { law, integrator }, label, Some(kappa)));
+        }
+    }
+    let map = |(scheme, label, kappa)| {
+        let phase = |i: usize| (i as f64 + 0.5) / PHASES as f64;
+        let impacts = (0..PHASES).map(|i| impact(&scheme, kappa, mass, h, e, phase(i))).collect();
+        ImpactMap { scheme, label, kappa, impacts }
+    };
+    schemes.into_par_iter().map(map).collect()
+}
+
+/// One impact of a body of `mass` (kg) by `scheme` with steps of `h` (s) on a wall of restitution `e`, which it would
+/// reach when the fraction `phase` of a step has gone by.
+///
+/// # Errors
+/// What the scheme reports: numbers that make no sense, or a motion that left them.
+pub fn impact(scheme: &Scheme, kappa: Option<f64>, mass: f64, h: f64, e: f64, phase: f64) -> Result<Impact> {
+    let wall = Wall::upper("wall", 0.0).with_restitution(e);
+    let start = -(RUN_UP + phase) * h;
+    let scene = Scene::oscillator(mass, 0.0, 0.0).with_wall(wall).with_initial(&[start], &[1.0]);
+    let mut stepper = Stepper::new(&scene.with_duration(MOST_STEPS as f64 * h), scheme, h)?;
+    let (mut depth, mut contact_steps, mut free) = (0.0_f64, 0, 0);
+    let mut speed = 1.0_f64;
+    for _ in 0..MOST_STEPS {
+        let step = stepper.step()?;
+        let at = |x: &[f64]| x.first().copied().unwrap_or(0.0);
+        depth = depth.max(at(step.q) / h);
+        speed = at(step.velocity_after);
+        let pushed = step.impulse.iter().any(|&p| p != 0.0);
+        contact_steps += u64::from(pushed);
+        free = if pushed || contact_steps == 0 { 0 } else { free + 1 };
+        if free >= LEFT && speed < 0.0 {
+            break;
+        }
+    }
+    let theory = theory::restitution(scheme, e, kappa, phase);
+    Ok(Impact { phase, restitution: (-speed).max(0.0), depth, contact_steps, theory })
+}
+
+/// The restitution for the maps of a scene: that of its first rigid wall, 1 where it has none.
+#[must_use]
+pub fn wall_restitution(scene: &Scene) -> f64 {
+    let rigid = |wall: &Wall| if let WallLaw::Rigid { restitution } = wall.law { Some(restitution) } else { None };
+    scene.walls.iter().find_map(rigid).unwrap_or(1.0)
+}

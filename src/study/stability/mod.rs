@@ -1,0 +1,21 @@
+//! Where schemes fail: one impact at every phase of a step, and the whole scene at every step.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`impact`] | the restitution that a scheme realises in one free impact, by phase |
+//! | [`theory`] | what it should be, in closed form |
+//! | [`scale`] | the frequency by which steps are measured |
+//! | [`family`] | the schemes of the maps and their second parameter |
+//! | [`watch`] | one run, measured |
+//! | [`class`] | what the measurements amount to |
+//! | [`row`] | one scheme on one scene over all steps |
+//! | [`plan`] | the maps of a case, computed in parallel |
+
+pub mod class;
+pub mod family;
+pub mod impact;
+pub mod plan;
+pub mod row;
+pub mod scale;
+pub mod theory;
+pub mod watch;

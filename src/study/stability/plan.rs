@@ -1,0 +1,223 @@
+//! The maps of a case: every scheme, step and parameter, in parallel.
+
+use super::class::{Range, Ruler};
+use super::family::{self, Family, Parameter};
+use super::row::{Cell, Safe, Subject};
+use super::scale::Scale;
+use super::watch::{Record, STARTS, nudged, watch};
+use crate::case::Case;
+use crate::error::Result;
+use crate::scene::Scene;
+use crate::scheme::{Integrator, PenaltyLaw, Scheme};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Steps of the coarsest cell at least.
+const LEAST_STEPS: f64 = 20.0;
+
+/// How much is to be mapped.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// Smallest step as hω. A natural period has 6 × 10⁴ of the default, 10⁻⁴: that resolves the stiffest penalty of the source
+    /// (h²k_w/m = 0.01).
+    pub finest: f64,
+    /// Largest step as hω: two to the natural period by default.
+    pub coarsest: f64,
+    /// Steps a decade.
+    pub per_decade: f64,
+    /// Contacts of the reference at which the horizon ends, if the duration does not end it before: by default a hundred, enough
+    /// for a gain of 1 % each to show.
+    pub contacts: usize,
+    /// Most steps of a cell: where the finest step would need more over the horizon, the grid starts at a coarser one.
+    pub most_steps: f64,
+    /// The schemes.
+    pub families: Vec<Family>,
+}
+
+impl Default for Grid {
+    fn default() -> Self {
+        Self { finest: 1e-4, coarsest: 3.2, per_decade: 7.0, contacts: 100, most_steps: 1e6, families: Family::all() }
+    }
+}
+
+/// All that is to be run for the maps of a case.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// What steps are measured by.
+    pub scale: Scale,
+    /// How long each run is, s: until the reference's hundredth contact, at most the case's duration.
+    pub horizon: f64,
+    /// The steps, s, rising.
+    pub steps: Vec<f64>,
+    /// The rows of the maps, family by family, the parameter rising.
+    pub subjects: Vec<Subject>,
+    /// For each subject the number of its reference.
+    rulers: Vec<usize>,
+    references: Vec<(Scene, Scheme)>,
+}
+
+/// A row of a map, run.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// What it is about.
+    pub subject: Subject,
+    /// One cell a step.
+    pub cells: Vec<Cell>,
+    /// Contacts of its reference.
+    pub contacts: Range,
+    /// For the case's own parameters, the largest safe step.
+    pub safe: Option<Safe>,
+}
+
+/// The maps of a case.
+#[derive(Debug, Clone)]
+pub struct Maps {
+    /// What steps are measured by.
+    pub scale: Scale,
+    /// How long each run was, s.
+    pub horizon: f64,
+    /// The steps, s, rising.
+    pub steps: Vec<f64>,
+    /// The rows, in the order of the plan.
+    pub rows: Vec<Row>,
+}
+
+impl Plan {
+    /// The plan for a case. It takes one run of the case, at the finest step over its whole duration.
+    ///
+    /// # Errors
+    /// [`crate::Error::Invalid`] for a case without walls, and what the reference run of the case itself reports.
+    pub fn new(case: &Case, grid: &Grid) -> Result<Self> {
+        family::check(case)?;
+        let scene = &case.scene;
+        let first = Scale::of(scene, None);
+        let finest = |scale: &Scale, horizon: f64| (grid.finest / scale.omega).max(horizon / grid.most_steps);
+        let own = reference_of(scene, None);
+        let h = finest(&first, scene.duration);
+        let record = watch(&own.0, &own.1, h, scene.duration, f64::INFINITY)?;
+        let ruler = Ruler::new(std::slice::from_ref(&record));
+        let times: Vec<f64> = ruler.contact_times(&record).collect();
+        let horizon = times.get(grid.contacts).copied().unwrap_or(scene.duration).min(scene.duration);
+        let scale = Scale::of(scene, times.first().copied());
+        let finest = finest(&scale, horizon);
+        let coarsest = (grid.coarsest / scale.omega).min(horizon / LEAST_STEPS).max(finest);
+        let ratio = 10_f64.powf(1.0 / grid.per_decade);
+        let columns = ((coarsest / finest).ln() / ratio.ln() + 1e-9).floor() as i32;
+        let steps = (0..=columns).map(|i| finest * ratio.powi(i)).collect();
+        let mut plan = Self { scale, horizon, steps, subjects: Vec::new(), rulers: Vec::new(), references: Vec::new() };
+        for &family in &grid.families {
+            let parameter = Parameter::of(family, case);
+            let own = parameter.own(case);
+            let several = parameter != Parameter::Epsilon && parameter != Parameter::PenaltyStiffness && own.len() > 1;
+            for value in parameter.values(case, scale.mass * scale.omega.powi(2)) {
+                let (scene, scheme) = parameter.at(family, value, scene)?;
+                plan.add(family, parameter, value, scheme, scene, own.contains(&value) && !several, true)?;
+            }
+            // Walls that differ in the parameter make a row of their own, beside the map.
+            if several && let Ok((_, scheme)) = parameter.at(family, 1.0, scene) {
+                plan.add(family, parameter, f64::NAN, scheme, scene.clone(), true, false)?;
+            }
+        }
+        Ok(plan)
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the fields of a subject")]
+    fn add(
+        &mut self,
+        family: Family,
+        parameter: Parameter,
+        value: f64,
+        scheme: Scheme,
+        scene: Scene,
+        own: bool,
+        mapped: bool,
+    ) -> Result<()> {
+        let (law, seen) = match scheme {
+            Scheme::Penalty { law, .. } => (Some(law), scene.penalised(law)?),
+            _ => (None, scene.clone()),
+        };
+        let reference = reference_of(&scene, law);
+        let known = self.references.iter().position(|r| *r == reference);
+        self.rulers.push(known.unwrap_or_else(|| {
+            self.references.push(reference);
+            self.references.len() - 1
+        }));
+        self.subjects.push(Subject { family, parameter, value, scheme, scene, seen, own, mapped });
+        Ok(())
+    }
+
+    /// Steps to be taken in all, for a progress bar.
+    #[must_use]
+    pub fn work(&self) -> u64 {
+        let row: u64 = self.steps.iter().map(|h| self.cost(*h)).sum();
+        row * self.subjects.len() as u64
+            + self.cost(self.reference_step()) * self.references.len() as u64 * u64::from(STARTS)
+    }
+
+    fn cost(&self, h: f64) -> u64 {
+        (self.horizon / h).ceil() as u64
+    }
+
+    fn reference_step(&self) -> f64 {
+        self.steps.first().copied().unwrap_or(self.horizon)
+    }
+
+    /// Runs everything, telling `progress` the steps taken, of [`Plan::work`]. The result does not depend on the number of threads.
+    ///
+    /// # Errors
+    /// What a reference run reports; a run of a map that fails is a cell with the reason in it.
+    pub fn run(self, progress: &(dyn Fn(u64) + Sync)) -> Result<Maps> {
+        let done = AtomicU64::new(0);
+        let tell = |steps: u64| progress(done.fetch_add(steps, Ordering::Relaxed) + steps);
+        let h = self.reference_step();
+        let reference = |(scene, scheme): &(Scene, Scheme)| -> Result<Ruler> {
+            let run = |start: u32| -> Result<Record> {
+                let scene = nudged(scene, start, &self.scale);
+                let record = watch(&scene, scheme, h, self.horizon, f64::INFINITY)?;
+                tell(self.cost(h));
+                Ok(record)
+            };
+            Ok(Ruler::new(&(0..STARTS).map(run).collect::<Result<Vec<_>>>()?))
+        };
+        let rulers: Vec<Ruler> = self.references.par_iter().map(reference).collect::<Result<_>>()?;
+        let ruled: Vec<(&Subject, &Ruler)> =
+            self.subjects.iter().zip(self.rulers.iter().filter_map(|i| rulers.get(*i))).collect();
+        // The dearest first, so that no thread is left with one of them at the end.
+        let tasks: Vec<_> = self.steps.iter().flat_map(|h| ruled.iter().map(move |r| (*h, *r))).collect();
+        let cell = |(h, (subject, ruler)): (f64, (&Subject, &Ruler))| {
+            let cell = subject.cell(ruler, &self.scale, h, self.horizon);
+            tell(self.cost(h));
+            cell
+        };
+        let cells: Vec<Cell> = tasks.into_par_iter().with_max_len(1).map(cell).collect();
+        let row = |(i, (subject, ruler)): (usize, &(&Subject, &Ruler))| {
+            let cells: Vec<Cell> = cells.iter().skip(i).step_by(ruled.len()).cloned().collect();
+            let safe = subject.own.then(|| Safe::find(subject, &cells, ruler, &self.scale, self.horizon));
+            Row { subject: (*subject).clone(), cells, contacts: ruler.contacts, safe }
+        };
+        let rows = ruled.par_iter().enumerate().map(row).collect();
+        Ok(Maps { scale: self.scale, horizon: self.horizon, steps: self.steps.clone(), rows })
+    }
+}
+
+/// What the runs on a scene are held against: moreau-jean with θ = ½, which keeps energy between impacts and the law at them; for a
+/// penalty the discrete gradient on the same springs, which keeps theirs. Both with the finest step of the grid.
+fn reference_of(scene: &Scene, law: Option<PenaltyLaw>) -> (Scene, Scheme) {
+    let scheme = match law {
+        Some(law) => Scheme::Penalty { law, integrator: Integrator::DiscreteGradient },
+        None => Scheme::MoreauJean { theta: 0.5 },
+    };
+    (scene.clone(), scheme)
+}
+
+impl Maps {
+    /// The rows of one family that are drawn, the parameter rising.
+    pub fn map(&self, family: Family) -> impl Iterator<Item = &Row> {
+        self.rows.iter().filter(move |row| row.subject.family == family && row.subject.mapped)
+    }
+
+    /// The rows of the case's own parameters, in the order of families.
+    pub fn own(&self) -> impl Iterator<Item = &Row> {
+        self.rows.iter().filter(|row| row.subject.own)
+    }
+}

@@ -1,0 +1,117 @@
+//! One scheme on one scene, over all steps.
+
+use super::class::{Class, DIVERGED, Measurement, Ruler};
+use super::family::{Family, Parameter};
+use super::scale::Scale;
+use super::watch::{STARTS, nudged, wall_stiffness, watch};
+use crate::scene::Scene;
+use crate::scheme::Scheme;
+
+/// Times the interval between the last safe step and the next one of the grid is halved (in its logarithm).
+const BISECTIONS: u32 = 2;
+
+/// One run of a map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// Step, s.
+    pub step: f64,
+    /// What was measured; none where the run failed.
+    pub measured: Option<Measurement>,
+    /// What it amounts to.
+    pub class: Class,
+    /// The finding that decided the class, or why the run failed.
+    pub reason: String,
+}
+
+/// A scheme with its second parameter set, on its scene: what a row of a map is made of.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// Which map it belongs to.
+    pub family: Family,
+    /// What is varied beside the step.
+    pub parameter: Parameter,
+    /// Its value.
+    pub value: f64,
+    /// The scheme.
+    pub scheme: Scheme,
+    /// The scene given to it.
+    pub scene: Scene,
+    /// The scene as it sees it: penalised walls are springs.
+    pub seen: Scene,
+    /// True where the parameter's value is the case's own.
+    pub own: bool,
+    /// True where the row is drawn on the map; false for a case whose walls differ in the parameter.
+    pub mapped: bool,
+}
+
+impl Subject {
+    /// h²k_w/m at the step `h` (s) for the stiffest wall; none where all walls are rigid.
+    #[must_use]
+    pub fn kappa(&self, scale: &Scale, h: f64) -> Option<f64> {
+        let stiffest = self.seen.walls.iter().filter_map(|w| wall_stiffness(w.law)).reduce(f64::max);
+        stiffest.map(|k| h * h * k / scale.mass)
+    }
+
+    /// The run with steps of `h` (s) over `horizon` (s), held against `ruler`.
+    ///
+    /// A motion that goes astray is tried from the other starts of the ruler's runs: one that stays on course from any of them went astray
+    /// by the scene's choice between two motions, not by the scheme's.
+    #[must_use]
+    pub fn cell(&self, ruler: &Ruler, scale: &Scale, h: f64, horizon: f64) -> Cell {
+        let first = self.attempt(0, ruler, scale, h, horizon);
+        if first.class != Class::Astray {
+            return first;
+        }
+        let others = (1..STARTS).map(|start| self.attempt(start, ruler, scale, h, horizon));
+        let mut on_course = others.filter(|cell| cell.class != Class::Astray);
+        on_course.next().unwrap_or(first)
+    }
+
+    fn attempt(&self, start: u32, ruler: &Ruler, scale: &Scale, h: f64, horizon: f64) -> Cell {
+        // Well beyond what makes a class, so that the speed reached is still measured there.
+        let limit = 10.0 * DIVERGED * ruler.speed.high.max(f64::MIN_POSITIVE);
+        match watch(&nudged(&self.scene, start, scale), &self.scheme, h, horizon, limit) {
+            Err(error) => Cell { step: h, measured: None, class: Class::Diverged, reason: error.to_string() },
+            Ok(record) => {
+                let measured = Measurement::new(&record, ruler, &self.seen, &self.scheme, scale, h);
+                let (class, reason) = measured.classify();
+                Cell { step: h, measured: Some(measured), class, reason }
+            }
+        }
+    }
+}
+
+/// How far a scheme can be trusted on a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Safe {
+    /// The largest step that is stable together with all smaller ones of the grid, s; none where not even the smallest is.
+    pub step: Option<f64>,
+    /// The smallest step found that is not stable: what happens there; none where all are stable.
+    pub beyond: Option<Cell>,
+}
+
+impl Safe {
+    /// Finds it among the `cells` of a row, in the order of their steps, then by bisection.
+    #[must_use]
+    pub fn find(subject: &Subject, cells: &[Cell], ruler: &Ruler, scale: &Scale, horizon: f64) -> Self {
+        let stable = |cell: &Cell| cell.class == Class::Stable;
+        let first_bad = cells.iter().position(|cell| !stable(cell));
+        let Some(bad) = first_bad.and_then(|i| cells.get(i)) else {
+            return Self { step: cells.last().map(|cell| cell.step), beyond: None };
+        };
+        let mut beyond = bad.clone();
+        let Some(good) = first_bad.and_then(|i| i.checked_sub(1)).and_then(|i| cells.get(i)) else {
+            return Self { step: None, beyond: Some(beyond) };
+        };
+        let mut step = good.step;
+        for _ in 0..BISECTIONS {
+            let cell = subject.cell(ruler, scale, (step * beyond.step).sqrt(), horizon);
+            if stable(&cell) {
+                step = cell.step;
+            } else {
+                beyond = cell;
+            }
+        }
+        Self { step: Some(step), beyond: Some(beyond) }
+    }
+}

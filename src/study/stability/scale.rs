@@ -1,0 +1,70 @@
+//! What a scene's steps are measured by.
+
+use crate::scene::{LoadKind, Scene};
+use std::f64::consts::TAU;
+
+/// A frequency with less than this many periods in the duration sets no scale: the body hardly begins to swing.
+const SLOWEST: f64 = 0.01;
+/// Nor does a first contact after less than a thousandth of the duration: the body starts at the wall.
+const FASTEST_FLIGHT: f64 = 1e3;
+
+/// Where the circular frequency of a scene comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// √(k/m), the oscillator's own.
+    Spring,
+    /// The slowest sine of the load, where nothing but the walls holds the body.
+    Load,
+    /// 2π over the time from the start to the first contact, where there is no sine either.
+    Flight,
+    /// 2π over the duration, where nothing ever happens faster.
+    Duration,
+}
+
+impl Origin {
+    /// For axis labels and messages.
+    #[must_use]
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Spring => "ω = √(k/m)",
+            Self::Load => "ω of the slowest sine load",
+            Self::Flight => "ω = 2π / time to the first contact",
+            Self::Duration => "ω = 2π / duration",
+        }
+    }
+}
+
+/// A circular frequency and where it comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// ω, rad/s.
+    pub omega: f64,
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Mass at the walls, kg.
+    pub mass: f64,
+}
+
+impl Scale {
+    /// The scale of `scene`; `first_contact` (s) is used where neither spring nor sine sets one.
+    #[must_use]
+    pub fn of(scene: &Scene, first_contact: Option<f64>) -> Self {
+        let mass = scene.system.mass_form(&[1.0], &[1.0]);
+        let spring = (scene.system.stiffness_form(&[1.0], &[1.0]) / mass).sqrt();
+        let sine = scene.loads.iter().filter_map(|load| match load.kind {
+            LoadKind::Harmonic { frequency, .. } => Some(TAU * frequency),
+            _ => None,
+        });
+        let slowest = TAU / scene.duration;
+        let flight = first_contact.map(|t| TAU / t).filter(|w| *w < FASTEST_FLIGHT * slowest);
+        let candidates = [
+            (Some(spring), Origin::Spring),
+            (sine.filter(|w| *w > 0.0).reduce(f64::min), Origin::Load),
+            (flight, Origin::Flight),
+        ];
+        let usable = |w: &f64| w.is_finite() && *w > SLOWEST * slowest;
+        let found = candidates.into_iter().find_map(|(w, origin)| Some((w.filter(usable)?, origin)));
+        let (omega, origin) = found.unwrap_or((slowest, Origin::Duration));
+        Self { omega, origin, mass }
+    }
+}
