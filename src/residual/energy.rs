@@ -1,6 +1,6 @@
 //! The energy ledger: E(t) − E(0) = work of the load − damping − losses at the walls + residual.
 
-use super::quadrature::integrate;
+use super::quadrature::{Sample, integrate};
 use crate::flow::Arc;
 use crate::scene::{Forcing, Scene, Wall, WallLaw};
 use crate::step::{Balance, Contract, Step};
@@ -177,22 +177,28 @@ impl Ledger {
         let mut momentum = 0.0;
         let v_end = if step.end > step.start { arc.state(step.end).1 } else { first(step.velocity_before) };
         if step.end > step.start {
+            let fastest = (2.0 * self.report.largest_j / system.mass_form(&[1.0], &[1.0])).sqrt();
             // Tables jump at their ends: the arc stops there, so a load read just inside is the load of the arc.
             let mut integrand = |t: f64| {
                 let (q, v) = arc.state(t);
                 let load = forcing.first().map_or(0.0, |f| f.force(t)) + first(step.extra);
-                let mut net = load;
+                let (spring, rub) = (system.stiffness_form(&[1.0], &[q]), system.damping_form(&[1.0], &[v]));
+                let (mut net, mut forces) = (load - rub - spring, load.abs() + rub.abs() + spring.abs());
                 let mut dashpot = 0.0;
                 for (index, wall) in scene.walls.iter().enumerate() {
                     let r = arc.contact_force(index, t);
                     net += r;
+                    forces += r.abs();
                     if let (WallLaw::Elastic { damping, .. }, true) = (wall.law, r != 0.0) {
                         dashpot += damping * v * v;
                     }
                 }
                 largest_force = largest_force.max(load.abs());
-                let internal = system.damping_form(&[1.0], &[v]) + system.stiffness_form(&[1.0], &[q]);
-                [load * v, system.damping_form(&[v], &[v]), dashpot, net - internal]
+                // A body that hardly moves has a velocity of rounding: powers are held to those at the speed the run's energy allows.
+                let speed = v.abs().max(fastest);
+                let (taken, lost) = (system.damping_form(&[v], &[v]), system.damping_form(&[speed], &[speed]));
+                let value = [load * v, taken, dashpot, net];
+                Sample { value, size: [load.abs() * speed, lost, dashpot.max(lost), forces] }
             };
             let [work, damping, dashpot, net] = integrate(step.start, step.end, &mut integrand);
             flows = Flows { work, damping, dashpot, impact: 0.0 };

@@ -12,57 +12,73 @@ const GAUSS: [(f64, f64); 5] = [
 /// Panels are halved this often at most; a panel then is 1e-12 of the arc, and its error what it is.
 const DEPTH: u32 = 40;
 
+/// Panels that one arc may take: beyond them what is left is taken as it is, so that no integrand, be it noise, holds up a run.
+const MOST_PANELS: u32 = 20_000;
+
+/// What is integrated at an instant: values, and the sizes of the terms that they are sums of.
+pub(super) struct Sample<const N: usize> {
+    pub value: [f64; N],
+    pub size: [f64; N],
+}
+
 /// Instants at which an arc is looked at: inside it, never at its ends.
 pub(super) fn nodes(start: f64, end: f64) -> impl Iterator<Item = f64> {
     GAUSS.iter().map(move |&(x, _)| 0.5 * (start + end) + 0.5 * (end - start) * x)
 }
 
 /// ∫ f dt over [start, end] for several integrands at once. A panel is halved until its two halves change no integral by
-/// more than 1e-14 of the integral of the magnitudes so far: with the error of a tenth-order rule the halves are then far better.
-pub(super) fn integrate<const N: usize>(start: f64, end: f64, f: &mut impl FnMut(f64) -> [f64; N]) -> [f64; N] {
+/// more than 1e-14 of the integral of the sizes so far: with the error of a tenth-order rule the halves are then far better. Sizes are
+/// those of the terms, not of their sum: where terms cancel, as the forces on a body at rest do, the sum is rounding, which no halving settles.
+pub(super) fn integrate<const N: usize>(start: f64, end: f64, f: &mut impl FnMut(f64) -> Sample<N>) -> [f64; N] {
     let whole = panel(start, end, f);
-    let mut total = [0.0; N];
-    let mut scale = whole.1;
-    refine(start, end, whole.0, &mut scale, f, &mut total, DEPTH);
-    total
+    let mut sums = Sums { total: [0.0; N], scale: whole.size, left: MOST_PANELS };
+    refine(start, end, whole.value, &mut sums, f, DEPTH);
+    sums.total
+}
+
+/// The integrals so far, the scales they are held to, and the panels left to take.
+struct Sums<const N: usize> {
+    total: [f64; N],
+    scale: [f64; N],
+    left: u32,
 }
 
 fn refine<const N: usize>(
     a: f64,
     b: f64,
     whole: [f64; N],
-    scale: &mut [f64; N],
-    f: &mut impl FnMut(f64) -> [f64; N],
-    total: &mut [f64; N],
+    sums: &mut Sums<N>,
+    f: &mut impl FnMut(f64) -> Sample<N>,
     depth: u32,
 ) {
     let middle = 0.5 * (a + b);
     let (left, right) = (panel(a, middle, f), panel(middle, b, f));
+    sums.left = sums.left.saturating_sub(2);
     let mut settled = true;
     for i in 0..N {
-        scale[i] = scale[i].max(left.1[i] + right.1[i]);
-        settled &= (left.0[i] + right.0[i] - whole[i]).abs() <= 1e-14 * scale[i];
+        sums.scale[i] = sums.scale[i].max(left.size[i] + right.size[i]);
+        settled &= (left.value[i] + right.value[i] - whole[i]).abs() <= 1e-14 * sums.scale[i];
     }
-    if settled || depth == 0 {
-        for (total, (left, right)) in total.iter_mut().zip(left.0.iter().zip(right.0)) {
+    if settled || depth == 0 || sums.left == 0 {
+        for (total, (left, right)) in sums.total.iter_mut().zip(left.value.iter().zip(right.value)) {
             *total += left + right;
         }
         return;
     }
-    refine(a, middle, left.0, scale, f, total, depth - 1);
-    refine(middle, b, right.0, scale, f, total, depth - 1);
+    refine(a, middle, left.value, sums, f, depth - 1);
+    refine(middle, b, right.value, sums, f, depth - 1);
 }
 
-/// One panel: the integrals, and those of the magnitudes.
-fn panel<const N: usize>(a: f64, b: f64, f: &mut impl FnMut(f64) -> [f64; N]) -> ([f64; N], [f64; N]) {
-    let (mut sum, mut size) = ([0.0; N], [0.0; N]);
+/// One panel: the integrals, and those of the sizes.
+fn panel<const N: usize>(a: f64, b: f64, f: &mut impl FnMut(f64) -> Sample<N>) -> Sample<N> {
+    let mut sum = Sample { value: [0.0; N], size: [0.0; N] };
     let half = 0.5 * (b - a);
     for (x, weight) in GAUSS {
-        let values = f(0.5 * (a + b) + half * x);
+        let at = f(0.5 * (a + b) + half * x);
         for i in 0..N {
-            sum[i] += half * weight * values[i];
-            size[i] += half * weight * values[i].abs();
+            sum.value[i] += half * weight * at.value[i];
+            sum.size[i] += half * weight * at.size[i];
         }
     }
-    (sum, size)
+    sum
 }
