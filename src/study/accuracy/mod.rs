@@ -7,7 +7,7 @@ mod refine;
 pub use coarse::CoarseGrid;
 
 use super::change::Change;
-use super::choice;
+use super::choice::{self, Choice};
 use super::horizon::Growth;
 use super::replay::replay;
 use crate::error::{Error, Result};
@@ -136,14 +136,11 @@ pub struct Outcome {
 pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> Result<Outcome> {
     target.validate()?;
     scene.validate()?;
-    let (method, reason) = match target.method {
-        Some(method) => (method, "asked for".to_owned()),
-        None => {
-            let exact = exact(scene, target.time);
-            let choice = choice::for_error(scene, &exact);
-            (choice.method, choice.reason)
-        }
+    let chosen = match target.method {
+        Some(method) => Choice { method, reason: "asked for".to_owned() },
+        None => choice::for_error(scene, &exact(scene, target.time)),
     };
+    let method = chosen.method;
     // A penalty's motion is that between its springs; the exact scheme follows those too where they are linear.
     let model = Stepper::with_backend(scene, &method.scheme, scene.duration, method.backend)?.scene().clone();
     let coarse = CoarseGrid::of(&model, &target.time)?;
@@ -160,7 +157,7 @@ pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> R
         _ => refine(&judged, &method, target, progress)?,
     };
     let growth = growth.map(|g| g.until(judged.scene.duration));
-    let mut outcome = finish(scene, target, method, reason, judged, refined, growth, progress)?;
+    let mut outcome = finish(scene, target, chosen, &judged, refined, growth, progress)?;
     horizon::explain(scene, &mut outcome);
     Ok(outcome)
 }
@@ -212,23 +209,23 @@ fn other_rounding(judged: &Judged, target: &Target) -> Result<Refined> {
     })
 }
 
-#[allow(clippy::too_many_arguments)]
+/// Puts the result together; a run that was judged up to the horizon only is made once more over the whole duration.
 fn finish(
     scene: &Scene,
     target: &Target,
-    method: Method,
-    reason: String,
-    judged: Judged,
+    chosen: Choice,
+    judged: &Judged,
     refined: Refined,
     growth: Option<f64>,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Outcome> {
+    let Choice { method, reason } = chosen;
     let stepping = method.scheme != Scheme::Event;
     let until_s = judged.scene.duration;
     let (reached, quantity) = refined.worst;
     let step_of = |level: u32| stepping.then(|| judged.coarse.options(level, &target.time).step);
     let perturbed = match (refined.kept && growth.is_none(), refined.judged_by) {
-        (true, JudgedBy::Halving) => horizon::perturbed(&judged, &method, target, refined.level, &refined.run)?,
+        (true, JudgedBy::Halving) => horizon::perturbed(judged, &method, target, refined.level, &refined.run)?,
         _ => None,
     };
     let shortfall = if !refined.kept {
