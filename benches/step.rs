@@ -275,7 +275,8 @@ fn main() {
     let (source, end) = (Source::new(1.0), 10.0);
     let (scene, [mut hand, mut ours]) = (source.scene().with_duration(end), [(); 2].map(|()| Vec::with_capacity(1000)));
     let best = race(ROUNDS, || {
-        (hand.clear(), ours.clear());
+        hand.clear();
+        ours.clear();
         let by_hand = time(1, |_| bare_event(black_box(source), black_box(end), &mut hand));
         let mut stepper = Stepper::new(&scene, &Scheme::Event, end).expect("a scene");
         let library = time(1, |_| exact(&mut stepper, end, &mut ours));

@@ -70,9 +70,11 @@ impl Statistics {
             let here = contacts.iter().filter(move |c| c.wall == index && c.start >= from);
             let System::Oscillator(oscillator) = &scene.system;
             let energy = |speed: f64| 0.5 * oscillator.mass * speed * speed;
+            // An empty sum of floats is −0, which nobody wants to read.
+            let total = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |sum, x| sum + x);
             let touching = contacts.iter().filter(|c| c.wall == index);
-            let time: f64 = touching.map(|c| (c.end.unwrap_or(to).min(to) - c.start.max(from)).max(0.0)).sum();
-            let arrived: f64 = here.clone().map(|c| energy(c.approach_speed)).sum();
+            let time = total(&mut touching.map(|c| (c.end.unwrap_or(to).min(to) - c.start.max(from)).max(0.0)));
+            let arrived = total(&mut here.clone().map(|c| energy(c.approach_speed)));
             let lost = |c: &Contact| c.departure_speed.map_or(0.0, |d| energy(c.approach_speed) - energy(d));
             WallStatistics {
                 wall: wall.name.clone(),
@@ -81,7 +83,7 @@ impl Statistics {
                 impulse_ns: Summary::of(here.clone().map(|c| c.impulse.abs())),
                 contact_time_ratio: time / window,
                 impact_power_w: arrived / window,
-                dissipated_power_w: here.map(lost).sum::<f64>() / window,
+                dissipated_power_w: total(&mut here.map(lost)) / window,
             }
         };
         Self { from_s: from, to_s: to, walls: scene.walls.iter().enumerate().map(wall).collect() }

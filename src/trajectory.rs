@@ -143,8 +143,11 @@ impl Recorder {
         if k >= self.rows { self.end } else { self.end * (k as f64 / self.rows as f64) }
     }
 
-    /// Takes in one step.
+    /// Takes in one step. Steps must come in order; those after the last row are none of the run's and change nothing.
     pub fn see(&mut self, step: &Step<'_>) {
+        if self.trajectory.time.len() as u64 > self.rows {
+            return;
+        }
         self.trajectory.contacts.extend_from_slice(step.closed);
         match step.path {
             Path::Grid => {
@@ -167,6 +170,12 @@ impl Recorder {
             self.restart(step);
             return;
         }
+        if step.start == 0.0 {
+            // Only now is it known whether the body rests on a rigid wall, and how hard.
+            for (wall, column) in self.trajectory.force.iter_mut().enumerate() {
+                column[0] = arc.contact_force(wall, 0.0);
+            }
+        }
         // Right-continuity: a row at the very end of this arc is the next arc's, or the run's last.
         loop {
             let row = self.trajectory.time.len() as u64;
@@ -184,13 +193,8 @@ impl Recorder {
             self.partial = force;
             from = due;
         }
-        for (wall, sum) in self.pending.iter_mut().enumerate() {
-            let smooth = if from > step.start {
-                arc.contact_impulse(wall, from, step.end) + step.jump[wall]
-            } else {
-                step.impulse[wall]
-            };
-            *sum += smooth;
+        for (wall, ((sum, &whole), &jump)) in self.pending.iter_mut().zip(step.impulse).zip(step.jump).enumerate() {
+            *sum += if from > step.start { arc.contact_impulse(wall, from, step.end) + jump } else { whole };
         }
         if step.end >= self.end {
             self.push(self.end, step.q, step.v, step.force);

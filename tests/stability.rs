@@ -3,7 +3,7 @@
 
 use signorini::case::Case;
 use signorini::study::stability::class::Class;
-use signorini::study::stability::family::Family;
+use signorini::study::stability::family::{Family, Question};
 use signorini::study::stability::impact::{ImpactMap, impact, maps};
 use signorini::study::stability::plan::{Grid, Maps, Plan};
 use signorini::{Integrator, PenaltyLaw, Scheme};
@@ -153,8 +153,12 @@ fn source() -> Case {
     Case::embedded("rigid-walls-sine").unwrap()
 }
 
+fn question(case: &Case) -> Question<'_> {
+    Question { scene: &case.scene, laws: &case.penalty.laws }
+}
+
 fn run(case: &Case, grid: &Grid) -> Maps {
-    Plan::new(case, grid).unwrap().run(&|_| {}).unwrap()
+    Plan::new(question(case), grid).unwrap().run(&|_| {}).unwrap()
 }
 
 #[test]
@@ -228,7 +232,7 @@ fn a_ball_that_should_rest_rests() {
 
 #[test]
 fn a_case_without_walls_is_refused() {
-    let error = Plan::new(&Case::embedded("linear-sine").unwrap(), &Grid::default()).unwrap_err();
+    let error = Plan::new(question(&Case::embedded("linear-sine").unwrap()), &Grid::default()).unwrap_err();
     assert!(error.is_request() && error.to_string().contains("wall"), "{error}");
 }
 
@@ -244,7 +248,7 @@ fn one_thread_and_two_give_the_same_maps() {
 
 #[test]
 fn progress_ends_at_the_work_announced() {
-    let plan = Plan::new(&source(), &grid(&[Family::Constrained(Scheme::ImplicitEuler)])).unwrap();
+    let plan = Plan::new(question(&source()), &grid(&[Family::Constrained(Scheme::ImplicitEuler)])).unwrap();
     let most = std::sync::atomic::AtomicU64::new(0);
     let work = plan.work();
     plan.run(&|done| {

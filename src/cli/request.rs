@@ -52,6 +52,29 @@ pub fn case(path: &str) -> Result<Case> {
     }
 }
 
+/// The same, with another restitution at every rigid wall, checked.
+///
+/// # Errors
+/// As [`case`], and [`Error::Invalid`] for a restitution that makes no sense.
+pub fn case_with_restitution(path: &str, restitution: Option<f64>) -> Result<Case> {
+    let mut case = case(path)?;
+    set_restitution(&mut case, restitution)?;
+    case.validate()?;
+    Ok(case)
+}
+
+fn set_restitution(case: &mut Case, restitution: Option<f64>) -> Result<()> {
+    let Some(restitution) = restitution else { return Ok(()) };
+    let rigid = |law: &WallLaw| law.is_rigid();
+    if !case.scene.walls.iter().any(|wall| rigid(&wall.law)) {
+        return Err(Error::invalid("--restitution", restitution, "a case with a rigid wall; this one has none"));
+    }
+    for wall in case.scene.walls.iter_mut().filter(|wall| rigid(&wall.law)) {
+        wall.law = WallLaw::Rigid { restitution };
+    }
+    Ok(())
+}
+
 impl Request {
     /// The case with the command line's changes, checked.
     ///
@@ -66,15 +89,7 @@ impl Request {
         }
         case.time.step = self.step.unwrap_or(case.time.step);
         case.time.sample = self.sample.or(case.time.sample);
-        if let Some(e) = self.restitution {
-            let rigid = |law: &WallLaw| law.is_rigid();
-            if !case.scene.walls.iter().any(|wall| rigid(&wall.law)) {
-                return Err(Error::invalid("--restitution", e, "a case with a rigid wall; this one has none"));
-            }
-            for wall in case.scene.walls.iter_mut().filter(|wall| rigid(&wall.law)) {
-                wall.law = WallLaw::Rigid { restitution: e };
-            }
-        }
+        set_restitution(&mut case, self.restitution)?;
         if let Some(epsilon) = self.epsilon {
             case.penalty.laws = vec![PenaltyLaw::Quartic { epsilon }];
         }

@@ -177,11 +177,12 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
     ];
     let mut rows = Vec::new();
     for wall in &run.statistics.walls {
+        let none = if wall.contacts == 0 { "-" } else { "impacts" };
         rows.push(vec![
             wall.wall.clone(),
             wall.contacts.to_string(),
             format!("{:.6}", run.trajectory.impulse(&wall.wall)?),
-            wall.peak_force_n.max.map_or_else(|| "impacts".into(), |f| format!("{f:.4}")),
+            wall.peak_force_n.max.map_or_else(|| none.into(), |f| format!("{f:.4}")),
             format!("{:.3}", 100.0 * wall.contact_time_ratio),
             format!("{:.6}", wall.impact_power_w),
             format!("{:.6}", wall.dissipated_power_w),

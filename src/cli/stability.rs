@@ -3,9 +3,10 @@
 use super::request;
 use super::ui::Ui;
 use crate::error::Result;
-use crate::output::atomic::write_whole;
+use crate::output::atomic::{check_folder, write_whole};
 use crate::output::stability as output;
 use crate::scheme::Scheme;
+use crate::study::stability::family::Question;
 use crate::study::stability::impact::{self, ImpactMap};
 use crate::study::stability::plan::{Grid, Maps, Plan, Row};
 use std::path::{Path, PathBuf};
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "\
 Examples:
   signorini stability cases/rigid-walls-sine.toml
+  signorini stability rigid-walls-sine --restitution 0.8
   signorini stability bouncing-ball --out results
 
 Writes impact-map.csv and .svg (the restitution of one free impact by its phase within the step), stability.csv (every run of
@@ -33,7 +35,10 @@ Classes, from harmless to worst, against a fine run of the same scene:
 pub struct Args {
     /// Case file, or the name of a built-in case
     case: String,
-    /// Folder for the results [default: out/<case>/stability]
+    /// Restitution of every rigid wall, 0 to 1
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    restitution: Option<f64>,
+    /// Folder for the results [default: out/CASE/stability]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -43,9 +48,10 @@ pub struct Args {
 /// # Errors
 /// A case that makes no sense or has no wall, a folder that cannot be written, a reference run that fails.
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let case = request::case(&args.case)?;
+    let case = request::case_with_restitution(&args.case, args.restitution)?;
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join("stability"));
-    let plan = Plan::new(&case, &Grid::default())?;
+    check_folder(&folder)?;
+    let plan = Plan::new(Question { scene: &case.scene, laws: &case.penalty.laws }, &Grid::default())?;
     let e = impact::wall_restitution(&case.scene);
     let impacts = impact::maps(plan.scale.mass, case.time.step, e);
     output::impacts(&folder.join("impact-map.csv"), &impacts)?;

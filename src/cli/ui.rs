@@ -50,16 +50,18 @@ impl Ui {
         let _ = writeln!(std::io::stderr(), "{head}{text}");
     }
 
-    /// A table on stdout, or an array of objects keyed by the headers with `--json`.
+    /// A table on stdout, or an array of objects keyed by the headers with `--json`. The first column holds names.
     pub fn table(&self, headers: &[&str], rows: &[Vec<String>]) {
         if self.json {
             let object = |row: &Vec<String>| {
-                let cell = |text: &String| match text.parse::<f64>() {
-                    Ok(number) if number.is_finite() => serde_json::json!(number),
+                // The first column names things, and a name such as `1e5` stays one.
+                let cell = |(column, text): (usize, &String)| match text.parse::<f64>() {
+                    Ok(number) if number.is_finite() && column > 0 => serde_json::json!(number),
                     _ if text.is_empty() => serde_json::Value::Null,
                     _ => serde_json::json!(text),
                 };
-                headers.iter().zip(row).map(|(h, c)| ((*h).to_owned(), cell(c))).collect::<serde_json::Map<_, _>>()
+                let cells = row.iter().enumerate().map(cell);
+                headers.iter().zip(cells).map(|(h, c)| ((*h).to_owned(), c)).collect::<serde_json::Map<_, _>>()
             };
             let rows: Vec<_> = rows.iter().map(object).collect();
             self.answer(&serde_json::to_string_pretty(&rows).unwrap_or_default());

@@ -30,7 +30,8 @@ pub struct Residuals {
     pub force_balance: f64,
     /// The energy ledger.
     pub energy: Energy,
-    /// γ₀: what gaps are measured by, m; for a velocity-level promise the run's largest speed, m/s.
+    /// γ₀: what gaps are measured by, m; for a velocity-level promise the run's largest speed, or a gap in the run's duration if that is
+    /// more (a body held fast has a speed of rounding), m/s.
     pub gap_scale: f64,
     /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid).
     pub force_scale_n: f64,
@@ -77,7 +78,7 @@ struct Scratch {
 
 impl Judge {
     /// A judge of a run on `scene` (the scene as the scheme sees it) under `contract` with steps of `h` seconds, started
-    /// from the state `q` (m), `v` (m/s).
+    /// from the state `q` (m), `v` (m/s), one value of each per degree of freedom.
     #[must_use]
     pub fn new(scene: &Scene, contract: Contract, h: f64, q: &[f64], v: &[f64]) -> Self {
         let n = scene.system.degrees_of_freedom();
@@ -118,13 +119,14 @@ impl Judge {
     }
 
     /// Takes in one step. Steps must come in order, none left out.
+    ///
+    /// # Panics
+    /// For a step of another scene: one with other numbers of walls or degrees of freedom than the judge was made for.
     pub fn see(&mut self, step: &Step<'_>) {
         for ((end, blow), forcing) in self.scratch.load_end.iter_mut().zip(&mut self.scratch.blow).zip(&self.forcing) {
             *end = forcing.force(step.end);
             *blow = match self.contract.balance {
-                Balance::Staggered(_) => {
-                    forcing.impulse((step.start - 0.5 * self.h).max(0.0), step.start + 0.5 * self.h)
-                }
+                Balance::Staggered(_) => forcing.impulse_about(step.index, self.h),
                 _ => forcing.impulse(step.start, step.end),
             };
         }
@@ -167,7 +169,7 @@ impl Judge {
             }
             s.load[i] += step.extra[i];
             s.residual[i] = -h * s.load[i] - s.blow[i];
-            self.balance_scale = self.balance_scale.max(s.load[i].abs());
+            self.balance_scale = self.balance_scale.max(s.load[i].abs()).max(s.blow[i].abs() / h);
             (s.inertia[i], s.damper[i], s.spring[i]) = (0.0, 0.0, 0.0);
         }
         let system = &self.scene.system;
@@ -254,7 +256,7 @@ impl Judge {
     #[must_use]
     pub fn residuals(&self) -> Residuals {
         let gap_scale = match self.contract.promise {
-            Promise::Velocity => self.speed_scale,
+            Promise::Velocity => self.speed_scale.max(self.energy.gap_scale / self.scene.duration),
             _ => self.energy.gap_scale,
         };
         let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };

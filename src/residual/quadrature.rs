@@ -55,9 +55,9 @@ fn refine<const N: usize>(
     let (left, right) = (panel(a, middle, f), panel(middle, b, f));
     sums.left = sums.left.saturating_sub(2);
     let mut settled = true;
-    for i in 0..N {
-        sums.scale[i] = sums.scale[i].max(left.size[i] + right.size[i]);
-        settled &= (left.value[i] + right.value[i] - whole[i]).abs() <= 1e-14 * sums.scale[i];
+    for (i, (scale, whole)) in sums.scale.iter_mut().zip(whole).enumerate() {
+        *scale = scale.max(left.size[i] + right.size[i]);
+        settled &= (left.value[i] + right.value[i] - whole).abs() <= 1e-14 * *scale;
     }
     if settled || depth == 0 || sums.left == 0 {
         for (total, (left, right)) in sums.total.iter_mut().zip(left.value.iter().zip(right.value)) {

@@ -221,6 +221,15 @@ impl Forcing {
         self.impulses.iter().filter(|&&(t, _)| t > from && t <= to).map(|&(_, p)| p).sum()
     }
 
+    /// Sum of the impulses within half a step `h` (s) of the instant `step` · h, N s: each impulse after t = 0 in one step and no other.
+    #[inline]
+    #[must_use]
+    pub fn impulse_about(&self, step: u64, h: f64) -> f64 {
+        // Neighbours meet at one product: t − h/2 of one and t + h/2 of the other would differ in the last place.
+        let edge = |half_steps: f64| (half_steps * h).max(0.0);
+        self.impulse(edge(step as f64 - 0.5), edge(step as f64 + 0.5))
+    }
+
     /// Sum of the impulses at t = 0, N s: the start is the state after them.
     #[must_use]
     pub fn initial_impulse(&self) -> f64 {

@@ -34,7 +34,7 @@ impl CentralDifference {
         let h = s.h;
         let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
         let (q, v) = (self.q, self.v);
-        let blow = s.forcing.impulse((start - 0.5 * h).max(0.0), start + 0.5 * h);
+        let blow = s.forcing.impulse_about(step, h);
         let felt = centred(&mut self.extra, extra);
         frame.extra[0] = felt;
         let smooth = self.load + felt + blow / h - s.k * q;
@@ -45,7 +45,8 @@ impl CentralDifference {
         }
         let q_end = q + h * v_end;
         let load_end = s.forcing.force(end);
-        let v_reported = arrival(s, q_end, v_end, load_end + extra) + s.forcing.impulse(end - 0.5 * h, end) / s.m;
+        let v_reported =
+            arrival(s, q_end, v_end, load_end + extra) + s.forcing.impulse((step as f64 + 0.5) * h, end) / s.m;
         (self.q, self.v, self.load) = (q_end, v_end, load_end);
         frame.arrive(start, end, v, q_end, v_reported);
         frame.after[0] = v_end;

@@ -54,7 +54,7 @@ impl PaoliSchatzman {
         let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
         let (q, v) = (self.q, self.v);
         let back = q - h * v;
-        let blow = s.forcing.impulse((start - 0.5 * h).max(0.0), start + 0.5 * h);
+        let blow = s.forcing.impulse_about(step, h);
         let felt = centred(&mut self.extra, extra);
         frame.extra[0] = felt;
         let load = self.load + felt;
@@ -85,7 +85,7 @@ impl PaoliSchatzman {
         let q_end = q + delta;
         let v_half = delta / h;
         let load_end = s.forcing.force(end);
-        let v_end = arrival(s, q_end, v_half, load_end + extra) + s.forcing.impulse(end - 0.5 * h, end) / s.m;
+        let v_end = arrival(s, q_end, v_half, load_end + extra) + s.forcing.impulse((step as f64 + 0.5) * h, end) / s.m;
         (self.q, self.v, self.load) = (q_end, v_half, load_end);
         frame.arrive(start, end, v, q_end, v_end);
         frame.after[0] = v_half;

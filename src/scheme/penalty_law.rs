@@ -53,6 +53,12 @@ impl PenaltyLaw {
         }
     }
 
+    /// True for a spring without damping, which gives back all it took.
+    #[must_use]
+    pub fn is_lossless(&self) -> bool {
+        !matches!(*self, Self::Linear { damping, .. } if damping > 0.0)
+    }
+
     /// Checks the numbers, and that the law has rigid walls to stand in for.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use super::{Integrator, Scheme};
 use crate::contact::Episodes;
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::{Scene, State};
+use crate::scene::{Scene, State, WallLaw};
 use crate::step::{Contact, Contract, Path, Step};
 
 /// The state and constants of one scheme on one scene. Smallness is a variant's content: these hold floats, no matrices.
@@ -76,7 +76,8 @@ impl Stepper {
         }
         let scene = match *scheme {
             Scheme::Penalty { law, .. } => scene.penalised(law)?,
-            _ => scene.clone(),
+            Scheme::Event => scene.clone(),
+            _ => without_quartic(scene)?.clone(),
         };
         // One degree of freedom: the programme has one unknown, and a clamp solves it exactly.
         let backend = if backend == Backend::Auto { Backend::Clamp } else { backend };
@@ -244,5 +245,17 @@ impl Stepper {
             }
         }
         counters
+    }
+}
+
+/// The scene, if its walls are such that a quadratic programme can hold them: the φ² law is none of those.
+fn without_quartic(scene: &Scene) -> Result<&Scene> {
+    match scene.walls.iter().find(|wall| matches!(wall.law, WallLaw::Quartic { .. })) {
+        Some(wall) => Err(Error::invalid(
+            format!("wall {:?}: law", wall.name),
+            "the φ² penalty",
+            "a rigid or an elastic wall, or the scheme penalty, which steps through that law",
+        )),
+        None => Ok(scene),
     }
 }

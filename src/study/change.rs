@@ -136,7 +136,8 @@ pub fn agree_until(scene: &Scene, run: &Trajectory, against: &Trajectory, tolera
     let gap = scene.gap_scale();
     let mut until = 0.0;
     for (&t, (x, y)) in against.time().iter().zip(run.displacement().iter().zip(against.displacement())) {
-        if !((x - y).abs() <= tolerance * gap) {
+        let agrees = (x - y).abs() <= tolerance * gap;
+        if !agrees {
             return until;
         }
         until = t;

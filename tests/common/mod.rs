@@ -123,3 +123,20 @@ pub const IMPULSE_E1: [(f64, f64, f64); 3] = [
 /// Times of the second impact of the source scene at (e, t): 50-digit arithmetic, printed to 1e-8 s.
 pub const SECOND_IMPACT: [(f64, f64); 4] =
     [(0.0, 0.193_754_75), (0.5, 0.168_335_66), (0.8, 0.151_677_82), (1.0, 0.141_734_77)];
+
+/// Every integrator of the penalty.
+pub const INTEGRATORS: [Integrator; 4] = Integrator::ALL;
+
+/// Every scheme on a grid; the penalty with a spring that a step of 0.1 ms resolves.
+pub fn schemes() -> Vec<Scheme> {
+    let mut all = vec![
+        Scheme::ImplicitEuler,
+        Scheme::PaoliSchatzman,
+        MOREAU_JEAN,
+        Scheme::MoreauJean { theta: 0.75 },
+        Scheme::MoreauJean { theta: 1.0 },
+        Scheme::Newmark,
+    ];
+    all.extend(INTEGRATORS.map(|i| spring(1e6, i)));
+    all
+}

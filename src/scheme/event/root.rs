@@ -39,19 +39,30 @@ impl Below {
     #[inline]
     pub fn step(&self, window: f64) -> Step {
         if self.c[0] > self.noise[0] {
-            let (s, left) = first_root(self.c, self.bound, window, self.noise[0]);
-            return if s >= window {
+            return if stays_above(self.c, self.bound, window, self.noise[0]) {
                 Step::Free(window)
-            } else if left <= self.noise[0] && self.bound * s.powi(4) <= 24.0 * self.noise[0] {
-                Step::Root(s)
             } else {
-                Step::Free(s)
+                self.approach(window)
             };
         }
         self.depart(window)
     }
 
+    /// g is above 0 now.
+    #[inline(never)]
+    fn approach(&self, window: f64) -> Step {
+        let (s, left) = first_root(self.c, self.bound, window, self.noise[0]);
+        if s >= window {
+            Step::Free(window)
+        } else if left <= self.noise[0] && self.bound * s.powi(4) <= 24.0 * self.noise[0] {
+            Step::Root(s)
+        } else {
+            Step::Free(s)
+        }
+    }
+
     /// g is 0 now: the root at 0 is divided out as often as it occurs.
+    #[inline(never)]
     fn depart(&self, window: f64) -> Step {
         let [c0, c1, c2, c3] = self.c;
         if c0 < -self.noise[0] && !self.passes_touch && c1 <= 0.0 {
@@ -83,8 +94,19 @@ impl Below {
         if tail.0 < 0.0 {
             return Step::Now;
         }
+        if stays_above(tail.1, 0.0, window, 0.0) {
+            return Step::Free(window);
+        }
         Step::Free(first_root(tail.1, 0.0, window, 0.0).0)
     }
+}
+
+/// True if every falling term of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 at its worst in [0, w] still leaves it above `enough`: the common
+/// case, kept cheap.
+#[inline]
+fn stays_above([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> bool {
+    let cubic = SIXTH * c3.min(0.0) - w * b * (0.25 * SIXTH);
+    c0 + w * (c1.min(0.0) + w * (0.5 * c2.min(0.0) + w * cubic)) > enough
 }
 
 /// A number not above the first root of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 in [0, w], or w, with p there; p(0) > 0.
@@ -95,10 +117,6 @@ impl Below {
 #[inline]
 fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, f64) {
     let (mut s, mut p, mut p1, mut p2) = (0.0, c0, c1, c2);
-    // Every falling term at its worst still leaves p above 0: no root in the window.
-    if c0 + w * (c1.min(0.0) + w * (0.5 * c2.min(0.0) + w * (SIXTH * c3.min(0.0) - w * b * SIXTH * 0.25))) > enough {
-        return (w, p);
-    }
     let last = c2 + c3 * w - 0.5 * b * w * w;
     for _ in 0..INNER_STEPS {
         let m = (-p2.min(last)).max(0.0);

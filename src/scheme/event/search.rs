@@ -1,6 +1,6 @@
 //! The search for the next event of an arc.
 
-use super::barrier::Phase;
+use super::barrier::{Barrier, Phase};
 use super::root::{Below, Step};
 use super::{Event, noise};
 use crate::error::Result;
@@ -101,35 +101,16 @@ impl Event {
 
     /// The functions of wall `index` whose first root is an event, numbered by `which`: two where the body is in an
     /// elastic wall that has let go, else one.
-    #[inline]
+    // Always: the way through memory costs more than the arithmetic.
+    #[inline(always)]
     fn watch(&self, index: usize, which: u8, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Option<Below> {
         let b = self.barriers.get(index)?;
-        let sign = b.sign;
-        let gap = |sign: f64, passes_touch: bool| Below {
-            c: [sign * (jet[0] - b.position), sign * jet[1], sign * jet[2], sign * jet[3]],
-            fourth: sign * jet[4],
-            bound: bounds[0],
-            noise: *noise,
-            passes_touch,
-        };
-        let sum = |sign: f64| {
-            let at = |n: usize| -sign * (b.stiffness * jet[n] + b.damping * jet[n + 1]);
-            let at0 = -sign * (b.stiffness * (jet[0] - b.position) + b.damping * jet[1]);
-            let scale = |n: usize| b.stiffness * noise[n] + b.damping * noise[(n + 1).min(3)];
-            Below {
-                c: [at0, at(1), at(2), at(3)],
-                fourth: 0.0,
-                bound: b.stiffness * bounds[0] + b.damping * bounds[1],
-                noise: [scale(0), scale(1), scale(2), scale(3)],
-                passes_touch: true,
-            }
-        };
         match (b.phase, which) {
-            (Phase::Rigid(_), 0) => Some(gap(sign, false)),
-            (Phase::Outside, 0) => Some(gap(sign, true)),
-            (Phase::Touching, 0) => Some(sum(sign)),
-            (Phase::Detached, 0) => Some(sum(-sign)),
-            (Phase::Detached, _) => Some(gap(-sign, true)),
+            (Phase::Rigid(_), 0) => Some(gap(b, b.sign, false, jet, bounds, noise)),
+            (Phase::Outside, 0) => Some(gap(b, b.sign, true, jet, bounds, noise)),
+            (Phase::Touching, 0) => Some(sum(b, b.sign, jet, bounds, noise)),
+            (Phase::Detached, 0) => Some(sum(b, -b.sign, jet, bounds, noise)),
+            (Phase::Detached, _) => Some(gap(b, -b.sign, true, jet, bounds, noise)),
             _ => None,
         }
     }
@@ -228,6 +209,33 @@ impl Event {
             let sum = b.sum(to.1[0], to.1[1]);
             b.note(sum);
         }
+    }
+}
+
+/// The gap, seen with `sign`.
+#[inline]
+fn gap(b: &Barrier, sign: f64, passes_touch: bool, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Below {
+    Below {
+        c: [sign * (jet[0] - b.position), sign * jet[1], sign * jet[2], sign * jet[3]],
+        fourth: sign * jet[4],
+        bound: bounds[0],
+        noise: *noise,
+        passes_touch,
+    }
+}
+
+/// The sum of spring and dashpot, seen with `sign`.
+#[inline(never)]
+fn sum(b: &Barrier, sign: f64, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Below {
+    let at = |n: usize| -sign * (b.stiffness * jet[n] + b.damping * jet[n + 1]);
+    let at0 = -sign * (b.stiffness * (jet[0] - b.position) + b.damping * jet[1]);
+    let scale = |n: usize| b.stiffness * noise[n] + b.damping * noise[(n + 1).min(3)];
+    Below {
+        c: [at0, at(1), at(2), at(3)],
+        fourth: 0.0,
+        bound: b.stiffness * bounds[0] + b.damping * bounds[1],
+        noise: [scale(0), scale(1), scale(2), scale(3)],
+        passes_touch: true,
     }
 }
 

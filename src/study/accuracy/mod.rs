@@ -239,7 +239,7 @@ fn finish(
     } else {
         let horizon = perturbed.unwrap_or(until_s);
         let short = horizon < scene.duration;
-        short.then(|| Error::Unpredictable { tolerance: target.tolerance, reached, horizon, end: scene.duration })
+        short.then_some(Error::Unpredictable { tolerance: target.tolerance, reached, horizon, end: scene.duration })
     };
     let run = if until_s < scene.duration {
         let time = match stepping {

@@ -1,11 +1,19 @@
 //! The schemes of the maps, and what is varied beside the step.
 
 use super::watch::wall_stiffness;
-use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::scene::{Scene, WallLaw};
 use crate::scheme::{Integrator, PenaltyLaw, Scheme};
 use std::fmt;
+
+/// What is mapped: a scene and the penalties that stand in for its rigid walls.
+#[derive(Debug, Clone, Copy)]
+pub struct Question<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The penalties; their values are among those of the maps.
+    pub laws: &'a [PenaltyLaw],
+}
 
 /// Decades of penalty parameters at least, and how many values a decade has.
 const DECADES: f64 = 6.0;
@@ -62,10 +70,10 @@ pub enum Parameter {
 impl Parameter {
     /// The parameter of a family on a case.
     #[must_use]
-    pub fn of(family: Family, case: &Case) -> Self {
+    pub fn of(family: Family, case: Question<'_>) -> Self {
         let walls = &case.scene.walls;
         let quartic = PenaltyLaw::Quartic { epsilon: 1.0 };
-        let linear_asked = matches!(case.penalty.laws.first(), Some(PenaltyLaw::Linear { .. }));
+        let linear_asked = matches!(case.laws.first(), Some(PenaltyLaw::Linear { .. }));
         match family {
             _ if !walls.iter().any(|w| w.law.is_rigid()) => Self::WallStiffness,
             Family::Constrained(_) => Self::Restitution,
@@ -98,9 +106,9 @@ impl Parameter {
 
     /// The values that the case itself has, in its order.
     #[must_use]
-    pub fn own(self, case: &Case) -> Vec<f64> {
+    pub fn own(self, case: Question<'_>) -> Vec<f64> {
         let walls = case.scene.walls.iter().map(|w| w.law);
-        let laws = case.penalty.laws.iter();
+        let laws = case.laws.iter();
         let mut values: Vec<f64> = match self {
             Self::Restitution => walls
                 .filter_map(|l| if let WallLaw::Rigid { restitution } = l { Some(restitution) } else { None })
@@ -128,7 +136,7 @@ impl Parameter {
     /// The values of a map, rising: those of the case among them. Of penalties without any, walls from as stiff as a
     /// spring that would swing the mass at `stiffness` (N/m) up to 10⁶ times that.
     #[must_use]
-    pub fn values(self, case: &Case, stiffness: f64) -> Vec<f64> {
+    pub fn values(self, case: Question<'_>, stiffness: f64) -> Vec<f64> {
         let own = self.own(case);
         let mut values: Vec<f64> = match self {
             Self::Restitution => (0..=RESTITUTIONS).map(|i| f64::from(i) / f64::from(RESTITUTIONS)).collect(),
@@ -199,9 +207,9 @@ impl Parameter {
 ///
 /// # Errors
 /// [`Error::Invalid`] for a case without walls.
-pub fn check(case: &Case) -> Result<()> {
+pub fn check(case: Question<'_>) -> Result<()> {
     if case.scene.walls.is_empty() {
-        return Err(Error::invalid("case", format!("{:?}, without a wall", case.name), "a case with a wall to hit"));
+        return Err(Error::invalid("wall", "missing", "a scene with a wall to hit"));
     }
     Ok(())
 }

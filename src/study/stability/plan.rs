@@ -1,11 +1,10 @@
 //! The maps of a case: every scheme, step and parameter, in parallel.
 
 use super::class::{Range, Ruler};
-use super::family::{self, Family, Parameter};
+use super::family::{self, Family, Parameter, Question};
 use super::row::{Cell, Safe, Subject};
 use super::scale::Scale;
 use super::watch::{Record, STARTS, nudged, watch};
-use crate::case::Case;
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::scheme::{Integrator, PenaltyLaw, Scheme};
@@ -87,9 +86,9 @@ impl Plan {
     ///
     /// # Errors
     /// [`crate::Error::Invalid`] for a case without walls, and what the reference run of the case itself reports.
-    pub fn new(case: &Case, grid: &Grid) -> Result<Self> {
+    pub fn new(case: Question<'_>, grid: &Grid) -> Result<Self> {
         family::check(case)?;
-        let scene = &case.scene;
+        let scene = case.scene;
         let first = Scale::of(scene, None);
         let finest = |scale: &Scale, horizon: f64| (grid.finest / scale.omega).max(horizon / grid.most_steps);
         let own = reference_of(scene, None);

@@ -1,0 +1,152 @@
+//! A body that has come to rest stays.
+
+mod common;
+
+use common::{INTEGRATORS, MOREAU_JEAN, schemes, spring};
+use signorini::{Integrator, Load, Scene, Scheme, Stepper, Wall};
+
+/// Bounds of a motion over many steps, and the number of contact episodes that ended.
+#[derive(Debug)]
+struct Bounds {
+    least: f64,
+    most: f64,
+    speed: f64,
+    ended: u64,
+    pushed: f64,
+}
+
+fn bounds(scene: &Scene, scheme: &Scheme, h: f64, steps: u32) -> Bounds {
+    let mut stepper = Stepper::new(scene, scheme, h).expect("a sound scene");
+    let mut b = Bounds { least: f64::INFINITY, most: f64::NEG_INFINITY, speed: 0.0, ended: 0, pushed: 0.0 };
+    for _ in 0..steps {
+        let step = stepper.step().expect("a step");
+        b.least = b.least.min(step.q[0]);
+        b.most = b.most.max(step.q[0]);
+        b.speed = b.speed.max(step.v[0].abs());
+        b.ended += step.closed.len() as u64;
+        b.pushed += step.impulse.iter().sum::<f64>();
+    }
+    b
+}
+
+#[test]
+fn a_body_at_rest_on_a_wall_neither_creeps_nor_buzzes_in_a_million_steps() {
+    const STEPS: u32 = 1_000_000;
+    let rigid = [
+        Scheme::ImplicitEuler,
+        Scheme::PaoliSchatzman,
+        MOREAU_JEAN,
+        Scheme::MoreauJean { theta: 1.0 },
+        Scheme::Newmark,
+    ];
+    for e in [0.0, 1e-6, 1.0] {
+        for h in [1e-2, 1e-4] {
+            // A floor at 0, and one at a place that is no short binary number, under a ball with a spring and a damper.
+            let sprung = Scene::oscillator(0.7, 0.3, 11.0)
+                .with_wall(Wall::lower("floor", 0.1).with_restitution(e))
+                .with_load(Load::constant(-9.81))
+                .with_initial(&[0.1], &[0.0]);
+            for (scene, floor, weight) in [(common::ball(0.0, e), 0.0, 9.81), (sprung, 0.1, 9.81 + 1.1)] {
+                for scheme in rigid {
+                    let b = bounds(&scene, &scheme, h, STEPS);
+                    let what = format!("{scheme}, e = {e}, h = {h}, floor at {floor}: {b:?}");
+                    assert!((b.least - floor).abs() <= 1e-15 && (b.most - floor).abs() <= 1e-15, "{what}");
+                    // One ulp of the position over a step at most.
+                    assert!(b.speed <= 2e-17 / h && b.ended == 0, "{what}");
+                    // Every newton second of the weight is carried (a staggered or position-level rule starts within half a step).
+                    let carried = b.pushed / (weight * h * f64::from(STEPS));
+                    assert!((carried - 1.0).abs() <= 1.0 / f64::from(STEPS), "{what}: carried {carried}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_at_rest_in_a_penalty_wall_stays_where_the_wall_carries_it() {
+    let weight = 9.81;
+    for stiffness in [1e4, 1e8] {
+        for integrator in INTEGRATORS {
+            let depth = weight / stiffness;
+            let scene = common::ball(0.0, 1.0).with_initial(&[0.0], &[0.0]);
+            // The spring stands where the rigid floor does: the body may start behind the floor in the penalised scene only.
+            let scheme = spring(stiffness, integrator);
+            let settled = scene.penalised(match scheme {
+                Scheme::Penalty { law, .. } => law,
+                _ => continue,
+            });
+            let settled = settled.expect("a sound scene").with_initial(&[-depth], &[0.0]);
+            for h in [1e-2, 1e-4] {
+                if integrator == Integrator::CentralDifference && h * h * stiffness > 4.0 {
+                    continue;
+                }
+                let b = bounds(&settled, &scheme, h, 1_000_000);
+                let what = format!("{scheme}, h = {h}: {b:?}");
+                // Rounding of the force, 1e-15 N, accelerates to 1e-15 m/s in a second.
+                assert!((b.least / depth + 1.0).abs() < 1e-9 && (b.most / depth + 1.0).abs() < 1e-9, "{what}");
+                assert!(b.speed < 1e-9 && b.ended == 0, "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_bouncing_ball_comes_to_rest_and_stays() {
+    // Exact rest at √(2h/g)(1 + e)/(1 − e), with h = 0.1 m and e = ½: 0.428 s.
+    for scheme in [Scheme::ImplicitEuler, Scheme::PaoliSchatzman, MOREAU_JEAN, Scheme::MoreauJean { theta: 1.0 }] {
+        for h in [1e-3, 1e-4] {
+            let mut stepper = Stepper::new(&common::ball(0.1, 0.5), &scheme, h).expect("a sound scene");
+            while stepper.time() < 0.5 {
+                stepper.step().expect("a step");
+            }
+            let rest = stepper.state();
+            // Within the height a step of gravity makes, and at no speed beyond it.
+            assert!(rest.q[0].abs() < 10.0 * 9.81 * h * h && rest.v[0].abs() < 10.0 * h, "{scheme}, h = {h}: {rest:?}");
+            let (mut least, mut most, mut episodes) = (f64::INFINITY, f64::NEG_INFINITY, 0);
+            for _ in 0..100_000 {
+                let step = stepper.step().expect("a step");
+                least = least.min(step.q[0]);
+                most = most.max(step.q[0]);
+                episodes += step.closed.len();
+            }
+            println!("{scheme} {h}: {:e} {episodes} open {:?}", most - least, stepper.open_contacts());
+            assert!(
+                most - least < 9.81 * h * h && episodes <= 1,
+                "{scheme}, h = {h}: {least:e} … {most:e}, {episodes}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_wall_touched_at_the_start_with_outward_velocity_is_not_felt() {
+    for scheme in schemes() {
+        for (wall, v) in [(Wall::upper("wall", 0.3), -0.5), (Wall::lower("wall", 0.3), 0.5)] {
+            for wall in [wall.clone().with_restitution(0.5), wall.with_elasticity(1e5, 10.0)] {
+                let free = Scene::oscillator(1.0, 0.1, 2.0).with_initial(&[0.3], &[v]);
+                let held = free.clone().with_wall(wall);
+                let (mut a, mut b) = (
+                    Stepper::new(&free, &scheme, 1e-3).expect("sound"),
+                    Stepper::new(&held, &scheme, 1e-3).expect("sound"),
+                );
+                for i in 0..200 {
+                    let (free, held) = (a.step().expect("a step"), b.step().expect("a step"));
+                    assert_eq!((free.q, free.v), (held.q, held.v), "{scheme}, step {i}");
+                    assert_eq!(held.impulse, [0.0], "{scheme}, step {i}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_that_grazes_a_wall_at_rest_there_goes_its_way() {
+    // Starts at the wall with no velocity, drawn off it by the spring: no force, and none that pulls.
+    for scheme in schemes() {
+        let scene =
+            Scene::oscillator(1.0, 0.0, 100.0).with_wall(Wall::upper("wall", 0.01)).with_initial(&[0.01], &[0.0]);
+        let b = bounds(&scene, &scheme, 1e-4, 5000);
+        // It comes back after 0.628 s, not in this half second.
+        assert!(b.pushed.abs() < 1e-12 && b.most <= 0.01 && (b.least + 0.01).abs() < 2e-5, "{scheme}: {b:?}");
+    }
+}
