@@ -78,6 +78,30 @@ pub enum Error {
         /// Length of the window, s.
         window: f64,
     },
+    /// The error asked for was not reached with the most steps that were allowed.
+    Inaccurate {
+        /// The error asked for.
+        tolerance: f64,
+        /// The error reached, or the last change where there is no exact motion.
+        reached: f64,
+        /// The quantity that missed it by most.
+        quantity: String,
+        /// Time up to which the displacement kept it, s.
+        until: f64,
+        /// Steps of the finest run.
+        steps: u64,
+    },
+    /// The motion is predictable for a shorter time than the run lasts.
+    Unpredictable {
+        /// The error asked for.
+        tolerance: f64,
+        /// The error reached up to the horizon.
+        reached: f64,
+        /// Time at which rounding has grown to a quarter of the error asked for, s.
+        horizon: f64,
+        /// End of the run, s.
+        end: f64,
+    },
 }
 
 /// What every function of the crate that can fail returns.
@@ -131,6 +155,16 @@ impl fmt::Display for Error {
                 f,
                 "{count} contact events, or steps of the search for them, within {window:e} s at wall {wall:?}, t = {time} s: more than the exact scheme follows; \
                  a stepping scheme (moreau-jean, paoli-schatzman) does not resolve them one by one"
+            ),
+            Self::Inaccurate { tolerance, reached, quantity, until, steps } => write!(
+                f,
+                "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
+                 the displacement keeps it until t = {until:.6} s"
+            ),
+            Self::Unpredictable { tolerance, reached, horizon, end } => write!(
+                f,
+                "an error of {tolerance:e} is kept until t = {horizon:.6} s only ({reached:.1e} reached): rounding grows to a quarter of it soon \
+                 after, and no step predicts the motion up to {end} s"
             ),
         }
     }

@@ -3,15 +3,17 @@
 use super::request::Request;
 use super::run::write;
 use super::ui::Ui;
+use super::verdicts;
 use crate::case::Case;
 use crate::error::Result;
 use crate::output::atomic::{check_folder, write_whole};
 use crate::output::csv;
 use crate::output::pictures::{Labelled, Sheet};
-use crate::output::summary::Reasons;
+use crate::output::summary::{Checks, Reasons};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice;
 use crate::study::compare::{Comparison, Row, any_succeeded, compare, default_methods};
+use crate::study::verdict::{self, Verdict};
 use std::path::Path;
 
 const EXAMPLES: &str = "\
@@ -32,6 +34,9 @@ pub struct Args {
     /// Methods to compare [default: the constrained QP, the same through Clarabel, every penalty of the case]; the exact one is always there
     #[arg(long, value_name = "A,B,…", alias = "scheme")]
     schemes: Option<String>,
+    /// Do not repeat the methods with half the step
+    #[arg(long)]
+    no_verdict: bool,
 }
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
@@ -52,11 +57,16 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     args.request.check_use(&methods)?;
     let folder = args.request.folder(&case, "compare");
     check_folder(&folder)?;
-    let progress = ui.progress("comparing", methods.len() as u64 + 1);
+    let count = methods.len() as u64 + 1;
+    let progress = ui.progress("comparing", if args.no_verdict { count } else { count + count * verdict::COST as u64 });
     let comparison = compare(&case.scene, &methods, &case.time, &|done| progress.set(done))?;
+    let mut verdicts = vec![None; comparison.rows.len()];
+    if !args.no_verdict {
+        verdicts = verdicts::check(&case, &comparison, &|rows| progress.set(count + rows * verdict::COST as u64));
+    }
     progress.finish();
     any_succeeded(&comparison)?;
-    files(&folder, &case, &comparison)?;
+    files(&folder, &case, &comparison, &verdicts)?;
     table(&case, &comparison, ui);
     for finding in &comparison.findings {
         ui.message(&format!("- {finding}"));
@@ -65,6 +75,9 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         ui.message("- the case has no [penalty] table: no penalty was compared");
     }
     ui.message(&format!("results in {}", folder.display()));
+    if !args.no_verdict {
+        ui.message(&format!("refinement: {}", verdicts::line(&comparison, &verdicts)));
+    }
     Ok(())
 }
 
@@ -91,11 +104,12 @@ pub(super) fn folder_name(method: &Method) -> String {
     method.to_string().replace([':', ',', '='], "-")
 }
 
-fn files(folder: &Path, case: &Case, comparison: &Comparison) -> Result<()> {
-    for row in &comparison.rows {
+fn files(folder: &Path, case: &Case, comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Result<()> {
+    for (row, verdict) in comparison.rows.iter().zip(verdicts) {
         if let Ok(run) = &row.outcome {
             let reasons = Reasons { scheme: "part of a comparison".into(), qp: choice::qp_reason(&row.method) };
-            write(&folder.join(folder_name(&row.method)), case, run, &row.method, &reasons)?;
+            let checks = Checks { refinement: verdict.as_ref(), accuracy: None };
+            write(&folder.join(folder_name(&row.method)), case, run, &row.method, &reasons, checks)?;
         }
     }
     let labels: Vec<String> = comparison.rows.iter().map(|row| row.method.to_string()).collect();

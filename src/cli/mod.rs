@@ -9,6 +9,7 @@ pub mod request;
 mod run;
 mod stability;
 pub mod ui;
+mod verdicts;
 
 use crate::error::Result;
 use clap::{Parser, Subcommand};

@@ -1,16 +1,18 @@
 //! `signorini run`: one scene, one method.
 
 use super::request::Request;
-use super::ui::Ui;
+use super::ui::{Progress, Ui};
 use crate::case::Case;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::output::atomic::{check_folder, write_whole};
 use crate::output::csv;
 use crate::output::pictures::{Labelled, Sheet};
-use crate::output::summary::{self, Reasons};
+use crate::output::summary::{self, Checks, Reasons};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scheme::Method;
+use crate::study::accuracy::{Outcome, Target, reach};
 use crate::study::choice;
+use crate::study::verdict::{self, Verdict};
 use std::path::Path;
 
 const EXAMPLES: &str = "\
@@ -19,6 +21,8 @@ Examples:
   signorini run rigid-walls-sine --restitution 0.8 --step 1e-5
   signorini run rigid-walls-sine --scheme penalty --epsilon 1e-9 --integrator trapezoidal
   signorini run elastic-wall --scheme event --out results
+  signorini run elastic-wall --accuracy 1e-6
+  signorini run rigid-walls-sine --restitution 0.8 --scheme moreau-jean --accuracy 1e-3
 
 Schemes: implicit-euler, paoli-schatzman, moreau-jean, newmark (an exhibit), penalty, event (exact).";
 
@@ -31,47 +35,124 @@ pub struct Args {
     /// Scheme [default: chosen from the scene; see `signorini explain`]
     #[arg(long, value_name = "NAME")]
     scheme: Option<String>,
+    /// Find scheme and step for this error, as a share of the gap and of each wall's impulse and contact statistics; exit code 1 if it is
+    /// not kept to the end
+    #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
+    accuracy: Option<f64>,
+    /// Do not repeat the run with half the step
+    #[arg(long)]
+    no_verdict: bool,
 }
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let case = args.request.case()?;
+    if let Some(tolerance) = args.accuracy {
+        return accurate(args, &case, tolerance, ui);
+    }
     let choice = choice::choose(&case.scene);
-    let (method, reasons) = match &args.scheme {
-        Some(name) => {
-            let method = args.request.method(name, &case)?;
-            (method, Reasons { scheme: "asked for".into(), qp: choice::qp_reason(&method) })
-        }
-        None => {
-            let method = args.request.method(&choice.method.to_string(), &case)?;
-            (method, Reasons { scheme: choice.reason, qp: choice::qp_reason(&method) })
-        }
+    let (method, reason) = match &args.scheme {
+        Some(name) => (args.request.method(name, &case)?, "asked for".into()),
+        None => (args.request.method(&choice.method.to_string(), &case)?, choice.reason),
     };
     args.request.check_use(&[method])?;
     let folder = args.request.folder(&case, "run");
     check_folder(&folder)?;
-    let run = perform(&case, &method, ui)?;
-    ui.message(&format!("{method}: {}", reasons.scheme));
-    write(&folder, &case, &run, &method, &reasons)?;
+    let bar = Bar::new(&method, &case, if args.no_verdict { 1.0 } else { 1.0 + verdict::COST }, ui);
+    let run = bar.run(&case, &method)?;
+    let verdict = if args.no_verdict { None } else { Some(bar.verdict(&case, &method, &run)) };
+    bar.finish();
+    ui.message(&format!("{method}: {reason}"));
+    let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method) };
+    let refinement = verdict.as_ref().and_then(|v| v.as_ref().ok());
+    write(&folder, &case, &run, &method, &reasons, Checks { refinement, accuracy: None })?;
     report(&case, &run, &method, ui)?;
     ui.message(&format!("results in {}", folder.display()));
+    match verdict {
+        Some(Ok(verdict)) => ui.message(&format!("refinement: {verdict}")),
+        Some(Err(error)) => ui.message(&format!("refinement: the check of this run failed: {error}")),
+        None => {}
+    }
     Ok(())
 }
 
+/// The run that keeps an error; a shortfall is reported after its results are written.
+fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
+    if let Some(step) = args.request.step {
+        return Err(Error::invalid("--step", step, "none beside --accuracy, which finds the step"));
+    }
+    let method = args.scheme.as_ref().map(|name| args.request.method(name, case)).transpose()?;
+    if let Some(method) = method {
+        args.request.check_use(&[method])?;
+    }
+    let folder = args.request.folder(case, "run");
+    check_folder(&folder)?;
+    let bar = ui.progress("refining", UNITS as u64);
+    let target = Target { method, ..Target::new(tolerance, case.time) };
+    let end = case.scene.duration;
+    let outcome = reach(&case.scene, &target, &mut |time| bar.set((UNITS * time / end) as u64));
+    bar.finish();
+    let Outcome { method, reason, run, accuracy, shortfall } = outcome?;
+    ui.message(&format!("{method}: {reason}"));
+    let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method) };
+    write(&folder, case, &run, &method, &reasons, Checks { refinement: None, accuracy: Some(&accuracy) })?;
+    report(case, &run, &method, ui)?;
+    let kept = if shortfall.is_some() { ", kept in spite of what follows" } else { "" };
+    ui.message(&format!("results in {}{kept}", folder.display()));
+    ui.message(&format!("accuracy: {accuracy}"));
+    shortfall.map_or(Ok(()), Err)
+}
+
+/// Resolution of a bar.
+const UNITS: f64 = 1000.0;
+
 /// Runs `case` by `method` with a progress bar.
 pub(super) fn perform(case: &Case, method: &Method, ui: &Ui) -> Result<Run> {
-    /// Resolution of the bar.
-    const UNITS: f64 = 1000.0;
-    let progress = ui.progress(&method.to_string(), UNITS as u64);
-    let end = case.scene.duration;
-    let options = Options { time: case.time, backend: method.backend };
-    let run =
-        run_with_progress(&case.scene, &method.scheme, &options, &mut |time| progress.set((UNITS * time / end) as u64));
-    progress.finish();
+    let bar = Bar::new(method, case, 1.0, ui);
+    let run = bar.run(case, method);
+    bar.finish();
     run
 }
 
+/// A progress bar over a run and, if there is to be one, its verdict.
+struct Bar {
+    progress: Progress,
+    end: f64,
+}
+
+impl Bar {
+    /// A bar for a work of `runs` times that of the run.
+    fn new(method: &Method, case: &Case, runs: f64, ui: &Ui) -> Self {
+        Self { progress: ui.progress(&method.to_string(), (UNITS * runs) as u64), end: case.scene.duration }
+    }
+
+    fn run(&self, case: &Case, method: &Method) -> Result<Run> {
+        let options = Options { time: case.time, backend: method.backend };
+        run_with_progress(&case.scene, &method.scheme, &options, &mut |time| self.set(time / self.end))
+    }
+
+    fn verdict(&self, case: &Case, method: &Method, run: &Run) -> Result<Verdict> {
+        let mut progress = |time| self.set(1.0 + verdict::COST * time / self.end);
+        Verdict::of(&case.scene, method, run, &case.time, &mut progress)
+    }
+
+    fn set(&self, runs: f64) {
+        self.progress.set((UNITS * runs) as u64);
+    }
+
+    fn finish(&self) {
+        self.progress.finish();
+    }
+}
+
 /// Writes the files of one run into `folder`.
-pub(super) fn write(folder: &Path, case: &Case, run: &Run, method: &Method, reasons: &Reasons) -> Result<()> {
+pub(super) fn write(
+    folder: &Path,
+    case: &Case,
+    run: &Run,
+    method: &Method,
+    reasons: &Reasons,
+    checks: Checks<'_>,
+) -> Result<()> {
     csv::trajectory(&folder.join("trajectory.csv"), &run.trajectory)?;
     csv::contacts(&folder.join("contacts.csv"), &run.trajectory)?;
     let label = method.to_string();
@@ -81,7 +162,7 @@ pub(super) fn write(folder: &Path, case: &Case, run: &Run, method: &Method, reas
     for (name, svg) in sheet.figures()? {
         write_whole(&folder.join(name), svg.as_bytes())?;
     }
-    summary::write(&folder.join("summary.json"), case, run, reasons)
+    summary::write(&folder.join("summary.json"), case, run, reasons, checks)
 }
 
 fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {

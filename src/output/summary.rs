@@ -8,6 +8,8 @@ use crate::run::Run;
 use crate::scene::{LoadKind, Scene, Side, System, WallLaw};
 use crate::scheme::Counters;
 use crate::statistics::Statistics;
+use crate::study::accuracy::Accuracy;
+use crate::study::verdict::Verdict;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -34,7 +36,18 @@ struct Summary<'a> {
     impulse_ns: BTreeMap<&'a str, f64>,
     statistics: &'a Statistics,
     wear: &'static str,
+    #[serde(flatten)]
+    checks: Checks<'a>,
     notes: &'a [String],
+}
+
+/// How the run was held against others; each is null where it was not.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct Checks<'a> {
+    /// Against the same run with half the step.
+    pub refinement: Option<&'a Verdict>,
+    /// Against the error that was asked for.
+    pub accuracy: Option<&'a Accuracy>,
 }
 
 /// Why the scheme and the solver were chosen, in a sentence each.
@@ -46,11 +59,11 @@ pub struct Reasons {
     pub qp: String,
 }
 
-/// Writes the summary of `run` on `case` to `path`.
+/// Writes the summary of `run` on `case`, and of the `checks` made of it, to `path`.
 ///
 /// # Errors
 /// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
-pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons) -> Result<()> {
+pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -> Result<()> {
     let exact = run.scheme == crate::scheme::Scheme::Event;
     let mut impulse_ns = BTreeMap::new();
     for wall in run.trajectory.walls() {
@@ -75,6 +88,7 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons) -> Result<(
         impulse_ns,
         statistics: &run.statistics,
         wear: "impact power only: contact is frictionless and the motion normal to the wall, so there is no sliding wear here",
+        checks,
         notes: &run.notes,
     };
     let failed =

@@ -1,6 +1,8 @@
 //! Which model, scheme and solver a scene needs, and no more.
 
+use crate::error::Result;
 use crate::qp::Backend;
+use crate::run::Run;
 use crate::scene::{Scene, System, WallLaw};
 use crate::scheme::{Method, Scheme};
 
@@ -30,6 +32,46 @@ pub fn choose(scene: &Scene) -> Choice {
          error was below paoli-schatzman's on the source scene"
     };
     Choice { method, reason: reason.into() }
+}
+
+/// What an error named beforehand needs, given the outcome of the exact scheme on `scene`: the exact motion where it can be had, since
+/// no step comes near its cost at any error; else the stepping scheme that converges fastest to these walls.
+#[must_use]
+pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
+    let run = match exact {
+        Ok(run) => run,
+        Err(error) => {
+            let restitution_0 = |w: &crate::scene::Wall| w.law == WallLaw::Rigid { restitution: 0.0 };
+            let (scheme, why) = match scene.walls.iter().all(restitution_0) {
+                true => (Scheme::PaoliSchatzman, "with e = 0 at every wall paoli-schatzman is of order 2"),
+                false => (Scheme::MoreauJean { theta: 0.5 }, "the constrained QP honours every wall's restitution"),
+            };
+            return Choice {
+                method: Method::new(scheme),
+                reason: format!("{why}; the exact scheme cannot go: {error}"),
+            };
+        }
+    };
+    let contacts = run.trajectory.contacts();
+    let lasting = |c: &&crate::step::Contact| {
+        scene.walls.get(c.wall).is_some_and(|w| w.law.is_rigid()) && c.end.is_none_or(|end| end > c.start)
+    };
+    let reason = if scene.walls.is_empty() {
+        "no walls: the motion is linear, and its closed form needs no step".into()
+    } else if contacts.iter().any(|c| lasting(&c)) {
+        let (all, lasting) = (contacts.len(), contacts.iter().filter(lasting).count());
+        format!(
+            "{all} contacts, {lasting} of them lasting: one degree of freedom rests, and its impacts accumulate, in closed form, so no step is \
+             needed"
+        )
+    } else {
+        format!(
+            "{} separate contacts at {} walls: the closed form between them needs no step",
+            contacts.len(),
+            scene.walls.len()
+        )
+    };
+    Choice { method: Method::new(Scheme::Event), reason }
 }
 
 /// Why the solver of `method` is what it is.

@@ -1,7 +1,10 @@
 //! Questions asked of many runs.
 
+pub mod accuracy;
+pub mod change;
 pub mod choice;
 pub mod compare;
 pub mod horizon;
-#[cfg(feature = "cli")]
+mod replay;
 pub mod stability;
+pub mod verdict;

@@ -1,0 +1,48 @@
+//! The refinement verdict of a comparison: every method with half its step.
+
+use crate::case::Case;
+use crate::scheme::Scheme;
+use crate::study::compare::Comparison;
+use crate::study::verdict::Verdict;
+
+/// The verdict on every method that ran; `progress` hears how many rows are done. The step's effect is the scheme's, not the solver's: a
+/// scheme is checked once, by the first of its solvers.
+pub(super) fn check(case: &Case, comparison: &Comparison, progress: &dyn Fn(u64)) -> Vec<Option<Verdict>> {
+    let mut verdicts: Vec<Option<Verdict>> = Vec::new();
+    for (index, row) in comparison.rows.iter().enumerate() {
+        let same = comparison.rows.iter().take(index).position(|r| r.method.scheme == row.method.scheme);
+        let verdict = match (same.and_then(|i| verdicts.get(i)), &row.outcome) {
+            (Some(verdict), _) => verdict.clone(),
+            (None, Ok(run)) => Verdict::of(&case.scene, &row.method, run, &case.time, &mut |_| {}).ok(),
+            (None, Err(_)) => None,
+        };
+        verdicts.push(verdict);
+        progress(index as u64 + 1);
+    }
+    verdicts
+}
+
+/// What half the step changes, method by method, in one line; all the numbers are in each summary.
+pub(super) fn line(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    for (row, verdict) in comparison.rows.iter().zip(verdicts) {
+        let scheme = row.method.scheme.to_string();
+        if row.method.scheme == Scheme::Event || parts.iter().any(|part| part.starts_with(&format!("{scheme} "))) {
+            continue;
+        }
+        parts.push(match verdict {
+            Some(v) => format!(
+                "{scheme} displacement {:.1e} of the gap until {:.3} s, impulse {:.1e}, contacts {:+}",
+                v.displacement,
+                v.horizon_s,
+                v.impulse_change(),
+                v.contacts_gained()
+            ),
+            None => format!("{scheme} was not checked"),
+        });
+    }
+    match parts.is_empty() {
+        true => "the exact scheme has no step".into(),
+        false => format!("half the step changes: {}", parts.join("; ")),
+    }
+}

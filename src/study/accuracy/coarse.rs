@@ -1,0 +1,80 @@
+//! Where refinement begins: the coarsest step that can see what happens in a scene.
+
+use crate::error::Result;
+use crate::scene::{LoadKind, Scene, System, WallLaw};
+use crate::time::{TimeGrid, TimeOptions};
+use std::f64::consts::{PI, TAU};
+
+/// Steps in the shortest period or contact of a scene with which refinement begins.
+const STEPS_PER_PERIOD: f64 = 8.0;
+
+/// Least number of steps in a run.
+const FEWEST_STEPS: f64 = 64.0;
+
+/// Rows and first steps of a refinement: every later grid halves the steps and keeps the rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoarseGrid {
+    /// Spacing of the rows, s.
+    pub sample: f64,
+    /// Steps over the whole run.
+    pub steps: u64,
+    /// Steps between two rows.
+    per_row: u64,
+}
+
+impl CoarseGrid {
+    /// The coarse grid of `scene`. Rows are those asked for; without a spacing, a row a first step.
+    ///
+    /// # Errors
+    /// [`crate::Error::Invalid`] for times that make no sense.
+    pub fn of(scene: &Scene, time: &TimeOptions) -> Result<Self> {
+        let shortest = shortest_time(scene) / STEPS_PER_PERIOD;
+        let largest = shortest.min(scene.duration / FEWEST_STEPS);
+        let spacing = time.sample.unwrap_or(largest);
+        let rows =
+            TimeGrid::stepping(scene.duration, &TimeOptions { step: 0.5 * spacing, sample: Some(spacing), ..*time })?;
+        let sample = scene.duration / rows.rows as f64;
+        // In range: the rows are bounded, and a scene with more steps a row than this is refused by its grid.
+        let per_row = (sample / largest * (1.0 - 1e-9)).ceil().clamp(1.0, 1e9) as u64;
+        Ok(Self { sample, steps: rows.rows.saturating_mul(per_row), per_row })
+    }
+
+    /// The options of the grid that has been halved `level` times.
+    #[must_use]
+    pub fn options(&self, level: u32, time: &TimeOptions) -> TimeOptions {
+        let step = self.sample / (self.per_row as f64 * 2f64.powi(level as i32));
+        TimeOptions { step, sample: Some(self.sample), ..*time }
+    }
+}
+
+/// The shortest time in which something happens, s: a period of the system or of a load, a row of a table, a contact with an elastic wall.
+/// Infinite where nothing has a time of its own.
+fn shortest_time(scene: &Scene) -> f64 {
+    let System::Oscillator(body) = &scene.system;
+    let mut times = vec![period(body.stiffness / body.mass)];
+    for load in &scene.loads {
+        match &load.kind {
+            LoadKind::Harmonic { frequency, .. } if *frequency > 0.0 => times.push(1.0 / frequency),
+            LoadKind::Table(table) => {
+                if let [first, .., last] = table.time() {
+                    // Rows are samples of something: it has some of them in a period.
+                    times.push(STEPS_PER_PERIOD * (last - first) / (table.time().len() - 1) as f64);
+                }
+            }
+            _ => {}
+        }
+    }
+    for wall in &scene.walls {
+        let stiffness = match wall.law {
+            WallLaw::Rigid { .. } => continue,
+            WallLaw::Elastic { stiffness, .. } => stiffness,
+            WallLaw::Quartic { epsilon, span } => span * span / epsilon,
+        };
+        times.push(PI / TAU * period((body.stiffness + stiffness) / body.mass));
+    }
+    times.into_iter().fold(f64::INFINITY, f64::min)
+}
+
+fn period(omega_squared: f64) -> f64 {
+    if omega_squared > 0.0 { TAU / omega_squared.sqrt() } else { f64::INFINITY }
+}

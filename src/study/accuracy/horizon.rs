@@ -1,0 +1,83 @@
+//! How far an error can be promised.
+
+use super::{Judged, JudgedBy, Outcome, Target, exact};
+use crate::error::Result;
+use crate::run::{Options, Run, run};
+use crate::scene::Scene;
+use crate::scheme::{Method, Scheme};
+use crate::study::change::Change;
+use crate::study::horizon::{Growth, LARGEST_GROWTH};
+use crate::time::TimeOptions;
+
+/// What a run errs by before it grows, over the gap, however small its step: rounding, with two digits in reserve.
+const ROUNDING: f64 = 1e-14;
+
+/// Rounding may grow to this share of the tolerance.
+const SHARE: f64 = 0.25;
+
+/// Change of the start that is followed where the growth is not known, over the gap.
+const PERTURBATION: f64 = 1e-10;
+
+/// A perturbation that has grown to this, over the gap, has stopped growing: the gap is full.
+const SATURATED: f64 = 0.1;
+
+/// The row (s) before which rounding has not grown beyond its share of `tolerance`; none if it never does. Between two events, so that no
+/// impact stands at the edge of what is counted.
+pub(super) fn cut(growth: &Growth, tolerance: f64, sample: f64) -> Option<f64> {
+    let horizon = growth.horizon(SHARE * tolerance / ROUNDING);
+    if growth.time.last().is_none_or(|&end| horizon >= end) {
+        return None;
+    }
+    let before = growth.time.iter().copied().take_while(|&t| t < horizon).last().unwrap_or(0.0);
+    Some((0.5 * (before + horizon) / sample).floor().max(1.0) * sample)
+}
+
+/// The time (s) up to which a run that starts a little elsewhere stays as near as the tolerance asks once the change is scaled down to
+/// rounding; none if it does to the end, or if the start has no room.
+pub(super) fn perturbed(
+    judged: &Judged,
+    method: &Method,
+    target: &Target,
+    level: u32,
+    found: &Run,
+) -> Result<Option<f64>> {
+    let gap = judged.scene.gap_scale();
+    let beside = [PERTURBATION * gap, -PERTURBATION * gap].into_iter().find_map(|by| {
+        let mut scene = judged.scene.clone();
+        scene.initial.q.first_mut().map(|q| *q += by)?;
+        scene.validate().is_ok().then_some(scene)
+    });
+    let Some(beside) = beside else { return Ok(None) };
+    let time = judged.time(&judged.coarse.options(level, &target.time));
+    let other = run(&beside, &method.scheme, &Options { time, backend: method.backend })?;
+    let most = (SHARE * target.tolerance * PERTURBATION / ROUNDING).min(SATURATED);
+    let until = crate::study::change::agree_until(&judged.scene, &other.trajectory, &found.trajectory, most);
+    Ok((until < judged.scene.duration).then_some(until))
+}
+
+/// Adds to the run's notes what a reader must know of an error that was kept.
+pub(super) fn explain(scene: &Scene, outcome: &mut Outcome) {
+    let until = outcome.accuracy.until_s;
+    if let Some(growth) = outcome.accuracy.growth.filter(|&g| g > LARGEST_GROWTH) {
+        outcome.run.notes.push(format!(
+            "a small change of the start or of the numbers of the case grows {growth:.1e}-fold up to t = {until:.4} s: the error is that of \
+             the calculation, for exactly these numbers"
+        ));
+    }
+    let rigid = scene.walls.iter().any(|w| w.law.is_rigid());
+    if !(rigid && matches!(outcome.method.scheme, Scheme::Penalty { .. })) {
+        return;
+    }
+    let sample = outcome.run.grid.end / outcome.run.grid.rows as f64;
+    let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(sample) };
+    let judged =
+        if outcome.accuracy.judged_by == JudgedBy::Halving { "its own refinements" } else { "its own springs" };
+    let rigid = exact(scene, time).and_then(|exact| Change::of_runs(scene, &outcome.run, &exact, until, 0.0));
+    if let Ok(change) = rigid {
+        outcome.run.notes.push(format!(
+            "the error is against {judged}: from the rigid walls the displacement lies {:.1e} of the gap away up to t = {until:.4} s, which \
+             no step changes",
+            change.displacement
+        ));
+    }
+}

@@ -1,0 +1,146 @@
+//! What differs between two runs of one scene, in the quantities that matter.
+
+use crate::error::Result;
+use crate::run::Run;
+use crate::scene::{Scene, System, WallLaw};
+use crate::statistics::{Statistics, WallStatistics};
+use crate::step::Contact;
+use crate::trajectory::Trajectory;
+use serde::Serialize;
+
+/// Contacts slower than this share of the fastest at their wall count in proportion to their speed.
+const SLOW: f64 = 1e-2;
+
+/// How far two runs lie apart. Every number is dimensionless; zero where nothing differs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Change {
+    /// Largest |Δu| over [`Scene::gap_scale`], at the rows up to the time asked for.
+    pub displacement: f64,
+    /// One entry a wall, in the scene's order.
+    pub walls: Vec<WallChange>,
+}
+
+/// The part of one wall, over the whole run. Each is relative to the wall's own value, or to what one impact at the body's largest
+/// speed v would give where that is more: a wall that is hardly touched does not decide.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WallChange {
+    /// The wall's name.
+    pub wall: String,
+    /// Of its impulse; at least m v.
+    pub impulse: f64,
+    /// Of its number of contacts; at least 1. A contact slower than 1 % of the wall's fastest counts in proportion to its speed, so that an
+    /// accumulation of impacts, infinitely many in the limit, has a finite number.
+    pub contacts: f64,
+    /// Of the kinetic energy that arrived at it; at least ½ m v².
+    pub impact_energy: f64,
+    /// Of its time in contact, as a share of the window.
+    pub contact_time: f64,
+    /// Of its largest force, if it is elastic; at least v √(k_a m).
+    pub peak_force: f64,
+}
+
+impl WallChange {
+    fn parts(&self) -> [(f64, &'static str); 5] {
+        [
+            (self.impulse, "impulse"),
+            (self.contacts, "number of contacts"),
+            (self.impact_energy, "impact energy"),
+            (self.contact_time, "contact time"),
+            (self.peak_force, "peak force"),
+        ]
+    }
+}
+
+impl Change {
+    /// The change from `run` to `against`, both of `scene` and with the same rows; displacements up to the time `until` (s), statistics
+    /// from the time `from` (s).
+    ///
+    /// # Errors
+    /// [`crate::Error::Unknown`] if the runs are not of this scene.
+    pub fn between(scene: &Scene, run: &Trajectory, against: &Trajectory, until: f64, from: f64) -> Result<Self> {
+        let gap = scene.gap_scale();
+        let pairs = run.displacement().iter().zip(against.displacement());
+        let rows = against.time().iter().zip(pairs).take_while(|(t, _)| **t <= until * (1.0 + 1e-12));
+        let displacement = rows.fold(0.0, |largest, (_, (x, y))| worse(largest, (x - y).abs() / gap));
+        let speed = against.velocity().iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+        let System::Oscillator(body) = &scene.system;
+        let statistics = [run, against].map(|t| Statistics::new(scene, t.contacts(), from));
+        let window = scene.duration - from;
+        let mut walls = Vec::new();
+        for (index, wall) in scene.walls.iter().enumerate() {
+            let impulses = [run.impulse(&wall.name)?, against.impulse(&wall.name)?];
+            let numbers = [run, against].map(|t| soft_number(t.contacts(), index, from));
+            let of =
+                |part: fn(&WallStatistics) -> f64| statistics.each_ref().map(|s| s.walls.get(index).map_or(0.0, part));
+            let [time, time_against] = of(|w| w.contact_time_ratio);
+            let peak_force = match wall.law {
+                WallLaw::Elastic { stiffness, .. } => {
+                    relative(of(|w| w.peak_force_n.max.unwrap_or(0.0)), speed * (stiffness * body.mass).sqrt())
+                }
+                _ => 0.0,
+            };
+            walls.push(WallChange {
+                wall: wall.name.clone(),
+                impulse: relative(impulses, body.mass * speed),
+                contacts: relative(numbers, 1.0),
+                impact_energy: relative(of(|w| w.impact_power_w), 0.5 * body.mass * speed * speed / window),
+                contact_time: (time - time_against).abs(),
+                peak_force,
+            });
+        }
+        Ok(Self { displacement, walls })
+    }
+
+    /// The same between two finished runs.
+    ///
+    /// # Errors
+    /// As [`Change::between`].
+    pub fn of_runs(scene: &Scene, run: &Run, against: &Run, until: f64, from: f64) -> Result<Self> {
+        Self::between(scene, &run.trajectory, &against.trajectory, until, from)
+    }
+
+    /// The largest of all, and the quantity it belongs to.
+    #[must_use]
+    pub fn worst(&self) -> (f64, String) {
+        let mut worst = (self.displacement, "displacement".to_owned());
+        for wall in &self.walls {
+            for (part, name) in wall.parts() {
+                if part > worst.0 || part.is_nan() && !worst.0.is_nan() {
+                    worst = (part, format!("{name} of wall {:?}", wall.wall));
+                }
+            }
+        }
+        worst
+    }
+}
+
+/// The larger of two, and NaN if either is: a run that left the numbers agrees with nothing.
+fn worse(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
+}
+
+fn relative([a, b]: [f64; 2], least: f64) -> f64 {
+    let difference = (a - b).abs();
+    if difference == 0.0 { 0.0 } else { difference / b.abs().max(least) }
+}
+
+fn soft_number(contacts: &[Contact], wall: usize, from: f64) -> f64 {
+    let speeds = contacts.iter().filter(|c| c.wall == wall && c.start >= from).map(|c| c.approach_speed);
+    let slow = SLOW * speeds.clone().fold(0.0, f64::max);
+    speeds.map(|v| if v >= slow { 1.0 } else { v / slow }).sum()
+}
+
+/// The time (s) up to which the displacements of two runs with the same rows agree to within `tolerance` of the gap scale.
+#[must_use]
+pub fn agree_until(scene: &Scene, run: &Trajectory, against: &Trajectory, tolerance: f64) -> f64 {
+    let gap = scene.gap_scale();
+    let mut until = 0.0;
+    for (&t, (x, y)) in against.time().iter().zip(run.displacement().iter().zip(against.displacement())) {
+        let agrees = (x - y).abs() <= tolerance * gap;
+        if !agrees {
+            return until;
+        }
+        until = t;
+    }
+    until
+}

@@ -1,0 +1,150 @@
+//! The refinement verdict: the same run with half the step, and what that changed.
+
+use super::change::Change;
+use super::horizon::{Growth, LARGEST_GROWTH};
+use super::replay::{replay, stride};
+use crate::error::Result;
+use crate::qp::Backend;
+use crate::run::{Options, Run, run_with_progress};
+use crate::scene::Scene;
+use crate::scheme::{Method, Scheme, Stepper};
+use crate::statistics::Statistics;
+use crate::time::TimeOptions;
+use serde::Serialize;
+use std::fmt;
+
+/// What a verdict costs, in runs like the one it is about.
+pub const COST: f64 = 2.0;
+
+/// How a run was checked.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Check {
+    /// By the same scheme with half the step.
+    HalfStep {
+        /// The halved step, s.
+        step_s: f64,
+    },
+    /// The exact scheme has no step: by the same motion with another rounding.
+    OtherRounding {
+        /// Distance of the stops that bring the other rounding, s.
+        stride_s: f64,
+    },
+}
+
+/// One wall before and after.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WallVerdict {
+    /// The wall's name.
+    pub wall: String,
+    /// Impulse of the run and of its check over the whole run, N s, signed.
+    pub impulse_ns: [f64; 2],
+    /// Contacts of the run and of its check in the window for statistics.
+    pub contacts: [usize; 2],
+    /// Largest force of the run and of its check in that window, N; none where there is no finite one.
+    pub peak_force_n: [Option<f64>; 2],
+}
+
+/// What the check changed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Verdict {
+    /// How the run was checked.
+    pub check: Check,
+    /// Largest |Δu| over the gap scale up to the horizon.
+    pub displacement: f64,
+    /// Time up to which displacements were compared, s: the end, or where a perturbation of the start has grown
+    /// [`LARGEST_GROWTH`]-fold.
+    pub horizon_s: f64,
+    /// One entry a wall, in the scene's order; none of them stops at the horizon.
+    pub walls: Vec<WallVerdict>,
+}
+
+impl Verdict {
+    /// Checks `run` of `scene`, made by `method` with the options `time`; `progress` hears the time (s) that the check has reached.
+    ///
+    /// # Errors
+    /// What the check's run reports.
+    pub fn of(
+        scene: &Scene,
+        method: &Method,
+        run: &Run,
+        time: &TimeOptions,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Self> {
+        let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
+        let (check, trajectory, backend) = if method.scheme == Scheme::Event {
+            (Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run)?, Backend::Auto)
+        } else {
+            let step_s = 0.5 * run.grid.step;
+            let options = Options { time: TimeOptions { step: step_s, ..rows }, backend: method.backend };
+            let half = run_with_progress(scene, &method.scheme, &options, progress)?;
+            (Check::HalfStep { step_s }, half.trajectory, method.backend)
+        };
+        // A penalty moves between springs: what grows there is not what grows between rigid walls.
+        let model = Stepper::with_backend(scene, &method.scheme, run.grid.step, backend)?.scene().clone();
+        let horizon_s = Growth::of(&model).map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH));
+        let from = time.statistics_from;
+        let change = Change::between(scene, &run.trajectory, &trajectory, horizon_s, from)?;
+        let again = Statistics::new(scene, trajectory.contacts(), from);
+        let mut walls = Vec::new();
+        for (before, after) in run.statistics.walls.iter().zip(&again.walls) {
+            walls.push(WallVerdict {
+                wall: before.wall.clone(),
+                impulse_ns: [run.trajectory.impulse(&before.wall)?, trajectory.impulse(&before.wall)?],
+                contacts: [before.contacts, after.contacts],
+                peak_force_n: [before.peak_force_n.max, after.peak_force_n.max],
+            });
+        }
+        Ok(Self { check, displacement: change.displacement, horizon_s, walls })
+    }
+
+    /// Largest change of a wall's impulse, as a share of that impulse.
+    #[must_use]
+    pub fn impulse_change(&self) -> f64 {
+        self.walls.iter().map(|w| share(w.impulse_ns).abs()).fold(0.0, f64::max)
+    }
+
+    /// Contacts that the check has more than the run, all walls together.
+    #[must_use]
+    pub fn contacts_gained(&self) -> i64 {
+        self.walls.iter().map(|w| w.contacts[1] as i64 - w.contacts[0] as i64).sum()
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.check {
+            Check::HalfStep { step_s } => write!(f, "with half the step, {step_s:.3e} s,")?,
+            Check::OtherRounding { .. } => f.write_str("the exact scheme has no step; with other roundings")?,
+        }
+        write!(
+            f,
+            " the displacement changes by {:.1e} of the gap up to t = {:.4} s",
+            self.displacement, self.horizon_s
+        )?;
+        for wall in &self.walls {
+            write!(f, "; wall {:?}: impulse {}", wall.wall, relative(wall.impulse_ns))?;
+            let [before, after] = wall.contacts;
+            match before == after {
+                true => write!(f, ", {before} contacts as before")?,
+                false => write!(f, ", contacts {before} → {after}")?,
+            }
+            if let [Some(before), Some(after)] = wall.peak_force_n {
+                write!(f, ", peak force {}", relative([before, after]))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The change as a share of the value after it.
+fn share([before, after]: [f64; 2]) -> f64 {
+    if before == after { 0.0 } else { (after - before) / after.abs().max(f64::MIN_POSITIVE) }
+}
+
+fn relative(values: [f64; 2]) -> String {
+    match share(values) {
+        0.0 => "unchanged".into(),
+        share => format!("{share:+.1e}"),
+    }
+}
