@@ -21,6 +21,17 @@ struct Open {
     departure: f64,
 }
 
+/// Velocities of a step as a wall sees them, m/s.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rates {
+    /// At its start.
+    pub before: f64,
+    /// After the blows in it, which come first.
+    pub struck: f64,
+    /// At its end.
+    pub after: f64,
+}
+
 /// Watches the steps of a scheme on a grid and closes an episode when a wall stops pushing.
 #[derive(Debug, Clone)]
 pub(crate) struct Episodes {
@@ -41,7 +52,8 @@ impl Episodes {
             side: scene.walls.iter().map(|w| w.side).collect(),
             open: vec![None; walls],
             any: false,
-            closed: Vec::with_capacity(walls),
+            // A step may close a rest and the impact that ended it.
+            closed: Vec::with_capacity(2 * walls),
         }
     }
 
@@ -57,9 +69,8 @@ impl Episodes {
         !self.any && self.closed.is_empty()
     }
 
-    /// Takes in one step from `start` over `h` (s) with its impulses (N s) and, per wall, the velocities ẇ before and
-    /// after it (m/s).
-    pub(crate) fn see(&mut self, start: f64, h: f64, impulse: &[f64], rate: impl Fn(usize) -> (f64, f64)) {
+    /// Takes in one step from `start` over `h` (s) with its impulses (N s) and, per wall, its velocities ẇ (m/s).
+    pub(crate) fn see(&mut self, start: f64, h: f64, impulse: &[f64], rates: impl Fn(usize) -> Rates) {
         self.closed.clear();
         self.any = false;
         let instant = start + self.instant * h;
@@ -71,7 +82,13 @@ impl Episodes {
                 }
                 continue;
             }
-            let (before, after) = rate(wall);
+            let Rates { before, struck, after } = rates(wall);
+            // A blow towards the wall ends a rest on it: what follows is an impact with a speed of its own.
+            if sign * (struck - before) < 0.0
+                && let Some(episode) = open.take()
+            {
+                self.closed.push(contact(wall, sign, self.rigid[wall], &episode, true));
+            }
             let fresh = Open {
                 first: instant,
                 last: instant,
@@ -79,7 +96,7 @@ impl Episodes {
                 impulse: 0.0,
                 moment: 0.0,
                 peak: 0.0,
-                approach: (-sign * before).max(0.0),
+                approach: (-sign * struck).max(0.0),
                 departure: 0.0,
             };
             let episode = open.get_or_insert(fresh);

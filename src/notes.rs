@@ -23,6 +23,10 @@ pub(crate) fn notes(scene: &Scene, run: &Run) -> Vec<String> {
             run.grid.step
         ));
     }
+    if run.grid.rows_shortened {
+        let spacing = run.grid.end / run.grid.rows as f64;
+        notes.push(format!("the rows are {spacing:e} s apart, closer than asked for, so that the last is at the end"));
+    }
     if run.scheme == Scheme::Newmark && !asked.is_empty() {
         notes.push(
             "newmark is an exhibit: its restitution is between 1/3 and 3, by chance of the phase of each impact".into(),

@@ -81,6 +81,8 @@ pub struct TimeGrid {
     pub rows: u64,
     /// True if the step had to be shortened.
     pub shortened: bool,
+    /// True if the spacing of the rows had to be shortened, to end at the end.
+    pub rows_shortened: bool,
 }
 
 /// Rows of the exact scheme, which has no step of its own, where no spacing is given.
@@ -94,10 +96,18 @@ impl TimeGrid {
     pub fn stepping(duration: f64, options: &TimeOptions) -> Result<Self> {
         options.validate(duration)?;
         let step = options.step;
-        let rows = intervals(duration, options.sample.map_or(step, |sample| sample.max(step)));
+        let spacing = options.sample.map_or(step, |sample| sample.max(step));
+        let rows = intervals(duration, spacing);
         let steps = rows * intervals(duration / rows as f64, step);
         let used = duration / steps as f64;
-        Ok(Self { end: duration, step: used, steps, rows, shortened: used < step * (1.0 - 1e-9) })
+        Ok(Self {
+            end: duration,
+            step: used,
+            steps,
+            rows,
+            shortened: used < step * (1.0 - 1e-9),
+            rows_shortened: options.sample.is_some() && shorter(duration, rows, spacing),
+        })
     }
 
     /// The rows of the exact scheme, which steps from event to event: a thousand unless a spacing is given.
@@ -107,8 +117,15 @@ impl TimeGrid {
     pub fn exact(duration: f64, options: &TimeOptions) -> Result<Self> {
         let sample = options.sample.unwrap_or(duration / EVENT_ROWS);
         TimeOptions { step: 0.5 * duration, sample: Some(sample), ..*options }.validate(duration)?;
-        Ok(Self { end: duration, step: duration, steps: 1, rows: intervals(duration, sample), shortened: false })
+        let rows = intervals(duration, sample);
+        let rows_shortened = shorter(duration, rows, sample);
+        Ok(Self { end: duration, step: duration, steps: 1, rows, shortened: false, rows_shortened })
     }
+}
+
+/// True if `rows` intervals of the duration are shorter than the spacing asked for, by more than rounding.
+fn shorter(duration: f64, rows: u64, spacing: f64) -> bool {
+    duration / (rows as f64) < spacing * (1.0 - 1e-9)
 }
 
 /// The least number of equal intervals of at most `step` that fill `span`, forgiving the rounding of their ratio.

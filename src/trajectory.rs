@@ -138,9 +138,10 @@ impl Recorder {
         recorder
     }
 
-    /// Time of row `k`, s; the last is the end itself.
+    /// Time of row `k`, s; the last is the end itself. The rate is often a whole number (1 ms: 1000 a second), and dividing by it gives the
+    /// double nearest to the decimal.
     fn row_time(&self, k: u64) -> f64 {
-        if k >= self.rows { self.end } else { self.end * (k as f64 / self.rows as f64) }
+        if k >= self.rows { self.end } else { k as f64 / (self.rows as f64 / self.end) }
     }
 
     /// Takes in one step. Steps must come in order; those after the last row are none of the run's and change nothing.

@@ -203,6 +203,11 @@ fn a_wrong_request_exits_with_2_and_says_what_would_be_accepted() {
         (&["run", case, "--out", "taken/here"], "taken"),
         (&["compare", case, "--end", "0.1", "--out", "taken"], "taken"),
         (&["compare", "bouncing-ball", "--end", "0.1", "--epsilon", "1e-9"], "stiffness"),
+        (&["run", case, "--scheme", "event", "--qp", "clarabel"], "quadratic"),
+        (&["run", case, "--scheme", "event:qp=clarabel"], "quadratic"),
+        (&["run", case, "--scheme", "penalty:epsilon=1e-9", "--epsilon", "1e-6"], "either"),
+        (&["run", case, "--scheme", "moreau-jean:theta=0.6", "--theta", "0.7"], "either"),
+        (&["compare", case, "--schemes", "moreau-jean,event,moreau-jean"], "twice"),
         (&["new", "no-such-case"], "rigid-walls-sine"),
         (&["explain", "nowhere"], "nowhere"),
     ];

@@ -186,6 +186,8 @@ impl Oscillation {
         let b = (m - h * (1.0 - theta) * c - h * h * theta * (1.0 - theta) * k) * v - h * k * q
             + h * f
             + blow(scene, t, t + h);
+        // The wall answers the velocity that a blow of the step leaves.
+        let v = v + blow(scene, t, t + h) / m;
         let row = |w: &Wall| {
             let WallLaw::Rigid { restitution } = w.law else { panic!("rigid walls only") };
             let sign = w.side.sign();
@@ -208,6 +210,8 @@ impl Oscillation {
         let row = |w: &Wall| {
             let WallLaw::Rigid { restitution } = w.law else { panic!("rigid walls only") };
             let e = shared(scene).unwrap_or(restitution);
+            // The wall answers the velocity that a blow leaves: it would have come from there.
+            let back = back - h * blow(scene, (t - h / 2.0).max(0.0), t + h / 2.0) / m;
             bound(w.side, (1.0 + e) * w.position - e * back)
         };
         Programme { a, b, rows: scene.walls.iter().map(row).collect() }

@@ -105,8 +105,10 @@ impl Request {
     /// # Errors
     /// [`Error::Unknown`] or [`Error::Invalid`] for a word that names none.
     pub fn method(&self, name: &str, case: &Case) -> Result<Method> {
-        let bare_penalty = name.trim() == "penalty" || name.trim().starts_with("penalty:integrator=");
-        let mut method: Method = if bare_penalty {
+        let name = name.trim();
+        self.check_against(name)?;
+        let penalty = name == "penalty" || name.starts_with("penalty:");
+        let mut method: Method = if penalty && !name.contains("epsilon=") && !name.contains("stiffness=") {
             let law = case.penalty.laws.first().ok_or_else(|| {
                 Error::invalid(
                     "scheme",
@@ -114,7 +116,7 @@ impl Request {
                     "an --epsilon, or a case with a [penalty] table, or penalty:stiffness=…",
                 )
             })?;
-            let settings = name.trim().strip_prefix("penalty:").unwrap_or("");
+            let settings = name.strip_prefix("penalty:").unwrap_or("");
             format!("penalty:{law},{settings}").parse()?
         } else {
             name.parse()?
@@ -127,14 +129,32 @@ impl Request {
             }
             _ => {}
         }
-        if !name.contains("qp=") {
+        if method.scheme.has_qp() {
             method.backend = self.qp.unwrap_or(method.backend);
         }
         method.scheme.validate()?;
         Ok(method)
     }
 
-    /// Refuses settings that no method of the request has any use for.
+    /// Refuses an option beside a method that says the same thing itself.
+    fn check_against(&self, name: &str) -> Result<()> {
+        let given = |key: &str| name.split([':', ',']).any(|part| part.trim().starts_with(key));
+        let number = |x: Option<f64>| x.map(|x| x.to_string());
+        let options = [
+            ("--theta", number(self.theta), given("theta=")),
+            ("--epsilon", number(self.epsilon), given("epsilon=") || given("stiffness=")),
+            ("--integrator", self.integrator.map(|i| i.to_string()), given("integrator=")),
+            ("--qp", self.qp.map(|q| q.to_string()), given("qp=")),
+        ];
+        for (option, value, beside) in options {
+            if let (Some(value), true) = (value, beside) {
+                return Err(Error::invalid(option, value, format!("either the option or the setting in {name:?}")));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses settings that no method of the request has any use for, and a method asked for twice.
     ///
     /// # Errors
     /// [`Error::Invalid`] naming the option.
@@ -144,6 +164,14 @@ impl Request {
         let unused = |option: &str, value: String, scheme: &str| {
             Err(Error::invalid(option, value, format!("a request with {scheme} in it")))
         };
+        for (index, method) in methods.iter().enumerate() {
+            if methods[..index].contains(method) {
+                return Err(Error::invalid("--schemes", format!("{method}, twice"), "each method once"));
+            }
+        }
+        if let (Some(qp), false) = (self.qp, any(Scheme::has_qp)) {
+            return unused("--qp", qp.to_string(), "a scheme that solves quadratic programmes");
+        }
         match (self.theta, self.epsilon, self.integrator) {
             (Some(theta), _, _) if !any(|s| matches!(s, Scheme::MoreauJean { .. })) => {
                 unused("--theta", theta.to_string(), "moreau-jean")

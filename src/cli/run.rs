@@ -9,7 +9,7 @@ use crate::output::csv;
 use crate::output::pictures::{Labelled, Sheet};
 use crate::output::summary::{self, Checks, Reasons};
 use crate::run::{Options, Run, run_with_progress};
-use crate::scheme::Method;
+use crate::scheme::{Method, Scheme};
 use crate::study::accuracy::{Outcome, Target, reach};
 use crate::study::choice;
 use crate::study::verdict::{self, Verdict};
@@ -194,11 +194,27 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
     }
     let r = &run.residuals;
     ui.message(&format!(
-        "{method} on {}: {} steps, {} QPs by {}, complementarity {:.1e}, penetration {:.1e} m, energy ledger {:.1e}, {:.3} s",
-        case.name, run.counters.steps, run.counters.qp_solves, run.backend, r.complementarity, r.penetration_m, r.energy.residual, run.seconds
+        "{method} on {}: {} steps, {}, complementarity {:.1e}, penetration {:.1e} m, energy ledger {:.1e}, {:.3} s",
+        case.name,
+        run.counters.steps,
+        solved(run),
+        r.complementarity,
+        r.penetration_m,
+        r.energy.residual,
+        run.seconds
     ));
     for note in &run.notes {
         ui.message(&format!("note: {note}"));
     }
     Ok(())
+}
+
+/// What solved the steps that met a wall, and how often.
+fn solved(run: &Run) -> String {
+    let counters = &run.counters;
+    match run.scheme {
+        Scheme::Event => format!("{} contact events", counters.events),
+        Scheme::Penalty { .. } => format!("{} Newton iterations", counters.newton_iterations),
+        _ => format!("{} QPs by {}", counters.qp_solves, run.backend),
+    }
 }

@@ -56,6 +56,9 @@ impl Ui {
             let object = |row: &Vec<String>| {
                 // The first column names things, and a name such as `1e5` stays one.
                 let cell = |(column, text): (usize, &String)| match text.parse::<f64>() {
+                    Ok(_) if column > 0 && text.parse::<u64>().is_ok() => {
+                        serde_json::json!(text.parse::<u64>().unwrap_or(0))
+                    }
                     Ok(number) if number.is_finite() && column > 0 => serde_json::json!(number),
                     _ if text.is_empty() => serde_json::Value::Null,
                     _ => serde_json::json!(text),

@@ -77,7 +77,7 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
         scene: scene(&case.scene),
         scheme: run.scheme.to_string(),
         scheme_reason: &reasons.scheme,
-        qp_solver: run.backend.to_string(),
+        qp_solver: if run.scheme.has_qp() { run.backend.to_string() } else { "none".into() },
         qp_reason: &reasons.qp,
         step_s: (!exact).then_some(run.grid.step),
         steps: run.counters.steps,

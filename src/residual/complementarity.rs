@@ -45,14 +45,15 @@ impl Pairs {
     }
 }
 
-/// γ of a rigid wall at what the scheme promises; `None` where it promises no force at all.
+/// γ of a rigid wall at what the scheme promises, from the velocity after the step's blows (`struck`) and after the step; `None` where it
+/// promises no force at all.
 pub(super) fn slack(
     scene: &Scene,
     index: usize,
     contract: Contract,
     h: f64,
     (w0, w1): (f64, f64),
-    (before, after): (f64, f64),
+    (struck, after): (f64, f64),
     gap_scale: f64,
 ) -> Option<f64> {
     let wall = &scene.walls[index];
@@ -61,13 +62,13 @@ pub(super) fn slack(
     match contract.promise {
         Promise::MeanPosition => {
             let e = shared_restitution(scene, wall).min(restitution);
-            let back = w0 - h * before;
+            let back = w0 - h * struck;
             Some(sign * ((w1 - wall.position) + e * (back - wall.position)))
         }
         Promise::Velocity => {
-            let reaches = wall.gap(w0 + 0.5 * h * before) <= 1e-12 * gap_scale;
-            let epsilon = if sign * before <= 0.0 { restitution } else { 1.0 };
-            reaches.then_some(sign * (after + epsilon * before))
+            let reaches = wall.gap(w0 + 0.5 * h * struck) <= 1e-12 * gap_scale;
+            let epsilon = if sign * struck <= 0.0 { restitution } else { 1.0 };
+            reaches.then_some(sign * (after + epsilon * struck))
         }
         _ => Some(wall.gap(w1)),
     }

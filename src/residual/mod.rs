@@ -211,7 +211,9 @@ impl Judge {
             let rates = (wall.at.dot(step.velocity_before), wall.at.dot(step.velocity_after));
             if wall.law.is_rigid() {
                 let gap_scale = self.energy.gap_scale;
-                match complementarity::slack(&self.scene, index, self.contract, self.h, (w0, w1), rates, gap_scale) {
+                let struck = rates.0 + self.scene.system.velocity_change(&wall.at, &self.scratch.blow);
+                let (ends, rates) = ((w0, w1), (struck, rates.1));
+                match complementarity::slack(&self.scene, index, self.contract, self.h, ends, rates, gap_scale) {
                     Some(slack) => self.pairs.add(slack, pressure),
                     None => self.law_error = self.law_error.max(pressure.abs()),
                 }

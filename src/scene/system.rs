@@ -1,5 +1,6 @@
 //! The linear system: what vibrates when nothing touches it.
 
+use super::row::Row;
 use crate::error::{Error, Result};
 
 /// One degree of freedom, m q̈ + c q̇ + k q = f.
@@ -27,6 +28,14 @@ impl System {
     pub fn degrees_of_freedom(&self) -> usize {
         match self {
             Self::Oscillator(_) => 1,
+        }
+    }
+
+    /// g M⁻¹ p: what the impulses `p` (N s, length n) change of the velocity seen through `row`, m/s.
+    #[must_use]
+    pub fn velocity_change(&self, row: &Row, p: &[f64]) -> f64 {
+        match self {
+            Self::Oscillator(o) => row.dot(p) / o.mass,
         }
     }
 

@@ -115,6 +115,8 @@ pub(super) struct Frame {
     pub q: [f64; 1],
     pub v: [f64; 1],
     pub before: [f64; 1],
+    /// Velocity that a wall answers, m/s: `before` and the blows of the step.
+    pub struck: [f64; 1],
     pub after: [f64; 1],
     pub extra: [f64; 1],
     pub impulse: Vec<f64>,
@@ -132,6 +134,7 @@ impl Frame {
             q: [q],
             v: [v],
             before: [v],
+            struck: [v],
             after: [v],
             extra: [0.0],
             impulse: vec![0.0; walls],
@@ -157,6 +160,7 @@ impl Frame {
         self.start = start;
         self.end = end;
         self.before[0] = v_before;
+        self.struck[0] = v_before;
         self.after[0] = v;
         self.q[0] = q;
         self.v[0] = v;

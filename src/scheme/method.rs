@@ -1,7 +1,7 @@
 //! A method: a scheme and the solver of its quadratic programmes, as one word.
 
 use super::Scheme;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::qp::Backend;
 use std::fmt;
 use std::str::FromStr;
@@ -47,7 +47,12 @@ impl FromStr for Method {
                 None => rest.push(part),
             }
         }
-        let scheme = if rest.is_empty() { name.parse()? } else { format!("{name}:{}", rest.join(",")).parse()? };
+        let scheme: Scheme =
+            if rest.is_empty() { name.parse()? } else { format!("{name}:{}", rest.join(",")).parse()? };
+        if backend != Backend::Auto && !scheme.has_qp() {
+            let expected = "a scheme that solves quadratic programmes";
+            return Err(Error::invalid(format!("qp={backend}"), format!("beside {scheme}"), expected));
+        }
         Ok(Self { scheme, backend })
     }
 }

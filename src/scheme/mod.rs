@@ -48,6 +48,12 @@ pub enum Scheme {
 }
 
 impl Scheme {
+    /// True for a scheme whose steps that meet a wall solve a quadratic programme; a penalty solves by Newton's method, the exact scheme by hand.
+    #[must_use]
+    pub fn has_qp(&self) -> bool {
+        !matches!(self, Self::Penalty { .. } | Self::Event)
+    }
+
     /// What every step of the scheme keeps.
     #[must_use]
     pub fn contract(&self) -> Contract {

@@ -9,7 +9,8 @@
 //!
 //! minimise ½ A δ² − b δ   subject to   ẇ⁺ + ε ẇ ≤ 0 (upper), ≥ 0 (lower),    A = M + hθC + h²θ²K,
 //!
-//! over the walls that q + ½h v reaches, with ε = e where the body approaches or rests, 1 where it separates.
+//! over the walls that q + ½h v reaches, with ε = e where the body approaches or rests, 1 where it separates; in both the velocity ẇ is that
+//! after the blow J/M of the step, so that a body struck at rest on a wall rebounds like one that arrives.
 //! With θ = ½, e = 1, no damping and no load the energy is conserved exactly.
 
 use super::grid::{Counters, Frame, Scalar};
@@ -58,27 +59,31 @@ impl MoreauJean {
         let (q, v) = (self.q, self.v);
         let load = (1.0 - theta) * self.load + theta * load_end + extra;
         let b = h * (load - s.c * v - s.k * (q + h * theta * v)) + blows;
-        let reach = q + 0.5 * h * v;
+        // A blow comes first, and the wall answers the velocity it leaves.
+        let struck = if blows == 0.0 { v } else { v + blows / s.m };
+        let reach = q + 0.5 * h * struck;
         frame.clear();
         let delta = if reach > self.clear.0 && reach < self.clear.1 {
             self.last_side = 0.0;
             self.programme.free(b)
         } else {
-            self.meet(step, b, reach, frame)?
+            self.meet(step, b, struck, frame)?
         };
         let q_end = q + h * (v + theta * delta);
         let v_end = v + delta;
         (self.q, self.v, self.load) = (q_end, v_end, load_end);
         frame.arrive(start, end, v, q_end, v_end);
+        frame.struck[0] = struck;
         frame.check(step)
     }
 
     /// δ of a step that may meet a wall, whose impulses it writes. Out of line: most steps are none.
     #[inline(never)]
-    fn meet(&mut self, step: u64, b: f64, reach: f64, frame: &mut Frame) -> Result<f64> {
+    fn meet(&mut self, step: u64, b: f64, struck: f64, frame: &mut Frame) -> Result<f64> {
         let s = &self.s;
         let (h, q, v) = (s.h, self.q, self.v);
         let ht = h * self.theta;
+        let reach = q + 0.5 * h * struck;
         for (row, wall) in self.programme.rows.iter_mut().zip(&s.walls) {
             *row = match wall.law {
                 WallLaw::Elastic { stiffness, damping } => {
@@ -88,8 +93,8 @@ impl MoreauJean {
                     elastic_row(wall.upper, ht * ht * stiff, offset)
                 }
                 WallLaw::Rigid { restitution } if wall.depth(reach) >= -s.touch => {
-                    let epsilon = if wall.sign * v <= 0.0 { restitution } else { 1.0 };
-                    let bound = -(1.0 + epsilon) * v;
+                    let epsilon = if wall.sign * struck <= 0.0 { restitution } else { 1.0 };
+                    let bound = -(1.0 + epsilon) * struck + (struck - v);
                     let (lo, hi) = if wall.upper { (f64::NEG_INFINITY, bound) } else { (bound, f64::INFINITY) };
                     ScalarRow { lo, hi, compliance: 0.0 }
                 }

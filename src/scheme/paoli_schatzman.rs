@@ -55,6 +55,8 @@ impl PaoliSchatzman {
         let (q, v) = (self.q, self.v);
         let back = q - h * v;
         let blow = s.forcing.impulse_about(step, h);
+        // A blow comes first, and the wall answers the velocity it leaves: q⁻ in the bound is where that would have come from.
+        let struck = if blow == 0.0 { v } else { v + blow / s.m };
         let felt = centred(&mut self.extra, extra);
         frame.extra[0] = felt;
         let load = self.load + felt;
@@ -67,7 +69,7 @@ impl PaoliSchatzman {
                     elastic_row(wall.upper, 0.25 * stiffness + 0.5 * damping / h, offset)
                 }
                 _ => {
-                    let bound = (1.0 + e) * (wall.g - q) + e * h * v;
+                    let bound = (1.0 + e) * (wall.g - q) + e * h * struck;
                     let (lo, hi) = if wall.upper { (f64::NEG_INFINITY, bound) } else { (bound, f64::INFINITY) };
                     ScalarRow { lo, hi, compliance: 0.0 }
                 }
@@ -89,6 +91,7 @@ impl PaoliSchatzman {
         (self.q, self.v, self.load) = (q_end, v_half, load_end);
         frame.arrive(start, end, v, q_end, v_end);
         frame.after[0] = v_half;
+        frame.struck[0] = struck;
         frame.check(step)
     }
 

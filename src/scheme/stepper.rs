@@ -8,7 +8,7 @@ use super::paoli_schatzman::PaoliSchatzman;
 use super::penalty::{Mean, Penalty};
 use super::position::Position;
 use super::{Integrator, Scheme};
-use crate::contact::Episodes;
+use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::scene::{Scene, State, WallLaw};
@@ -145,10 +145,14 @@ impl Stepper {
         self.index += 1;
         // The exact scheme leaves the frame untouched and keeps its own episodes.
         if frame.touched || !self.episodes.idle() {
-            let (before, after) = (&frame.before, &frame.after);
             let walls = &self.scene.walls;
-            let rate = |wall: usize| walls.get(wall).map_or((0.0, 0.0), |w| (w.at.dot(before), w.at.dot(after)));
-            self.episodes.see(frame.start, self.step, &frame.impulse, rate);
+            let seen = |wall: usize, v: &[f64]| walls.get(wall).map_or(0.0, |w| w.at.dot(v));
+            let rates = |wall: usize| Rates {
+                before: seen(wall, &frame.before),
+                struck: seen(wall, &frame.struck),
+                after: seen(wall, &frame.after),
+            };
+            self.episodes.see(frame.start, self.step, &frame.impulse, rates);
         }
         Ok(())
     }
