@@ -156,6 +156,10 @@ impl fmt::Display for Error {
                 "{count} contact events, or steps of the search for them, within {window:e} s at wall {wall:?}, t = {time} s: more than the exact scheme follows; \
                  a stepping scheme (moreau-jean, paoli-schatzman) does not resolve them one by one"
             ),
+            Self::Inaccurate { tolerance, reached, steps, .. } if reached.is_infinite() => write!(
+                f,
+                "an error of {tolerance:e} is out of reach: the coarsest runs that could see the motion take {steps} steps and more"
+            ),
             Self::Inaccurate { tolerance, reached, quantity, until, steps } => write!(
                 f,
                 "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \

@@ -254,6 +254,24 @@ fn a_tolerance_out_of_reach_is_named_with_what_was_reached_and_until_when() {
 }
 
 #[test]
+fn a_body_that_crosses_its_gap_millions_of_times_is_refused_in_seconds() {
+    let tight = |half: f64| {
+        let body = Scene::oscillator(1.0, 0.0, 0.0).with_initial(&[0.0], &[100.0]);
+        body.with_wall(upper(half, 1.0)).with_wall(lower(-half, 1.0))
+    };
+    for method in [None, Some(Method::new(Scheme::Event)), Some(Method::new(MOREAU))] {
+        let asked = Target { method, ..Target::new(1e-2, time()) };
+        let error = reach(&tight(1e-7), &asked, &mut |_| {}).unwrap_err();
+        assert!(matches!(error, Error::Inaccurate { .. } | Error::TooManyEvents { .. }), "{error}");
+    }
+    // Steps in which the body crosses its whole gap are not taken for convergence.
+    let few = Target { most_steps: 1 << 14, ..target(MOREAU, Against::Refinements, 1e-2) };
+    let slow = tight(1e-3).with_initial(&[0.0], &[0.0]).with_load(Load::impulse(100.0, 1e-4));
+    let outcome = reach(&slow, &few, &mut |_| {}).unwrap();
+    assert!(matches!(outcome.shortfall, Some(Error::Inaccurate { .. })));
+}
+
+#[test]
 fn a_horizon_shorter_than_the_run_is_named_and_the_run_is_kept() {
     let scene = driven(3.0, 5.0, 10.0).with_wall(upper(5e-3, 1.0)).with_wall(lower(-5e-3, 1.0));
     let mut before = 10.0;

@@ -4,7 +4,7 @@ pub mod accuracy;
 pub mod change;
 pub mod choice;
 pub mod compare;
+mod exact;
 pub mod horizon;
-mod replay;
 pub mod stability;
 pub mod verdict;

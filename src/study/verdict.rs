@@ -1,8 +1,8 @@
 //! The refinement verdict: the same run with half the step, and what that changed.
 
 use super::change::Change;
+use super::exact::{affordable, replay, stride};
 use super::horizon::{Growth, LARGEST_GROWTH};
-use super::replay::{replay, stride};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::run::{Options, Run, run_with_progress};
@@ -82,7 +82,8 @@ impl Verdict {
         };
         // A penalty moves between springs: what grows there is not what grows between rigid walls.
         let model = Stepper::with_backend(scene, &method.scheme, run.grid.step, backend)?.scene().clone();
-        let horizon_s = Growth::of(&model).map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH));
+        let growth = affordable(&model).and_then(|()| Growth::of(&model));
+        let horizon_s = growth.map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH));
         let from = time.statistics_from;
         let change = Change::between(scene, &run.trajectory, &trajectory, horizon_s, from)?;
         let again = Statistics::new(scene, trajectory.contacts(), from);

@@ -1,7 +1,7 @@
 //! Where refinement begins: the coarsest step that can see what happens in a scene.
 
 use crate::error::Result;
-use crate::scene::{LoadKind, Scene, System, WallLaw};
+use crate::scene::{Forcing, LoadKind, Scene, System, WallLaw};
 use crate::time::{TimeGrid, TimeOptions};
 use std::f64::consts::{PI, TAU};
 
@@ -10,6 +10,9 @@ const STEPS_PER_PERIOD: f64 = 8.0;
 
 /// Least number of steps in a run.
 const FEWEST_STEPS: f64 = 64.0;
+
+/// Most rows where no spacing is asked for.
+const MOST_ROWS: f64 = 1e4;
 
 /// Rows and first steps of a refinement: every later grid halves the steps and keeps the rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,14 +26,14 @@ pub struct CoarseGrid {
 }
 
 impl CoarseGrid {
-    /// The coarse grid of `scene`. Rows are those asked for; without a spacing, a row a first step.
+    /// The coarse grid of `scene`. Rows are those asked for; without a spacing a row a first step, or ten thousand.
     ///
     /// # Errors
     /// [`crate::Error::Invalid`] for times that make no sense.
     pub fn of(scene: &Scene, time: &TimeOptions) -> Result<Self> {
         let shortest = shortest_time(scene) / STEPS_PER_PERIOD;
         let largest = shortest.min(scene.duration / FEWEST_STEPS);
-        let spacing = time.sample.unwrap_or(largest);
+        let spacing = time.sample.unwrap_or(largest.max(scene.duration / MOST_ROWS));
         let rows =
             TimeGrid::stepping(scene.duration, &TimeOptions { step: 0.5 * spacing, sample: Some(spacing), ..*time })?;
         let sample = scene.duration / rows.rows as f64;
@@ -47,7 +50,8 @@ impl CoarseGrid {
     }
 }
 
-/// The shortest time in which something happens, s: a period of the system or of a load, a row of a table, a contact with an elastic wall.
+/// The shortest time in which something happens, s: a period of the system or of a load, a row of a table, a contact with an elastic wall, the gap at the
+/// speed of the start.
 /// Infinite where nothing has a time of its own.
 fn shortest_time(scene: &Scene) -> f64 {
     let System::Oscillator(body) = &scene.system;
@@ -63,6 +67,11 @@ fn shortest_time(scene: &Scene) -> f64 {
             }
             _ => {}
         }
+    }
+    let blow = Forcing::on(0, &scene.loads).initial_impulse() / body.mass;
+    let speed = scene.initial.v.first().map_or(0.0, |v| (v + blow).abs());
+    if speed > 0.0 && !scene.walls.is_empty() {
+        times.push(scene.gap_scale() / speed);
     }
     for wall in &scene.walls {
         let stiffness = match wall.law {

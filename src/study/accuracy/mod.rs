@@ -8,8 +8,8 @@ pub use coarse::CoarseGrid;
 
 use super::change::Change;
 use super::choice::{self, Choice};
+use super::exact::{affordable, replay};
 use super::horizon::Growth;
-use super::replay::replay;
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::run::{Options, Run, run, run_with_progress};
@@ -144,7 +144,11 @@ pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> R
     // A penalty's motion is that between its springs; the exact scheme follows those too where they are linear.
     let model = Stepper::with_backend(scene, &method.scheme, scene.duration, method.backend)?.scene().clone();
     let coarse = CoarseGrid::of(&model, &target.time)?;
-    let growth = Growth::of(&model).ok();
+    let growth = affordable(&model).and_then(|()| Growth::of(&model));
+    if let (Scheme::Event, Err(error)) = (method.scheme, &growth) {
+        return Err(error.clone());
+    }
+    let growth = growth.ok();
     let cut = growth.as_ref().and_then(|g| horizon::cut(g, target.tolerance, coarse.sample));
     let judged = Judged {
         scene: scene.clone().with_duration(cut.unwrap_or(scene.duration)),
@@ -162,8 +166,9 @@ pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> R
     Ok(outcome)
 }
 
-/// The exact motion of `scene`, at the rows of `time`.
+/// The exact motion of `scene`, at the rows of `time`, where it can be afforded.
 fn exact(scene: &Scene, time: TimeOptions) -> Result<Run> {
+    affordable(scene)?;
     run(scene, &Scheme::Event, &Options { time, backend: Backend::Auto })
 }
 

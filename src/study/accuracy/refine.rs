@@ -77,7 +77,9 @@ pub(super) fn refine(
         levels.push(Level { step_s: run.grid.step, steps, error: change.as_ref().map(|c| c.worst().0), failure: None });
         if let Some(change) = change {
             worst = change.worst();
-            quiet = if worst.0 <= share * target.tolerance { quiet + 1 } else { 0 };
+            // A body frozen between its walls changes nothing from halving to halving, and is wrong.
+            let moves = run.counters.frozen_steps == 0;
+            quiet = if moves && worst.0 <= share * target.tolerance { quiet + 1 } else { 0 };
         }
         done.push((level, run));
         if done.len() > QUIET_HALVINGS + 1 {

@@ -1,10 +1,30 @@
-//! The exact motion once more, with another rounding.
+//! The exact motion as a reference: whether it can be afforded, and once more with another rounding.
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
 use crate::trajectory::{Recorder, Trajectory};
+
+/// Steps from event to event that a reference may take: a second or so. The exact scheme itself follows far more before it gives up.
+const MOST_EVENTS: u64 = 1_000_000;
+
+/// Follows `scene` from event to event and keeps nothing.
+///
+/// # Errors
+/// What the exact scheme reports, and [`Error::TooManyEvents`] beyond a million steps.
+pub fn affordable(scene: &Scene) -> Result<()> {
+    let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
+    for _ in 0..MOST_EVENTS {
+        if stepper.time() >= scene.duration {
+            return Ok(());
+        }
+        stepper.step()?;
+    }
+    let time = stepper.time();
+    let wall = scene.walls.first().map_or_else(String::new, |w| w.name.clone());
+    Err(Error::TooManyEvents { time, wall, count: MOST_EVENTS, window: time })
+}
 
 /// Stretches of the other run over the duration: no divisor of anything, so that its stops fall on no row and no period.
 const STRETCHES: f64 = 97.3;
