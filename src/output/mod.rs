@@ -6,6 +6,7 @@
 //! | [`csv`] | `trajectory.csv` and `contacts.csv` |
 //! | [`summary`] | `summary.json` |
 //! | [`pictures`] | the figures of one or several runs |
+//! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
 
 pub mod atomic;
@@ -13,3 +14,4 @@ pub mod csv;
 pub mod figure;
 pub mod pictures;
 pub mod summary;
+pub mod work_precision;

@@ -3,3 +3,4 @@
 pub mod choice;
 pub mod compare;
 pub mod horizon;
+pub mod work_precision;
