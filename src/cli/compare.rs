@@ -82,7 +82,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 }
 
 /// Methods separated by semicolons, or by those commas that begin a new method rather than a setting.
-fn split(list: &str) -> impl Iterator<Item = &str> {
+pub(super) fn split(list: &str) -> impl Iterator<Item = &str> {
     let by_semicolon = list.contains(';');
     let mut parts = Vec::new();
     let mut start = 0;

@@ -1,5 +1,6 @@
 //! The command-line tool: parse, call, print. One file per command.
 
+mod chart;
 mod compare;
 mod completions;
 mod explain;
@@ -42,6 +43,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Args),
+    Chart(chart::Args),
     Compare(compare::Args),
     Explain(explain::Args),
     Figures(figures::Args),
@@ -68,6 +70,7 @@ pub fn main() -> ExitCode {
 fn execute(command: &Command, ui: &Ui) -> Result<()> {
     match command {
         Command::Run(args) => run::execute(args, ui),
+        Command::Chart(args) => chart::execute(args, ui),
         Command::Compare(args) => compare::execute(args, ui),
         Command::Explain(args) => explain::execute(args, ui),
         Command::Figures(args) => figures::execute(args, ui),

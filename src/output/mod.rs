@@ -7,6 +7,7 @@
 //! | [`summary`] | `summary.json` |
 //! | [`pictures`] | the figures of one or several runs |
 //! | [`stability`] | tables and maps of a stability study |
+//! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
 
 pub mod atomic;
@@ -15,3 +16,4 @@ pub mod figure;
 pub mod pictures;
 pub mod stability;
 pub mod summary;
+pub mod work_precision;

@@ -6,5 +6,7 @@ pub mod choice;
 pub mod compare;
 mod exact;
 pub mod horizon;
+#[cfg(feature = "cli")]
 pub mod stability;
 pub mod verdict;
+pub mod work_precision;

@@ -1,0 +1,104 @@
+//! The steps that are tried: each a power of two finer than the last, so that their rows coincide.
+
+use crate::error::{Error, Result};
+use crate::scene::{LoadKind, Scene, System};
+use crate::time::{MOST_STEPS, TimeOptions};
+
+/// Steps of a run, at least, over the duration, and over the fastest period of the scene.
+const COARSE: f64 = 64.0;
+const COARSE_A_PERIOD: f64 = 16.0;
+/// Steps of the finest run unless asked otherwise: some hundredths of a second of a penalty.
+const FINE: f64 = 1e6;
+/// Rows at which runs are compared, at most, where the coarsest run does not have more steps.
+const MOST_ROWS: u64 = 2048;
+
+/// Which steps to try. The finest asked for is not passed: the last step is within a factor of two of it where all levels are tried.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Steps {
+    /// Coarsest, s; none: a sixteenth of the scene's fastest period, and at least 64 steps.
+    pub coarsest: Option<f64>,
+    /// Finest, s; none: some 10⁶ steps.
+    pub finest: Option<f64>,
+    /// How many, at most; none: 8.
+    pub levels: Option<u32>,
+}
+
+/// Numbers of steps over one duration, and the rows they share.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Ladder {
+    /// Increasing.
+    pub counts: Vec<u64>,
+    /// Rows of the reference: a power of two times the first count.
+    pub rows: u64,
+    pub duration: f64,
+}
+
+impl Ladder {
+    pub fn new(scene: &Scene, steps: &Steps) -> Result<Self> {
+        let duration = scene.duration;
+        for (key, step) in [("coarsest step", steps.coarsest), ("finest step", steps.finest)] {
+            let sensible = |h: f64| h.is_finite() && h > 0.0 && h < duration && duration / h <= MOST_STEPS;
+            if let Some(step) = step.filter(|h| !sensible(*h)) {
+                return Err(Error::invalid(key, step, format!("a step above 0, below the {duration} s compared")));
+            }
+        }
+        let coarsest =
+            steps.coarsest.unwrap_or_else(|| (duration / COARSE).min(fastest_period(scene) / COARSE_A_PERIOD));
+        let first = (duration / coarsest * (1.0 - 1e-12)).ceil().clamp(2.0, MOST_STEPS);
+        let finest = steps.finest.unwrap_or(duration / FINE.max(first));
+        if finest > coarsest * (1.0 + 1e-12) {
+            return Err(Error::invalid("finest step", finest, format!("at most the coarsest, {coarsest}")));
+        }
+        let doublings = (duration / finest / first * (1.0 + 1e-9)).log2().floor().max(0.0) as u32;
+        let levels = steps.levels.unwrap_or(8).max(1);
+        let stride = if levels > 1 { doublings.div_ceil(levels - 1).max(1) } else { 1 };
+        let last = if levels > 1 { doublings } else { 0 };
+        let first = first as u64;
+        let counts = (0..=last).step_by(stride as usize).map(|k| first << k).collect();
+        let mut rows = first;
+        while rows * 2 <= MOST_ROWS.min(first << last) {
+            rows *= 2;
+        }
+        Ok(Self { counts, rows, duration })
+    }
+
+    /// Step and rows of a run of `count` steps, s.
+    pub fn time(&self, count: u64) -> TimeOptions {
+        let rows = self.rows.min(count);
+        TimeOptions {
+            step: self.duration / count as f64,
+            sample: Some(self.duration / rows as f64),
+            statistics_from: 0.0,
+        }
+    }
+}
+
+/// The shortest period of the scene: of its free motion without walls and of its harmonic loads, s.
+fn fastest_period(scene: &Scene) -> f64 {
+    let System::Oscillator(o) = &scene.system;
+    let natural = std::f64::consts::TAU * (o.mass / o.stiffness).sqrt();
+    let loads = scene.loads.iter().filter_map(|load| match &load.kind {
+        LoadKind::Harmonic { frequency, .. } if *frequency > 0.0 => Some(1.0 / frequency),
+        _ => None,
+    });
+    // At most 10⁵ steps on the coarsest run, however fast the scene.
+    loads.chain([natural]).fold(f64::INFINITY, f64::min).max(COARSE_A_PERIOD * 1e-5 * scene.duration)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_run_shares_rows_with_the_reference() {
+        let scene = Scene::oscillator(1.0, 0.2, 100.0).with_duration(1.0);
+        let steps = Steps { coarsest: Some(1e-2), finest: Some(1e-5), levels: Some(4) };
+        let ladder = Ladder::new(&scene, &steps).unwrap();
+        assert_eq!(ladder.counts, [100, 800, 6400, 51_200]);
+        assert_eq!(ladder.rows, 1600);
+        let defaults = Ladder::new(&scene, &Steps::default()).unwrap();
+        assert_eq!((defaults.counts.first(), defaults.counts.len()), (Some(&64), 7));
+        assert!(Ladder::new(&scene, &Steps { coarsest: Some(2.0), ..steps }).is_err());
+        assert!(Ladder::new(&scene, &Steps { finest: Some(f64::NAN), ..steps }).is_err());
+    }
+}

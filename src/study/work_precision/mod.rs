@@ -1,0 +1,176 @@
+//! Accuracy against speed: every method over a range of steps, error against wall-clock time.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `graph.rs` | the distance between motions with jumps |
+//! | `errors.rs` | the four errors of a run |
+//! | `reference.rs` | what they are held against, and until when |
+//! | `ladder.rs` | the steps tried |
+//! | `timing.rs` | the clock |
+//! | `measure.rs` | the study itself |
+//! | `front.rs` | order, Pareto front, cheapest |
+//! | `overlay.rs` | other programs' points |
+
+mod errors;
+mod front;
+mod graph;
+mod ladder;
+mod measure;
+mod overlay;
+mod reference;
+mod timing;
+
+pub use errors::Errors;
+pub use front::{order, pareto, reached};
+pub use graph::{Graph, Scales};
+pub use ladder::Steps;
+pub use measure::study;
+pub use overlay::{Peer, read};
+pub use reference::{Horizon, Reference};
+
+use crate::error::{Error, Result};
+use crate::scheme::{Counters, Integrator, Method, PenaltyLaw, Scheme};
+
+/// What is tried, and how much it may cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// The steps.
+    pub steps: Steps,
+    /// Timed runs of each point, of which the fastest counts.
+    pub repeats: u32,
+    /// A run expected to take longer than this is left out, and said to be, s. A refined reference may take some times as long.
+    pub most_seconds: f64,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { steps: Steps::default(), repeats: 5, most_seconds: 1.0 }
+    }
+}
+
+/// What came of one method at one step.
+#[derive(Debug, Clone)]
+pub enum Outcome {
+    /// It ran.
+    Ran(Box<Measured>),
+    /// It failed.
+    Failed(Error),
+    /// It would have taken this long, s: not run.
+    LeftOut(f64),
+}
+
+/// A run, measured.
+#[derive(Debug, Clone)]
+pub struct Measured {
+    /// Against the scene: for a penalty, modelling and integration together.
+    pub errors: Errors,
+    /// A penalty's error against the motion of its own springs: integration alone.
+    pub own: Option<Errors>,
+    /// Stepping, s: best of several.
+    pub seconds: f64,
+    /// What it cost on any machine.
+    pub counters: Counters,
+    /// What a reader must know of the run.
+    pub notes: Vec<String>,
+}
+
+/// One method at one step.
+#[derive(Debug, Clone)]
+pub struct Point {
+    /// s; none for the exact scheme.
+    pub step: Option<f64>,
+    /// What came of it.
+    pub outcome: Outcome,
+}
+
+impl Point {
+    /// The measurement, if there is one.
+    #[must_use]
+    pub fn measured(&self) -> Option<&Measured> {
+        if let Outcome::Ran(measured) = &self.outcome { Some(measured) } else { None }
+    }
+}
+
+/// One method over its steps, coarsest first.
+#[derive(Debug, Clone)]
+pub struct Series {
+    /// The method.
+    pub method: Method,
+    /// Its points.
+    pub points: Vec<Point>,
+}
+
+impl Series {
+    /// The points that ran: step (s; none for the exact scheme) and measurement.
+    pub fn measured(&self) -> impl Iterator<Item = (Option<f64>, &Measured)> {
+        self.points.iter().filter_map(|p| Some((p.step, p.measured()?)))
+    }
+
+    /// Order of convergence: of the displacement's error against a penalty's own springs, of that against the scene for the others. From errors
+    /// below a tenth and far enough above `known`, the error of what they are held against; none from fewer than two of these.
+    #[must_use]
+    pub fn order(&self, known: f64) -> Option<f64> {
+        let error = |m: &Measured| m.own.as_ref().unwrap_or(&m.errors).displacement;
+        let points = self.measured().filter_map(|(h, m)| Some((h?, error(m))));
+        order(points.filter(|p| p.1 < 0.1 && p.1 > 10.0 * known))
+    }
+
+    /// The cheapest point from which on the displacement's error stays at or below `tolerance`.
+    #[must_use]
+    pub fn cheapest(&self, tolerance: f64) -> Option<(Option<f64>, &Measured)> {
+        let errors: Vec<f64> = self.measured().map(|(_, m)| m.errors.displacement).collect();
+        let first = reached(&errors, tolerance)?;
+        self.measured().skip(first).min_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds))
+    }
+}
+
+/// What a penalty's springs cannot get below, however small the step.
+#[derive(Debug, Clone)]
+pub struct Floor {
+    /// The springs.
+    pub law: PenaltyLaw,
+    /// Their own motion, or why there is none.
+    pub reference: Result<Reference>,
+    /// Until when runs are held against that motion, s: springs that lose nothing may be more sensitive than the scene.
+    pub end: f64,
+    /// Its errors against the scene: the modelling error.
+    pub errors: Option<Errors>,
+}
+
+/// Accuracy against speed on one scene.
+#[derive(Debug, Clone)]
+pub struct WorkPrecision {
+    /// Until when runs are compared.
+    pub horizon: Horizon,
+    /// What they are held against.
+    pub reference: Reference,
+    /// One a method.
+    pub series: Vec<Series>,
+    /// One a penalty law.
+    pub floors: Vec<Floor>,
+}
+
+impl WorkPrecision {
+    /// What the springs of a penalty cannot get below; none for the other schemes.
+    #[must_use]
+    pub fn floor(&self, scheme: &Scheme) -> Option<&Floor> {
+        let Scheme::Penalty { law, .. } = *scheme else { return None };
+        self.floors.iter().find(|f| f.law == law)
+    }
+
+    /// The uncertainty of what a scheme's own error is held against: a penalty's springs, or the reference; over the gap.
+    #[must_use]
+    pub fn known(&self, scheme: &Scheme) -> f64 {
+        let own = self.floor(scheme).and_then(|f| f.reference.as_ref().ok());
+        own.unwrap_or(&self.reference).uncertainty.displacement
+    }
+}
+
+/// Every scheme: those of the constrained QP, every penalty with every integrator, and the exact one.
+#[must_use]
+pub fn every_method(laws: &[PenaltyLaw]) -> Vec<Method> {
+    let schemes = [Scheme::Event, Scheme::MoreauJean { theta: 0.5 }, Scheme::PaoliSchatzman, Scheme::ImplicitEuler];
+    let penalty = |&law| Integrator::ALL.into_iter().rev().map(move |integrator| Scheme::Penalty { law, integrator });
+    let all = schemes.into_iter().chain([Scheme::Newmark]).chain(laws.iter().flat_map(penalty));
+    all.map(Method::new).collect()
+}

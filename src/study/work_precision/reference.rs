@@ -1,0 +1,182 @@
+//! What the runs are held against, how far it can itself be trusted, and for how long a comparison means anything.
+
+use super::errors::{Errors, Yardstick};
+use super::ladder::Ladder;
+use crate::error::Result;
+use crate::run::{Options, Run, run};
+use crate::scene::Scene;
+use crate::scheme::{Method, Scheme, Stepper};
+use crate::study::horizon::{Growth, LARGEST_GROWTH};
+use crate::time::TimeOptions;
+use crate::trajectory::{Recorder, Trajectory};
+
+/// Shares of the duration after which the exact scheme is made to start a new arc, so that it rounds differently.
+const STRIDES: [f64; 3] = [1.0 / 7.3, 1.0 / 31.7, 1.0 / 101.9];
+/// How many times finer than the finest run a refined reference is: its error is then a sixteenth of that run's, for a scheme of order 2.
+const FINER: u64 = 4;
+/// Perturbation of the start where growth is found by two runs, in units of the scene: far above rounding, far below the errors compared.
+const PERTURBATION: f64 = 1e-8;
+/// Steps of these two runs, at most.
+pub(super) const PERTURBED_STEPS: u64 = 262_144;
+/// The comparison ends this much before the event at which growth exceeds the limit, so that no impact falls on its last row.
+const SHAVED: f64 = 0.99;
+
+/// How long a comparison means anything.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Horizon {
+    /// The comparison's end, s.
+    pub end: f64,
+    /// Growth of a small change of the start until then.
+    pub growth: f64,
+    /// Growth over the scene's whole duration.
+    pub growth_of_all: f64,
+    /// How it was found, and why it ends there.
+    pub how: String,
+}
+
+impl Horizon {
+    /// The horizon of `scene`: exactly, by saltation matrices, or by two runs of `stand_in` in `steps` steps where the exact scheme cannot go.
+    pub(super) fn of(scene: &Scene, stand_in: Method, steps: u64) -> Result<Self> {
+        let exact = match stand_in.scheme {
+            Scheme::Penalty { law, .. } => scene.penalised(law).and_then(|scene| Growth::of(&scene)),
+            _ => Growth::of(scene),
+        };
+        let (growth, found) = match exact {
+            Ok(growth) => (growth, "by saltation matrices along the exact motion".to_owned()),
+            Err(_) => (perturbed(scene, stand_in, steps)?, format!("by perturbing the start of a {stand_in} run")),
+        };
+        let whole = scene.duration;
+        let limit = growth.horizon(LARGEST_GROWTH);
+        let end = if limit >= whole {
+            whole
+        } else {
+            // The first event may be a graze: then until just before it.
+            let first = growth.time.iter().copied().find(|t| *t > 0.0).unwrap_or(whole);
+            SHAVED * if limit > 0.0 { limit } else { first }
+        };
+        Ok(Self { end, growth: growth.until(end), growth_of_all: growth.until(whole), how: found })
+    }
+}
+
+/// Growth of |Δu| between two runs of `method`, one started a little faster.
+fn perturbed(scene: &Scene, method: Method, steps: u64) -> Result<Growth> {
+    let time = TimeOptions {
+        step: scene.duration / steps.clamp(1024, PERTURBED_STEPS) as f64,
+        sample: Some(scene.duration / 1024.0),
+        statistics_from: 0.0,
+    };
+    let go = |scene: &Scene| run(scene, &method.scheme, &Options { time, backend: method.backend });
+    let first = go(scene)?.trajectory;
+    let speed = first.velocity().iter().fold(f64::MIN_POSITIVE, |a, v| a.max(v.abs()));
+    let mut moved = scene.clone();
+    moved.initial.v.iter_mut().for_each(|v| *v += PERTURBATION * speed);
+    let second = go(&moved)?.trajectory;
+    let scale = PERTURBATION * scene.gap_scale();
+    let pairs = first.displacement().iter().zip(second.displacement());
+    let factor = pairs.map(|(x, y)| ((x - y).abs() / scale).max(1.0)).collect();
+    Ok(Growth { time: first.time().to_vec(), factor })
+}
+
+/// A motion to hold others against.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    pub(super) yardstick: Yardstick,
+    /// How it was made.
+    pub how: String,
+    /// How far it may itself be off: an error below this says nothing.
+    pub uncertainty: Errors,
+}
+
+impl Reference {
+    /// The exact motion of `scene` where the exact scheme can go, else a refined run of `stand_in`.
+    pub(super) fn of(scene: &Scene, stand_in: Method, ladder: &Ladder, horizon: &Horizon, most: f64) -> Result<Self> {
+        Self::exact(scene, ladder.rows, horizon).or_else(|error| {
+            let mut reference = Self::refined(scene, scene, stand_in, ladder, horizon, most)?;
+            reference.how = format!("{}, since `event` cannot go: {error}", reference.how);
+            Ok(reference)
+        })
+    }
+
+    /// The motion between the springs of a penalty run of `method`: exact for linear ones, refined for the φ² law.
+    pub(super) fn of_penalty(
+        scene: &Scene,
+        method: Method,
+        ladder: &Ladder,
+        horizon: &Horizon,
+        most: f64,
+    ) -> Result<Self> {
+        let penalised = match method.scheme {
+            Scheme::Penalty { law, .. } => scene.penalised(law)?,
+            _ => scene.clone(),
+        };
+        Self::exact(&penalised, ladder.rows, horizon)
+            .or_else(|_| Self::refined(scene, &penalised, method, ladder, horizon, most))
+    }
+
+    /// By the exact scheme. Its error is what changes when the arcs are cut elsewhere, and every rounding with them; and never less than one
+    /// rounding, grown as the scene makes it grow.
+    fn exact(scene: &Scene, rows: u64, horizon: &Horizon) -> Result<Self> {
+        let yardstick = Yardstick::new(scene, cut(scene, scene.duration, rows)?, 0.0, horizon.end);
+        let mut uncertainty = Errors::default();
+        for share in STRIDES {
+            uncertainty = uncertainty.max(&yardstick.errors(&cut(scene, share * scene.duration, rows)?, 0.0));
+        }
+        let uncertainty = uncertainty.at_least(f64::EPSILON * horizon.growth.clamp(1.0, LARGEST_GROWTH));
+        Ok(Self { yardstick, how: "the exact motion (`event`)".into(), uncertainty })
+    }
+
+    /// By `method` with steps [`FINER`] times finer than the finest compared, or as fine as time allows; its error is what the last halving
+    /// changed. `seen` is the scene as the method sees it.
+    fn refined(
+        scene: &Scene,
+        seen: &Scene,
+        method: Method,
+        ladder: &Ladder,
+        horizon: &Horizon,
+        most: f64,
+    ) -> Result<Self> {
+        let go = |count| {
+            let time = ladder.time(count);
+            run(scene, &method.scheme, &Options { time, backend: method.backend })
+        };
+        let finest = ladder.counts.last().copied().unwrap_or(ladder.rows).max(ladder.rows);
+        let mut count = ladder.rows;
+        let mut last = go(count)?;
+        loop {
+            // Straight to the last two, where the time of the last run says that they can be afforded.
+            let ahead = FINER / 2 * finest / count;
+            let affordable = last.seconds * 2.0 * ahead as f64 <= most;
+            count *= if affordable { ahead.max(2) } else { 2 };
+            let next = go(count)?;
+            let enough = count >= FINER * finest || 2.0 * next.seconds > FINER as f64 * most;
+            if enough {
+                let how = format!("{method} refined to steps of {:.1e} s", next.grid.step);
+                let yardstick = Yardstick::new(seen, next.trajectory, next.grid.step, horizon.end);
+                let uncertainty = yardstick.errors(&last.trajectory, last.grid.step);
+                return Ok(Self { yardstick, how, uncertainty });
+            }
+            last = next;
+        }
+    }
+
+    /// Errors of `run` against this motion.
+    pub(super) fn errors(&self, run: &Run) -> Errors {
+        self.yardstick.errors(&run.trajectory, run.grid.step)
+    }
+
+    /// Errors of this motion against `other`.
+    pub(super) fn against(&self, other: &Self) -> Errors {
+        other.yardstick.errors(&self.yardstick.trajectory, self.yardstick.step)
+    }
+}
+
+/// The exact motion of `scene` at `rows` rows, its arcs cut at multiples of `stride` (s).
+fn cut(scene: &Scene, stride: f64, rows: u64) -> Result<Trajectory> {
+    let mut stepper = Stepper::new(scene, &Scheme::Event, stride)?;
+    let state = stepper.state();
+    let mut recorder = Recorder::new(scene, rows, &state.q, &state.v);
+    while stepper.time() < scene.duration {
+        recorder.see(&stepper.step()?);
+    }
+    Ok(recorder.finish(&stepper.open_contacts()))
+}
