@@ -162,14 +162,17 @@ fn bound(side: Side, at: f64) -> ScalarRow {
     }
 }
 
-/// The least e of each pair that stands on opposite sides.
-fn shared(scene: &Scene) -> Option<f64> {
-    let e = |side| {
+/// The least e, if with each wall its own the bounds would cross.
+fn shared(scene: &Scene, back: f64) -> Option<f64> {
+    let e =
+        |w: &Wall| if let WallLaw::Rigid { restitution } = w.law { restitution } else { panic!("rigid walls only") };
+    let bounds = |side| {
         let walls = scene.walls.iter().filter(move |w| w.side == side);
-        walls.filter_map(|w| if let WallLaw::Rigid { restitution } = w.law { Some(restitution) } else { None })
+        walls.map(move |w| (1.0 + e(w)) * w.position - e(w) * back)
     };
-    let both = e(Side::Upper).next().is_some() && e(Side::Lower).next().is_some();
-    both.then(|| e(Side::Upper).chain(e(Side::Lower)).fold(1.0, f64::min))
+    let (lo, hi) =
+        (bounds(Side::Lower).fold(f64::NEG_INFINITY, f64::max), bounds(Side::Upper).fold(f64::INFINITY, f64::min));
+    (lo > hi).then(|| scene.walls.iter().map(e).fold(1.0, f64::min))
 }
 
 impl Oscillation {
@@ -209,9 +212,9 @@ impl Oscillation {
             + blow(scene, (t - h / 2.0).max(0.0), t + h / 2.0) / h;
         let row = |w: &Wall| {
             let WallLaw::Rigid { restitution } = w.law else { panic!("rigid walls only") };
-            let e = shared(scene).unwrap_or(restitution);
             // The wall answers the velocity that a blow leaves: it would have come from there.
             let back = back - h * blow(scene, (t - h / 2.0).max(0.0), t + h / 2.0) / m;
+            let e = shared(scene, back).unwrap_or(restitution);
             bound(w.side, (1.0 + e) * w.position - e * back)
         };
         Programme { a, b, rows: scene.walls.iter().map(row).collect() }

@@ -1,6 +1,6 @@
 //! What a wall may do, read off the positions and velocities of a step.
 
-use crate::scene::{Scene, Wall, WallLaw};
+use crate::scene::{Scene, Side, Wall, WallLaw};
 use crate::step::{Balance, Contract, Promise};
 
 /// Pairs (γ, |r|) that should be complementary, kept so that the scales may come at the end of the run: of the
@@ -61,8 +61,8 @@ pub(super) fn slack(
     let sign = wall.side.sign();
     match contract.promise {
         Promise::MeanPosition => {
-            let e = shared_restitution(scene, wall).min(restitution);
             let back = w0 - h * struck;
+            let e = shared_restitution(scene, wall, back).unwrap_or(restitution);
             Some(sign * ((w1 - wall.position) + e * (back - wall.position)))
         }
         Promise::Velocity => {
@@ -74,14 +74,16 @@ pub(super) fn slack(
     }
 }
 
-/// The smallest restitution of the scene if rigid walls stand on both sides, else 1.
-fn shared_restitution(scene: &Scene, wall: &Wall) -> f64 {
-    let rigid = |w: &&Wall| w.law.is_rigid();
-    let e = |w: &Wall| if let WallLaw::Rigid { restitution } = w.law { restitution } else { 1.0 };
-    if scene.walls.iter().filter(rigid).all(|w| w.side == wall.side) {
-        return 1.0;
+/// The smallest restitution of the rigid walls on the row of `wall`, if with each its own the bounds (1+e)g − e w⁻ would cross.
+fn shared_restitution(scene: &Scene, wall: &Wall, back: f64) -> Option<f64> {
+    let (mut lo, mut hi, mut least) = (f64::NEG_INFINITY, f64::INFINITY, 1.0_f64);
+    for other in scene.walls.iter().filter(|other| other.at == wall.at) {
+        let WallLaw::Rigid { restitution: e } = other.law else { continue };
+        let bound = (1.0 + e) * other.position - e * back;
+        (lo, hi) = if other.side == Side::Upper { (lo, hi.min(bound)) } else { (lo.max(bound), hi) };
+        least = least.min(e);
     }
-    scene.walls.iter().filter(rigid).map(e).fold(1.0, f64::min)
+    (lo > hi).then_some(least)
 }
 
 /// |r| of an elastic or penalised wall as the scheme promises it for a step.

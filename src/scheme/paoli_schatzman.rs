@@ -27,8 +27,8 @@ pub(super) struct PaoliSchatzman {
     load: f64,
     /// The caller's extra force in the last step, N; 0 before the first.
     extra: f64,
-    /// Restitution of each wall as the rows use it.
-    restitution: Vec<f64>,
+    /// True if rigid walls differ in e, so that their bounds could cross.
+    unequal: bool,
     programme: Programme,
 }
 
@@ -43,8 +43,8 @@ impl PaoliSchatzman {
         let rows = compliances(&s, |k, c| 0.25 * k + 0.5 * c / h);
         let programme = Programme::new(a, scene.gap_scale(), &rows, backend)?;
         let load = s.forcing.force(0.0);
-        let restitution = restitutions(&s);
-        Ok(Self { s, q, v, load, extra: 0.0, restitution, programme })
+        let unequal = unequal(&s);
+        Ok(Self { s, q, v, load, extra: 0.0, unequal, programme })
     }
 
     #[inline]
@@ -61,7 +61,8 @@ impl PaoliSchatzman {
         frame.extra[0] = felt;
         let load = self.load + felt;
         let b = s.m * v / h - 0.5 * s.c * v - s.k * (q - 0.25 * h * v) + load + blow / h;
-        for ((row, wall), &e) in self.programme.rows.iter_mut().zip(&s.walls).zip(&self.restitution) {
+        let shared = self.shared_restitution(q - h * struck);
+        for (row, wall) in self.programme.rows.iter_mut().zip(&s.walls) {
             *row = match wall.law {
                 WallLaw::Elastic { stiffness, damping } => {
                     // |r| = k_a s̄ + c_a(s⁺ − s⁻₊)/2h, written in Δ.
@@ -69,6 +70,7 @@ impl PaoliSchatzman {
                     elastic_row(wall.upper, 0.25 * stiffness + 0.5 * damping / h, offset)
                 }
                 _ => {
+                    let e = shared.unwrap_or(own(wall.law));
                     let bound = (1.0 + e) * (wall.g - q) + e * h * struck;
                     let (lo, hi) = if wall.upper { (f64::NEG_INFINITY, bound) } else { (bound, f64::INFINITY) };
                     ScalarRow { lo, hi, compliance: 0.0 }
@@ -139,15 +141,31 @@ pub(super) fn centred(last: &mut f64, extra: f64) -> f64 {
     0.5 * (std::mem::replace(last, extra) + extra)
 }
 
-/// The e of each wall; where an upper and a lower rigid wall differ, the smaller for both, or their bounds could cross.
-fn restitutions(s: &Scalar) -> Vec<f64> {
-    let own = |law: WallLaw| if let WallLaw::Rigid { restitution } = law { restitution } else { 0.0 };
-    let least = |upper: bool| {
-        let side = s.walls.iter().filter(|w| w.upper == upper && w.law.is_rigid());
-        side.map(|w| own(w.law)).reduce(f64::min)
-    };
-    match (least(true), least(false)) {
-        (Some(u), Some(l)) => vec![u.min(l); s.walls.len()],
-        _ => s.walls.iter().map(|w| own(w.law)).collect(),
+/// The e of a wall, 0 for an elastic one, which has none.
+fn own(law: WallLaw) -> f64 {
+    if let WallLaw::Rigid { restitution } = law { restitution } else { 0.0 }
+}
+
+impl PaoliSchatzman {
+    /// The smallest e of the rigid walls, if with its own e for each the bounds of a lower and an upper one would cross: unequal e, and a body
+    /// so deep in one wall that the other's bound lies behind it.
+    fn shared_restitution(&self, back: f64) -> Option<f64> {
+        if !self.unequal {
+            return None;
+        }
+        let (mut lo, mut hi, mut least) = (f64::NEG_INFINITY, f64::INFINITY, 1.0_f64);
+        for wall in self.s.walls.iter().filter(|w| w.law.is_rigid()) {
+            let e = own(wall.law);
+            let bound = (1.0 + e) * wall.g - e * back;
+            (lo, hi) = if wall.upper { (lo, hi.min(bound)) } else { (lo.max(bound), hi) };
+            least = least.min(e);
+        }
+        (lo > hi).then_some(least)
     }
+}
+
+/// True if rigid walls differ in e.
+fn unequal(s: &Scalar) -> bool {
+    let mut rigid = s.walls.iter().filter(|w| w.law.is_rigid()).map(|w| own(w.law));
+    rigid.next().is_some_and(|first| rigid.any(|e| e != first))
 }
