@@ -48,7 +48,7 @@ pub struct WallStatistics {
     /// The part of it that had not returned to the body when it left, Σ ½m(approach² − departure²)/T, W; of closed episodes. At impacts
     /// this is what restitution takes. Where a contact lasts (elastic walls, penalties, rest), the loads and the structure work on the body
     /// meanwhile, and that work is in it: negative where they give more than the wall takes. What dashpots of walls dissipate is
-    /// [`Energy::wall_damping_j`](crate::Energy::wall_damping_j).
+    /// [`Energy::wall_damping_j`](crate::residual::Energy::wall_damping_j).
     pub unreturned_power_w: f64,
 }
 

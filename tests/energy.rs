@@ -294,7 +294,7 @@ fn what_a_damped_wall_takes_is_the_work_of_its_dashpot() {
 
 #[test]
 fn a_load_that_gives_and_takes_has_exchanged_what_it_gave() {
-    // From rest under 3 cos(10πt): at multiples of 0.1 s the body is at rest again, and the steps here are such.
+    // From rest under 3 cos(10πt): at multiples of 0.1 s the body is at rest again, and a step without events may well be that long.
     let load = signorini::Load::harmonic(3.0, 5.0, std::f64::consts::FRAC_PI_2);
     let scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(load);
     for step in [1e-4, 0.1, 1.0] {
