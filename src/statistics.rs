@@ -45,8 +45,11 @@ pub struct WallStatistics {
     /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W. The motion is normal to the wall and frictionless: this is
     /// impact power, there is no sliding wear in it.
     pub impact_power_w: f64,
-    /// The part of it that did not leave again, W.
-    pub dissipated_power_w: f64,
+    /// The part of it that had not returned to the body when it left, Σ ½m(approach² − departure²)/T, W; of closed episodes. At impacts
+    /// this is what restitution takes. Where a contact lasts (elastic walls, penalties, rest), the loads and the structure work on the body
+    /// meanwhile, and that work is in it: negative where they give more than the wall takes. What dashpots of walls dissipate is
+    /// [`Energy::wall_damping_j`](crate::residual::Energy::wall_damping_j).
+    pub unreturned_power_w: f64,
 }
 
 /// Contact statistics of a run.
@@ -61,11 +64,13 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Statistics of `contacts` from the time `from` (s) to the scene's end.
+    /// Statistics of `contacts` from the time `from` (s) to the scene's end. A window of no length, if `from` is the end or later (or no
+    /// number), has times and powers of 0.
     #[must_use]
     pub fn new(scene: &Scene, contacts: &[Contact], from: f64) -> Self {
         let to = scene.duration;
-        let window = to - from;
+        let from = from.min(to);
+        let per_time = |x: f64| if to > from { x / (to - from) } else { 0.0 };
         let wall = |(index, wall): (usize, &crate::scene::Wall)| {
             let here = contacts.iter().filter(move |c| c.wall == index && c.start >= from);
             let System::Oscillator(oscillator) = &scene.system;
@@ -81,9 +86,9 @@ impl Statistics {
                 contacts: here.clone().count(),
                 peak_force_n: Summary::of(here.clone().filter_map(|c| c.peak_force)),
                 impulse_ns: Summary::of(here.clone().map(|c| c.impulse.abs())),
-                contact_time_ratio: time / window,
-                impact_power_w: arrived / window,
-                dissipated_power_w: total(&mut here.map(lost)) / window,
+                contact_time_ratio: per_time(time),
+                impact_power_w: per_time(arrived),
+                unreturned_power_w: per_time(total(&mut here.map(lost))),
             }
         };
         Self { from_s: from, to_s: to, walls: scene.walls.iter().enumerate().map(wall).collect() }

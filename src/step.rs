@@ -3,16 +3,21 @@
 use crate::flow::Arc;
 
 /// The momentum balance that every step of a scheme fulfils. With it a judge can hold a step to its word without
-/// knowing the scheme. F(t, q, v) = f(t) − C v − K q is the smooth force, p the contact impulse of the step, and
-/// v₋, v₊ are [`Step::velocity_before`] and [`Step::velocity_after`].
+/// knowing the scheme. F(t, q, v) = f(t) − C v − K q is the smooth force, f_x the extra force of the step ([`Step::extra`]), J the sum of
+/// the loads' impulses that fall to the step, p the contact impulse of the step, and v₋, v₊ are [`Step::velocity_before`] and
+/// [`Step::velocity_after`].
+///
+/// An impulse at t = 0 is part of the start and of no step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Balance {
-    /// M(v₊ − v₋) = h[(1−θ)F(t, q, v₋) + θF(t⁺, q⁺, v₊)] + p and q⁺ − q = h[(1−θ)v₋ + θv₊].
+    /// M(v₊ − v₋) = h[(1−θ)F(t, q, v₋) + θF(t⁺, q⁺, v₊) + f_x] + J + p and q⁺ − q = h[(1−θ)v₋ + θv₊]; to J belongs what falls in (t, t⁺].
     Theta(f64),
-    /// M(v₊ − v₋) = h[f(t) − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + p with v₋ = (q − q⁻)/h, v₊ = (q⁺ − q)/h, and b this number:
-    /// ¼ averages the stiffness, 0 takes it at t.
+    /// M(v₊ − v₋) = h[f(t) + f_x − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + J + p with v₋ = (q − q⁻)/h, v₊ = (q⁺ − q)/h, and b this
+    /// number: ¼ averages the stiffness, 0 takes it at t. To J belongs what falls in (t − h/2, t + h/2], after t = 0.
     Staggered(f64),
-    /// The differential equation itself, over the step's [`Arc`].
+    /// The differential equation itself over the step's [`Arc`], M q̈ = F(t, q, q̇) + f_x + r; at the instant t⁺ that ends it the velocity
+    /// jumps by M(v₊ − v) = J + p⁺, with v the arc's last, J what falls in (t, t⁺] (an arc ends at each impulse), and p⁺ the
+    /// [`Step::jump`] of the walls.
     Exact,
 }
 

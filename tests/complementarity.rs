@@ -438,3 +438,19 @@ fn the_judge_reports_energy_that_is_lost_or_made() {
     });
     assert!((r.complementarity - 0.01).abs() < 2e-3, "{r:?}");
 }
+
+#[test]
+fn a_judge_takes_no_harm_from_what_does_not_fit_its_scene() {
+    let scene = source(0.8, 0.8).with_duration(1.0);
+    let other = Scene::oscillator(1.0, 0.0, 100.0);
+    for scheme in [MOREAU_JEAN, Scheme::Event] {
+        let mut stepper = Stepper::new(&other, &scheme, 1e-3).expect("a sound scene");
+        for (q, v) in [(&[][..], &[][..]), (&[0.0, 1.0], &[0.0])] {
+            let mut judge = Judge::new(&scene, stepper.contract(), 1e-3, q, v);
+            let before = judge.residuals();
+            // Without walls: passed over.
+            judge.see(&stepper.step().expect("a step"));
+            assert_eq!(judge.residuals(), before);
+        }
+    }
+}

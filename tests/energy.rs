@@ -228,3 +228,83 @@ fn motion_that_dies_within_a_sliver_of_its_arc_is_judged_too() {
         assert!(run.residuals.force_balance < 1e-13, "{:?}", run.residuals);
     }
 }
+
+/// Kept by the exact motion: the ledger, the walls' laws and the balance; and no wall's dashpot makes energy.
+fn closes(what: &str, scene: &Scene) -> Run {
+    let run = go(scene, &Scheme::Event, 1e-4);
+    let (residuals, energy) = (&run.residuals, &run.residuals.energy);
+    println!("{what}: {:.1e}, {:.1e} {:.1e}", energy.residual, residuals.complementarity, residuals.force_balance);
+    assert!(energy.residual < 1e-13, "{what}: {energy:?}");
+    assert!(residuals.complementarity < 1e-13, "{what}: {residuals:?}");
+    assert!(energy.wall_damping_j >= -1e-13 * energy.exchanged_j, "{what}: {energy:?}");
+    assert!(run.notes.is_empty(), "{what}: {:?}", run.notes);
+    run
+}
+
+#[test]
+fn damped_walls_that_share_a_face_with_others_are_judged_at_rounding() {
+    let damped = |wall: Wall| wall.with_elasticity(50.0, 500.0);
+    // A damped wall and a rigid one that hold a body between them at no gap at all.
+    let sine = signorini::Load::harmonic(3.0, 5.0, std::f64::consts::FRAC_PI_2);
+    let held = Scene::oscillator(100.0, 20.0, 0.0)
+        .with_wall(Wall::upper("stop", 0.0))
+        .with_wall(damped(Wall::lower("pad", -0.0)))
+        .with_load(signorini::Load::impulse(0.1, 0.0))
+        .with_load(sine);
+    closes("held", &held);
+    let thrown = Scene::oscillator(1.0, 0.0, 100.0)
+        .with_wall(damped(Wall::lower("pad", -0.0)))
+        .with_wall(Wall::upper("stop", 0.0).with_restitution(0.9))
+        .with_load(signorini::Load::constant(0.295_520_206_661_339_55))
+        .with_initial(&[0.0], &[-0.1]);
+    let run = closes("thrown", &thrown);
+    assert!(run.residuals.energy.wall_damping_j > 4e-3, "{:?}", run.residuals.energy);
+    // A damped wall on the face of a rigid one, on the same side; the body starts there and moves in.
+    let lined = Scene::oscillator(100.0, 0.2, 1e4)
+        .with_wall(damped(Wall::upper("pad", 5e-4)))
+        .with_wall(Wall::upper("spring", 1e-3).with_elasticity(1e3, 0.0))
+        .with_wall(Wall::upper("stop", 5e-4).with_restitution(0.5))
+        .with_load(signorini::Load::impulse(0.1, 0.0))
+        .with_load(signorini::Load::constant(0.5))
+        .with_initial(&[5e-4], &[0.0]);
+    closes("lined", &lined);
+    // Two pads with one face, one of which lets go before the other.
+    let stacked = Scene::oscillator(1.0, 0.0, 100.0)
+        .with_wall(damped(Wall::upper("slow", 1e-3)))
+        .with_wall(Wall::upper("fast", 1e-3).with_elasticity(1e5, 30.0))
+        .with_load(signorini::Load::harmonic(5.0, 2.0, 0.3))
+        .with_initial(&[0.0], &[0.2]);
+    closes("stacked", &stacked);
+}
+
+#[test]
+fn what_a_damped_wall_takes_is_the_work_of_its_dashpot() {
+    // One visit, from face to release: all that the body lost, by the speed with which it left. The spring's share stays in the wall.
+    let scene = Scene::oscillator(1.0, 0.0, 0.0)
+        .with_wall(Wall::upper("pad", 0.0).with_elasticity(100.0, 10.0))
+        .with_initial(&[-0.1], &[1.0])
+        .with_duration(2.0);
+    let run = closes("one visit", &scene);
+    let pads = run.trajectory.contacts();
+    let [pad] = pads else { panic!("{pads:?}") };
+    let out = pad.departure_speed.expect("it left");
+    let taken = run.residuals.energy.wall_damping_j;
+    assert!((taken - 0.5 * (1.0 - out * out)).abs() < 1e-14, "{taken} {out}");
+}
+
+#[test]
+fn a_load_that_gives_and_takes_has_exchanged_what_it_gave() {
+    // From rest under 3 cos(10πt): at multiples of 0.1 s the body is at rest again, and a step without events may well be that long.
+    let load = signorini::Load::harmonic(3.0, 5.0, std::f64::consts::FRAC_PI_2);
+    let scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(load);
+    for step in [1e-4, 0.1, 1.0] {
+        let run = go(&scene, &Scheme::Event, step);
+        let energy = run.residuals.energy;
+        // ½(3/10π)² at the peaks, given and taken ten times in the second. No more than a scale, which kinks of |f q̇| may blur.
+        let peak = 0.5 * (3.0 / (10.0 * std::f64::consts::PI)).powi(2);
+        println!("{step}: {energy:?}");
+        assert!((energy.largest_j / peak - 1.0).abs() < 2e-2, "h = {step}: {energy:?}");
+        assert!((energy.exchanged_j / (21.0 * peak) - 1.0).abs() < 0.1, "h = {step}: {energy:?}");
+        assert!(energy.residual < 1e-14 && run.notes.is_empty(), "h = {step}: {energy:?} {:?}", run.notes);
+    }
+}

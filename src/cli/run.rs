@@ -173,7 +173,7 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
         "largest force (N)",
         "contact time (%)",
         "impact power (W)",
-        "dissipated (W)",
+        "not returned (W)",
     ];
     let mut rows = Vec::new();
     for wall in &run.statistics.walls {
@@ -185,7 +185,7 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
             wall.peak_force_n.max.map_or_else(|| none.into(), |f| format!("{f:.4}")),
             format!("{:.3}", 100.0 * wall.contact_time_ratio),
             format!("{:.6}", wall.impact_power_w),
-            format!("{:.6}", wall.dissipated_power_w),
+            format!("{:.6}", wall.unreturned_power_w),
         ]);
     }
     if !rows.is_empty() {

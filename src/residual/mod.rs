@@ -15,7 +15,8 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Residuals {
     /// Largest |min(γ/γ₀, |r|/r₀)| over steps and rigid walls, and of | |r| − law |/r₀ over elastic ones; dimensionless. γ and r are
-    /// taken where the scheme promises them ([`Promise`]).
+    /// taken where the scheme promises them ([`Promise`]). A damped wall's law jumps where the body meets its face, from 0 to c_a ṡ: a
+    /// body there to rounding may feel any pressure between.
     pub complementarity: f64,
     /// Deepest position behind each wall at the end of a step, m, ≥ 0, in the scene's order.
     pub depth_m: Vec<f64>,
@@ -36,6 +37,9 @@ pub struct Residuals {
     /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid).
     pub force_scale_n: f64,
 }
+
+/// Units in the last place by which the place of a body is not known: its terms' and those of the time.
+const PLACE_UNITS: f64 = 32.0;
 
 /// Watches a run.
 #[derive(Debug, Clone)]
@@ -78,13 +82,15 @@ struct Scratch {
 
 impl Judge {
     /// A judge of a run on `scene` (the scene as the scheme sees it) under `contract` with steps of `h` seconds, started
-    /// from the state `q` (m), `v` (m/s), one value of each per degree of freedom.
+    /// from the state `q` (m), `v` (m/s), one value of each per degree of freedom; what is missing is 0, what is left over is not read.
     #[must_use]
     pub fn new(scene: &Scene, contract: Contract, h: f64, q: &[f64], v: &[f64]) -> Self {
         let n = scene.system.degrees_of_freedom();
         let forcing: Vec<Forcing> = (0..n).map(|i| Forcing::on(i, &scene.loads)).collect();
         let load = forcing.iter().map(|f| f.force(0.0)).collect();
         let zero = || vec![0.0; n];
+        let fit = |x: &[f64]| x.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect::<Vec<f64>>();
+        let (q, v) = (fit(q), fit(v));
         let scratch = Scratch {
             load_end: zero(),
             load: zero(),
@@ -100,7 +106,8 @@ impl Judge {
             contract,
             h,
             forcing,
-            q: q.to_vec(),
+            energy: energy::Ledger::new(scene, contract, &q, &v),
+            q,
             load,
             scratch,
             pairs: Pairs::default(),
@@ -113,16 +120,19 @@ impl Judge {
             reach: 0.0,
             force_scale: 0.0,
             speed_scale: 0.0,
-            energy: energy::Ledger::new(scene, contract, q, v),
             scene: scene.clone(),
         }
     }
 
-    /// Takes in one step. Steps must come in order, none left out.
-    ///
-    /// # Panics
-    /// For a step of another scene: one with other numbers of walls or degrees of freedom than the judge was made for.
+    /// Takes in one step. Steps must come in order, none left out. A step of another scene, one with other numbers of walls or degrees of
+    /// freedom than the judge was made for, is passed over.
     pub fn see(&mut self, step: &Step<'_>) {
+        let (n, walls) = (self.q.len(), self.depth.len());
+        let moved = [step.q, step.v, step.velocity_before, step.velocity_after, step.extra];
+        let pushed = [step.impulse, step.jump, step.force];
+        if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != walls) {
+            return;
+        }
         for ((end, blow), forcing) in self.scratch.load_end.iter_mut().zip(&mut self.scratch.blow).zip(&self.forcing) {
             *end = forcing.force(step.end);
             *blow = match self.contract.balance {
@@ -226,10 +236,14 @@ impl Judge {
 
     fn see_arc(&mut self, step: &Step<'_>, arc: &crate::flow::Arc) {
         let ends = self.energy.see_arc(&self.scene, step, arc, &self.forcing, &self.scratch.blow);
-        let span = (step.end - step.start).max(f64::MIN_POSITIVE);
-        if step.end > step.start {
-            self.balance = self.balance.max(ends.balance.abs() / span);
+        for (index, wall) in self.scene.walls.iter().enumerate() {
+            self.tension = self.tension.max(-wall.side.sign() * step.jump[index]);
         }
+        // An instant knows no forces.
+        if step.end <= step.start {
+            return;
+        }
+        self.balance = self.balance.max(ends.balance / (step.end - step.start));
         self.balance_scale = self.balance_scale.max(ends.largest_force);
         for (index, wall) in self.scene.walls.iter().enumerate() {
             let sign = wall.side.sign();
@@ -243,11 +257,14 @@ impl Judge {
                 if wall.law.is_rigid() {
                     self.pairs.add(wall.gap(w), pressure);
                 } else {
-                    let law = wall.law.pressure(-wall.gap(w), -sign * wdot);
-                    self.law_error = self.law_error.max((pressure - law).abs());
+                    let rounding =
+                        PLACE_UNITS * f64::EPSILON * (self.reach.max(w.abs()) + wall.position.abs() + wdot.abs() * t);
+                    let law = |s: f64| wall.law.pressure(s, -sign * wdot);
+                    let (low, high) = (law(-wall.gap(w) - rounding), law(-wall.gap(w) + rounding));
+                    // Between the two, which differ by the wall's stiffness times the rounding, but at a damped wall's face.
+                    self.law_error = self.law_error.max(low - pressure).max(pressure - high);
                 }
             }
-            self.tension = self.tension.max(-sign * step.jump[index]);
         }
     }
 

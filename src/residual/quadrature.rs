@@ -17,10 +17,12 @@ const DEPTH: u32 = 40;
 const MOST_PANELS: f64 = 2000.0;
 const PANELS_PER_RADIAN: f64 = 16.0;
 
-/// What is integrated at an instant: values, and the sizes of the terms that they are sums of.
+/// What is integrated at an instant: values, the sizes of the terms that they are sums of, and a magnitude that goes along without being
+/// held to any accuracy, for it may have kinks.
 pub(super) struct Sample<const N: usize> {
     pub value: [f64; N],
     pub size: [f64; N],
+    pub along: f64,
 }
 
 /// Instants at which an arc is looked at: inside it, never at its ends.
@@ -28,7 +30,7 @@ pub(super) fn nodes(start: f64, end: f64) -> impl Iterator<Item = f64> {
     GAUSS.iter().map(move |&(x, _)| 0.5 * (start + end) + 0.5 * (end - start) * x)
 }
 
-/// ∫ f dt over [start, end] for several integrands at once. A panel is halved until its two halves change no integral by
+/// ∫ f dt over [start, end] for several integrands at once, and of what goes along. A panel is halved until its two halves change no integral by
 /// more than 1e-14 of the integral of the sizes so far: with the error of a tenth-order rule the halves are then far better. Sizes are
 /// those of the terms, not of their sum: where terms cancel, as the forces on a body at rest do, the sum is rounding, which no halving settles.
 ///
@@ -40,8 +42,9 @@ pub(super) fn integrate<const N: usize>(
     rate: f64,
     radians: f64,
     f: &mut impl FnMut(f64) -> Sample<N>,
-) -> [f64; N] {
-    let mut sums = Sums { total: [0.0; N], scale: [0.0; N], left: (MOST_PANELS + PANELS_PER_RADIAN * radians) as u64 };
+) -> ([f64; N], f64) {
+    let left = (MOST_PANELS + PANELS_PER_RADIAN * radians) as u64;
+    let mut sums = Sums { total: [0.0; N], along: 0.0, scale: [0.0; N], left };
     let (mut from, mut width) = (start, if rate > 0.0 { 1.0 / rate } else { f64::INFINITY });
     while from < end {
         // Too short a layer for the clock is none that it can see.
@@ -53,12 +56,13 @@ pub(super) fn integrate<const N: usize>(
         refine(from, to, whole.value, &mut sums, f, DEPTH);
         (from, width) = (to, 2.0 * width);
     }
-    sums.total
+    (sums.total, sums.along)
 }
 
 /// The integrals so far, the scales they are held to, and the panels left to take.
 struct Sums<const N: usize> {
     total: [f64; N],
+    along: f64,
     scale: [f64; N],
     left: u64,
 }
@@ -83,6 +87,7 @@ fn refine<const N: usize>(
         for (total, (left, right)) in sums.total.iter_mut().zip(left.value.iter().zip(right.value)) {
             *total += left + right;
         }
+        sums.along += left.along + right.along;
         return;
     }
     refine(a, middle, left.value, sums, f, depth - 1);
@@ -91,7 +96,7 @@ fn refine<const N: usize>(
 
 /// One panel: the integrals, and those of the sizes.
 fn panel<const N: usize>(a: f64, b: f64, f: &mut impl FnMut(f64) -> Sample<N>) -> Sample<N> {
-    let mut sum = Sample { value: [0.0; N], size: [0.0; N] };
+    let mut sum = Sample { value: [0.0; N], size: [0.0; N], along: 0.0 };
     let half = 0.5 * (b - a);
     for (x, weight) in GAUSS {
         let at = f(0.5 * (a + b) + half * x);
@@ -99,6 +104,7 @@ fn panel<const N: usize>(a: f64, b: f64, f: &mut impl FnMut(f64) -> Sample<N>) -
             sum.value[i] += half * weight * at.value[i];
             sum.size[i] += half * weight * at.size[i];
         }
+        sum.along += half * weight * at.along;
     }
     sum
 }

@@ -1,8 +1,8 @@
 //! The energy ledger: E(t) − E(0) = work of the load − damping − losses at the walls + residual.
 
-use super::quadrature::{Sample, integrate};
-use crate::flow::Arc;
-use crate::scene::{Forcing, Scene, Wall, WallLaw};
+mod arc;
+
+use crate::scene::{Scene, Wall, WallLaw};
 use crate::step::{Balance, Contract, Step};
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ pub struct Energy {
     pub initial_j: f64,
     /// E at the end.
     pub final_j: f64,
-    /// Largest E seen.
+    /// Largest E seen: after each step, and for exact motion inside it too.
     pub largest_j: f64,
     /// Work of the loads.
     pub load_work_j: f64,
@@ -23,20 +23,15 @@ pub struct Energy {
     pub damping_j: f64,
     /// Taken by impacts on rigid walls, −Σ p(ẇ⁻ + ẇ⁺)/2; negative if the scheme made energy there.
     pub impact_loss_j: f64,
-    /// Taken by the dashpots of elastic walls.
+    /// Taken by the dashpots of elastic walls: of the work done on a wall what it does not store.
     pub wall_damping_j: f64,
     /// E(t) − E(0) − work + damping + losses.
     pub residual_j: f64,
-    /// Energy exchanged: the largest E, and the magnitudes of all that flowed.
+    /// Energy exchanged: the largest E, and the magnitudes of all that flowed, to and fro: ∫|f q̇| of the loads for exact motion (to some
+    /// percent: it is a scale), the sum over steps of |work| on a grid.
     pub exchanged_j: f64,
     /// |residual| / exchanged.
     pub residual: f64,
-}
-
-/// What an arc's ends leave for the momentum balance.
-pub(super) struct ArcBalance {
-    pub balance: f64,
-    pub largest_force: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -49,7 +44,7 @@ pub(super) struct Ledger {
     /// Σ of the magnitudes of all flows, J.
     flowed: f64,
     started: bool,
-    /// The part of E that each wall stored after the last step on a grid, J.
+    /// The part of E that each wall stored after the last step, J.
     held: Vec<f64>,
     /// Σ of the steps' residuals, and what that sum has lost to rounding (Kahan): 1e7 steps are judged at rounding.
     residual: f64,
@@ -63,6 +58,8 @@ pub(super) struct Ledger {
 #[derive(Debug, Clone, Copy, Default)]
 struct Flows {
     work: f64,
+    /// The magnitudes of what the loads gave and took, of which `work` is the balance.
+    passed: f64,
     damping: f64,
     impact: f64,
     dashpot: f64,
@@ -109,7 +106,9 @@ impl Ledger {
         for i in 0..load.len() {
             let mean = 0.5 * (before[i] + after[i]);
             self.shift[i] = if staggered.is_some() { h * mean } else { step.q[i] - q0[i] };
-            flows.work += load[i] * self.shift[i] + blow[i] * mean;
+            let (pushed, struck) = (load[i] * self.shift[i], blow[i] * mean);
+            flows.work += pushed + struck;
+            flows.passed += pushed.abs() + struck.abs();
         }
         flows.damping = scene.system.damping_form(&self.shift, &self.shift) / h;
         let mut walls = 0.0;
@@ -162,72 +161,8 @@ impl Ledger {
         0.5 * (system.mass_form(v, v) + strain)
     }
 
-    /// One exact arc from `q0` and the instant at its end.
-    pub fn see_arc(
-        &mut self,
-        scene: &Scene,
-        step: &Step<'_>,
-        arc: &Arc,
-        forcing: &[Forcing],
-        blow: &[f64],
-    ) -> ArcBalance {
-        let system = &scene.system;
-        let mut flows = Flows::default();
-        let mut largest_force = 0.0_f64;
-        let mut momentum = 0.0;
-        let v_end = if step.end > step.start { arc.state(step.end).1 } else { first(step.velocity_before) };
-        if step.end > step.start {
-            let fastest = (2.0 * self.report.largest_j / system.mass_form(&[1.0], &[1.0])).sqrt();
-            let radians = arc.fastest_motion() * (step.end - step.start);
-            // Tables jump at their ends: the arc stops there, so a load read just inside is the load of the arc.
-            let mut integrand = |t: f64| {
-                let (q, v) = arc.state(t);
-                let load = forcing.first().map_or(0.0, |f| f.force(t)) + first(step.extra);
-                let (spring, rub) = (system.stiffness_form(&[1.0], &[q]), system.damping_form(&[1.0], &[v]));
-                let (mut net, mut forces) = (load - rub - spring, load.abs() + rub.abs() + spring.abs());
-                let mut dashpot = 0.0;
-                for (index, wall) in scene.walls.iter().enumerate() {
-                    let r = arc.contact_force(index, t);
-                    net += r;
-                    forces += r.abs();
-                    if let (WallLaw::Elastic { damping, .. }, true) = (wall.law, r != 0.0) {
-                        dashpot += damping * v * v;
-                    }
-                }
-                largest_force = largest_force.max(load.abs()).max(rub.abs());
-                // A body that hardly moves has a velocity of rounding: powers are held to those at the speed the run's energy allows.
-                let speed = v.abs().max(fastest);
-                let (taken, lost) = (system.damping_form(&[v], &[v]), system.damping_form(&[speed], &[speed]));
-                let value = [load * v, taken, dashpot, net];
-                Sample { value, size: [load.abs() * speed, lost, dashpot.max(lost), forces] }
-            };
-            let [work, damping, dashpot, net] =
-                integrate(step.start, step.end, arc.damping() / arc.mass(), radians, &mut integrand);
-            flows = Flows { work, damping, dashpot, impact: 0.0 };
-            let v_start = first(step.velocity_before);
-            momentum = system.mass_form(&[1.0], &[v_end - v_start]) - net;
-        }
-        let mid = v_end + first(blow) / system.mass_form(&[1.0], &[1.0]);
-        flows.work += first(blow) * 0.5 * (v_end + mid);
-        let mut walls = 0.0;
-        for (index, wall) in scene.walls.iter().enumerate() {
-            flows.impact -= 0.5 * step.jump[index] * (mid + first(step.v));
-            let w = wall.at.dot(step.q);
-            // A damped wall that lets go keeps its energy to itself.
-            let held = stored(wall, w, step.force[index] != 0.0);
-            walls += held;
-            let touched = step.end > step.start && arc.contact_force(index, 0.5 * (step.start + step.end)) != 0.0;
-            if touched && held == 0.0 {
-                flows.dashpot += wall.law.energy(-wall.gap(w));
-            }
-        }
-        let energy = 0.5 * (system.mass_form(step.v, step.v) + system.stiffness_form(step.q, step.q)) + walls;
-        self.book(energy, flows);
-        ArcBalance { balance: momentum, largest_force }
-    }
-
     fn book(&mut self, energy: f64, flows: Flows) {
-        let Flows { work, damping, impact, dashpot } = flows;
+        let Flows { work, passed, damping, impact, dashpot } = flows;
         let residual = (energy - self.energy) - work + damping + impact + dashpot - self.lost;
         let sum = self.residual + residual;
         self.lost = (sum - self.residual) - residual;
@@ -239,7 +174,7 @@ impl Ledger {
         r.damping_j += damping;
         r.impact_loss_j += impact;
         r.wall_damping_j += dashpot;
-        self.flowed += work.abs() + damping.abs() + impact.abs() + dashpot.abs();
+        self.flowed += passed + damping.abs() + impact.abs() + dashpot.abs();
     }
 
     pub fn report(&self) -> Energy {
@@ -247,10 +182,6 @@ impl Ledger {
         let residual = if self.residual == 0.0 { 0.0 } else { self.residual.abs() / exchanged };
         Energy { final_j: self.energy, residual_j: self.residual, exchanged_j: exchanged, residual, ..self.report }
     }
-}
-
-fn first(x: &[f64]) -> f64 {
-    x.first().copied().unwrap_or(0.0)
 }
 
 /// Energy in a wall at displacement `w`, J; a damped wall that has let go of the body holds none that the body can have.
