@@ -175,17 +175,19 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
         "impact power (W)",
         "not returned (W)",
     ];
+    // A person reads a few digits, a program all of them.
+    let show = |x: f64, digits: usize| if ui.json() { format!("{x:?}") } else { format!("{x:.digits$}") };
     let mut rows = Vec::new();
     for wall in &run.statistics.walls {
         let none = if wall.contacts == 0 { "-" } else { "impacts" };
         rows.push(vec![
             wall.wall.clone(),
             wall.contacts.to_string(),
-            format!("{:.6}", run.trajectory.impulse(&wall.wall)?),
-            wall.peak_force_n.max.map_or_else(|| none.into(), |f| format!("{f:.4}")),
-            format!("{:.3}", 100.0 * wall.contact_time_ratio),
-            format!("{:.6}", wall.impact_power_w),
-            format!("{:.6}", wall.unreturned_power_w),
+            show(run.trajectory.impulse(&wall.wall)?, 6),
+            wall.peak_force_n.max.map_or_else(|| none.into(), |f| show(f, 4)),
+            show(100.0 * wall.contact_time_ratio, 3),
+            show(wall.impact_power_w, 6),
+            show(wall.unreturned_power_w, 6),
         ]);
     }
     if !rows.is_empty() {
