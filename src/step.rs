@@ -30,9 +30,10 @@ pub enum Promise {
     /// Rigid: 0 ≤ gap(w⁺) ⟂ |r| ≥ 0, with r at t⁺. Elastic: |r| = (k_a s⁺ + c_a(s⁺ − s₊)/h)₊.
     EndPosition,
     /// Rigid: 0 ≤ slack of (1+e_l)g_l − e_l w⁻ ≤ w⁺ ≤ (1+e_u)g_u − e_u w⁻ ⟂ |r| ≥ 0, the smaller e in both where unequal ones would make
-    /// them cross. Elastic: |r| = (k_a s̄ + c_a(s⁺ − s⁻₊)/2h)₊ at the mean depth s̄ = ¼s⁻ + ½s + ¼s⁺.
+    /// them cross, and w⁻ = w − hẇ with ẇ = v₋ after the step's load impulses, which come first. Elastic: |r| = (k_a s̄ + c_a(s⁺ − s⁻₊)/2h)₊ at the mean depth s̄ = ¼s⁻ + ½s + ¼s⁺.
     MeanPosition,
-    /// With ẇ the velocity after the step's load impulses, which come first. Rigid, for walls that w + ½hẇ reaches to within 1e-12 of the gap scale: 0 ≤ rebound ⟂ |p| ≥ 0, rebound = ±(ẇ⁺ + ε ẇ) away from
+    /// With ẇ the velocity after the step's load impulses, which come first. Rigid, for walls that w + ½hẇ reaches to within 1e-12 of the
+    /// gap scale: 0 ≤ rebound ⟂ |p| ≥ 0, rebound = ±(ẇ⁺ + ε ẇ) away from
     /// the wall, ε = e if approaching or at rest and 1 if separating; no force elsewhere.
     /// Elastic: |p|/h = (k_a s_θ + c_a(s_θ − s₊)/θh)₊ at s_θ = (1−θ)s + θs⁺.
     Velocity,
