@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use signorini::Error;
 use signorini::scheme::event::Event;
-use signorini::{Load, Scene, Table, Wall, WallLaw};
+use signorini::{Load, LoadKind, Scene, Table, Wall, WallLaw};
 
 /// Runs a scene to its end, and holds every step to what a wall promises.
 fn follow(scene: &Scene, stride: f64) -> Result<u64, Error> {
@@ -32,7 +32,11 @@ fn follow(scene: &Scene, stride: f64) -> Result<u64, Error> {
             assert!(sign * event.force()[index] >= 0.0);
         }
         if event.jump().iter().any(|&p| p != 0.0) {
-            assert!(event.v()[0].abs() <= event.velocity_left().abs() * (1.0 + 1e-15) || !scene.loads.is_empty());
+            // A blow in the instant of an impact changes the speed that arrives.
+            let blow = |load: &Load| matches!(load.kind, LoadKind::Impulse { time, .. } if time == to);
+            let blown = scene.loads.iter().any(blow);
+            let (before, after) = (event.velocity_left().abs(), event.v()[0].abs());
+            assert!(after <= before || blown, "an impact from {before} m/s to {after} m/s at {to} s");
         }
         for contact in event.closed() {
             assert!(contact.end.is_some_and(|end| end >= contact.start), "{contact:?}");
@@ -55,6 +59,49 @@ fn wall() -> impl Strategy<Value = WallLaw> {
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn without_loads_no_impact_and_no_flight_adds_energy(
+        laws in (wall(), wall()),
+        damping in prop_oneof![Just(0.0), 0.0..2.0f64, 0.0..500.0f64],
+        stiffness in prop_oneof![Just(0.0), 0.0..200.0f64],
+        half in prop_oneof![Just(0.0), 1e-3..0.2f64],
+        at in -1.0..1.0f64,
+        v in -2.0..2.0f64,
+        stride in prop_oneof![Just(5.0), 0.003..0.5f64],
+    ) {
+        let mut upper = Wall::upper("upper", half);
+        let mut lower = Wall::lower("lower", -half);
+        (upper.law, lower.law) = laws;
+        let scene = Scene::oscillator(1.0, damping, stiffness)
+            .with_wall(upper)
+            .with_wall(lower)
+            .with_initial(&[at * half], &[v])
+            .with_duration(2.0);
+        match follow(&scene, stride) {
+            Ok(_) | Err(Error::TooManyEvents { .. }) => {}
+            Err(error) => prop_assert!(false, "{error}"),
+        }
+        let mut event = Event::new(&scene, stride).unwrap();
+        let energy = |event: &Event| {
+            let (q, v) = (event.q()[0], event.v()[0]);
+            let stored = scene.walls.iter().map(|w| match w.law {
+                WallLaw::Elastic { stiffness, .. } => 0.5 * stiffness * w.gap(q).min(0.0).powi(2),
+                _ => 0.0,
+            });
+            0.5 * v * v + 0.5 * stiffness * q * q + stored.sum::<f64>()
+        };
+        let first = energy(&event);
+        let mut before = first;
+        for _ in 0..10_000 {
+            if event.is_done() || event.advance(0.0).is_err() {
+                break;
+            }
+            let now = energy(&event);
+            prop_assert!(now <= before + 1e-13 * first, "{before} J to {now} J at {} s", event.end());
+            before = now;
+        }
+    }
 
     #[test]
     fn random_scenes_keep_their_promises(
@@ -114,6 +161,6 @@ fn extreme_scenes_end_or_say_why_not() {
             }
         }
     }
-    // Those that ask for 1e10 impacts a second, or where friction stops the body in 1e-11 s.
-    assert!(named <= 16, "{named}");
+    // Those that ask for 1e10 impacts a second.
+    assert!(named <= 6, "{named}");
 }

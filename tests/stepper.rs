@@ -5,6 +5,7 @@ mod common;
 use common::{INTEGRATORS, MOREAU_JEAN, penalty, schemes, source, spring};
 use signorini::qp::Backend;
 use signorini::residual::Judge;
+use signorini::scheme::event::Event;
 use signorini::{
     Balance, Contact, Error, Integrator, Load, Options, Recorder, Scene, Scheme, Stepper, TimeOptions, Wall, WallLaw,
     run,
@@ -65,6 +66,35 @@ fn no_step_after_the_first_allocates() {
             }
             assert_eq!(counting::count() - before, 0, "{scheme}");
             assert!(contacts > 2, "{scheme}: {contacts} contacts only");
+        }
+    }
+}
+
+#[test]
+fn the_exact_scheme_allocates_nothing_once_it_is_built() {
+    let blown = common::ball(0.1, 0.5).with_load(Load::impulse(-1.0, 1.9)).with_load(Load::impulse(1.0, 1.95));
+    let scenes = [
+        source(1.0, 1.0),
+        source(0.8, 0.8),
+        source(0.0, 0.0),
+        common::elastic(3.0, 0.5),
+        common::all_elastic(1.0),
+        common::ball(0.1, 1.0),
+        common::ball(0.1, 0.8),
+        blown,
+    ];
+    for (number, scene) in scenes.into_iter().enumerate() {
+        let scene = scene.with_duration(5.0);
+        for stride in [1e-3, 10.0] {
+            let mut event = Event::new(&scene, stride).expect("a sound scene");
+            let before = counting::count();
+            let mut contacts = 0;
+            while !event.is_done() {
+                event.advance(0.0).expect("a step");
+                contacts += event.closed().len();
+            }
+            assert_eq!(counting::count() - before, 0, "scene {number}, stride {stride}");
+            assert!(contacts > 2, "scene {number}: {contacts} contacts only");
         }
     }
 }

@@ -86,6 +86,11 @@ impl Default for Response {
 }
 
 impl Response {
+    /// A motion that will be under up to `waves` sines.
+    pub fn with_room(waves: usize) -> Self {
+        Self { parts: Vec::with_capacity(waves), ..Self::default() }
+    }
+
     /// Solves for mass (kg), damping c (N s/m) and stiffness k (N/m) under `force` from the state (`q`, `v`).
     /// `span` (s) is how far it will be asked for, `length` (m) what counts as a displacement of ordinary size.
     pub fn set(&mut self, [mass, c, k]: [f64; 3], force: &LocalForce, [q, v]: [f64; 2], span: f64, length: f64) {

@@ -30,6 +30,8 @@ pub(super) struct Barrier {
     pub stiffness: f64,
     pub damping: f64,
     pub phase: Phase,
+    /// When the phase last changed, s.
+    pub changed: f64,
     /// The episode under way.
     pub open: Option<Contact>,
 }
@@ -50,6 +52,7 @@ impl Barrier {
             stiffness,
             damping,
             phase,
+            changed: f64::NEG_INFINITY,
             open: None,
         })
     }

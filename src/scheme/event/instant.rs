@@ -33,15 +33,26 @@ impl Event {
         self.counters_mut().events += 1;
         self.last_wall = hit.or(self.last_wall);
         if let Some(index) = self.support {
-            if hit == Some(index) || blown {
+            if blown {
+                // The rest ends before the blow: what the blow does at the wall is an impact of its own.
                 self.support = None;
+                let time = self.time;
+                if let Some(b) = self.barriers.get_mut(index) {
+                    self.closed.extend(b.close(time, 0.0));
+                }
+                self.meet_rigid(None, extra, None);
+            } else {
+                if hit == Some(index) {
+                    self.support = None;
+                }
+                self.meet_rigid(hit, extra, Some(index));
             }
-            self.meet_rigid(hit, extra, Some(index));
         } else {
             if let Some(index) = hit {
                 self.cross(index);
             }
-            self.meet_rigid(hit, extra, None);
+            // A blow leaves no velocity that is rounding.
+            self.meet_rigid(hit.filter(|_| !blown), extra, None);
         }
         if self.v != left {
             self.reclassify();
@@ -68,7 +79,7 @@ impl Event {
         if next == Phase::Outside || b.phase == Phase::Outside {
             self.q = b.position;
         }
-        b.phase = next;
+        (b.phase, b.changed) = (next, time);
         settle(b, index, time, v, &mut self.closed);
     }
 
@@ -199,14 +210,35 @@ impl Event {
         if height <= self.resolution || flight <= TIME_UNITS * f64::EPSILON * self.time {
             return true;
         }
+        if height >= TAIL_HEIGHT * self.length {
+            return false;
+        }
         let remaining = flight / (1.0 - e);
         let body = self.body;
         let change = rate.abs() + (body.damping * a.abs() + body.stiffness * speed) / body.mass;
-        let tail = height < TAIL_HEIGHT * self.length && change * remaining <= TAIL_CHANGE * press;
-        if tail {
+        if change * remaining <= TAIL_CHANGE * press {
             self.accumulation = Some(self.time + remaining);
+            return true;
         }
-        tail
+        self.dies_of_drag(speed, press)
+    }
+
+    /// True if drag ends the impacts from this speed (m/s) on under this pressing acceleration (m/s²), at any restitution,
+    /// before the load can have taken half of it away.
+    ///
+    /// A flight of speed u loses 2cu²/3mp in the time 2u/p: the impacts never end, but die like exp(−ct/3m) into what is
+    /// not resolved.
+    fn dies_of_drag(&self, speed: f64, press: f64) -> bool {
+        let (mass, [.., rate]) = (self.body.mass, self.sizes);
+        let least = (2.0 * press * self.resolution).sqrt().max(0.5 * press * TIME_UNITS * f64::EPSILON * self.time);
+        let remaining = 3.0 * mass / self.body.damping * (speed / least).ln().max(0.0);
+        let (mut drag, mut spring) = (self.body.damping, self.body.stiffness);
+        for b in &self.barriers {
+            drag += b.damping;
+            spring += b.stiffness;
+        }
+        let change = rate * remaining + drag * speed + spring * 0.5 * speed * speed / press;
+        change <= 0.5 * press * mass
     }
 }
 

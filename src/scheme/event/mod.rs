@@ -3,6 +3,7 @@
 mod barrier;
 mod guard;
 mod instant;
+mod motion;
 mod root;
 mod search;
 mod view;
@@ -10,10 +11,10 @@ mod view;
 pub use guard::{Counters, EVENTS_PER_WINDOW, WINDOWS};
 
 use crate::error::{Error, Result};
-use crate::flow::{Arc, Start, Support};
+use crate::flow::Arc;
 use crate::scene::{Forcing, Oscillator, Scene, System};
 use crate::step::{Balance, Contact, Contract, Promise};
-use barrier::{Barrier, Phase};
+use barrier::Barrier;
 use guard::Guard;
 
 /// What a sum of terms of this size may err by: four units in the last place.
@@ -33,7 +34,11 @@ pub(crate) fn noise(size: f64) -> f64 {
 /// - An approach to a rigid wall is an impact, −m(1 + e)v. If the flight after it is unresolved in double precision, or
 ///   (e < 1) lower than 1e-12 of [`Scene::gap_scale`] while the pressing acceleration changes by less than 1e-6 until
 ///   t∞ = t + flight/(1 − e), the body sticks: the rest that follows carries the impulse of the tail.
+///   So it does at any e below that height if drag c takes the flights, like exp(−ct/3m), below what is resolved before
+///   the pressing can have lost half of itself: those impacts have no t∞.
+/// - A blow ends a rest: what it does at the wall is an impact of its own, at the speed the blow gives.
 /// - A body at rest leaves where the pressing force becomes tensile; a touch of zero does not release it.
+/// - A motion that has died down to ε² of the largest displacement and of the largest speed so far is rest at the origin.
 /// - More than [`EVENTS_PER_WINDOW`] events, or evaluations in search of one, in 1/[`WINDOWS`] of the duration are
 ///   [`Error::TooManyEvents`].
 #[derive(Debug, Clone)]
@@ -52,6 +57,8 @@ pub struct Event {
     time: f64,
     q: f64,
     v: f64,
+    /// The largest displacement (m) and speed (m/s) so far.
+    largest: [f64; 2],
     /// The rigid wall that carries the body at rest.
     support: Option<usize>,
     /// Multiples of the stride passed.
@@ -108,7 +115,7 @@ impl Event {
         let forcing = Forcing::on(0, &scene.loads);
         let q = scene.initial.q.first().copied().unwrap_or(0.0);
         let v = scene.initial.v.first().copied().unwrap_or(0.0) + forcing.initial_impulse() / body.mass;
-        let walls = barriers.len();
+        let (walls, waves) = (barriers.len(), forcing.harmonics.len());
         let mut event = Self {
             body,
             forcing,
@@ -117,10 +124,11 @@ impl Event {
             window: scene.duration / WINDOWS,
             stride,
             length: if walls > 0 { scene.gap_scale() } else { 0.0 },
-            arc: Arc::new(body, walls),
+            arc: Arc::new(body, walls, waves),
             time: 0.0,
             q,
             v,
+            largest: [0.0; 2],
             support: None,
             marks: 0,
             blow: 0,
@@ -211,96 +219,6 @@ impl Event {
             }
         }
         limit
-    }
-
-    fn begin_arc(&mut self, span: f64, extra: f64) {
-        let from = Start {
-            time: self.time,
-            state: [self.q, self.v],
-            forcing: &self.forcing,
-            extra,
-            span,
-            length: self.length,
-        };
-        let touching = self.barriers.iter().enumerate().filter_map(|(index, b)| b.touch(index));
-        let support = self.support.and_then(|wall| Some(Support { wall, side: self.barriers.get(wall)?.side }));
-        self.arc.begin(&from, touching, support);
-        let sizes = self.arc.sizes();
-        let [q, _, force, rate] = sizes;
-        let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
-        self.resolution = noise(q + wall);
-        self.sizes = sizes;
-        // The instant itself is known to an ulp of the time only.
-        let (mass, fastest) = (self.body.mass, self.arc.fastest());
-        self.force_size = [(force + rate * self.time) / mass, rate * (1.0 + fastest * self.time) / mass];
-    }
-
-    /// Adds the impulses of the arc just run through to the step and to the episodes under way.
-    fn gather_impulses(&mut self) {
-        let (from, to) = (self.arc.start(), self.arc.end());
-        for (index, b) in self.barriers.iter_mut().enumerate() {
-            if self.support == Some(index) || b.phase == Phase::Touching {
-                let impulse = self.arc.contact_impulse(index, from, to);
-                if let Some(total) = self.impulse.get_mut(index) {
-                    *total += impulse;
-                }
-                if let Some(open) = &mut b.open {
-                    open.impulse += impulse;
-                }
-            }
-        }
-    }
-
-    /// Acceleration (m/s²) of the body here at velocity `v`, free of rigid walls, from the right of the present; and the
-    /// rate (m/s³) at which the load changes it.
-    fn acceleration(&self, v: f64, extra: f64) -> [f64; 2] {
-        let Oscillator { mass, damping, stiffness } = self.body;
-        let (f, rate) = self.load_now();
-        let mut sum = f + extra - damping * v - stiffness * self.q;
-        for b in self.barriers.iter().filter(|b| !matches!(b.phase, Phase::Rigid(_)) && b.gap(self.q) < 0.0) {
-            sum += b.sign * b.sum(self.q, v).max(0.0);
-        }
-        [sum / mass, rate / mass]
-    }
-
-    /// Load (N) from the right and its rate (N/s), without the extra force.
-    fn load_now(&self) -> (f64, f64) {
-        let (mut f, mut rate) = (self.forcing.constant, 0.0);
-        for h in &self.forcing.harmonics {
-            let (s, c) = (h.omega * self.time + h.phase).sin_cos();
-            f += h.amplitude * s;
-            rate += h.amplitude * h.omega * c;
-        }
-        for table in &self.forcing.tables {
-            let (value, slope) = table.piece(self.time);
-            f += value;
-            rate += slope;
-        }
-        (f, rate)
-    }
-
-    /// f″/m at the present, m/s⁴: what decides where force and rate vanish.
-    fn curvature(&self) -> f64 {
-        let second = |h: &crate::scene::Harmonic| {
-            -h.amplitude * h.omega * h.omega * (h.omega * self.time + h.phase).sin() / self.body.mass
-        };
-        let sum: f64 = self.forcing.harmonics.iter().map(second).sum();
-        let size: f64 = self.forcing.harmonics.iter().map(|h| h.amplitude.abs() * h.omega * h.omega).sum();
-        if sum.abs() > noise(size / self.body.mass) { sum } else { 0.0 }
-    }
-
-    fn set_forces(&mut self, extra: f64) {
-        let push = if self.support.is_some() { -self.body.mass * self.acceleration(0.0, extra)[0] } else { 0.0 };
-        for (index, b) in self.barriers.iter().enumerate() {
-            let Some(force) = self.force.get_mut(index) else { continue };
-            *force = if self.support == Some(index) {
-                b.sign * (b.sign * push).max(0.0)
-            } else if b.phase == Phase::Touching {
-                b.sign * b.sum(self.q, self.v).max(0.0)
-            } else {
-                0.0
-            };
-        }
     }
 
     fn count_evaluation(&mut self, tau: f64) -> Result<()> {

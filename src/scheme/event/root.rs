@@ -109,6 +109,41 @@ fn stays_above([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> bool 
     c0 + w * (c1.min(0.0) + w * (0.5 * c2.min(0.0) + w * cubic)) > enough
 }
 
+/// A number not above the first root of p + p′u − ½Mu², `far` where it has none.
+#[inline(always)]
+fn below_root(p: f64, p1: f64, m: f64, far: f64) -> f64 {
+    if p1 < 0.0 && m * p <= p1 * p1 {
+        -2.0 * p * p1 / (2.0 * p1 * p1 + m * p)
+    } else if m > 0.0 {
+        let square = (p1 * p1 + 2.0 * m * p).sqrt();
+        if p1 < 0.0 { 2.0 * p / (square - p1) } else { (square + p1) / m }
+    } else {
+        far
+    }
+}
+
+/// A step of less than this share of the window has been kept short by what the bound allows far beyond it …
+const NEAR: f64 = 0.125;
+
+/// … and gains from one of these nearer ends, the geometric mean of the step and the last.
+const NEARER: usize = 6;
+
+/// The longest safe step found with M taken over less than the whole window: a bound that is left from a transient grows
+/// like the square of the window, and says nothing of the time the root is away. The cubic has p, p′, p″ and the third
+/// derivative `p3`.
+#[inline(never)]
+fn within_reach([p, p1, p2]: [f64; 3], p3: f64, b: f64, mut u: f64, mut reach: f64) -> f64 {
+    for _ in 0..NEARER {
+        reach = (u * reach).sqrt();
+        let m = (-p2.min(p2 + reach * (p3 - 0.5 * b * reach))).max(0.0);
+        u = u.max(below_root(p, p1, m, reach).min(reach));
+        if u >= NEAR * reach || (p1 < 0.0 && m * p <= p1 * p1) {
+            break;
+        }
+    }
+    u
+}
+
 /// A number not above the first root of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 in [0, w], or w, with p there; p(0) > 0.
 ///
 /// p″ is concave for b ≥ 0, so its least value over [s, w] is at an end, and p(s + u) ≥ p + p′u − ½Mu² there with
@@ -120,14 +155,10 @@ fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, 
     let last = c2 + c3 * w - 0.5 * b * w * w;
     for _ in 0..INNER_STEPS {
         let m = (-p2.min(last)).max(0.0);
-        let u = if p1 < 0.0 && m * p <= p1 * p1 {
-            -2.0 * p * p1 / (2.0 * p1 * p1 + m * p)
-        } else if m > 0.0 {
-            let square = (p1 * p1 + 2.0 * m * p).sqrt();
-            if p1 < 0.0 { 2.0 * p / (square - p1) } else { (square + p1) / m }
-        } else {
-            w
-        };
+        let mut u = below_root(p, p1, m, w);
+        if u < NEAR * (w - s) && (p1 >= 0.0 || m * p > p1 * p1) {
+            u = within_reach([p, p1, p2], c3 - b * s, b, u, w - s);
+        }
         let next = s + u;
         if next >= w || next.is_nan() {
             return (if next.is_nan() { s } else { w }, p);

@@ -40,6 +40,7 @@ impl Event {
         // The start is known exactly, whatever the terms sum up to.
         (jet[0], jet[1]) = (self.q, self.v);
         self.note_pressures(&jet);
+        let moves = [self.q, self.v] != [0.0; 2];
         loop {
             self.count_evaluation(tau)?;
             let window = longest.min(span - tau);
@@ -47,7 +48,11 @@ impl Event {
             let (mut step, mut wall, mut is_root) = (window, None, false);
             for index in 0..self.barriers.len() {
                 for which in 0..2 {
-                    let Some(below) = self.watch(index, which, &jet, &bounds, &noise) else { break };
+                    let Some(mut below) = self.watch(index, which, &jet, &bounds, &noise) else { break };
+                    if tau == 0.0 && self.has_changed(index) {
+                        // It was at 0 to the rounding of the arc before, which may be coarser than that of this one.
+                        below.c[0] = below.c[0].max(0.0);
+                    }
                     match below.step(step) {
                         Step::Now => return Ok(Hit { tau, state: [jet[0], jet[1]], wall: Some(index) }),
                         Step::Root(s) if s < step => (step, wall, is_root) = (s, Some(index), true),
@@ -75,11 +80,19 @@ impl Event {
                 self.note_between((tau, &before), (next, &jet));
             }
             tau = next;
+            if moves && tau < span && self.has_faded([jet[0], jet[1]]) {
+                return Ok(Hit { tau, state: [jet[0], jet[1]], wall: None });
+            }
             if tau >= span {
                 self.count_evaluation(tau)?;
                 return Ok(Hit { tau: span, state: [jet[0], jet[1]], wall: self.hit_at_end(&jet, &noise) });
             }
         }
+    }
+
+    /// True if the wall came into its present phase at this instant.
+    fn has_changed(&self, index: usize) -> bool {
+        self.barriers.get(index).is_some_and(|b| b.changed == self.time)
     }
 
     /// True where the sizes of the motion's terms keep it before every wall.

@@ -1,0 +1,87 @@
+//! The walls that touch during an arc: their forces and impulses.
+
+use super::Arc;
+use crate::scene::Side;
+
+/// An elastic wall that touches during an arc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Touch {
+    /// Index of the wall in the scene.
+    pub wall: usize,
+    /// Its position g, m.
+    pub position: f64,
+    /// k_a, N/m.
+    pub stiffness: f64,
+    /// c_a, N s/m.
+    pub damping: f64,
+}
+
+/// The rigid wall that carries a body at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Support {
+    /// Index of the wall in the scene.
+    pub wall: usize,
+    /// The side on which it stands.
+    pub side: Side,
+}
+
+impl Arc {
+    /// Force of wall `wall` on the body at `t`, N, signed: 0 if it does not touch.
+    #[must_use]
+    pub fn contact_force(&self, wall: usize, t: f64) -> f64 {
+        if let Some(support) = self.support.filter(|s| s.wall == wall) {
+            return support.side.sign() * self.pressing(support, t - self.start)[0].max(0.0);
+        }
+        let Some(touch) = self.touching.iter().find(|a| a.wall == wall) else { return 0.0 };
+        let (q, v) = self.state(t);
+        -touch.stiffness * (q - touch.position) - touch.damping * v
+    }
+
+    /// Impulse of wall `wall` on the body over [from, to] within the arc, N s, in closed form.
+    ///
+    /// For an elastic wall from the balance of momentum, K ∫q = ∫f + Σk_a g T − mΔv − CΔq with K and C the sums with
+    /// the touching walls; since k_a ≤ K nothing is amplified.
+    #[must_use]
+    pub fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
+        let (span, load) = (to - from, self.load_impulse(from, to));
+        if let Some(support) = self.support {
+            let others = self.elastic_at_rest();
+            if support.wall == wall {
+                let push = (self.body.stiffness * self.initial[0] - others) * span - load;
+                return support.side.sign() * (support.side.sign() * push).max(0.0);
+            }
+        }
+        let Some(touch) = self.touching.iter().find(|a| a.wall == wall) else { return 0.0 };
+        if self.support.is_some() {
+            return -touch.stiffness * (self.initial[0] - touch.position) * span;
+        }
+        let ((q0, v0), (q1, v1)) = (self.state(from), self.state(to));
+        // Shifted to this wall's position, x = q − g, so that a stiff wall far from the origin cancels nothing.
+        let (mut k, mut c) = (self.body.stiffness, self.body.damping);
+        let mut push = load - self.body.stiffness * touch.position * span;
+        for a in &self.touching {
+            k += a.stiffness;
+            c += a.damping;
+            push += a.stiffness * (a.position - touch.position) * span;
+        }
+        let area = (push - self.body.mass * (v1 - v0) - c * (q1 - q0)) / k;
+        -touch.stiffness * area - touch.damping * (q1 - q0)
+    }
+
+    /// The pressing force R ≥ 0 of the supporting wall and three derivatives, N, N/s …
+    pub(crate) fn pressing(&self, support: Support, tau: f64) -> [f64; 4] {
+        let (f, sign) = (self.force.jet(tau), support.side.sign());
+        let steady = self.body.stiffness * self.initial[0] - self.elastic_at_rest();
+        [sign * (steady - f[0]), -sign * f[1], -sign * f[2], -sign * f[3]]
+    }
+
+    /// Σ r_a of the touching elastic walls at the rest position, N, signed.
+    fn elastic_at_rest(&self) -> f64 {
+        self.touching.iter().map(|a| -a.stiffness * (self.initial[0] - a.position)).sum()
+    }
+
+    /// Bound on |R⁗|, N/s⁴.
+    pub(crate) fn pressing_bound(&self) -> f64 {
+        self.force.bounds[2]
+    }
+}
