@@ -3,8 +3,8 @@
 /// Events, or root-search evaluations, that are followed within one window before a run is given up.
 pub const EVENTS_PER_WINDOW: u64 = 1_000_000;
 
-/// Windows into which the duration of a scene is divided.
-pub const WINDOWS: f64 = 1000.0;
+/// Windows into which the duration of a scene is divided: a run follows twenty million events at most, some ten seconds of computing.
+pub const WINDOWS: f64 = 20.0;
 
 /// Work done since the start of a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
