@@ -17,7 +17,7 @@ impl Event {
     /// Sets a motion that has died down to rest at the origin, the only place where numbers could follow it further.
     fn fade(&mut self) {
         self.largest = [self.largest[0].max(self.q.abs()), self.largest[1].max(self.v.abs())];
-        if self.has_faded([self.q, self.v]) {
+        if self.support.is_none() && self.has_faded([self.q, self.v]) {
             [self.q, self.v] = [0.0, 0.0];
         }
     }
