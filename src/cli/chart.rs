@@ -4,9 +4,8 @@ use super::request;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
-use crate::output::atomic::write_whole;
+use crate::output::atomic::{check_folder, write_whole};
 use crate::output::work_precision as output;
-use crate::scene::WallLaw;
 use crate::study::work_precision::{Effort, Measured, Peer, Series, Steps, WorkPrecision, every_method, read, study};
 use std::path::{Path, PathBuf};
 
@@ -76,12 +75,13 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let peers = args.with.as_deref().map(read).transpose()?.unwrap_or_default();
     /// Resolution of the bar.
     const UNITS: f64 = 1000.0;
+    let folder = request.folder(&case, "chart");
+    check_folder(&folder)?;
     let progress = ui.progress("charting", UNITS as u64);
     let chart = study(&case.scene, &methods, &effort, &|share| progress.set((UNITS * share) as u64));
     progress.finish();
     let chart = chart?;
     any_ran(&chart)?;
-    let folder = request.folder(&case, "chart");
     write(&folder, &case, &chart, &peers)?;
     cheapest(&chart, &peers, args.with.is_some(), ui);
     report(&case, &chart, ui);
@@ -136,9 +136,7 @@ fn write(folder: &Path, case: &Case, chart: &WorkPrecision, peers: &[Peer]) -> R
     output::table(&folder.join("work-precision.csv"), &case.scene, chart)?;
     let title = case.title.as_deref().unwrap_or(&case.name);
     let walls = case.scene.walls.iter();
-    let asked: Vec<f64> = walls
-        .filter_map(|w| if let WallLaw::Rigid { restitution } = w.law { Some(restitution) } else { None })
-        .collect();
+    let asked: Vec<f64> = walls.filter_map(|w| w.law.restitution()).collect();
     let title = match asked.first() {
         Some(e) if asked.iter().all(|other| other == e) => format!("{title}, e = {e}"),
         _ => title.to_owned(),
