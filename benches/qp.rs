@@ -2,13 +2,13 @@
 //! measured in turn in one run. Prints a table; asserts nothing about time.
 
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT};
+use clarabel::solver::{DefaultSolver, IPSolver, NonnegativeConeT};
 use nalgebra::{DMatrix, DVector};
 use signorini::qp::{Backend, Problem, Rhs, ScalarRow, Solver, clamp};
 use std::hint::black_box;
 
 mod support;
-use support::{race, time};
+use support::{clarabel_settings, race, time};
 
 /// Best of these rounds counts; sides take turns within each.
 const ROUNDS: usize = 15;
@@ -44,18 +44,9 @@ fn bare(problem: &Problem) -> DefaultSolver<f64> {
     let mut sides = DMatrix::zeros(2 * n, n);
     sides.view_mut((0, 0), (n, n)).copy_from(&problem.g);
     sides.view_mut((n, 0), (n, n)).copy_from(&-&problem.g);
-    let settings = DefaultSettings {
-        verbose: false,
-        presolve_enable: false,
-        max_threads: 1,
-        tol_gap_abs: 1e-9,
-        tol_gap_rel: 1e-9,
-        tol_feas: 1e-9,
-        ..DefaultSettings::default()
-    };
     let cost = upper(&problem.a, |i, j| i <= j);
     let rows = upper(&sides, |_, _| true);
-    DefaultSolver::new(&cost, &vec![0.0; n], &rows, &vec![1.0; 2 * n], &[NonnegativeConeT(2 * n)], settings)
+    DefaultSolver::new(&cost, &vec![0.0; n], &rows, &vec![1.0; 2 * n], &[NonnegativeConeT(2 * n)], clarabel_settings())
         .expect("a sound programme")
 }
 

@@ -3,14 +3,14 @@
 //! asserts nothing about time.
 
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT};
+use clarabel::solver::{DefaultSolver, IPSolver, NonnegativeConeT};
 use signorini::qp::Backend;
 use signorini::{Load, Scene, Scheme, Stepper, Wall};
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
 mod support;
-use support::{race, time};
+use support::{clarabel_settings, race, time};
 
 /// Best of these rounds counts.
 const ROUNDS: usize = 300;
@@ -235,16 +235,8 @@ fn pressed() -> Scene {
 /// Clarabel as one would call it by hand for such a step, dimensionless: ½ x² − b x over x ≤ 0.
 fn bare_clarabel() -> DefaultSolver<f64> {
     let one = CscMatrix::new(1, 1, vec![0, 1], vec![0], vec![1.0]);
-    let settings = DefaultSettings {
-        verbose: false,
-        presolve_enable: false,
-        max_threads: 1,
-        tol_gap_abs: 1e-9,
-        tol_gap_rel: 1e-9,
-        tol_feas: 1e-9,
-        ..DefaultSettings::default()
-    };
-    DefaultSolver::new(&one, &[0.0], &one, &[0.0], &[NonnegativeConeT(1)], settings).expect("a sound programme")
+    DefaultSolver::new(&one, &[0.0], &one, &[0.0], &[NonnegativeConeT(1)], clarabel_settings())
+        .expect("a sound programme")
 }
 
 const MOREAU_JEAN: Scheme = Scheme::MoreauJean { theta: 0.5 };

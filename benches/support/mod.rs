@@ -1,6 +1,20 @@
-//! Timing shared by the benches.
+//! What the benches share: timing, and Clarabel as one would set it by hand.
 
+use clarabel::solver::DefaultSettings;
 use std::time::Instant;
+
+/// Settings of the bare Clarabel that the library is timed against: the library's own tolerances, and updates of the data allowed.
+pub fn clarabel_settings() -> DefaultSettings<f64> {
+    DefaultSettings {
+        verbose: false,
+        presolve_enable: false,
+        max_threads: 1,
+        tol_gap_abs: 1e-9,
+        tol_gap_rel: 1e-9,
+        tol_feas: 1e-9,
+        ..DefaultSettings::default()
+    }
+}
 
 /// Nanoseconds for each call of `work`, over `calls` of them.
 pub fn time(calls: usize, mut work: impl FnMut(usize)) -> f64 {
