@@ -127,16 +127,19 @@ pub const SECOND_IMPACT: [(f64, f64); 4] =
 /// Every integrator of the penalty.
 pub const INTEGRATORS: [Integrator; 4] = Integrator::ALL;
 
+/// The schemes on a grid that constrain by a QP.
+pub const CONSTRAINED: [Scheme; 6] = [
+    Scheme::ImplicitEuler,
+    Scheme::PaoliSchatzman,
+    MOREAU_JEAN,
+    Scheme::MoreauJean { theta: 0.75 },
+    Scheme::MoreauJean { theta: 1.0 },
+    Scheme::Newmark,
+];
+
 /// Every scheme on a grid; the penalty with a spring that a step of 0.1 ms resolves.
 pub fn schemes() -> Vec<Scheme> {
-    let mut all = vec![
-        Scheme::ImplicitEuler,
-        Scheme::PaoliSchatzman,
-        MOREAU_JEAN,
-        Scheme::MoreauJean { theta: 0.75 },
-        Scheme::MoreauJean { theta: 1.0 },
-        Scheme::Newmark,
-    ];
+    let mut all = CONSTRAINED.to_vec();
     all.extend(INTEGRATORS.map(|i| spring(1e6, i)));
     all
 }
