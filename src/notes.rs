@@ -1,7 +1,7 @@
 //! What a reader must know of a run: sentences, drawn from its residuals and counters.
 
 use crate::run::Run;
-use crate::scene::{Scene, System, WallLaw};
+use crate::scene::{Scene, System};
 use crate::scheme::Scheme;
 
 /// A ledger open by this share of the energy exchanged is worth a sentence, and so are impacts that give back this share more than
@@ -15,8 +15,7 @@ const SHARE_OF_LARGEST: f64 = 0.1;
 pub(crate) fn notes(scene: &Scene, run: &Run) -> Vec<String> {
     let mut notes = Vec::new();
     let energy = &run.residuals.energy;
-    let restitution = |law: WallLaw| if let WallLaw::Rigid { restitution } = law { Some(restitution) } else { None };
-    let asked: Vec<f64> = scene.walls.iter().filter_map(|w| restitution(w.law)).collect();
+    let asked: Vec<f64> = scene.walls.iter().filter_map(|w| w.law.restitution()).collect();
     if run.grid.shortened {
         notes.push(format!(
             "the step was shortened to {:e} s so that steps end on the rows and at the end",

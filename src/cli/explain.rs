@@ -50,12 +50,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
             ui.answer(&format!("  {law}, {integrator}: h² k_w/m = {kappa:.2e}, {verdict}"));
         }
     }
-    let rigid: Vec<f64> = case
-        .scene
-        .walls
-        .iter()
-        .filter_map(|w| if let WallLaw::Rigid { restitution } = w.law { Some(restitution) } else { None })
-        .collect();
+    let rigid: Vec<f64> = case.scene.walls.iter().filter_map(|w| w.law.restitution()).collect();
     if !case.penalty.laws.is_empty() && rigid.iter().any(|&e| e < 1.0) {
         ui.answer("  note: a lossless penalty tends to e = 1, not to the walls' restitution");
     }

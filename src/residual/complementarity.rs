@@ -57,7 +57,7 @@ pub(super) fn slack(
     gap_scale: f64,
 ) -> Option<f64> {
     let wall = &scene.walls[index];
-    let WallLaw::Rigid { restitution } = wall.law else { return None };
+    let restitution = wall.law.restitution()?;
     let sign = wall.side.sign();
     match contract.promise {
         Promise::MeanPosition => {
@@ -78,7 +78,7 @@ pub(super) fn slack(
 fn shared_restitution(scene: &Scene, wall: &Wall, back: f64) -> Option<f64> {
     let (mut lo, mut hi, mut least) = (f64::NEG_INFINITY, f64::INFINITY, 1.0_f64);
     for other in scene.walls.iter().filter(|other| other.at == wall.at) {
-        let WallLaw::Rigid { restitution: e } = other.law else { continue };
+        let Some(e) = other.law.restitution() else { continue };
         let bound = (1.0 + e) * other.position - e * back;
         (lo, hi) = if other.side == Side::Upper { (lo, hi.min(bound)) } else { (lo.max(bound), hi) };
         least = least.min(e);

@@ -90,6 +90,12 @@ impl WallLaw {
         }
     }
 
+    /// The restitution e of a rigid wall; none for the others, which have a force law instead.
+    #[must_use]
+    pub fn restitution(&self) -> Option<f64> {
+        if let Self::Rigid { restitution } = *self { Some(restitution) } else { None }
+    }
+
     /// True for a rigid wall.
     #[must_use]
     pub fn is_rigid(&self) -> bool {

@@ -73,6 +73,12 @@ impl Scalar {
         self.walls.iter().fold((f64::NEG_INFINITY, f64::INFINITY), ends)
     }
 
+    /// Velocity after a blow (N s); most steps have none, and none is divided.
+    #[inline]
+    pub fn struck(&self, v: f64, blow: f64) -> f64 {
+        if blow == 0.0 { v } else { v + blow / self.m }
+    }
+
     /// Displacement and velocity after any impulse at t = 0.
     pub fn start(&self, scene: &Scene) -> (f64, f64) {
         let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);

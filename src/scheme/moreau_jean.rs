@@ -60,7 +60,7 @@ impl MoreauJean {
         let load = (1.0 - theta) * self.load + theta * load_end + extra;
         let b = h * (load - s.c * v - s.k * (q + h * theta * v)) + blows;
         // A blow comes first, and the wall answers the velocity it leaves.
-        let struck = if blows == 0.0 { v } else { v + blows / s.m };
+        let struck = s.struck(v, blows);
         let reach = q + 0.5 * h * struck;
         frame.clear();
         let delta = if reach > self.clear.0 && reach < self.clear.1 {

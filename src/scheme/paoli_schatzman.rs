@@ -56,7 +56,7 @@ impl PaoliSchatzman {
         let back = q - h * v;
         let blow = s.forcing.impulse_about(step, h);
         // A blow comes first, and the wall answers the velocity it leaves: q⁻ in the bound is where that would have come from.
-        let struck = if blow == 0.0 { v } else { v + blow / s.m };
+        let struck = s.struck(v, blow);
         let felt = centred(&mut self.extra, extra);
         frame.extra[0] = felt;
         let load = self.load + felt;
@@ -70,7 +70,7 @@ impl PaoliSchatzman {
                     elastic_row(wall.upper, 0.25 * stiffness + 0.5 * damping / h, offset)
                 }
                 _ => {
-                    let e = shared.unwrap_or(own(wall.law));
+                    let e = shared.or(wall.law.restitution()).unwrap_or(0.0);
                     let bound = (1.0 + e) * (wall.g - q) + e * h * struck;
                     let (lo, hi) = if wall.upper { (f64::NEG_INFINITY, bound) } else { (bound, f64::INFINITY) };
                     ScalarRow { lo, hi, compliance: 0.0 }
@@ -141,11 +141,6 @@ pub(super) fn centred(last: &mut f64, extra: f64) -> f64 {
     0.5 * (std::mem::replace(last, extra) + extra)
 }
 
-/// The e of a wall, 0 for an elastic one, which has none.
-fn own(law: WallLaw) -> f64 {
-    if let WallLaw::Rigid { restitution } = law { restitution } else { 0.0 }
-}
-
 impl PaoliSchatzman {
     /// The smallest e of the rigid walls, if with its own e for each the bounds of a lower and an upper one would cross: unequal e, and a body
     /// so deep in one wall that the other's bound lies behind it.
@@ -154,8 +149,8 @@ impl PaoliSchatzman {
             return None;
         }
         let (mut lo, mut hi, mut least) = (f64::NEG_INFINITY, f64::INFINITY, 1.0_f64);
-        for wall in self.s.walls.iter().filter(|w| w.law.is_rigid()) {
-            let e = own(wall.law);
+        for wall in &self.s.walls {
+            let Some(e) = wall.law.restitution() else { continue };
             let bound = (1.0 + e) * wall.g - e * back;
             (lo, hi) = if wall.upper { (lo, hi.min(bound)) } else { (lo.max(bound), hi) };
             least = least.min(e);
@@ -166,6 +161,6 @@ impl PaoliSchatzman {
 
 /// True if rigid walls differ in e.
 fn unequal(s: &Scalar) -> bool {
-    let mut rigid = s.walls.iter().filter(|w| w.law.is_rigid()).map(|w| own(w.law));
+    let mut rigid = s.walls.iter().filter_map(|w| w.law.restitution());
     rigid.next().is_some_and(|first| rigid.any(|e| e != first))
 }

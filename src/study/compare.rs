@@ -4,7 +4,7 @@ use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::run::{Options, Run, run};
-use crate::scene::{Scene, WallLaw};
+use crate::scene::Scene;
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use std::time::Instant;
@@ -168,8 +168,7 @@ fn step_ns(scene: &Scene, method: &Method, time: &TimeOptions) -> Result<f64> {
 
 fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     let mut findings = Vec::new();
-    let own = |law: WallLaw| if let WallLaw::Rigid { restitution } = law { Some(restitution) } else { None };
-    let asked: Vec<f64> = scene.walls.iter().filter_map(|w| own(w.law)).collect();
+    let asked: Vec<f64> = scene.walls.iter().filter_map(|w| w.law.restitution()).collect();
     let any = |test: fn(&Scheme) -> bool| comparison.rows.iter().any(|r| test(&r.method.scheme));
     if any(|s| matches!(s, Scheme::Penalty { law, .. } if law.is_lossless())) {
         findings.push(if asked.iter().all(|&e| e == 1.0) {

@@ -110,9 +110,7 @@ impl Parameter {
         let walls = case.scene.walls.iter().map(|w| w.law);
         let laws = case.laws.iter();
         let mut values: Vec<f64> = match self {
-            Self::Restitution => walls
-                .filter_map(|l| if let WallLaw::Rigid { restitution } = l { Some(restitution) } else { None })
-                .collect(),
+            Self::Restitution => walls.filter_map(|l| l.restitution()).collect(),
             Self::Epsilon => laws
                 .filter_map(|l| if let PenaltyLaw::Quartic { epsilon } = l { Some(*epsilon) } else { None })
                 .collect(),

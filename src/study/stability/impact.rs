@@ -6,7 +6,7 @@
 
 use super::theory;
 use crate::error::Result;
-use crate::scene::{Scene, Wall, WallLaw};
+use crate::scene::{Scene, Wall};
 use crate::scheme::{Integrator, PenaltyLaw, Scheme, Stepper};
 use rayon::prelude::*;
 
@@ -134,6 +134,6 @@ pub fn impact(scheme: &Scheme, kappa: Option<f64>, mass: f64, h: f64, e: f64, ph
 /// The restitution for the maps of a scene: that of its first rigid wall, 1 where it has none.
 #[must_use]
 pub fn wall_restitution(scene: &Scene) -> f64 {
-    let rigid = |wall: &Wall| if let WallLaw::Rigid { restitution } = wall.law { Some(restitution) } else { None };
+    let rigid = |wall: &Wall| wall.law.restitution();
     scene.walls.iter().find_map(rigid).unwrap_or(1.0)
 }
