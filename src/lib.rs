@@ -14,6 +14,7 @@ pub mod cli;
 mod contact;
 mod error;
 pub mod flow;
+pub mod linear;
 mod notes;
 #[cfg(feature = "cli")]
 pub mod output;
@@ -31,7 +32,8 @@ mod trajectory;
 pub use error::{Error, Result};
 pub use run::{Options, Run, run, run_with_progress};
 pub use scene::{
-    Forcing, Harmonic, Load, LoadKind, Oscillator, Probe, Row, Scene, Side, State, System, Table, Wall, WallLaw,
+    Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, Row, Scene, Side, State, Structure, System, Table,
+    Wall, WallLaw,
 };
 pub use scheme::{Counters, Integrator, Method, PenaltyLaw, Scheme, Stepper};
 pub use statistics::{Statistics, Summary, WallStatistics};

@@ -1,7 +1,7 @@
 //! What a reader must know of a run: sentences, drawn from its residuals and counters.
 
 use crate::run::Run;
-use crate::scene::{Scene, System};
+use crate::scene::Scene;
 use crate::scheme::Scheme;
 
 /// A ledger open by this share of the energy exchanged is worth a sentence, and so are impacts that give back this share more than
@@ -67,8 +67,9 @@ pub(crate) fn notes(scene: &Scene, run: &Run) -> Vec<String> {
 
 /// Kinetic energy that arrived at rigid walls, J, by the speeds before each contact.
 fn arrived(scene: &Scene, run: &Run) -> f64 {
-    let System::Oscillator(oscillator) = &scene.system;
+    let masses = scene.wall_masses();
+    let mass = |wall: usize| masses.get(wall).copied().unwrap_or(0.0);
     let rigid = |wall: usize| scene.walls.get(wall).is_some_and(|w| w.law.is_rigid());
     let contacts = run.trajectory.contacts().iter().filter(|c| rigid(c.wall));
-    contacts.map(|c| 0.5 * oscillator.mass * c.approach_speed * c.approach_speed).sum()
+    contacts.map(|c| 0.5 * mass(c.wall) * c.approach_speed * c.approach_speed).sum()
 }

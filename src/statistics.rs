@@ -1,6 +1,6 @@
 //! Contact statistics: what wear models ask of a run.
 
-use crate::scene::{Scene, System};
+use crate::scene::Scene;
 use crate::step::Contact;
 use serde::Serialize;
 
@@ -42,7 +42,7 @@ pub struct WallStatistics {
     pub impulse_ns: Summary,
     /// Time in contact over the window's length.
     pub contact_time_ratio: f64,
-    /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W. The motion is normal to the wall and frictionless: this is
+    /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W, with m the mass that the wall feels ([`Scene::wall_masses`]). The motion is normal to the wall and frictionless: this is
     /// impact power, there is no sliding wear in it.
     pub impact_power_w: f64,
     /// The part of it that had not returned to the body when it left, Σ ½m(approach² − departure²)/T, W; of closed episodes. At impacts
@@ -70,11 +70,12 @@ impl Statistics {
     pub fn new(scene: &Scene, contacts: &[Contact], from: f64) -> Self {
         let to = scene.duration;
         let from = from.min(to);
+        let masses = scene.wall_masses();
         let per_time = |x: f64| if to > from { x / (to - from) } else { 0.0 };
         let wall = |(index, wall): (usize, &crate::scene::Wall)| {
             let here = contacts.iter().filter(move |c| c.wall == index && c.start >= from);
-            let System::Oscillator(oscillator) = &scene.system;
-            let energy = |speed: f64| 0.5 * oscillator.mass * speed * speed;
+            let mass = masses.get(index).copied().unwrap_or(0.0);
+            let energy = |speed: f64| 0.5 * mass * speed * speed;
             // An empty sum of floats is −0, which nobody wants to read.
             let total = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |sum, x| sum + x);
             let touching = contacts.iter().filter(|c| c.wall == index);

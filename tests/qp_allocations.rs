@@ -1,6 +1,6 @@
 //! A solve allocates nothing after the first, what Clarabel allocates inside itself apart.
 
-use nalgebra::{DMatrix, DVector};
+use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, Solver};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -27,7 +27,9 @@ static ALLOCATOR: Counting = Counting;
 
 /// Allocations of 100 solves after the first, on n boxes that the loads push against.
 fn allocations(backend: Backend, n: usize) -> u64 {
-    let problem = Problem { a: DMatrix::identity(n, n), g: DMatrix::identity(n, n), compliance: DVector::zeros(n) };
+    let unit: Vec<Vec<(usize, f64)>> = (0..n).map(|i| vec![(i, 1.0)]).collect();
+    let g = Rows::new(n, unit.iter().map(Vec::as_slice));
+    let problem = Problem { a: Symmetric::diagonal(&vec![1.0; n]), g, compliance: vec![0.0; n] };
     let mut solver = Solver::new(problem, backend, 1.0).expect("sound");
     let (lo, hi) = (vec![-1.0; n], vec![1.0; n]);
     let mut b = vec![3.0; n];

@@ -3,7 +3,7 @@
 use super::request::case;
 use super::ui::Ui;
 use crate::error::Result;
-use crate::scene::{Scene, System, WallLaw};
+use crate::scene::{Scene, WallLaw};
 use crate::study::choice;
 
 /// Say which model, scheme and solver a case would get, and why, without running it
@@ -17,8 +17,9 @@ pub struct Args {
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let case = case(&args.case)?;
     let choice = choice::choose(&case.scene);
-    let System::Oscillator(o) = &case.scene.system;
-    let omega = (o.stiffness / o.mass).sqrt();
+    let [_, omega] = case.scene.system.frequencies();
+    let masses = case.scene.wall_masses();
+    let least = masses.iter().copied().fold(f64::INFINITY, f64::min);
     let h = case.time.step;
     ui.answer(&format!("{}: {}", case.name, case.title.as_deref().unwrap_or("no title")));
     ui.answer("model");
@@ -36,16 +37,16 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         "  {h:e} s, {steps:.0} steps{}",
         if omega > 0.0 { format!(", h ω = {:.2e}", h * omega) } else { String::new() }
     ));
-    for wall in &case.scene.walls {
+    for (wall, mass) in case.scene.walls.iter().zip(&masses) {
         if let WallLaw::Elastic { stiffness, .. } = wall.law {
-            ui.answer(&format!("  {:?}: h² k_a/m = {:.2e}", wall.name, h * h * stiffness / o.mass));
+            ui.answer(&format!("  {:?}: h² k_a/m = {:.2e}", wall.name, h * h * stiffness / mass));
         }
     }
     if !case.penalty.laws.is_empty() {
         ui.answer("penalty, for comparison");
         let integrator = case.penalty.integrator.unwrap_or_default();
         for law in &case.penalty.laws {
-            let kappa = stiffest(&case.scene, *law).map(|k| h * h * k / o.mass)?;
+            let kappa = stiffest(&case.scene, *law).map(|k| h * h * k / least)?;
             let verdict = if kappa < 0.1 { "the step resolves the wall" } else { "the step does not resolve the wall" };
             ui.answer(&format!("  {law}, {integrator}: h² k_w/m = {kappa:.2e}, {verdict}"));
         }

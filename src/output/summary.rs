@@ -99,7 +99,13 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
 }
 
 fn scene(scene: &Scene) -> Value {
-    let System::Oscillator(o) = &scene.system;
+    let system = match &scene.system {
+        System::Oscillator(o) => {
+            json!({ "mass_kg": o.mass, "damping_ns_per_m": o.damping, "stiffness_n_per_m": o.stiffness })
+        }
+        System::Structure(s) => json!({ "degrees_of_freedom": s.mass.size() }),
+    };
+    let kind = if matches!(scene.system, System::Oscillator(_)) { "oscillator" } else { "structure" };
     let walls: Vec<Value> = scene
         .walls
         .iter()
@@ -128,7 +134,7 @@ fn scene(scene: &Scene) -> Value {
         })
         .collect();
     json!({
-        "oscillator": { "mass_kg": o.mass, "damping_ns_per_m": o.damping, "stiffness_n_per_m": o.stiffness },
+        kind: system,
         "walls": walls,
         "loads": loads,
         "initial": { "displacement_m": scene.initial.q, "velocity_m_per_s": scene.initial.v },

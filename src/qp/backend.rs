@@ -7,18 +7,20 @@ use std::str::FromStr;
 /// Who solves the programme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Backend {
-    /// One unknown: [`Backend::Clamp`]; several: [`Backend::Clarabel`].
+    /// One unknown: [`Backend::Clamp`]; several: [`Backend::Condensed`].
     #[default]
     Auto,
     /// The exact solution of the scalar programme. One unknown only.
     Clamp,
+    /// Block principal pivoting on the Delassus operator: exact, warm-started.
+    Condensed,
     /// The interior-point solver Clarabel, polished to rounding.
     Clarabel,
 }
 
 impl Backend {
     /// Every choice, in the order in which they are listed to users.
-    pub const ALL: [Self; 3] = [Self::Auto, Self::Clamp, Self::Clarabel];
+    pub const ALL: [Self; 4] = [Self::Auto, Self::Clamp, Self::Condensed, Self::Clarabel];
 
     /// The name by which a user asks for it.
     #[must_use]
@@ -26,6 +28,7 @@ impl Backend {
         match self {
             Self::Auto => "auto",
             Self::Clamp => "clamp",
+            Self::Condensed => "condensed",
             Self::Clarabel => "clarabel",
         }
     }

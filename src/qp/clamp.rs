@@ -200,13 +200,13 @@ pub(super) struct Clamp {
 
 impl Clamp {
     pub(super) fn new(problem: &Problem, scale: f64) -> Result<Self, Failure> {
-        super::shape("unknowns of the clamp", 1, problem.a.ncols())?;
-        let a = problem.a.as_slice().first().copied().unwrap_or(f64::NAN);
+        super::shape("unknowns of the clamp", 1, problem.a.size())?;
+        let a = problem.a.get(0, 0);
         if a <= 0.0 || a.is_nan() {
             return Err(Failure::NotPositiveDefinite);
         }
-        let coefficient = problem.g.as_slice().to_vec();
-        let compliance = problem.compliance.as_slice().to_vec();
+        let coefficient: Vec<f64> = (0..problem.g.count()).map(|i| problem.g.dot(i, &[1.0])).collect();
+        let compliance = problem.compliance.clone();
         let rows = coefficient
             .iter()
             .zip(&compliance)

@@ -15,7 +15,6 @@ use super::delassus::Delassus;
 use super::{Failure, Problem, Rhs};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
-use nalgebra::DMatrix;
 
 /// Stopping tolerance of gap and feasibility (dimensionless). It has to tell force from gap, which polishing then makes
 /// exact; beyond 1e-12 the solver stalls.
@@ -45,7 +44,7 @@ pub(super) struct Clarabel {
     /// D A D with the yields of elastic rows behind it; upper triangle.
     cost: CscMatrix<f64>,
     /// ρ⁻¹ [G D, yields], m rows.
-    rows: DMatrix<f64>,
+    rows: Vec<Vec<(usize, f64)>>,
     /// Inequality ↔ side of a row, in the solver's order.
     sides: Vec<(usize, Side)>,
     /// Whether a side is among them: lower and upper of each row.
@@ -56,24 +55,23 @@ pub(super) struct Clarabel {
 
 impl Clarabel {
     pub(super) fn new(problem: &Problem, system: &Delassus) -> Self {
-        let (n, m) = (problem.a.ncols(), problem.g.nrows());
-        let unit: Vec<f64> = problem.a.diagonal().iter().map(|d| 1.0 / d.sqrt()).collect();
+        let (n, m) = (problem.a.size(), problem.g.count());
+        let unit: Vec<f64> = problem.a.diagonal_entries().iter().map(|d| 1.0 / d.sqrt()).collect();
         let elastic: Vec<usize> = (0..m).filter(|&i| problem.compliance[i] > 0.0).collect();
-        let mut cost = DMatrix::identity(n + elastic.len(), n + elastic.len());
-        let mut rows = DMatrix::zeros(m, n + elastic.len());
-        for j in 0..n {
-            for i in 0..j {
-                cost[(i, j)] = unit[i] * problem.a[(i, j)] * unit[j];
-            }
-            for i in 0..m {
-                rows[(i, j)] = problem.g[(i, j)] * unit[j] / system.weight[i];
-            }
+        // The lower triangle by rows is the upper one by columns.
+        let mut cost: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n + elastic.len()];
+        for (i, j, value) in problem.a.entries() {
+            cost[i].push((j, if i == j { 1.0 } else { unit[i] * value * unit[j] }));
         }
+        let mut rows: Vec<Vec<(usize, f64)>> = (0..m)
+            .map(|i| problem.g.row(i).iter().map(|&(j, g)| (j, g * unit[j] / system.weight[i])).collect())
+            .collect();
         for (k, &i) in elastic.iter().enumerate() {
-            rows[(i, n + k)] = problem.compliance[i].sqrt() / system.weight[i];
+            cost[n + k].push((n + k, 1.0));
+            rows[i].push((n + k, problem.compliance[i].sqrt() / system.weight[i]));
         }
         Self {
-            cost: sparse(&cost),
+            cost: by_columns(cost.len(), &cost),
             rows,
             sides: Vec::with_capacity(2 * m),
             known: vec![[false; 2]; m],
@@ -132,10 +130,13 @@ impl Clarabel {
     }
 
     fn build(&self) -> Result<Box<DefaultSolver<f64>>, Failure> {
-        let inequality = DMatrix::from_fn(self.sides.len(), self.rows.ncols(), |i, j| {
-            let (row, side) = self.sides[i];
-            -side.sign() * self.rows[(row, j)]
-        });
+        let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); self.cost.n];
+        for (i, &(row, side)) in self.sides.iter().enumerate() {
+            for &(j, value) in &self.rows[row] {
+                columns[j].push((i, -side.sign() * value));
+            }
+        }
+        let inequality = by_columns(self.sides.len(), &columns);
         let settings = DefaultSettings {
             verbose: false,
             max_threads: 1,
@@ -151,7 +152,7 @@ impl Clarabel {
         DefaultSolver::new(
             &self.cost,
             &vec![0.0; self.cost.n],
-            &sparse(&inequality),
+            &inequality,
             &self.bound,
             &[NonnegativeConeT(self.sides.len())],
             settings,
@@ -188,17 +189,25 @@ fn shorten(solver: &mut DefaultSolver<f64>, step: f64) -> Result<(), Failure> {
     solver.update_settings(settings).map_err(|_| Failure::NotSolved { status: "settings refused" })
 }
 
-/// Compressed columns without the zeros.
-fn sparse(full: &DMatrix<f64>) -> CscMatrix<f64> {
-    let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-    for column in full.column_iter() {
-        for (i, &value) in column.iter().enumerate().filter(|(_, value)| **value != 0.0) {
-            rows.push(i);
-            values.push(value);
+/// Compressed columns, without the zeros, entries of one place added up.
+fn by_columns(height: usize, columns: &[Vec<(usize, f64)>]) -> CscMatrix<f64> {
+    let (mut starts, mut rows, mut values) = (vec![0], Vec::<usize>::new(), Vec::<f64>::new());
+    for column in columns {
+        let start = rows.len();
+        let mut sorted = column.clone();
+        sorted.sort_by_key(|entry| entry.0);
+        for (i, value) in sorted.into_iter().filter(|entry| entry.1 != 0.0) {
+            match values.last_mut() {
+                Some(sum) if rows.len() > start && rows.last() == Some(&i) => *sum += value,
+                _ => {
+                    rows.push(i);
+                    values.push(value);
+                }
+            }
         }
         starts.push(rows.len());
     }
-    CscMatrix::new(full.nrows(), full.ncols(), starts, rows, values)
+    CscMatrix::new(height, columns.len(), starts, rows, values)
 }
 
 const fn words(status: SolverStatus) -> &'static str {

@@ -11,11 +11,12 @@
 //! | solver | what it does |
 //! |---|---|
 //! | [`Backend::Clamp`] | one unknown: exact, finite, nanoseconds |
+//! | [`Backend::Condensed`] | any number: block principal pivoting on W, exact |
 //! | [`Backend::Clarabel`] | any number: an interior point finds the rows in play, then they are solved exactly |
 //!
 //! [`clamp()`] is the same scalar programme without matrices, for kernels that hold floats only.
 
-use nalgebra::{DMatrix, DVector};
+use crate::linear::{Rows, Symmetric};
 
 mod active_set;
 mod backend;
@@ -34,11 +35,11 @@ pub use solver::{Counters, Solver};
 #[derive(Debug, Clone)]
 pub struct Problem {
     /// A, n × n, symmetric positive definite.
-    pub a: DMatrix<f64>,
+    pub a: Symmetric,
     /// G, m × n, one row per wall.
-    pub g: DMatrix<f64>,
+    pub g: Rows,
     /// Compliance cᵢ of each row, m entries: 0 for a rigid row; above 0 the row yields, r = −(g·x − u)/c beyond its bound.
-    pub compliance: DVector<f64>,
+    pub compliance: Vec<f64>,
 }
 
 /// What changes from step to step. Infinite bounds are rows without that side, in this step.
@@ -68,14 +69,18 @@ const ROUNDING: f64 = 1e-12;
 impl Problem {
     /// Sizes agree and every entry is a number: n ≥ 1, A n × n, G m × n, compliance m entries, none negative.
     fn check(&self) -> Result<(), Failure> {
-        let n = self.a.ncols();
+        let n = self.a.size();
         shape("unknowns", 1, n.min(1))?;
-        shape("rows of A", n, self.a.nrows())?;
-        shape("columns of G", n, self.g.ncols())?;
-        shape("compliances", self.g.nrows(), self.compliance.len())?;
-        finite("A", self.a.as_slice(), |v| v.is_finite())?;
-        finite("G", self.g.as_slice(), |v| v.is_finite())?;
-        finite("compliance", self.compliance.as_slice(), |v| v.is_finite() && v >= 0.0)
+        shape("columns of G", n, self.g.columns())?;
+        shape("compliances", self.g.count(), self.compliance.len())?;
+        if let Some((row, ..)) = self.a.not_finite() {
+            return Err(Failure::NotFinite { what: "A, row", index: row });
+        }
+        let sound = |i: &usize| self.g.row(*i).iter().all(|entry| entry.1.is_finite());
+        if let Some(row) = (0..self.g.count()).find(|i| !sound(i)) {
+            return Err(Failure::NotFinite { what: "G, row", index: row });
+        }
+        finite("compliance", &self.compliance, |v| v.is_finite() && v >= 0.0)
     }
 }
 

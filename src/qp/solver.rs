@@ -40,7 +40,7 @@ enum Kind {
 /// Clarabel, made exact: the rows it finds in play are solved as equalities, signs are checked, and pivots mend them.
 struct Polished {
     system: Delassus,
-    interior: Clarabel,
+    interior: Option<Clarabel>,
     play: ActiveSet,
 }
 
@@ -56,20 +56,19 @@ impl Solver {
     pub fn new(problem: Problem, backend: Backend, scale: f64) -> Result<Self, Failure> {
         problem.check()?;
         super::finite("scale", &[scale], |v| v > 0.0 && v.is_finite())?;
-        let (n, m) = (problem.a.ncols(), problem.g.nrows());
+        let (n, m) = (problem.a.size(), problem.g.count());
         let (clamp, reason) = match backend {
             Backend::Auto if n == 1 => (true, "one unknown: the programme is a clamp, exact and without iteration"),
-            Backend::Auto => {
-                (false, "several unknowns: Clarabel finds the walls in play, then they are solved exactly")
-            }
+            Backend::Auto => (false, "several unknowns: condensed onto the walls, exact"),
             Backend::Clamp => (true, "the clamp was asked for"),
+            Backend::Condensed => (false, "the condensed solver was asked for"),
             Backend::Clarabel => (false, "Clarabel was asked for"),
         };
         let kind = if clamp {
             Kind::Clamp(Clamp::new(&problem, scale)?)
         } else {
             let system = Delassus::new(&problem)?;
-            let interior = Clarabel::new(&problem, &system);
+            let interior = (backend == Backend::Clarabel).then(|| Clarabel::new(&problem, &system));
             Kind::Clarabel(Box::new(Polished { system, interior, play: ActiveSet::new(m) }))
         };
         let solution = Solution { x: vec![0.0; n], multiplier: vec![0.0; m] };
@@ -103,9 +102,10 @@ impl Solver {
     /// The solver in force: never [`Backend::Auto`].
     #[must_use]
     pub fn backend(&self) -> Backend {
-        match self.kind {
+        match &self.kind {
             Kind::Clamp(_) => Backend::Clamp,
-            Kind::Clarabel(_) => Backend::Clarabel,
+            Kind::Clarabel(polished) if polished.interior.is_some() => Backend::Clarabel,
+            Kind::Clarabel(_) => Backend::Condensed,
         }
     }
 
@@ -153,9 +153,10 @@ impl Polished {
         }
         super::finite("violation", &[violation], f64::is_finite)?;
         play.clear();
-        match interior.find(system, rhs, violation, scale, play) {
-            Ok(iterations) => counters.iterations += iterations,
-            Err(failure) => {
+        match interior.as_mut().map(|interior| interior.find(system, rhs, violation, scale, play)) {
+            None => {}
+            Some(Ok(iterations)) => counters.iterations += iterations,
+            Some(Err(failure)) => {
                 // The interior point cannot say which bounds cross; the active set, from nothing, can.
                 play.clear();
                 play.solve(system, rhs.lo, rhs.hi, scale, &mut solution.multiplier)?;

@@ -6,7 +6,8 @@ mod quadrature;
 
 pub use energy::Energy;
 
-use crate::scene::{Forcing, Scene};
+use crate::linear::Factor;
+use crate::scene::{Loads, Scene, System};
 use crate::step::{Balance, Contract, Path, Promise, Step};
 use complementarity::{Pairs, expected_pressure};
 use serde::Serialize;
@@ -42,12 +43,13 @@ pub struct Residuals {
 const PLACE_UNITS: f64 = 32.0;
 
 /// Watches a run.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Judge {
     scene: Scene,
     contract: Contract,
     h: f64,
-    forcing: Vec<Forcing>,
+    loads: Loads,
+    mass: Option<Factor>,
     q: Vec<f64>,
     /// Load at the end of the last step, N.
     load: Vec<f64>,
@@ -72,6 +74,8 @@ struct Scratch {
     load_end: Vec<f64>,
     load: Vec<f64>,
     blow: Vec<f64>,
+    /// Change of velocity by the blows, m/s.
+    struck: Vec<f64>,
     mean_q: Vec<f64>,
     mean_v: Vec<f64>,
     residual: Vec<f64>,
@@ -86,15 +90,22 @@ impl Judge {
     #[must_use]
     pub fn new(scene: &Scene, contract: Contract, h: f64, q: &[f64], v: &[f64]) -> Self {
         let n = scene.system.degrees_of_freedom();
-        let forcing: Vec<Forcing> = (0..n).map(|i| Forcing::on(i, &scene.loads)).collect();
-        let load = forcing.iter().map(|f| f.force(0.0)).collect();
+        let loads = Loads::new(&scene.loads);
         let zero = || vec![0.0; n];
+        let mut load = zero();
+        loads.add_force(0.0, 1.0, &mut load);
+        // What a blow does to the velocities; a mass that cannot be factored is refused long before.
+        let mass = match &scene.system {
+            System::Structure(s) if loads.has_blows() => Factor::new(&s.mass).ok(),
+            _ => None,
+        };
         let fit = |x: &[f64]| x.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect::<Vec<f64>>();
         let (q, v) = (fit(q), fit(v));
         let scratch = Scratch {
             load_end: zero(),
             load: zero(),
             blow: zero(),
+            struck: zero(),
             mean_q: zero(),
             mean_v: zero(),
             residual: zero(),
@@ -105,7 +116,8 @@ impl Judge {
         Self {
             contract,
             h,
-            forcing,
+            loads,
+            mass,
             energy: energy::Ledger::new(scene, contract, &q, &v),
             q,
             load,
@@ -133,12 +145,18 @@ impl Judge {
         if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != walls) {
             return;
         }
-        for ((end, blow), forcing) in self.scratch.load_end.iter_mut().zip(&mut self.scratch.blow).zip(&self.forcing) {
-            *end = forcing.force(step.end);
-            *blow = match self.contract.balance {
-                Balance::Staggered(_) => forcing.impulse_about(step.index, self.h),
-                _ => forcing.impulse(step.start, step.end),
-            };
+        self.scratch.load_end.fill(0.0);
+        self.loads.add_force(step.end, 1.0, &mut self.scratch.load_end);
+        let struck = match self.contract.balance {
+            Balance::Staggered(_) => self.loads.blow_about(step.index, self.h, &mut self.scratch.blow),
+            _ => self.loads.blow(step.start, step.end, &mut self.scratch.blow),
+        };
+        self.scratch.struck.copy_from_slice(&self.scratch.blow);
+        if let (true, Some(mass)) = (struck, &mut self.mass) {
+            mass.solve(&mut self.scratch.struck);
+        }
+        if let System::Oscillator(o) = &self.scene.system {
+            self.scratch.struck.iter_mut().for_each(|v| *v /= o.mass);
         }
         match step.path {
             Path::Grid => self.see_grid(step),
@@ -182,8 +200,6 @@ impl Judge {
             self.balance_scale = self.balance_scale.max(s.load[i].abs()).max(s.blow[i].abs() / h);
             (s.inertia[i], s.damper[i], s.spring[i]) = (0.0, 0.0, 0.0);
         }
-        let rub = self.scene.system.damping_form(&[1.0], &s.mean_v).abs();
-        self.balance_scale = self.balance_scale.max(rub);
         let system = &self.scene.system;
         system.add_mass(1.0, after, &mut s.inertia);
         system.add_mass(-1.0, before, &mut s.inertia);
@@ -221,7 +237,7 @@ impl Judge {
             let rates = (wall.at.dot(step.velocity_before), wall.at.dot(step.velocity_after));
             if wall.law.is_rigid() {
                 let gap_scale = self.energy.gap_scale;
-                let struck = rates.0 + self.scene.system.velocity_change(&wall.at, &self.scratch.blow);
+                let struck = rates.0 + wall.at.dot(&self.scratch.struck);
                 let (ends, rates) = ((w0, w1), (struck, rates.1));
                 match complementarity::slack(&self.scene, index, self.contract, self.h, ends, rates, gap_scale) {
                     Some(slack) => self.pairs.add(slack, pressure),
@@ -235,7 +251,7 @@ impl Judge {
     }
 
     fn see_arc(&mut self, step: &Step<'_>, arc: &crate::flow::Arc) {
-        let ends = self.energy.see_arc(&self.scene, step, arc, &self.forcing, &self.scratch.blow);
+        let ends = self.energy.see_arc(&self.scene, step, arc, &self.loads, &self.scratch.blow);
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.tension = self.tension.max(-wall.side.sign() * step.jump[index]);
         }
@@ -270,7 +286,14 @@ impl Judge {
 
     /// A force the scene knows of itself, N: its springs over the gap scale, so that a run without loads and contacts has a scale too.
     fn spring_scale(&self) -> f64 {
-        self.scene.system.stiffness_form(&[1.0], &[1.0]) * self.energy.gap_scale
+        let n = self.q.len();
+        let mut largest = 0.0_f64;
+        if let System::Structure(s) = &self.scene.system {
+            largest = s.stiffness.diagonal_entries().into_iter().fold(0.0, f64::max);
+        } else {
+            largest = largest.max(self.scene.system.stiffness_form(&vec![1.0; n], &vec![1.0; n]));
+        }
+        largest * self.energy.gap_scale
     }
 
     /// The verdict so far.

@@ -1,12 +1,17 @@
 //! What is simulated: a linear system, its walls, its loads, its start and how long.
 
 mod load;
+mod loads;
 mod row;
+mod scales;
+mod structure;
 mod system;
 mod wall;
 
 pub use load::{Forcing, Harmonic, Load, LoadKind, Table};
+pub use loads::Loads;
 pub use row::{Probe, Row};
+pub use structure::Structure;
 pub use system::{Oscillator, System};
 pub use wall::{Side, Wall, WallLaw};
 

@@ -14,6 +14,12 @@ impl Row {
         Self { entries: vec![(index, 1.0)] }
     }
 
+    /// A row of (degree of freedom, weight): the difference of two is the relative motion of two masses, unequal weights are a lever.
+    #[must_use]
+    pub fn new(entries: Vec<(usize, f64)>) -> Self {
+        Self { entries }
+    }
+
     /// The pairs (degree of freedom, weight), in the order given.
     #[must_use]
     pub fn entries(&self) -> &[(usize, f64)] {

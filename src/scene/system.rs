@@ -1,6 +1,6 @@
 //! The linear system: what vibrates when nothing touches it.
 
-use super::row::Row;
+use super::structure::Structure;
 use crate::error::{Error, Result};
 
 /// One degree of freedom, m q̈ + c q̇ + k q = f.
@@ -20,6 +20,8 @@ pub struct Oscillator {
 pub enum System {
     /// A single degree of freedom: three numbers, no matrices.
     Oscillator(Oscillator),
+    /// Several, by matrices.
+    Structure(Box<Structure>),
 }
 
 impl System {
@@ -28,14 +30,7 @@ impl System {
     pub fn degrees_of_freedom(&self) -> usize {
         match self {
             Self::Oscillator(_) => 1,
-        }
-    }
-
-    /// g M⁻¹ p: what the impulses `p` (N s, length n) change of the velocity seen through `row`, m/s.
-    #[must_use]
-    pub fn velocity_change(&self, row: &Row, p: &[f64]) -> f64 {
-        match self {
-            Self::Oscillator(o) => row.dot(p) / o.mass,
+            Self::Structure(s) => s.mass.size(),
         }
     }
 
@@ -44,6 +39,7 @@ impl System {
     pub fn mass_form(&self, a: &[f64], b: &[f64]) -> f64 {
         match self {
             Self::Oscillator(o) => o.mass * first(a) * first(b),
+            Self::Structure(s) => s.mass.form(a, b),
         }
     }
 
@@ -52,6 +48,7 @@ impl System {
     pub fn damping_form(&self, a: &[f64], b: &[f64]) -> f64 {
         match self {
             Self::Oscillator(o) => o.damping * first(a) * first(b),
+            Self::Structure(s) => s.damping.form(a, b),
         }
     }
 
@@ -60,6 +57,7 @@ impl System {
     pub fn stiffness_form(&self, a: &[f64], b: &[f64]) -> f64 {
         match self {
             Self::Oscillator(o) => o.stiffness * first(a) * first(b),
+            Self::Structure(s) => s.stiffness.form(a, b),
         }
     }
 
@@ -67,6 +65,7 @@ impl System {
     pub fn add_mass(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         match self {
             Self::Oscillator(o) => add(scale * o.mass, x, out),
+            Self::Structure(s) => s.mass.add_product(scale, x, out),
         }
     }
 
@@ -74,6 +73,7 @@ impl System {
     pub fn add_damping(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         match self {
             Self::Oscillator(o) => add(scale * o.damping, x, out),
+            Self::Structure(s) => s.damping.add_product(scale, x, out),
         }
     }
 
@@ -81,6 +81,7 @@ impl System {
     pub fn add_stiffness(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         match self {
             Self::Oscillator(o) => add(scale * o.stiffness, x, out),
+            Self::Structure(s) => s.stiffness.add_product(scale, x, out),
         }
     }
 
@@ -91,6 +92,7 @@ impl System {
                 nonnegative("system.oscillator.damping", o.damping)?;
                 nonnegative("system.oscillator.stiffness", o.stiffness)
             }
+            Self::Structure(s) => s.validate(),
         }
     }
 }

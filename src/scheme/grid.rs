@@ -1,7 +1,7 @@
 //! What every scheme on a fixed grid shares: the oscillator's numbers, its walls in scalar form, and the frame it fills.
 
 use crate::error::{Error, Result};
-use crate::scene::{Forcing, Scene, Side, System, WallLaw};
+use crate::scene::{Forcing, Scene, Side, WallLaw};
 
 /// The scene of one degree of freedom as a kernel wants it.
 #[derive(Debug, Clone)]
@@ -42,7 +42,6 @@ impl ScalarWall {
 
 impl Scalar {
     pub fn new(scene: &Scene, h: f64) -> Self {
-        let System::Oscillator(o) = &scene.system;
         let walls = scene.walls.iter().map(|w| ScalarWall {
             upper: w.side == Side::Upper,
             sign: w.side.sign(),
@@ -50,9 +49,9 @@ impl Scalar {
             law: w.law,
         });
         Self {
-            m: o.mass,
-            c: o.damping,
-            k: o.stiffness,
+            m: scene.system.mass_form(&[1.0], &[1.0]),
+            c: scene.system.damping_form(&[1.0], &[1.0]),
+            k: scene.system.stiffness_form(&[1.0], &[1.0]),
             h,
             forcing: Forcing::on(0, &scene.loads),
             walls: walls.collect(),

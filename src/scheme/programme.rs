@@ -4,8 +4,8 @@
 
 use super::grid::{Counters, Scalar};
 use crate::error::{Error, Result};
+use crate::linear::{Rows, Symmetric};
 use crate::qp::{self, Backend, Failure, Rhs, ScalarRow};
-use nalgebra::{DMatrix, DVector};
 
 /// The programme with its rows, one per wall, and the solver that answers it.
 #[derive(Debug)]
@@ -35,12 +35,12 @@ impl Programme {
     pub fn new(a: f64, scale: f64, compliances: &[f64], backend: Backend) -> Result<Self> {
         let solver = match backend {
             Backend::Auto | Backend::Clamp => None,
-            Backend::Clarabel => {
+            Backend::Condensed | Backend::Clarabel => {
                 let m = compliances.len();
                 let problem = qp::Problem {
-                    a: DMatrix::from_element(1, 1, a),
-                    g: DMatrix::from_element(m, 1, 1.0),
-                    compliance: DVector::from_column_slice(compliances),
+                    a: Symmetric::diagonal(&[a]),
+                    g: Rows::new(1, (0..m).map(|_| [(0, 1.0)].as_slice())),
+                    compliance: compliances.to_vec(),
                 };
                 let solver = qp::Solver::new(problem, backend, scale).map_err(|f| failure(&f, 0.0, 0))?;
                 Some(Box::new(Interior { solver, lo: vec![0.0; m], hi: vec![0.0; m] }))

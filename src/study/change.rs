@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::run::Run;
-use crate::scene::{Scene, System, WallLaw};
+use crate::scene::{Scene, WallLaw};
 use crate::statistics::{Statistics, WallStatistics};
 use crate::step::Contact;
 use crate::trajectory::Trajectory;
@@ -63,11 +63,12 @@ impl Change {
         let rows = against.time().iter().zip(pairs).take_while(|(t, _)| **t <= until * (1.0 + 1e-12));
         let displacement = rows.fold(0.0, |largest, (_, (x, y))| worse(largest, (x - y).abs() / gap));
         let speed = against.velocity().iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-        let System::Oscillator(body) = &scene.system;
+        let masses = scene.wall_masses();
         let statistics = [run, against].map(|t| Statistics::new(scene, t.contacts(), from));
         let window = scene.duration - from;
         let mut walls = Vec::new();
         for (index, wall) in scene.walls.iter().enumerate() {
+            let mass = masses.get(index).copied().unwrap_or(0.0);
             let impulses = [run.impulse(&wall.name)?, against.impulse(&wall.name)?];
             let numbers = [run, against].map(|t| soft_number(t.contacts(), index, from));
             let of =
@@ -75,15 +76,15 @@ impl Change {
             let [time, time_against] = of(|w| w.contact_time_ratio);
             let peak_force = match wall.law {
                 WallLaw::Elastic { stiffness, .. } => {
-                    relative(of(|w| w.peak_force_n.max.unwrap_or(0.0)), speed * (stiffness * body.mass).sqrt())
+                    relative(of(|w| w.peak_force_n.max.unwrap_or(0.0)), speed * (stiffness * mass).sqrt())
                 }
                 _ => 0.0,
             };
             walls.push(WallChange {
                 wall: wall.name.clone(),
-                impulse: relative(impulses, body.mass * speed),
+                impulse: relative(impulses, mass * speed),
                 contacts: relative(numbers, 1.0),
-                impact_energy: relative(of(|w| w.impact_power_w), 0.5 * body.mass * speed * speed / window),
+                impact_energy: relative(of(|w| w.impact_power_w), 0.5 * mass * speed * speed / window),
                 contact_time: (time - time_against).abs(),
                 peak_force,
             });

@@ -80,33 +80,45 @@ pub fn qp_reason(method: &Method) -> String {
     match (method.scheme, method.backend) {
         (Scheme::Penalty { .. }, _) => "a penalty has no QP: Newton's method solves each step".into(),
         (Scheme::Event, _) => "at an impact of one degree of freedom the QP is solved by hand: v⁺ = −e v⁻".into(),
+        (_, Backend::Condensed) => "asked for: condensed onto the walls".into(),
         (_, Backend::Clarabel) => "asked for: every step that meets a wall goes through Clarabel".into(),
         (_, Backend::Clamp) => "asked for: one unknown, so the QP is a clamp".into(),
         (_, Backend::Auto) => "one unknown: the QP is a clamp, exact and a few nanoseconds".into(),
     }
 }
 
+/// What vibrates, in words.
+fn system(system: &System) -> String {
+    let [slowest, fastest] = system.frequencies();
+    match system {
+        System::Oscillator(o) if o.stiffness > 0.0 => {
+            let ratio = 0.5 * o.damping / (o.stiffness * o.mass).sqrt();
+            let frequency = slowest / std::f64::consts::TAU;
+            format!(
+                "one degree of freedom: natural frequency {frequency:.6} Hz (ω = {slowest:.6} rad/s), damping ratio {ratio:.6}"
+            )
+        }
+        System::Structure(s) => format!(
+            "{} degrees of freedom: natural frequencies from {:.6} to about {:.6} Hz",
+            s.mass.size(),
+            slowest / std::f64::consts::TAU,
+            fastest / std::f64::consts::TAU
+        ),
+        _ => "one degree of freedom without stiffness: a free or falling body".into(),
+    }
+}
+
 /// The model in words: what the scene is made of, and the numbers that decide how it behaves.
 #[must_use]
 pub fn model(scene: &Scene) -> Vec<String> {
-    let System::Oscillator(o) = &scene.system;
-    let mut lines = Vec::new();
-    if o.stiffness > 0.0 {
-        let omega = (o.stiffness / o.mass).sqrt();
-        let ratio = 0.5 * o.damping / (o.stiffness * o.mass).sqrt();
-        lines.push(format!(
-            "one degree of freedom: natural frequency {:.6} Hz (ω = {omega:.6} rad/s), damping ratio {ratio:.6}",
-            omega / std::f64::consts::TAU
-        ));
-    } else {
-        lines.push("one degree of freedom without stiffness: a free or falling body".into());
-    }
-    for wall in &scene.walls {
+    let mut lines = vec![system(&scene.system)];
+    let [slowest, _] = scene.system.frequencies();
+    for (wall, mass) in scene.walls.iter().zip(scene.wall_masses()) {
         let side = if wall.side == crate::scene::Side::Upper { "upper" } else { "lower" };
         let law = match wall.law {
             WallLaw::Rigid { restitution } => format!("rigid, restitution {restitution}"),
             WallLaw::Elastic { stiffness, damping } => {
-                let omega = ((o.stiffness + stiffness) / o.mass).sqrt();
+                let omega = (slowest * slowest + stiffness / mass).sqrt();
                 format!(
                     "elastic, {stiffness:e} N/m and {damping:e} N s/m: a contact lasts about {:.3e} s",
                     std::f64::consts::PI / omega

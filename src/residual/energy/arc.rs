@@ -3,7 +3,7 @@
 use super::super::quadrature::{Sample, integrate};
 use super::{Flows, Ledger, stored};
 use crate::flow::Arc;
-use crate::scene::{Forcing, Scene, WallLaw};
+use crate::scene::{Loads, Scene, WallLaw};
 use crate::step::Step;
 
 /// Units in the last place of the run's largest momentum by which those at the ends of an arc are not known.
@@ -21,14 +21,7 @@ impl Ledger {
     /// What a damped wall takes is the work done on it, ∫|r|ṡ, less what it stores: so nothing hangs on the moment at which it lets go or
     /// takes hold, which at a shared face is one of rounding. It stores only while it touches; what it holds when it lets go stays with it,
     /// since spring and dashpot then relax against each other.
-    pub fn see_arc(
-        &mut self,
-        scene: &Scene,
-        step: &Step<'_>,
-        arc: &Arc,
-        forcing: &[Forcing],
-        blow: &[f64],
-    ) -> ArcBalance {
+    pub fn see_arc(&mut self, scene: &Scene, step: &Step<'_>, arc: &Arc, loads: &Loads, blow: &[f64]) -> ArcBalance {
         let system = &scene.system;
         let mut flows = Flows::default();
         let mut largest_force = 0.0_f64;
@@ -42,7 +35,9 @@ impl Ledger {
             // Tables jump at their ends: the arc stops there, so a load read just inside is the load of the arc.
             let mut integrand = |t: f64| {
                 let (q, v) = arc.state(t);
-                let load = forcing.first().map_or(0.0, |f| f.force(t)) + first(step.extra);
+                let mut load = [first(step.extra)];
+                loads.add_force(t, 1.0, &mut load);
+                let [load] = load;
                 let (spring, rub) = (system.stiffness_form(&[1.0], &[q]), system.damping_form(&[1.0], &[v]));
                 let (mut net, mut forces) = (load - rub - spring, load.abs() + rub.abs() + spring.abs());
                 let (mut push, mut pushes) = (0.0, 0.0);

@@ -103,7 +103,9 @@ impl Event {
         if !(stride.is_finite() && stride > 0.0) {
             return Err(Error::invalid("stride", stride, "a finite number above 0"));
         }
-        let System::Oscillator(body) = scene.system;
+        let System::Oscillator(body) = scene.system else {
+            return Err(Error::invalid("scheme", "event", "one degree of freedom"));
+        };
         let mut barriers = Vec::with_capacity(scene.walls.len());
         for wall in &scene.walls {
             let barrier = Barrier::new(wall).ok_or_else(|| {

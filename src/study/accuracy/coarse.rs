@@ -1,7 +1,7 @@
 //! Where refinement begins: the coarsest step that can see what happens in a scene.
 
 use crate::error::Result;
-use crate::scene::{Forcing, LoadKind, Scene, System, WallLaw};
+use crate::scene::{LoadKind, Loads, Scene, WallLaw};
 use crate::time::{TimeGrid, TimeOptions};
 use std::f64::consts::{PI, TAU};
 
@@ -54,8 +54,8 @@ impl CoarseGrid {
 /// speed of the start.
 /// Infinite where nothing has a time of its own.
 fn shortest_time(scene: &Scene) -> f64 {
-    let System::Oscillator(body) = &scene.system;
-    let mut times = vec![period(body.stiffness / body.mass)];
+    let [slowest, _] = scene.system.frequencies();
+    let mut times = vec![period(slowest * slowest)];
     for load in &scene.loads {
         match &load.kind {
             LoadKind::Harmonic { frequency, .. } if *frequency > 0.0 => times.push(1.0 / frequency),
@@ -68,18 +68,21 @@ fn shortest_time(scene: &Scene) -> f64 {
             _ => {}
         }
     }
-    let blow = Forcing::on(0, &scene.loads).initial_impulse() / body.mass;
-    let speed = scene.initial.v.first().map_or(0.0, |v| (v + blow).abs());
-    if speed > 0.0 && !scene.walls.is_empty() {
-        times.push(scene.gap_scale() / speed);
-    }
-    for wall in &scene.walls {
+    let masses = scene.wall_masses();
+    let mut blow = vec![0.0; scene.initial.v.len()];
+    Loads::new(&scene.loads).initial_blow(&mut blow);
+    for (wall, mass) in scene.walls.iter().zip(masses) {
+        // The mass at the wall takes what falls to its place: an estimate, exact for one degree of freedom.
+        let speed = (wall.at.dot(&scene.initial.v) + wall.at.dot(&blow) / mass).abs();
+        if speed > 0.0 {
+            times.push(scene.gap_scale() / speed);
+        }
         let stiffness = match wall.law {
             WallLaw::Rigid { .. } => continue,
             WallLaw::Elastic { stiffness, .. } => stiffness,
             WallLaw::Quartic { epsilon, span } => span * span / epsilon,
         };
-        times.push(PI / TAU * period((body.stiffness + stiffness) / body.mass));
+        times.push(PI / TAU * period(slowest * slowest + stiffness / mass));
     }
     times.into_iter().fold(f64::INFINITY, f64::min)
 }

@@ -49,8 +49,9 @@ impl Scale {
     /// The scale of `scene`; `first_contact` (s) is used where neither spring nor sine sets one.
     #[must_use]
     pub fn of(scene: &Scene, first_contact: Option<f64>) -> Self {
-        let mass = scene.system.mass_form(&[1.0], &[1.0]);
-        let spring = (scene.system.stiffness_form(&[1.0], &[1.0]) / mass).sqrt();
+        let total = scene.system.mass_form(&vec![1.0; scene.initial.q.len()], &vec![1.0; scene.initial.q.len()]);
+        let mass = scene.wall_masses().into_iter().reduce(f64::min).unwrap_or(total);
+        let [spring, _] = scene.system.frequencies();
         let sine = scene.loads.iter().filter_map(|load| match load.kind {
             LoadKind::Harmonic { frequency, .. } => Some(TAU * frequency),
             _ => None,

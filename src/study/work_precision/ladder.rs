@@ -1,7 +1,7 @@
 //! The steps that are tried: each a power of two finer than the last, so that their rows coincide.
 
 use crate::error::{Error, Result};
-use crate::scene::{LoadKind, Scene, System};
+use crate::scene::{LoadKind, Scene};
 use crate::time::{MOST_STEPS, TimeOptions};
 
 /// Steps of a run, at least, over the duration, and over the fastest period of the scene.
@@ -75,8 +75,7 @@ impl Ladder {
 
 /// The shortest period of the scene: of its free motion without walls and of its harmonic loads, s.
 fn fastest_period(scene: &Scene) -> f64 {
-    let System::Oscillator(o) = &scene.system;
-    let natural = std::f64::consts::TAU * (o.mass / o.stiffness).sqrt();
+    let natural = std::f64::consts::TAU / scene.system.frequencies()[0];
     let loads = scene.loads.iter().filter_map(|load| match &load.kind {
         LoadKind::Harmonic { frequency, .. } if *frequency > 0.0 => Some(1.0 / frequency),
         _ => None,

@@ -1,0 +1,20 @@
+//! Symmetric matrices, rows and factors, as structures bring them: diagonal, banded, sparse or dense. Knows nothing else of the crate.
+//!
+//! | type | what it holds |
+//! |---|---|
+//! | [`Symmetric`] | a symmetric matrix, by the rows of its lower triangle |
+//! | [`Rows`] | a few sparse rows, such as those of walls |
+//! | [`Operator`] | a symmetric matrix made ready for products, by diagonals where it is a band |
+//! | [`Factor`] | L D Lᵀ of a positive definite matrix: a band's own, or a sparse one with a fill-reducing order |
+
+mod band;
+mod factor;
+mod operator;
+mod rows;
+mod sparse;
+mod symmetric;
+
+pub use factor::{Factor, NotDefinite};
+pub use operator::Operator;
+pub use rows::Rows;
+pub use symmetric::Symmetric;

@@ -1,0 +1,43 @@
+//! A symmetric matrix made ready for many products.
+
+use super::Symmetric;
+use super::band::Band;
+
+/// A symmetric matrix stored for products: by diagonals where it is a band (diagonal, tridiagonal, a beam's, dense), else by rows.
+#[derive(Debug, Clone)]
+pub enum Operator {
+    /// By diagonals.
+    #[doc(hidden)]
+    Band(Band),
+    /// By rows of the lower triangle.
+    #[doc(hidden)]
+    Sparse(Symmetric),
+}
+
+/// A band is stored by diagonals if that takes at most this many times the room of the entries alone.
+pub(super) const FILL: usize = 4;
+/// … or if it is this narrow.
+pub(super) const NARROW: usize = 8;
+
+/// True if `matrix` is best taken for a band.
+pub(super) fn is_band(matrix: &Symmetric) -> bool {
+    let width = matrix.half_bandwidth();
+    width <= NARROW || (width + 1) * matrix.size() <= FILL * matrix.stored()
+}
+
+impl Operator {
+    /// Makes `matrix` ready.
+    #[must_use]
+    pub fn new(matrix: &Symmetric) -> Self {
+        if is_band(matrix) { Self::Band(Band::new(matrix)) } else { Self::Sparse(matrix.clone()) }
+    }
+
+    /// Adds `scale` · A x to `out`; both of length n.
+    #[inline]
+    pub fn add_product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
+        match self {
+            Self::Band(band) => band.add_product(scale, x, out),
+            Self::Sparse(matrix) => matrix.add_product(scale, x, out),
+        }
+    }
+}

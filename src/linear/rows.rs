@@ -1,0 +1,67 @@
+//! A few sparse rows over many unknowns.
+
+/// m sparse rows over n unknowns: the matrix G, m × n.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rows {
+    columns: usize,
+    starts: Vec<usize>,
+    entries: Vec<(usize, f64)>,
+}
+
+impl Rows {
+    /// Rows over `columns` unknowns, each a list of (column, value); entries beyond are left out.
+    #[must_use]
+    pub fn new<'a>(columns: usize, rows: impl IntoIterator<Item = &'a [(usize, f64)]>) -> Self {
+        let (mut starts, mut entries) = (vec![0], Vec::new());
+        for row in rows {
+            entries.extend(row.iter().copied().filter(|entry| entry.0 < columns));
+            starts.push(entries.len());
+        }
+        Self { columns, starts, entries }
+    }
+
+    /// n.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// m.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The entries (column, value) of row `i`; none beyond the last.
+    #[inline]
+    #[must_use]
+    pub fn row(&self, i: usize) -> &[(usize, f64)] {
+        match (self.starts.get(i), self.starts.get(i + 1)) {
+            (Some(&from), Some(&to)) => &self.entries[from..to],
+            _ => &[],
+        }
+    }
+
+    /// gᵢ · x.
+    #[inline]
+    #[must_use]
+    pub fn dot(&self, i: usize, x: &[f64]) -> f64 {
+        self.row(i).iter().map(|&(j, value)| value * x[j]).sum()
+    }
+
+    /// G x, m entries written to `out`.
+    #[inline]
+    pub fn product(&self, x: &[f64], out: &mut [f64]) {
+        for (i, y) in out.iter_mut().enumerate() {
+            *y = self.dot(i, x);
+        }
+    }
+
+    /// Adds `force` · gᵢᵀ to `out`, n entries.
+    #[inline]
+    pub fn add_transposed(&self, i: usize, force: f64, out: &mut [f64]) {
+        for &(j, value) in self.row(i) {
+            out[j] += value * force;
+        }
+    }
+}

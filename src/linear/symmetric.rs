@@ -1,0 +1,145 @@
+//! A symmetric matrix by the rows of its lower triangle.
+
+/// A symmetric n × n matrix; entries below the diagonal stand for both triangles. The diagonal is always stored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Symmetric {
+    /// Where each row starts in the two arrays below; n + 1 entries.
+    starts: Vec<usize>,
+    /// Columns of a row, increasing; the last is the diagonal.
+    columns: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl Symmetric {
+    /// The n × n matrix of the sum of `entries` (row, column, value). An entry off the diagonal is given once, in either triangle, and stands
+    /// for both; entries beyond n are left out.
+    #[must_use]
+    pub fn from_entries(n: usize, entries: impl IntoIterator<Item = (usize, usize, f64)>) -> Self {
+        let mut rows: Vec<Vec<(usize, f64)>> = (0..n).map(|i| vec![(i, 0.0)]).collect();
+        for (i, j, value) in entries {
+            if let Some(row) = rows.get_mut(i.max(j)) {
+                row.push((i.min(j), value));
+            }
+        }
+        let mut matrix = Self { starts: vec![0], columns: Vec::new(), values: Vec::new() };
+        for mut row in rows {
+            row.sort_by_key(|entry| entry.0);
+            let start = matrix.columns.len();
+            for (column, value) in row {
+                match matrix.columns.last() {
+                    Some(&last) if matrix.columns.len() > start && last == column => {
+                        if let Some(sum) = matrix.values.last_mut() {
+                            *sum += value;
+                        }
+                    }
+                    _ => {
+                        matrix.columns.push(column);
+                        matrix.values.push(value);
+                    }
+                }
+            }
+            matrix.starts.push(matrix.columns.len());
+        }
+        matrix
+    }
+
+    /// The matrix with `values` on its diagonal and nothing else.
+    #[must_use]
+    pub fn diagonal(values: &[f64]) -> Self {
+        Self::from_entries(values.len(), values.iter().enumerate().map(|(i, &v)| (i, i, v)))
+    }
+
+    /// The n × n matrix of zeros.
+    #[must_use]
+    pub fn zeros(n: usize) -> Self {
+        Self::from_entries(n, [])
+    }
+
+    /// n.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Number of stored entries: the lower triangle with the diagonal.
+    #[must_use]
+    pub fn stored(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// The stored entries (row, column ≤ row, value), row by row.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        (0..self.size()).flat_map(move |i| self.row(i).map(move |(j, value)| (i, j, value)))
+    }
+
+    /// The entries (column, value) of row `i` up to the diagonal.
+    fn row(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let span = self.starts[i]..self.starts[i + 1];
+        self.columns[span.clone()].iter().copied().zip(self.values[span].iter().copied())
+    }
+
+    /// The entry of row `i` and column `j`; 0 where none is stored.
+    #[must_use]
+    pub fn get(&self, i: usize, j: usize) -> f64 {
+        let (i, j) = (i.max(j), i.min(j));
+        if i >= self.size() {
+            return 0.0;
+        }
+        self.row(i).find(|entry| entry.0 == j).map_or(0.0, |entry| entry.1)
+    }
+
+    /// The diagonal, n entries.
+    #[must_use]
+    pub fn diagonal_entries(&self) -> Vec<f64> {
+        self.starts.iter().skip(1).map(|&end| self.values[end - 1]).collect()
+    }
+
+    /// The largest distance of an entry that is not 0 from the diagonal: 0 for a diagonal matrix, 1 for a tridiagonal one.
+    #[must_use]
+    pub fn half_bandwidth(&self) -> usize {
+        self.entries().filter(|e| e.2 != 0.0).map(|(i, j, _)| i - j).max().unwrap_or(0)
+    }
+
+    /// The first entry that is no finite number, as (row, column, value).
+    #[must_use]
+    pub fn not_finite(&self) -> Option<(usize, usize, f64)> {
+        self.entries().find(|entry| !entry.2.is_finite())
+    }
+
+    /// Σ factor · matrix, of one size or more: the size of the largest.
+    #[must_use]
+    pub fn sum(terms: &[(f64, &Self)]) -> Self {
+        let n = terms.iter().map(|term| term.1.size()).max().unwrap_or(0);
+        let scaled = |(factor, matrix): &(f64, &Self)| {
+            let factor = *factor;
+            matrix.entries().map(|(i, j, value)| (i, j, factor * value)).collect::<Vec<_>>()
+        };
+        Self::from_entries(n, terms.iter().flat_map(scaled))
+    }
+
+    /// Adds `scale` · A x to `out`; both of length n.
+    pub fn add_product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
+        for i in 0..self.size().min(x.len()).min(out.len()) {
+            let (mut sum, xi) = (0.0, scale * x[i]);
+            for (j, value) in self.row(i) {
+                sum += value * x[j];
+                if j < i {
+                    out[j] += value * xi;
+                }
+            }
+            out[i] += scale * sum;
+        }
+    }
+
+    /// aᵀ A b.
+    #[must_use]
+    pub fn form(&self, a: &[f64], b: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        for i in 0..self.size().min(a.len()).min(b.len()) {
+            for (j, value) in self.row(i) {
+                sum += if j < i { value * (a[i] * b[j] + a[j] * b[i]) } else { value * a[i] * b[i] };
+            }
+        }
+        sum
+    }
+}

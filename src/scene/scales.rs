@@ -1,0 +1,85 @@
+//! Typical sizes of a scene: frequencies, and the mass a wall feels.
+
+use super::{Scene, System};
+use crate::linear::{Factor, Symmetric};
+
+/// Iterations of the power method: a frequency that sets a scale needs no more digits than they give.
+const ITERATIONS: usize = 60;
+
+/// The shift of K that makes it definite, as a share of the largest ω² · M: rigid-body motions come out as slower than this.
+const SHIFT: f64 = 1e-12;
+
+impl System {
+    /// The slowest and the fastest circular frequency (rad/s) of the system without damping and walls: estimates, from within, that set scales. A
+    /// rigid-body motion has the frequency 0.
+    #[must_use]
+    pub fn frequencies(&self) -> [f64; 2] {
+        match self {
+            Self::Oscillator(o) => [(o.stiffness / o.mass).sqrt(); 2],
+            Self::Structure(s) => {
+                let fastest = power(&s.mass, &s.stiffness).unwrap_or(0.0);
+                let shift = SHIFT * fastest;
+                let shifted = Symmetric::sum(&[(1.0, &s.stiffness), (shift, &s.mass)]);
+                // The slowest is the reciprocal of the fastest of the inverse pencil.
+                let inverse = power(&shifted, &s.mass).filter(|x| *x > 0.0);
+                let slowest = inverse.map_or(0.0, |x| (1.0 / x - shift).max(0.0));
+                [if slowest > 1e3 * shift { slowest.sqrt() } else { 0.0 }, fastest.sqrt()]
+            }
+        }
+    }
+}
+
+/// The largest λ of B x = λ A x, by the power method; none if A is not positive definite.
+fn power(a: &Symmetric, b: &Symmetric) -> Option<f64> {
+    let n = a.size();
+    let mut factor = Factor::new(a).ok()?;
+    // Components along every mode, whatever symmetry the structure has.
+    let mut x: Vec<f64> = (0..n).map(|i| (1.0 + 0.618_033_988_75 * i as f64).fract() - 0.3).collect();
+    let mut y = vec![0.0; n];
+    let mut lambda = 0.0;
+    for _ in 0..ITERATIONS {
+        let norm = a.form(&x, &x).sqrt();
+        if norm.is_nan() || norm <= 0.0 {
+            return None;
+        }
+        x.iter_mut().for_each(|x| *x /= norm);
+        lambda = b.form(&x, &x);
+        y.fill(0.0);
+        b.add_product(1.0, &x, &mut y);
+        factor.solve(&mut y);
+        std::mem::swap(&mut x, &mut y);
+        if x.iter().all(|x| *x == 0.0) {
+            return Some(0.0);
+        }
+    }
+    Some(lambda.max(0.0))
+}
+
+impl Scene {
+    /// The mass that each wall feels, kg, in the scene's order: 1/(g M⁻¹ gᵀ), what an impulse divided by it changes of the velocity there. Infinite for a wall whose
+    /// row sees nothing.
+    #[must_use]
+    pub fn wall_masses(&self) -> Vec<f64> {
+        match &self.system {
+            System::Oscillator(o) => {
+                let weight = |row: &super::Row| row.entries().iter().map(|entry| entry.1).sum::<f64>();
+                self.walls.iter().map(|w| o.mass / weight(&w.at).powi(2)).collect()
+            }
+            System::Structure(s) => {
+                let Ok(mut factor) = Factor::new(&s.mass) else { return vec![f64::INFINITY; self.walls.len()] };
+                let mut response = vec![0.0; s.mass.size()];
+                let mass = |wall: &super::Wall| {
+                    response.fill(0.0);
+                    for &(i, weight) in wall.at.entries() {
+                        if let Some(x) = response.get_mut(i) {
+                            *x += weight;
+                        }
+                    }
+                    factor.solve(&mut response);
+                    1.0 / wall.at.dot(&response)
+                };
+                self.walls.iter().map(mass).collect()
+            }
+        }
+    }
+}
