@@ -1,0 +1,102 @@
+//! What every scheme knows of the scene.
+
+use crate::linear::{Factor, Operator};
+use crate::scene::{Loads, Scene, Side, Structure, WallLaw};
+
+/// The structure as a kernel wants it.
+#[derive(Debug)]
+pub(super) struct Body {
+    pub n: usize,
+    pub h: f64,
+    pub matrices: Structure,
+    pub mass: Operator,
+    pub damping: Operator,
+    pub stiffness: Operator,
+    pub loads: Loads,
+    pub walls: Vec<Stop>,
+    /// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
+    pub touch: f64,
+    /// M factored: what a blow changes of the velocity. None without blows.
+    inertia: Option<Factor>,
+    blow: Vec<f64>,
+}
+
+/// A wall as a kernel wants it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stop {
+    pub upper: bool,
+    /// +1 lower, −1 upper: the sign of its force.
+    pub sign: f64,
+    pub g: f64,
+    pub law: WallLaw,
+}
+
+impl Stop {
+    /// Depth behind the wall, m.
+    #[inline]
+    pub fn depth(&self, w: f64) -> f64 {
+        self.sign * (self.g - w)
+    }
+
+    /// The larger of the depth and zero, as a coordinate: where a dashpot's plate stands when the body is at `w`.
+    #[inline]
+    pub fn plate(&self, w: f64) -> f64 {
+        if self.upper { w.max(self.g) } else { w.min(self.g) }
+    }
+}
+
+impl Body {
+    pub fn new(scene: &Scene, h: f64) -> Self {
+        let matrices = scene.system.structure();
+        let loads = Loads::new(&scene.loads);
+        let stop = |w: &crate::scene::Wall| Stop {
+            upper: w.side == Side::Upper,
+            sign: w.side.sign(),
+            g: w.position,
+            law: w.law,
+        };
+        let n = matrices.mass.size();
+        Self {
+            n,
+            h,
+            mass: Operator::new(&matrices.mass),
+            damping: Operator::new(&matrices.damping),
+            stiffness: Operator::new(&matrices.stiffness),
+            walls: scene.walls.iter().map(stop).collect(),
+            touch: 1e-12 * scene.gap_scale(),
+            // A mass that cannot be factored is refused by the scene.
+            inertia: if loads.has_blows() { Factor::new(&matrices.mass).ok() } else { None },
+            blow: vec![0.0; n],
+            loads,
+            matrices,
+        }
+    }
+
+    /// The blows in (from, to]: adds them to `momentum` (N s) and writes the velocity they leave to `struck`, given `v`. Returns whether there was one.
+    pub fn strike(&mut self, from: f64, to: f64, v: &[f64], momentum: &mut [f64], struck: &mut [f64]) -> bool {
+        if !self.loads.has_blows() || !self.loads.blow(from, to, &mut self.blow) {
+            return false;
+        }
+        self.apply_blow(v, momentum, struck);
+        true
+    }
+
+    /// The same for the blows within half a step of the instant step · h.
+    pub fn strike_about(&mut self, step: u64, v: &[f64], momentum: &mut [f64], struck: &mut [f64]) -> bool {
+        if !self.loads.has_blows() || !self.loads.blow_about(step, self.h, &mut self.blow) {
+            return false;
+        }
+        self.apply_blow(v, momentum, struck);
+        true
+    }
+
+    fn apply_blow(&mut self, v: &[f64], momentum: &mut [f64], struck: &mut [f64]) {
+        momentum.iter_mut().zip(&self.blow).for_each(|(p, blow)| *p += blow);
+        if let Some(inertia) = &mut self.inertia {
+            inertia.solve(&mut self.blow);
+        }
+        for ((struck, v), change) in struck.iter_mut().zip(v).zip(&self.blow) {
+            *struck = v + change;
+        }
+    }
+}
