@@ -26,8 +26,8 @@ pub(super) struct Frame {
     pub impulse: Vec<f64>,
     pub force: Vec<f64>,
     jump: Vec<f64>,
-    /// True if any impulse of the step is not zero.
-    pub touched: bool,
+    /// Walls whose impulse is not zero; all others have an impulse and a force of zero.
+    pub pushing: Vec<usize>,
 }
 
 impl Frame {
@@ -57,7 +57,7 @@ impl Frame {
             impulse: vec![0.0; walls],
             force: vec![0.0; walls],
             jump: vec![0.0; walls],
-            touched: false,
+            pushing: Vec::with_capacity(walls),
         })
     }
 
@@ -66,10 +66,9 @@ impl Frame {
     pub fn begin(&mut self, step: u64, h: f64) {
         self.start = step as f64 * h;
         self.end = (step + 1) as f64 * h;
-        if self.touched {
-            self.impulse.fill(0.0);
-            self.force.fill(0.0);
-            self.touched = false;
+        for wall in self.pushing.drain(..) {
+            self.impulse[wall] = 0.0;
+            self.force[wall] = 0.0;
         }
     }
 

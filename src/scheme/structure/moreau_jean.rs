@@ -34,7 +34,7 @@ impl MoreauJean {
         let drag = Operator::new(&Symmetric::sum(&[(1.0, &m.damping), (ht, &m.stiffness)]));
         let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
         let programme = Programme::new(scene, a, scene.gap_scale() / h, compliance, backend)?;
-        let (n, rows) = (body.n, programme.places.len());
+        let (n, rows) = (body.n, programme.count_rows());
         Ok(Self { body, theta, drag, programme, b: vec![0.0; n], last: vec![0.0; rows], pushed: false, frozen: 0 })
     }
 
@@ -43,27 +43,23 @@ impl MoreauJean {
         let (h, theta) = (body.h, *theta);
         frame.begin(step, h);
         b.iter_mut().zip(&frame.extra).for_each(|(b, extra)| *b = h * extra);
-        body.loads.add_force(frame.start, h * (1.0 - theta), b);
-        body.loads.add_force(frame.end, h * theta, b);
+        body.add_load(frame.end, h * (1.0 - theta), h * theta, b);
         drag.add_product(-h, &frame.v, b);
         body.stiffness.add_product(-h, &frame.q, b);
         frame.before.copy_from_slice(&frame.v);
         frame.blown = body.strike(frame.start, frame.end, &frame.v, b, &mut frame.struck);
         self.bind(frame);
-        let body = &self.body;
-        let upper = |wall: usize| body.walls[wall].upper;
-        let touched = self.programme.solve(&self.b, frame.start, step, upper, &mut frame.impulse)?;
+        self.programme.solve(&self.b, (frame.start, step), &mut frame.impulse, &mut frame.pushing)?;
         let delta = self.programme.x();
         for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(delta) {
             *q += h * (*v + theta * d);
             *v += d;
         }
         frame.after.copy_from_slice(&frame.v);
-        frame.touched = touched;
-        if touched {
-            frame.force.iter_mut().zip(&frame.impulse).for_each(|(f, p)| *f = p / h);
+        for &wall in &frame.pushing {
+            frame.force[wall] = frame.impulse[wall] / h;
         }
-        if touched || self.pushed {
+        if self.pushed || !frame.pushing.is_empty() {
             self.watch_freezing(&frame.impulse);
         }
         Ok(())
@@ -73,25 +69,27 @@ impl MoreauJean {
     #[inline]
     fn bind(&mut self, frame: &Frame) {
         let (h, ht) = (self.body.h, self.body.h * self.theta);
-        for row in 0..self.programme.places.len() {
-            let (w, before) = (self.programme.rows.dot(row, &frame.q), self.programme.rows.dot(row, &frame.v));
-            let struck = if frame.blown { self.programme.rows.dot(row, &frame.struck) } else { before };
+        let programme = &mut self.programme;
+        for row in 0..programme.count_rows() {
+            let (w, before) = (programme.seen(row, &frame.q), programme.seen(row, &frame.v));
+            let struck = if frame.blown { programme.seen(row, &frame.struck) } else { before };
             let reach = w + 0.5 * h * struck;
-            self.programme.free(row);
-            for seat in 0..self.programme.places[row].walls.len() {
-                let index = self.programme.places[row].walls[seat];
-                let wall = self.body.walls[index];
+            programme.free(row);
+            if programme.is_clear(row, reach) {
+                continue;
+            }
+            for seat in programme.seats(row) {
+                let wall = programme.seat(seat).stop;
                 match wall.law {
                     WallLaw::Elastic { stiffness, damping } => {
                         let stiff = stiffness + damping / ht;
                         let ahead = w + ht * before;
                         let offset = h * (stiffness * (ahead - wall.g) + damping * (ahead - wall.plate(w)) / ht);
-                        self.programme.bound(row, index, wall.upper, -offset / (ht * ht * stiff));
+                        programme.bind(row, seat, -offset / (ht * ht * stiff));
                     }
                     WallLaw::Rigid { restitution } if wall.depth(reach) >= -self.body.touch => {
                         let epsilon = if wall.sign * struck <= 0.0 { restitution } else { 1.0 };
-                        let bound = -(1.0 + epsilon) * struck + (struck - before);
-                        self.programme.bound(row, index, wall.upper, bound);
+                        programme.bind(row, seat, -(1.0 + epsilon) * struck + (struck - before));
                     }
                     _ => {}
                 }
@@ -103,8 +101,9 @@ impl MoreauJean {
     fn watch_freezing(&mut self, impulse: &[f64]) {
         self.pushed = false;
         let mut frozen = false;
-        for (place, last) in self.programme.places.iter().zip(&mut self.last) {
-            let push: f64 = if place.rigid { place.walls.iter().map(|&wall| impulse[wall]).sum() } else { 0.0 };
+        for (row, last) in self.last.iter_mut().enumerate() {
+            let seats = self.programme.seats(row).map(|seat| self.programme.seat(seat));
+            let push: f64 = seats.filter(|s| s.stop.law.is_rigid()).map(|s| impulse[s.wall]).sum();
             let side = if push == 0.0 { 0.0 } else { push.signum() };
             frozen |= side * *last < 0.0;
             self.pushed |= side != 0.0;
