@@ -19,9 +19,11 @@ pub(super) struct MoreauJean {
     drag: Operator,
     programme: Programme,
     b: Vec<f64>,
-    /// Whether a row's rigid walls pushed in the last step, and from which side: the sign of their force.
+    /// q + ½hv, with the velocity that the walls answer.
+    ahead: Vec<f64>,
+    /// The side from which a row's rigid walls pushed in the last step, as the sign of their force, 0 if none did; and the rows where it is not 0.
     last: Vec<f64>,
-    pushed: bool,
+    pushed: Vec<usize>,
     frozen: u64,
 }
 
@@ -35,7 +37,17 @@ impl MoreauJean {
         let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
         let programme = Programme::new(scene, a, scene.gap_scale() / h, compliance, backend)?;
         let (n, rows) = (body.n, programme.count_rows());
-        Ok(Self { body, theta, drag, programme, b: vec![0.0; n], last: vec![0.0; rows], pushed: false, frozen: 0 })
+        Ok(Self {
+            body,
+            theta,
+            drag,
+            programme,
+            b: vec![0.0; n],
+            ahead: vec![0.0; n],
+            last: vec![0.0; rows],
+            pushed: Vec::with_capacity(scene.walls.len()),
+            frozen: 0,
+        })
     }
 
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
@@ -59,8 +71,8 @@ impl MoreauJean {
         for &wall in &frame.pushing {
             frame.force[wall] = frame.impulse[wall] / h;
         }
-        if self.pushed || !frame.pushing.is_empty() {
-            self.watch_freezing(&frame.impulse);
+        if !self.pushed.is_empty() || !frame.pushing.is_empty() {
+            self.watch_freezing(frame);
         }
         Ok(())
     }
@@ -69,15 +81,18 @@ impl MoreauJean {
     #[inline]
     fn bind(&mut self, frame: &Frame) {
         let (h, ht) = (self.body.h, self.body.h * self.theta);
+        for ((ahead, q), v) in self.ahead.iter_mut().zip(&frame.q).zip(frame.struck()) {
+            *ahead = q + 0.5 * h * v;
+        }
         let programme = &mut self.programme;
         for row in 0..programme.count_rows() {
-            let (w, before) = (programme.seen(row, &frame.q), programme.seen(row, &frame.v));
-            let struck = if frame.blown { programme.seen(row, &frame.struck) } else { before };
-            let reach = w + 0.5 * h * struck;
+            let reach = programme.seen(row, &self.ahead);
             programme.free(row);
             if programme.is_clear(row, reach) {
                 continue;
             }
+            let (w, before) = (programme.seen(row, &frame.q), programme.seen(row, &frame.v));
+            let struck = programme.seen(row, frame.struck());
             for seat in programme.seats(row) {
                 let wall = programme.seat(seat).stop;
                 match wall.law {
@@ -98,16 +113,18 @@ impl MoreauJean {
     }
 
     /// Counts a step in which the walls on opposite sides of one place took turns.
-    fn watch_freezing(&mut self, impulse: &[f64]) {
-        self.pushed = false;
-        let mut frozen = false;
-        for (row, last) in self.last.iter_mut().enumerate() {
-            let seats = self.programme.seats(row).map(|seat| self.programme.seat(seat));
-            let push: f64 = seats.filter(|s| s.stop.law.is_rigid()).map(|s| impulse[s.wall]).sum();
-            let side = if push == 0.0 { 0.0 } else { push.signum() };
-            frozen |= side * *last < 0.0;
-            self.pushed |= side != 0.0;
-            *last = side;
+    fn watch_freezing(&mut self, frame: &Frame) {
+        let row_of = |wall: usize| self.programme.row_of(wall);
+        let frozen = frame.pushing.iter().any(|&wall| self.last[row_of(wall)] * frame.impulse[wall] < 0.0);
+        for row in self.pushed.drain(..) {
+            self.last[row] = 0.0;
+        }
+        for &wall in &frame.pushing {
+            let row = row_of(wall);
+            if self.programme.is_rigid(row) {
+                self.last[row] = frame.impulse[wall].signum();
+                self.pushed.push(row);
+            }
         }
         self.frozen += u64::from(frozen);
     }

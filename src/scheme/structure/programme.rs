@@ -28,6 +28,7 @@ pub(super) struct Programme {
     /// The walls by row, and where those of each row start.
     seats: Vec<Seat>,
     starts: Vec<usize>,
+    row_of: Vec<usize>,
     /// The open interval of g·q, m, in which a row's rigid walls are not touched; empty for an elastic wall, which asks for a look in every step.
     clear: Vec<(f64, f64)>,
     /// Bounds of each row; a kernel writes them before it solves.
@@ -75,6 +76,10 @@ impl Programme {
             seats.extend(place.iter().filter_map(|&w| Some(Seat { wall: w, stop: Stop::new(scene.walls.get(w)?) })));
             starts.push(seats.len());
         }
+        let mut row_of = vec![0; scene.walls.len()];
+        for (row, place) in places.iter().enumerate() {
+            place.iter().for_each(|&wall| row_of[wall] = row);
+        }
         let touch = touching_distance(scene);
         let interval = |place: &Vec<usize>| {
             let ends = |(lo, hi): (f64, f64), w: &&Wall| match (w.law.is_rigid(), w.side) {
@@ -91,6 +96,7 @@ impl Programme {
             bound: vec![0.0; seats.len()],
             seats,
             starts,
+            row_of,
             lo: vec![f64::NEG_INFINITY; m],
             hi: vec![f64::INFINITY; m],
             names: scene.walls.iter().map(|wall| wall.name.clone()).collect(),
@@ -113,6 +119,18 @@ impl Programme {
     pub fn is_clear(&self, row: usize, w: f64) -> bool {
         let (lo, hi) = self.clear[row];
         lo < w && w < hi
+    }
+
+    /// The row that a wall is behind.
+    #[inline]
+    pub fn row_of(&self, wall: usize) -> usize {
+        self.row_of[wall]
+    }
+
+    /// False for the row of an elastic wall.
+    #[inline]
+    pub fn is_rigid(&self, row: usize) -> bool {
+        self.seats[self.starts[row]].stop.law.is_rigid()
     }
 
     /// Numbers of the seats of a row.
