@@ -99,6 +99,12 @@ impl Solver {
         Ok(&self.solution)
     }
 
+    /// The last solution; it means nothing before the first and after a failure.
+    #[must_use]
+    pub fn solution(&self) -> &Solution {
+        &self.solution
+    }
+
     /// The solver in force: never [`Backend::Auto`].
     #[must_use]
     pub fn backend(&self) -> Backend {

@@ -13,6 +13,7 @@ mod penalty_law;
 mod position;
 mod programme;
 mod stepper;
+mod structure;
 
 pub use grid::Counters;
 pub use method::Method;
