@@ -2,8 +2,8 @@
 
 use signorini::linear::{Factor, Symmetric};
 use signorini::{
-    Bar, BarEnd, Beam, BeamEnd, Chain, Damping, Load, LoadKind, MassMatrix, Modes, Probe, Row, Scene, Structure, System,
-    Wall, WallLaw,
+    Bar, BarEnd, Beam, BeamEnd, Chain, Damping, Load, LoadKind, MassMatrix, Modes, Probe, Row, Scene, Structure,
+    System, Wall, WallLaw,
 };
 use std::f64::consts::PI;
 
@@ -103,8 +103,9 @@ fn a_sprung_bar_converges_to_the_root_of_its_frequency_equation() {
         if middle * middle.cos() + 3.0 * middle.sin() > 0.0 { low = middle } else { high = middle }
     }
     let sprung = BarEnd::Sprung { stiffness: 3.0 };
-    let omegas =
-        |n| Modes::lowest(&bar(n, BarEnd::Fixed, sprung, MassMatrix::Consistent).structure().unwrap(), 1).unwrap().omega;
+    let omegas = |n| {
+        Modes::lowest(&bar(n, BarEnd::Fixed, sprung, MassMatrix::Consistent).structure().unwrap(), 1).unwrap().omega
+    };
     converges("fixed–sprung", &[low], 0, 20, 2.0, 1.0, omegas);
 }
 
