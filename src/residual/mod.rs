@@ -3,6 +3,7 @@
 mod complementarity;
 mod energy;
 mod quadrature;
+mod series;
 
 pub use energy::Energy;
 
@@ -161,6 +162,7 @@ impl Judge {
         match step.path {
             Path::Grid => self.see_grid(step),
             Path::Exact(arc) => self.see_arc(step, arc),
+            Path::Series(series) => self.see_series(step, series),
         }
         for (wall, depth) in self.scene.walls.iter().zip(&mut self.depth) {
             *depth = depth.max(-wall.gap(wall.at.dot(step.q)));

@@ -14,6 +14,7 @@ mod position;
 mod programme;
 mod stepper;
 mod structure;
+mod structure_event;
 
 pub use grid::Counters;
 pub use method::Method;

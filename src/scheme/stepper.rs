@@ -8,6 +8,7 @@ use super::paoli_schatzman::PaoliSchatzman;
 use super::penalty::{Mean, Penalty};
 use super::position::Position;
 use super::structure::Structure;
+use super::structure_event::StructureEvent;
 use super::{Integrator, Scheme};
 use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
@@ -25,6 +26,7 @@ enum Kernel {
     CentralDifference(CentralDifference),
     Event(Box<Event>),
     Structure(Box<Structure>),
+    StructureEvent(Box<StructureEvent>),
 }
 
 /// Advances a scene step by step.
@@ -85,6 +87,7 @@ impl Stepper {
         // One degree of freedom: the programme has one unknown, and a clamp solves it exactly.
         let backend = if single && backend == Backend::Auto { Backend::Clamp } else { backend };
         let kernel = match *scheme {
+            Scheme::Event if !single => Kernel::StructureEvent(Box::new(StructureEvent::new(&scene, step)?)),
             _ if !single => Kernel::Structure(Box::new(Structure::new(&scene, scheme, step, backend)?)),
             Scheme::ImplicitEuler => Kernel::Position(Position::new(&scene, 1.0, step, backend)?),
             Scheme::Newmark => Kernel::Position(Position::new(&scene, 0.5, step, backend)?),
@@ -125,8 +128,8 @@ impl Stepper {
     /// As [`Stepper::step`]; [`Error::Invalid`] for a force of the wrong length or not finite.
     #[inline]
     pub fn step_with(&mut self, extra: &[f64]) -> Result<Step<'_>> {
-        if let Kernel::Structure(kernel) = &self.kernel {
-            let n = kernel.state().0.len();
+        if matches!(self.kernel, Kernel::Structure(_) | Kernel::StructureEvent(_)) {
+            let n = self.scene.system.degrees_of_freedom();
             if let Some(force) = extra.iter().find(|force| !force.is_finite()) {
                 return Err(Error::invalid("extra force", force, "a finite number"));
             }
@@ -151,11 +154,15 @@ impl Stepper {
     /// A step of several degrees of freedom.
     #[inline(never)]
     fn advance_structure(&mut self, extra: Option<&[f64]>) -> Result<()> {
-        if let Kernel::Structure(kernel) = &mut self.kernel {
-            kernel.advance(self.index, extra)?;
-            self.index += 1;
-            kernel.tell(&self.scene, self.step, &mut self.episodes);
+        match &mut self.kernel {
+            Kernel::Structure(kernel) => {
+                kernel.advance(self.index, extra)?;
+                kernel.tell(&self.scene, self.step, &mut self.episodes);
+            }
+            Kernel::StructureEvent(event) => event.advance(extra)?,
+            _ => {}
         }
+        self.index += 1;
         Ok(())
     }
 
@@ -169,7 +176,7 @@ impl Stepper {
             Kernel::Penalty(kernel) => kernel.advance(index, extra, frame),
             Kernel::CentralDifference(kernel) => kernel.advance(index, extra, frame),
             Kernel::Event(event) => event.advance(extra),
-            Kernel::Structure(_) => return self.advance_structure(None),
+            Kernel::Structure(_) | Kernel::StructureEvent(_) => return self.advance_structure(None),
         }?;
         self.index += 1;
         // The exact scheme leaves the frame untouched and keeps its own episodes.
@@ -190,7 +197,7 @@ impl Stepper {
     #[inline]
     fn last(&self) -> Step<'_> {
         let (index, frame) = (self.index - 1, &self.frame);
-        if matches!(self.kernel, Kernel::Event(_) | Kernel::Structure(_)) {
+        if matches!(self.kernel, Kernel::Event(_) | Kernel::Structure(_) | Kernel::StructureEvent(_)) {
             return self.last_elsewhere(index);
         }
         Step {
@@ -215,6 +222,7 @@ impl Stepper {
     fn last_elsewhere(&self, index: u64) -> Step<'_> {
         match &self.kernel {
             Kernel::Structure(kernel) => kernel.step(index, &self.episodes),
+            Kernel::StructureEvent(event) => event.step(index),
             Kernel::Event(event) => event.step(index, &self.frame.extra),
             _ => self.last(),
         }
@@ -226,6 +234,7 @@ impl Stepper {
         match &self.kernel {
             Kernel::Event(event) => event.end(),
             Kernel::Structure(kernel) => kernel.end(),
+            Kernel::StructureEvent(event) => event.end(),
             _ => self.frame.end,
         }
     }
@@ -237,6 +246,10 @@ impl Stepper {
             Kernel::Event(event) => State { q: event.q().to_vec(), v: event.v().to_vec() },
             Kernel::Structure(kernel) => {
                 let (q, v) = kernel.state();
+                State { q: q.to_vec(), v: v.to_vec() }
+            }
+            Kernel::StructureEvent(event) => {
+                let (q, v) = event.state();
                 State { q: q.to_vec(), v: v.to_vec() }
             }
             _ => State { q: self.frame.q.to_vec(), v: self.frame.v.to_vec() },
@@ -272,6 +285,7 @@ impl Stepper {
     pub fn open_contacts(&self) -> Vec<Contact> {
         match &self.kernel {
             Kernel::Event(event) => event.open_contacts().copied().collect(),
+            Kernel::StructureEvent(event) => event.open_contacts().copied().collect(),
             _ => self.episodes.still_open(),
         }
     }
@@ -287,14 +301,16 @@ impl Stepper {
             Kernel::Penalty(kernel) => kernel.count(&mut counters),
             Kernel::CentralDifference(_) => {}
             Kernel::Structure(kernel) => kernel.count(&mut counters),
-            Kernel::Event(event) => {
-                let inner = event.counters();
-                counters.events = inner.events;
-                counters.flow_evaluations = inner.evaluations;
-            }
+            Kernel::Event(event) => of_events(&mut counters, event.counters()),
+            Kernel::StructureEvent(event) => of_events(&mut counters, event.counters()),
         }
         counters
     }
+}
+
+fn of_events(counters: &mut Counters, inner: super::event::Counters) {
+    counters.events = inner.events;
+    counters.flow_evaluations = inner.evaluations;
 }
 
 /// The scene, if its walls are such that a quadratic programme can hold them: the φ² law is none of those.

@@ -9,6 +9,7 @@ pub(crate) struct Body {
     /// n.
     pub n: usize,
     mass: Factor,
+    inertia: Operator,
     /// C; none where it is zero.
     pub(super) damping: Option<Operator>,
     /// K.
@@ -73,6 +74,7 @@ impl Body {
         Some(Self {
             n,
             mass: factor,
+            inertia: Operator::new(&mass),
             sizes: [Operator::new(&absolute(&damping)), Operator::new(&absolute(&stiffness))],
             damping: damped.then(|| Operator::new(&damping)),
             stiffness: Operator::new(&stiffness),
@@ -117,6 +119,12 @@ impl Body {
         self.mass.solve(x);
     }
 
+    /// Adds M x to `out`.
+    #[inline]
+    pub fn add_inertia(&self, x: &[f64], out: &mut [f64]) {
+        self.inertia.add_product(1.0, x, out);
+    }
+
     /// A rate (1/s) that nothing in the motion exceeds by much, with springs and dashpots (rows, N/m, N s/m) at the walls: for z̈ + 2δż + ω²z = 0 no
     /// eigenvalue is beyond δ + √(δ² + ω²).
     pub(super) fn rate(&self, walls: impl Iterator<Item = (usize, f64, f64)>) -> f64 {
@@ -145,6 +153,22 @@ impl Body {
             damping.add_product(-1.0, v, out);
         }
         self.stiffness.add_product(-1.0, q, out);
+    }
+
+    /// Times of the blows, s, increasing, each once.
+    pub fn blow_times(&self) -> Vec<f64> {
+        let blows = self.loads.iter().flat_map(|(_, forcing)| &forcing.impulses);
+        let mut times: Vec<f64> = blows.map(|&(time, _)| time).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// The next row of a table after `time`, s.
+    pub fn next_corner(&self, time: f64) -> Option<f64> {
+        let tables = self.loads.iter().flat_map(|(_, forcing)| &forcing.tables);
+        let next = |table: &crate::scene::Table| table.time().get(table.time().partition_point(|&t| t <= time)).copied();
+        tables.filter_map(next).reduce(f64::min)
     }
 
     /// Adds the `order`-th derivative of the loads at `t`, from the right, to `out` (N/sᵏ), and to `size` what it may be large of.

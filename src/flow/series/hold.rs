@@ -97,25 +97,26 @@ impl Hold {
         &self.inverse[i * k..(i + 1) * k]
     }
 
-    /// Writes `change` · W⁻¹ b to `out`, k entries each.
-    #[inline]
-    pub fn answer(&self, change: f64, b: &[f64], out: &mut [f64]) {
-        for (i, out) in out.iter_mut().enumerate().take(self.rows.len()) {
-            *out = change * self.inverse(i).iter().zip(b).map(|(w, b)| w * b).sum::<f64>();
+    /// Puts displacements that are there to rounding exactly where the rows are held, by the nearest change in the metric of M.
+    pub fn place(&self, body: &Body, q: &mut [f64], scratch: &mut [f64]) {
+        for (b, held) in scratch.iter_mut().zip(&self.rows) {
+            *b = held.position - body.rows.dot(held.row, q);
         }
+        self.change(body, q, scratch);
     }
 
-    /// Puts a state that is there to rounding exactly where the rows are held, by the nearest change in the metric of M.
-    pub fn project(&mut self, body: &Body, q: &mut [f64], v: &mut [f64], scratch: &mut [f64]) {
-        let k = self.rows.len();
-        for which in 0..2 {
-            for (b, held) in scratch.iter_mut().zip(&self.rows) {
-                *b = if which == 0 { held.position - body.rows.dot(held.row, q) } else { -body.rows.dot(held.row, v) };
-            }
-            for i in 0..k {
-                let push: f64 = self.inverse(i).iter().zip(&*scratch).map(|(w, b)| w * b).sum();
-                body.add_column(self.rows[i].row, push, if which == 0 { &mut *q } else { &mut *v });
-            }
+    /// Takes from velocities what the rows still see of them, in the same way.
+    pub fn stop(&self, body: &Body, v: &mut [f64], scratch: &mut [f64]) {
+        for (b, held) in scratch.iter_mut().zip(&self.rows) {
+            *b = -body.rows.dot(held.row, v);
+        }
+        self.change(body, v, scratch);
+    }
+
+    fn change(&self, body: &Body, x: &mut [f64], wanted: &[f64]) {
+        for (i, held) in self.rows.iter().enumerate() {
+            let push: f64 = self.inverse(i).iter().zip(wanted).map(|(w, b)| w * b).sum();
+            body.add_column(held.row, push, x);
         }
     }
 }

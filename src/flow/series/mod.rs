@@ -135,11 +135,6 @@ impl Series {
         self.acting.iter().map(|a| (a.wall, self.force(a.slot), a.share))
     }
 
-    /// True if any wall acts.
-    pub(crate) fn is_touched(&self) -> bool {
-        !self.acting.is_empty()
-    }
-
     /// The force polynomial of held row number `held`, N: positive for a lower wall's side.
     pub(crate) fn held_force(&self, held: usize) -> &[f64] {
         let touching = self.acting.iter().filter(|a| a.sign.is_none()).count();
