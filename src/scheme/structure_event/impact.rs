@@ -164,6 +164,8 @@ impl StructureEvent {
         self.departing.copy_from_slice(&self.v);
         self.reclassify();
         self.settle(None)?;
+        // The stretch that led here stays as it is: it is what the step shows.
+        std::mem::swap(&mut self.series, &mut self.flight);
         self.begin_series(self.limit());
         self.measure();
         let mut found = false;
@@ -175,6 +177,7 @@ impl StructureEvent {
             }
             self.seats[seat].candidate = false;
         }
+        std::mem::swap(&mut self.series, &mut self.flight);
         self.v.copy_from_slice(&self.departing);
         Ok(found)
     }
@@ -211,6 +214,7 @@ impl StructureEvent {
 
     /// What the displacement of a row may err by here, m.
     pub(super) fn resolution(&self, row: usize, position: f64) -> f64 {
-        super::rows::resolution(&self.body, row, &self.q, self.series.term(1), position)
+        let moved = self.series.span() * size(&self.body, row, self.series.term(1));
+        noise(size(&self.body, row, &self.q) + moved + position.abs())
     }
 }

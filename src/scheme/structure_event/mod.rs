@@ -48,6 +48,8 @@ pub(super) struct StructureEvent {
     walls_of: Vec<Vec<usize>>,
     solver: Option<qp::Solver>,
     series: Series,
+    /// Room for a look ahead.
+    flight: Series,
     hold: Hold,
     /// Rows that touch at an instant: what puts the structure onto their surfaces.
     surface: Hold,
@@ -145,6 +147,7 @@ impl StructureEvent {
             walls_of,
             solver,
             series: Series::new(&body),
+            flight: Series::new(&body),
             hold: Hold::with_room(rows),
             surface: Hold::with_room(rows),
             carriers: Vec::with_capacity(walls),

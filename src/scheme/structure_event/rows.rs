@@ -1,6 +1,5 @@
 //! The rows of the walls, as contact sees them: bounds, what is held, and what roundings are worth there.
 
-use super::super::event::noise;
 use crate::flow::{Body, TERMS};
 use crate::scene::{Scene, Side};
 
@@ -86,11 +85,6 @@ impl Sizes {
 /// Σ |gⱼ| |xⱼ|.
 pub(super) fn size(body: &Body, row: usize, x: &[f64]) -> f64 {
     body.rows.row(row).iter().map(|&(j, g)| (g * x[j]).abs()).sum()
-}
-
-/// What the displacement that a row sees may err by, m, for a motion `q` (m) that moves by `shift` (m) over the stretch, before a wall at `position`.
-pub(super) fn resolution(body: &Body, row: usize, q: &[f64], shift: &[f64], position: f64) -> f64 {
-    noise(size(body, row, q) + size(body, row, shift) + position.abs())
 }
 
 /// A polynomial to be watched for its first root.

@@ -2,7 +2,7 @@
 
 use super::StructureEvent;
 use super::root::highest;
-use super::rows::{SIGNS, Seen, Watched, resolution, size};
+use super::rows::{SIGNS, Seen, Watched, size};
 use crate::flow::TERMS;
 use crate::scheme::event::{Phase, noise};
 
@@ -144,7 +144,7 @@ impl StructureEvent {
         let unit = self.series.unit();
         let answer = |x: &[f64]| self.body.column(row).iter().zip(x).map(|(y, x)| (y * x).abs()).sum::<f64>();
         [
-            resolution(&self.body, row, &self.q, self.series.term(1), position),
+            self.resolution(row, position),
             noise(size(&self.body, row, self.series.term(1))),
             noise(answer(&self.sizes.force[0])) * unit * unit / 2.0,
             noise(answer(&self.sizes.force[1])) * unit * unit * unit / 6.0,
