@@ -47,7 +47,10 @@ fn one_degree_of_freedom_as_matrices_is_the_oscillator() {
         ("e = 1", common::source(1.0, 1.0).with_duration(2.0)),
         ("e = 0.8", common::source(0.8, 0.8).with_duration(2.0)),
         ("e = 0", common::source(0.0, 0.0).with_duration(2.0)),
-        ("e = 0.5 above, 0 below, a blow", common::source(0.5, 0.0).with_load(Load::impulse(0.05, 0.3)).with_duration(2.0)),
+        (
+            "e = 0.5 above, 0 below, a blow",
+            common::source(0.5, 0.0).with_load(Load::impulse(0.05, 0.3)).with_duration(2.0),
+        ),
         ("elastic above", weak),
         ("damped elastic above", common::elastic(5.0, 0.5).with_duration(1.0)),
         ("damped elastic on both sides", common::all_elastic(20.0).with_duration(1.0)),

@@ -144,10 +144,12 @@ proptest! {
         }
         match follow(&any, 3000) {
             Ok(r) => {
-                prop_assert!(r.energy.residual < 1e-12, "{:?}", r.energy);
-                prop_assert!(r.complementarity < 1e-10, "{}", r.complementarity);
-                prop_assert!(r.penetration_m <= 1e-12, "{}", r.penetration_m);
-                prop_assert!(r.force_balance < 1e-9, "{}", r.force_balance);
+                // Held fast on all sides a structure exchanges rounding only, of forces of some newtons over some centimetres.
+                let fast = r.energy.residual_j.abs() < 1e-14;
+                prop_assert!(r.energy.residual < 1e-12 || fast, "{:?}", r.energy);
+                prop_assert!(r.complementarity < 1e-10, "complementarity {}", r.complementarity);
+                prop_assert!(r.penetration_m <= 1e-12, "penetration {}", r.penetration_m);
+                prop_assert!(r.force_balance < 1e-9, "balance {}", r.force_balance);
             }
             Err(Error::TooManyEvents { .. }) => {}
             Err(error) => prop_assert!(false, "{error}"),

@@ -38,6 +38,7 @@ impl Judge {
         let s = &mut self.scratch;
         for ((mid, left), struck) in s.spring.iter_mut().zip(&s.damper).zip(&s.struck) {
             *mid = left + struck;
+            self.speed_scale = self.speed_scale.max(mid.abs());
         }
         self.energy.see_series(&self.scene, step, moved, &s.blow, &s.damper, &s.spring);
     }

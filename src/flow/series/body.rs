@@ -167,14 +167,16 @@ impl Body {
     /// The next row of a table after `time`, s.
     pub fn next_corner(&self, time: f64) -> Option<f64> {
         let tables = self.loads.iter().flat_map(|(_, forcing)| &forcing.tables);
-        let next = |table: &crate::scene::Table| table.time().get(table.time().partition_point(|&t| t <= time)).copied();
+        let next =
+            |table: &crate::scene::Table| table.time().get(table.time().partition_point(|&t| t <= time)).copied();
         tables.filter_map(next).reduce(f64::min)
     }
 
     /// Adds the `order`-th derivative of the loads at `t`, from the right, to `out` (N/sᵏ), and to `size` what it may be large of.
     pub fn add_load(&self, order: u32, t: f64, out: &mut [f64], size: &mut [f64]) {
         for (row, forcing) in &self.loads {
-            let (mut value, mut large) = if order == 0 { (forcing.constant, forcing.constant.abs()) } else { (0.0, 0.0) };
+            let (mut value, mut large) =
+                if order == 0 { (forcing.constant, forcing.constant.abs()) } else { (0.0, 0.0) };
             for table in &forcing.tables {
                 let (at, slope) = table.piece(t);
                 let term = [at, slope].get(order as usize).copied().unwrap_or(0.0);

@@ -83,7 +83,12 @@ impl Series {
         self.end = if from.span <= longest { from.time + from.span } else { from.time + self.unit };
         self.terms = terms_for(self.rate * self.unit);
         self.acting.clear();
-        self.acting.extend(touching.iter().enumerate().map(|(slot, t)| Acting { wall: t.wall, slot, share: 1.0, sign: None }));
+        self.acting.extend(touching.iter().enumerate().map(|(slot, t)| Acting {
+            wall: t.wall,
+            slot,
+            share: 1.0,
+            sign: None,
+        }));
         let held = |(wall, k, share): (usize, usize, f64)| {
             let sign = hold.rows().get(k).map(|held| held.sign);
             Acting { wall, slot: touching.len() + k, share, sign }
@@ -100,7 +105,11 @@ impl Series {
         for k in 0..self.terms - 2 {
             let (known, next) = self.motion.split_at_mut((k + 2) * n);
             let force = &mut next[..n];
-            if k == 0 { force.copy_from_slice(from.extra) } else { force.fill(0.0) }
+            if k == 0 {
+                force.copy_from_slice(from.extra)
+            } else {
+                force.fill(0.0)
+            }
             Self::push(&mut self.waves, body, (self.start, self.unit), k, force);
             body.stiffness.add_product(-1.0, &known[k * n..(k + 1) * n], force);
             if let Some(damping) = &body.damping {

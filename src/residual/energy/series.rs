@@ -27,7 +27,15 @@ impl Ledger {
     }
 
     /// Books a stretch, and the instant at its end, at which the velocity goes from `left` by blows (N s) to `mid` and by impacts to the step's.
-    pub fn see_series(&mut self, scene: &Scene, step: &Step<'_>, moved: Moved, blow: &[f64], left: &[f64], mid: &[f64]) {
+    pub fn see_series(
+        &mut self,
+        scene: &Scene,
+        step: &Step<'_>,
+        moved: Moved,
+        blow: &[f64],
+        left: &[f64],
+        mid: &[f64],
+    ) {
         let mut flows =
             Flows { work: moved.work, passed: moved.passed, damping: moved.damping, dashpot: moved.push, impact: 0.0 };
         self.report.largest_j = self.report.largest_j.max(moved.largest);

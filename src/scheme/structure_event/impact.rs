@@ -5,13 +5,13 @@
 //! minimise ½ (v⁺ − v)ᵀ M (v⁺ − v)   subject to   ẇ⁺ + e ẇ ≥ 0,
 //!
 //! which is Newton's law with an impulse at each wall that its own approach calls for (Moreau 1988, doi:10.1007/978-3-7091-2624-0_1). It is repeated while any closed wall is
-//! approached, for one impulse may throw the structure onto the next wall; after [`PASSES`] of them one programme over all closed walls with e = 0 ends it. Energy never
+//! approached, for one impulse may throw the structure onto the next wall; after [`PASSES`] of them, or where walls on opposite sides leave no room for a rebound, one programme over all closed walls with e = 0 ends it. Energy never
 //! grows: in each pass p · (ẇ⁺ + ẇ) ≤ 0 at every wall with an impulse.
 
 use super::rows::size;
 use super::{StructureEvent, instant::side_of};
 use crate::error::{Error, Result};
-use crate::qp::Rhs;
+use crate::qp::{Failure, Rhs};
 use crate::scheme::event::noise;
 
 /// Programmes of an instant after which one with e = 0 over all closed walls ends it.
@@ -63,7 +63,7 @@ impl StructureEvent {
         self.arriving.copy_from_slice(&self.v);
         self.strike()?;
         let mut stuck = false;
-        if self.seats.iter().any(|s| s.push > 0.0 && s.restitution > 0.0) {
+        if self.seats.iter().any(|s| s.restitution > 0.0) {
             stuck = self.stick()?;
         }
         if stuck {
@@ -75,25 +75,28 @@ impl StructureEvent {
 
     /// Passes of the impact law from the present velocity.
     fn strike(&mut self) -> Result<()> {
-        self.seats.iter_mut().for_each(|s| s.push = 0.0);
+        self.seats.iter_mut().for_each(|s| s.push = [0.0; 2]);
         if let [seat] = self.seats[..] {
             let rate = self.rate_of(0);
             let push = -(1.0 + seat.restitution) * rate / self.body.delassus(seat.row, seat.row);
             self.body.add_column(seat.row, seat.sign * push, &mut self.v);
-            self.seats[0].push = push;
+            self.seats[0].push[side_of(seat.sign * push)] = push.abs();
             return Ok(());
         }
         for pass in 0..=PASSES {
             if !(0..self.seats.len()).any(|seat| self.is_approached(seat)) {
                 break;
             }
-            self.pass(pass == PASSES)?;
+            if pass == PASSES || !self.pass(false)? {
+                self.pass(true)?;
+                break;
+            }
         }
         Ok(())
     }
 
-    /// One programme; the `last` one is over all closed walls, with e = 0.
-    fn pass(&mut self, last: bool) -> Result<()> {
+    /// One programme; the `last` one is over all closed walls, with e = 0. False if walls on opposite sides leave no room for the rebounds asked for.
+    fn pass(&mut self, last: bool) -> Result<bool> {
         self.lo.fill(f64::NEG_INFINITY);
         self.hi.fill(f64::INFINITY);
         for seat in 0..self.seats.len() {
@@ -102,37 +105,39 @@ impl StructureEvent {
                 continue;
             }
             let bound = if last || rate >= -quiet { 0.0 } else { -s.restitution * rate };
-            if s.sign > 0.0 || s.both {
+            // Between walls of both sides the one that is approached counts, and the other in the next pass: an impulse against the motion never gains.
+            let fixed = s.both && (last || rate.abs() <= quiet);
+            let lower = if s.both { s.sign * rate < 0.0 } else { s.sign > 0.0 };
+            if lower || fixed {
                 self.lo[s.row] = bound;
             }
-            if s.sign < 0.0 || s.both {
+            if !lower || fixed {
                 self.hi[s.row] = -bound;
             }
         }
         self.rhs.fill(0.0);
         self.body.add_inertia(&self.v, &mut self.rhs);
-        self.solve()?;
-        let Self { solver: Some(solver), seats, body, v, .. } = self else { return Ok(()) };
+        if !self.solve()? {
+            return Ok(false);
+        }
+        let Self { solver: Some(solver), seats, body, v, .. } = self else { return Ok(true) };
         for s in seats {
             let p = solver.solution().multiplier.get(s.row).copied().unwrap_or(0.0);
             if p != 0.0 {
-                // A row closed on both sides is pushed by either.
-                if s.both && s.push == 0.0 {
-                    s.sign = p.signum();
-                }
-                s.push += s.sign * p;
+                s.push[side_of(p)] += p.abs();
                 body.add_column(s.row, p, v);
             }
         }
-        Ok(())
+        Ok(true)
     }
 
-    /// Solves the programme of `rhs`, `lo` and `hi`.
-    pub(super) fn solve(&mut self) -> Result<()> {
+    /// Solves the programme of `rhs`, `lo` and `hi`. False if no motion keeps the bounds.
+    pub(super) fn solve(&mut self) -> Result<bool> {
         let (time, step) = (self.time, self.steps);
-        let Some(solver) = &mut self.solver else { return Ok(()) };
+        let Some(solver) = &mut self.solver else { return Ok(true) };
         match solver.solve(&Rhs { b: &self.rhs, lo: &self.lo, hi: &self.hi }) {
-            Ok(_) => Ok(()),
+            Ok(_) => Ok(true),
+            Err(Failure::Infeasible { .. }) => Ok(false),
             Err(fault) => Err(Error::Qp { time, step, wall: None, reason: fault.to_string() }),
         }
     }
@@ -152,7 +157,7 @@ impl StructureEvent {
             let most: f64 = self.body.column(s.row).iter().zip(&self.rhs_size).map(|(y, f)| (y * f).abs()).sum();
             let resolved = self.resolution(s.row, position);
             let low = TAIL_HEIGHT * self.length + resolved;
-            let wanted = s.push > 0.0 && s.restitution > 0.0 && rate > 0.0;
+            let wanted = s.push[side_of(s.sign)] > 0.0 && s.restitution > 0.0 && rate > 0.0;
             // Others that are held press by their reactions too, which are of the size of what they react to.
             let most = if self.seats.len() > 1 { f64::INFINITY } else { most };
             self.seats[seat].candidate = wanted && (rate * rate <= 4.0 * most * low || rate <= most * short);

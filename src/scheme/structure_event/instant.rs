@@ -21,8 +21,8 @@ pub(super) struct Seat {
     /// ẇ away from the walls before the instant, m/s.
     pub arrived: f64,
     pub restitution: f64,
-    /// Impulse of the walls, N s, ≥ 0.
-    pub push: f64,
+    /// Impulses of the lower and the upper walls, magnitudes, N s.
+    pub push: [f64; 2],
     /// Its flight may be the tail of an accumulation.
     pub candidate: bool,
     pub fate: Fate,
@@ -54,7 +54,6 @@ impl StructureEvent {
         if jumped || blown {
             self.reclassify();
         }
-        self.decided = self.time;
         Ok(true)
     }
 
@@ -123,6 +122,7 @@ impl StructureEvent {
         }
         let released = if let (Some(Cause::Release(row)), false) = (hit, blown || struck) { Some(row) } else { None };
         self.settle(released)?;
+        self.decided = self.time;
         for seat in 0..self.seats.len() {
             self.tell(seat);
         }
@@ -154,8 +154,20 @@ impl StructureEvent {
             let both = closed == [true, true];
             let sign = match closed {
                 [true, true] if place.held != 0.0 => place.held,
-                [true, true] => if rate > 0.0 { -1.0 } else { 1.0 },
-                [lower, _] => if lower { 1.0 } else { -1.0 },
+                [true, true] => {
+                    if rate > 0.0 {
+                        -1.0
+                    } else {
+                        1.0
+                    }
+                }
+                [lower, _] => {
+                    if lower {
+                        1.0
+                    } else {
+                        -1.0
+                    }
+                }
             };
             self.seats.push(Seat {
                 row,
@@ -164,7 +176,7 @@ impl StructureEvent {
                 was: place.held,
                 arrived: sign * rate,
                 restitution: 0.0,
-                push: 0.0,
+                push: [0.0; 2],
                 candidate: false,
                 fate: Fate::None,
             });
@@ -200,36 +212,42 @@ impl StructureEvent {
     /// Writes what has happened at a seat into the step and the episodes of its walls.
     fn tell(&mut self, seat: usize) {
         let s = self.seats[seat];
-        let (rate, place) = (self.rate_of(seat), self.places[s.row]);
-        if s.was != 0.0 && place.held != s.was && !(s.push > 0.0 && s.sign == s.was) {
-            let away = s.was * s.sign * rate;
-            self.each_wall(s.row, s.was, |b, _, closed, time| closed.extend(b.close(time, away)));
+        let (rate, place) = (s.sign * self.rate_of(seat), self.places[s.row]);
+        for (side, sign) in SIGNS.into_iter().enumerate() {
+            let stays = place.held == sign;
+            if s.push[side] > 0.0 {
+                self.counters_mut().impacts += 1;
+                self.tell_impact(s, side, stays, rate);
+            } else if s.was == sign && !stays {
+                self.each_wall(s.row, sign, |b, _, closed, time| closed.extend(b.close(time, sign * rate)));
+            }
+            if stays {
+                self.each_wall(s.row, sign, |b, wall, _, time| b.open(wall, time, 0.0));
+            }
         }
-        if s.push > 0.0 {
-            self.counters_mut().impacts += 1;
-            let (e, strikers) = (place.restitution[side_of(s.sign)], place.strikers[side_of(s.sign)]);
-            let impulse = s.sign * s.push / strikers as f64;
-            let mut jump = std::mem::take(&mut self.jump);
-            let stays = place.held == s.sign;
-            self.each_wall(s.row, s.sign, |b, wall, closed, time| {
-                if b.phase == Phase::Rigid(e) {
-                    if let Some(jump) = jump.get_mut(wall) {
-                        *jump += impulse;
-                    }
-                    b.open(wall, time, -s.arrived);
-                    if let Some(open) = &mut b.open {
-                        open.impulse += impulse;
-                    }
+    }
+
+    /// An impulse: the walls of the largest restitution share it.
+    fn tell_impact(&mut self, s: Seat, side: usize, stays: bool, rate: f64) {
+        let (place, sign) = (self.places[s.row], SIGNS[side]);
+        let (e, arrived) = (place.restitution[side], s.sign * sign * s.arrived);
+        let impulse = sign * s.push[side] / place.strikers[side] as f64;
+        let mut jump = std::mem::take(&mut self.jump);
+        self.each_wall(s.row, sign, |b, wall, closed, time| {
+            if b.phase == Phase::Rigid(e) {
+                if let Some(jump) = jump.get_mut(wall) {
+                    *jump += impulse;
                 }
-                if !stays {
-                    closed.extend(b.close(time, rate));
+                b.open(wall, time, -arrived);
+                if let Some(open) = &mut b.open {
+                    open.impulse += impulse;
                 }
-            });
-            self.jump = jump;
-        }
-        if place.held != 0.0 {
-            self.each_wall(s.row, place.held, |b, wall, _, time| b.open(wall, time, 0.0));
-        }
+            }
+            if !stays {
+                closed.extend(b.close(time, sign * rate));
+            }
+        });
+        self.jump = jump;
     }
 }
 

@@ -258,13 +258,7 @@ impl StructureEvent {
         let Self { body, series, barriers, touching, hold, carriers, .. } = self;
         touching.clear();
         touching.extend(barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching).map(|(wall, b)| {
-            Touching {
-                wall,
-                row: body.row_of[wall],
-                position: b.position,
-                stiffness: b.stiffness,
-                damping: b.damping,
-            }
+            Touching { wall, row: body.row_of[wall], position: b.position, stiffness: b.stiffness, damping: b.damping }
         }));
         if !hold.rows().is_empty() {
             hold.place(body, &mut self.q, &mut self.scratch);

@@ -4,9 +4,9 @@
 //! held, rows with ẅ > 0 leave. Where both vanish to rounding the next derivative decides in the same way, with the rows that are held held in it too; a row on
 //! which no derivative has a say is held, and carries nothing.
 
+use super::StructureEvent;
 use super::instant::{Seat, side_of};
 use super::rows::SIGNS;
-use super::StructureEvent;
 use crate::error::Result;
 use crate::flow::{Held, TERMS};
 use crate::scheme::event::noise;
@@ -36,7 +36,7 @@ impl StructureEvent {
             let s = self.seats[seat];
             let (rate, quiet) = (self.rate_of(seat), self.quiet(s.row));
             // Without restitution an impulse leaves no speed but rounding.
-            let stopped = s.push > 0.0 && s.restitution == 0.0 && rate.abs() <= 1e3 * quiet;
+            let stopped = s.push != [0.0; 2] && s.restitution == 0.0 && rate.abs() <= 1e3 * quiet;
             let rests = !s.candidate && (s.both || stopped || rate.abs() <= quiet || rate < 0.0);
             self.seats[seat].fate = if rests { Fate::Open } else { Fate::None };
         }
@@ -62,7 +62,8 @@ impl StructureEvent {
     /// One level: the derivative of the acceleration, and of the forces.
     fn decide(&mut self, level: usize, released: Option<usize>) -> Result<()> {
         let resting = |s: &&Seat| matches!(s.fate, Fate::Open | Fate::Held(_));
-        if let (1, Some(at)) = (self.seats.iter().filter(resting).count(), self.seats.iter().position(|s| resting(&s))) {
+        if let (1, Some(at)) = (self.seats.iter().filter(resting).count(), self.seats.iter().position(|s| resting(&s)))
+        {
             return self.decide_one(level, at, released);
         }
         self.lo.fill(f64::NEG_INFINITY);
@@ -128,7 +129,7 @@ impl StructureEvent {
 
     /// Holds the seats that are to be held, and notes what has been decided.
     fn hold_seats(&mut self) {
-        let Self { hold, body, seats, places, carriers, walls_of, barriers, .. } = self;
+        let Self { hold, body, seats, places, carriers, walls_of, barriers, v, scratch, .. } = self;
         for place in places.iter_mut() {
             place.held = 0.0;
             place.forget();
@@ -138,9 +139,9 @@ impl StructureEvent {
             matches!(s.fate, Fate::Held(_)).then_some(Held { row: s.row, sign: s.sign, position })
         };
         // Those pressed first: a row that follows from them carries nothing.
-        let pressed = |s: &&Seat| s.fate == Fate::Held(0);
-        let idle = |s: &&Seat| s.fate != Fate::Held(0);
-        hold.set(body, seats.iter().filter(pressed).chain(seats.iter().filter(idle)).filter_map(held));
+        let levels = (0..LEVELS).chain(std::iter::once(TERMS));
+        let of = |level: usize| seats.iter().filter(move |s| s.fate == Fate::Held(level));
+        hold.set(body, levels.flat_map(of).filter_map(held));
         for s in seats.iter() {
             let (side, place) = (side_of(s.sign), &mut places[s.row]);
             let in_hold = hold.rows().iter().any(|held| held.row == s.row);
@@ -157,6 +158,8 @@ impl StructureEvent {
                 Fate::None => place.gap_zeros[side] = Some(1),
             }
         }
+        // The speed that rounding has left of a stop belongs to this instant, not to the motion that follows.
+        hold.stop(body, v, scratch);
         carriers.clear();
         for (k, held) in hold.rows().iter().enumerate() {
             let side = side_of(held.sign);
