@@ -39,9 +39,9 @@ impl StructureEvent {
             if place.held != 0.0 {
                 self.watch_hold(row, &mut end, &mut hit);
             }
-            for side in 0..2 {
+            for (side, sign) in SIGNS.into_iter().enumerate() {
                 // Rounding aside a gap wider than all the row can move stays open.
-                if place.gap(side, w) > reach || place.held == SIGNS[side] || place.bound[side].is_infinite() {
+                if place.gap(side, w) > reach || place.held == sign || place.bound[side].is_infinite() {
                     continue;
                 }
                 if place.held != 0.0 && place.bound[0] == place.bound[1] {
