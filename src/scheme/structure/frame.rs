@@ -1,7 +1,7 @@
 //! The state that a scheme carries, and what it shows of each step.
 
+use super::body::factor;
 use crate::error::{Error, Result};
-use crate::linear::Factor;
 use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Path, Step};
 
@@ -28,6 +28,15 @@ pub(super) struct Frame {
     jump: Vec<f64>,
     /// True if any impulse of the step is not zero.
     pub touched: bool,
+    /// Displacement and velocity before the walls corrected them, m and m/s, of a scheme that does so.
+    pub predicted: Option<Predicted>,
+}
+
+/// Displacement and velocity before the walls corrected them, n entries each.
+#[derive(Debug)]
+pub(super) struct Predicted {
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
 }
 
 impl Frame {
@@ -38,10 +47,7 @@ impl Frame {
         let loads = Loads::new(&scene.loads);
         let mut blow = vec![0.0; n];
         if loads.initial_blow(&mut blow) {
-            let mass = scene.system.structure().mass;
-            let mut factor = Factor::new(&mass)
-                .map_err(|fault| Error::invalid("system: mass matrix", fault, "positive definite"))?;
-            factor.solve(&mut blow);
+            factor(&scene.system.structure().mass)?.solve(&mut blow);
             v.iter_mut().zip(&blow).for_each(|(v, change)| *v += change);
         }
         Ok(Self {
@@ -58,6 +64,7 @@ impl Frame {
             force: vec![0.0; walls],
             jump: vec![0.0; walls],
             touched: false,
+            predicted: None,
         })
     }
 
@@ -105,7 +112,10 @@ impl Frame {
             force: &self.force,
             extra: &self.extra,
             closed,
-            path: Path::Grid,
+            path: match &self.predicted {
+                Some(Predicted { q, v }) => Path::Corrected { q, v },
+                None => Path::Grid,
+            },
         }
     }
 }

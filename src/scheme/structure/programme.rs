@@ -46,8 +46,20 @@ impl Programme {
         compliance: impl Fn(f64, f64) -> f64,
         backend: Backend,
     ) -> Result<Self> {
+        Self::over(scene, |_| true, a, scale, compliance, backend)
+    }
+
+    /// The same over those walls only whose law is `wanted`.
+    pub fn over(
+        scene: &Scene,
+        wanted: impl Fn(&WallLaw) -> bool,
+        a: Symmetric,
+        scale: f64,
+        compliance: impl Fn(f64, f64) -> f64,
+        backend: Backend,
+    ) -> Result<Self> {
         let mut places: Vec<Place> = Vec::new();
-        for (index, wall) in scene.walls.iter().enumerate() {
+        for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| wanted(&wall.law)) {
             let rigid = wall.law.is_rigid();
             let shared = |place: &&mut Place| {
                 let first = place.walls.first().and_then(|&w| scene.walls.get(w));
@@ -153,11 +165,12 @@ impl Programme {
         self.solver.backend()
     }
 
+    /// Adds what the programme has cost.
     pub fn count(&self, counters: &mut Counters) {
         let inner = self.solver.counters();
-        counters.qp_solves = inner.solves - inner.free;
-        counters.interior_point_iterations = inner.iterations;
-        counters.pivots = inner.pivots;
+        counters.qp_solves += inner.solves - inner.free;
+        counters.interior_point_iterations += inner.iterations;
+        counters.pivots += inner.pivots;
     }
 }
 

@@ -1,0 +1,116 @@
+//! `implicit-euler` (θ = 1) and `newmark` (θ = ½) for several degrees of freedom: see the scalar kernel for the mathematics.
+//!
+//! A Δ = b + Gᵀ r⁺, A = M/(hθ)² + C/(hθ) + K, b = M v/hθ² + (1−θ)/θ (F + r + C v) + f⁺ − K q + J/hθ, over g_l ≤ G(q + Δ) ≤ g_u.
+
+use super::body::Body;
+use super::frame::Frame;
+use super::programme::Programme;
+use super::start::StartForce;
+use crate::error::Result;
+use crate::linear::Symmetric;
+use crate::qp::Backend;
+use crate::scene::{Scene, WallLaw};
+use crate::scheme::Counters;
+
+#[derive(Debug)]
+pub(super) struct Position {
+    body: Body,
+    theta: f64,
+    /// F + Gᵀ r at the step's start, N; kept where θ < 1 only.
+    force: Vec<f64>,
+    /// r of each wall at the step's start, N, and whether any is not zero.
+    held: Vec<f64>,
+    holds: bool,
+    programme: Programme,
+    /// f⁺, and b.
+    load: Vec<f64>,
+    b: Vec<f64>,
+}
+
+impl Position {
+    pub fn new(scene: &Scene, theta: f64, h: f64, backend: Backend, frame: &Frame) -> Result<Self> {
+        let body = Body::new(scene, h);
+        let StartForce { total: force, wall: held } = StartForce::new(scene, &body, &frame.q, &frame.v)?;
+        let holds = held.iter().any(|&r| r != 0.0);
+        let ht = h * theta;
+        let m = &body.matrices;
+        let a = Symmetric::sum(&[(1.0 / (ht * ht), &m.mass), (1.0 / ht, &m.damping), (1.0, &m.stiffness)]);
+        let programme = Programme::new(scene, a, scene.gap_scale(), |k, c| 1.0 / (k + c / h), backend)?;
+        let zero = vec![0.0; body.n];
+        Ok(Self { body, theta, force, held, holds, programme, load: zero.clone(), b: zero })
+    }
+
+    pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
+        let Self { body, theta, force, load, b, .. } = self;
+        let (h, theta) = (body.h, *theta);
+        let (ht, rest) = (h * theta, (1.0 - theta) / theta);
+        frame.begin(step, h);
+        load.fill(0.0);
+        body.loads.add_force(frame.end, 1.0, load);
+        // The extra force is constant over the step: it enters F as well as F⁺.
+        for (i, b) in b.iter_mut().enumerate() {
+            *b = rest * (force[i] + frame.extra[i]) + load[i] + frame.extra[i];
+        }
+        body.mass.add_product(1.0 / (ht * theta), &frame.v, b);
+        if rest != 0.0 {
+            body.damping.add_product(rest, &frame.v, b);
+        }
+        body.stiffness.add_product(-1.0, &frame.q, b);
+        frame.before.copy_from_slice(&frame.v);
+        body.strike((frame.start, frame.end), &frame.v, 1.0 / ht, b, &mut frame.struck);
+        self.bind(frame);
+        let upper = |wall: usize| self.body.walls[wall].upper;
+        let meets = self.programme.solve(&self.b, frame.start, step, upper, &mut frame.force)?;
+        for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(self.programme.x()) {
+            *q += d;
+            *v = (d / h - (1.0 - theta) * *v) / theta;
+        }
+        frame.after.copy_from_slice(&frame.v);
+        if meets || self.holds {
+            // p = h[(1−θ) r + θ r⁺]
+            for ((p, held), &r) in frame.impulse.iter_mut().zip(&mut self.held).zip(&frame.force) {
+                *p = h * ((1.0 - theta) * *held + theta * r);
+                *held = r;
+            }
+            frame.touched = true;
+            self.holds = meets;
+        }
+        if rest != 0.0 {
+            self.force.copy_from_slice(&self.load);
+            self.body.damping.add_product(-1.0, &frame.v, &mut self.force);
+            self.body.stiffness.add_product(-1.0, &frame.q, &mut self.force);
+            self.body.push(1.0, &frame.force, &mut self.force);
+        }
+        Ok(())
+    }
+
+    /// The bounds of the rows, in Δ.
+    fn bind(&mut self, frame: &Frame) {
+        let h = self.body.h;
+        for row in 0..self.programme.places.len() {
+            let w = self.programme.rows.dot(row, &frame.q);
+            self.programme.free(row);
+            for seat in 0..self.programme.places[row].walls.len() {
+                let index = self.programme.places[row].walls[seat];
+                let wall = self.body.walls[index];
+                let bound = match wall.law {
+                    // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
+                    WallLaw::Elastic { stiffness, damping } => {
+                        let offset = stiffness * (w - wall.g) + damping * (w - wall.plate(w)) / h;
+                        -offset / (stiffness + damping / h)
+                    }
+                    _ => wall.g - w,
+                };
+                self.programme.bound(row, index, wall.upper, bound);
+            }
+        }
+    }
+
+    pub fn backend(&self) -> Backend {
+        self.programme.backend()
+    }
+
+    pub fn count(&self, counters: &mut Counters) {
+        self.programme.count(counters);
+    }
+}
