@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 use nalgebra::{DMatrix, DVector};
+use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Problem, Rhs, Solution};
 
 /// SplitMix64: the same programmes on every machine.
@@ -32,10 +33,32 @@ impl Random {
     }
 }
 
+/// What stays the same, in full matrices: what the judge and the enumeration work on.
+#[derive(Debug, Clone)]
+pub struct Dense {
+    pub a: DMatrix<f64>,
+    pub g: DMatrix<f64>,
+    pub compliance: DVector<f64>,
+}
+
+impl Dense {
+    pub fn problem(&self) -> Problem {
+        let n = self.a.ncols();
+        let lower = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| (i, j, self.a[(i, j)]));
+        let entries = |i: usize| (0..n).map(|j| (j, self.g[(i, j)])).filter(|entry| entry.1 != 0.0).collect();
+        let rows: Vec<Vec<(usize, f64)>> = (0..self.g.nrows()).map(entries).collect();
+        Problem {
+            a: Symmetric::from_entries(n, lower.filter(|entry| entry.0 == entry.1 || entry.2 != 0.0)),
+            g: Rows::new(n, rows.iter().map(Vec::as_slice)),
+            compliance: self.compliance.as_slice().to_vec(),
+        }
+    }
+}
+
 /// A programme of one step, owned.
 #[derive(Debug, Clone)]
 pub struct Case {
-    pub problem: Problem,
+    pub problem: Dense,
     pub b: Vec<f64>,
     pub lo: Vec<f64>,
     pub hi: Vec<f64>,
@@ -83,7 +106,7 @@ pub fn random_case(random: &mut Random, n: usize, m: usize) -> Case {
     } else {
         (0..n).map(|_| random.between(-1.0, 1.0) * stiffness * length * push).collect()
     };
-    Case { problem: Problem { a, g, compliance }, b, lo, hi, scale: length }
+    Case { problem: Dense { a, g, compliance }, b, lo, hi, scale: length }
 }
 
 /// The largest violation of the optimality conditions, each made dimensionless by the size of the terms it compares.
@@ -102,7 +125,7 @@ impl Residual {
 
 /// A x − b − Gᵀ r = 0;  l ≤ y ≤ u with y = G x + c r;  r ≥ 0 only at l, ≤ 0 only at u.
 pub fn judge(case: &Case, solution: &Solution) -> Residual {
-    let Problem { a, g, compliance } = &case.problem;
+    let Dense { a, g, compliance } = &case.problem;
     let x = DVector::from_column_slice(&solution.x);
     let r = DVector::from_column_slice(&solution.multiplier);
     let b = DVector::from_column_slice(&case.b);
@@ -128,7 +151,7 @@ pub fn judge(case: &Case, solution: &Solution) -> Residual {
 
 /// The minimiser by trying every set of active bounds: 3^m equality systems.
 pub fn brute_force(case: &Case) -> Option<Solution> {
-    let Problem { a, g, compliance } = &case.problem;
+    let Dense { a, g, compliance } = &case.problem;
     let (n, m) = (a.ncols(), g.nrows());
     let mut best: Option<(f64, Solution)> = None;
     for code in 0..3_usize.pow(m as u32) {

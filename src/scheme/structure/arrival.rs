@@ -8,7 +8,7 @@
 //! is known: there G δ = 0. A blow since t⁺ − ½h is not in v₊ yet, and the caller's to add.
 
 use super::body::Body;
-use super::programme::Programme;
+use super::programme::{Programme, Seat};
 use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::qp::Backend;
@@ -21,6 +21,7 @@ pub(super) struct Arrival {
     masses: Vec<f64>,
     b: Vec<f64>,
     held: Vec<f64>,
+    holding: Vec<usize>,
 }
 
 impl Arrival {
@@ -28,7 +29,8 @@ impl Arrival {
         let m = &body.matrices;
         let a = Symmetric::sum(&[(1.0, &m.mass), (0.5 * body.h, &m.damping)]);
         let programme = Programme::new(scene, a, scene.gap_scale() / body.h, |_, _| 0.0, Backend::Auto)?;
-        Ok(Self { programme, masses: scene.wall_masses(), b: vec![0.0; body.n], held: vec![0.0; body.walls.len()] })
+        let m = body.walls.len();
+        Ok(Self { programme, masses: scene.wall_masses(), b: vec![0.0; body.n], held: vec![0.0; m], holding: Vec::with_capacity(m) })
     }
 
     /// Writes v⁺ to `v`, from q⁺, v₊ and the load f⁺ (N) at the end of step number `step`.
@@ -41,34 +43,38 @@ impl Arrival {
         load: impl Iterator<Item = f64>,
         v: &mut [f64],
     ) -> Result<()> {
-        let Self { programme, masses, b, held } = self;
+        let Self { programme, masses, b, held, holding } = self;
         let h = body.h;
         b.iter_mut().zip(load).for_each(|(b, load)| *b = 0.5 * h * load);
         body.stiffness.add_product(-0.5 * h, q, b);
         body.damping.add_product(-0.5 * h, v_half, b);
-        for row in 0..programme.places.len() {
+        for row in 0..programme.count_rows() {
+            let w = programme.seen(row, q);
             programme.free(row);
-            for seat in 0..programme.places[row].walls.len() {
-                let index = programme.places[row].walls[seat];
-                let wall = body.walls[index];
-                let depth = wall.depth(body.rows.dot(index, q));
+            if programme.is_clear(row, w) {
+                continue;
+            }
+            for seat in programme.seats(row) {
+                let Seat { wall: index, stop: wall } = programme.seat(seat);
+                let depth = wall.depth(w);
                 if depth < -body.touch {
                     continue;
                 }
                 if wall.law.is_rigid() {
-                    programme.bound(row, index, wall.upper, 0.0);
+                    programme.bind(row, seat, 0.0);
                 } else if h * h * wall.law.tangent(depth) > masses[index] {
-                    programme.bound(row, index, true, 0.0);
-                    programme.bound(row, index, false, 0.0);
+                    programme.hold(row);
                 } else {
-                    let rate = body.rows.dot(index, v_half);
+                    let rate = programme.seen(row, v_half);
                     let force = wall.sign * wall.law.pressure(depth, -wall.sign * rate);
                     body.rows.add_transposed(index, 0.5 * h * force, b);
                 }
             }
         }
-        held.fill(0.0);
-        programme.solve(b, time, step, |index| body.walls[index].upper, held)?;
+        for wall in holding.drain(..) {
+            held[wall] = 0.0;
+        }
+        programme.solve(b, (time, step), held, holding)?;
         for ((v, v_half), d) in v.iter_mut().zip(v_half).zip(programme.x()) {
             *v = v_half + d;
         }

@@ -82,8 +82,7 @@ impl CentralDifference {
                     *force = body.walls[wall].sign * body.walls[wall].law.pressure(depth(body, wall), 0.0);
                 }
             }
-            frame.impulse.iter_mut().zip(&frame.force).for_each(|(p, r)| *p = h * r);
-            frame.touched = true;
+            frame.push_by_force(h);
             body.push(1.0, &frame.force, b);
         }
         factor.solve(b);

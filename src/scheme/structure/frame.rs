@@ -26,8 +26,8 @@ pub(super) struct Frame {
     pub impulse: Vec<f64>,
     pub force: Vec<f64>,
     jump: Vec<f64>,
-    /// True if any impulse of the step is not zero.
-    pub touched: bool,
+    /// Walls whose impulse is not zero; all others have an impulse and a force of zero.
+    pub pushing: Vec<usize>,
     /// Displacement and velocity before the walls corrected them, m and m/s, of a scheme that does so.
     pub predicted: Option<Predicted>,
 }
@@ -63,7 +63,7 @@ impl Frame {
             impulse: vec![0.0; walls],
             force: vec![0.0; walls],
             jump: vec![0.0; walls],
-            touched: false,
+            pushing: Vec::with_capacity(walls),
             predicted: None,
         })
     }
@@ -73,10 +73,17 @@ impl Frame {
     pub fn begin(&mut self, step: u64, h: f64) {
         self.start = step as f64 * h;
         self.end = (step + 1) as f64 * h;
-        if self.touched {
-            self.impulse.fill(0.0);
-            self.force.fill(0.0);
-            self.touched = false;
+        for wall in self.pushing.drain(..) {
+            self.impulse[wall] = 0.0;
+            self.force[wall] = 0.0;
+        }
+    }
+
+    /// Lists the walls whose force is not zero, over the whole of a step of `h` seconds.
+    pub fn push_by_force(&mut self, h: f64) {
+        for (wall, &force) in self.force.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+            self.impulse[wall] = h * force;
+            self.pushing.push(wall);
         }
     }
 
@@ -89,12 +96,12 @@ impl Frame {
     /// Refuses a state that is not finite.
     #[inline]
     pub fn check(&self, step: u64) -> Result<()> {
-        // A sum with anything that is not finite is not finite, and one branch is cheaper than n.
-        let sum = |x: &[f64]| x.iter().fold(0.0, |sum, x| sum + x * 0.0);
-        if sum(&self.q) + sum(&self.v) == 0.0 {
+        // Without a branch an entry, so that the compiler looks at several at once.
+        let finite = |x: &[f64]| x.iter().fold(true, |all, x| all & x.is_finite());
+        if finite(&self.q) && finite(&self.v) {
             return Ok(());
         }
-        let what = if sum(&self.q) == 0.0 { "velocity" } else { "displacement" };
+        let what = if finite(&self.q) { "velocity" } else { "displacement" };
         Err(Error::NotFinite { time: self.end, step, what })
     }
 

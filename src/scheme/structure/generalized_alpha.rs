@@ -17,7 +17,7 @@
 
 use super::body::{Body, factor};
 use super::frame::{Frame, Predicted};
-use super::programme::Programme;
+use super::programme::{Programme, Seat};
 use super::start::StartForce;
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Symmetric};
@@ -35,8 +35,9 @@ pub(super) struct GeneralizedAlpha {
     a: Vec<f64>,
     /// F̃, N.
     force: Vec<f64>,
-    /// Force of each elastic wall at the step's start, N.
+    /// Force of each elastic wall at the step's start, N, and the walls where it is not zero.
     held: Vec<f64>,
+    holding: Vec<usize>,
     /// The elastic walls in Δ, m.
     smooth: Programme,
     /// The rigid walls, in q⁺ − q̃ and in h(v⁺ − ṽ), m.
@@ -46,9 +47,11 @@ pub(super) struct GeneralizedAlpha {
     /// Impulse given to the step, N s; then the velocity it makes, m/s.
     given: Vec<f64>,
     zero: Vec<f64>,
-    /// Multipliers of the walls, and which of them are closed.
+    /// Multipliers of the rigid walls, and the walls where they are not zero.
     multiplier: Vec<f64>,
-    closed: Vec<bool>,
+    pushing: Vec<usize>,
+    /// f⁺, N.
+    load: Vec<f64>,
 }
 
 impl GeneralizedAlpha {
@@ -58,6 +61,8 @@ impl GeneralizedAlpha {
         };
         let body = Body::new(scene, h);
         let StartForce { total: force, wall: held } = StartForce::smooth(&body, &frame.q, &frame.v);
+        let mut holding = Vec::with_capacity(held.len());
+        holding.extend((0..held.len()).filter(|&wall| held[wall] != 0.0));
         let m = &body.matrices;
         let mut mass = factor(&m.mass)?;
         let mut a = force.clone();
@@ -77,6 +82,7 @@ impl GeneralizedAlpha {
             a,
             force,
             held,
+            holding,
             smooth,
             rigid,
             mass,
@@ -84,7 +90,8 @@ impl GeneralizedAlpha {
             given: zero.clone(),
             zero,
             multiplier: vec![0.0; body.walls.len()],
-            closed: vec![false; body.walls.len()],
+            pushing: Vec::with_capacity(body.walls.len()),
+            load: vec![0.0; body.n],
             body,
         })
     }
@@ -93,65 +100,82 @@ impl GeneralizedAlpha {
         frame.begin(step, self.body.h);
         frame.before.copy_from_slice(&frame.v);
         self.predict(step, frame)?;
-        let (start, h) = (frame.start, self.body.h);
         let Some(predicted) = &frame.predicted else { return Ok(()) };
         frame.q.copy_from_slice(&predicted.q);
         frame.v.copy_from_slice(&predicted.v);
-        // The displacement first.
-        let mut met = false;
-        for row in 0..self.rigid.places.len() {
-            let w = self.rigid.rows.dot(row, &frame.q);
-            self.rigid.free(row);
-            for seat in 0..self.rigid.places[row].walls.len() {
-                let index = self.rigid.places[row].walls[seat];
-                let wall = self.body.walls[index];
-                self.rigid.bound(row, index, wall.upper, wall.g - w);
-                met |= wall.depth(w) > 0.0;
-            }
-        }
-        let body = &self.body;
-        let upper = |wall: usize| body.walls[wall].upper;
-        self.multiplier.fill(0.0);
-        if met && self.rigid.solve(&self.zero, start, step, upper, &mut self.multiplier)? {
-            frame.q.iter_mut().zip(self.rigid.x()).for_each(|(q, d)| *q += d);
-        }
-        // Then the velocity, at the walls that are closed.
-        let mut approaches = false;
-        for row in 0..self.rigid.places.len() {
-            let w = self.rigid.rows.dot(row, &frame.q);
-            self.rigid.free(row);
-            for seat in 0..self.rigid.places[row].walls.len() {
-                let index = self.rigid.places[row].walls[seat];
-                let wall = body.walls[index];
-                let closed = self.multiplier[index] != 0.0 || wall.depth(w) >= -body.touch;
-                self.closed[index] = closed;
-                if closed {
-                    let struck = self.rigid.rows.dot(row, frame.struck());
-                    let epsilon = if wall.sign * struck <= 0.0 { wall.law.restitution().unwrap_or(0.0) } else { 1.0 };
-                    let bound = -epsilon * struck - self.rigid.rows.dot(row, &frame.v);
-                    self.rigid.bound(row, index, wall.upper, h * bound);
-                    approaches |= wall.sign * bound > 0.0;
-                }
-            }
-        }
-        if approaches {
-            self.multiplier.fill(0.0);
-            if self.rigid.solve(&self.zero, start, step, upper, &mut self.multiplier)? {
-                frame.v.iter_mut().zip(self.rigid.x()).for_each(|(v, d)| *v += d / h);
-                for (wall, r) in self.multiplier.iter().enumerate() {
-                    frame.impulse[wall] += r / h;
-                    frame.force[wall] += r / (h * h);
-                }
-                frame.touched = true;
-            }
-        }
+        self.correct_displacement(frame, step)?;
+        self.correct_velocity(frame, step)?;
         frame.after.copy_from_slice(&frame.v);
         Ok(())
     }
 
+    /// q⁺, and the multipliers ν of the walls.
+    fn correct_displacement(&mut self, frame: &mut Frame, step: u64) -> Result<()> {
+        let programme = &mut self.rigid;
+        let mut met = false;
+        for row in 0..programme.count_rows() {
+            let w = programme.seen(row, &frame.q);
+            programme.free(row);
+            for seat in programme.seats(row) {
+                let wall = programme.seat(seat).stop;
+                programme.bind(row, seat, wall.g - w);
+                met |= wall.depth(w) > 0.0;
+            }
+        }
+        self.forget();
+        if met {
+            self.rigid.solve(&self.zero, (frame.start, step), &mut self.multiplier, &mut self.pushing)?;
+            frame.q.iter_mut().zip(self.rigid.x()).for_each(|(q, d)| *q += d);
+        }
+        Ok(())
+    }
+
+    /// v⁺ and the impulses, at the walls that are closed.
+    fn correct_velocity(&mut self, frame: &mut Frame, step: u64) -> Result<()> {
+        let (h, programme) = (self.body.h, &mut self.rigid);
+        let mut approaches = false;
+        for row in 0..programme.count_rows() {
+            let w = programme.seen(row, &frame.q);
+            programme.free(row);
+            if programme.is_clear(row, w) && self.pushing.is_empty() {
+                continue;
+            }
+            for seat in programme.seats(row) {
+                let Seat { wall: index, stop: wall } = programme.seat(seat);
+                // A multiplier says so too: q⁺ is on the wall to rounding of q.
+                if self.multiplier[index] == 0.0 && wall.depth(w) < -self.body.touch {
+                    continue;
+                }
+                let struck = programme.seen(row, frame.struck());
+                let epsilon = if wall.sign * struck <= 0.0 { wall.law.restitution().unwrap_or(0.0) } else { 1.0 };
+                let bound = -epsilon * struck - programme.seen(row, &frame.v);
+                programme.bind(row, seat, h * bound);
+                approaches |= wall.sign * bound > 0.0;
+            }
+        }
+        self.forget();
+        if approaches {
+            self.rigid.solve(&self.zero, (frame.start, step), &mut self.multiplier, &mut self.pushing)?;
+            frame.v.iter_mut().zip(self.rigid.x()).for_each(|(v, d)| *v += d / h);
+            for &wall in &self.pushing {
+                frame.impulse[wall] = self.multiplier[wall] / h;
+                frame.force[wall] = frame.impulse[wall] / h;
+                frame.pushing.push(wall);
+            }
+        }
+        Ok(())
+    }
+
+    /// Clears the multipliers.
+    fn forget(&mut self) {
+        for wall in self.pushing.drain(..) {
+            self.multiplier[wall] = 0.0;
+        }
+    }
+
     /// q̃, ṽ, a and F̃ of the step, and the elastic walls.
     fn predict(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
-        let Self { body, alpha: [alpha_m, alpha_f, beta, gamma], a, force, smooth, b, given, .. } = self;
+        let Self { body, alpha: [alpha_m, alpha_f, beta, gamma], a, force, smooth, b, given, load, .. } = self;
         let (h, scale) = (body.h, body.h * body.h * *beta);
         let (alpha_m, alpha_f, beta, gamma) = (*alpha_m, *alpha_f, *beta, *gamma);
         given.iter_mut().zip(&frame.extra).for_each(|(given, extra)| *given = h * extra);
@@ -172,29 +196,26 @@ impl GeneralizedAlpha {
             b[i] = alpha_f / (1.0 - alpha_f) * force[i];
         }
         body.mass.add_product(-alpha_m / (1.0 - alpha_f), a, b);
-        force.fill(0.0);
-        body.loads.add_force(frame.end, 1.0, force);
+        load.fill(0.0);
+        body.loads.add_force(frame.end, 1.0, load);
+        force.copy_from_slice(load);
         body.damping.add_product(-1.0, v, force);
         body.stiffness.add_product(-1.0, q, force);
         b.iter_mut().zip(force.iter()).for_each(|(b, f)| *b += f);
-        for row in 0..smooth.places.len() {
-            let (w, ahead) = (smooth.rows.dot(row, &frame.q), smooth.rows.dot(row, q));
+        for row in 0..smooth.count_rows() {
+            let (w, ahead) = (smooth.seen(row, &frame.q), smooth.seen(row, q));
             smooth.free(row);
-            for seat in 0..smooth.places[row].walls.len() {
-                let index = smooth.places[row].walls[seat];
-                let wall = body.walls[index];
+            for seat in smooth.seats(row) {
+                let wall = smooth.seat(seat).stop;
                 if let WallLaw::Elastic { stiffness, damping } = wall.law {
                     // |r| = k_a s̃⁺ + c_a(s̃⁺ − s₊)/h, written in Δ.
                     let offset = stiffness * (ahead - wall.g) + damping * (ahead - wall.plate(w)) / h;
-                    smooth.bound(row, index, wall.upper, -offset / (stiffness + damping / h));
+                    smooth.bind(row, seat, -offset / (stiffness + damping / h));
                 }
             }
         }
-        let upper = |wall: usize| body.walls[wall].upper;
-        let meets = smooth.solve(b, frame.start, step, upper, &mut frame.force)?;
-        // F̃⁺ by its terms: what acts at t⁺.
-        force.fill(0.0);
-        body.loads.add_force(frame.end, 1.0, force);
+        smooth.solve(b, (frame.start, step), &mut frame.force, &mut frame.pushing)?;
+        force.copy_from_slice(load);
         for (i, delta) in smooth.x().iter().enumerate() {
             a[i] = delta / scale;
             q[i] += delta;
@@ -202,13 +223,23 @@ impl GeneralizedAlpha {
         }
         body.damping.add_product(-1.0, v, force);
         body.stiffness.add_product(-1.0, q, force);
-        body.push(1.0, &frame.force, force);
-        for ((p, held), &r) in frame.impulse.iter_mut().zip(&mut self.held).zip(&frame.force) {
-            *p = 0.5 * h * (*held + r);
-            frame.touched |= *p != 0.0;
-            *held = r;
+        for &wall in &frame.pushing {
+            body.rows.add_transposed(wall, frame.force[wall], force);
         }
-        frame.touched |= meets;
+        // The elastic walls' impulses ½h(r + r⁺), of those that push at either end.
+        let now = frame.pushing.len();
+        for wall in self.holding.drain(..) {
+            frame.impulse[wall] = 0.5 * h * self.held[wall];
+            self.held[wall] = 0.0;
+            if frame.force[wall] == 0.0 {
+                frame.pushing.push(wall);
+            }
+        }
+        for &wall in &frame.pushing[..now] {
+            frame.impulse[wall] += 0.5 * h * frame.force[wall];
+            self.held[wall] = frame.force[wall];
+            self.holding.push(wall);
+        }
         Ok(())
     }
 

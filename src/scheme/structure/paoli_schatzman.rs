@@ -42,11 +42,11 @@ impl PaoliSchatzman {
         let a = Symmetric::sum(&[(1.0 / (h * h), &m.mass), (0.5 / h, &m.damping), (0.25, &m.stiffness)]);
         let compliance = |k: f64, c: f64| 1.0 / (0.25 * k + 0.5 * c / h);
         let programme = Programme::new(scene, a, scene.gap_scale(), compliance, backend)?;
-        let differ = |walls: &[usize]| {
-            let mut rigid = walls.iter().filter_map(|&wall| body.walls[wall].law.restitution());
+        let differ = |row: usize| {
+            let mut rigid = programme.seats(row).filter_map(|seat| programme.seat(seat).stop.law.restitution());
             rigid.next().is_some_and(|first| rigid.any(|e| e != first))
         };
-        let unequal = programme.places.iter().map(|place| differ(&place.walls)).collect();
+        let unequal = (0..programme.count_rows()).map(differ).collect();
         let arrival = Arrival::new(scene, &body)?;
         let zero = vec![0.0; body.n];
         let mut load = zero.clone();
@@ -71,10 +71,9 @@ impl PaoliSchatzman {
         frame.before.copy_from_slice(v);
         self.bind(frame);
         let Self { body, v, load, extra, programme, arrival, b, .. } = self;
-        let touched = programme.solve(b, frame.start, step, |wall| body.walls[wall].upper, &mut frame.force)?;
-        if touched {
-            frame.impulse.iter_mut().zip(&frame.force).for_each(|(p, r)| *p = h * r);
-            frame.touched = true;
+        programme.solve(b, (frame.start, step), &mut frame.force, &mut frame.pushing)?;
+        for &wall in &frame.pushing {
+            frame.impulse[wall] = h * frame.force[wall];
         }
         for ((q, v), d) in frame.q.iter_mut().zip(v.iter_mut()).zip(programme.x()) {
             *q += d;
@@ -92,14 +91,13 @@ impl PaoliSchatzman {
     /// The bounds of the rows, in Δ.
     fn bind(&mut self, frame: &Frame) {
         let h = self.body.h;
-        for row in 0..self.programme.places.len() {
-            let (w, before) = (self.programme.rows.dot(row, &frame.q), self.programme.rows.dot(row, &frame.before));
-            let struck = if frame.blown { self.programme.rows.dot(row, &frame.struck) } else { before };
+        for row in 0..self.programme.count_rows() {
+            let (w, before) = (self.programme.seen(row, &frame.q), self.programme.seen(row, &frame.before));
+            let struck = if frame.blown { self.programme.seen(row, &frame.struck) } else { before };
             let shared = if self.unequal[row] { self.shared_restitution(row, w - h * struck) } else { None };
             self.programme.free(row);
-            for seat in 0..self.programme.places[row].walls.len() {
-                let index = self.programme.places[row].walls[seat];
-                let wall = self.body.walls[index];
+            for seat in self.programme.seats(row) {
+                let wall = self.programme.seat(seat).stop;
                 let bound = match wall.law {
                     WallLaw::Elastic { stiffness, damping } => {
                         // |r| = k_a s̄ + c_a(s⁺ − s⁻₊)/2h, written in Δ.
@@ -112,7 +110,7 @@ impl PaoliSchatzman {
                         (1.0 + e) * (wall.g - w) + e * h * struck
                     }
                 };
-                self.programme.bound(row, index, wall.upper, bound);
+                self.programme.bind(row, seat, bound);
             }
         }
     }
@@ -120,8 +118,8 @@ impl PaoliSchatzman {
     /// The smallest e of the rigid walls of a row, if with its own e for each the bounds of a lower and an upper one would cross, `back` being w⁻.
     fn shared_restitution(&self, row: usize, back: f64) -> Option<f64> {
         let (mut lo, mut hi, mut least) = (f64::NEG_INFINITY, f64::INFINITY, 1.0_f64);
-        for &index in &self.programme.places[row].walls {
-            let wall = self.body.walls[index];
+        for seat in self.programme.seats(row) {
+            let wall = self.programme.seat(seat).stop;
             let Some(e) = wall.law.restitution() else { continue };
             let bound = (1.0 + e) * wall.g - e * back;
             (lo, hi) = if wall.upper { (lo, hi.min(bound)) } else { (lo.max(bound), hi) };

@@ -65,8 +65,7 @@ impl Penalty {
         let (h, theta) = (body.h, *theta);
         frame.begin(step, h);
         b.iter_mut().zip(&frame.extra).for_each(|(b, extra)| *b = h * extra);
-        body.loads.add_force(frame.start, h * (1.0 - theta), b);
-        body.loads.add_force(frame.end, h * theta, b);
+        body.add_load(frame.end, h * (1.0 - theta), h * theta, b);
         drag.add_product(-h, &frame.v, b);
         body.stiffness.add_product(-h, &frame.q, b);
         frame.before.copy_from_slice(&frame.v);
@@ -133,9 +132,8 @@ impl Penalty {
         self.see_rates(frame);
         for wall in 0..self.rate.len() {
             frame.force[wall] = self.answer(wall, self.rate[wall]).force;
-            frame.impulse[wall] = h * frame.force[wall];
         }
-        frame.touched = true;
+        frame.push_by_force(h);
         Ok(())
     }
 

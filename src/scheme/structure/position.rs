@@ -18,9 +18,9 @@ pub(super) struct Position {
     theta: f64,
     /// F + Gᵀ r at the step's start, N; kept where θ < 1 only.
     force: Vec<f64>,
-    /// r of each wall at the step's start, N, and whether any is not zero.
+    /// r of each wall at the step's start, N, and the walls where it is not zero.
     held: Vec<f64>,
-    holds: bool,
+    holding: Vec<usize>,
     programme: Programme,
     /// f⁺, and b.
     load: Vec<f64>,
@@ -31,13 +31,14 @@ impl Position {
     pub fn new(scene: &Scene, theta: f64, h: f64, backend: Backend, frame: &Frame) -> Result<Self> {
         let body = Body::new(scene, h);
         let StartForce { total: force, wall: held } = StartForce::new(scene, &body, &frame.q, &frame.v)?;
-        let holds = held.iter().any(|&r| r != 0.0);
+        let mut holding = Vec::with_capacity(held.len());
+        holding.extend((0..held.len()).filter(|&wall| held[wall] != 0.0));
         let ht = h * theta;
         let m = &body.matrices;
         let a = Symmetric::sum(&[(1.0 / (ht * ht), &m.mass), (1.0 / ht, &m.damping), (1.0, &m.stiffness)]);
         let programme = Programme::new(scene, a, scene.gap_scale(), |k, c| 1.0 / (k + c / h), backend)?;
         let zero = vec![0.0; body.n];
-        Ok(Self { body, theta, force, held, holds, programme, load: zero.clone(), b: zero })
+        Ok(Self { body, theta, force, held, holding, programme, load: zero.clone(), b: zero })
     }
 
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
@@ -59,40 +60,53 @@ impl Position {
         frame.before.copy_from_slice(&frame.v);
         body.strike((frame.start, frame.end), &frame.v, 1.0 / ht, b, &mut frame.struck);
         self.bind(frame);
-        let upper = |wall: usize| self.body.walls[wall].upper;
-        let meets = self.programme.solve(&self.b, frame.start, step, upper, &mut frame.force)?;
+        self.programme.solve(&self.b, (frame.start, step), &mut frame.force, &mut frame.pushing)?;
         for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(self.programme.x()) {
             *q += d;
             *v = (d / h - (1.0 - theta) * *v) / theta;
         }
         frame.after.copy_from_slice(&frame.v);
-        if meets || self.holds {
-            // p = h[(1−θ) r + θ r⁺]
-            for ((p, held), &r) in frame.impulse.iter_mut().zip(&mut self.held).zip(&frame.force) {
-                *p = h * ((1.0 - theta) * *held + theta * r);
-                *held = r;
-            }
-            frame.touched = true;
-            self.holds = meets;
+        if !frame.pushing.is_empty() || !self.holding.is_empty() {
+            self.average(frame);
         }
         if rest != 0.0 {
             self.force.copy_from_slice(&self.load);
             self.body.damping.add_product(-1.0, &frame.v, &mut self.force);
             self.body.stiffness.add_product(-1.0, &frame.q, &mut self.force);
-            self.body.push(1.0, &frame.force, &mut self.force);
+            for &wall in &frame.pushing {
+                self.body.rows.add_transposed(wall, frame.force[wall], &mut self.force);
+            }
         }
         Ok(())
     }
 
+    /// The impulses p = h[(1−θ) r + θ r⁺] of the walls that push at either end.
+    fn average(&mut self, frame: &mut Frame) {
+        let (h, theta) = (self.body.h, self.theta);
+        let now = frame.pushing.len();
+        for wall in self.holding.drain(..) {
+            let p = h * (1.0 - theta) * self.held[wall];
+            self.held[wall] = 0.0;
+            frame.impulse[wall] = p;
+            if p != 0.0 && frame.force[wall] == 0.0 {
+                frame.pushing.push(wall);
+            }
+        }
+        for &wall in &frame.pushing[..now] {
+            frame.impulse[wall] += h * theta * frame.force[wall];
+            self.held[wall] = frame.force[wall];
+            self.holding.push(wall);
+        }
+    }
+
     /// The bounds of the rows, in Δ.
     fn bind(&mut self, frame: &Frame) {
-        let h = self.body.h;
-        for row in 0..self.programme.places.len() {
-            let w = self.programme.rows.dot(row, &frame.q);
-            self.programme.free(row);
-            for seat in 0..self.programme.places[row].walls.len() {
-                let index = self.programme.places[row].walls[seat];
-                let wall = self.body.walls[index];
+        let (h, programme) = (self.body.h, &mut self.programme);
+        for row in 0..programme.count_rows() {
+            let w = programme.seen(row, &frame.q);
+            programme.free(row);
+            for seat in programme.seats(row) {
+                let wall = programme.seat(seat).stop;
                 let bound = match wall.law {
                     // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
                     WallLaw::Elastic { stiffness, damping } => {
@@ -101,7 +115,7 @@ impl Position {
                     }
                     _ => wall.g - w,
                 };
-                self.programme.bound(row, index, wall.upper, bound);
+                programme.bind(row, seat, bound);
             }
         }
     }

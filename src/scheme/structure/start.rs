@@ -54,17 +54,16 @@ impl StartForce {
             let mass = body.matrices.mass.clone();
             let scale = scene.gap_scale() / (body.h * body.h);
             let mut programme = Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, Backend::Auto)?;
-            for row in 0..programme.places.len() {
+            for row in 0..programme.count_rows() {
                 programme.free(row);
-                for seat in 0..programme.places[row].walls.len() {
-                    let index = programme.places[row].walls[seat];
-                    if resting.contains(&index) {
-                        programme.bound(row, index, body.walls[index].upper, 0.0);
+                for seat in programme.seats(row) {
+                    if resting.contains(&programme.seat(seat).wall) {
+                        programme.bind(row, seat, 0.0);
                     }
                 }
             }
             let mut held = vec![0.0; body.walls.len()];
-            programme.solve(&total, 0.0, 0, |index| body.walls[index].upper, &mut held)?;
+            programme.solve(&total, (0.0, 0), &mut held, &mut Vec::new())?;
             body.push(1.0, &held, &mut total);
             wall.iter_mut().zip(&held).for_each(|(r, held)| *r += held);
         }
