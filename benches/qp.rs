@@ -3,7 +3,7 @@
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSolver, IPSolver, NonnegativeConeT};
-use nalgebra::{DMatrix, DVector};
+use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, ScalarRow, Solver, clamp};
 use std::hint::black_box;
 
@@ -15,37 +15,34 @@ const ROUNDS: usize = 15;
 
 /// A chain of n springs with a box of ±1 on every unknown; loads that push a varying part of it against the walls.
 fn chain(n: usize) -> (Problem, Vec<Vec<f64>>) {
-    let a = DMatrix::from_fn(n, n, |i, j| match i.abs_diff(j) {
-        0 => 3.0,
-        1 => -1.0,
-        _ => 0.0,
-    });
-    let problem = Problem { a, g: DMatrix::identity(n, n), compliance: DVector::zeros(n) };
+    let a = Symmetric::from_entries(n, (0..n).map(|i| (i, i, 3.0)).chain((1..n).map(|i| (i, i - 1, -1.0))));
+    let unit: Vec<[(usize, f64); 1]> = (0..n).map(|i| [(i, 1.0)]).collect();
+    let g = Rows::new(n, unit.iter().map(|row| row.as_slice()));
+    let problem = Problem { a, g, compliance: vec![0.0; n] };
     let loads = (0..64)
         .map(|step| (0..n).map(|i| 5.0 * (0.37 * f64::from(step) + 0.9 * i as f64).sin() + 4.0).collect())
         .collect();
     (problem, loads)
 }
 
+fn by_columns(height: usize, columns: &[Vec<(usize, f64)>]) -> CscMatrix<f64> {
+    let (mut starts, mut rows, mut values) = (vec![0], vec![], vec![]);
+    for column in columns {
+        rows.extend(column.iter().map(|entry| entry.0));
+        values.extend(column.iter().map(|entry| entry.1));
+        starts.push(rows.len());
+    }
+    CscMatrix::new(height, columns.len(), starts, rows, values)
+}
+
 /// Clarabel as one would call it by hand, at the same tolerance, on the same (already dimensionless) programme.
 fn bare(problem: &Problem) -> DefaultSolver<f64> {
-    let n = problem.a.ncols();
-    let upper = |matrix: &DMatrix<f64>, keep: fn(usize, usize) -> bool| {
-        let (mut starts, mut rows, mut values) = (vec![0], vec![], vec![]);
-        for j in 0..matrix.ncols() {
-            for i in (0..matrix.nrows()).filter(|&i| keep(i, j) && matrix[(i, j)] != 0.0) {
-                rows.push(i);
-                values.push(matrix[(i, j)]);
-            }
-            starts.push(rows.len());
-        }
-        CscMatrix::new(matrix.nrows(), matrix.ncols(), starts, rows, values)
-    };
-    let mut sides = DMatrix::zeros(2 * n, n);
-    sides.view_mut((0, 0), (n, n)).copy_from(&problem.g);
-    sides.view_mut((n, 0), (n, n)).copy_from(&-&problem.g);
-    let cost = upper(&problem.a, |i, j| i <= j);
-    let rows = upper(&sides, |_, _| true);
+    let n = problem.a.size();
+    // Rows of the lower triangle are columns of the upper one; a box's rows are its columns.
+    let mut columns = vec![vec![]; n];
+    problem.a.entries().for_each(|(i, j, value)| columns[i].push((j, value)));
+    let cost = by_columns(n, &columns);
+    let rows = by_columns(2 * n, &(0..n).map(|i| vec![(i, 1.0), (n + i, -1.0)]).collect::<Vec<_>>());
     DefaultSolver::new(&cost, &vec![0.0; n], &rows, &vec![1.0; 2 * n], &[NonnegativeConeT(2 * n)], clarabel_settings())
         .expect("a sound programme")
 }
@@ -102,9 +99,9 @@ fn main() {
     let layer = [ScalarRow { compliance: 0.1, ..rows[0] }, rows[1]];
     let (mut r, calls) = ([0.0; 2], 1_000_000);
     let problem = Problem {
-        a: DMatrix::from_element(1, 1, 3.0),
-        g: DMatrix::from_element(2, 1, 1.0),
-        compliance: DVector::zeros(2),
+        a: Symmetric::diagonal(&[3.0]),
+        g: Rows::new(1, [[(0, 1.0)].as_slice(); 2]),
+        compliance: vec![0.0; 2],
     };
     let mut matrices = Solver::new(problem, Backend::Clamp, 1.0).expect("a sound problem");
     let (lo, hi) = ([-1.0, f64::NEG_INFINITY], [f64::INFINITY, 1.0]);

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{CONSTRAINED, MOREAU_JEAN, source};
+use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, ScalarRow, Solver, clamp};
 use signorini::residual::{Judge, Residuals};
 use signorini::{
@@ -273,9 +274,9 @@ fn account(name: &str, scene: &Scene, scheme: &Scheme, h: f64) {
             let scale = if velocity { scene.gap_scale() / h } else { scene.gap_scale() };
             let solver = solver.get_or_insert_with(|| {
                 let problem = Problem {
-                    a: nalgebra::DMatrix::from_element(1, 1, a),
-                    g: nalgebra::DMatrix::from_element(rows.len(), 1, 1.0),
-                    compliance: nalgebra::DVector::zeros(rows.len()),
+                    a: Symmetric::diagonal(&[a]),
+                    g: Rows::new(1, rows.iter().map(|_| [(0, 1.0)].as_slice())),
+                    compliance: vec![0.0; rows.len()],
                 };
                 Solver::new(problem, Backend::Clarabel, scale).expect("a sound problem")
             });

@@ -2,13 +2,13 @@
 
 use signorini::linear::{Factor, Symmetric};
 use signorini::{
-    Bar, BarEnd, Beam, BeamEnd, Chain, Damping, Load, LoadKind, Mass, Modes, Probe, Row, Scene, Structure, System,
-    Wall, WallLaw,
+    Bar, BarEnd, Beam, BeamEnd, Chain, Damping, Load, LoadKind, MassMatrix, Modes, Probe, Row, Scene, Structure,
+    System, Wall, WallLaw,
 };
 use std::f64::consts::PI;
 
 /// A bar of unit length, area, modulus and density: ω of its modes are multiples of π/2.
-fn bar(elements: usize, left: BarEnd, right: BarEnd, mass: Mass) -> Bar {
+fn bar(elements: usize, left: BarEnd, right: BarEnd, mass: MassMatrix) -> Bar {
     Bar { length: 1.0, area: 1.0, youngs_modulus: 1.0, density: 1.0, elements, left, right, mass }
 }
 
@@ -83,7 +83,7 @@ fn converges(
 
 #[test]
 fn bar_frequencies_converge_at_second_order_from_above_and_lumped_from_below() {
-    for (mass, sign) in [(Mass::Consistent, 1.0), (Mass::Lumped, -1.0)] {
+    for (mass, sign) in [(MassMatrix::Consistent, 1.0), (MassMatrix::Lumped, -1.0)] {
         let omegas =
             |left, right| move |n| Modes::lowest(&bar(n, left, right, mass).structure().unwrap(), 4).unwrap().omega;
         let fixed_free: Vec<f64> = (0..3).map(|i| (i as f64 + 0.5) * PI).collect();
@@ -103,8 +103,9 @@ fn a_sprung_bar_converges_to_the_root_of_its_frequency_equation() {
         if middle * middle.cos() + 3.0 * middle.sin() > 0.0 { low = middle } else { high = middle }
     }
     let sprung = BarEnd::Sprung { stiffness: 3.0 };
-    let omegas =
-        |n| Modes::lowest(&bar(n, BarEnd::Fixed, sprung, Mass::Consistent).structure().unwrap(), 1).unwrap().omega;
+    let omegas = |n| {
+        Modes::lowest(&bar(n, BarEnd::Fixed, sprung, MassMatrix::Consistent).structure().unwrap(), 1).unwrap().omega
+    };
     converges("fixed–sprung", &[low], 0, 20, 2.0, 1.0, omegas);
 }
 
@@ -145,7 +146,7 @@ fn beam_frequencies_converge_at_fourth_order_from_above() {
 fn rigid_body_motions_are_exact() {
     // A free bar slides, a free beam also turns, a beam on one pin turns; small by full matrices and large by Lanczos.
     for n in [7, 20, 300, 2000] {
-        let sliding = bar(n, BarEnd::Free, BarEnd::Free, Mass::Consistent).structure().unwrap();
+        let sliding = bar(n, BarEnd::Free, BarEnd::Free, MassMatrix::Consistent).structure().unwrap();
         let modes = Modes::lowest(&sliding, 3).unwrap();
         assert_eq!(modes.rigid(), 1);
         assert_eq!(modes.omega[0], 0.0);
@@ -366,7 +367,7 @@ fn more_modes_keep_more_compliance_and_less_mass() {
 fn the_effective_mass_of_a_string_falls_as_modes_are_added() {
     // A string of mass 1 struck at its middle is the bar's equation: 2 Σ sin²(iπ/2) over its modes, so 1/2 with one mode and 1/20 with nineteen, of which
     // ten move the middle.
-    let string = bar(2000, BarEnd::Fixed, BarEnd::Fixed, Mass::Consistent);
+    let string = bar(2000, BarEnd::Fixed, BarEnd::Fixed, MassMatrix::Consistent);
     let wall = Wall { at: string.at(0.5).unwrap(), ..Wall::upper("stop", 1.0) };
     let scene = Scene::structure(string.structure().unwrap()).with_wall(wall);
     for (k, expected) in [(1, 0.5), (19, 0.05)] {
@@ -407,7 +408,7 @@ fn static_correction_gives_back_the_whole_compliance() {
 #[test]
 fn the_residual_compliance_of_a_free_structure_is_that_of_all_other_modes() {
     // A free bar pushed at its end: Σ 2/(iπ)² over the modes that are left out, i > 3; exact on the elements' own modes.
-    let free = bar(40, BarEnd::Free, BarEnd::Free, Mass::Consistent);
+    let free = bar(40, BarEnd::Free, BarEnd::Free, MassMatrix::Consistent);
     let structure = free.structure().unwrap();
     let wall = Wall { at: free.at(0.0).unwrap(), ..Wall::lower("wall", -1.0) };
     let scene = Scene::structure(structure.clone()).with_wall(wall);
@@ -427,7 +428,7 @@ fn the_residual_compliance_of_a_free_structure_is_that_of_all_other_modes() {
 
 #[test]
 fn a_start_that_truncation_puts_behind_a_wall_is_refused_and_one_on_a_wall_stays_there() {
-    let fixed = bar(40, BarEnd::Free, BarEnd::Fixed, Mass::Lumped);
+    let fixed = bar(40, BarEnd::Free, BarEnd::Fixed, MassMatrix::Lumped);
     // u = x(1 − x)/2 … a bar pressed in its middle: its first mode alone moves the free end.
     let q = fixed.field("initial.displacement", &|x| if x < 1.0 { 0.5 * (1.0 - x) } else { 0.0 }).unwrap();
     let touching = |position| {

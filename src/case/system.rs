@@ -6,7 +6,7 @@ use super::file;
 use super::model::Model;
 use super::value::{Number, Section, Value};
 use crate::error::{Error, Result};
-use crate::scene::{Bar, BarEnd, Beam, BeamEnd, Chain, Damping, Mass, Oscillator, System};
+use crate::scene::{Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MassMatrix, Oscillator, System};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -155,8 +155,8 @@ impl Builder<'_> {
 
     fn bar(&mut self, bar: file::Bar) -> Result<Bar> {
         let mass = match bar.mass_matrix.as_ref().map(|word| word.get_ref().as_str()) {
-            None | Some("consistent") => Mass::Consistent,
-            Some("lumped") => Mass::Lumped,
+            None | Some("consistent") => MassMatrix::Consistent,
+            Some("lumped") => MassMatrix::Lumped,
             Some(_) => {
                 let span = bar.mass_matrix.map_or(0..0, |word| word.span());
                 return Err(self.refuse_as(span, "system.bar.mass_matrix"));

@@ -19,6 +19,11 @@ impl SparseFactor {
         }
     }
 
+    /// Number of entries of L below its diagonal.
+    pub(super) fn stored(&self) -> usize {
+        self.0.L.nnz()
+    }
+
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         self.0.solve(x);
     }

@@ -12,7 +12,7 @@ mod structure;
 mod system;
 mod wall;
 
-pub use builders::{Bar, BarEnd, Beam, BeamEnd, Chain, MOST_ELEMENTS, Mass};
+pub use builders::{Bar, BarEnd, Beam, BeamEnd, Chain, MOST_ELEMENTS, MassMatrix};
 pub use damping::Damping;
 pub use load::{Forcing, Harmonic, Load, LoadKind, Table};
 pub use loads::Loads;

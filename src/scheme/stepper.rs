@@ -114,11 +114,7 @@ impl Stepper {
     /// [`Error::Qp`], [`Error::Newton`], [`Error::NotFinite`] or [`Error::TooManyEvents`], with the time and the step.
     #[inline]
     pub fn step(&mut self) -> Result<Step<'_>> {
-        if let Kernel::Structure(_) = self.kernel {
-            self.advance_structure(None)?;
-        } else {
-            self.advance(0.0)?;
-        }
+        self.advance(0.0)?;
         Ok(self.last())
     }
 
@@ -153,6 +149,7 @@ impl Stepper {
     }
 
     /// A step of several degrees of freedom.
+    #[inline(never)]
     fn advance_structure(&mut self, extra: Option<&[f64]>) -> Result<()> {
         if let Kernel::Structure(kernel) = &mut self.kernel {
             kernel.advance(self.index, extra)?;
@@ -172,7 +169,7 @@ impl Stepper {
             Kernel::Penalty(kernel) => kernel.advance(index, extra, frame),
             Kernel::CentralDifference(kernel) => kernel.advance(index, extra, frame),
             Kernel::Event(event) => event.advance(extra),
-            Kernel::Structure(_) => Ok(()),
+            Kernel::Structure(_) => return self.advance_structure(None),
         }?;
         self.index += 1;
         // The exact scheme leaves the frame untouched and keeps its own episodes.
@@ -193,11 +190,8 @@ impl Stepper {
     #[inline]
     fn last(&self) -> Step<'_> {
         let (index, frame) = (self.index - 1, &self.frame);
-        if let Kernel::Event(event) = &self.kernel {
-            return event.step(index, &frame.extra);
-        }
-        if let Kernel::Structure(kernel) = &self.kernel {
-            return kernel.step(index, &self.episodes);
+        if matches!(self.kernel, Kernel::Event(_) | Kernel::Structure(_)) {
+            return self.last_elsewhere(index);
         }
         Step {
             index,
@@ -213,6 +207,16 @@ impl Stepper {
             extra: &frame.extra,
             closed: self.episodes.closed(),
             path: Path::Grid,
+        }
+    }
+
+    /// The step just made by a kernel that keeps a frame of its own.
+    #[inline(never)]
+    fn last_elsewhere(&self, index: u64) -> Step<'_> {
+        match &self.kernel {
+            Kernel::Structure(kernel) => kernel.step(index, &self.episodes),
+            Kernel::Event(event) => event.step(index, &self.frame.extra),
+            _ => self.last(),
         }
     }
 

@@ -23,7 +23,7 @@ pub enum BarEnd {
 
 /// How the mass of an element becomes a matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Mass {
+pub enum MassMatrix {
     /// ∫ ρ A Nᵀ N dx: frequencies are too high, at second order.
     #[default]
     Consistent,
@@ -55,7 +55,7 @@ pub struct Bar {
     /// What holds the end at `length`.
     pub right: BarEnd,
     /// The mass matrix.
-    pub mass: Mass,
+    pub mass: MassMatrix,
 }
 
 fn shape(xi: f64) -> [f64; 2] {
@@ -97,8 +97,8 @@ impl Bar {
         let stiffness = self.youngs_modulus * self.area / mesh.size();
         let mass = self.density * self.area * mesh.size();
         let m = match self.mass {
-            Mass::Consistent => [[mass / 3.0, mass / 6.0], [mass / 6.0, mass / 3.0]],
-            Mass::Lumped => [[mass / 2.0, 0.0], [0.0, mass / 2.0]],
+            MassMatrix::Consistent => [[mass / 3.0, mass / 6.0], [mass / 6.0, mass / 3.0]],
+            MassMatrix::Lumped => [[mass / 2.0, 0.0], [0.0, mass / 2.0]],
         };
         let ends = [(0, self.left), (self.elements, self.right)];
         let spring = |(node, end)| if let BarEnd::Sprung { stiffness } = end { Some((node, stiffness)) } else { None };

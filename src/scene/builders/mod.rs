@@ -12,7 +12,7 @@ mod chain;
 mod mesh;
 mod profile;
 
-pub use bar::{Bar, BarEnd, Mass};
+pub use bar::{Bar, BarEnd, MassMatrix};
 pub use beam::{Beam, BeamEnd};
 pub use chain::Chain;
 pub use mesh::MOST_ELEMENTS;

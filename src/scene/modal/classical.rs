@@ -101,7 +101,7 @@ impl Modes {
             }
             if to - from > 1 {
                 let block = c.view((from, from), (to - from, to - from)).into_owned();
-                let Some((_, turn)) = eigen(block) else { return None };
+                let (_, turn) = eigen(block)?;
                 for j in from..to {
                     let mut shape = vec![0.0; turned[j].len()];
                     for i in from..to {

@@ -1,7 +1,7 @@
 //! What every scheme knows of the scene.
 
 use crate::linear::{Factor, Operator};
-use crate::scene::{Loads, Scene, Side, Structure, WallLaw};
+use crate::scene::{Loads, Scene, Side, Structure, Wall, WallLaw};
 
 /// The structure as a kernel wants it.
 #[derive(Debug)]
@@ -13,12 +13,13 @@ pub(super) struct Body {
     pub damping: Operator,
     pub stiffness: Operator,
     pub loads: Loads,
-    pub walls: Vec<Stop>,
     /// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
     pub touch: f64,
     /// M factored: what a blow changes of the velocity. None without blows.
     inertia: Option<Factor>,
     blow: Vec<f64>,
+    /// Force of each part of the loads at the end of the last step and of the present one, N.
+    load: [Vec<f64>; 2],
 }
 
 /// A wall as a kernel wants it.
@@ -31,7 +32,16 @@ pub(super) struct Stop {
     pub law: WallLaw,
 }
 
+/// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
+pub(super) fn touching_distance(scene: &Scene) -> f64 {
+    1e-12 * scene.gap_scale()
+}
+
 impl Stop {
+    pub fn new(wall: &Wall) -> Self {
+        Self { upper: wall.side == Side::Upper, sign: wall.side.sign(), g: wall.position, law: wall.law }
+    }
+
     /// Depth behind the wall, m.
     #[inline]
     pub fn depth(&self, w: f64) -> f64 {
@@ -49,27 +59,32 @@ impl Body {
     pub fn new(scene: &Scene, h: f64) -> Self {
         let matrices = scene.system.structure();
         let loads = Loads::new(&scene.loads);
-        let stop = |w: &crate::scene::Wall| Stop {
-            upper: w.side == Side::Upper,
-            sign: w.side.sign(),
-            g: w.position,
-            law: w.law,
-        };
         let n = matrices.mass.size();
+        let mut load = [vec![0.0; loads.parts().len()], vec![0.0; loads.parts().len()]];
+        loads.forces(0.0, &mut load[0]);
         Self {
             n,
             h,
             mass: Operator::new(&matrices.mass),
             damping: Operator::new(&matrices.damping),
             stiffness: Operator::new(&matrices.stiffness),
-            walls: scene.walls.iter().map(stop).collect(),
-            touch: 1e-12 * scene.gap_scale(),
+            touch: touching_distance(scene),
             // A mass that cannot be factored is refused by the scene.
             inertia: if loads.has_blows() { Factor::new(&matrices.mass).ok() } else { None },
             blow: vec![0.0; n],
+            load,
             loads,
             matrices,
         }
+    }
+
+    /// Adds `before` times the load at the end of the last step and `after` times that at `end` (s), the end of this one, to `out`. Once a step.
+    #[inline]
+    pub fn add_load(&mut self, end: f64, before: f64, after: f64, out: &mut [f64]) {
+        let [last, next] = &mut self.load;
+        self.loads.forces(end, next);
+        self.loads.scatter(last.iter().zip(&*next).map(|(a, b)| before * a + after * b), out);
+        self.load.swap(0, 1);
     }
 
     /// The blows in (from, to]: adds them to `momentum` (N s) and writes the velocity they leave to `struck`, given `v`. Returns whether there was one.

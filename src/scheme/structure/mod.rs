@@ -63,7 +63,7 @@ impl Structure {
     /// Shows the last step to the contact episodes.
     pub fn tell(&self, scene: &Scene, h: f64, episodes: &mut Episodes) {
         let frame = &self.frame;
-        if !frame.touched && episodes.idle() {
+        if frame.pushing.is_empty() && episodes.idle() {
             return;
         }
         let seen = |wall: usize, v: &[f64]| scene.walls.get(wall).map_or(0.0, |w| w.at.dot(v));
@@ -72,7 +72,7 @@ impl Structure {
             struck: seen(wall, frame.struck()),
             after: seen(wall, &frame.after),
         };
-        episodes.see(frame.start, h, &frame.impulse, rates);
+        episodes.see_some(frame.start, h, &frame.impulse, &frame.pushing, rates);
     }
 
     /// The last step.

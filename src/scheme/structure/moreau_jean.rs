@@ -19,9 +19,11 @@ pub(super) struct MoreauJean {
     drag: Operator,
     programme: Programme,
     b: Vec<f64>,
-    /// Whether a row's rigid walls pushed in the last step, and from which side: the sign of their force.
+    /// q + ½hv, with the velocity that the walls answer.
+    ahead: Vec<f64>,
+    /// The side from which a row's rigid walls pushed in the last step, as the sign of their force, 0 if none did; and the rows where it is not 0.
     last: Vec<f64>,
-    pushed: bool,
+    pushed: Vec<usize>,
     frozen: u64,
 }
 
@@ -34,8 +36,18 @@ impl MoreauJean {
         let drag = Operator::new(&Symmetric::sum(&[(1.0, &m.damping), (ht, &m.stiffness)]));
         let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
         let programme = Programme::new(scene, a, scene.gap_scale() / h, compliance, backend)?;
-        let (n, rows) = (body.n, programme.places.len());
-        Ok(Self { body, theta, drag, programme, b: vec![0.0; n], last: vec![0.0; rows], pushed: false, frozen: 0 })
+        let (n, rows) = (body.n, programme.count_rows());
+        Ok(Self {
+            body,
+            theta,
+            drag,
+            programme,
+            b: vec![0.0; n],
+            ahead: vec![0.0; n],
+            last: vec![0.0; rows],
+            pushed: Vec::with_capacity(scene.walls.len()),
+            frozen: 0,
+        })
     }
 
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
@@ -43,28 +55,24 @@ impl MoreauJean {
         let (h, theta) = (body.h, *theta);
         frame.begin(step, h);
         b.iter_mut().zip(&frame.extra).for_each(|(b, extra)| *b = h * extra);
-        body.loads.add_force(frame.start, h * (1.0 - theta), b);
-        body.loads.add_force(frame.end, h * theta, b);
+        body.add_load(frame.end, h * (1.0 - theta), h * theta, b);
         drag.add_product(-h, &frame.v, b);
         body.stiffness.add_product(-h, &frame.q, b);
         frame.before.copy_from_slice(&frame.v);
         frame.blown = body.strike(frame.start, frame.end, &frame.v, b, &mut frame.struck);
         self.bind(frame);
-        let body = &self.body;
-        let upper = |wall: usize| body.walls[wall].upper;
-        let touched = self.programme.solve(&self.b, frame.start, step, upper, &mut frame.impulse)?;
+        self.programme.solve(&self.b, (frame.start, step), &mut frame.impulse, &mut frame.pushing)?;
         let delta = self.programme.x();
         for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(delta) {
             *q += h * (*v + theta * d);
             *v += d;
         }
         frame.after.copy_from_slice(&frame.v);
-        frame.touched = touched;
-        if touched {
-            frame.force.iter_mut().zip(&frame.impulse).for_each(|(f, p)| *f = p / h);
+        for &wall in &frame.pushing {
+            frame.force[wall] = frame.impulse[wall] / h;
         }
-        if touched || self.pushed {
-            self.watch_freezing(&frame.impulse);
+        if !self.pushed.is_empty() || !frame.pushing.is_empty() {
+            self.watch_freezing(frame);
         }
         Ok(())
     }
@@ -73,25 +81,30 @@ impl MoreauJean {
     #[inline]
     fn bind(&mut self, frame: &Frame) {
         let (h, ht) = (self.body.h, self.body.h * self.theta);
-        for row in 0..self.programme.places.len() {
-            let (w, before) = (self.programme.rows.dot(row, &frame.q), self.programme.rows.dot(row, &frame.v));
-            let struck = if frame.blown { self.programme.rows.dot(row, &frame.struck) } else { before };
-            let reach = w + 0.5 * h * struck;
-            self.programme.free(row);
-            for seat in 0..self.programme.places[row].walls.len() {
-                let index = self.programme.places[row].walls[seat];
-                let wall = self.body.walls[index];
+        for ((ahead, q), v) in self.ahead.iter_mut().zip(&frame.q).zip(frame.struck()) {
+            *ahead = q + 0.5 * h * v;
+        }
+        let programme = &mut self.programme;
+        for row in 0..programme.count_rows() {
+            let reach = programme.seen(row, &self.ahead);
+            programme.free(row);
+            if programme.is_clear(row, reach) {
+                continue;
+            }
+            let (w, before) = (programme.seen(row, &frame.q), programme.seen(row, &frame.v));
+            let struck = programme.seen(row, frame.struck());
+            for seat in programme.seats(row) {
+                let wall = programme.seat(seat).stop;
                 match wall.law {
                     WallLaw::Elastic { stiffness, damping } => {
                         let stiff = stiffness + damping / ht;
                         let ahead = w + ht * before;
                         let offset = h * (stiffness * (ahead - wall.g) + damping * (ahead - wall.plate(w)) / ht);
-                        self.programme.bound(row, index, wall.upper, -offset / (ht * ht * stiff));
+                        programme.bind(row, seat, -offset / (ht * ht * stiff));
                     }
                     WallLaw::Rigid { restitution } if wall.depth(reach) >= -self.body.touch => {
                         let epsilon = if wall.sign * struck <= 0.0 { restitution } else { 1.0 };
-                        let bound = -(1.0 + epsilon) * struck + (struck - before);
-                        self.programme.bound(row, index, wall.upper, bound);
+                        programme.bind(row, seat, -(1.0 + epsilon) * struck + (struck - before));
                     }
                     _ => {}
                 }
@@ -100,15 +113,18 @@ impl MoreauJean {
     }
 
     /// Counts a step in which the walls on opposite sides of one place took turns.
-    fn watch_freezing(&mut self, impulse: &[f64]) {
-        self.pushed = false;
-        let mut frozen = false;
-        for (place, last) in self.programme.places.iter().zip(&mut self.last) {
-            let push: f64 = if place.rigid { place.walls.iter().map(|&wall| impulse[wall]).sum() } else { 0.0 };
-            let side = if push == 0.0 { 0.0 } else { push.signum() };
-            frozen |= side * *last < 0.0;
-            self.pushed |= side != 0.0;
-            *last = side;
+    fn watch_freezing(&mut self, frame: &Frame) {
+        let row_of = |wall: usize| self.programme.row_of(wall);
+        let frozen = frame.pushing.iter().any(|&wall| self.last[row_of(wall)] * frame.impulse[wall] < 0.0);
+        for row in self.pushed.drain(..) {
+            self.last[row] = 0.0;
+        }
+        for &wall in &frame.pushing {
+            let row = row_of(wall);
+            if self.programme.is_rigid(row) {
+                self.last[row] = frame.impulse[wall].signum();
+                self.pushed.push(row);
+            }
         }
         self.frozen += u64::from(frozen);
     }

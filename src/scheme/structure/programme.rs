@@ -5,32 +5,37 @@
 //! Rigid walls at one place (one row g) share a row of the programme: the tightest bound of each side counts, and walls that stand at that bound share its force equally.
 //! An elastic wall has a row of its own.
 
+use super::body::{Stop, touching_distance};
 use crate::error::{Error, Result};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{self, Backend, Failure, Rhs};
-use crate::scene::{Scene, Wall, WallLaw};
+use crate::scene::{Scene, Side, Wall, WallLaw};
 use crate::scheme::Counters;
 
-/// A row of the programme and the walls behind it.
-#[derive(Debug, Clone)]
-pub(super) struct Place {
-    /// Indices of the walls in the scene.
-    pub walls: Vec<usize>,
-    /// False for the single elastic wall.
-    pub rigid: bool,
+/// A wall behind a row of the programme.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seat {
+    /// Index in the scene.
+    pub wall: usize,
+    pub stop: Stop,
 }
 
 /// The programme, its bounds, and the solver that answers it.
 #[derive(Debug)]
 pub(super) struct Programme {
     solver: qp::Solver,
-    pub rows: Rows,
-    pub places: Vec<Place>,
+    rows: Rows,
+    /// The walls by row, and where those of each row start.
+    seats: Vec<Seat>,
+    starts: Vec<usize>,
+    row_of: Vec<usize>,
+    /// The open interval of g·q, m, in which a row's rigid walls are not touched; empty for an elastic wall, which asks for a look in every step.
+    clear: Vec<(f64, f64)>,
     /// Bounds of each row; a kernel writes them before it solves.
-    pub lo: Vec<f64>,
-    pub hi: Vec<f64>,
+    lo: Vec<f64>,
+    hi: Vec<f64>,
     names: Vec<String>,
-    /// Bound that each wall stands for, in the row's unit; written through [`Programme::bound`].
+    /// Bound that each seat stands for, in the row's unit.
     bound: Vec<f64>,
 }
 
@@ -46,39 +51,98 @@ impl Programme {
         compliance: impl Fn(f64, f64) -> f64,
         backend: Backend,
     ) -> Result<Self> {
-        let mut places: Vec<Place> = Vec::new();
+        let mut places: Vec<Vec<usize>> = Vec::new();
         for (index, wall) in scene.walls.iter().enumerate() {
-            let rigid = wall.law.is_rigid();
-            let shared = |place: &&mut Place| {
-                let first = place.walls.first().and_then(|&w| scene.walls.get(w));
-                rigid && place.rigid && first.is_some_and(|first: &Wall| first.at == wall.at)
+            let rigid = |wall: &Wall| wall.law.is_rigid();
+            let shared = |place: &&mut Vec<usize>| {
+                let first = place.first().and_then(|&w| scene.walls.get(w));
+                rigid(wall) && first.is_some_and(|first| rigid(first) && first.at == wall.at)
             };
             match places.iter_mut().find(shared) {
-                Some(place) => place.walls.push(index),
-                None => places.push(Place { walls: vec![index], rigid }),
+                Some(place) => place.push(index),
+                None => places.push(vec![index]),
             }
         }
-        let first = |place: &Place| place.walls.first().and_then(|&w| scene.walls.get(w));
-        let n = a.size();
-        let rows = Rows::new(n, places.iter().filter_map(|p| first(p).map(|wall| wall.at.entries())));
-        let soft = |place: &Place| match first(place).map(|wall| wall.law) {
+        let walls = |place: &[usize]| place.iter().filter_map(|&w| scene.walls.get(w)).collect::<Vec<_>>();
+        let rows = Rows::new(a.size(), places.iter().filter_map(|p| walls(p).first().map(|w| w.at.entries())));
+        let soft = |place: &Vec<usize>| match walls(place).first().map(|wall| wall.law) {
             Some(WallLaw::Elastic { stiffness, damping }) => compliance(stiffness, damping),
             _ => 0.0,
         };
-        let compliance = places.iter().map(soft).collect();
-        let names = scene.walls.iter().map(|wall| wall.name.clone()).collect();
-        let problem = qp::Problem { a, g: rows.clone(), compliance };
+        let problem = qp::Problem { a, g: rows.clone(), compliance: places.iter().map(soft).collect() };
         let solver = qp::Solver::new(problem, backend, scale).map_err(|f| failure(&f, None, 0.0, 0))?;
-        let m = places.len();
+        let (mut seats, mut starts, m) = (Vec::new(), vec![0], places.len());
+        for place in &places {
+            seats.extend(place.iter().filter_map(|&w| Some(Seat { wall: w, stop: Stop::new(scene.walls.get(w)?) })));
+            starts.push(seats.len());
+        }
+        let mut row_of = vec![0; scene.walls.len()];
+        for (row, place) in places.iter().enumerate() {
+            place.iter().for_each(|&wall| row_of[wall] = row);
+        }
+        let touch = touching_distance(scene);
+        let interval = |place: &Vec<usize>| {
+            let ends = |(lo, hi): (f64, f64), w: &&Wall| match (w.law.is_rigid(), w.side) {
+                (false, _) => (f64::INFINITY, f64::NEG_INFINITY),
+                (true, Side::Upper) => (lo, hi.min(w.position - 2.0 * touch)),
+                (true, Side::Lower) => (lo.max(w.position + 2.0 * touch), hi),
+            };
+            walls(place).iter().fold((f64::NEG_INFINITY, f64::INFINITY), ends)
+        };
         Ok(Self {
             solver,
             rows,
-            places,
+            clear: places.iter().map(interval).collect(),
+            bound: vec![0.0; seats.len()],
+            seats,
+            starts,
+            row_of,
             lo: vec![f64::NEG_INFINITY; m],
             hi: vec![f64::INFINITY; m],
-            names,
-            bound: vec![0.0; scene.walls.len()],
+            names: scene.walls.iter().map(|wall| wall.name.clone()).collect(),
         })
+    }
+
+    /// Number of rows.
+    pub fn count_rows(&self) -> usize {
+        self.lo.len()
+    }
+
+    /// g·x of a row.
+    #[inline]
+    pub fn seen(&self, row: usize, x: &[f64]) -> f64 {
+        self.rows.dot(row, x)
+    }
+
+    /// True if no wall of a row is touched at the displacement `w` (m), with twice the touching distance to spare, and none asks for a look.
+    #[inline]
+    pub fn is_clear(&self, row: usize, w: f64) -> bool {
+        let (lo, hi) = self.clear[row];
+        lo < w && w < hi
+    }
+
+    /// The row that a wall is behind.
+    #[inline]
+    pub fn row_of(&self, wall: usize) -> usize {
+        self.row_of[wall]
+    }
+
+    /// False for the row of an elastic wall.
+    #[inline]
+    pub fn is_rigid(&self, row: usize) -> bool {
+        self.seats[self.starts[row]].stop.law.is_rigid()
+    }
+
+    /// Numbers of the seats of a row.
+    #[inline]
+    pub fn seats(&self, row: usize) -> std::ops::Range<usize> {
+        self.starts[row]..self.starts[row + 1]
+    }
+
+    /// The wall at a seat.
+    #[inline]
+    pub fn seat(&self, seat: usize) -> Seat {
+        self.seats[seat]
     }
 
     /// Frees row `row`, before its walls are bound.
@@ -88,59 +152,62 @@ impl Programme {
         self.hi[row] = f64::INFINITY;
     }
 
-    /// Binds row `row` on behalf of `wall`: g·x ≤ `value` for an upper wall, ≥ for a lower one. The tightest of a row counts.
+    /// Binds row `row` on behalf of the wall at `seat`: g·x ≤ `value` for an upper wall, ≥ for a lower one. The tightest of a row counts.
     #[inline]
-    pub fn bound(&mut self, row: usize, wall: usize, upper: bool, value: f64) {
-        self.bound[wall] = value;
-        if upper {
+    pub fn bind(&mut self, row: usize, seat: usize, value: f64) {
+        self.bound[seat] = value;
+        if self.seats[seat].stop.upper {
             self.hi[row] = self.hi[row].min(value);
         } else {
             self.lo[row] = self.lo[row].max(value);
         }
     }
 
-    /// Solves; the minimiser is [`Programme::x`] until the next call. Returns whether any wall pushes, with the multipliers of the walls in `force`, which is all zero before.
+    /// Solves: the minimiser is [`Programme::x`] until the next call. Writes the multiplier of each wall that pushes to `force`, which is all zero before, and its
+    /// index to `pushing`.
     #[inline]
     pub fn solve(
         &mut self,
         b: &[f64],
-        time: f64,
-        step: u64,
-        upper: impl Fn(usize) -> bool,
+        (time, step): (f64, u64),
         force: &mut [f64],
-    ) -> Result<bool> {
+        pushing: &mut Vec<usize>,
+    ) -> Result<()> {
         let rhs = Rhs { b, lo: &self.lo, hi: &self.hi };
         let solution = match self.solver.solve(&rhs) {
             Ok(solution) => solution,
             Err(fault) => {
                 let name = |row: usize| {
-                    let wall = self.places.get(row).and_then(|p| p.walls.first())?;
-                    self.names.get(*wall).cloned()
+                    let seat = self.starts.get(row).and_then(|&first| self.seats.get(first))?;
+                    self.names.get(seat.wall).cloned()
                 };
                 let wall = if let Failure::Infeasible { row, .. } = fault { name(row) } else { None };
                 return Err(failure(&fault, wall, time, step));
             }
         };
-        let mut pushes = false;
-        for ((row, place), &r) in self.places.iter().enumerate().zip(&solution.multiplier) {
+        for (row, &r) in solution.multiplier.iter().enumerate() {
             if r == 0.0 {
                 continue;
             }
-            pushes = true;
-            if let [wall] = *place.walls {
-                force[wall] = r;
+            let range = self.starts[row]..self.starts[row + 1];
+            if let [seat] = self.seats[range.clone()] {
+                force[seat.wall] = r;
+                pushing.push(seat.wall);
                 continue;
             }
             // The walls that stand at the bound which holds.
             let held = if r < 0.0 { self.hi[row] } else { self.lo[row] };
             let near = ONE_PLACE * held.abs();
-            let carries = |wall: &&usize| upper(**wall) == (r < 0.0) && (self.bound[**wall] - held).abs() <= near;
-            let carriers = place.walls.iter().filter(carries).count();
-            for &wall in place.walls.iter().filter(carries) {
+            let carries =
+                |seat: &usize| self.seats[*seat].stop.upper == (r < 0.0) && (self.bound[*seat] - held).abs() <= near;
+            let carriers = range.clone().filter(carries).count();
+            for seat in range.filter(carries) {
+                let wall = self.seats[seat].wall;
                 force[wall] = r / carriers as f64;
+                pushing.push(wall);
             }
         }
-        Ok(pushes)
+        Ok(())
     }
 
     /// The minimiser of the last programme solved.
