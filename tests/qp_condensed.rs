@@ -152,7 +152,9 @@ fn difference(judge: &Judge, scale: f64, a: (&[f64], &[f64]), b: (&[f64], &[f64]
     let weight = |i: usize| judge.w[(i, i)].sqrt();
     let force = most(&mut a.1.iter().enumerate().map(|(i, r)| r * weight(i)));
     let apart = most(&mut a.1.iter().zip(b.1).enumerate().map(|(i, (a, b))| (a - b) * weight(i)));
-    (x, if apart == 0.0 { 0.0 } else { apart / force.max(scale / weight(0).max(f64::MIN_POSITIVE) * 1e-3) })
+    // Forces that move nothing by more than 1e-3 of the scale are compared with those that would.
+    let least = 1e-3 * scale / most(&mut (0..a.1.len()).map(weight));
+    (x, if apart == 0.0 { 0.0 } else { apart / force.max(least) })
 }
 
 #[test]
