@@ -66,9 +66,10 @@ const LOOSER: f64 = 10.0;
 /// Times that it may grow.
 const LOOSENINGS: u32 = 3;
 
-/// Passes after which a programme of m rows counts as not settled. Most take one or two, and a cold start of 500 rows some 20.
+/// Passes after which a programme of m rows counts as not settled. Most take one or two; the most are taken where
+/// many more rows than unknowns are violated at once.
 pub(super) fn passes(m: usize) -> usize {
-    50 + m
+    100 + 10 * m
 }
 
 /// Tells a state that has been there before, by the method of Brent 1980 (doi:10.1007/BF01933190).
