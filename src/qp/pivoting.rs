@@ -143,11 +143,6 @@ impl Pivoting {
         }
     }
 
-    /// Rows with a force, increasing.
-    pub(super) fn rows(&self) -> &[usize] {
-        self.block.rows()
-    }
-
     /// Starts from the states of the rows and ends with the exact r (m entries). `scale` is the length that signs of gaps are tested
     /// against, or the row's free motion where that is larger. Returns the number of exchanges.
     pub(super) fn solve(
