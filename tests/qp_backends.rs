@@ -168,7 +168,7 @@ fn the_matrix_on_which_plain_active_sets_cycle_is_solved() {
 #[test]
 fn walls_at_one_place_do_not_stop_either_solver() {
     // Three rows see the same motion; the tightest holds, and the force on the body is what it must be.
-    for backend in [Backend::Clamp, Backend::Clarabel] {
+    for backend in [Backend::Clamp, Backend::Condensed, Backend::Clarabel] {
         let problem = Dense {
             a: DMatrix::from_element(1, 1, 2.0),
             g: DMatrix::from_element(3, 1, 1.0),
@@ -200,7 +200,7 @@ fn walls_at_one_place_do_not_stop_either_solver() {
 #[test]
 fn bounds_that_cross_are_named() {
     let (inf, free) = (f64::INFINITY, f64::NEG_INFINITY);
-    for backend in [Backend::Clamp, Backend::Clarabel] {
+    for backend in [Backend::Clamp, Backend::Condensed, Backend::Clarabel] {
         let problem = Dense {
             a: DMatrix::from_element(1, 1, 2.0),
             g: DMatrix::from_element(3, 1, 1.0),
@@ -218,7 +218,7 @@ fn bounds_that_cross_are_named() {
 
 #[test]
 fn a_number_that_is_none_is_refused_and_the_solver_goes_on() {
-    for backend in [Backend::Clamp, Backend::Clarabel] {
+    for backend in [Backend::Clamp, Backend::Condensed, Backend::Clarabel] {
         let problem = Dense {
             a: DMatrix::from_element(1, 1, 2.0),
             g: DMatrix::from_element(1, 1, 1.0),
@@ -270,7 +270,7 @@ fn backends_are_known_by_their_names() {
 
 #[test]
 fn a_row_that_sees_nothing_carries_nothing_unless_it_cannot_be_met() {
-    for backend in [Backend::Clamp, Backend::Clarabel] {
+    for backend in [Backend::Clamp, Backend::Condensed, Backend::Clarabel] {
         let problem = Dense {
             a: DMatrix::from_element(1, 1, 2.0),
             g: DMatrix::from_row_slice(2, 1, &[1.0, 0.0]),

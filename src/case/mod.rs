@@ -9,15 +9,26 @@
 //! # Ok::<(), signorini::Error>(())
 //! ```
 
+mod accepted;
 mod build;
+mod damping;
 mod embedded;
 mod file;
+mod initial;
+mod model;
 mod penalty;
+mod place;
 mod report;
+mod system;
 mod table;
+mod truncated;
+mod value;
+mod walls;
 
 pub use embedded::Embedded;
+pub use model::{Model, Place};
 pub use penalty::PenaltyOptions;
+pub use truncated::Truncated;
 
 use crate::error::{Error, Result};
 use crate::scene::Scene;
@@ -35,8 +46,14 @@ pub struct Case {
     pub title: Option<String>,
     /// Where the case comes from.
     pub source: Option<String>,
-    /// What is simulated; its duration is `time.end`.
+    /// What its system was made from.
+    pub model: Model,
+    /// Where each wall sits, in the scene's order.
+    pub places: Vec<Place>,
+    /// What is simulated, in modal coordinates where the case is cut to modes; its duration is `time.end`.
     pub scene: Scene,
+    /// What it was cut from, and what that cost; none for a case that runs in full.
+    pub truncated: Option<Truncated>,
     /// Step, recording and statistics.
     pub time: TimeOptions,
     /// What penalty runs use.

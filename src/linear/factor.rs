@@ -63,6 +63,15 @@ impl Factor {
         }
     }
 
+    /// Multiplications and additions of one solve.
+    #[must_use]
+    pub fn work(&self) -> usize {
+        match &self.kind {
+            Kind::Band(factor) => self.n * (4 * factor.width() + 1),
+            Kind::Sparse(factor) => self.n + 4 * factor.stored(),
+        }
+    }
+
     /// What kind of factor it is: a word or two for a summary.
     #[must_use]
     pub fn describe(&self) -> String {

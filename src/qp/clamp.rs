@@ -216,7 +216,8 @@ impl Clamp {
     }
 
     pub(super) fn solve(&mut self, rhs: &Rhs, solution: &mut Solution) -> Result<(), Failure> {
-        rhs.check(1, self.rows.len(), self.scale)?;
+        rhs.shape(1, self.rows.len())?;
+        rhs.check(self.scale)?;
         for (i, (row, &g)) in self.rows.iter_mut().zip(&self.coefficient).enumerate() {
             let (lo, hi) = meet(rhs.lo[i], rhs.hi[i]);
             (row.lo, row.hi) = if g > 0.0 {

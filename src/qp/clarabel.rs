@@ -9,10 +9,10 @@
 //! units (its stopping test compares with 1), the linear term is 0 and only `update_b` is needed. An elastic row is a
 //! rigid one with an unknown yield s of cost s²/(2c) added to g·x.
 
-use super::active_set::{ActiveSet, Side};
 use super::clamp::meet;
 use super::delassus::Delassus;
-use super::{Failure, Problem, Rhs};
+use super::pivoting::{Pivoting, Side};
+use super::{Failure, NOISE, Problem, Rhs};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 
@@ -34,10 +34,6 @@ const STEPS: [f64; 3] = [0.99, 0.9, 0.7];
 
 /// Iterations before such a cycle is recognised; 8 is usual, and 23 the most that 2e5 random programmes took.
 const ITERATIONS: u32 = 40;
-
-/// Rounding of bounds and free motion, relative to the lengths in play: opened too, since at a violation of this size
-/// the bounds of walls at one place cross by as much.
-pub(super) const NOISE: f64 = 16.0 * f64::EPSILON;
 
 /// One persistent solver over the sides of rows that have been finite so far.
 pub(super) struct Clarabel {
@@ -80,15 +76,15 @@ impl Clarabel {
         }
     }
 
-    /// Solves for the free motion held in `system`, whose largest violation is `violation` > 0, and calls into `play`
-    /// the rows whose multiplier exceeds their gap. Returns the number of iterations.
+    /// Solves for the free motion held in `system`, whose largest violation is `violation` > 0, and puts on their bounds
+    /// the rows whose multiplier exceeds their gap, all others free. Returns the number of iterations.
     pub(super) fn find(
         &mut self,
         system: &Delassus,
         rhs: &Rhs,
         violation: f64,
         scale: f64,
-        play: &mut ActiveSet,
+        play: &mut Pivoting,
     ) -> Result<u64, Failure> {
         self.learn(rhs);
         self.bound.clear();
@@ -96,6 +92,7 @@ impl Clarabel {
             let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
             let gap = if side == Side::Lower { system.y[row] - lo } else { hi - system.y[row] };
             let unit = system.weight[row] * violation;
+            // Rounding is opened too: at a violation of its size the bounds of walls at one place cross by as much.
             self.bound.push((gap / unit).min(DISTANT) + OPENING + NOISE * scale / unit);
         }
         match &mut self.solver {
@@ -106,10 +103,11 @@ impl Clarabel {
         }
         let Some(solver) = &mut self.solver else { return Err(Failure::NotSolved { status: "not built" }) };
         let iterations = run(solver)?;
+        play.clear();
         let solution = &solver.solution;
         for (i, &(row, side)) in self.sides.iter().enumerate() {
             if solution.z[i] > solution.s[i] {
-                play.push(system, row, side);
+                play.call(row, side);
             }
         }
         Ok(iterations)

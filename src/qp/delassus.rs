@@ -1,74 +1,203 @@
 //! The programme condensed onto its rows.
+//!
+//! W = G A⁻¹ Gᵀ + diag(c) says how far row i moves per unit of force on row j. In a chain, a bar or a tube that is stepped through
+//! time the answer to a force dies away from it, so only the entries of a row that matter are kept: from the first to the
+//! last column with |Wᵢⱼ| > 1e-20 √(Wᵢᵢ Wⱼⱼ). What is left out is 1e-4 of half an ulp of the motion that the same force causes
+//! at its own row, so that all of it together, up to 1e4 rows, is below the rounding of W itself.
 
-use super::{Failure, Problem};
+use super::{Failure, Problem, Rhs};
 use crate::linear::{Factor, Rows};
-use nalgebra::{DMatrix, DVector};
 
-/// A factored once, and the Delassus operator W = G A⁻¹ Gᵀ + diag(c), m × m, in units of displacement per force.
+/// Share of a force's own motion below which its motion elsewhere is nothing (dimensionless; see above).
+const NOTHING: f64 = 1e-20;
+
+/// Most entries of A⁻¹Gᵀ that are kept, 32 MB of them: beyond, x is found by solving with A again.
+const MOST_COLUMNS: usize = 1 << 22;
+
+/// A row takes what others push it by for rounding of its own if they add up to less than this share (dimensionless). It only chooses
+/// the guess that pivoting starts from.
+const LOOSE: f64 = 0.1;
+
+/// Slices of different lengths, each a run of entries of a longer row that begins at its first column.
+#[derive(Default)]
+struct Runs {
+    starts: Vec<usize>,
+    first: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl Runs {
+    fn with_capacity(rows: usize) -> Self {
+        Self { starts: vec![0], first: Vec::with_capacity(rows), values: Vec::new() }
+    }
+
+    /// Adds the run of `row` from its first to its last entry that is wanted; empty where none is.
+    fn push(&mut self, row: &[f64], wanted: impl Fn(usize, f64) -> bool) {
+        let keep = |&i: &usize| wanted(i, row[i]);
+        let first = (0..row.len()).find(keep).unwrap_or(0);
+        let end = (first..row.len()).rev().find(keep).map_or(first, |last| last + 1);
+        self.first.push(first);
+        self.values.extend_from_slice(&row[first..end]);
+        self.starts.push(self.values.len());
+    }
+
+    #[inline]
+    fn row(&self, i: usize) -> (usize, &[f64]) {
+        (self.first[i], &self.values[self.starts[i]..self.starts[i + 1]])
+    }
+
+    /// Adds `factor` times run i to `out`.
+    #[inline]
+    fn add(&self, i: usize, factor: f64, out: &mut [f64]) {
+        let (first, values) = self.row(i);
+        for (out, value) in out[first..first + values.len()].iter_mut().zip(values) {
+            *out += factor * value;
+        }
+    }
+}
+
+/// A factored once, and the Delassus operator W, in units of displacement per force.
 pub(super) struct Delassus {
     factor: Factor,
-    pub(super) g: Rows,
-    /// W.
-    pub(super) w: DMatrix<f64>,
+    g: Rows,
+    /// Column and value of each row where every row has one entry, as walls on degrees of freedom have: read without searching.
+    single: Option<Vec<(usize, f64)>>,
+    /// W by rows, m of them.
+    w: Runs,
+    /// A⁻¹Gᵀ by columns, m of them, each a run over the n unknowns; `None` where they would be too many.
+    columns: Option<Runs>,
+    /// Multiplications and additions that solving with A costs, against those of adding one entry of a column.
+    solving: usize,
     /// √Wᵢᵢ, m entries: a row's displacement over it is comparable with any other row's; 1 where Wᵢᵢ = 0.
-    pub(super) weight: DVector<f64>,
-    /// b of the present programme, n entries.
-    load: Vec<f64>,
-    /// x without any row, n entries.
-    free: Vec<f64>,
+    pub(super) weight: Vec<f64>,
+    /// True if every row answers to its own force almost alone: rows that the free motion violates are then the rows in play.
+    pub(super) loose: bool,
     /// G x without any row, m entries.
-    pub(super) y: DVector<f64>,
+    pub(super) y: Vec<f64>,
 }
 
 impl Delassus {
     pub(super) fn new(problem: &Problem) -> Result<Self, Failure> {
         let (n, m) = (problem.a.size(), problem.g.count());
         let mut factor = Factor::new(&problem.a).map_err(|_| Failure::NotPositiveDefinite)?;
-        let mut w = DMatrix::zeros(m, m);
-        let mut response = vec![0.0; n];
-        for j in 0..m {
-            response.fill(0.0);
-            problem.g.add_transposed(j, 1.0, &mut response);
-            factor.solve(&mut response);
-            for i in 0..m {
-                w[(i, j)] = problem.g.dot(i, &response);
-            }
-        }
-        // Symmetric to the last bit, which the factor's rounding is not.
-        for j in 0..m {
-            for i in 0..j {
-                let mean = 0.5 * (w[(i, j)] + w[(j, i)]);
-                (w[(i, j)], w[(j, i)]) = (mean, mean);
-            }
-        }
-        for (i, &c) in problem.compliance.iter().enumerate() {
-            w[(i, i)] += c;
-        }
-        let weight = w.diagonal().map(|d| if d > 0.0 { d.sqrt() } else { 1.0 });
         let g = problem.g.clone();
-        Ok(Self { factor, g, w, weight, load: vec![0.0; n], free: vec![0.0; n], y: DVector::zeros(m) })
+        let unit: Vec<f64> = problem.a.diagonal_entries().iter().map(|d| d.sqrt()).collect();
+        let mut response = vec![0.0; n];
+        let mut respond = |j: usize, response: &mut [f64]| {
+            response.fill(0.0);
+            g.add_transposed(j, 1.0, response);
+            factor.solve(response);
+        };
+        // Wⱼⱼ of all rows come first, since the others are measured by them.
+        let mut weight = vec![0.0; m];
+        let mut columns = Some(Runs::with_capacity(m));
+        for j in 0..m {
+            respond(j, &mut response);
+            let own = g.dot(j, &response) + problem.compliance[j];
+            weight[j] = if own > 0.0 { own.sqrt() } else { 1.0 };
+            if let Some(runs) = &mut columns {
+                // √Aᵢᵢ is at most 1/√(A⁻¹)ᵢᵢ, so no unknown of small motion is cut too early.
+                runs.push(&response, |i, v| v.abs() * unit[i] > NOTHING * weight[j]);
+                if runs.values.len() > MOST_COLUMNS {
+                    columns = None;
+                }
+            }
+        }
+        let mut w = Runs::with_capacity(m);
+        let mut row = vec![0.0; m];
+        for j in 0..m {
+            match &columns {
+                Some(runs) => {
+                    response.fill(0.0);
+                    runs.add(j, 1.0, &mut response);
+                }
+                None => respond(j, &mut response),
+            }
+            g.product(&response, &mut row);
+            row[j] += problem.compliance[j];
+            w.push(&row, |i, v| i == j || v.abs() > NOTHING * weight[i] * weight[j]);
+        }
+        symmetrise(&mut w);
+        let loose = (0..m).all(|i| {
+            let (first, row) = w.row(i);
+            let others: f64 = row.iter().enumerate().map(|(k, v)| v.abs() / weight[first + k]).sum();
+            others - weight[i] <= LOOSE * weight[i]
+        });
+        let single = (0..m).all(|i| g.row(i).len() == 1).then(|| (0..m).map(|i| g.row(i)[0]).collect());
+        let solving = factor.work();
+        Ok(Self { factor, g, single, w, columns, solving, weight, loose, y: vec![0.0; m] })
     }
 
-    /// The free motion under b: fills x and y as if there were no rows.
-    pub(super) fn release(&mut self, b: &[f64]) -> Result<(), Failure> {
-        self.load.copy_from_slice(b);
-        self.free.copy_from_slice(b);
-        self.factor.solve(&mut self.free);
-        super::finite("free motion", &self.free, |v| v.is_finite())?;
-        self.g.product(&self.free, self.y.as_mut_slice());
-        super::finite("free displacement of row", self.y.as_slice(), |v| v.is_finite())
+    /// m.
+    pub(super) fn count(&self) -> usize {
+        self.weight.len()
     }
 
-    /// x = A⁻¹(b + Gᵀ r).
-    pub(super) fn respond(&mut self, r: &[f64], x: &mut [f64]) {
-        if r.iter().all(|&force| force == 0.0) {
-            x.copy_from_slice(&self.free);
+    /// Row i of W: the column that it begins at, and its entries; all others are nothing.
+    #[inline]
+    pub(super) fn row(&self, i: usize) -> (usize, &[f64]) {
+        self.w.row(i)
+    }
+
+    /// Adds the motion that force r on row i causes to that of all rows.
+    #[inline]
+    pub(super) fn push(&self, i: usize, r: f64, y: &mut [f64]) {
+        self.w.add(i, r, y);
+    }
+
+    /// The free motion under b: fills x and y as if there were no rows. True if all of it is finite and within bounds.
+    #[inline]
+    pub(super) fn release(&mut self, rhs: &Rhs, x: &mut [f64]) -> bool {
+        x.copy_from_slice(rhs.b);
+        self.factor.solve(x);
+        match &self.single {
+            Some(rows) => {
+                for (y, &(column, value)) in self.y.iter_mut().zip(rows) {
+                    *y = value * x[column];
+                }
+            }
+            None => self.g.product(x, &mut self.y),
+        }
+        // Without branches, so that several are looked at at once; a NaN is within nothing.
+        let mut inside = true;
+        for ((&y, &lo), &hi) in self.y.iter().zip(rhs.lo).zip(rhs.hi) {
+            inside &= (lo <= y) & (y <= hi);
+        }
+        for value in x.iter() {
+            inside &= value.abs() < f64::INFINITY;
+        }
+        inside
+    }
+
+    /// Turns the free motion x into x = A⁻¹(b + Gᵀ r), whose non-zero forces are those of `rows`.
+    pub(super) fn respond(&mut self, b: &[f64], rows: &[usize], r: &[f64], x: &mut [f64]) {
+        if let Some(columns) = &self.columns
+            && rows.iter().map(|&i| columns.row(i).1.len()).sum::<usize>() <= self.solving
+        {
+            for &i in rows {
+                columns.add(i, r[i], x);
+            }
             return;
         }
-        x.copy_from_slice(&self.load);
-        for (i, &force) in r.iter().enumerate().filter(|(_, force)| **force != 0.0) {
-            self.g.add_transposed(i, force, x);
+        x.copy_from_slice(b);
+        for &i in rows {
+            self.g.add_transposed(i, r[i], x);
         }
         self.factor.solve(x);
+    }
+}
+
+/// Makes W symmetric to the last bit, which the rounding of its columns is not.
+fn symmetrise(w: &mut Runs) {
+    for j in 0..w.first.len() {
+        for i in w.first[j]..j {
+            let at = w.starts[j] + i - w.first[j];
+            let Some(offset) = j.checked_sub(w.first[i]).filter(|k| w.starts[i] + k < w.starts[i + 1]) else {
+                continue;
+            };
+            let opposite = w.starts[i] + offset;
+            let mean = 0.5 * (w.values[at] + w.values[opposite]);
+            (w.values[at], w.values[opposite]) = (mean, mean);
+        }
     }
 }

@@ -18,12 +18,13 @@
 
 use crate::linear::{Rows, Symmetric};
 
-mod active_set;
 mod backend;
+mod block;
 mod clamp;
 mod clarabel;
 mod delassus;
 mod failure;
+mod pivoting;
 mod solver;
 
 pub use backend::Backend;
@@ -66,6 +67,9 @@ pub struct Solution {
 /// one place give bounds some ulps apart, 1e-16 each, after a scheme has combined them with states.
 const ROUNDING: f64 = 1e-12;
 
+/// Rounding of bounds and free motion, relative to the lengths in play (dimensionless): some ulps.
+const NOISE: f64 = 16.0 * f64::EPSILON;
+
 impl Problem {
     /// Sizes agree and every entry is a number: n ≥ 1, A n × n, G m × n, compliance m entries, none negative.
     fn check(&self) -> Result<(), Failure> {
@@ -85,11 +89,16 @@ impl Problem {
 }
 
 impl Rhs<'_> {
-    /// Sizes agree, b is finite, l < +∞, u > −∞, and no row's own bounds cross by more than rounding.
-    fn check(&self, n: usize, m: usize, scale: f64) -> Result<(), Failure> {
+    /// Sizes agree: n unknowns, m rows.
+    #[inline]
+    fn shape(&self, n: usize, m: usize) -> Result<(), Failure> {
         shape("entries of b", n, self.b.len())?;
         shape("lower bounds", m, self.lo.len())?;
-        shape("upper bounds", m, self.hi.len())?;
+        shape("upper bounds", m, self.hi.len())
+    }
+
+    /// b is finite, l < +∞, u > −∞, and no row's own bounds cross by more than rounding.
+    fn check(&self, scale: f64) -> Result<(), Failure> {
         finite("b", self.b, |v| v.is_finite())?;
         finite("lower bound", self.lo, |v| v < f64::INFINITY)?;
         finite("upper bound", self.hi, |v| v > f64::NEG_INFINITY)?;
@@ -106,7 +115,12 @@ fn shape(what: &'static str, expected: usize, found: usize) -> Result<(), Failur
     if expected == found { Ok(()) } else { Err(Failure::Shape { what, expected, found }) }
 }
 
+#[inline]
 fn finite(what: &'static str, values: &[f64], sound: impl Fn(f64) -> bool) -> Result<(), Failure> {
+    // Several at once where all is well.
+    if values.iter().fold(true, |all, &v| all & sound(v)) {
+        return Ok(());
+    }
     match values.iter().position(|&v| !sound(v)) {
         Some(index) => Err(Failure::NotFinite { what, index }),
         None => Ok(()),

@@ -1,10 +1,10 @@
 //! The solver in force, and what it has done.
 
-use super::active_set::ActiveSet;
 use super::clamp::{Clamp, meet};
-use super::clarabel::{Clarabel, NOISE};
+use super::clarabel::Clarabel;
 use super::delassus::Delassus;
-use super::{Backend, Failure, Problem, Rhs, Solution};
+use super::pivoting::{Pivoting, passes};
+use super::{Backend, Failure, NOISE, Problem, Rhs, Solution};
 use std::fmt;
 
 /// Solves one [`Problem`] for one [`Rhs`] after another. Allocates nothing after the first (what Clarabel allocates
@@ -28,20 +28,28 @@ pub struct Counters {
     pub free: u64,
     /// Iterations of the interior point.
     pub iterations: u64,
-    /// Changes that the polishing made to the rows the interior point called in play.
+    /// Rows that pivoting brought into play or freed, beyond those that it started from.
     pub pivots: u64,
+    /// Programmes on which the condensed solver's pivoting did not settle, so that Clarabel told it where to start.
+    pub fallbacks: u64,
 }
 
 enum Kind {
     Clamp(Clamp),
-    Clarabel(Box<Polished>),
+    Condensed(Box<Condensed>),
 }
 
-/// Clarabel, made exact: the rows it finds in play are solved as equalities, signs are checked, and pivots mend them.
-struct Polished {
+/// The programme on its rows, solved by pivoting from the last programme's rows in play or from those that Clarabel finds.
+struct Condensed {
     system: Delassus,
+    pivoting: Pivoting,
+    /// What the interior point is built from when it is needed.
+    problem: Problem,
     interior: Option<Clarabel>,
-    play: ActiveSet,
+    /// True if the interior point is asked every time.
+    always: bool,
+    /// Passes that pivoting has before the interior point is asked.
+    passes: usize,
 }
 
 impl Solver {
@@ -59,7 +67,10 @@ impl Solver {
         let (n, m) = (problem.a.size(), problem.g.count());
         let (clamp, reason) = match backend {
             Backend::Auto if n == 1 => (true, "one unknown: the programme is a clamp, exact and without iteration"),
-            Backend::Auto => (false, "several unknowns: condensed onto the walls, exact"),
+            Backend::Auto => (
+                false,
+                "several unknowns: condensed onto the walls, which is exact, and starts from the last step's contacts",
+            ),
             Backend::Clamp => (true, "the clamp was asked for"),
             Backend::Condensed => (false, "the condensed solver was asked for"),
             Backend::Clarabel => (false, "Clarabel was asked for"),
@@ -68,8 +79,16 @@ impl Solver {
             Kind::Clamp(Clamp::new(&problem, scale)?)
         } else {
             let system = Delassus::new(&problem)?;
-            let interior = (backend == Backend::Clarabel).then(|| Clarabel::new(&problem, &system));
-            Kind::Clarabel(Box::new(Polished { system, interior, play: ActiveSet::new(m) }))
+            let pivoting = Pivoting::new(&system);
+            let always = backend == Backend::Clarabel;
+            Kind::Condensed(Box::new(Condensed {
+                system,
+                pivoting,
+                problem,
+                interior: None,
+                always,
+                passes: passes(m),
+            }))
         };
         let solution = Solution { x: vec![0.0; n], multiplier: vec![0.0; m] };
         Ok(Self { kind, n, m, scale, reason, solution, counters: Counters::default() })
@@ -78,12 +97,13 @@ impl Solver {
     /// The minimiser and its multipliers for b and bounds of this step. After a failure the solver is as good as new,
     /// and the solution it holds means nothing.
     ///
-    /// Rigid rows that see the same motion (walls at one place) share no force: rows that follow from those in play stay
-    /// out of it. Which of them carries it is settled by order for the clamp, by the interior point for Clarabel.
+    /// Rigid rows that see the same motion (walls at one place, or more walls than the motion has freedoms) make the multipliers
+    /// ambiguous: of all that solve the programme, those of least Σ Wᵢᵢ rᵢ² are returned, W = G A⁻¹ Gᵀ + diag(c). Equal walls at one
+    /// place share equally.
     ///
     /// # Errors
     /// [`Failure::Shape`]; [`Failure::NotFinite`]; [`Failure::Infeasible`] if bounds cross by more than rounding;
-    /// [`Failure::NotSolved`] if Clarabel reports anything but `Solved`, or the polishing does not settle.
+    /// [`Failure::NotSolved`] if Clarabel, where it is needed, reports anything but `Solved`, or pivoting does not settle after it.
     pub fn solve(&mut self, rhs: &Rhs) -> Result<&Solution, Failure> {
         self.counters.solves += 1;
         match &mut self.kind {
@@ -91,9 +111,14 @@ impl Solver {
                 clamp.solve(rhs, &mut self.solution)?;
                 self.counters.free += u64::from(self.solution.multiplier.iter().all(|&r| r == 0.0));
             }
-            Kind::Clarabel(polished) => {
-                rhs.check(self.n, self.m, self.scale)?;
-                polished.solve(rhs, self.scale, &mut self.solution, &mut self.counters)?;
+            Kind::Condensed(condensed) => {
+                rhs.shape(self.n, self.m)?;
+                if condensed.system.release(rhs, &mut self.solution.x) {
+                    self.counters.free += 1;
+                    self.solution.multiplier.fill(0.0);
+                } else {
+                    condensed.solve(rhs, self.scale, &mut self.solution, &mut self.counters)?;
+                }
             }
         }
         Ok(&self.solution)
@@ -110,8 +135,8 @@ impl Solver {
     pub fn backend(&self) -> Backend {
         match &self.kind {
             Kind::Clamp(_) => Backend::Clamp,
-            Kind::Clarabel(polished) if polished.interior.is_some() => Backend::Clarabel,
-            Kind::Clarabel(_) => Backend::Condensed,
+            Kind::Condensed(condensed) if condensed.always => Backend::Clarabel,
+            Kind::Condensed(_) => Backend::Condensed,
         }
     }
 
@@ -139,7 +164,8 @@ impl fmt::Debug for Solver {
     }
 }
 
-impl Polished {
+impl Condensed {
+    /// Solves for the free motion held in `system` and `solution`, which is not strictly inside the bounds, or at fault.
     fn solve(
         &mut self,
         rhs: &Rhs,
@@ -147,31 +173,52 @@ impl Polished {
         solution: &mut Solution,
         counters: &mut Counters,
     ) -> Result<(), Failure> {
-        let Self { system, interior, play } = self;
-        system.release(rhs.b)?;
-        let scale = scale.max(system.y.amax());
+        let Solution { x, multiplier: r } = solution;
+        rhs.check(scale)?;
+        super::finite("free motion", x, |v| v.is_finite())?;
+        super::finite("free displacement of row", &self.system.y, |v| v.is_finite())?;
+        let Self { system, pivoting, .. } = self;
+        if !self.always {
+            if system.loose {
+                pivoting.call_violated(system, rhs);
+            }
+            match pivoting.solve(system, rhs, scale, self.passes, r) {
+                Err(Failure::NotSolved { .. }) => counters.fallbacks += 1,
+                Ok(pivots) => {
+                    counters.pivots += pivots;
+                    return self.answer(rhs, solution);
+                }
+                Err(failure) => {
+                    pivoting.clear();
+                    return Err(failure);
+                }
+            }
+        }
+        let scale = system.y.iter().fold(scale, |most, y| f64::max(most, y.abs()));
         let violation = violation(system, rhs, NOISE * scale);
         if violation <= 0.0 {
             counters.free += 1;
-            solution.multiplier.fill(0.0);
-            system.respond(&solution.multiplier, &mut solution.x);
+            r.fill(0.0);
             return Ok(());
         }
         super::finite("violation", &[violation], f64::is_finite)?;
-        play.clear();
-        match interior.as_mut().map(|interior| interior.find(system, rhs, violation, scale, play)) {
-            None => {}
-            Some(Ok(iterations)) => counters.iterations += iterations,
-            Some(Err(failure)) => {
-                // The interior point cannot say which bounds cross; the active set, from nothing, can.
-                play.clear();
-                play.solve(system, rhs.lo, rhs.hi, scale, &mut solution.multiplier)?;
+        let interior = self.interior.get_or_insert_with(|| Clarabel::new(&self.problem, system));
+        match interior.find(system, rhs, violation, scale, pivoting) {
+            Ok(iterations) => counters.iterations += iterations,
+            Err(failure) => {
+                // The interior point cannot say which bounds cross; pivoting, from nothing, can.
+                pivoting.clear();
+                pivoting.solve(system, rhs, scale, passes(r.len()), r)?;
                 return Err(failure);
             }
         }
-        counters.pivots += play.solve(system, rhs.lo, rhs.hi, scale, &mut solution.multiplier)?;
-        system.respond(&solution.multiplier, &mut solution.x);
-        super::finite("solution", &solution.x, f64::is_finite)
+        counters.pivots += pivoting.solve(system, rhs, scale, passes(r.len()), r)?;
+        self.answer(rhs, solution)
+    }
+
+    fn answer(&mut self, rhs: &Rhs, solution: &mut Solution) -> Result<(), Failure> {
+        self.system.respond(rhs.b, self.pivoting.rows(), &solution.multiplier, &mut solution.x);
+        super::finite("solution", &solution.x, |v| v.is_finite())
     }
 }
 

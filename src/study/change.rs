@@ -120,7 +120,7 @@ fn worse(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
-fn relative([a, b]: [f64; 2], least: f64) -> f64 {
+pub(super) fn relative([a, b]: [f64; 2], least: f64) -> f64 {
     let difference = (a - b).abs();
     if difference == 0.0 { 0.0 } else { difference / b.abs().max(least) }
 }

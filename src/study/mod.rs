@@ -8,5 +8,6 @@ mod exact;
 pub mod horizon;
 #[cfg(feature = "cli")]
 pub mod stability;
+pub mod truncation;
 pub mod verdict;
 pub mod work_precision;

@@ -123,30 +123,95 @@ impl Residual {
     }
 }
 
-/// A x − b − Gᵀ r = 0;  l ≤ y ≤ u with y = G x + c r;  r ≥ 0 only at l, ≤ 0 only at u.
-pub fn judge(case: &Case, solution: &Solution) -> Residual {
-    let Dense { a, g, compliance } = &case.problem;
-    let x = DVector::from_column_slice(&solution.x);
-    let r = DVector::from_column_slice(&solution.multiplier);
-    let b = DVector::from_column_slice(&case.b);
-    let left = a * &x - &b - g.transpose() * &r;
-    let size = a.abs() * x.abs() + b.abs() + g.transpose().abs() * r.abs();
-    let stationarity = left.amax() / size.amax().max(f64::MIN_POSITIVE);
+/// What judging needs of a problem, made once for all its programmes.
+pub struct Judge<'a> {
+    problem: &'a Dense,
+    inverse: DMatrix<f64>,
+    /// G A⁻¹Gᵀ + diag(c).
+    pub w: DMatrix<f64>,
+}
 
-    let inverse = a.clone().try_inverse().expect("positive definite");
-    let w = g * &inverse * g.transpose();
-    let (mut feasibility, mut complementarity) = (0.0_f64, 0.0_f64);
-    for i in 0..r.len() {
-        let y = (g.row(i) * &x)[0] + compliance[i] * r[i];
-        let terms = (g.row(i).abs() * x.abs())[0] + (compliance[i] * r[i]).abs();
-        let length = case.scale.max(terms).max((g.row(i) * &inverse * &b)[0].abs());
-        feasibility = feasibility.max((case.lo[i] - y) / length).max((y - case.hi[i]) / length);
-        // The force as the displacement it causes at its own row, against the gap on its side.
-        let reach = r[i].abs() * (w[(i, i)] + compliance[i]) / length;
-        let gap = if r[i] > 0.0 { y - case.lo[i] } else { case.hi[i] - y }.abs() / length;
-        complementarity = complementarity.max(reach.min(gap));
+impl<'a> Judge<'a> {
+    pub fn new(problem: &'a Dense) -> Self {
+        let Dense { a, g, compliance } = problem;
+        let inverse = a.clone().cholesky().expect("positive definite").inverse();
+        let w = g * &inverse * g.transpose() + DMatrix::from_diagonal(compliance);
+        Self { problem, inverse, w }
     }
-    Residual { stationarity, feasibility, complementarity }
+
+    /// A x − b − Gᵀ r = 0;  l ≤ y ≤ u with y = G x + c r;  r ≥ 0 only at l, ≤ 0 only at u.
+    pub fn judge(&self, rhs: &Rhs, scale: f64, solution: &Solution) -> Residual {
+        let Dense { a, g, compliance } = self.problem;
+        let x = DVector::from_column_slice(&solution.x);
+        let r = DVector::from_column_slice(&solution.multiplier);
+        let b = DVector::from_column_slice(rhs.b);
+        let left = a * &x - &b - g.tr_mul(&r);
+        let size = a.abs() * x.abs() + b.abs() + g.abs().tr_mul(&r.abs());
+        let stationarity = left.amax() / size.amax().max(f64::MIN_POSITIVE);
+
+        let free = g * (&self.inverse * &b);
+        let (mut feasibility, mut complementarity) = (0.0_f64, 0.0_f64);
+        for i in 0..r.len() {
+            let y = (g.row(i) * &x)[0] + compliance[i] * r[i];
+            let terms = (g.row(i).abs() * x.abs())[0] + (compliance[i] * r[i]).abs();
+            // A force has 16 digits, and so the motion that the largest of them causes here.
+            let caused = (0..r.len()).fold(0.0, |most, j| f64::max(most, (self.w[(i, j)] * r[j]).abs()));
+            let length = scale.max(terms).max(free[i].abs()).max(1e-2 * caused);
+            feasibility = feasibility.max((rhs.lo[i] - y) / length).max((y - rhs.hi[i]) / length);
+            // The force as the displacement it causes at its own row, against the gap on its side.
+            let reach = r[i].abs() * self.w[(i, i)] / length;
+            let gap = if r[i] > 0.0 { y - rhs.lo[i] } else { rhs.hi[i] - y }.abs() / length;
+            complementarity = complementarity.max(reach.min(gap));
+        }
+        Residual { stationarity, feasibility, complementarity }
+    }
+
+    /// Of all forces that hold the body at `x`, those of least Σ Wᵢᵢ rᵢ², by trying every set of rows that stand on a bound; `None` where
+    /// no set holds it to 1e-9.
+    pub fn least_share(&self, rhs: &Rhs, scale: f64, x: &[f64]) -> Option<Vec<f64>> {
+        let Dense { a, g, compliance } = self.problem;
+        let x = DVector::from_column_slice(x);
+        let mut needed = a * &x - DVector::from_column_slice(rhs.b);
+        let size = (a.abs() * x.abs()).amax().max(rhs.b.iter().fold(0.0, |m, v| f64::max(m, v.abs())));
+        let (m, y) = (g.nrows(), g * &x);
+        let mut fixed = vec![0.0; m];
+        let mut touching = vec![];
+        for i in 0..m {
+            let (below, above) = (rhs.lo[i] - y[i], rhs.hi[i] - y[i]);
+            if compliance[i] > 0.0 {
+                fixed[i] = if below > 0.0 { below } else { above.min(0.0) } / compliance[i];
+                needed -= g.row(i).transpose() * fixed[i];
+            } else if below.abs().min(above.abs()) <= 1e-10 * scale.max(y[i].abs()) {
+                touching.push((i, if below.abs() < above.abs() { 1.0 } else { -1.0 }, below.abs() == above.abs()));
+            }
+        }
+        let mut best: Option<(f64, Vec<f64>)> = None;
+        for set in 0..1_usize << touching.len() {
+            let chosen: Vec<_> = touching.iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|t| t.1).collect();
+            let weight = |i: usize| self.w[(i, i)].sqrt();
+            let columns = DMatrix::from_fn(x.len(), chosen.len(), |j, k| g[(chosen[k].0, j)] / weight(chosen[k].0));
+            let u = if chosen.is_empty() {
+                DVector::zeros(0)
+            } else {
+                let svd = columns.clone().svd(true, true);
+                let cut = 1e-8 * svd.singular_values.max();
+                svd.solve(&needed, cut).expect("both factors")
+            };
+            let left = if chosen.is_empty() { needed.amax() } else { (&columns * &u - &needed).amax() };
+            let most = u.amax();
+            let sound = u.iter().zip(&chosen).all(|(u, &(_, sign, both))| both || sign * u >= -1e-10 * most);
+            if left <= 1e-9 * size && sound && best.as_ref().is_none_or(|(least, _)| u.norm() < *least * (1.0 - 1e-9)) {
+                let mut r = fixed.clone();
+                chosen.iter().zip(u.iter()).for_each(|(&(i, ..), u)| r[i] = u / weight(i));
+                best = Some((u.norm(), r));
+            }
+        }
+        best.map(|(_, r)| r)
+    }
+}
+
+pub fn judge(case: &Case, solution: &Solution) -> Residual {
+    Judge::new(&case.problem).judge(&case.rhs(), case.scale, solution)
 }
 
 /// The minimiser by trying every set of active bounds: 3^m equality systems.

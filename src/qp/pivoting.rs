@@ -1,0 +1,222 @@
+//! The programme on its rows, solved exactly by block principal pivoting from a guess of the rows in play.
+//!
+//! Find r with lᵢ ≤ yᵢ ≤ uᵢ, y = y_free + W r, and rᵢ of the sign of the bound it stands on. Every row is free (rᵢ = 0), at its lower or
+//! at its upper bound. A pass solves for the rows that stand on a bound and looks for those whose state is wrong: a force that pulls, a
+//! free row beyond a bound. All of them are exchanged at once as long as their number falls, with [`PATIENCE`] passes in which it
+//! need not (Kostreva 1978, Linear Algebra Appl. 21, 207; Júdice and Pires 1994, doi:10.1016/0305-0548(94)90106-6); after these only the last of them,
+//! until their number has fallen below its least (Murty 1974, Opsearch 11, 123). The latter ends for every P-matrix: if
+//! the programme without row 0 is solved for each state of that row in turn, y₀ increases with r₀, so row 0 changes its state at most
+//! twice; and so on for all rows. A singular W counts as the limit of positive definite ones (see [`super::block`]).
+
+use super::block::Block;
+use super::clamp::meet;
+use super::delassus::Delassus;
+use super::{Failure, NOISE, ROUNDING, Rhs};
+
+/// Which bound a row stands on. Its force is sign · (a number ≥ 0).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Side {
+    Lower,
+    Upper,
+}
+
+impl Side {
+    pub(super) const fn sign(self) -> f64 {
+        match self {
+            Self::Lower => 1.0,
+            Self::Upper => -1.0,
+        }
+    }
+
+    fn bound(self, rhs: &Rhs, row: usize) -> f64 {
+        let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
+        if self == Self::Lower { lo } else { hi }
+    }
+}
+
+/// Passes in which all wrong rows are exchanged although their number has not fallen.
+const PATIENCE: u32 = 10;
+
+/// Part of the sign test's tolerance by which dependent rows may miss their bounds and still be met: below 1, so that a row which then
+/// gives way to the others is within the tolerance.
+const MET: f64 = 0.9;
+
+/// The state of every row, kept from programme to programme.
+pub(super) struct Pivoting {
+    side: Vec<Option<Side>>,
+    block: Block,
+    /// y under the forces of a pass.
+    y: Vec<f64>,
+    /// Rows whose state is wrong.
+    wrong: Vec<usize>,
+    /// Rows in play in the next pass.
+    next: Vec<usize>,
+}
+
+/// Passes after which a programme counts as not settled, for m rows: ten times what any of 1e6 random ones took.
+pub(super) fn passes(m: usize) -> usize {
+    100 + 10 * m
+}
+
+impl Pivoting {
+    pub(super) fn new(system: &Delassus) -> Self {
+        let m = system.count();
+        Self {
+            side: vec![None; m],
+            block: Block::new(system),
+            y: vec![0.0; m],
+            wrong: Vec::with_capacity(m),
+            next: Vec::with_capacity(m),
+        }
+    }
+
+    /// Frees all rows.
+    pub(super) fn clear(&mut self) {
+        self.side.fill(None);
+    }
+
+    /// Puts a row on a bound.
+    pub(super) fn call(&mut self, row: usize, side: Side) {
+        self.side[row] = Some(side);
+    }
+
+    /// Puts the rows that the free motion violates on the bounds they violate, and frees the others.
+    pub(super) fn call_violated(&mut self, system: &Delassus, rhs: &Rhs) {
+        for (((side, &y), &lo), &hi) in self.side.iter_mut().zip(&system.y).zip(rhs.lo).zip(rhs.hi) {
+            *side = if y < lo {
+                Some(Side::Lower)
+            } else if y > hi {
+                Some(Side::Upper)
+            } else {
+                None
+            };
+        }
+    }
+
+    /// Rows with a force, increasing.
+    pub(super) fn rows(&self) -> &[usize] {
+        self.block.rows()
+    }
+
+    /// Starts from the states of the rows and ends with the exact r (m entries). `scale` is the length that signs of gaps are tested
+    /// against, or the row's free motion where that is larger. Returns the number of exchanges.
+    pub(super) fn solve(
+        &mut self,
+        system: &Delassus,
+        rhs: &Rhs,
+        scale: f64,
+        passes: usize,
+        r: &mut [f64],
+    ) -> Result<u64, Failure> {
+        self.next.clear();
+        for (row, side) in self.side.iter_mut().enumerate() {
+            if side.is_some_and(|side| side.bound(rhs, row).is_finite()) {
+                self.next.push(row);
+            } else {
+                *side = None;
+            }
+        }
+        r.fill(0.0);
+        let (mut least, mut patience, mut pivots) = (usize::MAX, PATIENCE, 0);
+        for _ in 0..passes {
+            self.block.set(system, &self.next);
+            self.look(system, rhs, scale, r);
+            if self.wrong.is_empty() {
+                return match self.crossing(system) {
+                    Some(failure) => Err(failure),
+                    None => Ok(pivots),
+                };
+            }
+            if self.wrong.len() < least {
+                (least, patience) = (self.wrong.len(), PATIENCE);
+            } else if patience > 0 {
+                patience -= 1;
+            } else {
+                let last = self.wrong.len() - 1;
+                self.wrong.swap(0, last);
+                self.wrong.truncate(1);
+            }
+            pivots += self.wrong.len() as u64;
+            self.exchange(rhs, r);
+        }
+        Err(Failure::NotSolved { status: "pivoting did not settle" })
+    }
+
+    /// One pass: forces r, the motion y they cause, and the rows whose state is wrong, increasing.
+    fn look(&mut self, system: &Delassus, rhs: &Rhs, scale: f64, r: &mut [f64]) {
+        let side = &mut self.side;
+        let bound = |row: usize, side: &[Option<Side>]| side[row].map_or(0.0, |side| side.bound(rhs, row));
+        let length = |row: usize| scale.max(system.y[row].abs());
+        let slack = |row: usize| MET * ROUNDING * length(row);
+        self.block.forces(system, |row| bound(row, side) - system.y[row], slack, r);
+        self.wrong.clear();
+        self.y.copy_from_slice(&system.y);
+        let mut reach = 0.0;
+        for &row in self.block.rows() {
+            system.push(row, r[row], &mut self.y);
+            reach = f64::max(reach, r[row].abs() * system.weight[row]);
+        }
+        for &row in self.block.rows() {
+            // It stands there exactly.
+            self.y[row] = bound(row, side);
+            let grows = self.block.escape().map_or(0.0, |escape| escape[row]);
+            let force = if grows == 0.0 { r[row] } else { grows };
+            if side[row].is_some_and(|side| side.sign() * force < 0.0) {
+                if rhs.lo[row] >= rhs.hi[row] {
+                    // Both bounds are one: either sign will do.
+                    side[row] = Some(if force > 0.0 { Side::Lower } else { Side::Upper });
+                } else {
+                    self.wrong.push(row);
+                }
+            }
+        }
+        let pulling = self.wrong.len();
+        for (row, ((&y, &lo), &hi)) in self.y.iter().zip(rhs.lo).zip(rhs.hi).enumerate() {
+            if (y < lo) | (y > hi) {
+                // A force is a number of 16 digits: no row's motion is better than that of the largest.
+                let tolerance = ROUNDING * length(row) + NOISE * reach * system.weight[row];
+                let (lo, hi) = meet(lo, hi);
+                if side[row].is_none() && (lo - y).max(y - hi) > tolerance {
+                    self.wrong.push(row);
+                }
+            }
+        }
+        if pulling > 0 {
+            self.wrong.sort_unstable();
+        }
+    }
+
+    /// Changes the state of the wrong rows, and makes the list of those in play.
+    fn exchange(&mut self, rhs: &Rhs, r: &mut [f64]) {
+        self.next.clear();
+        let mut stay = self.block.rows().iter().copied().peekable();
+        for &row in &self.wrong {
+            while let Some(other) = stay.next_if(|&other| other < row) {
+                self.next.push(other);
+            }
+            if stay.next_if_eq(&row).is_some() {
+                self.side[row] = None;
+                r[row] = 0.0;
+            } else {
+                self.side[row] = Some(if self.y[row] < rhs.lo[row] { Side::Lower } else { Side::Upper });
+                self.next.push(row);
+            }
+        }
+        self.next.extend(stay);
+    }
+
+    /// The two rows that resist each other most, if forces grow without limit: their bounds cannot be met together.
+    fn crossing(&self, system: &Delassus) -> Option<Failure> {
+        let escape = self.block.escape()?;
+        let strongest = |except: Option<usize>| {
+            let reach = |row: usize| escape[row].abs() * system.weight[row];
+            let rows = self.block.rows().iter().copied();
+            rows.filter(|&row| Some(row) != except && escape[row] != 0.0).max_by(|&i, &j| reach(i).total_cmp(&reach(j)))
+        };
+        let row = strongest(None)?;
+        let against = strongest(Some(row)).unwrap_or(row);
+        let upper = |row: usize| self.side[row] == Some(Side::Upper);
+        let (row, against) = if upper(row) && !upper(against) { (against, row) } else { (row, against) };
+        Some(Failure::Infeasible { row, against })
+    }
+}
