@@ -19,8 +19,8 @@ pub enum Balance {
     ///
     /// M(ṽ − v) = h[(1−γ)s + γs⁺ + f_x] + J,   M(q̃ − q − hv) = h²[(½−β)s + βs⁺ + ½f_x] + ½hJ,   M(v⁺ − ṽ) = p,
     ///
-    /// where (1−α_m)s⁺ + α_m s = (1−α_f)F̃⁺ + α_f F̃ with F̃⁺ = F(t⁺, q̃, ṽ) + the elastic walls' forces [`Step::force`], at the start s = F̃ = F and the elastic
-    /// walls there. p is that of the rigid walls. To J belongs what falls in (t, t⁺].
+    /// where (1−α_m)s⁺ + α_m s = (1−α_f)F̃⁺ + α_f F̃ with F̃ = F(t, q, v) and F̃⁺ = F(t⁺, q̃, ṽ), each with the elastic walls' forces [`Step::force`] there; at the
+    /// start s = F̃. p is that of the rigid walls. To J belongs what falls in (t, t⁺].
     GeneralizedAlpha {
         /// α_m.
         alpha_m: f64,

@@ -4,7 +4,7 @@ use super::Judge;
 use crate::scene::{Scene, WallLaw};
 use crate::step::{Balance, Contract, Promise, Step};
 
-/// What the rule remembers from step to step: M a and F̃, N, n entries each, and the elastic walls' forces, N.
+/// What the rule remembers from step to step: M a and F at the step's start, N, n entries each, and the elastic walls' forces, N.
 #[derive(Debug)]
 pub(super) struct Memory {
     s: Vec<f64>,
@@ -86,7 +86,12 @@ impl Judge {
             }
         }
         std::mem::swap(s, s_end);
-        std::mem::swap(force, force_end);
+        if closed {
+            force.copy_from_slice(&scratch.load_end);
+            smooth(&self.scene, step.q, step.v, step.force, force);
+        } else {
+            std::mem::swap(force, force_end);
+        }
         self.memory = Some(memory);
         self.energy.see_grid(&self.scene, h, &self.q, step, &self.scratch.load, &self.scratch.blow);
     }

@@ -3,15 +3,17 @@
 //! Brüls, Acary & Cardona 2014, Comput. Methods Appl. Mech. Engrg. 281, doi:10.1016/j.cma.2014.07.025, decoupled. A step without walls, by Chung & Hulbert's rule
 //! with an auxiliary acceleration a,
 //!
-//! q̃ = q + hv + h²[(½−β)a + βa⁺],   ṽ = v + h[(1−γ)a + γa⁺],   (1−α_m)a⁺ + α_m a = M⁻¹[(1−α_f)F̃⁺ + α_f F̃],
+//! q̃ = q + hv + h²[(½−β)a + βa⁺],   ṽ = v + h[(1−γ)a + γa⁺],   M[(1−α_m)a⁺ + α_m a] = (1−α_f)F̃⁺ + α_f F,
 //!
-//! with the smooth force F̃ = f − Cṽ − Kq̃ + r_elastic at the uncorrected state; with Δ = h²βa⁺ it is the optimality condition of a programme over the elastic walls,
-//! A = [M(1−α_m)/(1−α_f) + hγC + h²βK]/(h²β). The rigid walls then correct the displacement, and those that it leaves closed the velocity, both in the metric M:
+//! with the smooth force F = f − Cv − Kq + r_elastic, at the end that of the uncorrected state; with Δ = h²βa⁺ it is the optimality condition A Δ = b + Gᵀr of a
+//! programme over the elastic walls, A = [M(1−α_m)/(1−α_f) + hγC + h²βK]/(h²β). The rigid walls then correct the displacement, and those that it leaves closed
+//! the velocity, both in the metric M:
 //!
-//! M(q⁺ − q̃) = Gᵀν,   0 ≤ gap(q⁺) ⟂ ν ≥ 0;   M(v⁺ − ṽ) = Gᵀp,   0 ≤ ±(ẇ⁺ + εẇ) ⟂ |p| ≥ 0,
+//! M(q⁺ − q̃) = Gᵀν,   0 ≤ gap(q⁺) ⟂ |ν| ≥ 0;   M(v⁺ − ṽ) = Gᵀp,   0 ≤ ±(ẇ⁺ + εẇ) ⟂ |p| ≥ 0,
 //!
-//! with ε = e where the body approaches or rests, 1 where it separates, so that several walls of unequal e create no energy; ẇ is the velocity after the step's
-//! blows. p is the impulse of a wall, ν no force. No wall is ever penetrated, and no wall's force enters the rule's memory a: impacts leave no trace in it.
+//! with ε = e where the body approaches or rests, 1 where it separates; ẇ is the velocity after the step's blows, so v⁺ = −v is among the motions allowed: there is
+//! always one. p is the impulse of a wall, ν no force. No rigid wall is ever passed, and no force of one enters the rule's memory a. In return nothing accounts
+//! for the work that the smooth force does on q⁺ − q̃: each impact makes or loses energy of order h.
 //!
 //! What is given as an impulse (a blow, an extra force over the step) moves the velocity at once and the displacement by half a step of that, outside of a.
 
@@ -33,7 +35,7 @@ pub(super) struct GeneralizedAlpha {
     alpha: [f64; 4],
     /// a, m/s².
     a: Vec<f64>,
-    /// F̃, N.
+    /// F at the step's start, N.
     force: Vec<f64>,
     /// Force of each elastic wall at the step's start, N, and the walls where it is not zero.
     held: Vec<f64>,
@@ -103,14 +105,22 @@ impl GeneralizedAlpha {
         let Some(predicted) = &frame.predicted else { return Ok(()) };
         frame.q.copy_from_slice(&predicted.q);
         frame.v.copy_from_slice(&predicted.v);
-        self.correct_displacement(frame, step)?;
-        self.correct_velocity(frame, step)?;
+        let moved = self.correct_displacement(frame, step)?;
+        if self.correct_velocity(frame, step)? || moved {
+            // F where the walls have put the body.
+            self.force.copy_from_slice(&self.load);
+            self.body.damping.add_product(-1.0, &frame.v, &mut self.force);
+            self.body.stiffness.add_product(-1.0, &frame.q, &mut self.force);
+            for &wall in &self.holding {
+                self.body.rows.add_transposed(wall, self.held[wall], &mut self.force);
+            }
+        }
         frame.after.copy_from_slice(&frame.v);
         Ok(())
     }
 
-    /// q⁺, and the multipliers ν of the walls.
-    fn correct_displacement(&mut self, frame: &mut Frame, step: u64) -> Result<()> {
+    /// q⁺, and the multipliers ν of the walls. Returns whether a wall was met.
+    fn correct_displacement(&mut self, frame: &mut Frame, step: u64) -> Result<bool> {
         let programme = &mut self.rigid;
         let mut met = false;
         for row in 0..programme.count_rows() {
@@ -127,11 +137,11 @@ impl GeneralizedAlpha {
             self.rigid.solve(&self.zero, (frame.start, step), &mut self.multiplier, &mut self.pushing)?;
             frame.q.iter_mut().zip(self.rigid.x()).for_each(|(q, d)| *q += d);
         }
-        Ok(())
+        Ok(met)
     }
 
-    /// v⁺ and the impulses, at the walls that are closed.
-    fn correct_velocity(&mut self, frame: &mut Frame, step: u64) -> Result<()> {
+    /// v⁺ and the impulses, at the walls that are closed. Returns whether one pushes.
+    fn correct_velocity(&mut self, frame: &mut Frame, step: u64) -> Result<bool> {
         let (h, programme) = (self.body.h, &mut self.rigid);
         let mut approaches = false;
         for row in 0..programme.count_rows() {
@@ -163,7 +173,7 @@ impl GeneralizedAlpha {
                 frame.pushing.push(wall);
             }
         }
-        Ok(())
+        Ok(approaches)
     }
 
     /// Clears the multipliers.
@@ -173,7 +183,7 @@ impl GeneralizedAlpha {
         }
     }
 
-    /// q̃, ṽ, a and F̃ of the step, and the elastic walls.
+    /// q̃, ṽ, a and F̃⁺ of the step, and the elastic walls.
     fn predict(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
         let Self { body, alpha: [alpha_m, alpha_f, beta, gamma], a, force, smooth, b, given, load, .. } = self;
         let (h, scale) = (body.h, body.h * body.h * *beta);

@@ -167,6 +167,10 @@ impl Programme {
     /// Binds row `row` on behalf of the wall at `seat`: g·x ≤ `value` for an upper wall, ≥ for a lower one. The tightest of a row counts.
     #[inline]
     pub fn bind(&mut self, row: usize, seat: usize, value: f64) {
+        // The first of a row: what others stood for in an earlier step is none of this one's.
+        if self.lo[row] == f64::NEG_INFINITY && self.hi[row] == f64::INFINITY {
+            self.bound[self.starts[row]..self.starts[row + 1]].fill(f64::NAN);
+        }
         self.bound[seat] = value;
         if self.seats[seat].stop.upper {
             self.hi[row] = self.hi[row].min(value);
