@@ -16,6 +16,9 @@ use std::fmt;
 /// What a verdict costs, in runs like the one it is about.
 pub const COST: f64 = 2.0;
 
+/// Most walls that a sentence tells of.
+const MOST_TOLD: usize = 6;
+
 /// How a run was checked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -123,7 +126,14 @@ impl fmt::Display for Verdict {
             " the displacement changes by {:.1e} of the gap up to t = {:.4} s",
             self.displacement, self.horizon_s
         )?;
-        for wall in &self.walls {
+        let mut told: Vec<&WallVerdict> = self.walls.iter().collect();
+        if told.len() > MOST_TOLD {
+            // Newton seconds, not shares: a wall that is hardly touched changes by its whole impulse.
+            let change = |w: &WallVerdict| (w.impulse_ns[1] - w.impulse_ns[0]).abs();
+            told.sort_by(|a, b| change(b).total_cmp(&change(a)));
+            told.truncate(MOST_TOLD);
+        }
+        for wall in &told {
             write!(f, "; wall {:?}: impulse {}", wall.wall, relative(wall.impulse_ns))?;
             let [before, after] = wall.contacts;
             match before == after {
@@ -133,6 +143,9 @@ impl fmt::Display for Verdict {
             if let [Some(before), Some(after)] = wall.peak_force_n {
                 write!(f, ", peak force {}", relative([before, after]))?;
             }
+        }
+        if told.len() < self.walls.len() {
+            write!(f, "; these are the {} of {} walls whose impulse changes most", told.len(), self.walls.len())?;
         }
         Ok(())
     }
