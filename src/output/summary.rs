@@ -9,6 +9,7 @@ use crate::scene::{LoadKind, Scene, Side, System, WallLaw};
 use crate::scheme::Counters;
 use crate::statistics::Statistics;
 use crate::study::accuracy::Accuracy;
+use crate::study::truncation::{ChosenModes, Truncation};
 use crate::study::verdict::Verdict;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -48,6 +49,10 @@ pub struct Checks<'a> {
     pub refinement: Option<&'a Verdict>,
     /// Against the error that was asked for.
     pub accuracy: Option<&'a Accuracy>,
+    /// Against the same run with more modes.
+    pub truncation: Option<&'a Truncation>,
+    /// How the number of modes was chosen.
+    pub modes: Option<&'a ChosenModes>,
 }
 
 /// Why the scheme and the solver were chosen, in a sentence each.

@@ -116,7 +116,7 @@ impl Change {
     }
 }
 
-fn relative([a, b]: [f64; 2], least: f64) -> f64 {
+pub(super) fn relative([a, b]: [f64; 2], least: f64) -> f64 {
     let difference = (a - b).abs();
     if difference == 0.0 { 0.0 } else { difference / b.abs().max(least) }
 }
