@@ -1,13 +1,13 @@
 //! Random systems of up to eight degrees of freedom, walls of every kind on single ones and on rows of several, duplicates among them: every scheme keeps its word.
 
 mod common;
-mod structures;
+mod random_structures;
 
 use common::{INTEGRATORS, MOREAU_JEAN, spring};
+use random_structures::{Draws, random_scene};
 use signorini::qp::Backend;
 use signorini::residual::{Judge, Residuals};
 use signorini::{Error, Integrator, LoadKind, Scene, Scheme, Stepper, Wall, WallLaw};
-use structures::{Draws, random_scene};
 
 const STEP: f64 = 1e-3;
 
@@ -58,7 +58,10 @@ fn every_scheme_keeps_its_word_on_random_structures() {
                 Err(error) => panic!("{what}: {error}"),
             };
             met += u32::from(r.force_scale_n > 0.0);
-            println!("{what}: {:.1e} {:.1e} {:.1e} {:.1e}", r.complementarity, r.force_balance, r.tension_n, r.energy.residual);
+            println!(
+                "{what}: {:.1e} {:.1e} {:.1e} {:.1e}",
+                r.complementarity, r.force_balance, r.tension_n, r.energy.residual
+            );
             // Roundings of gaps and forces over the largest of the run.
             assert!(r.complementarity <= 1e-12, "{what}: {r:?}");
             assert!(r.force_balance <= 1e-10, "{what}: {r:?}");
