@@ -107,8 +107,9 @@ pub(super) fn folder_name(method: &Method) -> String {
 fn files(folder: &Path, case: &Case, comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Result<()> {
     for (row, verdict) in comparison.rows.iter().zip(verdicts) {
         if let Ok(run) = &row.outcome {
-            let reasons = Reasons { scheme: "part of a comparison".into(), qp: choice::qp_reason(&row.method) };
-            let checks = Checks { refinement: verdict.as_ref(), accuracy: None };
+            let reasons =
+                Reasons { scheme: "part of a comparison".into(), qp: choice::qp_reason(&row.method, &case.scene) };
+            let checks = Checks { refinement: verdict.as_ref(), ..Checks::default() };
             write(&folder.join(folder_name(&row.method)), case, run, &row.method, &reasons, checks)?;
         }
     }
