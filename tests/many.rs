@@ -4,9 +4,7 @@ mod common;
 
 use common::{INTEGRATORS, schemes, spring};
 
-use signorini::{
-    Integrator, Load, Scene, Scheme, Stepper, System, Wall,
-};
+use signorini::{Integrator, Load, Scene, Scheme, Stepper, System, Wall};
 
 fn source(upper: f64, lower: f64) -> Scene {
     common::source(upper, lower).with_load(Load::impulse(0.05, 0.3))

@@ -23,8 +23,7 @@ impl Scales {
         let structure = scene.system.structure();
         let root_mass: Vec<f64> = structure.mass.diagonal_entries().into_iter().map(f64::sqrt).collect();
         let lightest = scene.wall_masses().into_iter().filter(|m| m.is_finite()).reduce(f64::min);
-        let root_wall_mass =
-            lightest.map_or_else(|| root_mass.iter().fold(0.0, |a: f64, b| a.max(*b)), f64::sqrt);
+        let root_wall_mass = lightest.map_or_else(|| root_mass.iter().fold(0.0, |a: f64, b| a.max(*b)), f64::sqrt);
         let gap = scene.gap_scale() * root_wall_mass;
         let stiffness = structure.stiffness.diagonal_entries();
         let fastest = stiffness.iter().zip(&root_mass).map(|(k, m)| k / (m * m)).fold(0.0, f64::max);

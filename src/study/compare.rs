@@ -226,7 +226,8 @@ fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
         _ => {}
     }
     let held = comparison.reference.is_ok() || comparison.refined.is_some();
-    let by = comparison.growth_by.filter(|by| *by != Source::Saltation).map_or_else(String::new, |by| format!(" ({by})"));
+    let by =
+        comparison.growth_by.filter(|by| *by != Source::Saltation).map_or_else(String::new, |by| format!(" ({by})"));
     match comparison.growth.filter(|_| held) {
         Some(growth) if comparison.horizon < scene.duration => findings.push(format!(
             "chaos: a perturbation of the start grows {growth:.1e}-fold over the run{by}, and {LARGEST_GROWTH:e}-fold by t = {:.3} s; errors are taken up \

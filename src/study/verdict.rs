@@ -154,7 +154,12 @@ impl fmt::Display for Verdict {
         }
         match self.walls.len() {
             count if count > MOST_NAMED => {
-                write!(f, "; all {count} walls: impulse {:.1e} at most, contacts {:+}", self.impulse_change(), self.contacts_gained())
+                write!(
+                    f,
+                    "; all {count} walls: impulse {:.1e} at most, contacts {:+}",
+                    self.impulse_change(),
+                    self.contacts_gained()
+                )
             }
             _ => Ok(()),
         }

@@ -41,14 +41,7 @@ impl Graph {
     /// longer one has rows of its own for all but its first corner. Rows within a `step` (s) of a contact at a wall that shares a degree of
     /// freedom with the probe are left out: a scheme on positions has no speed there. At walls that are springs the velocity is continuous and the rows show it.
     #[must_use]
-    pub fn of(
-        trajectory: &Trajectory,
-        probe: usize,
-        stride: usize,
-        step: f64,
-        scene: &Scene,
-        scales: &Scales,
-    ) -> Self {
+    pub fn of(trajectory: &Trajectory, probe: usize, stride: usize, step: f64, scene: &Scene, scales: &Scales) -> Self {
         let point = |t: f64, u: f64, v: f64| [t / scales.duration, u / scales.length, v / scales.speed];
         let stride = stride.max(1);
         let spacing = trajectory.time().get(stride).copied().unwrap_or(scales.duration);
