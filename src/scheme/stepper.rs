@@ -88,11 +88,15 @@ impl Stepper {
         let backend = if single && backend == Backend::Auto { Backend::Clamp } else { backend };
         let kernel = match *scheme {
             Scheme::Event if !single => Kernel::StructureEvent(Box::new(StructureEvent::new(&scene, step)?)),
+            // Of generalized-α there is no scalar kernel: an oscillator is a structure of 1 × 1 matrices to it.
             _ if !single => Kernel::Structure(Box::new(Structure::new(&scene, scheme, step, backend)?)),
             Scheme::ImplicitEuler => Kernel::Position(Position::new(&scene, 1.0, step, backend)?),
             Scheme::Newmark => Kernel::Position(Position::new(&scene, 0.5, step, backend)?),
             Scheme::PaoliSchatzman => Kernel::PaoliSchatzman(PaoliSchatzman::new(&scene, step, backend)?),
             Scheme::MoreauJean { theta } => Kernel::MoreauJean(MoreauJean::new(&scene, theta, step, backend)?),
+            Scheme::GeneralizedAlpha { .. } => {
+                Kernel::Structure(Box::new(Structure::new(&scene, scheme, step, backend)?))
+            }
             Scheme::Penalty { integrator, .. } => match integrator {
                 Integrator::Trapezoidal => Kernel::Penalty(Penalty::new(&scene, 0.5, Mean::Ends, step)),
                 Integrator::ImplicitEuler => Kernel::Penalty(Penalty::new(&scene, 1.0, Mean::Ends, step)),
@@ -103,7 +107,8 @@ impl Stepper {
             },
             Scheme::Event => Kernel::Event(Box::new(Event::new(&scene, step)?)),
         };
-        let backend = if let Kernel::Structure(kernel) = &kernel { kernel.backend() } else { backend };
+        let backend =
+            if let Kernel::Structure(kernel) = &kernel { kernel.backend().unwrap_or(backend) } else { backend };
         let (q, v) = if single { Scalar::new(&scene, step).start(&scene) } else { (0.0, 0.0) };
         let frame = Frame::new(q, v, scene.walls.len());
         let contract = scheme.contract();

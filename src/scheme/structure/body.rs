@@ -1,6 +1,7 @@
 //! What every scheme knows of the scene.
 
-use crate::linear::{Factor, Operator};
+use crate::error::{Error, Result};
+use crate::linear::{Factor, Operator, Rows, Symmetric};
 use crate::scene::{Loads, Scene, Side, Structure, Wall, WallLaw};
 
 /// The structure as a kernel wants it.
@@ -13,6 +14,9 @@ pub(super) struct Body {
     pub damping: Operator,
     pub stiffness: Operator,
     pub loads: Loads,
+    /// The walls, and the row of each.
+    pub walls: Vec<Stop>,
+    pub rows: Rows,
     /// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
     pub touch: f64,
     /// M factored: what a blow changes of the velocity. None without blows.
@@ -68,6 +72,8 @@ impl Body {
             mass: Operator::new(&matrices.mass),
             damping: Operator::new(&matrices.damping),
             stiffness: Operator::new(&matrices.stiffness),
+            walls: scene.walls.iter().map(Stop::new).collect(),
+            rows: Rows::new(n, scene.walls.iter().map(|wall| wall.at.entries())),
             touch: touching_distance(scene),
             // A mass that cannot be factored is refused by the scene.
             inertia: if loads.has_blows() { Factor::new(&matrices.mass).ok() } else { None },
@@ -87,26 +93,28 @@ impl Body {
         self.load.swap(0, 1);
     }
 
-    /// The blows in (from, to]: adds them to `momentum` (N s) and writes the velocity they leave to `struck`, given `v`. Returns whether there was one.
-    pub fn strike(&mut self, from: f64, to: f64, v: &[f64], momentum: &mut [f64], struck: &mut [f64]) -> bool {
+    /// The blows in (from, to]: adds `scale` times them to `b` (N s times that) and writes the velocity they leave to `struck`, given `v`. Returns
+    /// whether there was one.
+    #[inline]
+    pub fn strike(&mut self, (from, to): (f64, f64), v: &[f64], scale: f64, b: &mut [f64], struck: &mut [f64]) -> bool {
         if !self.loads.has_blows() || !self.loads.blow(from, to, &mut self.blow) {
             return false;
         }
-        self.apply_blow(v, momentum, struck);
+        self.apply_blow(v, scale, b, struck);
         true
     }
 
     /// The same for the blows within half a step of the instant step · h.
-    pub fn strike_about(&mut self, step: u64, v: &[f64], momentum: &mut [f64], struck: &mut [f64]) -> bool {
+    pub fn strike_about(&mut self, step: u64, v: &[f64], scale: f64, b: &mut [f64], struck: &mut [f64]) -> bool {
         if !self.loads.has_blows() || !self.loads.blow_about(step, self.h, &mut self.blow) {
             return false;
         }
-        self.apply_blow(v, momentum, struck);
+        self.apply_blow(v, scale, b, struck);
         true
     }
 
-    fn apply_blow(&mut self, v: &[f64], momentum: &mut [f64], struck: &mut [f64]) {
-        momentum.iter_mut().zip(&self.blow).for_each(|(p, blow)| *p += blow);
+    fn apply_blow(&mut self, v: &[f64], scale: f64, b: &mut [f64], struck: &mut [f64]) {
+        b.iter_mut().zip(&self.blow).for_each(|(b, blow)| *b += scale * blow);
         if let Some(inertia) = &mut self.inertia {
             inertia.solve(&mut self.blow);
         }
@@ -114,4 +122,30 @@ impl Body {
             *struck = v + change;
         }
     }
+
+    /// Adds what the blows in (from, to] make of the velocity to `v`.
+    pub fn kick(&mut self, from: f64, to: f64, v: &mut [f64]) {
+        if !self.loads.has_blows() || !self.loads.blow(from, to, &mut self.blow) {
+            return;
+        }
+        if let Some(inertia) = &mut self.inertia {
+            inertia.solve(&mut self.blow);
+        }
+        v.iter_mut().zip(&self.blow).for_each(|(v, change)| *v += change);
+    }
+
+    /// Adds the signed `forces` of all walls to `out`, each by its row.
+    #[inline]
+    pub fn push(&self, scale: f64, forces: &[f64], out: &mut [f64]) {
+        for (wall, &force) in forces.iter().enumerate() {
+            if force != 0.0 {
+                self.rows.add_transposed(wall, scale * force, out);
+            }
+        }
+    }
+}
+
+/// The factor of a matrix of a step.
+pub(super) fn factor(a: &Symmetric) -> Result<Factor> {
+    Factor::new(a).map_err(|fault| Error::invalid("system: matrices", fault, "a positive definite mass"))
 }

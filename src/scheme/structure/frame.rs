@@ -1,7 +1,7 @@
 //! The state that a scheme carries, and what it shows of each step.
 
+use super::body::factor;
 use crate::error::{Error, Result};
-use crate::linear::Factor;
 use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Path, Step};
 
@@ -28,6 +28,15 @@ pub(super) struct Frame {
     jump: Vec<f64>,
     /// Walls whose impulse is not zero; all others have an impulse and a force of zero.
     pub pushing: Vec<usize>,
+    /// Displacement and velocity before the walls corrected them, m and m/s, of a scheme that does so.
+    pub predicted: Option<Predicted>,
+}
+
+/// Displacement and velocity before the walls corrected them, n entries each.
+#[derive(Debug)]
+pub(super) struct Predicted {
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
 }
 
 impl Frame {
@@ -38,10 +47,7 @@ impl Frame {
         let loads = Loads::new(&scene.loads);
         let mut blow = vec![0.0; n];
         if loads.initial_blow(&mut blow) {
-            let mass = scene.system.structure().mass;
-            let mut factor = Factor::new(&mass)
-                .map_err(|fault| Error::invalid("system: mass matrix", fault, "positive definite"))?;
-            factor.solve(&mut blow);
+            factor(&scene.system.structure().mass)?.solve(&mut blow);
             v.iter_mut().zip(&blow).for_each(|(v, change)| *v += change);
         }
         Ok(Self {
@@ -58,6 +64,7 @@ impl Frame {
             force: vec![0.0; walls],
             jump: vec![0.0; walls],
             pushing: Vec::with_capacity(walls),
+            predicted: None,
         })
     }
 
@@ -69,6 +76,14 @@ impl Frame {
         for wall in self.pushing.drain(..) {
             self.impulse[wall] = 0.0;
             self.force[wall] = 0.0;
+        }
+    }
+
+    /// Lists the walls whose force is not zero, over the whole of a step of `h` seconds.
+    pub fn push_by_force(&mut self, h: f64) {
+        for (wall, &force) in self.force.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+            self.impulse[wall] = h * force;
+            self.pushing.push(wall);
         }
     }
 
@@ -104,7 +119,10 @@ impl Frame {
             force: &self.force,
             extra: &self.extra,
             closed,
-            path: Path::Grid,
+            path: match &self.predicted {
+                Some(Predicted { q, v }) => Path::Corrected { q, v },
+                None => Path::Grid,
+            },
         }
     }
 }

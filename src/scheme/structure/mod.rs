@@ -2,32 +2,54 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `body.rs` | what every scheme knows of the scene: products, loads, walls by place |
+//! | `body.rs` | what every scheme knows of the scene: products, loads, walls |
 //! | `frame.rs` | the state, and what a step shows of itself |
 //! | `programme.rs` | the quadratic programme: walls to rows and back |
-//! | `moreau_jean.rs` | one file per scheme |
+//! | `newton.rs` | walls that answer by laws: semismooth Newton on their forces |
+//! | `start.rs` | what acts at t = 0 |
+//! | `arrival.rs` | the velocity that a staggered scheme reports |
+//! | `position.rs`, `paoli_schatzman.rs`, `moreau_jean.rs`, `generalized_alpha.rs`, `penalty.rs`, `central_difference.rs` | one file per scheme |
 //!
 //! The mathematics of a scheme stands above its scalar kernel in the room above; here stands what several unknowns add.
 
+mod arrival;
 mod body;
+mod central_difference;
 mod frame;
+mod generalized_alpha;
 mod moreau_jean;
+mod newton;
+mod paoli_schatzman;
+mod penalty;
+mod position;
 mod programme;
+mod start;
 
-use super::Scheme;
 use super::grid::Counters;
+use super::penalty::Mean;
+use super::{Integrator, Scheme};
 use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::scene::Scene;
 use crate::step::Step;
+use central_difference::CentralDifference;
 use frame::Frame;
+use generalized_alpha::GeneralizedAlpha;
 use moreau_jean::MoreauJean;
+use paoli_schatzman::PaoliSchatzman;
+use penalty::Penalty;
+use position::Position;
 
 /// The constants of one scheme on one scene.
 #[derive(Debug)]
 enum Method {
+    Position(Position),
+    PaoliSchatzman(PaoliSchatzman),
     MoreauJean(MoreauJean),
+    GeneralizedAlpha(GeneralizedAlpha),
+    Penalty(Penalty),
+    CentralDifference(CentralDifference),
 }
 
 /// A scheme on a grid over several degrees of freedom, with the state it carries.
@@ -40,10 +62,23 @@ pub(super) struct Structure {
 impl Structure {
     /// `scene` by `scheme` with steps of `h` seconds; the walls are such that a quadratic programme can hold them, or springs for a penalty.
     pub fn new(scene: &Scene, scheme: &Scheme, h: f64, backend: Backend) -> Result<Self> {
-        let frame = Frame::new(scene)?;
+        let mut frame = Frame::new(scene)?;
         let method = match *scheme {
+            Scheme::ImplicitEuler => Method::Position(Position::new(scene, 1.0, h, backend, &frame)?),
+            Scheme::Newmark => Method::Position(Position::new(scene, 0.5, h, backend, &frame)?),
+            Scheme::PaoliSchatzman => Method::PaoliSchatzman(PaoliSchatzman::new(scene, h, backend, &frame)?),
             Scheme::MoreauJean { theta } => Method::MoreauJean(MoreauJean::new(scene, theta, h, backend)?),
-            _ => return Err(Error::invalid("scheme", scheme, "moreau-jean for several degrees of freedom")),
+            Scheme::GeneralizedAlpha { .. } => {
+                let balance = scheme.contract().balance;
+                Method::GeneralizedAlpha(GeneralizedAlpha::new(scene, balance, h, backend, &mut frame)?)
+            }
+            Scheme::Penalty { integrator, .. } => match integrator {
+                Integrator::Trapezoidal => Method::Penalty(Penalty::new(scene, 0.5, Mean::Ends, h)?),
+                Integrator::ImplicitEuler => Method::Penalty(Penalty::new(scene, 1.0, Mean::Ends, h)?),
+                Integrator::DiscreteGradient => Method::Penalty(Penalty::new(scene, 0.5, Mean::DiscreteGradient, h)?),
+                Integrator::CentralDifference => Method::CentralDifference(CentralDifference::new(scene, h, &frame)?),
+            },
+            Scheme::Event => return Err(Error::invalid("scheme", scheme, "a scheme with a step")),
         };
         Ok(Self { method, frame })
     }
@@ -55,7 +90,12 @@ impl Structure {
             None => self.frame.extra.fill(0.0),
         }
         match &mut self.method {
+            Method::Position(kernel) => kernel.advance(step, &mut self.frame),
+            Method::PaoliSchatzman(kernel) => kernel.advance(step, &mut self.frame),
             Method::MoreauJean(kernel) => kernel.advance(step, &mut self.frame),
+            Method::GeneralizedAlpha(kernel) => kernel.advance(step, &mut self.frame),
+            Method::Penalty(kernel) => kernel.advance(step, &mut self.frame),
+            Method::CentralDifference(kernel) => kernel.advance(step, &mut self.frame),
         }?;
         self.frame.check(step)
     }
@@ -92,14 +132,23 @@ impl Structure {
 
     pub fn count(&self, counters: &mut Counters) {
         match &self.method {
+            Method::Position(kernel) => kernel.count(counters),
+            Method::PaoliSchatzman(kernel) => kernel.count(counters),
             Method::MoreauJean(kernel) => kernel.count(counters),
+            Method::GeneralizedAlpha(kernel) => kernel.count(counters),
+            Method::Penalty(kernel) => kernel.count(counters),
+            Method::CentralDifference(_) => {}
         }
     }
 
-    /// The solver in force.
-    pub fn backend(&self) -> Backend {
+    /// The solver of the quadratic programmes in force; none for a penalty, which has no such programmes.
+    pub fn backend(&self) -> Option<Backend> {
         match &self.method {
-            Method::MoreauJean(kernel) => kernel.backend(),
+            Method::Position(kernel) => Some(kernel.backend()),
+            Method::PaoliSchatzman(kernel) => Some(kernel.backend()),
+            Method::MoreauJean(kernel) => Some(kernel.backend()),
+            Method::GeneralizedAlpha(kernel) => Some(kernel.backend()),
+            Method::Penalty(_) | Method::CentralDifference(_) => None,
         }
     }
 }

@@ -59,7 +59,7 @@ impl MoreauJean {
         drag.add_product(-h, &frame.v, b);
         body.stiffness.add_product(-h, &frame.q, b);
         frame.before.copy_from_slice(&frame.v);
-        frame.blown = body.strike(frame.start, frame.end, &frame.v, b, &mut frame.struck);
+        frame.blown = body.strike((frame.start, frame.end), &frame.v, 1.0, b, &mut frame.struck);
         self.bind(frame);
         self.programme.solve(&self.b, (frame.start, step), &mut frame.impulse, &mut frame.pushing)?;
         let delta = self.programme.x();

@@ -51,8 +51,20 @@ impl Programme {
         compliance: impl Fn(f64, f64) -> f64,
         backend: Backend,
     ) -> Result<Self> {
+        Self::over(scene, |_| true, a, scale, compliance, backend)
+    }
+
+    /// The same over those walls only whose law is `wanted`.
+    pub fn over(
+        scene: &Scene,
+        wanted: impl Fn(&WallLaw) -> bool,
+        a: Symmetric,
+        scale: f64,
+        compliance: impl Fn(f64, f64) -> f64,
+        backend: Backend,
+    ) -> Result<Self> {
         let mut places: Vec<Vec<usize>> = Vec::new();
-        for (index, wall) in scene.walls.iter().enumerate() {
+        for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| wanted(&wall.law)) {
             let rigid = |wall: &Wall| wall.law.is_rigid();
             let shared = |place: &&mut Vec<usize>| {
                 let first = place.first().and_then(|&w| scene.walls.get(w));
@@ -155,12 +167,22 @@ impl Programme {
     /// Binds row `row` on behalf of the wall at `seat`: g·x ≤ `value` for an upper wall, ≥ for a lower one. The tightest of a row counts.
     #[inline]
     pub fn bind(&mut self, row: usize, seat: usize, value: f64) {
+        // The first of a row: what others stood for in an earlier step is none of this one's.
+        if self.lo[row] == f64::NEG_INFINITY && self.hi[row] == f64::INFINITY {
+            self.bound[self.starts[row]..self.starts[row + 1]].fill(f64::NAN);
+        }
         self.bound[seat] = value;
         if self.seats[seat].stop.upper {
             self.hi[row] = self.hi[row].min(value);
         } else {
             self.lo[row] = self.lo[row].max(value);
         }
+    }
+
+    /// Holds row `row` where it is, g·x = 0, on behalf of its only wall, which is elastic.
+    #[inline]
+    pub fn hold(&mut self, row: usize) {
+        (self.lo[row], self.hi[row]) = (0.0, 0.0);
     }
 
     /// Solves: the minimiser is [`Programme::x`] until the next call. Writes the multiplier of each wall that pushes to `force`, which is all zero before, and its
@@ -220,11 +242,12 @@ impl Programme {
         self.solver.backend()
     }
 
+    /// Adds what the programme has cost.
     pub fn count(&self, counters: &mut Counters) {
         let inner = self.solver.counters();
-        counters.qp_solves = inner.solves - inner.free;
-        counters.interior_point_iterations = inner.iterations;
-        counters.pivots = inner.pivots;
+        counters.qp_solves += inner.solves - inner.free;
+        counters.interior_point_iterations += inner.iterations;
+        counters.pivots += inner.pivots;
     }
 }
 
