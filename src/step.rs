@@ -112,13 +112,20 @@ pub enum Path<'a> {
     Exact(&'a Arc),
     /// The same of several.
     Series(&'a Series),
+    /// A step of the exact scheme over a stretch that it hands to a scheme on a grid.
+    Handed {
+        /// What the step keeps, in place of the run's contract.
+        contract: Contract,
+        /// Its length, s: that of the step's times but for their rounding.
+        step: f64,
+    },
 }
 
 impl Path<'_> {
     /// Displacement (m) and velocity (m/s) at `t` within the step, into slices over degrees of freedom. Nothing is written for a step on a grid.
     pub(crate) fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
         match self {
-            Self::Grid | Self::Corrected { .. } => {}
+            Self::Grid | Self::Corrected { .. } | Self::Handed { .. } => {}
             Self::Exact(arc) => {
                 if let (Some(q), Some(v)) = (q.first_mut(), v.first_mut()) {
                     (*q, *v) = arc.state(t);
@@ -131,7 +138,7 @@ impl Path<'_> {
     /// Force of wall `wall` at `t` within the step, N, signed; 0 on a grid.
     pub(crate) fn contact_force(&self, wall: usize, t: f64) -> f64 {
         match self {
-            Self::Grid | Self::Corrected { .. } => 0.0,
+            Self::Grid | Self::Corrected { .. } | Self::Handed { .. } => 0.0,
             Self::Exact(arc) => arc.contact_force(wall, t),
             Self::Series(series) => series.contact_force(wall, t),
         }
@@ -140,7 +147,7 @@ impl Path<'_> {
     /// Impulse of wall `wall` over [from, to] within the step, N s, signed; 0 on a grid.
     pub(crate) fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
         match self {
-            Self::Grid | Self::Corrected { .. } => 0.0,
+            Self::Grid | Self::Corrected { .. } | Self::Handed { .. } => 0.0,
             Self::Exact(arc) => arc.contact_impulse(wall, from, to),
             Self::Series(series) => series.contact_impulse(wall, from, to),
         }

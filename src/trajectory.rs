@@ -189,6 +189,29 @@ impl Recorder {
                 }
             }
             Path::Exact(_) | Path::Series(_) => self.see_exact(step),
+            Path::Handed { .. } => self.see_handed(step),
+        }
+    }
+
+    /// A step between two instants that fall on no row: on the way between its ends the displacement is a line.
+    fn see_handed(&mut self, step: &Step<'_>) {
+        for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
+            *sum += p;
+        }
+        loop {
+            let row = self.trajectory.time.len() as u64;
+            let due = self.row_time(row);
+            if row > self.rows || due > step.end {
+                break;
+            }
+            let [mut q, mut v] = std::mem::take(&mut self.state);
+            v.copy_from_slice(if due > step.start { step.v } else { step.velocity_before });
+            let back = 0.5 * (step.end - due);
+            for (i, q) in q.iter_mut().enumerate() {
+                *q = step.q[i] - back * (step.velocity_before[i] + step.v[i]);
+            }
+            self.push(due, &q, &v, step.force);
+            self.state = [q, v];
         }
     }
 

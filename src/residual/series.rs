@@ -36,9 +36,9 @@ impl Judge {
             self.weigh(step);
         }
         let s = &mut self.scratch;
-        for ((mid, left), struck) in s.spring.iter_mut().zip(&s.damper).zip(&s.struck) {
-            *mid = left + struck;
-            self.speed_scale = self.speed_scale.max(mid.abs());
+        for (i, mid) in s.spring.iter_mut().enumerate() {
+            *mid = s.damper[i] + s.struck[i];
+            self.normal_speed = self.normal_speed.max(mid.abs() * self.scales.root_mass[i]);
         }
         self.energy.see_series(&self.scene, step, moved, &s.blow, &s.damper, &s.spring);
     }
@@ -65,8 +65,9 @@ impl Judge {
                 // ∫q and ∫q̇: one product each at the end.
                 s.inertia[i] += weight * s.mean_q[i];
                 s.spring[i] += weight * s.mean_v[i];
-                self.balance_scale = self.balance_scale.max(s.load[i].abs());
-                self.speed_scale = self.speed_scale.max(s.mean_v[i].abs());
+                let weight = self.scales.root_mass[i];
+                self.balance_scale = self.balance_scale.max(s.load[i].abs() / weight);
+                self.normal_speed = self.normal_speed.max(s.mean_v[i].abs() * weight);
             }
             let force = |wall: usize| series.contact_force(wall, t);
             moved.largest = moved.largest.max(Ledger::energy_at(&self.scene, &s.mean_q, &s.mean_v, force));
@@ -108,12 +109,11 @@ impl Judge {
         s.inertia.fill(0.0);
         self.scene.system.add_mass(1.0, &s.mean_v, &mut s.inertia);
         // Over a stretch as short as the clock can tell, the rounding of the momentum would pass for a force.
-        s.mean_v.fill(MOMENTUM_UNITS * f64::EPSILON * self.speed_scale);
-        s.mean_q.fill(0.0);
-        self.scene.system.add_mass(1.0, &s.mean_v, &mut s.mean_q);
-        for i in 0..s.residual.len() {
-            let open = ((s.inertia[i] - s.residual[i]).abs() - s.mean_q[i].abs()).max(0.0);
+        let rounding = MOMENTUM_UNITS * f64::EPSILON * self.normal_speed;
+        for (i, weight) in self.scales.root_mass.iter().enumerate() {
+            let open = ((s.inertia[i] - s.residual[i]).abs() - rounding * weight).max(0.0);
             self.balance = self.balance.max(open / span);
+            self.normal_balance = self.normal_balance.max(open / (span * weight));
         }
     }
 }

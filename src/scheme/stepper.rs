@@ -2,7 +2,7 @@
 
 use super::central_difference::CentralDifference;
 use super::event::Event;
-use super::grid::{Counters, Frame, Scalar};
+use super::grid::{Counters, Frame, Handed, Scalar};
 use super::moreau_jean::MoreauJean;
 use super::paoli_schatzman::PaoliSchatzman;
 use super::penalty::{Mean, Penalty};
@@ -295,6 +295,12 @@ impl Stepper {
         }
     }
 
+    /// Stretches that the exact scheme has handed to moreau-jean so far; none for other schemes.
+    #[must_use]
+    pub fn handed(&self) -> &[Handed] {
+        if let Kernel::StructureEvent(event) = &self.kernel { event.stretches() } else { &[] }
+    }
+
     /// What the run has cost so far.
     #[must_use]
     pub fn counters(&self) -> Counters {
@@ -307,7 +313,10 @@ impl Stepper {
             Kernel::CentralDifference(_) => {}
             Kernel::Structure(kernel) => kernel.count(&mut counters),
             Kernel::Event(event) => of_events(&mut counters, event.counters()),
-            Kernel::StructureEvent(event) => of_events(&mut counters, event.counters()),
+            Kernel::StructureEvent(event) => {
+                of_events(&mut counters, event.counters());
+                counters.handed_steps = event.handed_steps();
+            }
         }
         counters
     }

@@ -7,8 +7,10 @@
 //! | `instant.rs` | what happens in an instant, and the episodes of contact |
 //! | `impact.rs` | impacts, at several walls at once |
 //! | `rest.rs` | which walls carry what touches without speed |
+//! | `hand.rs` | what is handed to moreau-jean |
 //! | `view.rs` | what a run shows of itself |
 
+mod hand;
 mod impact;
 mod instant;
 mod rest;
@@ -22,7 +24,8 @@ use crate::error::{Error, Result};
 use crate::flow::{Body, Hold, Series, SeriesStart, Touching};
 use crate::qp::{self, Backend};
 use crate::scene::{Loads, Scene};
-use crate::step::Contact;
+use crate::step::{Contact, Contract};
+use hand::{Crowd, Stretch};
 use instant::Seat;
 use rows::{Place, Sizes};
 use search::Cause;
@@ -39,6 +42,7 @@ use search::Cause;
 /// - Accumulations of impacts close into lasting contact as they do for one degree of freedom.
 #[derive(Debug)]
 pub(super) struct StructureEvent {
+    scene: Scene,
     body: Body,
     loads: Loads,
     barriers: Vec<Barrier>,
@@ -77,6 +81,10 @@ pub(super) struct StructureEvent {
     blows: Vec<f64>,
     blow: usize,
     guard: Guard,
+    crowd: Crowd,
+    stretch: Option<Box<Stretch>>,
+    /// The rule of the last step, if it was handed over, and its step, s.
+    handed: Option<(Contract, f64)>,
     last_wall: Option<usize>,
     steps: u64,
     // Vectors of length n.
@@ -169,6 +177,10 @@ impl StructureEvent {
             blows,
             blow: 0,
             guard: Guard::default(),
+            crowd: Crowd::default(),
+            stretch: None,
+            handed: None,
+            scene: scene.clone(),
             last_wall: None,
             steps: 0,
             derivatives: std::array::from_fn(|_| zero()),
@@ -217,6 +229,15 @@ impl StructureEvent {
             return Ok(());
         }
         self.steps += 1;
+        self.handed = None;
+        if self.stretch.is_none() {
+            self.hand_over()?;
+        }
+        if let Some(stretch) = self.stretch.take() {
+            self.handed = Some((stretch.contract, stretch.h));
+            self.advance_stretch(stretch)?;
+            return self.check_guard();
+        }
         for _ in 0..CHANGES_AT_ONCE {
             let limit = self.limit();
             self.begin_series(limit);

@@ -1,6 +1,7 @@
 //! What a run shows of itself after each step.
 
 use super::StructureEvent;
+use crate::scheme::Handed;
 use crate::scheme::event::Counters;
 use crate::step::{Contact, Path, Step};
 
@@ -20,7 +21,10 @@ impl StructureEvent {
             force: &self.force,
             extra: &self.extra,
             closed: &self.closed,
-            path: Path::Series(&self.series),
+            path: match self.handed {
+                Some((contract, step)) => Path::Handed { contract, step },
+                None => Path::Series(&self.series),
+            },
         }
     }
 
@@ -42,6 +46,16 @@ impl StructureEvent {
     /// Contact episodes under way.
     pub fn open_contacts(&self) -> impl Iterator<Item = &Contact> {
         self.barriers.iter().filter_map(|b| b.open.as_ref())
+    }
+
+    /// Stretches handed to moreau-jean so far.
+    pub fn stretches(&self) -> &[Handed] {
+        &self.crowd.stretches
+    }
+
+    /// Steps of them.
+    pub fn handed_steps(&self) -> u64 {
+        self.crowd.steps
     }
 
     /// Work done so far.
