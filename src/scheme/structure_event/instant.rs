@@ -183,7 +183,7 @@ impl StructureEvent {
         }
         let Self { surface, body, seats, places, q, scratch, .. } = self;
         let held = |s: &Seat| Held { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
-        surface.set(body, seats.iter().map(held));
+        surface.set(body, std::iter::empty(), seats.iter().map(held));
         surface.place(body, q, scratch);
     }
 

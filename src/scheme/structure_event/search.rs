@@ -155,7 +155,7 @@ impl StructureEvent {
     fn force_noises(&self, k: usize) -> [f64; 4] {
         let unit = self.series.unit();
         let mut out = [0.0; 4];
-        for (held, w) in self.hold.rows().iter().zip(self.hold.inverse(k)) {
+        for (held, w) in self.hold.independent().iter().zip(self.hold.inverse(k)) {
             let column = self.body.column(held.row);
             for (order, out) in out.iter_mut().take(2).enumerate() {
                 let terms = column.iter().zip(&self.sizes.force[order]).map(|(y, x)| (y * x).abs()).sum::<f64>();
