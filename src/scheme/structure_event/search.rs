@@ -143,10 +143,12 @@ impl StructureEvent {
     pub(super) fn noises(&self, row: usize, position: f64) -> [f64; 4] {
         let unit = self.series.unit();
         let answer = |x: &[f64]| self.body.column(row).iter().zip(x).map(|(y, x)| (y * x).abs()).sum::<f64>();
+        let second = noise(answer(&self.sizes.force[0])) * unit * unit / 2.0;
         [
             self.resolution(row, position),
-            noise(size(&self.body, row, self.series.term(1))),
-            noise(answer(&self.sizes.force[0])) * unit * unit / 2.0,
+            // What forces in balance leave of a velocity is the rounding of their terms.
+            noise(size(&self.body, row, self.series.term(1))) + 2.0 * second,
+            second,
             noise(answer(&self.sizes.force[1])) * unit * unit * unit / 6.0,
         ]
     }
