@@ -126,7 +126,8 @@ impl Watched {
             _ => {
                 let (noise, slack) = (noise(), if zeros.is_some() { DECIDED } else { 1.0 });
                 let falls = |k: usize| c[k] < -slack * noise[k] && (k > 0 || force);
-                match (zeros.unwrap_or(0)..known).find(|&k| c[k] > slack * noise[k] || falls(k)) {
+                let rises = |k: usize| c[k] > if zeros == Some(k) { 0.0 } else { noise[k] };
+                match (zeros.unwrap_or(0)..known).find(|&k| rises(k) || falls(k)) {
                     Some(k) if falls(k) => return Seen::Now,
                     None if zeros.is_none() && c[0] < -2.0 * noise[0] => return Seen::Now,
                     found => found,
