@@ -40,6 +40,8 @@ pub(crate) struct Episodes {
     side: Vec<Side>,
     open: Vec<Option<Open>>,
     any: bool,
+    /// Walls that pushed in the last step, where they are told by a list.
+    pushed: Vec<usize>,
     closed: Vec<Contact>,
 }
 
@@ -52,6 +54,7 @@ impl Episodes {
             side: scene.walls.iter().map(|w| w.side).collect(),
             open: vec![None; walls],
             any: false,
+            pushed: Vec::with_capacity(walls),
             // A step may close a rest and the impact that ended it.
             closed: Vec::with_capacity(2 * walls),
         }
@@ -73,43 +76,76 @@ impl Episodes {
     pub(crate) fn see(&mut self, start: f64, h: f64, impulse: &[f64], rates: impl Fn(usize) -> Rates) {
         self.closed.clear();
         self.any = false;
-        let instant = start + self.instant * h;
-        for (wall, (open, &p)) in self.open.iter_mut().zip(impulse).enumerate() {
-            let sign = self.side[wall].sign();
+        for (wall, &p) in impulse.iter().enumerate() {
             if p == 0.0 {
-                if let Some(episode) = open.take() {
-                    self.closed.push(contact(wall, sign, self.rigid[wall], &episode, true));
-                }
-                continue;
+                self.part(wall);
+            } else {
+                self.push(wall, start + self.instant * h, h, p, rates(wall));
             }
-            let Rates { before, struck, after } = rates(wall);
-            // A blow towards the wall ends a rest on it: what follows is an impact with a speed of its own.
-            if sign * (struck - before) < 0.0
-                && let Some(episode) = open.take()
-            {
-                self.closed.push(contact(wall, sign, self.rigid[wall], &episode, true));
-            }
-            let fresh = Open {
-                first: instant,
-                last: instant,
-                steps: 0,
-                impulse: 0.0,
-                moment: 0.0,
-                peak: 0.0,
-                approach: (-sign * struck).max(0.0),
-                departure: 0.0,
-            };
-            let episode = open.get_or_insert(fresh);
-            episode.steps += 1;
-            episode.last = instant;
-            episode.impulse += p.abs();
-            episode.moment += p.abs() * instant;
-            episode.departure = (sign * after).max(0.0);
-            if !self.rigid[wall] || episode.steps > IMPACT_STEPS {
-                episode.peak = episode.peak.max(p.abs() / h);
-            }
-            self.any = true;
         }
+    }
+
+    /// The same where `pushing` lists the walls with an impulse: the others are not looked at.
+    pub(crate) fn see_some(
+        &mut self,
+        start: f64,
+        h: f64,
+        impulse: &[f64],
+        pushing: &[usize],
+        rates: impl Fn(usize) -> Rates,
+    ) {
+        self.closed.clear();
+        self.any = false;
+        let mut before = std::mem::take(&mut self.pushed);
+        for &wall in &before {
+            if impulse.get(wall).is_none_or(|&p| p == 0.0) {
+                self.part(wall);
+            }
+        }
+        for &wall in pushing {
+            if let Some(&p) = impulse.get(wall) {
+                self.push(wall, start + self.instant * h, h, p, rates(wall));
+            }
+        }
+        before.clear();
+        before.extend_from_slice(pushing);
+        self.pushed = before;
+    }
+
+    /// A wall that does not push: its episode, if there is one, has ended.
+    fn part(&mut self, wall: usize) {
+        if let Some(episode) = self.open.get_mut(wall).and_then(Option::take) {
+            self.closed.push(contact(wall, self.side[wall].sign(), self.rigid[wall], &episode, true));
+        }
+    }
+
+    fn push(&mut self, wall: usize, instant: f64, h: f64, p: f64, rates: Rates) {
+        let sign = self.side[wall].sign();
+        let Rates { before, struck, after } = rates;
+        // A blow towards the wall ends a rest on it: what follows is an impact with a speed of its own.
+        if sign * (struck - before) < 0.0 {
+            self.part(wall);
+        }
+        let fresh = Open {
+            first: instant,
+            last: instant,
+            steps: 0,
+            impulse: 0.0,
+            moment: 0.0,
+            peak: 0.0,
+            approach: (-sign * struck).max(0.0),
+            departure: 0.0,
+        };
+        let episode = self.open[wall].get_or_insert(fresh);
+        episode.steps += 1;
+        episode.last = instant;
+        episode.impulse += p.abs();
+        episode.moment += p.abs() * instant;
+        episode.departure = (sign * after).max(0.0);
+        if !self.rigid[wall] || episode.steps > IMPACT_STEPS {
+            episode.peak = episode.peak.max(p.abs() / h);
+        }
+        self.any = true;
     }
 
     /// Episodes still open at the end of the run.

@@ -91,6 +91,17 @@ pub enum Error {
         /// Steps of the finest run.
         steps: u64,
     },
+    /// More modes still change what walls feel by more than was asked for.
+    Truncated {
+        /// The change that was allowed.
+        tolerance: f64,
+        /// The last change.
+        reached: f64,
+        /// The quantity that it belongs to.
+        quantity: String,
+        /// The most modes that were tried.
+        modes: usize,
+    },
     /// The motion is predictable for a shorter time than the run lasts.
     Unpredictable {
         /// The error asked for.
@@ -164,6 +175,10 @@ impl fmt::Display for Error {
                 f,
                 "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
                  the displacement keeps it until t = {until:.6} s"
+            ),
+            Self::Truncated { tolerance, reached, quantity, modes } => write!(
+                f,
+                "a truncation within {tolerance:e} was not reached: going to {modes} modes still changed {reached:.1e} ({quantity})"
             ),
             Self::Unpredictable { tolerance, reached, horizon, end } => write!(
                 f,

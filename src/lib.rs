@@ -32,6 +32,10 @@ mod trajectory;
 pub use error::{Error, Result};
 pub use run::{Options, Run, run, run_with_progress};
 pub use scene::{
+    Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MOST_DENSE, MOST_ELEMENTS, MOST_MODES, MassMatrix, Modes, Reduction,
+    WallTruncation, matrices,
+};
+pub use scene::{
     Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, Row, Scene, Side, State, Structure, System, Table,
     Wall, WallLaw,
 };

@@ -15,6 +15,22 @@ pub enum Balance {
     /// M(v₊ − v₋) = h[f(t) + f_x − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + J + p with v₋ = (q − q⁻)/h, v₊ = (q⁺ − q)/h, and b this
     /// number: ¼ averages the stiffness, 0 takes it at t. To J belongs what falls in (t − h/2, t + h/2], after t = 0.
     Staggered(f64),
+    /// With ṽ and q̃ from [`Path::Corrected`], s = M a of an auxiliary acceleration a, and s⁺ at the step's end:
+    ///
+    /// M(ṽ − v) = h[(1−γ)s + γs⁺ + f_x] + J,   M(q̃ − q − hv) = h²[(½−β)s + βs⁺ + ½f_x] + ½hJ,   M(v⁺ − ṽ) = p,
+    ///
+    /// where (1−α_m)s⁺ + α_m s = (1−α_f)F̃⁺ + α_f F̃ with F̃ = F(t, q, v) and F̃⁺ = F(t⁺, q̃, ṽ), each with the elastic walls' forces [`Step::force`] there; at the
+    /// start s = F̃. p is that of the rigid walls. To J belongs what falls in (t, t⁺].
+    GeneralizedAlpha {
+        /// α_m.
+        alpha_m: f64,
+        /// α_f.
+        alpha_f: f64,
+        /// β.
+        beta: f64,
+        /// γ.
+        gamma: f64,
+    },
     /// The differential equation itself over the step's [`Arc`], M q̈ = F(t, q, q̇) + f_x + r; at the instant t⁺ that ends it the velocity
     /// jumps by M(v₊ − v) = J + p⁺, with v the arc's last, J what falls in (t, t⁺] (an arc ends at each impulse), and p⁺ the
     /// [`Step::jump`] of the walls.
@@ -37,6 +53,9 @@ pub enum Promise {
     /// the wall, ε = e if approaching or at rest and 1 if separating; no force elsewhere.
     /// Elastic: |p|/h = (k_a s_θ + c_a(s_θ − s₊)/θh)₊ at s_θ = (1−θ)s + θs⁺.
     Velocity,
+    /// Rigid: 0 ≤ gap(w⁺) ⟂ |p| ≥ 0, and for walls that are closed after it (gap within 1e-12 of the gap scale, or p not 0) 0 ≤ rebound ⟂ |p| ≥ 0 with the rebound of
+    /// [`Promise::Velocity`]. Elastic: |r| = (k_a s̃⁺ + c_a(s̃⁺ − s₊)/h)₊ at the displacement before correction, and |p| the mean of |r| at both ends, times h.
+    Corrected,
     /// Every wall: |p|/h = ((1−θ)|r|(s) + θ|r|(s⁺) + c_a(s⁺₊ − s₊)/h)₊ with the wall's spring |r|(s) and the θ of the balance.
     LawAtEnds,
     /// Every wall: |p|/h = (|r|(s) + c_a ṡ)₊ while s > 0, at the step's start, with the mean of v₋ and v₊ for ṡ.
@@ -82,6 +101,13 @@ pub struct Contact {
 pub enum Path<'a> {
     /// Nothing is known between the grid's instants.
     Grid,
+    /// Nothing but what the step was before the walls corrected it.
+    Corrected {
+        /// Displacement, m; length n.
+        q: &'a [f64],
+        /// Velocity, m/s; length n.
+        v: &'a [f64],
+    },
     /// The exact motion and wall forces.
     Exact(&'a Arc),
 }

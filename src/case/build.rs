@@ -1,56 +1,74 @@
-//! From a case file to a case. What a value may be is checked by the scene and the options themselves; this file knows
+//! From a case file to a case. What a value may be is checked by the scene and the options themselves; this room knows
 //! where each value stands, and what can be written but not be meant.
 
-use super::file::{self, File, Number, Section};
+use super::file::{self, File};
+use super::model::{Model, Place};
 use super::report::Source;
-use super::{Case, PenaltyOptions, TimeOptions, table};
+use super::value::{Number, Section};
+use super::{Case, PenaltyOptions, TimeOptions, Truncated, table};
 use crate::error::{Error, Result};
-use crate::scene::{Load, Scene, Wall};
+use crate::scene::{Load, Scene, State, Wall};
 use crate::scheme::{Integrator, PenaltyLaw};
+use crate::study::truncation::Whole;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 
-/// How the text of a table file is found: its full name and its text, or why there is none.
+/// How the text of a file that a case names is found: its full name and its text, or why there is none.
 pub(super) type TableReader<'a> = &'a dyn Fn(&str) -> std::result::Result<(String, String), String>;
 
 /// Builds the case that `text` holds.
 pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>) -> Result<Case> {
     let source = Source { name, text };
     let file: File = toml::from_str(text).map_err(|error| source.toml(error))?;
-    let mut builder = Builder { source, places: Vec::new(), tables };
-    let case = builder.case(file)?;
-    case.validate().map_err(|error| builder.locate(error, &case.scene))?;
-    Ok(case)
+    let mut builder =
+        Builder { source, places: Vec::new(), tables, model: Model::Oscillator, n: 1, static_correction: false };
+    builder.case(file)
 }
 
-struct Builder<'a> {
-    source: Source<'a>,
+/// Reads a case, table by table.
+pub(super) struct Builder<'a> {
+    pub source: Source<'a>,
     /// The key that an error names, and where its value stands.
-    places: Vec<(String, Range<usize>)>,
-    tables: TableReader<'a>,
+    pub places: Vec<(String, Range<usize>)>,
+    pub tables: TableReader<'a>,
+    pub model: Model,
+    /// Degrees of freedom of the whole structure.
+    pub n: usize,
+    pub static_correction: bool,
 }
 
 impl Builder<'_> {
     fn case(&mut self, file: File) -> Result<Case> {
-        let oscillator = file.system.value.oscillator.value;
-        let mass = self.number("system.oscillator.mass", &oscillator.mass);
-        let damping = self.number("system.oscillator.damping", &oscillator.damping);
-        let stiffness = self.number("system.oscillator.stiffness", &oscillator.stiffness);
+        let modes = self.modes(&file.system.value)?;
+        let built = self.system(file.system, modes.is_some())?;
+        (self.model, self.n) = (built.model, built.system.degrees_of_freedom());
         let time = file.time.value;
-        let end = self.number("time.end", &time.end);
-        let mut scene = Scene::oscillator(mass, damping, stiffness).with_duration(end);
+        let mut scene = Scene {
+            system: built.system,
+            walls: Vec::new(),
+            loads: Vec::new(),
+            probes: Vec::new(),
+            initial: State { q: vec![0.0; self.n], v: vec![0.0; self.n] },
+            duration: self.number("time.end", &time.end),
+        };
         if let Some(Section { value: initial, .. }) = file.initial {
-            let displacement = self.optional("initial.displacement", initial.displacement.as_ref()).unwrap_or(0.0);
-            let velocity = self.optional("initial.velocity", initial.velocity.as_ref()).unwrap_or(0.0);
-            scene = scene.with_initial(&[displacement], &[velocity]);
+            scene.initial.q = self.field("initial.displacement", initial.displacement.as_ref())?;
+            scene.initial.v = self.field("initial.velocity", initial.velocity.as_ref())?;
         }
+        let mut places: Vec<Place> = Vec::new();
+        let mut names = Vec::new();
         for (index, wall) in file.wall.into_iter().enumerate() {
-            scene.walls.push(self.wall(index, wall.value)?);
+            for (wall, site, place) in self.walls(index, scene.walls.len(), wall)? {
+                scene.walls.push(wall);
+                names.push(site);
+                places.push(place);
+            }
         }
         for (index, load) in file.load.into_iter().enumerate() {
             scene.loads.push(self.load(index, load)?);
         }
+        scene.probes = self.probes(file.probe, &scene.walls, &names)?;
         let time = TimeOptions {
             step: self.number("time.step", &time.step),
             sample: self.optional("time.sample", time.sample.as_ref()),
@@ -58,43 +76,46 @@ impl Builder<'_> {
         };
         let penalty = file.penalty.map(|penalty| self.penalty(penalty.value)).transpose()?.unwrap_or_default();
         let stem = Path::new(self.source.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("case");
-        Ok(Case { name: stem.to_owned(), title: file.title, source: file.source, scene, time, penalty })
+        let mut case = Case {
+            name: stem.to_owned(),
+            title: file.title,
+            source: file.source,
+            model: self.model.clone(),
+            places,
+            scene,
+            truncated: None,
+            time,
+            penalty,
+        };
+        case.validate().map_err(|error| self.locate(error, &case.scene))?;
+        if let Some(modes) = modes {
+            let whole =
+                Whole { scene: case.scene.clone(), damping: built.ratios, static_correction: self.static_correction };
+            let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
+            case.scene = reduction.scene.clone();
+            case.truncated = Some(Truncated { whole, reduction });
+            case.validate().map_err(|error| self.locate(error, &case.scene))?;
+        }
+        Ok(case)
     }
 
-    fn wall(&mut self, index: usize, wall: file::Wall) -> Result<Wall> {
-        let name = wall.name.get_ref();
-        let key = |what: &str| format!("wall {name:?}: {what}");
-        self.places.push((format!("wall {}: name", index + 1), wall.name.span()));
-        let position = self.number(key("position"), &wall.position);
-        let built = match wall.side.get_ref().as_str() {
-            "upper" => Wall::upper(name, position),
-            "lower" => Wall::lower(name, position),
-            _ => return Err(self.refuse(wall.side.span(), &key("side"), "\"upper\" or \"lower\"")),
-        };
-        let restitution = self.optional(key("restitution"), wall.restitution.as_ref());
-        let stiffness = self.optional(key("stiffness"), wall.stiffness.as_ref());
-        let damping = self.optional(key("damping"), wall.damping.as_ref());
-        match (restitution, stiffness, damping) {
-            (None, None, None) => Ok(built),
-            (Some(e), None, None) => Ok(built.with_restitution(e)),
-            (None, Some(stiffness), damping) => Ok(built.with_elasticity(stiffness, damping.unwrap_or(0.0))),
-            (Some(_), Some(_), _) => Err(self.source.error(
-                wall.restitution.map_or(0..0, |e| e.span()),
-                &format!("wall {name:?} has both restitution and stiffness"),
-                "expected restitution for a rigid wall, or stiffness for an elastic one; what an elastic wall gives \
-                 back follows from its stiffness and damping",
-            )),
-            (_, None, Some(_)) => Err(self.source.error(
-                wall.damping.map_or(0..0, |c| c.span()),
-                &format!("wall {name:?} has damping without stiffness"),
-                "expected stiffness beside it, in N/m (an elastic wall); a rigid wall loses energy by restitution",
-            )),
+    /// `modes` and `static_correction`.
+    fn modes(&mut self, system: &file::System) -> Result<Option<usize>> {
+        let modes = system.modes.as_ref().map(|modes| self.whole("modes", modes)).transpose()?;
+        if let Some(correction) = system.static_correction.as_ref().filter(|word| *word.get_ref()) {
+            self.places.push(("static_correction".to_owned(), correction.span()));
+            self.static_correction = true;
+            if modes.is_none() {
+                let help = "expected modes = k beside it: without them nothing is left out that could be corrected";
+                return Err(self.source.error(correction.span(), "`static_correction` without `modes`", help));
+            }
         }
+        Ok(modes)
     }
 
     fn load(&mut self, index: usize, load: Section<file::Load>) -> Result<Load> {
         let key = |what: &str| format!("load {}: {what}", index + 1);
-        let file::Load { constant, harmonic, impulse, table } = load.value;
+        let file::Load { at, constant, harmonic, impulse, table } = load.value;
         self.places.push((format!("load {}", index + 1), load.span.clone()));
         let given: Vec<_> = [
             ("constant", constant.as_ref().map(|s| s.span.clone())),
@@ -112,19 +133,23 @@ impl Builder<'_> {
                 "expected one kind in each [[load]]; loads add up, so write a second [[load]]",
             ));
         }
+        let owner = format!("load {}", index + 1);
+        let mut sites = self.sites(&owner, at.as_ref(), load.span.clone(), true)?;
+        let site = sites.pop().ok_or_else(|| self.refuse(load.span.clone(), &owner, "a place"))?;
+        let on = |load: Load| Load { at: site.row.clone(), ..load };
         if let Some(Section { value: constant, .. }) = constant {
-            return Ok(Load::constant(self.number(key("force"), &constant.force)));
+            return Ok(on(Load::constant(self.number(key("force"), &constant.force))));
         }
         if let Some(Section { value: sine, .. }) = harmonic {
             let amplitude = self.number(key("amplitude"), &sine.amplitude);
             let frequency = self.number(key("frequency"), &sine.frequency);
             let phase = self.optional(key("phase"), sine.phase.as_ref()).unwrap_or(0.0);
-            return Ok(Load::harmonic(amplitude, frequency, phase));
+            return Ok(on(Load::harmonic(amplitude, frequency, phase)));
         }
         if let Some(Section { value: blow, .. }) = impulse {
             let impulse = self.number(key("impulse"), &blow.impulse);
             let time = self.optional(key("time"), blow.time.as_ref()).unwrap_or(0.0);
-            return Ok(Load::impulse(impulse, time));
+            return Ok(on(Load::impulse(impulse, time)));
         }
         let Some(Section { value: table, .. }) = table else {
             let help = "expected one of constant = { force }, harmonic = { amplitude, frequency, phase }, \
@@ -136,7 +161,7 @@ impl Builder<'_> {
             let help = "expected a CSV file with the header time_s,force_N; its path is relative to the case file";
             self.source.error(table.file.span(), &format!("load {}: table {file:?}: {reason}", index + 1), help)
         })?;
-        Ok(Load::table(table::read(&path, &text)?))
+        Ok(on(Load::table(table::read(&path, &text)?)))
     }
 
     fn penalty(&mut self, penalty: file::Penalty) -> Result<PenaltyOptions> {
@@ -179,31 +204,41 @@ impl Builder<'_> {
     }
 
     /// The number, its place noted under the key by which an error would name it.
-    fn number(&mut self, key: impl Into<String>, value: &Spanned<Number>) -> f64 {
+    pub fn number(&mut self, key: impl Into<String>, value: &Spanned<Number>) -> f64 {
         self.places.push((key.into(), value.span()));
         value.get_ref().0
     }
 
-    fn optional(&mut self, key: impl Into<String>, value: Option<&Spanned<Number>>) -> Option<f64> {
+    pub fn optional(&mut self, key: impl Into<String>, value: Option<&Spanned<Number>>) -> Option<f64> {
         value.map(|value| self.number(key, value))
     }
 
-    fn refuse(&self, span: Range<usize>, key: &str, expected: &str) -> Error {
+    pub fn refuse(&self, span: Range<usize>, key: &str, expected: &str) -> Error {
         let title = format!("{key} is {}", self.source.slice(span.clone()));
         self.source.error(span, &title, &format!("expected {expected}"))
     }
 
     /// The same error, shown at its place.
-    fn locate(&self, error: Error, scene: &Scene) -> Error {
+    pub fn locate(&self, error: Error, scene: &Scene) -> Error {
         let Error::Invalid { key, value, expected } = error else { return error };
-        let place = |key: &str| self.places.iter().find(|(k, _)| k == key).map(|(_, span)| span.clone());
         // A start that is not written down is 0: then the wall that it lies behind is what is wrong.
         let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.at.dot(&scene.initial.q)) < 0.0;
         let wall = || scene.walls.iter().find(behind).filter(|_| key == "initial.displacement");
-        let span = place(&key)
-            .or_else(|| wall().and_then(|wall| place(&format!("wall {:?}: position", wall.name))))
-            .or_else(|| place(key.split(": ").next().unwrap_or_default()))
+        let span = self
+            .noted(&key)
+            .or_else(|| wall().and_then(|wall| self.noted(&format!("wall {:?}: position", wall.name))))
+            .or_else(|| self.nearest(&key))
             .unwrap_or(0..0);
         self.source.error(span, &format!("{key} is {value}"), &format!("expected {expected}"))
+    }
+
+    fn noted(&self, key: &str) -> Option<Range<usize>> {
+        self.places.iter().find(|(k, _)| k == key).map(|(_, span)| span.clone())
+    }
+
+    /// The place of the longest beginning of `key` that was noted.
+    fn nearest(&self, key: &str) -> Option<Range<usize>> {
+        let cuts = key.char_indices().filter(|(_, c)| [':', ',', '.'].contains(c)).map(|(i, _)| i);
+        cuts.collect::<Vec<_>>().into_iter().rev().find_map(|i| self.noted(&key[..i]))
     }
 }

@@ -37,10 +37,16 @@ const ALL: &[Embedded] = embed![
     "code-aster-sdnd108a",
     "siconos-oscillator",
     "tabulated-pulse"["tabulated-pulse.csv"],
+    "two-masses",
+    "bar-impact",
+    "chain-20",
+    "chain-200",
+    "tube-loose-supports",
+    "fuel-rod",
 ];
 
 impl Embedded {
-    /// Every case: those of the source in the order of its figures, then those of the field.
+    /// Every case: those of the source in the order of its figures, those of the field, structures.
     #[must_use]
     pub fn all() -> &'static [Self] {
         ALL

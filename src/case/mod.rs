@@ -9,15 +9,26 @@
 //! # Ok::<(), signorini::Error>(())
 //! ```
 
+mod accepted;
 mod build;
+mod damping;
 mod embedded;
 mod file;
+mod initial;
+mod model;
 mod penalty;
+mod place;
 mod report;
+mod system;
 mod table;
+mod truncated;
+mod value;
+mod walls;
 
 pub use embedded::Embedded;
+pub use model::{Model, Place};
 pub use penalty::PenaltyOptions;
+pub use truncated::Truncated;
 
 use crate::error::{Error, Result};
 use crate::scene::Scene;
@@ -35,8 +46,14 @@ pub struct Case {
     pub title: Option<String>,
     /// Where the case comes from.
     pub source: Option<String>,
-    /// What is simulated; its duration is `time.end`.
+    /// What its system was made from.
+    pub model: Model,
+    /// Where each wall sits, in the scene's order.
+    pub places: Vec<Place>,
+    /// What is simulated, in modal coordinates where the case is cut to modes; its duration is `time.end`.
     pub scene: Scene,
+    /// What it was cut from, and what that cost; none for a case that runs in full.
+    pub truncated: Option<Truncated>,
     /// Step, recording and statistics.
     pub time: TimeOptions,
     /// What penalty runs use.
@@ -93,10 +110,21 @@ impl Case {
     pub fn validate(&self) -> Result<()> {
         self.scene.validate()?;
         self.time.validate(self.scene.duration)?;
+        let rows = self.scene.duration / self.time.sample.map_or(self.time.step, |s| s.max(self.time.step));
+        let columns = 1 + 2 * (self.scene.probes.len() + self.scene.walls.len());
+        if rows * columns as f64 > MOST_VALUES {
+            let least = self.scene.duration * columns as f64 / MOST_VALUES;
+            let value = self.time.sample.map_or("left out".to_owned(), |sample| format!("{sample:?}"));
+            let expected =
+                format!("at least {least:.1e} s: a row has {columns} values, and a table at most {MOST_VALUES:e}");
+            return Err(Error::invalid("time.sample", value, expected));
+        }
         self.penalty.validate(&self.scene.walls)
     }
 }
 
+/// Most values of a trajectory: rows times columns.
+const MOST_VALUES: f64 = 2e8;
 /// Largest case file, bytes.
 const MOST_CASE_BYTES: u64 = 1 << 20;
 /// Largest table file, bytes.

@@ -1,6 +1,6 @@
 //! Errors that show the place in the file: what is wrong, file, line and column, the line itself, what would do.
 
-use super::file::accepted;
+use super::accepted::accepted;
 use crate::error::Error;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use std::ops::Range;

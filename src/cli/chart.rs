@@ -97,6 +97,7 @@ impl Args {
             end: self.end,
             sample: None,
             restitution: self.restitution,
+            modes: None,
             epsilon: None,
             qp: None,
             theta: None,

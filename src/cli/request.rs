@@ -24,10 +24,13 @@ pub struct Request {
     /// Restitution of every rigid wall, 0 to 1
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     pub restitution: Option<f64>,
+    /// Modes to keep, in place of the case's
+    #[arg(long, value_name = "K")]
+    pub modes: Option<usize>,
     /// Penalty parameter ε, m³/N, in place of the case's
     #[arg(long, value_name = "EPS", allow_hyphen_values = true)]
     pub epsilon: Option<f64>,
-    /// Solver of the quadratic programmes: auto, clamp, clarabel
+    /// Solver of the quadratic programmes: auto, clamp, condensed, clarabel
     #[arg(long, value_name = "NAME")]
     pub qp: Option<Backend>,
     /// θ of moreau-jean, 0.5 to 1
@@ -65,14 +68,18 @@ pub fn case_with_restitution(path: &str, restitution: Option<f64>) -> Result<Cas
 
 fn set_restitution(case: &mut Case, restitution: Option<f64>) -> Result<()> {
     let Some(restitution) = restitution else { return Ok(()) };
-    let rigid = |law: &WallLaw| law.is_rigid();
-    if !case.scene.walls.iter().any(|wall| rigid(&wall.law)) {
+    if !case.whole().walls.iter().any(|wall| wall.law.is_rigid()) {
         return Err(Error::invalid("--restitution", restitution, "a case with a rigid wall; this one has none"));
     }
-    for wall in case.scene.walls.iter_mut().filter(|wall| rigid(&wall.law)) {
-        wall.law = WallLaw::Rigid { restitution };
+    if case.truncated.as_ref().is_some_and(|truncated| truncated.whole.static_correction) {
+        let expected = "a case without static_correction: the compliance that modes leave out has no mass, and what has no mass cannot rebound";
+        return Err(Error::invalid("--restitution", restitution, expected));
     }
-    Ok(())
+    case.change(|scene| {
+        for wall in scene.walls.iter_mut().filter(|wall| wall.law.is_rigid()) {
+            wall.law = WallLaw::Rigid { restitution };
+        }
+    })
 }
 
 impl Request {
@@ -82,8 +89,11 @@ impl Request {
     /// As [`case`], and [`Error::Invalid`] for a change that makes no sense.
     pub fn case(&self) -> Result<Case> {
         let mut case = case(&self.case)?;
+        if let Some(modes) = self.modes {
+            case = case.with_modes(modes)?;
+        }
         if let Some(end) = self.end {
-            case.scene.duration = end;
+            case.change(|scene| scene.duration = end)?;
             let until_end = |x: &f64| *x <= end;
             case.time.sample = case.time.sample.filter(until_end);
         }

@@ -10,8 +10,10 @@ use crate::output::pictures::{Labelled, Sheet};
 use crate::output::summary::{self, Checks, Reasons};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scheme::{Method, Scheme};
+use crate::statistics::WallStatistics;
 use crate::study::accuracy::{Outcome, Target, reach};
 use crate::study::choice;
+use crate::study::truncation::{ChosenModes, Truncation, choose_modes};
 use crate::study::verdict::{self, Verdict};
 use std::path::Path;
 
@@ -23,6 +25,7 @@ Examples:
   signorini run elastic-wall --scheme event --out results
   signorini run elastic-wall --accuracy 1e-6
   signorini run rigid-walls-sine --restitution 0.8 --scheme moreau-jean --accuracy 1e-3
+  signorini run tube-loose-supports --modes 40
 
 Schemes: implicit-euler, paoli-schatzman, moreau-jean, newmark (an exhibit), penalty, event (exact).";
 
@@ -36,7 +39,7 @@ pub struct Args {
     #[arg(long, value_name = "NAME")]
     scheme: Option<String>,
     /// Find scheme and step for this error, as a share of the gap and of each wall's impulse and contact statistics; exit code 1 if it is
-    /// not kept to the end
+    /// not kept to the end; where the case is cut to modes, as many of them as that takes
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     accuracy: Option<f64>,
     /// Do not repeat the run with half the step
@@ -57,19 +60,32 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     args.request.check_use(&[method])?;
     let folder = args.request.folder(&case, "run");
     check_folder(&folder)?;
-    let bar = Bar::new(&method, &case, if args.no_verdict { 1.0 } else { 1.0 + verdict::COST }, ui);
-    let run = bar.run(&case, &method)?;
+    let truncated = case.truncated.is_some() && !args.no_verdict;
+    let checks = if args.no_verdict { 0.0 } else { verdict::COST } + if truncated { 1.0 } else { 0.0 };
+    let bar = Bar::new(&method, &case, 1.0 + checks, ui);
+    let mut run = bar.run(&case, &method)?;
+    run.notes.extend(case.notes());
     let verdict = if args.no_verdict { None } else { Some(bar.verdict(&case, &method, &run)) };
+    let truncation = if truncated { bar.truncation(&case, &method, &run).transpose() } else { None };
     bar.finish();
     ui.message(&format!("{method}: {reason}"));
-    let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method) };
-    let refinement = verdict.as_ref().and_then(|v| v.as_ref().ok());
-    write(&folder, &case, &run, &method, &reasons, Checks { refinement, accuracy: None })?;
+    let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
+    let checks = Checks {
+        refinement: verdict.as_ref().and_then(|v| v.as_ref().ok()),
+        truncation: truncation.as_ref().and_then(|t| t.as_ref().ok()),
+        ..Checks::default()
+    };
+    write(&folder, &case, &run, &method, &reasons, checks)?;
     report(&case, &run, &method, ui)?;
     ui.message(&format!("results in {}", folder.display()));
     match verdict {
         Some(Ok(verdict)) => ui.message(&format!("refinement: {verdict}")),
         Some(Err(error)) => ui.message(&format!("refinement: the check of this run failed: {error}")),
+        None => {}
+    }
+    match truncation {
+        Some(Ok(truncation)) => ui.message(&format!("truncation: {truncation}")),
+        Some(Err(error)) => ui.message(&format!("truncation: the check of this run failed: {error}")),
         None => {}
     }
     Ok(())
@@ -86,21 +102,52 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     }
     let folder = args.request.folder(case, "run");
     check_folder(&folder)?;
-    let bar = ui.progress("refining", UNITS as u64);
     let target = Target { method, ..Target::new(tolerance, case.time) };
+    target.validate()?;
+    let (case, modes) = enough_modes(case, &target, ui)?;
+    // A step costs what its unknowns cost: patience for a structure is some times that for one degree of freedom, and no more.
+    let unknowns = case.scene.system.degrees_of_freedom() as u64;
+    let most_steps = (PATIENCE * target.most_steps / unknowns).clamp(FEWEST_STEPS, target.most_steps);
+    let target = Target { most_steps, ..target };
+    let bar = ui.progress("refining", UNITS as u64);
     let end = case.scene.duration;
     let outcome = reach(&case.scene, &target, &mut |time| bar.set((UNITS * time / end) as u64));
     bar.finish();
-    let Outcome { method, reason, run, accuracy, shortfall } = outcome?;
+    let Outcome { method, reason, mut run, accuracy, mut shortfall } = outcome?;
+    run.notes.extend(case.notes());
     ui.message(&format!("{method}: {reason}"));
-    let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method) };
-    write(&folder, case, &run, &method, &reasons, Checks { refinement: None, accuracy: Some(&accuracy) })?;
-    report(case, &run, &method, ui)?;
+    let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
+    let checks = Checks { accuracy: Some(&accuracy), modes: modes.as_ref(), ..Checks::default() };
+    write(&folder, &case, &run, &method, &reasons, checks)?;
+    report(&case, &run, &method, ui)?;
+    if let Some(modes) = &modes {
+        ui.message(&format!("modes: {modes}"));
+        shortfall = shortfall.or(modes.shortfall());
+    }
     let kept = if shortfall.is_some() { ", kept in spite of what follows" } else { "" };
     ui.message(&format!("results in {}{kept}", folder.display()));
     ui.message(&format!("accuracy: {accuracy}"));
     shortfall.map_or(Ok(()), Err)
 }
+
+/// The case with as many modes as `target` takes, and how they were found; as it is where it is not cut to modes.
+fn enough_modes(case: &Case, target: &Target, ui: &Ui) -> Result<(Case, Option<ChosenModes>)> {
+    let Some(truncated) = &case.truncated else { return Ok((case.clone(), None)) };
+    let method = target.method.unwrap_or(choice::choose(&case.scene).method);
+    let bar = ui.progress("modes", UNITS as u64);
+    let mut progress = |time| bar.set((UNITS * time / case.scene.duration) as u64);
+    let start = truncated.reduction.modes.count();
+    let chosen = choose_modes(&truncated.whole, start, &method, &case.time, target.tolerance, &mut progress);
+    bar.finish();
+    let chosen = chosen?;
+    Ok((case.clone().with_modes(chosen.modes)?, Some(chosen)))
+}
+
+/// Unknowns times steps of a refinement's last run, in those of one degree of freedom.
+const PATIENCE: u64 = 8;
+
+/// Steps of one run that a refinement may always take.
+const FEWEST_STEPS: u64 = 1 << 16;
 
 /// Resolution of a bar.
 const UNITS: f64 = 1000.0;
@@ -133,6 +180,12 @@ impl Bar {
     fn verdict(&self, case: &Case, method: &Method, run: &Run) -> Result<Verdict> {
         let mut progress = |time| self.set(1.0 + verdict::COST * time / self.end);
         Verdict::of(&case.scene, method, run, &case.time, &mut progress)
+    }
+
+    fn truncation(&self, case: &Case, method: &Method, run: &Run) -> Result<Option<Truncation>> {
+        let Some(truncated) = &case.truncated else { return Ok(None) };
+        let mut progress = |time| self.set(1.0 + verdict::COST + time / self.end);
+        Truncation::of(&truncated.whole, &truncated.reduction, run, method, &case.time, &mut progress)
     }
 
     fn set(&self, runs: f64) {
@@ -178,7 +231,8 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
     // A person reads a few digits, a program all of them.
     let show = |x: f64, digits: usize| if ui.json() { format!("{x:?}") } else { format!("{x:.digits$}") };
     let mut rows = Vec::new();
-    for wall in &run.statistics.walls {
+    let shown = if ui.json() { run.statistics.walls.iter().collect() } else { busiest(run) };
+    for wall in &shown {
         let none = if wall.contacts == 0 { "-" } else { "impacts" };
         rows.push(vec![
             wall.wall.clone(),
@@ -192,6 +246,13 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
     }
     if !rows.is_empty() {
         ui.table(&headers, &rows);
+        let all = run.statistics.walls.len();
+        if rows.len() < all {
+            ui.message(&format!(
+                "{} of {all} walls, those of the largest impulses; the summary has them all",
+                rows.len()
+            ));
+        }
         ui.message("impact power is normal impact only: frictionless contact has no sliding wear in it");
     }
     let r = &run.residuals;
@@ -209,6 +270,20 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
         ui.message(&format!("note: {note}"));
     }
     Ok(())
+}
+
+/// Most walls of a table that a person reads.
+const MOST_ROWS: usize = 24;
+
+/// The walls of the largest impulses, in the scene's order.
+fn busiest(run: &Run) -> Vec<&WallStatistics> {
+    let walls = &run.statistics.walls;
+    let impulse = |wall: &str| run.trajectory.impulse(wall).map_or(0.0, f64::abs);
+    let mut order: Vec<(usize, f64)> = walls.iter().map(|wall| impulse(&wall.wall)).enumerate().collect();
+    order.sort_by(|a, b| b.1.total_cmp(&a.1));
+    order.truncate(MOST_ROWS);
+    order.sort_by_key(|entry| entry.0);
+    order.into_iter().filter_map(|(i, _)| walls.get(i)).collect()
 }
 
 /// What solved the steps that met a wall, and how often.

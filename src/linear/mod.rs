@@ -17,4 +17,5 @@ mod symmetric;
 pub use factor::{Factor, NotDefinite};
 pub use operator::Operator;
 pub use rows::Rows;
+pub use sparse::negative_pivots;
 pub use symmetric::Symmetric;

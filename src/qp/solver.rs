@@ -48,6 +48,8 @@ struct Condensed {
     /// What the interior point is built from when it is needed.
     problem: Problem,
     interior: Option<Clarabel>,
+    /// Rows that the interior point called.
+    start: Vec<(usize, Side)>,
     /// True if the interior point is asked every time.
     always: bool,
     /// Passes that pivoting has before the interior point is asked.
@@ -88,6 +90,7 @@ impl Solver {
                 pivoting,
                 problem,
                 interior: None,
+                start: Vec::new(),
                 always,
                 passes: passes(m),
             }))
@@ -124,6 +127,12 @@ impl Solver {
             }
         }
         Ok(&self.solution)
+    }
+
+    /// The last solution; it means nothing before the first and after a failure.
+    #[must_use]
+    pub fn solution(&self) -> &Solution {
+        &self.solution
     }
 
     /// The solver in force: never [`Backend::Auto`].
@@ -199,13 +208,14 @@ impl Condensed {
         let found = interior.find(system, rhs, violation, largest, pivoting);
         if let Ok(iterations) = found {
             counters.iterations += iterations;
-            let start: Vec<(usize, Side)> = pivoting.called().collect();
+            self.start.clear();
+            self.start.extend(pivoting.called());
             if let Ok(pivots) = pivoting.solve(system, rhs, scale, passes(r.len()), r) {
                 counters.pivots += pivots;
                 return self.answer(rhs, solution);
             }
             pivoting.clear();
-            start.into_iter().for_each(|(row, side)| pivoting.call(row, side));
+            self.start.iter().for_each(|&(row, side)| pivoting.call(row, side));
         } else {
             pivoting.clear();
         }

@@ -114,7 +114,7 @@ pub(super) fn expected_pressure(
         Promise::LawAtStart if s0 <= 0.0 => 0.0,
         Promise::LawAtStart => law.pressure(s0, 0.0) - wall.side.sign() * c * 0.5 * (before + after),
         Promise::DiscreteGradient => mean_pressure(law, s0, s1) + c * rate,
-        Promise::Exact => 0.0,
+        Promise::Corrected | Promise::Exact => 0.0,
     };
     pressure.max(0.0)
 }

@@ -1,15 +1,20 @@
 //! The judge: sees every step as it is made, and knows the scene and the step only — no scheme and no QP.
 
 mod complementarity;
+mod corrected;
 mod energy;
+mod grid;
 mod quadrature;
+mod scales;
 
 pub use energy::Energy;
 
 use crate::linear::Factor;
 use crate::scene::{Loads, Scene, System};
 use crate::step::{Balance, Contract, Path, Promise, Step};
-use complementarity::{Pairs, expected_pressure};
+use complementarity::Pairs;
+use corrected::Memory;
+use scales::Scales;
 use serde::Serialize;
 
 /// How well a run kept its word; all of it seen step by step, however few rows were recorded.
@@ -25,15 +30,17 @@ pub struct Residuals {
     pub penetration_m: f64,
     /// Largest force with which a wall pulled, N, ≥ 0.
     pub tension_n: f64,
-    /// Largest residual of the step's momentum balance, per h, N.
+    /// Largest residual of the step's momentum balance, per h, N (N m in the balance of a rotation).
     pub force_balance_n: f64,
     /// The same over the largest force in that balance, or the mismatch of q⁺ − q with the velocities over the gap scale or the
-    /// largest |q|, if that is more.
+    /// largest |q|, if that is more. Balances of several degrees of freedom, whose units may differ, are compared in the metric of the mass: forces
+    /// over √Mᵢᵢ, displacements times it.
     pub force_balance: f64,
     /// The energy ledger.
     pub energy: Energy,
-    /// γ₀: what gaps are measured by, m; for a velocity-level promise the run's largest speed, or a gap in the run's duration if that is
-    /// more (a body held fast has a speed of rounding), m/s.
+    /// γ₀: what gaps are measured by, m; for a velocity-level promise the run's largest speed at a rigid wall (Σ|gᵢvᵢ|, the size of what its speed is a sum
+    /// of), or a gap in the run's duration if that is more (a body held fast has a speed of rounding), m/s. A promise on both levels measures its gaps by
+    /// the first and its speeds by the second; the first is given.
     pub gap_scale: f64,
     /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid).
     pub force_scale_n: f64,
@@ -54,17 +61,25 @@ pub struct Judge {
     /// Load at the end of the last step, N.
     load: Vec<f64>,
     scratch: Scratch,
+    /// Gaps and what bears on them, m; speeds of rebound and what bears on them, m/s.
     pairs: Pairs,
+    rebounds: Pairs,
     law_error: f64,
     depth: Vec<f64>,
     tension: f64,
     balance: f64,
+    /// The same and the largest force in it, N/√kg, and the mismatch of q⁺ − q, m √kg.
+    normal_balance: f64,
     balance_scale: f64,
     kinematics: f64,
-    /// Largest |q|, m.
+    /// Largest |q|, m, and in the metric of the mass, m √kg.
     reach: f64,
+    normal_reach: f64,
     force_scale: f64,
     speed_scale: f64,
+    scales: Scales,
+    /// What a generalized-α run remembers from step to step.
+    memory: Option<Box<Memory>>,
     energy: energy::Ledger,
 }
 
@@ -119,17 +134,22 @@ impl Judge {
             loads,
             mass,
             energy: energy::Ledger::new(scene, contract, &q, &v),
+            scales: Scales::new(scene),
+            memory: Memory::new(scene, contract, &q, &v, &load),
             q,
             load,
             scratch,
             pairs: Pairs::default(),
+            rebounds: Pairs::default(),
             law_error: 0.0,
             depth: vec![0.0; scene.walls.len()],
             tension: 0.0,
             balance: 0.0,
+            normal_balance: 0.0,
             balance_scale: 0.0,
             kinematics: 0.0,
             reach: 0.0,
+            normal_reach: 0.0,
             force_scale: 0.0,
             speed_scale: 0.0,
             scene: scene.clone(),
@@ -160,94 +180,22 @@ impl Judge {
         }
         match step.path {
             Path::Grid => self.see_grid(step),
+            Path::Corrected { q, v } => self.see_corrected(step, q, v),
             Path::Exact(arc) => self.see_arc(step, arc),
         }
         for (wall, depth) in self.scene.walls.iter().zip(&mut self.depth) {
             *depth = depth.max(-wall.gap(wall.at.dot(step.q)));
         }
-        self.speed_scale = step.velocity_after.iter().fold(self.speed_scale, |a, v| a.max(v.abs()));
-        self.reach = step.q.iter().fold(self.reach, |a, q| a.max(q.abs()));
+        for wall in self.scene.walls.iter().filter(|wall| wall.law.is_rigid()) {
+            let terms = wall.at.entries().iter().map(|&(i, weight)| (weight * step.velocity_after[i]).abs());
+            self.speed_scale = self.speed_scale.max(terms.sum());
+        }
+        for (q, weight) in step.q.iter().zip(&self.scales.root_mass) {
+            self.reach = self.reach.max(q.abs());
+            self.normal_reach = self.normal_reach.max(q.abs() * weight);
+        }
         self.q.copy_from_slice(step.q);
         std::mem::swap(&mut self.load, &mut self.scratch.load_end);
-    }
-
-    fn see_grid(&mut self, step: &Step<'_>) {
-        self.walls_on_grid(step);
-        let h = self.h;
-        let s = &mut self.scratch;
-        let (before, after) = (step.velocity_before, step.velocity_after);
-        for i in 0..s.residual.len() {
-            let (q0, q1) = (self.q[i], step.q[i]);
-            match self.contract.balance {
-                Balance::Theta(theta) => {
-                    let mean = |a: f64, b: f64| (1.0 - theta) * a + theta * b;
-                    s.load[i] = mean(self.load[i], s.load_end[i]);
-                    s.mean_q[i] = mean(q0, q1);
-                    s.mean_v[i] = mean(before[i], after[i]);
-                    self.kinematics = self.kinematics.max((q1 - q0 - h * s.mean_v[i]).abs());
-                }
-                Balance::Staggered(b) => {
-                    let back = q0 - h * before[i];
-                    s.load[i] = self.load[i];
-                    s.mean_q[i] = b * back + (1.0 - 2.0 * b) * q0 + b * q1;
-                    s.mean_v[i] = 0.5 * (before[i] + after[i]);
-                    self.kinematics = self.kinematics.max((q1 - q0 - h * after[i]).abs());
-                }
-                Balance::Exact => {}
-            }
-            s.load[i] += step.extra[i];
-            s.residual[i] = -h * s.load[i] - s.blow[i];
-            self.balance_scale = self.balance_scale.max(s.load[i].abs()).max(s.blow[i].abs() / h);
-            (s.inertia[i], s.damper[i], s.spring[i]) = (0.0, 0.0, 0.0);
-        }
-        let system = &self.scene.system;
-        system.add_mass(1.0, after, &mut s.inertia);
-        system.add_mass(-1.0, before, &mut s.inertia);
-        system.add_damping(h, &s.mean_v, &mut s.damper);
-        system.add_stiffness(h, &s.mean_q, &mut s.spring);
-        for i in 0..s.residual.len() {
-            let (inertia, damper, spring) = (s.inertia[i], s.damper[i], s.spring[i]);
-            s.residual[i] += inertia + damper + spring;
-            self.balance_scale = self.balance_scale.max(inertia.abs().max(damper.abs()).max(spring.abs()) / h);
-        }
-        for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
-            for &(i, weight) in wall.at.entries() {
-                s.residual[i] -= weight * p;
-            }
-        }
-        for r in &s.residual {
-            self.balance = self.balance.max(r.abs() / h);
-        }
-        self.energy.see_grid(&self.scene, h, &self.q, step, &s.load, &s.blow);
-    }
-
-    fn walls_on_grid(&mut self, step: &Step<'_>) {
-        for (index, wall) in self.scene.walls.iter().enumerate() {
-            let sign = wall.side.sign();
-            // The multiplier where the promise is made on it, else the mean force of the step.
-            let force = if self.contract.promise == Promise::EndPosition {
-                step.force[index]
-            } else {
-                step.impulse[index] / self.h
-            };
-            let pressure = sign * force;
-            self.force_scale = self.force_scale.max(pressure.abs()).max(step.impulse[index].abs() / self.h);
-            self.tension = self.tension.max(-pressure);
-            let (w0, w1) = (wall.at.dot(&self.q), wall.at.dot(step.q));
-            let rates = (wall.at.dot(step.velocity_before), wall.at.dot(step.velocity_after));
-            if wall.law.is_rigid() {
-                let gap_scale = self.energy.gap_scale;
-                let struck = rates.0 + wall.at.dot(&self.scratch.struck);
-                let (ends, rates) = ((w0, w1), (struck, rates.1));
-                match complementarity::slack(&self.scene, index, self.contract, self.h, ends, rates, gap_scale) {
-                    Some(slack) => self.pairs.add(slack, pressure),
-                    None => self.law_error = self.law_error.max(pressure.abs()),
-                }
-            } else {
-                let expected = expected_pressure(wall, self.contract, self.h, (w0, w1), rates);
-                self.law_error = self.law_error.max((pressure - expected).abs());
-            }
-        }
     }
 
     fn see_arc(&mut self, step: &Step<'_>, arc: &crate::flow::Arc) {
@@ -259,8 +207,10 @@ impl Judge {
         if step.end <= step.start {
             return;
         }
+        let weight = self.scales.root_mass.first().copied().unwrap_or(1.0);
         self.balance = self.balance.max(ends.balance / (step.end - step.start));
-        self.balance_scale = self.balance_scale.max(ends.largest_force);
+        self.normal_balance = self.balance / weight;
+        self.balance_scale = self.balance_scale.max(ends.largest_force / weight);
         for (index, wall) in self.scene.walls.iter().enumerate() {
             let sign = wall.side.sign();
             for t in quadrature::nodes(step.start, step.end) {
@@ -284,36 +234,26 @@ impl Judge {
         }
     }
 
-    /// A force the scene knows of itself, N: its springs over the gap scale, so that a run without loads and contacts has a scale too.
-    fn spring_scale(&self) -> f64 {
-        let n = self.q.len();
-        let mut largest = 0.0_f64;
-        if let System::Structure(s) = &self.scene.system {
-            largest = s.stiffness.diagonal_entries().into_iter().fold(0.0, f64::max);
-        } else {
-            largest = largest.max(self.scene.system.stiffness_form(&vec![1.0; n], &vec![1.0; n]));
-        }
-        largest * self.energy.gap_scale
-    }
-
     /// The verdict so far.
     #[must_use]
     pub fn residuals(&self) -> Residuals {
-        let gap_scale = match self.contract.promise {
-            Promise::Velocity => self.speed_scale.max(self.energy.gap_scale / self.scene.duration),
-            _ => self.energy.gap_scale,
-        };
+        let speed_scale = self.speed_scale.max(self.energy.gap_scale / self.scene.duration);
+        let gap_scale = if self.contract.promise == Promise::Velocity { speed_scale } else { self.energy.gap_scale };
         let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
         let law = over(self.law_error, self.force_scale);
-        let scale = self.balance_scale.max(self.force_scale).max(self.spring_scale());
+        let walls = self.pairs.worst(self.energy.gap_scale, self.force_scale);
+        let rebounds = self.rebounds.worst(speed_scale, self.force_scale);
+        let force = self.scales.normal_force(self.force_scale).max(self.scales.spring);
+        let balance = over(self.normal_balance, self.balance_scale.max(force));
+        let path = over(self.kinematics, self.normal_reach.max(self.scales.gap));
         let rigid = self.scene.walls.iter().zip(&self.depth).filter(|(w, _)| w.law.is_rigid());
         Residuals {
-            complementarity: self.pairs.worst(gap_scale, self.force_scale).max(law),
+            complementarity: walls.max(rebounds).max(law),
             depth_m: self.depth.clone(),
             penetration_m: rigid.fold(0.0, |a, (_, d)| a.max(*d)),
             tension_n: self.tension,
             force_balance_n: self.balance,
-            force_balance: over(self.balance, scale).max(self.kinematics / self.energy.gap_scale.max(self.reach)),
+            force_balance: balance.max(path),
             energy: self.energy.report(),
             gap_scale,
             force_scale_n: self.force_scale,

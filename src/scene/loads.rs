@@ -41,6 +41,22 @@ impl Loads {
         self.blows
     }
 
+    /// Writes the force of each part at `t`, N, without the blows.
+    #[inline]
+    pub fn forces(&self, t: f64, out: &mut [f64]) {
+        for (force, (_, forcing)) in out.iter_mut().zip(&self.parts) {
+            *force = forcing.force(t);
+        }
+    }
+
+    /// Adds one force (N) for each part, through its row, to `out`.
+    #[inline]
+    pub fn scatter(&self, forces: impl Iterator<Item = f64>, out: &mut [f64]) {
+        for ((row, _), force) in self.parts.iter().zip(forces) {
+            scatter(row, force, out);
+        }
+    }
+
     /// Adds `scale` times the forces at `t` (N) to `out`, one value per degree of freedom, without the blows.
     #[inline]
     pub fn add_force(&self, t: f64, scale: f64, out: &mut [f64]) {

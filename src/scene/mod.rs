@@ -1,15 +1,22 @@
 //! What is simulated: a linear system, its walls, its loads, its start and how long.
 
+mod builders;
+mod damping;
 mod load;
 mod loads;
+pub mod matrices;
+mod modal;
 mod row;
 mod scales;
 mod structure;
 mod system;
 mod wall;
 
+pub use builders::{Bar, BarEnd, Beam, BeamEnd, Chain, MOST_ELEMENTS, MassMatrix};
+pub use damping::Damping;
 pub use load::{Forcing, Harmonic, Load, LoadKind, Table};
 pub use loads::Loads;
+pub use modal::{MOST_DENSE, MOST_MODES, Modes, Reduction, WallTruncation};
 pub use row::{Probe, Row};
 pub use structure::Structure;
 pub use system::{Oscillator, System};

@@ -1,5 +1,6 @@
 //! A structure by its matrices.
 
+use super::{Scene, State, System};
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Symmetric};
 
@@ -16,6 +17,7 @@ pub struct Structure {
 }
 
 impl Structure {
+    /// Each matrix is factored once, which for a band costs n · width² and so little beside a run.
     pub(crate) fn validate(&self) -> Result<()> {
         let n = self.mass.size();
         if n == 0 {
@@ -31,36 +33,77 @@ impl Structure {
                 return Err(Error::invalid(key, format_args!("{value:?}"), "a finite number"));
             }
         }
-        if let Err(fault) = Factor::new(&self.mass) {
-            let (row, value) = (fault.row, self.mass.get(fault.row, fault.row));
-            return Err(Error::invalid(
-                format!("system: mass matrix, row {}", row + 1),
-                format_args!("{value:?} on the diagonal, without a positive pivot"),
-                "a positive definite matrix: every motion has kinetic energy",
-            ));
-        }
+        definite(&self.mass)?;
         semidefinite("damping", &self.damping)?;
         semidefinite("stiffness", &self.stiffness)
+    }
+}
+
+impl Scene {
+    /// A structure at rest at 0, without walls, loads or probes, for one second.
+    #[must_use]
+    pub fn structure(structure: Structure) -> Self {
+        let rest = vec![0.0; structure.mass.size()];
+        Self {
+            system: System::Structure(Box::new(structure)),
+            walls: Vec::new(),
+            loads: Vec::new(),
+            probes: Vec::new(),
+            initial: State { q: rest.clone(), v: rest },
+            duration: 1.0,
+        }
     }
 }
 
 /// Rounding of an assembled matrix, relative to its diagonal: shifted by this much, a semidefinite one is definite.
 const SHIFT: f64 = 1e-9;
 
+fn definite(mass: &Symmetric) -> Result<()> {
+    const EXPECTED: &str = "a positive definite matrix: every motion has kinetic energy";
+    let entry = |i: usize, j: usize| format!("system: mass matrix, row {}, column {}", i + 1, j + 1);
+    let diagonal = mass.diagonal_entries();
+    if let Some(i) = diagonal.iter().position(|m| *m <= 0.0) {
+        return Err(Error::invalid(
+            entry(i, i),
+            format_args!("{:?}", diagonal[i]),
+            format!("more than 0, of {EXPECTED}"),
+        ));
+    }
+    if let Some((i, j, value)) =
+        mass.entries().find(|&(i, j, x)| i != j && x.abs() >= (diagonal[i] * diagonal[j]).sqrt())
+    {
+        let most = (diagonal[i] * diagonal[j]).sqrt();
+        let expected = format!("less than {most:?} in size, as the diagonal bounds it, of {EXPECTED}");
+        return Err(Error::invalid(entry(i, j), format_args!("{value:?}"), expected));
+    }
+    Factor::new(mass).map(|_| ()).map_err(|fault| {
+        let i = fault.row;
+        Error::invalid(entry(i, i), format_args!("{:?}, without a positive pivot", mass.get(i, i)), EXPECTED)
+    })
+}
+
 fn semidefinite(name: &str, matrix: &Symmetric) -> Result<()> {
+    const EXPECTED: &str = "a positive semidefinite matrix";
+    let entry = |i: usize, j: usize| format!("system: {name} matrix, row {}, column {}", i + 1, j + 1);
     let diagonal = matrix.diagonal_entries();
-    let largest = diagonal.iter().fold(0.0_f64, |a, d| a.max(d.abs()));
-    if largest == 0.0 && matrix.entries().all(|entry| entry.2 == 0.0) {
-        return Ok(());
+    if let Some(i) = diagonal.iter().position(|x| *x < 0.0) {
+        return Err(Error::invalid(
+            entry(i, i),
+            format_args!("{:?}", diagonal[i]),
+            format!("0 or more, of {EXPECTED}"),
+        ));
     }
-    let shift: Vec<f64> = diagonal.iter().map(|d| SHIFT * if *d > 0.0 { *d } else { largest }).collect();
+    let most = |i: usize, j: usize| (diagonal[i] * diagonal[j]).sqrt();
+    let mut coupled = matrix.entries().filter(|entry| entry.0 != entry.1);
+    if let Some((i, j, value)) = coupled.find(|&(i, j, x)| x.abs() > (1.0 + SHIFT) * most(i, j)) {
+        let expected = format!("at most {:?} in size, as the diagonal bounds it, of {EXPECTED}", most(i, j));
+        return Err(Error::invalid(entry(i, j), format_args!("{value:?}"), expected));
+    }
+    // What has a diagonal of 0 has by now nothing beside it: any shift will do.
+    let shift: Vec<f64> = diagonal.iter().map(|d| if *d > 0.0 { SHIFT * d } else { 1.0 }).collect();
     let shifted = Symmetric::sum(&[(1.0, matrix), (1.0, &Symmetric::diagonal(&shift))]);
-    match Factor::new(&shifted) {
-        Ok(_) => Ok(()),
-        Err(fault) => Err(Error::invalid(
-            format!("system: {name} matrix, row {}", fault.row + 1),
-            format_args!("{:?} on the diagonal, with a negative pivot", matrix.get(fault.row, fault.row)),
-            "a positive semidefinite matrix",
-        )),
-    }
+    Factor::new(&shifted).map(|_| ()).map_err(|fault| {
+        let i = fault.row;
+        Error::invalid(entry(i, i), format_args!("{:?}, with a negative pivot", matrix.get(i, i)), EXPECTED)
+    })
 }

@@ -2,6 +2,7 @@
 
 use super::structure::Structure;
 use crate::error::{Error, Result};
+use crate::linear::Symmetric;
 
 /// One degree of freedom, m q̈ + c q̇ + k q = f.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +26,18 @@ pub enum System {
 }
 
 impl System {
+    /// M, C and K as matrices.
+    #[must_use]
+    pub fn structure(&self) -> Structure {
+        match self {
+            Self::Oscillator(o) => {
+                let one = |x: f64| Symmetric::diagonal(&[x]);
+                Structure { mass: one(o.mass), damping: one(o.damping), stiffness: one(o.stiffness) }
+            }
+            Self::Structure(s) => Structure::clone(s),
+        }
+    }
+
     /// n, the length of q.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {

@@ -13,6 +13,7 @@ mod penalty_law;
 mod position;
 mod programme;
 mod stepper;
+mod structure;
 
 pub use grid::Counters;
 pub use method::Method;
@@ -33,6 +34,11 @@ pub enum Scheme {
     MoreauJean {
         /// θ in [½, 1]: ½ conserves energy, more damps.
         theta: f64,
+    },
+    /// Nonsmooth generalized-α: the walls on the displacement, then on the velocity.
+    GeneralizedAlpha {
+        /// ρ∞ in [0, 1], what is left of the fastest free vibration after a step: 1 conserves, 0 takes it out at once.
+        rho: f64,
     },
     /// Average acceleration with the walls on the displacement: an exhibit, which gains energy.
     Newmark,
@@ -62,6 +68,7 @@ impl Scheme {
             Self::Newmark => (Balance::Theta(0.5), Promise::EndPosition, 1.0),
             Self::PaoliSchatzman => (Balance::Staggered(0.25), Promise::MeanPosition, 0.0),
             Self::MoreauJean { theta } => (Balance::Theta(theta), Promise::Velocity, 0.5),
+            Self::GeneralizedAlpha { rho } => (generalized_alpha(rho), Promise::Corrected, 0.5),
             Self::Penalty { integrator, .. } => match integrator {
                 Integrator::Trapezoidal => (Balance::Theta(0.5), Promise::LawAtEnds, 0.5),
                 Integrator::ImplicitEuler => (Balance::Theta(1.0), Promise::LawAtEnds, 1.0),
@@ -72,4 +79,11 @@ impl Scheme {
         };
         Contract { balance, promise, instant }
     }
+}
+
+/// The rule's weights (Chung & Hulbert 1993, doi:10.1115/1.2900803, eqs 17, 20 and 25): order 2, and the least damping of slow vibrations that ρ∞ allows.
+fn generalized_alpha(rho: f64) -> Balance {
+    let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
+    let gamma = 0.5 + alpha_f - alpha_m;
+    Balance::GeneralizedAlpha { alpha_m, alpha_f, beta: 0.25 * (gamma + 0.5).powi(2), gamma }
 }

@@ -121,27 +121,7 @@ impl Penalty {
     #[inline]
     fn pressure(&self, wall: &ScalarWall, w: f64, shift: f64) -> (f64, f64) {
         let s0 = wall.depth(w);
-        let s1 = s0 - wall.sign * shift;
-        if s0 <= 0.0 && s1 <= 0.0 {
-            return (0.0, 0.0);
-        }
-        let (mut mean, mut tangent) = match self.mean {
-            Mean::Ends => {
-                let ends = (1.0 - self.theta) * wall.law.pressure(s0, 0.0) + self.theta * wall.law.pressure(s1, 0.0);
-                (ends, self.theta * wall.law.tangent(s1))
-            }
-            Mean::DiscreteGradient => discrete_gradient(&wall.law, s0, s1),
-        };
-        if let WallLaw::Elastic { damping, .. } = wall.law
-            && damping > 0.0
-        {
-            mean += damping * (s1.max(0.0) - s0.max(0.0)) / self.s.h;
-            tangent += if s1 > 0.0 { damping / self.s.h } else { 0.0 };
-            if mean < 0.0 {
-                return (0.0, 0.0);
-            }
-        }
-        (mean, tangent)
+        mean_pressure(&wall.law, self.mean, self.theta, self.s.h, s0, s0 - wall.sign * shift)
     }
 
     pub fn count(&self, counters: &mut Counters) {
@@ -149,8 +129,33 @@ impl Penalty {
     }
 }
 
+/// Mean pressure of a law over a step of `h` seconds from depth `s0` to `s1`, and its derivative with respect to `s1`: it never falls with that.
+#[inline]
+pub(super) fn mean_pressure(law: &WallLaw, mean: Mean, theta: f64, h: f64, s0: f64, s1: f64) -> (f64, f64) {
+    if s0 <= 0.0 && s1 <= 0.0 {
+        return (0.0, 0.0);
+    }
+    let (mut pressure, mut tangent) = match mean {
+        Mean::Ends => {
+            let ends = (1.0 - theta) * law.pressure(s0, 0.0) + theta * law.pressure(s1, 0.0);
+            (ends, theta * law.tangent(s1))
+        }
+        Mean::DiscreteGradient => discrete_gradient(law, s0, s1),
+    };
+    if let WallLaw::Elastic { damping, .. } = *law
+        && damping > 0.0
+    {
+        pressure += damping * (s1.max(0.0) - s0.max(0.0)) / h;
+        tangent += if s1 > 0.0 { damping / h } else { 0.0 };
+        if pressure < 0.0 {
+            return (0.0, 0.0);
+        }
+    }
+    (pressure, tangent)
+}
+
 /// ΔU/Δs between two depths, and its derivative with respect to the second; without division by zero.
-pub(super) fn discrete_gradient(law: &WallLaw, s0: f64, s1: f64) -> (f64, f64) {
+fn discrete_gradient(law: &WallLaw, s0: f64, s1: f64) -> (f64, f64) {
     if s0 <= 0.0 && s1 <= 0.0 {
         return (0.0, 0.0);
     }

@@ -7,11 +7,12 @@ use super::moreau_jean::MoreauJean;
 use super::paoli_schatzman::PaoliSchatzman;
 use super::penalty::{Mean, Penalty};
 use super::position::Position;
+use super::structure::Structure;
 use super::{Integrator, Scheme};
 use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::{Scene, State, WallLaw};
+use crate::scene::{Scene, State, System, WallLaw};
 use crate::step::{Contact, Contract, Path, Step};
 
 /// The state and constants of one scheme on one scene. Smallness is a variant's content: these hold floats, no matrices.
@@ -23,6 +24,7 @@ enum Kernel {
     Penalty(Penalty),
     CentralDifference(CentralDifference),
     Event(Box<Event>),
+    Structure(Box<Structure>),
 }
 
 /// Advances a scene step by step.
@@ -79,13 +81,19 @@ impl Stepper {
             Scheme::Event => scene.clone(),
             _ => without_quartic(scene)?.clone(),
         };
+        let single = matches!(scene.system, System::Oscillator(_));
         // One degree of freedom: the programme has one unknown, and a clamp solves it exactly.
-        let backend = if backend == Backend::Auto { Backend::Clamp } else { backend };
+        let backend = if single && backend == Backend::Auto { Backend::Clamp } else { backend };
         let kernel = match *scheme {
+            // Of generalized-α there is no scalar kernel: an oscillator is a structure of 1 × 1 matrices to it.
+            _ if !single => Kernel::Structure(Box::new(Structure::new(&scene, scheme, step, backend)?)),
             Scheme::ImplicitEuler => Kernel::Position(Position::new(&scene, 1.0, step, backend)?),
             Scheme::Newmark => Kernel::Position(Position::new(&scene, 0.5, step, backend)?),
             Scheme::PaoliSchatzman => Kernel::PaoliSchatzman(PaoliSchatzman::new(&scene, step, backend)?),
             Scheme::MoreauJean { theta } => Kernel::MoreauJean(MoreauJean::new(&scene, theta, step, backend)?),
+            Scheme::GeneralizedAlpha { .. } => {
+                Kernel::Structure(Box::new(Structure::new(&scene, scheme, step, backend)?))
+            }
             Scheme::Penalty { integrator, .. } => match integrator {
                 Integrator::Trapezoidal => Kernel::Penalty(Penalty::new(&scene, 0.5, Mean::Ends, step)),
                 Integrator::ImplicitEuler => Kernel::Penalty(Penalty::new(&scene, 1.0, Mean::Ends, step)),
@@ -96,7 +104,9 @@ impl Stepper {
             },
             Scheme::Event => Kernel::Event(Box::new(Event::new(&scene, step)?)),
         };
-        let (q, v) = Scalar::new(&scene, step).start(&scene);
+        let backend =
+            if let Kernel::Structure(kernel) = &kernel { kernel.backend().unwrap_or(backend) } else { backend };
+        let (q, v) = if single { Scalar::new(&scene, step).start(&scene) } else { (0.0, 0.0) };
         let frame = Frame::new(q, v, scene.walls.len());
         let contract = scheme.contract();
         let episodes = Episodes::new(&scene, contract);
@@ -120,6 +130,18 @@ impl Stepper {
     /// As [`Stepper::step`]; [`Error::Invalid`] for a force of the wrong length or not finite.
     #[inline]
     pub fn step_with(&mut self, extra: &[f64]) -> Result<Step<'_>> {
+        if let Kernel::Structure(kernel) = &self.kernel {
+            let n = kernel.state().0.len();
+            if let Some(force) = extra.iter().find(|force| !force.is_finite()) {
+                return Err(Error::invalid("extra force", force, "a finite number"));
+            }
+            if extra.len() != n {
+                let found = format!("{} values", extra.len());
+                return Err(Error::invalid("extra force", found, format!("{n}, one per degree of freedom")));
+            }
+            self.advance_structure(Some(extra))?;
+            return Ok(self.last());
+        }
         match *extra {
             [force] if force.is_finite() => self.advance(force)?,
             [force] => return Err(Error::invalid("extra force", force, "a finite number")),
@@ -129,6 +151,17 @@ impl Stepper {
             }
         }
         Ok(self.last())
+    }
+
+    /// A step of several degrees of freedom.
+    #[inline(never)]
+    fn advance_structure(&mut self, extra: Option<&[f64]>) -> Result<()> {
+        if let Kernel::Structure(kernel) = &mut self.kernel {
+            kernel.advance(self.index, extra)?;
+            self.index += 1;
+            kernel.tell(&self.scene, self.step, &mut self.episodes);
+        }
+        Ok(())
     }
 
     fn advance(&mut self, extra: f64) -> Result<()> {
@@ -141,6 +174,7 @@ impl Stepper {
             Kernel::Penalty(kernel) => kernel.advance(index, extra, frame),
             Kernel::CentralDifference(kernel) => kernel.advance(index, extra, frame),
             Kernel::Event(event) => event.advance(extra),
+            Kernel::Structure(_) => return self.advance_structure(None),
         }?;
         self.index += 1;
         // The exact scheme leaves the frame untouched and keeps its own episodes.
@@ -161,8 +195,8 @@ impl Stepper {
     #[inline]
     fn last(&self) -> Step<'_> {
         let (index, frame) = (self.index - 1, &self.frame);
-        if let Kernel::Event(event) = &self.kernel {
-            return event.step(index, &frame.extra);
+        if matches!(self.kernel, Kernel::Event(_) | Kernel::Structure(_)) {
+            return self.last_elsewhere(index);
         }
         Step {
             index,
@@ -181,11 +215,22 @@ impl Stepper {
         }
     }
 
+    /// The step just made by a kernel that keeps a frame of its own.
+    #[inline(never)]
+    fn last_elsewhere(&self, index: u64) -> Step<'_> {
+        match &self.kernel {
+            Kernel::Structure(kernel) => kernel.step(index, &self.episodes),
+            Kernel::Event(event) => event.step(index, &self.frame.extra),
+            _ => self.last(),
+        }
+    }
+
     /// Time reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {
         match &self.kernel {
             Kernel::Event(event) => event.end(),
+            Kernel::Structure(kernel) => kernel.end(),
             _ => self.frame.end,
         }
     }
@@ -195,6 +240,10 @@ impl Stepper {
     pub fn state(&self) -> State {
         match &self.kernel {
             Kernel::Event(event) => State { q: event.q().to_vec(), v: event.v().to_vec() },
+            Kernel::Structure(kernel) => {
+                let (q, v) = kernel.state();
+                State { q: q.to_vec(), v: v.to_vec() }
+            }
             _ => State { q: self.frame.q.to_vec(), v: self.frame.v.to_vec() },
         }
     }
@@ -242,6 +291,7 @@ impl Stepper {
             Kernel::MoreauJean(kernel) => kernel.count(&mut counters),
             Kernel::Penalty(kernel) => kernel.count(&mut counters),
             Kernel::CentralDifference(_) => {}
+            Kernel::Structure(kernel) => kernel.count(&mut counters),
             Kernel::Event(event) => {
                 let inner = event.counters();
                 counters.events = inner.events;

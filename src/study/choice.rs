@@ -1,9 +1,10 @@
 //! Which model, scheme and solver a scene needs, and no more.
 
 use crate::error::Result;
+use crate::linear::{Factor, Symmetric};
 use crate::qp::Backend;
 use crate::run::Run;
-use crate::scene::{Scene, System, WallLaw};
+use crate::scene::{MOST_DENSE, Scene, Side, Structure, System, Wall, WallLaw};
 use crate::scheme::{Method, Scheme};
 
 /// A method and why.
@@ -41,7 +42,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     let run = match exact {
         Ok(run) => run,
         Err(error) => {
-            let restitution_0 = |w: &crate::scene::Wall| w.law == WallLaw::Rigid { restitution: 0.0 };
+            let restitution_0 = |w: &Wall| w.law == WallLaw::Rigid { restitution: 0.0 };
             let (scheme, why) = match scene.walls.iter().all(restitution_0) {
                 true => (Scheme::PaoliSchatzman, "with e = 0 at every wall paoli-schatzman is of order 2"),
                 false => (Scheme::MoreauJean { theta: 0.5 }, "the constrained QP honours every wall's restitution"),
@@ -60,10 +61,11 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         "no walls: the motion is linear, and its closed form needs no step".into()
     } else if contacts.iter().any(|c| lasting(&c)) {
         let (all, lasting) = (contacts.len(), contacts.iter().filter(lasting).count());
-        format!(
-            "{all} contacts, {lasting} of them lasting: one degree of freedom rests, and its impacts accumulate, in closed form, so no step is \
-             needed"
-        )
+        let what = match scene.system {
+            System::Oscillator(_) => "one degree of freedom rests, and its impacts accumulate, in closed form",
+            System::Structure(_) => "the structure moves on, held by those walls, in closed form",
+        };
+        format!("{all} contacts, {lasting} of them lasting: {what}, so no step is needed")
     } else {
         format!(
             "{} separate contacts at {} walls: the closed form between them needs no step",
@@ -74,17 +76,23 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     Choice { method: Method::new(Scheme::Event), reason }
 }
 
-/// Why the solver of `method` is what it is.
+/// Why the solver of `method` on `scene` is what it is.
 #[must_use]
-pub fn qp_reason(method: &Method) -> String {
+pub fn qp_reason(method: &Method, scene: &Scene) -> String {
+    let single = matches!(scene.system, System::Oscillator(_));
     match (method.scheme, method.backend) {
-        (Scheme::Penalty { .. }, _) => "a penalty has no QP: Newton's method solves each step".into(),
-        (Scheme::Event, _) => "at an impact of one degree of freedom the QP is solved by hand: v⁺ = −e v⁻".into(),
-        (_, Backend::Condensed) => "asked for: condensed onto the walls".into(),
-        (_, Backend::Clarabel) => "asked for: every step that meets a wall goes through Clarabel".into(),
-        (_, Backend::Clamp) => "asked for: one unknown, so the QP is a clamp".into(),
-        (_, Backend::Auto) => "one unknown: the QP is a clamp, exact and a few nanoseconds".into(),
+        (Scheme::Penalty { .. }, _) => "a penalty has no QP: Newton's method solves each step",
+        (Scheme::Event, _) if single => "at an impact of one degree of freedom the QP is solved by hand: v⁺ = −e v⁻",
+        (Scheme::Event, _) => "at an impact a QP in the metric of the masses, over the walls that are touched",
+        (_, Backend::Condensed) => "asked for: condensed onto the walls",
+        (_, Backend::Clarabel) => "asked for: every step that meets a wall goes through Clarabel",
+        (_, Backend::Clamp) => "asked for: one unknown, so the QP is a clamp",
+        (_, Backend::Auto) if single => "one unknown: the QP is a clamp, exact and a few nanoseconds",
+        (_, Backend::Auto) => {
+            "several unknowns: condensed onto the walls and solved exactly by block principal pivoting, warm-started; Clarabel stands behind it"
+        }
     }
+    .into()
 }
 
 /// What vibrates, in words.
@@ -98,25 +106,86 @@ fn system(system: &System) -> String {
                 "one degree of freedom: natural frequency {frequency:.6} Hz (ω = {slowest:.6} rad/s), damping ratio {ratio:.6}"
             )
         }
-        System::Structure(s) => format!(
-            "{} degrees of freedom: natural frequencies from {:.6} to about {:.6} Hz",
-            s.mass.size(),
-            slowest / std::f64::consts::TAU,
-            fastest / std::f64::consts::TAU
-        ),
+        System::Structure(s) => {
+            let n = s.mass.size();
+            let degrees = if n == 1 { "degree" } else { "degrees" };
+            format!(
+                "{n} {degrees} of freedom: natural frequencies from {:.6} to about {:.6} Hz",
+                slowest / std::f64::consts::TAU,
+                fastest / std::f64::consts::TAU
+            )
+        }
         _ => "one degree of freedom without stiffness: a free or falling body".into(),
     }
 }
 
-/// The model in words: what the scene is made of, and the numbers that decide how it behaves.
+/// A share of damping that is rounding.
+const NOTHING: f64 = 1e-9;
+
+/// The damping of a structure in words, and whether it couples its modes.
+fn damping(system: &System, structure: &Structure) -> String {
+    if structure.damping.entries().all(|entry| entry.2 == 0.0) {
+        return "no damping".into();
+    }
+    if let Some((mass, stiffness)) = structure.rayleigh() {
+        // What one term adds to a mode's damping beside the other may be rounding.
+        let [slowest, fastest] = system.frequencies();
+        let sum = match (
+            mass.abs() > NOTHING * stiffness * slowest * slowest,
+            stiffness * fastest * fastest > NOTHING * mass,
+        ) {
+            (true, false) => format!("{mass:e} M"),
+            (false, true) => format!("{stiffness:e} K"),
+            _ => format!("{mass:e} M + {stiffness:e} K"),
+        };
+        return format!("classical damping: C = {sum}, modes stay apart");
+    }
+    let widths = [&structure.mass, &structure.damping, &structure.stiffness].map(|m| m.half_bandwidth());
+    if widths == [0; 3] {
+        return "classical damping: every coordinate moves by itself".into();
+    }
+    match structure.is_classically_damped() {
+        true => "classical damping: modes stay apart".into(),
+        false if structure.mass.size() > MOST_DENSE => {
+            format!(
+                "damping not known to be classical: beyond {MOST_DENSE} degrees of freedom Rayleigh's alone is recognised"
+            )
+        }
+        false => "damping that couples the modes".into(),
+    }
+}
+
+/// How the matrices of a step of `h` seconds are solved, in words; none for one degree of freedom, which needs no matrices.
 #[must_use]
-pub fn model(scene: &Scene) -> Vec<String> {
+pub fn path(scene: &Scene, h: f64) -> Option<String> {
+    let System::Structure(s) = &scene.system else { return None };
+    let iteration = Symmetric::sum(&[(1.0, &s.mass), (0.5 * h, &s.damping), (0.25 * h * h, &s.stiffness)]);
+    let factor = Factor::new(&iteration).ok()?;
+    Some(format!("{}: factored once, solved in every step", factor.describe()))
+}
+
+/// What vibrates and how it is damped, in words.
+#[must_use]
+pub fn body(scene: &Scene) -> Vec<String> {
     let mut lines = vec![system(&scene.system)];
+    if let System::Structure(structure) = &scene.system {
+        lines.push(damping(&scene.system, structure));
+    }
+    lines
+}
+
+/// Each wall in words, in the scene's order.
+#[must_use]
+pub fn walls(scene: &Scene) -> Vec<String> {
+    let several = matches!(scene.system, System::Structure(_));
     let [slowest, _] = scene.system.frequencies();
-    for (wall, mass) in scene.walls.iter().zip(scene.wall_masses()) {
-        let side = if wall.side == crate::scene::Side::Upper { "upper" } else { "lower" };
+    let line = |(wall, mass): (&Wall, f64)| {
+        let side = if wall.side == Side::Upper { "upper" } else { "lower" };
         let law = match wall.law {
             WallLaw::Rigid { restitution } => format!("rigid, restitution {restitution}"),
+            WallLaw::Elastic { stiffness, damping } if several => {
+                format!("elastic, {stiffness:e} N/m and {damping:e} N s/m")
+            }
             WallLaw::Elastic { stiffness, damping } => {
                 let omega = (slowest * slowest + stiffness / mass).sqrt();
                 format!(
@@ -126,12 +195,18 @@ pub fn model(scene: &Scene) -> Vec<String> {
             }
             WallLaw::Quartic { epsilon, .. } => format!("penalty, ε = {epsilon:e} m³/N"),
         };
-        lines.push(format!("{side} wall {:?} at {} m: {law}", wall.name, wall.position));
-    }
-    lines.push(match scene.loads.len() {
+        let feels = if several { format!("; feels {mass:.4e} kg") } else { String::new() };
+        format!("{side} wall {:?} at {} m: {law}{feels}", wall.name, wall.position)
+    };
+    scene.walls.iter().zip(scene.wall_masses()).map(line).collect()
+}
+
+/// The loads in words.
+#[must_use]
+pub fn loads(scene: &Scene) -> String {
+    match scene.loads.len() {
         0 => "no loads".into(),
         1 => "one load".into(),
         n => format!("{n} loads, added up"),
-    });
-    lines
+    }
 }

@@ -4,9 +4,12 @@ pub mod accuracy;
 pub mod change;
 pub mod choice;
 pub mod compare;
+mod difference;
 mod exact;
 pub mod horizon;
+mod perturbation;
 #[cfg(feature = "cli")]
 pub mod stability;
+pub mod truncation;
 pub mod verdict;
 pub mod work_precision;

@@ -128,12 +128,13 @@ pub const SECOND_IMPACT: [(f64, f64); 4] =
 pub const INTEGRATORS: [Integrator; 4] = Integrator::ALL;
 
 /// The schemes on a grid that constrain by a QP.
-pub const CONSTRAINED: [Scheme; 6] = [
+pub const CONSTRAINED: [Scheme; 7] = [
     Scheme::ImplicitEuler,
     Scheme::PaoliSchatzman,
     MOREAU_JEAN,
     Scheme::MoreauJean { theta: 0.75 },
     Scheme::MoreauJean { theta: 1.0 },
+    Scheme::GeneralizedAlpha { rho: 0.8 },
     Scheme::Newmark,
 ];
 

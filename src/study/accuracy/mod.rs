@@ -54,7 +54,11 @@ impl Target {
         Self { tolerance, method: None, time, against: Against::Exact, most_steps: MOST_STEPS }
     }
 
-    fn validate(&self) -> Result<()> {
+    /// Checks the error asked for.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for one that is no share.
+    pub fn validate(&self) -> Result<()> {
         if self.tolerance > 0.0 && self.tolerance < 1.0 {
             return Ok(());
         }

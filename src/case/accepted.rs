@@ -1,0 +1,112 @@
+//! What each key takes, for messages.
+
+const SYSTEM: &str =
+    "one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], [system.matrices]";
+const OSCILLATOR: &str = "the table [system.oscillator] with mass (kg), damping (N s/m) and stiffness (N/m)";
+const BAR_END: &str = "\"clamped\", \"free\" or { stiffness = N/m }, a spring to ground";
+const BEAM_END: &str =
+    "\"pinned\", \"clamped\", \"free\" or { stiffness = N/m, rotational = N m/rad }, springs to ground";
+const CHAIN_END: &str = "\"free\" or { stiffness = N/m }, a spring to ground";
+const PATH: &str = "a path in quotes, relative to the case file, of a Matrix Market (.mtx) or CSV (.csv) file";
+
+/// Path of the key, then what is accepted.
+const ACCEPTED: &[(&str, &str)] = &[
+    ("title", "one line of text: title = \"Two rigid walls, 5 Hz sine\""),
+    ("source", "one line of text: source = \"Fig. 4\""),
+    ("system", SYSTEM),
+    ("system.oscillator", OSCILLATOR),
+    ("system.oscillator.mass", "mass = a number above 0, in kg"),
+    ("system.oscillator.damping", "damping = a number, 0 or more, in N s/m"),
+    ("system.oscillator.stiffness", "stiffness = a number, 0 or more, in N/m"),
+    (
+        "system.chain",
+        "the table [system.chain] with masses, mass (kg), springs (N/m) and, where wanted, left and right",
+    ),
+    ("system.chain.masses", "masses = how many there are, a whole number from 1, or a list of numbers above 0, in kg"),
+    ("system.chain.mass", "mass = a number above 0, in kg: that of each, where masses says how many"),
+    (
+        "system.chain.springs",
+        "springs = a number, 0 or more, in N/m, or a list of them, one between each two neighbours",
+    ),
+    ("system.chain.left", CHAIN_END),
+    ("system.chain.right", CHAIN_END),
+    ("system.bar", "the table [system.bar] with length, youngs_modulus, density, area, elements, left and right"),
+    ("system.bar.length", "length = a number above 0, in m"),
+    ("system.bar.youngs_modulus", "youngs_modulus = a number above 0, in Pa"),
+    ("system.bar.density", "density = a number above 0, in kg/m^3"),
+    ("system.bar.area", "area = a number above 0, in m^2"),
+    ("system.bar.elements", "elements = a whole number from 1"),
+    ("system.bar.mass_matrix", "mass_matrix = \"consistent\" or \"lumped\""),
+    ("system.bar.left", BAR_END),
+    ("system.bar.right", BAR_END),
+    (
+        "system.beam",
+        "the table [system.beam] with length, youngs_modulus, density, outer_diameter, elements, left, right and, where wanted, \
+         inner_diameter and added_mass",
+    ),
+    ("system.beam.length", "length = a number above 0, in m"),
+    ("system.beam.youngs_modulus", "youngs_modulus = a number above 0, in Pa"),
+    ("system.beam.density", "density = a number above 0, in kg/m^3"),
+    ("system.beam.outer_diameter", "outer_diameter = a number above 0, in m"),
+    ("system.beam.inner_diameter", "inner_diameter = a number, 0 (solid) or more and below outer_diameter, in m"),
+    ("system.beam.added_mass", "added_mass = a number, 0 or more, in kg/m"),
+    ("system.beam.elements", "elements = a whole number from 1"),
+    ("system.beam.left", BEAM_END),
+    ("system.beam.right", BEAM_END),
+    ("system.matrices", "the table [system.matrices] with the files mass, stiffness and, where wanted, damping"),
+    ("system.matrices.mass", PATH),
+    ("system.matrices.damping", PATH),
+    ("system.matrices.stiffness", PATH),
+    ("system.damping", "the table [system.damping] with one of rayleigh, ratio, ratios, matrix"),
+    ("system.damping.rayleigh", "rayleigh = { mass = 1/s, stiffness = s }: C = mass M + stiffness K"),
+    ("system.damping.rayleigh.mass", "mass = a number, 0 or more, in 1/s"),
+    ("system.damping.rayleigh.stiffness", "stiffness = a number, 0 or more, in s"),
+    ("system.damping.ratio", "ratio = a number, 0 or more: the share of critical damping of every mode"),
+    ("system.damping.ratios", "ratios = a list of numbers, 0 or more, from the slowest mode on: [0.01, 0.02]"),
+    ("system.damping.matrix", PATH),
+    ("system.modes", "modes = how many modes to keep, a whole number from 1"),
+    ("system.static_correction", "static_correction = true or false"),
+    ("wall", "one [[wall]] table, in double brackets, for each wall"),
+    ("wall.name", "name = letters, digits, - and _, in quotes"),
+    (
+        "wall.side",
+        "side = \"upper\" (the body may not go above position), \"lower\" (not below) or \"both\" (with gap)",
+    ),
+    ("wall.position", "position = a number, in m"),
+    ("wall.gap", "gap = a number, 0 or more, in m: with side = \"both\", how far each wall stands from position"),
+    ("wall.restitution", "restitution = a number from 0 to 1; rigid walls only"),
+    ("wall.stiffness", "stiffness = a number above 0, in N/m, which makes the wall elastic"),
+    ("wall.damping", "damping = a number, 0 or more, in N s/m; elastic walls only"),
+    ("load", "one [[load]] table, in double brackets, for each load"),
+    ("load.constant", "constant = { force = a number, in N }"),
+    ("load.constant.force", "force = a number, in N"),
+    ("load.harmonic", "harmonic = { amplitude = N, frequency = Hz, phase = rad }"),
+    ("load.harmonic.amplitude", "amplitude = a number, in N"),
+    ("load.harmonic.frequency", "frequency = a number, 0 or more, in Hz"),
+    ("load.harmonic.phase", "phase = a number, in rad"),
+    ("load.impulse", "impulse = { impulse = N s, time = s }"),
+    ("load.impulse.impulse", "impulse = a number, in N s"),
+    ("load.impulse.time", "time = a number, 0 or more, in s"),
+    ("load.table", "table = { file = \"force.csv\" }"),
+    ("load.table.file", "file = a path in quotes, relative to the case file"),
+    ("initial", "the table [initial] with displacement (m) and velocity (m/s)"),
+    ("initial.displacement", "displacement = a number, in m"),
+    ("initial.velocity", "velocity = a number, in m/s"),
+    ("probe", "one [[probe]] table, in double brackets, for each probe"),
+    ("probe.name", "name = letters, digits, - and _, in quotes"),
+    ("time", "the table [time] with end (s), step (s) and, where wanted, sample (s) and statistics_from (s)"),
+    ("time.end", "end = a number above 0, in s"),
+    ("time.step", "step = a number above 0 and below end, in s"),
+    ("time.sample", "sample = a number above 0 and at most end, in s"),
+    ("time.statistics_from", "statistics_from = a number, 0 or more and below end, in s"),
+    ("penalty", "the table [penalty] with a list epsilon (m^3/N) or a list stiffness (N/m)"),
+    ("penalty.epsilon", "epsilon = a list of numbers above 0, in m^3/N: [1e-12, 1e-9]"),
+    ("penalty.stiffness", "stiffness = a list of numbers above 0, in N/m: [1e6, 1e8]"),
+    ("penalty.damping", "damping = a number, 0 or more, in N s/m; linear penalty only"),
+    ("penalty.integrator", "integrator = a name in quotes, such as \"discrete-gradient\""),
+];
+
+/// What the key of that path takes.
+pub(super) fn accepted(path: &str) -> Option<&'static str> {
+    ACCEPTED.iter().find(|(key, _)| *key == path).map(|(_, text)| *text)
+}

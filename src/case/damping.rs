@@ -1,0 +1,101 @@
+//! Matrices from files, and the table `[system.damping]`.
+
+use super::build::Builder;
+use super::file;
+use super::report::Source;
+use super::value::Section;
+use crate::error::Result;
+use crate::linear::Symmetric;
+use crate::scene::matrices::{read_csv, read_matrix_market};
+use crate::scene::{Damping, Structure};
+use std::path::Path;
+use toml::Spanned;
+
+impl Builder<'_> {
+    /// `[system.matrices]`: a structure of three files.
+    pub fn matrices(&mut self, matrices: &file::Matrices) -> Result<Structure> {
+        let mass = self.matrix("mass", &matrices.mass)?;
+        let stiffness = self.matrix("stiffness", &matrices.stiffness)?;
+        let damping = match &matrices.damping {
+            Some(file) => self.matrix("damping", file)?,
+            None => Symmetric::zeros(mass.size()),
+        };
+        Ok(Structure { mass, damping, stiffness })
+    }
+
+    fn matrix(&mut self, what: &str, file: &Spanned<String>) -> Result<Symmetric> {
+        // By this key the structure would name what is wrong with it.
+        self.places.push((format!("system: {what} matrix"), file.span()));
+        let name = file.get_ref();
+        let refuse = |reason: &str| {
+            let help = "expected a Matrix Market file (.mtx) or a CSV file of all rows (.csv); its path is relative to the case file";
+            self.source.error(file.span(), &format!("{what} matrix {name:?}: {reason}"), help)
+        };
+        let extension = Path::new(name).extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+        let read = match extension.as_deref() {
+            Some("mtx") => read_matrix_market,
+            Some("csv") => read_csv,
+            _ => return Err(refuse("neither .mtx nor .csv")),
+        };
+        let (path, text) = (self.tables)(name).map_err(|reason| refuse(&reason))?;
+        read(&text).map_err(|error| {
+            let source = Source { name: &path, text: &text };
+            source.error(error.span.clone(), &error.message, &format!("expected {}", error.expected))
+        })
+    }
+
+    /// What `[system.damping]` says. Exactly one way.
+    pub fn damping(&mut self, section: Section<file::Damping>) -> Result<Damping> {
+        let Section { span, value: damping } = section;
+        self.places.push(("system.damping".to_owned(), span.clone()));
+        let given: Vec<_> = [
+            ("rayleigh", damping.rayleigh.as_ref().map(|s| s.span.clone())),
+            ("ratio", damping.ratio.as_ref().map(Spanned::span)),
+            ("ratios", damping.ratios.as_ref().map(Spanned::span)),
+            ("matrix", damping.matrix.as_ref().map(Spanned::span)),
+        ]
+        .into_iter()
+        .filter_map(|(kind, span)| Some((kind, span?)))
+        .collect();
+        let help = "expected one of rayleigh = { mass, stiffness }, ratio, ratios, matrix";
+        if let [(first, _), (second, span), ..] = given.as_slice() {
+            let title = format!("`system.damping` has two kinds, `{first}` and `{second}`");
+            return Err(self.source.error(span.clone(), &title, help));
+        }
+        if let Some(Section { value: rayleigh, .. }) = &damping.rayleigh {
+            let coefficient = |key: &str, value: &Option<_>| -> Result<f64> {
+                let Some(value) = value else { return Ok(0.0) };
+                self.nonnegative(&format!("system.damping.rayleigh.{key}"), value)
+            };
+            let mass = coefficient("mass", &rayleigh.mass)?;
+            let stiffness = coefficient("stiffness", &rayleigh.stiffness)?;
+            return Ok(Damping::Rayleigh { mass, stiffness });
+        }
+        if let Some(ratio) = &damping.ratio {
+            return Ok(Damping::Modal(vec![self.nonnegative("system.damping.ratio", ratio)?]));
+        }
+        if let Some(ratios) = &damping.ratios {
+            if ratios.get_ref().is_empty() {
+                return Err(self.refuse(ratios.span(), "system.damping.ratios", "one ratio or more"));
+            }
+            let each = |ratio| self.nonnegative("system.damping.ratios", ratio);
+            return Ok(Damping::Modal(ratios.get_ref().iter().map(each).collect::<Result<_>>()?));
+        }
+        match &damping.matrix {
+            Some(file) => {
+                self.places.push(("system.damping.matrix".to_owned(), file.span()));
+                Ok(Damping::Matrix(self.matrix("damping", file)?))
+            }
+            None => Err(self.source.error(span, "`system.damping` says nothing", help)),
+        }
+    }
+
+    fn nonnegative(&self, key: &str, value: &Spanned<super::value::Number>) -> Result<f64> {
+        let x = value.get_ref().0;
+        if x.is_finite() && x >= 0.0 {
+            Ok(x)
+        } else {
+            Err(self.refuse(value.span(), key, "a finite number, 0 or more"))
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! What a case's system is, and what a place on it sees.
+
+use crate::error::Result;
+use crate::scene::{Bar, Beam, Chain, Row};
+use std::fmt;
+
+/// What the file says the system is.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Model {
+    /// `[system.oscillator]`.
+    Oscillator,
+    /// `[system.chain]`.
+    Chain(Chain),
+    /// `[system.bar]`.
+    Bar(Bar),
+    /// `[system.beam]`.
+    Beam(Beam),
+    /// `[system.matrices]`, with this many degrees of freedom.
+    Matrices(usize),
+}
+
+impl Model {
+    /// Its name in the file.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Oscillator => "oscillator",
+            Self::Chain(_) => "chain",
+            Self::Bar(_) => "bar",
+            Self::Beam(_) => "beam",
+            Self::Matrices(_) => "matrices",
+        }
+    }
+
+    /// Length of a bar or beam, m; the others have no positions.
+    pub(super) fn length(&self) -> Option<f64> {
+        match self {
+            Self::Bar(bar) => Some(bar.length),
+            Self::Beam(beam) => Some(beam.length),
+            _ => None,
+        }
+    }
+
+    /// What a place sees; errors are those of the bar or beam. Positions on other systems see nothing.
+    pub(super) fn row(&self, place: &Place) -> Result<Row> {
+        match (place, self) {
+            (Place::Dof(i), _) => Ok(Row::dof(*i)),
+            (Place::Row(entries), _) => Ok(Row::new(entries.clone())),
+            (Place::Position(x), Self::Bar(bar)) => bar.at(*x),
+            (Place::Position(x), Self::Beam(beam)) => beam.at(*x),
+            (Place::Spread { from, to }, Self::Bar(bar)) => bar.spread(*from, *to),
+            (Place::Spread { from, to }, Self::Beam(beam)) => beam.spread(*from, *to),
+            (Place::Position(_) | Place::Spread { .. }, _) => Ok(Row::new(Vec::new())),
+        }
+    }
+
+    /// Every place of a system of `n` degrees of freedom that moves, with its number: each mass, each degree of freedom of matrices, each node of a bar or
+    /// beam.
+    pub(super) fn each(&self, n: usize) -> Vec<(usize, Place)> {
+        let (elements, length) = match self {
+            Self::Bar(bar) => (bar.elements, bar.length),
+            Self::Beam(beam) => (beam.elements, beam.length),
+            _ => return (0..n).map(|i| (i, Place::Dof(i))).collect(),
+        };
+        let nodes = (0..=elements).map(|i| (i, Place::Position(length * (i as f64 / elements as f64))));
+        nodes.filter(|(_, place)| self.row(place).is_ok_and(|row| !row.entries().is_empty())).collect()
+    }
+}
+
+/// Where a wall, load or probe sits, as the file says it.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Place {
+    /// A degree of freedom, from 0.
+    Dof(usize),
+    /// A position along a bar or beam, m from its left end.
+    Position(f64),
+    /// Pairs (degree of freedom, weight).
+    Row(Vec<(usize, f64)>),
+    /// A stretch of a bar or beam, m from its left end: a load is spread evenly over it, a probe sees the mean.
+    Spread {
+        /// Where it begins.
+        from: f64,
+        /// Where it ends.
+        to: f64,
+    },
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Dof(i) => write!(f, "degree of freedom {i}"),
+            Self::Position(x) => write!(f, "{x} m along it"),
+            Self::Row(entries) => {
+                let term = |(i, weight): &(usize, f64)| format!("{weight} q{i}");
+                f.write_str(&entries.iter().map(term).collect::<Vec<_>>().join(" + "))
+            }
+            Self::Spread { from, to } => write!(f, "from {from} to {to} m along it"),
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! The key `at`: where walls, loads and probes sit.
+
+use super::build::Builder;
+use super::model::{Model, Place};
+use super::value::Value;
+use crate::error::{Error, Result};
+use crate::scene::Row;
+use std::ops::Range;
+use toml::Spanned;
+
+/// A place, what it sees, and what it adds to the name of what sits there: nothing, or `-` and a number where `at` says "each".
+#[derive(Debug)]
+pub(super) struct Site {
+    pub suffix: String,
+    pub place: Place,
+    pub row: Row,
+}
+
+impl Builder<'_> {
+    /// What `at` takes on this system.
+    fn takes(&self, spread: bool) -> String {
+        let each = if spread { "" } else { ", or \"each\"" };
+        let last = self.n.saturating_sub(1);
+        let dof = format!("{{ dof = 0 to {last} }}, {{ row = [[0, 1.0], [1, -1.0]] }}");
+        match self.model.length() {
+            Some(length) if spread => {
+                format!("at = {{ position = 0 to {length:?} m }}, {{ spread = [from, to] }} in m, {dof}")
+            }
+            Some(length) => format!("at = {{ position = 0 to {length:?} m }}, {dof}{each}"),
+            None => format!("at = {dof}{each}"),
+        }
+    }
+
+    /// The sites that `at` names; `owner` is what sits there, at `span` of the file. Loads may be spread.
+    pub fn sites(
+        &mut self,
+        owner: &str,
+        at: Option<&Spanned<Value>>,
+        span: Range<usize>,
+        load: bool,
+    ) -> Result<Vec<Site>> {
+        let key = format!("{owner}: at");
+        let Some(at) = at else {
+            if self.n == 1 {
+                return Ok(vec![Site { suffix: String::new(), place: Place::Dof(0), row: Row::dof(0) }]);
+            }
+            let title = format!("`at` is missing in {owner}");
+            return Err(self.source.error(span, &title, &format!("expected {}", self.takes(load))));
+        };
+        self.places.push((key.clone(), at.span()));
+        if let Value::Word(word) = at.get_ref()
+            && word == "each"
+            && !load
+        {
+            let site = |(i, place): (usize, Place)| {
+                let row = self.model.row(&place)?;
+                Ok(Site { suffix: format!("-{i}"), place, row })
+            };
+            return self.model.each(self.n).into_iter().map(site).collect();
+        }
+        let Value::Table(entries) = at.get_ref() else { return Err(self.refuse(at.span(), &key, &self.takes(load))) };
+        let place = match entries.as_slice() {
+            [(kind, value)] => self.place(&key, kind, value, load)?,
+            [] => return Err(self.refuse(at.span(), &key, &self.takes(load))),
+            [_, _, ..] => {
+                // In the order of the file, whatever that of the table.
+                let later =
+                    entries.iter().map(|entry| entry.0.span()).max_by_key(|span| span.start).unwrap_or(at.span());
+                let title = format!("{key} says more than one place");
+                return Err(self.source.error(later, &title, &format!("expected one of {}", self.takes(load))));
+            }
+        };
+        let row = self.model.row(&place).map_err(|error| self.at_value(&key, error, &entries[0].1))?;
+        if row.entries().iter().all(|entry| entry.1 == 0.0) {
+            let title = format!("{key}: nothing moves there");
+            return Err(self.source.error(
+                at.span(),
+                &title,
+                &format!("expected {}, where the structure is not held", self.takes(load)),
+            ));
+        }
+        Ok(vec![Site { suffix: String::new(), place, row }])
+    }
+
+    fn place(&mut self, key: &str, kind: &Spanned<String>, value: &Spanned<Value>, load: bool) -> Result<Place> {
+        let on_line = matches!(self.model, Model::Bar(_) | Model::Beam(_));
+        match kind.get_ref().as_str() {
+            "dof" => Ok(Place::Dof(self.dof(&format!("{key}: dof"), value)?)),
+            "row" => self.row(&format!("{key}: row"), value),
+            word @ ("position" | "spread") if !on_line => {
+                let title = format!("{key}: a {} has no positions", self.model.kind());
+                let hint = if word == "spread" { "one load for each place, or a row" } else { &self.takes(load) };
+                Err(self.source.error(kind.span(), &title, &format!("expected {hint}")))
+            }
+            "position" => {
+                let position = self.finite(&format!("{key}: position"), value, "a number, in m from the left end")?;
+                Ok(Place::Position(position))
+            }
+            "spread" if load => {
+                let wanted = "[from, to], two numbers in m from the left end";
+                let Value::List(ends) = value.get_ref() else {
+                    return Err(self.refuse(value.span(), &format!("{key}: spread"), wanted));
+                };
+                let [from, to] = ends.as_slice() else {
+                    return Err(self.refuse(value.span(), &format!("{key}: spread"), wanted));
+                };
+                let from = self.finite(&format!("{key}: spread"), from, wanted)?;
+                let to = self.finite(&format!("{key}: spread"), to, wanted)?;
+                Ok(Place::Spread { from, to })
+            }
+            other => {
+                let title = format!("unknown key `{other}` in {key}");
+                Err(self.source.error(kind.span(), &title, &format!("expected {}", self.takes(load))))
+            }
+        }
+    }
+
+    /// A number that counts a degree of freedom.
+    pub fn dof(&self, key: &str, value: &Spanned<Value>) -> Result<usize> {
+        let last = self.n.saturating_sub(1);
+        match value.get_ref() {
+            Value::Number(x) if x.fract() == 0.0 && (0.0..=last as f64).contains(x) => Ok(*x as usize),
+            _ => Err(self.refuse(value.span(), key, &format!("a degree of freedom, a whole number from 0 to {last}"))),
+        }
+    }
+
+    fn row(&self, key: &str, value: &Spanned<Value>) -> Result<Place> {
+        let wanted = "pairs of a degree of freedom and a weight, each once: [[0, 1.0], [1, -1.0]]";
+        let entries = self.pairs(key, value, wanted)?;
+        let mut row: Vec<(usize, f64)> = Vec::new();
+        for (dof, weight) in entries {
+            let i = self.dof(&format!("{key}: degree of freedom"), dof)?;
+            if row.iter().any(|entry| entry.0 == i) {
+                return Err(self.refuse(
+                    dof.span(),
+                    &format!("{key}: degree of freedom"),
+                    "each degree of freedom once",
+                ));
+            }
+            let weight = self.finite(&format!("{key}: weight"), weight, "a finite number")?;
+            row.push((i, weight));
+        }
+        if row.iter().all(|entry| entry.1 == 0.0) {
+            return Err(self.refuse(value.span(), key, &format!("{wanted}, one of the weights not 0")));
+        }
+        Ok(Place::Row(row))
+    }
+
+    /// A list of pairs.
+    pub fn pairs<'v>(
+        &self,
+        key: &str,
+        value: &'v Spanned<Value>,
+        wanted: &str,
+    ) -> Result<Vec<(&'v Spanned<Value>, &'v Spanned<Value>)>> {
+        let Value::List(items) = value.get_ref() else { return Err(self.refuse(value.span(), key, wanted)) };
+        if items.is_empty() {
+            return Err(self.refuse(value.span(), key, wanted));
+        }
+        let mut pairs = Vec::new();
+        for item in items {
+            match item.get_ref() {
+                Value::List(pair) if pair.len() == 2 => pairs.push((&pair[0], &pair[1])),
+                _ => return Err(self.refuse(item.span(), key, wanted)),
+            }
+        }
+        Ok(pairs)
+    }
+
+    /// A finite number.
+    pub fn finite(&self, key: &str, value: &Spanned<Value>, wanted: &str) -> Result<f64> {
+        match value.get_ref() {
+            Value::Number(x) if x.is_finite() => Ok(*x),
+            _ => Err(self.refuse(value.span(), key, wanted)),
+        }
+    }
+
+    /// The error of a bar or beam, shown at the value that it is about.
+    fn at_value(&self, key: &str, error: Error, value: &Spanned<Value>) -> Error {
+        match error {
+            Error::Invalid { value: found, expected, .. } => {
+                self.source.error(value.span(), &format!("{key} is {found}"), &format!("expected {expected}"))
+            }
+            other => other,
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! The tables `[[wall]]`, and the probes that stand for them.
+
+use super::build::Builder;
+use super::file;
+use super::model::{Model, Place};
+use super::place::Site;
+use super::value::Section;
+use crate::error::{Error, Result};
+use crate::scene::{Probe, Row, Side, Wall, WallLaw};
+use std::ops::Range;
+use toml::Spanned;
+
+impl Builder<'_> {
+    /// The walls of table `index`, the first of which is number `first` of the scene: with the name of their site, and their place.
+    pub fn walls(
+        &mut self,
+        index: usize,
+        first: usize,
+        section: Section<file::Wall>,
+    ) -> Result<Vec<(Wall, String, Place)>> {
+        let Section { span, value: wall } = section;
+        let base = self.name(&format!("wall {}: name", index + 1), &wall.name)?;
+        let owner = format!("wall {base:?}");
+        let sides = self.sides(&owner, &wall, span.clone())?;
+        let law = self.law_of(&owner, &wall)?;
+        let mut walls = Vec::new();
+        for site in self.sites(&owner, wall.at.as_ref(), span, false)? {
+            let name = format!("{base}{}", site.suffix);
+            for &(side, position, suffix) in &sides {
+                let full = format!("{name}{suffix}");
+                self.note(first + walls.len(), &full, &wall);
+                let Site { place, row, .. } = &site;
+                let built = Wall { name: full, side, position, law, at: row.clone() };
+                walls.push((built, name.clone(), place.clone()));
+            }
+        }
+        Ok(walls)
+    }
+
+    /// Where the values of a wall stand, under the name that the scene knows it by.
+    fn note(&mut self, number: usize, name: &str, wall: &file::Wall) {
+        self.places.push((format!("wall {}: name", number + 1), wall.name.span()));
+        let position = wall.position.as_ref().or(wall.gap.as_ref());
+        let keys = [
+            ("position", position.map(Spanned::span)),
+            ("restitution", wall.restitution.as_ref().map(Spanned::span)),
+            ("stiffness", wall.stiffness.as_ref().map(Spanned::span)),
+            ("damping", wall.damping.as_ref().map(Spanned::span)),
+            ("at", wall.at.as_ref().map(Spanned::span)),
+        ];
+        for (key, span) in keys {
+            self.places.extend(span.map(|span| (format!("wall {name:?}: {key}"), span)));
+        }
+    }
+
+    /// Side, position and what it adds to the name.
+    fn sides(&self, owner: &str, wall: &file::Wall, span: Range<usize>) -> Result<Vec<(Side, f64, &'static str)>> {
+        let side = match wall.side.get_ref().as_str() {
+            "upper" => Side::Upper,
+            "lower" => Side::Lower,
+            "both" => {
+                let Some(gap) = &wall.gap else {
+                    let help =
+                        "expected gap = a number, 0 or more, in m: how far each of the two walls stands from position";
+                    return Err(self.source.error(span, "`gap` is missing in `wall`", help));
+                };
+                let centre = wall.position.as_ref().map_or(0.0, |x| x.get_ref().0);
+                let half = gap.get_ref().0;
+                if !(half.is_finite() && half >= 0.0) {
+                    return Err(self.refuse(gap.span(), &format!("{owner}: gap"), "a finite number, 0 or more, in m"));
+                }
+                return Ok(vec![(Side::Upper, centre + half, "-upper"), (Side::Lower, centre - half, "-lower")]);
+            }
+            _ => {
+                let expected = "\"upper\" or \"lower\", or \"both\" with gap";
+                return Err(self.refuse(wall.side.span(), &format!("{owner}: side"), expected));
+            }
+        };
+        if let Some(gap) = &wall.gap {
+            let title = format!("{owner} has a gap and one side");
+            return Err(self.source.error(
+                gap.span(),
+                &title,
+                "expected position, in m; gap goes with side = \"both\"",
+            ));
+        }
+        match &wall.position {
+            Some(position) => Ok(vec![(side, position.get_ref().0, "")]),
+            None => {
+                Err(self.source.error(span, "`position` is missing in `wall`", "expected position = a number, in m"))
+            }
+        }
+    }
+
+    fn law_of(&self, owner: &str, wall: &file::Wall) -> Result<WallLaw> {
+        let number = |value: &Option<Spanned<super::value::Number>>| value.as_ref().map(|x| x.get_ref().0);
+        let at = |value: &Option<Spanned<super::value::Number>>| value.as_ref().map_or(0..0, Spanned::span);
+        if let (Some(e), true, None) = (&wall.restitution, self.static_correction, &wall.stiffness) {
+            let help = "expected no restitution beside static_correction: the rigid wall becomes one of the compliance that the modes leave out, \
+                        which has no mass, and what has no mass cannot rebound";
+            return Err(self.source.error(
+                e.span(),
+                &format!("{owner} has restitution, and static_correction is true"),
+                help,
+            ));
+        }
+        match (number(&wall.restitution), number(&wall.stiffness), number(&wall.damping)) {
+            (None, None, None) => Ok(WallLaw::Rigid { restitution: 1.0 }),
+            (Some(restitution), None, None) => Ok(WallLaw::Rigid { restitution }),
+            (None, Some(stiffness), damping) => Ok(WallLaw::Elastic { stiffness, damping: damping.unwrap_or(0.0) }),
+            (Some(_), Some(_), _) => Err(self.source.error(
+                at(&wall.restitution),
+                &format!("{owner} has both restitution and stiffness"),
+                "expected restitution for a rigid wall, or stiffness for an elastic one; what an elastic wall gives \
+                 back follows from its stiffness and damping",
+            )),
+            (_, None, Some(_)) => Err(self.source.error(
+                at(&wall.damping),
+                &format!("{owner} has damping without stiffness"),
+                "expected stiffness beside it, in N/m (an elastic wall); a rigid wall loses energy by restitution",
+            )),
+        }
+    }
+
+    /// The probes of the file, or those that stand in for them: one for each place with walls, under the name of the first wall there; without walls one
+    /// in the middle of a bar or beam, else one on the first degree of freedom. With one degree of freedom there is one to look at, and it has no name.
+    pub fn probes(
+        &mut self,
+        probes: Vec<Section<file::Probe>>,
+        walls: &[Wall],
+        sites: &[String],
+    ) -> Result<Vec<Probe>> {
+        let mut all: Vec<Probe> = Vec::new();
+        if probes.is_empty() {
+            if self.n == 1 {
+                return Ok(vec![Probe { name: String::new(), at: Row::dof(0) }]);
+            }
+            for (wall, site) in walls.iter().zip(sites) {
+                if all.iter().all(|probe| probe.at != wall.at) {
+                    all.push(Probe { name: site.clone(), at: wall.at.clone() });
+                }
+            }
+            if all.is_empty() {
+                let (name, place) = match self.model.length() {
+                    Some(length) => ("middle", Place::Position(0.5 * length)),
+                    None => ("dof-0", Place::Dof(0)),
+                };
+                let at = self.model.row(&place).map_err(|error| self.at_key(error))?;
+                all.push(Probe { name: name.to_owned(), at });
+            }
+            return Ok(all);
+        }
+        for (index, Section { span, value: probe }) in probes.into_iter().enumerate() {
+            let key = format!("probe {}: name", index + 1);
+            let base = self.name(&key, &probe.name)?;
+            for site in self.sites(&format!("probe {base:?}"), probe.at.as_ref(), span, false)? {
+                let name = format!("{base}{}", site.suffix);
+                if all.iter().any(|other| other.name == name) {
+                    return Err(self.refuse(probe.name.span(), &key, "a name of its own for each probe"));
+                }
+                all.push(Probe { name, at: site.row });
+            }
+        }
+        Ok(all)
+    }
+
+    /// A name that CSV headers can carry.
+    fn name(&self, key: &str, name: &Spanned<String>) -> Result<String> {
+        let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        let word = name.get_ref();
+        if word.is_empty() || !word.chars().all(fits) {
+            return Err(self.refuse(name.span(), key, "letters, digits, - and _"));
+        }
+        Ok(word.clone())
+    }
+
+    /// An error of a builder, shown at its key.
+    pub fn at_key(&self, error: Error) -> Error {
+        self.locate(error, &crate::scene::Scene::oscillator(1.0, 0.0, 0.0))
+    }
+
+    /// True for systems with positions.
+    pub fn has_positions(&self) -> bool {
+        matches!(self.model, Model::Bar(_) | Model::Beam(_))
+    }
+}

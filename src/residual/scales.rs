@@ -1,0 +1,37 @@
+//! What residuals are measured by: sizes that the scene knows of itself, in the metric of its mass.
+//!
+//! Degrees of freedom may differ in unit: metres beside radians, or modal coordinates. A force over √Mᵢᵢ and a displacement times it may be compared
+//! with any other, and for one degree of freedom nothing changes.
+
+use crate::scene::Scene;
+
+#[derive(Debug)]
+pub(super) struct Scales {
+    /// √Mᵢᵢ, n entries.
+    pub root_mass: Vec<f64>,
+    /// √m of the lightest wall, by the mass it feels; without walls of the heaviest degree of freedom.
+    root_wall_mass: f64,
+    /// The gap scale, m √kg.
+    pub gap: f64,
+    /// What its springs would exert over the gap scale, N/√kg, so that a run without loads and contacts has a scale too: the largest term of K q, of which the
+    /// sum is known to rounding only.
+    pub spring: f64,
+}
+
+impl Scales {
+    pub fn new(scene: &Scene) -> Self {
+        let structure = scene.system.structure();
+        let root_mass: Vec<f64> = structure.mass.diagonal_entries().into_iter().map(f64::sqrt).collect();
+        let lightest = scene.wall_masses().into_iter().filter(|m| m.is_finite()).reduce(f64::min);
+        let root_wall_mass = lightest.map_or_else(|| root_mass.iter().fold(0.0, |a: f64, b| a.max(*b)), f64::sqrt);
+        let gap = scene.gap_scale() * root_wall_mass;
+        let stiffness = structure.stiffness.diagonal_entries();
+        let fastest = stiffness.iter().zip(&root_mass).map(|(k, m)| k / (m * m)).fold(0.0, f64::max);
+        Self { root_mass, root_wall_mass, gap, spring: fastest * gap }
+    }
+
+    /// A wall's force (N) as what it makes of the mass it feels, N/√kg.
+    pub fn normal_force(&self, force: f64) -> f64 {
+        force / self.root_wall_mass
+    }
+}

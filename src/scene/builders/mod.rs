@@ -1,0 +1,18 @@
+//! Builders of structures with many degrees of freedom: what an engineer measures, made into matrices.
+//!
+//! | type | what it builds |
+//! |---|---|
+//! | [`Chain`] | masses in a line, springs between them |
+//! | [`Bar`] | axial motion, linear elements |
+//! | [`Beam`] | bending of a tube, Hermite elements |
+
+mod bar;
+mod beam;
+mod chain;
+mod mesh;
+mod profile;
+
+pub use bar::{Bar, BarEnd, MassMatrix};
+pub use beam::{Beam, BeamEnd};
+pub use chain::Chain;
+pub use mesh::MOST_ELEMENTS;

@@ -1,0 +1,99 @@
+//! What takes energy from a structure between contacts.
+
+use super::Structure;
+use super::modal::{MOST_DENSE, Modes};
+use super::system::nonnegative;
+use crate::error::{Error, Result};
+use crate::linear::Symmetric;
+use nalgebra::DMatrix;
+
+/// Viscous damping: how C follows from M and K.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Damping {
+    /// C = 0.
+    None,
+    /// Rayleigh's C = α M + β K: mode i has ζᵢ = α/2ωᵢ + β ωᵢ/2.
+    Rayleigh {
+        /// α, 1/s; 0 or more. It also brakes rigid-body motions.
+        mass: f64,
+        /// β, s; 0 or more.
+        stiffness: f64,
+    },
+    /// C = M Φ diag(2 ζᵢ ωᵢ) Φᵀ M with the M-orthonormal modes Φ, slowest first: one ratio ζ for each mode, the last repeated; one alone is for all. Rigid-body
+    /// motions have none. C is full, so a structure beyond [`MOST_DENSE`] degrees of freedom is to be cut to modes first.
+    Modal(Vec<f64>),
+    /// C itself, N s/m.
+    Matrix(Symmetric),
+}
+
+impl Damping {
+    /// C for the M and K of `structure`.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] under `system.damping.mass`, `.stiffness`, `.ratios` or `.matrix`; where modal ratios meet a structure too large; or the errors of
+    /// [`Modes::lowest`].
+    pub fn matrix(&self, structure: &Structure) -> Result<Symmetric> {
+        let n = structure.mass.size();
+        match self {
+            Self::None => Ok(Symmetric::zeros(n)),
+            Self::Rayleigh { mass, stiffness } => {
+                nonnegative("system.damping.mass", *mass)?;
+                nonnegative("system.damping.stiffness", *stiffness)?;
+                Ok(Symmetric::sum(&[(*mass, &structure.mass), (*stiffness, &structure.stiffness)]))
+            }
+            Self::Modal(ratios) => modal(ratios, structure),
+            Self::Matrix(matrix) if matrix.size() == n => Ok(matrix.clone()),
+            Self::Matrix(matrix) => {
+                let expected = format!("{n} × {n}, as the mass matrix");
+                Err(Error::invalid("system.damping.matrix", format!("{0} × {0}", matrix.size()), expected))
+            }
+        }
+    }
+}
+
+impl Structure {
+    /// The structure with C from `damping`, in place of the C it has.
+    ///
+    /// # Errors
+    /// As [`Damping::matrix`].
+    pub fn with_damping(mut self, damping: &Damping) -> Result<Self> {
+        self.damping = damping.matrix(&self)?;
+        Ok(self)
+    }
+}
+
+fn modal(ratios: &[f64], structure: &Structure) -> Result<Symmetric> {
+    let Some(&last) = ratios.last() else {
+        return Err(Error::invalid("system.damping.ratios", "an empty list", "one ratio or more"));
+    };
+    for (i, &ratio) in ratios.iter().enumerate() {
+        nonnegative(&format!("system.damping.ratios: value {}", i + 1), ratio)?;
+    }
+    let ratio = |i: usize| ratios.get(i).copied().unwrap_or(last);
+    let n = structure.mass.size();
+    // Uncoupled already, as after a modal reduction: C is diagonal too, whatever n.
+    if structure.mass.half_bandwidth() == 0 && structure.stiffness.half_bandwidth() == 0 {
+        let (m, k) = (structure.mass.diagonal_entries(), structure.stiffness.diagonal_entries());
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|&a, &b| (k[a] / m[a]).total_cmp(&(k[b] / m[b])));
+        let mut c = vec![0.0; n];
+        order.into_iter().enumerate().for_each(|(rank, i)| c[i] = 2.0 * ratio(rank) * (k[i] * m[i]).sqrt());
+        return Ok(Symmetric::diagonal(&c));
+    }
+    if n > MOST_DENSE {
+        let expected = format!(
+            "at most {MOST_DENSE}: modal ratios make C full; cut the structure to modes, or give Rayleigh coefficients"
+        );
+        return Err(Error::invalid("system.damping.ratios", format!("for {n} degrees of freedom"), expected));
+    }
+    let modes = Modes::lowest(structure, n)?;
+    // Columns √(2ζω) M φ: C is their product with their transpose, symmetric and semidefinite to the last bit.
+    let mut columns = DMatrix::zeros(n, n);
+    for (i, (omega, shape)) in modes.omega.iter().zip(&modes.shapes).enumerate() {
+        let mut column = vec![0.0; n];
+        structure.mass.add_product((2.0 * ratio(i) * omega).sqrt(), shape, &mut column);
+        columns.column_mut(i).copy_from_slice(&column);
+    }
+    let c = &columns * columns.transpose();
+    Ok(Symmetric::from_entries(n, (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| (i, j, c[(i, j)]))))
+}

@@ -1,0 +1,60 @@
+//! Entries of both triangles, made into one symmetric matrix.
+
+use super::{Line, TextError};
+use crate::linear::Symmetric;
+
+/// Two entries across the diagonal are one if they agree to this share of the larger, or of √|aᵢᵢ aⱼⱼ|.
+const SYMMETRIC: f64 = 1e-12;
+
+/// One entry and the line it was read from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entry<'a> {
+    pub row: usize,
+    pub column: usize,
+    pub value: f64,
+    pub line: Line<'a>,
+}
+
+/// The matrix of `entries`, each place given once. If not `half`, both triangles are given and must agree: the mean is taken.
+pub(super) fn symmetric(n: usize, mut entries: Vec<Entry<'_>>, half: bool) -> Result<Symmetric, TextError> {
+    let place = |e: &Entry<'_>| (e.row.max(e.column), e.row.min(e.column));
+    let mut diagonal = vec![0.0; n];
+    for entry in entries.iter().filter(|e| e.row == e.column) {
+        diagonal[entry.row] = entry.value;
+    }
+    // Pairs come together, in the order of their lines.
+    entries.sort_by_key(|e| (place(e), e.line.number));
+    let mut merged = Vec::with_capacity(entries.len());
+    let mut rest = entries.as_slice();
+    while let Some((first, after)) = rest.split_first() {
+        let same = after.iter().take_while(|e| place(e) == place(first)).count();
+        let named = |e: &Entry<'_>| format!("the entry of row {}, column {}", e.row + 1, e.column + 1);
+        let twin = after.first().filter(|_| same > 0);
+        if let Some(twin) = twin {
+            let repeated = after[..same].iter().find(|e| half || (e.row, e.column) == (first.row, first.column));
+            if let Some(again) = repeated.or_else(|| after[..same].get(1)) {
+                let expected = if half { "each entry once, in one triangle" } else { "each entry once" };
+                return Err(again.line.error(format!("{} comes a second time", named(again)), expected));
+            }
+            let scale = (diagonal[first.row] * diagonal[first.column]).abs().sqrt();
+            if (twin.value - first.value).abs() > SYMMETRIC * first.value.abs().max(twin.value.abs()).max(scale) {
+                let message = format!("{} is {:?}", named(twin), twin.value);
+                let expected = format!(
+                    "{:?} as across the diagonal, on line {}: a symmetric matrix",
+                    first.value, first.line.number
+                );
+                return Err(twin.line.error(message, expected));
+            }
+            merged.push((first.row, first.column, 0.5 * (first.value + twin.value)));
+        } else {
+            let scale = (diagonal[first.row] * diagonal[first.column]).abs().sqrt();
+            if !half && first.row != first.column && first.value.abs() > SYMMETRIC * scale {
+                let message = format!("{} is {:?}, and across the diagonal is none", named(first), first.value);
+                return Err(first.line.error(message, "both entries of a pair, or the header word symmetric"));
+            }
+            merged.push((first.row, first.column, first.value));
+        }
+        rest = &after[same..];
+    }
+    Ok(Symmetric::from_entries(n, merged))
+}

@@ -1,0 +1,197 @@
+//! Modes of vibration.
+
+use super::{dense, krylov};
+use crate::error::{Error, Result};
+use crate::linear::{Factor, Operator, Symmetric};
+use crate::scene::{Row, Structure};
+
+/// Up to this many degrees of freedom full matrices are made where they serve: all modes at once, modal damping.
+pub const MOST_DENSE: usize = 600;
+
+/// The most modes of a structure that is larger.
+pub const MOST_MODES: usize = 500;
+
+/// Modes of the undamped structure, slowest first: K φᵢ = ωᵢ² M φᵢ, φᵢᵀ M φⱼ = δᵢⱼ.
+///
+/// ω of a rigid-body motion is exactly 0: where φᵀKφ is no more than the rounding of K and φ makes it. The largest component of a shape, weighed by
+/// the root of its mass, is positive, so that shapes can be compared from run to run. Shapes of equal ω are any basis of their space.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Modes {
+    /// ωᵢ, rad/s, increasing; k entries.
+    pub omega: Vec<f64>,
+    /// φᵢ, k vectors of one value per degree of freedom, 1/√kg for displacements.
+    pub shapes: Vec<Vec<f64>>,
+}
+
+/// λ = φᵀKφ below this many roundings of |φ|ᵀ|K||φ| is 0 …
+const RIGID: f64 = 8.0 * f64::EPSILON;
+/// … and so is λ below this share of the largest kᵢᵢ/mᵢᵢ: what an error of 1e-11 in the shape, the most that is left, adds to its energy.
+const SHAPE: f64 = 1e-22;
+
+/// Components within this of the largest count as the largest: the first of them has the sign, whatever rounding says.
+const TIE: f64 = 1e-6;
+
+impl Modes {
+    /// The `count` slowest modes of M and K, from 1 to n; C plays no part.
+    ///
+    /// Up to [`MOST_DENSE`] degrees of freedom many modes are found all at once, by the symmetric eigenvalue problem L⁻¹ K L⁻ᵀ with M = L Lᵀ; few modes, and
+    /// those of larger structures, by Lanczos' method on (K + σM)⁻¹M, until ‖(K + σM)⁻¹Mφ − φ/(ω² + σ)‖ ≤ 1e-11/(ω² + σ) in the norm of M. That none was
+    /// missed is then counted by Sylvester's law of inertia.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] under `modes` for a count that does not fit, or that was not reached; under `system` where M is not positive definite or K has
+    /// a negative ω².
+    pub fn lowest(structure: &Structure, count: usize) -> Result<Self> {
+        let n = structure.mass.size();
+        if count == 0 || count > n {
+            return Err(Error::invalid("modes", count, format!("from 1 to {n}, the degrees of freedom")));
+        }
+        if n > MOST_DENSE && count > MOST_MODES {
+            let expected = format!("at most {MOST_MODES} for more than {MOST_DENSE} degrees of freedom");
+            return Err(Error::invalid("modes", count, expected));
+        }
+        for (name, matrix) in [("mass", &structure.mass), ("stiffness", &structure.stiffness)] {
+            if let Some((i, j, value)) = matrix.not_finite() {
+                let key = format!("system: {name} matrix, row {}, column {}", i + 1, j + 1);
+                return Err(Error::invalid(key, format_args!("{value:?}"), "a finite number"));
+            }
+        }
+        if structure.mass.half_bandwidth() == 0 && structure.stiffness.half_bandwidth() == 0 {
+            return uncoupled(structure, count);
+        }
+        let all_at_once = n <= MOST_DENSE && (n <= 40 || 3 * count > n);
+        let (scaled, unit) = scaled(structure);
+        let mut shapes = if all_at_once { dense::lowest(&scaled, count)? } else { krylov::lowest(&scaled, count)? };
+        shapes.iter_mut().flatten().for_each(|x| *x *= unit);
+        Self::finish(structure, shapes)
+    }
+
+    /// ω, order and sign of shapes that are M-orthonormal already.
+    fn finish(structure: &Structure, shapes: Vec<Vec<f64>>) -> Result<Self> {
+        let stiffness = Operator::new(&structure.stiffness);
+        let size = Operator::new(&Symmetric::from_entries(
+            structure.stiffness.size(),
+            structure.stiffness.entries().map(|(i, j, value)| (i, j, value.abs())),
+        ));
+        let weight: Vec<f64> = structure.mass.diagonal_entries().into_iter().map(f64::sqrt).collect();
+        let squares = structure.stiffness.diagonal_entries();
+        let fastest = squares.iter().zip(&weight).map(|(k, w)| k / w / w).fold(0.0_f64, f64::max);
+        let mut modes = Vec::with_capacity(shapes.len());
+        let mut product = vec![0.0; weight.len()];
+        for mut shape in shapes {
+            let form = |operator: &Operator, x: &[f64], product: &mut [f64]| {
+                product.fill(0.0);
+                operator.add_product(1.0, x, product);
+                product.iter().zip(x).map(|(a, b)| a * b).sum::<f64>()
+            };
+            let lambda = form(&stiffness, &shape, &mut product);
+            let magnitude: Vec<f64> = shape.iter().map(|x| x.abs()).collect();
+            let rounding = RIGID * form(&size, &magnitude, &mut product) + SHAPE * fastest;
+            // A shape's own errors add to the rounding of its energy: ten times as much is still no motion that gains from the springs.
+            if lambda < -100.0 * rounding {
+                let expected = "a positive semidefinite matrix: no motion gains energy from the springs";
+                return Err(Error::invalid(
+                    "system: stiffness matrix",
+                    format!("ω² = {lambda:e} rad²/s² for a mode"),
+                    expected,
+                ));
+            }
+            let omega = if lambda <= rounding { 0.0 } else { lambda.sqrt() };
+            let largest = shape.iter().zip(&weight).fold(0.0_f64, |a, (x, w)| a.max(x.abs() * w));
+            let first = shape.iter().zip(&weight).find(|(x, w)| x.abs() * **w >= (1.0 - TIE) * largest);
+            if first.is_some_and(|(x, _)| *x < 0.0) {
+                shape.iter_mut().for_each(|x| *x = -*x);
+            }
+            modes.push((omega, shape));
+        }
+        modes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (omega, shapes) = modes.into_iter().unzip();
+        Ok(Self { omega, shapes })
+    }
+
+    /// k.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.omega.len()
+    }
+
+    /// Number of rigid-body motions among them.
+    #[must_use]
+    pub fn rigid(&self) -> usize {
+        self.omega.iter().filter(|omega| **omega == 0.0).count()
+    }
+
+    /// g Φ, k entries: what a row sees of each mode.
+    #[must_use]
+    pub fn seen(&self, row: &Row) -> Vec<f64> {
+        self.shapes.iter().map(|shape| row.dot(shape)).collect()
+    }
+
+    /// Φᵀ M q, k entries: the modal coordinates of a displacement or velocity.
+    #[must_use]
+    pub fn coordinates(&self, mass: &Symmetric, q: &[f64]) -> Vec<f64> {
+        let mut momentum = vec![0.0; q.len()];
+        mass.add_product(1.0, q, &mut momentum);
+        let dot = |shape: &Vec<f64>| shape.iter().zip(&momentum).map(|(a, b)| a * b).sum();
+        self.shapes.iter().map(dot).collect()
+    }
+
+    /// Φ a, n entries: the displacement or velocity of modal coordinates.
+    #[must_use]
+    pub fn expand(&self, coordinates: &[f64]) -> Vec<f64> {
+        let mut q = vec![0.0; self.shapes.first().map_or(0, Vec::len)];
+        for (shape, a) in self.shapes.iter().zip(coordinates) {
+            q.iter_mut().zip(shape).for_each(|(q, x)| *q += a * x);
+        }
+        q
+    }
+}
+
+/// The structure in units in which the largest entry on the diagonals of M and of K is 1, so that no square overflows; and what its shapes are to be
+/// multiplied by.
+fn scaled(structure: &Structure) -> (Structure, f64) {
+    let unit = |matrix: &Symmetric| {
+        let largest = matrix.diagonal_entries().into_iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        // A power of 2 rounds nothing; a matrix of zeros stays one.
+        if largest > 0.0 { 2.0_f64.powf(largest.log2().round()) } else { 1.0 }
+    };
+    let mass = unit(&structure.mass);
+    let scaled = Structure {
+        mass: Symmetric::sum(&[(1.0 / mass, &structure.mass)]),
+        damping: Symmetric::zeros(0),
+        stiffness: Symmetric::sum(&[(1.0 / unit(&structure.stiffness), &structure.stiffness)]),
+    };
+    (scaled, 1.0 / mass.sqrt())
+}
+
+/// The modes of a structure whose M and K are diagonal: its own degrees of freedom.
+fn uncoupled(structure: &Structure, count: usize) -> Result<Modes> {
+    definite(&structure.mass)?;
+    let (m, k) = (structure.mass.diagonal_entries(), structure.stiffness.diagonal_entries());
+    if let Some(row) = k.iter().position(|k| *k < 0.0) {
+        let key = format!("system: stiffness matrix, row {0}, column {0}", row + 1);
+        return Err(Error::invalid(key, format_args!("{:?}", k[row]), "0 or more"));
+    }
+    let mut order: Vec<usize> = (0..m.len()).collect();
+    order.sort_by(|&a, &b| (k[a] / m[a]).total_cmp(&(k[b] / m[b])));
+    order.truncate(count);
+    let omega = order.iter().map(|&i| (k[i] / m[i]).sqrt()).collect();
+    let shape = |&i: &usize| {
+        let mut shape = vec![0.0; m.len()];
+        shape[i] = 1.0 / m[i].sqrt();
+        shape
+    };
+    Ok(Modes { omega, shapes: order.iter().map(shape).collect() })
+}
+
+/// An error unless `mass` is positive definite.
+pub(super) fn definite(mass: &Symmetric) -> Result<()> {
+    match Factor::new(mass) {
+        Ok(_) => Ok(()),
+        Err(fault) => {
+            let key = format!("system: mass matrix, row {}", fault.row + 1);
+            let value = mass.get(fault.row, fault.row);
+            Err(Error::invalid(key, format_args!("{value:?} on the diagonal"), "a positive definite matrix"))
+        }
+    }
+}

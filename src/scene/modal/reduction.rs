@@ -1,0 +1,245 @@
+//! A scene in modal coordinates.
+
+use super::modes::Modes;
+use super::residual::Residual;
+use crate::error::{Error, Result};
+use crate::linear::Symmetric;
+use crate::scene::{Damping, Row, Scene, State, Structure, System, Wall, WallLaw};
+
+/// A scene cut to its slowest modes, and what that cost.
+///
+/// With q = Φ a, the k slowest modes: M becomes 1, K diag(ω²), C ΦᵀCΦ (stored as a diagonal where it couples nothing), a row g of a wall, load or probe
+/// g Φ, a start q ΦᵀM q. What a truncation changes at a wall is its effective mass 1/(g M⁻¹ gᵀ), which falls as modes are added and so decides what a blow
+/// with restitution does, and its static compliance g K⁻¹ gᵀ, which rises. The residual response to loads is left out of probes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reduction {
+    /// The scene in modal coordinates; walls, loads and probes are in the order they had.
+    pub scene: Scene,
+    /// The modes that are kept.
+    pub modes: Modes,
+    /// ω of the slowest mode that is left out, rad/s; none if all are kept.
+    pub next_omega: Option<f64>,
+    /// Degrees of freedom before.
+    pub degrees_of_freedom: usize,
+    /// What is left at each wall, in the scene's order.
+    pub walls: Vec<WallTruncation>,
+    /// Share of the energy at the start, ½vᵀMv + ½qᵀKq, that is left out; 0 for a start without energy.
+    pub start_energy_lost: f64,
+    /// With a static correction: the largest |sᵢⱼ|/√(sᵢᵢ sⱼⱼ) of the residual compliance between walls at different places, which is neglected. 0 without.
+    pub coupling_neglected: f64,
+}
+
+/// What truncation leaves of the structure at a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallTruncation {
+    /// Effective mass 1/(g M⁻¹ gᵀ) of the whole structure, kg.
+    pub mass: f64,
+    /// The same of the modes that are kept, kg: no less.
+    pub mass_kept: f64,
+    /// Static compliance g K⁺ gᵀ of the whole structure beside its rigid-body motions, m/N.
+    pub compliance: f64,
+    /// The same of the modes that are kept, m/N: no more.
+    pub compliance_kept: f64,
+    /// True if the wall was given the residual compliance.
+    pub corrected: bool,
+}
+
+impl WallTruncation {
+    /// The residual compliance s that is left out, m/N.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        (self.compliance - self.compliance_kept).max(0.0)
+    }
+
+    /// Share of the static compliance that is kept, from 0 to 1; 1 for a wall that sees none.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        if self.compliance > 0.0 { (self.compliance_kept / self.compliance).min(1.0) } else { 1.0 }
+    }
+}
+
+/// A residual compliance below this share of the whole is rounding: nothing is left out.
+const NOTHING: f64 = 1e-12;
+
+impl Scene {
+    /// The scene in the coordinates of its `modes` slowest modes.
+    ///
+    /// With `static_correction` the residual compliance s = g (K⁺ − ΦΩ⁻²Φᵀ) gᵀ of each wall, that of the modes left out, becomes a spring between structure and
+    /// wall. A rigid wall so becomes an elastic one of stiffness 1/s: what is massless neither jumps nor rebounds, so its restitution is lost. An
+    /// elastic wall of stiffness k and damping c gets k′ = 1/(1/k + s), and c (k′/k)², which takes the same power at slow rates. Each wall is corrected
+    /// by itself: s between walls at different places is neglected, and reported.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] under `modes`: a count that does not fit, fewer than the rigid-body motions, or so few that the start comes to lie behind a wall; under
+    /// `static_correction` for a φ² wall; or what [`Scene::validate`] says.
+    pub fn reduced(&self, modes: usize, static_correction: bool) -> Result<Reduction> {
+        self.validate()?;
+        let System::Structure(structure) = &self.system else {
+            return Err(Error::invalid("modes", modes, "none: the system has one degree of freedom"));
+        };
+        let n = structure.mass.size();
+        let (mut kept, next_omega) = split(structure, modes)?;
+        let damping = match kept.uncouple(&structure.damping) {
+            Some(diagonal) => Symmetric::diagonal(&diagonal),
+            None => {
+                let c = kept.project(&structure.damping);
+                Symmetric::from_entries(
+                    modes,
+                    (0..modes).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| (i, j, c[(i, j)])),
+                )
+            }
+        };
+        let stiffness: Vec<f64> = kept.omega.iter().map(|omega| omega * omega).collect();
+        let row = |row: &Row| Row::new(kept.seen(row).into_iter().enumerate().collect());
+        let mut scene = Self {
+            system: System::Structure(Box::new(Structure {
+                mass: Symmetric::diagonal(&vec![1.0; modes]),
+                damping,
+                stiffness: Symmetric::diagonal(&stiffness),
+            })),
+            walls: self.walls.iter().map(|wall| Wall { at: row(&wall.at), ..wall.clone() }).collect(),
+            loads: self.loads.clone(),
+            probes: self.probes.clone(),
+            initial: State {
+                q: kept.coordinates(&structure.mass, &self.initial.q),
+                v: kept.coordinates(&structure.mass, &self.initial.v),
+            },
+            duration: self.duration,
+        };
+        scene.loads.iter_mut().for_each(|load| load.at = row(&load.at));
+        scene.probes.iter_mut().for_each(|probe| probe.at = row(&probe.at));
+        self.keep_start(&mut scene, modes)?;
+        let (mut walls, coupling) = self.truncation(structure, &kept, next_omega, &scene)?;
+        if static_correction {
+            for (wall, truncation) in scene.walls.iter_mut().zip(&mut walls) {
+                correct(wall, truncation)?;
+            }
+        }
+        let energy = |scene: &Self| {
+            let State { q, v } = &scene.initial;
+            scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)
+        };
+        let whole = energy(self);
+        let start_energy_lost = if whole > 0.0 { (1.0 - energy(&scene) / whole).max(0.0) } else { 0.0 };
+        let coupling_neglected = if static_correction { coupling } else { 0.0 };
+        Ok(Reduction {
+            scene,
+            modes: kept,
+            next_omega,
+            degrees_of_freedom: n,
+            walls,
+            start_energy_lost,
+            coupling_neglected,
+        })
+    }
+
+    /// What is left at each wall, and the largest residual coupling between walls at different places.
+    fn truncation(
+        &self,
+        structure: &Structure,
+        kept: &Modes,
+        next: Option<f64>,
+        reduced: &Self,
+    ) -> Result<(Vec<WallTruncation>, f64)> {
+        let mut residual = next.map(|next| Residual::new(structure, kept, next)).transpose()?;
+        let places: Vec<&Row> = self.walls.iter().map(|wall| &wall.at).collect();
+        let mut walls: Vec<WallTruncation> = Vec::with_capacity(places.len());
+        // Products of different places, each taken while its response is at hand.
+        let mut products = Vec::new();
+        for (i, ((row, mass), mass_kept)) in
+            places.iter().zip(self.wall_masses()).zip(reduced.wall_masses()).enumerate()
+        {
+            if let Some(first) = places[..i].iter().position(|other| other == row) {
+                walls.push(walls[first]);
+                continue;
+            }
+            let part = |(seen, omega): (f64, &f64)| if *omega > 0.0 { (seen / omega).powi(2) } else { 0.0 };
+            let compliance_kept = kept.seen(row).into_iter().zip(&kept.omega).map(part).sum::<f64>();
+            let mut left_out = 0.0;
+            if let Some(residual) = &mut residual {
+                let response = residual.response(row);
+                left_out = row.dot(&response).max(0.0);
+                products.extend(places[..i].iter().enumerate().map(|(j, other)| (i, j, other.dot(&response))));
+            }
+            let compliance = compliance_kept + left_out;
+            walls.push(WallTruncation { mass, mass_kept, compliance, compliance_kept, corrected: false });
+        }
+        let weight = |i: usize| walls[i].residual().sqrt();
+        let share = |(i, j, s): &(usize, usize, f64)| {
+            let scale = weight(*i) * weight(*j);
+            if scale > 0.0 { s.abs() / scale } else { 0.0 }
+        };
+        let coupling = products.iter().map(share).fold(0.0, f64::max);
+        Ok((walls, coupling))
+    }
+
+    /// The start, cut to `reduced`, must not lie behind a wall that it was not behind. A wall that it touched it touches still: its position takes the rounding.
+    fn keep_start(&self, reduced: &mut Self, modes: usize) -> Result<()> {
+        let rounding = 1e-12 * self.gap_scale();
+        for (before, wall) in self.walls.iter().zip(&mut reduced.walls) {
+            let w = wall.at.dot(&reduced.initial.q);
+            let (gap, depth) = (before.gap(before.at.dot(&self.initial.q)), -wall.gap(w));
+            if gap < 0.0 || depth <= 0.0 {
+                continue;
+            }
+            if depth > rounding {
+                let value = format!("{modes}, which put the start {depth:e} m behind the wall {:?}", wall.name);
+                return Err(Error::invalid("modes", value, "more: cut to these, the initial displacement is another"));
+            }
+            wall.position = w;
+        }
+        Ok(())
+    }
+}
+
+impl Reduction {
+    /// The same with C from `damping` in modal coordinates, in place of what came from the structure: modal ratios are meant.
+    ///
+    /// # Errors
+    /// As [`Damping::matrix`].
+    pub fn with_damping(mut self, damping: &Damping) -> Result<Self> {
+        if let System::Structure(structure) = &mut self.scene.system {
+            structure.damping = damping.matrix(structure)?;
+        }
+        Ok(self)
+    }
+}
+
+/// The `count` slowest modes, and ω of the next. No rigid-body motion may be left out.
+fn split(structure: &Structure, count: usize) -> Result<(Modes, Option<f64>)> {
+    let n = structure.mass.size();
+    if count == 0 || count > n {
+        return Err(Error::invalid("modes", count, format!("from 1 to {n}, the degrees of freedom")));
+    }
+    let mut modes = Modes::lowest(structure, (count + 1).min(n))?;
+    if modes.count() == count {
+        return Ok((modes, None));
+    }
+    modes.shapes.truncate(count);
+    match modes.omega.pop() {
+        Some(next) if next > 0.0 => Ok((modes, Some(next))),
+        _ => Err(Error::invalid("modes", count, "more: there are more rigid-body motions than these modes")),
+    }
+}
+
+/// Gives a wall the residual compliance.
+fn correct(wall: &mut Wall, truncation: &mut WallTruncation) -> Result<()> {
+    let s = truncation.residual();
+    if s <= NOTHING * truncation.compliance {
+        return Ok(());
+    }
+    match &mut wall.law {
+        WallLaw::Rigid { .. } => wall.law = WallLaw::Elastic { stiffness: 1.0 / s, damping: 0.0 },
+        WallLaw::Elastic { stiffness, damping } => {
+            let series = 1.0 / (1.0 / *stiffness + s);
+            *damping *= (series / *stiffness).powi(2);
+            *stiffness = series;
+        }
+        WallLaw::Quartic { .. } => {
+            let value = format!("true, with the φ² wall {:?}", wall.name);
+            return Err(Error::invalid("static_correction", value, "rigid or elastic walls only"));
+        }
+    }
+    truncation.corrected = true;
+    Ok(())
+}

@@ -1,0 +1,151 @@
+//! What every scheme knows of the scene.
+
+use crate::error::{Error, Result};
+use crate::linear::{Factor, Operator, Rows, Symmetric};
+use crate::scene::{Loads, Scene, Side, Structure, Wall, WallLaw};
+
+/// The structure as a kernel wants it.
+#[derive(Debug)]
+pub(super) struct Body {
+    pub n: usize,
+    pub h: f64,
+    pub matrices: Structure,
+    pub mass: Operator,
+    pub damping: Operator,
+    pub stiffness: Operator,
+    pub loads: Loads,
+    /// The walls, and the row of each.
+    pub walls: Vec<Stop>,
+    pub rows: Rows,
+    /// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
+    pub touch: f64,
+    /// M factored: what a blow changes of the velocity. None without blows.
+    inertia: Option<Factor>,
+    blow: Vec<f64>,
+    /// Force of each part of the loads at the end of the last step and of the present one, N.
+    load: [Vec<f64>; 2],
+}
+
+/// A wall as a kernel wants it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stop {
+    pub upper: bool,
+    /// +1 lower, −1 upper: the sign of its force.
+    pub sign: f64,
+    pub g: f64,
+    pub law: WallLaw,
+}
+
+/// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
+pub(super) fn touching_distance(scene: &Scene) -> f64 {
+    1e-12 * scene.gap_scale()
+}
+
+impl Stop {
+    pub fn new(wall: &Wall) -> Self {
+        Self { upper: wall.side == Side::Upper, sign: wall.side.sign(), g: wall.position, law: wall.law }
+    }
+
+    /// Depth behind the wall, m.
+    #[inline]
+    pub fn depth(&self, w: f64) -> f64 {
+        self.sign * (self.g - w)
+    }
+
+    /// The larger of the depth and zero, as a coordinate: where a dashpot's plate stands when the body is at `w`.
+    #[inline]
+    pub fn plate(&self, w: f64) -> f64 {
+        if self.upper { w.max(self.g) } else { w.min(self.g) }
+    }
+}
+
+impl Body {
+    pub fn new(scene: &Scene, h: f64) -> Self {
+        let matrices = scene.system.structure();
+        let loads = Loads::new(&scene.loads);
+        let n = matrices.mass.size();
+        let mut load = [vec![0.0; loads.parts().len()], vec![0.0; loads.parts().len()]];
+        loads.forces(0.0, &mut load[0]);
+        Self {
+            n,
+            h,
+            mass: Operator::new(&matrices.mass),
+            damping: Operator::new(&matrices.damping),
+            stiffness: Operator::new(&matrices.stiffness),
+            walls: scene.walls.iter().map(Stop::new).collect(),
+            rows: Rows::new(n, scene.walls.iter().map(|wall| wall.at.entries())),
+            touch: touching_distance(scene),
+            // A mass that cannot be factored is refused by the scene.
+            inertia: if loads.has_blows() { Factor::new(&matrices.mass).ok() } else { None },
+            blow: vec![0.0; n],
+            load,
+            loads,
+            matrices,
+        }
+    }
+
+    /// Adds `before` times the load at the end of the last step and `after` times that at `end` (s), the end of this one, to `out`. Once a step.
+    #[inline]
+    pub fn add_load(&mut self, end: f64, before: f64, after: f64, out: &mut [f64]) {
+        let [last, next] = &mut self.load;
+        self.loads.forces(end, next);
+        self.loads.scatter(last.iter().zip(&*next).map(|(a, b)| before * a + after * b), out);
+        self.load.swap(0, 1);
+    }
+
+    /// The blows in (from, to]: adds `scale` times them to `b` (N s times that) and writes the velocity they leave to `struck`, given `v`. Returns
+    /// whether there was one.
+    #[inline]
+    pub fn strike(&mut self, (from, to): (f64, f64), v: &[f64], scale: f64, b: &mut [f64], struck: &mut [f64]) -> bool {
+        if !self.loads.has_blows() || !self.loads.blow(from, to, &mut self.blow) {
+            return false;
+        }
+        self.apply_blow(v, scale, b, struck);
+        true
+    }
+
+    /// The same for the blows within half a step of the instant step · h.
+    pub fn strike_about(&mut self, step: u64, v: &[f64], scale: f64, b: &mut [f64], struck: &mut [f64]) -> bool {
+        if !self.loads.has_blows() || !self.loads.blow_about(step, self.h, &mut self.blow) {
+            return false;
+        }
+        self.apply_blow(v, scale, b, struck);
+        true
+    }
+
+    fn apply_blow(&mut self, v: &[f64], scale: f64, b: &mut [f64], struck: &mut [f64]) {
+        b.iter_mut().zip(&self.blow).for_each(|(b, blow)| *b += scale * blow);
+        if let Some(inertia) = &mut self.inertia {
+            inertia.solve(&mut self.blow);
+        }
+        for ((struck, v), change) in struck.iter_mut().zip(v).zip(&self.blow) {
+            *struck = v + change;
+        }
+    }
+
+    /// Adds what the blows in (from, to] make of the velocity to `v`.
+    pub fn kick(&mut self, from: f64, to: f64, v: &mut [f64]) {
+        if !self.loads.has_blows() || !self.loads.blow(from, to, &mut self.blow) {
+            return;
+        }
+        if let Some(inertia) = &mut self.inertia {
+            inertia.solve(&mut self.blow);
+        }
+        v.iter_mut().zip(&self.blow).for_each(|(v, change)| *v += change);
+    }
+
+    /// Adds the signed `forces` of all walls to `out`, each by its row.
+    #[inline]
+    pub fn push(&self, scale: f64, forces: &[f64], out: &mut [f64]) {
+        for (wall, &force) in forces.iter().enumerate() {
+            if force != 0.0 {
+                self.rows.add_transposed(wall, scale * force, out);
+            }
+        }
+    }
+}
+
+/// The factor of a matrix of a step.
+pub(super) fn factor(a: &Symmetric) -> Result<Factor> {
+    Factor::new(a).map_err(|fault| Error::invalid("system: matrices", fault, "a positive definite mass"))
+}

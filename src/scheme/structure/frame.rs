@@ -1,0 +1,128 @@
+//! The state that a scheme carries, and what it shows of each step.
+
+use super::body::factor;
+use crate::error::{Error, Result};
+use crate::scene::{Loads, Scene};
+use crate::step::{Contact, Path, Step};
+
+/// What a kernel reads and writes of each step; lent out as a [`Step`]. Vectors over degrees of freedom have n entries, those over walls as many as there are.
+#[derive(Debug)]
+pub(super) struct Frame {
+    pub start: f64,
+    pub end: f64,
+    /// The state: at the end of the last step, m and m/s.
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    /// Velocities that enter and leave the momentum balance, m/s.
+    pub before: Vec<f64>,
+    pub after: Vec<f64>,
+    /// Velocity that a wall answers, m/s: `before` and the blows of the step; good where there are blows.
+    pub struck: Vec<f64>,
+    /// True if the step had a blow.
+    pub blown: bool,
+    /// The caller's extra force, N, as it enters the balance.
+    pub extra: Vec<f64>,
+    /// Impulse (N s) and force (N) of each wall, signed.
+    pub impulse: Vec<f64>,
+    pub force: Vec<f64>,
+    jump: Vec<f64>,
+    /// Walls whose impulse is not zero; all others have an impulse and a force of zero.
+    pub pushing: Vec<usize>,
+    /// Displacement and velocity before the walls corrected them, m and m/s, of a scheme that does so.
+    pub predicted: Option<Predicted>,
+}
+
+/// Displacement and velocity before the walls corrected them, n entries each.
+#[derive(Debug)]
+pub(super) struct Predicted {
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+}
+
+impl Frame {
+    /// The start of `scene`, after any blow at t = 0.
+    pub fn new(scene: &Scene) -> Result<Self> {
+        let (n, walls) = (scene.initial.q.len(), scene.walls.len());
+        let mut v = scene.initial.v.clone();
+        let loads = Loads::new(&scene.loads);
+        let mut blow = vec![0.0; n];
+        if loads.initial_blow(&mut blow) {
+            factor(&scene.system.structure().mass)?.solve(&mut blow);
+            v.iter_mut().zip(&blow).for_each(|(v, change)| *v += change);
+        }
+        Ok(Self {
+            start: 0.0,
+            end: 0.0,
+            q: scene.initial.q.clone(),
+            before: v.clone(),
+            after: v.clone(),
+            struck: v.clone(),
+            v,
+            blown: false,
+            extra: vec![0.0; n],
+            impulse: vec![0.0; walls],
+            force: vec![0.0; walls],
+            jump: vec![0.0; walls],
+            pushing: Vec::with_capacity(walls),
+            predicted: None,
+        })
+    }
+
+    /// Begins a step of `h` seconds, number `step`: its times, and no wall touched yet.
+    #[inline]
+    pub fn begin(&mut self, step: u64, h: f64) {
+        self.start = step as f64 * h;
+        self.end = (step + 1) as f64 * h;
+        for wall in self.pushing.drain(..) {
+            self.impulse[wall] = 0.0;
+            self.force[wall] = 0.0;
+        }
+    }
+
+    /// Lists the walls whose force is not zero, over the whole of a step of `h` seconds.
+    pub fn push_by_force(&mut self, h: f64) {
+        for (wall, &force) in self.force.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+            self.impulse[wall] = h * force;
+            self.pushing.push(wall);
+        }
+    }
+
+    /// Velocity that a wall answers, m/s.
+    #[inline]
+    pub fn struck(&self) -> &[f64] {
+        if self.blown { &self.struck } else { &self.before }
+    }
+
+    /// Refuses a state that is not finite.
+    #[inline]
+    pub fn check(&self, step: u64) -> Result<()> {
+        // Without a branch an entry, so that the compiler looks at several at once.
+        let finite = |x: &[f64]| x.iter().fold(true, |all, x| all & x.is_finite());
+        if finite(&self.q) && finite(&self.v) {
+            return Ok(());
+        }
+        let what = if finite(&self.q) { "velocity" } else { "displacement" };
+        Err(Error::NotFinite { time: self.end, step, what })
+    }
+
+    pub fn step<'a>(&'a self, index: u64, closed: &'a [Contact]) -> Step<'a> {
+        Step {
+            index,
+            start: self.start,
+            end: self.end,
+            q: &self.q,
+            v: &self.v,
+            velocity_before: &self.before,
+            velocity_after: &self.after,
+            impulse: &self.impulse,
+            jump: &self.jump,
+            force: &self.force,
+            extra: &self.extra,
+            closed,
+            path: match &self.predicted {
+                Some(Predicted { q, v }) => Path::Corrected { q, v },
+                None => Path::Grid,
+            },
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! Walls that answer by laws, condensed: find y with
+//!
+//! y = y₀ + S r(y),    S = G A⁻¹ Gᵀ · scale (m × m, semidefinite),
+//!
+//! where each force rᵢ(yᵢ) never rises with yᵢ. These are the optimality conditions of a convex function: semismooth Newton (Qi & Sun 1993,
+//! doi:10.1007/BF01581275) on the forces with a line search on that function's derivative settles for any start, and without the search in a
+//! handful of iterations. For laws that are linear by pieces it ends.
+
+use crate::linear::{Factor, Rows};
+
+/// Newton's method needs a handful of iterations; more than this many means that numbers are not finite.
+const LIMIT: usize = 200;
+/// From this iteration on a step must go downhill all the way: before, a little beyond the valley is allowed.
+const STRICT: usize = 20;
+/// How far beyond: the slope there over that at the start.
+const BEYOND: f64 = 0.1;
+/// Halvings of a step in search of the valley; a step 2⁻⁶⁰ as long is none.
+const SEARCH: usize = 60;
+
+/// What a wall answers to its yᵢ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Answer {
+    /// rᵢ, signed.
+    pub force: f64,
+    /// −drᵢ/dyᵢ, ≥ 0.
+    pub slope: f64,
+    /// The length in yᵢ beside yᵢ itself whose rounding the force feels.
+    pub noise: f64,
+}
+
+/// The condensed problem and its work space.
+#[derive(Debug, Default)]
+pub(super) struct Walls {
+    m: usize,
+    /// S, by rows.
+    s: Vec<f64>,
+    /// y₀, m entries: the caller's to write.
+    pub free: Vec<f64>,
+    /// The forces found, m entries.
+    pub force: Vec<f64>,
+    /// −dr/dy there.
+    pub slope: Vec<f64>,
+    y: Vec<f64>,
+    size: Vec<f64>,
+    guess: Vec<f64>,
+    step: Vec<f64>,
+    shift: Vec<f64>,
+    active: Vec<usize>,
+    /// The lower Cholesky factor of I + E S E on the walls in play, by rows with stride m, and E = √slope.
+    factor: Vec<f64>,
+    root: Vec<f64>,
+    u: Vec<f64>,
+    pub iterations: u64,
+}
+
+impl Walls {
+    /// The walls of `rows` behind the factored A.
+    pub fn new(a: &mut Factor, rows: &Rows, scale: f64) -> Self {
+        let (n, m) = (rows.columns(), rows.count());
+        let mut s = vec![0.0; m * m];
+        let mut response = vec![0.0; n];
+        for j in 0..m {
+            response.fill(0.0);
+            rows.add_transposed(j, scale, &mut response);
+            a.solve(&mut response);
+            for i in 0..m {
+                s[i * m + j] = rows.dot(i, &response);
+            }
+        }
+        for i in 0..m {
+            for j in 0..i {
+                let mean = 0.5 * (s[i * m + j] + s[j * m + i]);
+                (s[i * m + j], s[j * m + i]) = (mean, mean);
+            }
+        }
+        let zero = || vec![0.0; m];
+        Self {
+            m,
+            s,
+            free: zero(),
+            force: zero(),
+            slope: zero(),
+            y: zero(),
+            size: zero(),
+            guess: zero(),
+            step: zero(),
+            shift: zero(),
+            active: Vec::with_capacity(m),
+            factor: vec![0.0; m * m],
+            root: zero(),
+            u: zero(),
+            iterations: 0,
+        }
+    }
+
+    /// Solves; forces and slopes are left in `force` and `slope`.
+    ///
+    /// # Errors
+    /// The largest mismatch of a force with its law if it did not settle.
+    pub fn solve(&mut self, law: impl Fn(usize, f64) -> Answer) -> Result<(), f64> {
+        let m = self.m;
+        self.guess.fill(0.0);
+        let units = (4 + m) as f64 * f64::EPSILON;
+        let mut worst = f64::NAN;
+        for iteration in 0..LIMIT {
+            self.iterations += 1;
+            worst = 0.0;
+            let mut settled = true;
+            self.place();
+            for i in 0..m {
+                let answer = law(i, self.y[i]);
+                (self.force[i], self.slope[i]) = (answer.force, answer.slope);
+                let mismatch = answer.force - self.guess[i];
+                // y is known to the rounding of its terms only, and the force to what the law makes of that.
+                let size = answer.force.abs() + self.guess[i].abs() + answer.slope * (self.size[i] + answer.noise);
+                settled &= mismatch.abs() <= units * size;
+                worst = f64::max(worst, mismatch.abs());
+                self.step[i] = mismatch;
+            }
+            if settled {
+                return Ok(());
+            }
+            self.correct();
+            self.search(&law, if iteration < STRICT { BEYOND } else { 0.0 });
+        }
+        Err(worst)
+    }
+
+    /// y = y₀ + S · guess, and the size of its terms.
+    fn place(&mut self) {
+        self.y.copy_from_slice(&self.free);
+        self.size.iter_mut().zip(&self.free).for_each(|(size, y)| *size = y.abs());
+        for (j, &force) in self.guess.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+            for i in 0..self.m {
+                let term = self.s[i * self.m + j] * force;
+                self.y[i] += term;
+                self.size[i] += term.abs();
+            }
+        }
+    }
+
+    /// x with (I + D S) x = `step`, in place, with D the slopes.
+    fn correct(&mut self) {
+        let m = self.m;
+        let Self { s, step, active, factor, root, u, slope, .. } = self;
+        active.clear();
+        active.extend((0..m).filter(|&i| slope[i] > 0.0));
+        // Walls out of play take their mismatch as it is, and move the others.
+        for (k, &i) in active.iter().enumerate() {
+            root[k] = slope[i].sqrt();
+            let others: f64 =
+                (0..m).filter(|&j| slope[j] <= 0.0 && step[j] != 0.0).map(|j| s[i * m + j] * step[j]).sum();
+            u[k] = step[i] / root[k] - root[k] * others;
+        }
+        for k in 0..active.len() {
+            let (done, line) = factor.split_at_mut(k * m);
+            for j in 0..=k {
+                let unit = f64::from(u8::from(j == k));
+                let entry = unit + root[k] * s[active[k] * m + active[j]] * root[j];
+                let above = if j < k { &done[j * m..j * m + j] } else { &[] };
+                let dot: f64 = if j < k {
+                    above.iter().zip(line.iter()).map(|(a, b)| a * b).sum()
+                } else {
+                    line[..k].iter().map(|a| a * a).sum()
+                };
+                line[j] =
+                    if j < k { (entry - dot) / done[j * m + j] } else { (entry - dot).max(f64::MIN_POSITIVE).sqrt() };
+            }
+        }
+        let k = active.len();
+        for i in 0..k {
+            let dot: f64 = factor[i * m..i * m + i].iter().zip(u.iter()).map(|(a, b)| a * b).sum();
+            u[i] = (u[i] - dot) / factor[i * m + i];
+        }
+        for i in (0..k).rev() {
+            u[i] /= factor[i * m + i];
+            for j in 0..i {
+                u[j] -= factor[i * m + j] * u[i];
+            }
+        }
+        for (k, &i) in active.iter().enumerate() {
+            step[i] = root[k] * u[k];
+        }
+    }
+
+    /// Goes along the step: all of it, unless the convex function behind would rise again.
+    fn search(&mut self, law: &impl Fn(usize, f64) -> Answer, beyond: f64) {
+        let m = self.m;
+        self.shift.fill(0.0);
+        for (j, &step) in self.step.iter().enumerate().filter(|(_, step)| **step != 0.0) {
+            for i in 0..m {
+                self.shift[i] += self.s[i * m + j] * step;
+            }
+        }
+        // The derivative of that function along the step.
+        let Self { shift, guess, step, y, force, .. } = self;
+        let start: f64 = (0..m).map(|i| shift[i] * (guess[i] - force[i])).sum();
+        let slope = |t: f64| -> f64 {
+            (0..m).map(|i| shift[i] * (guess[i] + t * step[i] - law(i, y[i] + t * shift[i]).force)).sum()
+        };
+        let (mut low, mut t) = (0.0, 1.0);
+        let mut high = 1.0;
+        for _ in 0..SEARCH {
+            // A slope that is rounding at the start has no valley to find.
+            let here = slope(t);
+            if here.is_nan() || here <= beyond * start.abs() {
+                if t == 1.0 || here >= 0.5 * start {
+                    break;
+                }
+                low = t;
+            } else {
+                high = t;
+            }
+            t = 0.5 * (low + high);
+        }
+        guess.iter_mut().zip(step.iter()).for_each(|(guess, step)| *guess += t * step);
+    }
+
+    /// x with (I + D S) x = D `change`: the change of the forces when y₀ changes, to first order.
+    pub fn respond(&mut self, change: &[f64]) -> &[f64] {
+        for (i, step) in self.step.iter_mut().enumerate() {
+            *step = self.slope[i] * change[i];
+        }
+        self.correct();
+        &self.step
+    }
+}

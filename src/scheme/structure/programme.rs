@@ -1,0 +1,256 @@
+//! The quadratic programme of a step over all walls: walls to rows, multipliers to forces.
+//!
+//! minimise ½ xᵀA x − bᵀx over lᵢ ≤ gᵢ·x ≤ uᵢ, elastic rows yielding with a compliance.
+//!
+//! Rigid walls at one place (one row g) share a row of the programme: the tightest bound of each side counts, and walls that stand at that bound share its force equally.
+//! An elastic wall has a row of its own.
+
+use super::body::{Stop, touching_distance};
+use crate::error::{Error, Result};
+use crate::linear::{Rows, Symmetric};
+use crate::qp::{self, Backend, Failure, Rhs};
+use crate::scene::{Scene, Side, Wall, WallLaw};
+use crate::scheme::Counters;
+
+/// A wall behind a row of the programme.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seat {
+    /// Index in the scene.
+    pub wall: usize,
+    pub stop: Stop,
+}
+
+/// The programme, its bounds, and the solver that answers it.
+#[derive(Debug)]
+pub(super) struct Programme {
+    solver: qp::Solver,
+    rows: Rows,
+    /// The walls by row, and where those of each row start.
+    seats: Vec<Seat>,
+    starts: Vec<usize>,
+    row_of: Vec<usize>,
+    /// The open interval of g·q, m, in which a row's rigid walls are not touched; empty for an elastic wall, which asks for a look in every step.
+    clear: Vec<(f64, f64)>,
+    /// Bounds of each row; a kernel writes them before it solves.
+    lo: Vec<f64>,
+    hi: Vec<f64>,
+    names: Vec<String>,
+    /// Bound that each seat stands for, in the row's unit.
+    bound: Vec<f64>,
+}
+
+/// Bounds of walls at one place that differ by less than this share of their size are one: their walls share the force.
+const ONE_PLACE: f64 = 1e-12;
+
+impl Programme {
+    /// The programme with curvature `a`, a typical length `scale` of g·x, and the compliance of each elastic wall's row as a function of its stiffness and damping.
+    pub fn new(
+        scene: &Scene,
+        a: Symmetric,
+        scale: f64,
+        compliance: impl Fn(f64, f64) -> f64,
+        backend: Backend,
+    ) -> Result<Self> {
+        Self::over(scene, |_| true, a, scale, compliance, backend)
+    }
+
+    /// The same over those walls only whose law is `wanted`.
+    pub fn over(
+        scene: &Scene,
+        wanted: impl Fn(&WallLaw) -> bool,
+        a: Symmetric,
+        scale: f64,
+        compliance: impl Fn(f64, f64) -> f64,
+        backend: Backend,
+    ) -> Result<Self> {
+        let mut places: Vec<Vec<usize>> = Vec::new();
+        for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| wanted(&wall.law)) {
+            let rigid = |wall: &Wall| wall.law.is_rigid();
+            let shared = |place: &&mut Vec<usize>| {
+                let first = place.first().and_then(|&w| scene.walls.get(w));
+                rigid(wall) && first.is_some_and(|first| rigid(first) && first.at == wall.at)
+            };
+            match places.iter_mut().find(shared) {
+                Some(place) => place.push(index),
+                None => places.push(vec![index]),
+            }
+        }
+        let walls = |place: &[usize]| place.iter().filter_map(|&w| scene.walls.get(w)).collect::<Vec<_>>();
+        let rows = Rows::new(a.size(), places.iter().filter_map(|p| walls(p).first().map(|w| w.at.entries())));
+        let soft = |place: &Vec<usize>| match walls(place).first().map(|wall| wall.law) {
+            Some(WallLaw::Elastic { stiffness, damping }) => compliance(stiffness, damping),
+            _ => 0.0,
+        };
+        let problem = qp::Problem { a, g: rows.clone(), compliance: places.iter().map(soft).collect() };
+        let solver = qp::Solver::new(problem, backend, scale).map_err(|f| failure(&f, None, 0.0, 0))?;
+        let (mut seats, mut starts, m) = (Vec::new(), vec![0], places.len());
+        for place in &places {
+            seats.extend(place.iter().filter_map(|&w| Some(Seat { wall: w, stop: Stop::new(scene.walls.get(w)?) })));
+            starts.push(seats.len());
+        }
+        let mut row_of = vec![0; scene.walls.len()];
+        for (row, place) in places.iter().enumerate() {
+            place.iter().for_each(|&wall| row_of[wall] = row);
+        }
+        let touch = touching_distance(scene);
+        let interval = |place: &Vec<usize>| {
+            let ends = |(lo, hi): (f64, f64), w: &&Wall| match (w.law.is_rigid(), w.side) {
+                (false, _) => (f64::INFINITY, f64::NEG_INFINITY),
+                (true, Side::Upper) => (lo, hi.min(w.position - 2.0 * touch)),
+                (true, Side::Lower) => (lo.max(w.position + 2.0 * touch), hi),
+            };
+            walls(place).iter().fold((f64::NEG_INFINITY, f64::INFINITY), ends)
+        };
+        Ok(Self {
+            solver,
+            rows,
+            clear: places.iter().map(interval).collect(),
+            bound: vec![0.0; seats.len()],
+            seats,
+            starts,
+            row_of,
+            lo: vec![f64::NEG_INFINITY; m],
+            hi: vec![f64::INFINITY; m],
+            names: scene.walls.iter().map(|wall| wall.name.clone()).collect(),
+        })
+    }
+
+    /// Number of rows.
+    pub fn count_rows(&self) -> usize {
+        self.lo.len()
+    }
+
+    /// g·x of a row.
+    #[inline]
+    pub fn seen(&self, row: usize, x: &[f64]) -> f64 {
+        self.rows.dot(row, x)
+    }
+
+    /// True if no wall of a row is touched at the displacement `w` (m), with twice the touching distance to spare, and none asks for a look.
+    #[inline]
+    pub fn is_clear(&self, row: usize, w: f64) -> bool {
+        let (lo, hi) = self.clear[row];
+        lo < w && w < hi
+    }
+
+    /// The row that a wall is behind.
+    #[inline]
+    pub fn row_of(&self, wall: usize) -> usize {
+        self.row_of[wall]
+    }
+
+    /// False for the row of an elastic wall.
+    #[inline]
+    pub fn is_rigid(&self, row: usize) -> bool {
+        self.seats[self.starts[row]].stop.law.is_rigid()
+    }
+
+    /// Numbers of the seats of a row.
+    #[inline]
+    pub fn seats(&self, row: usize) -> std::ops::Range<usize> {
+        self.starts[row]..self.starts[row + 1]
+    }
+
+    /// The wall at a seat.
+    #[inline]
+    pub fn seat(&self, seat: usize) -> Seat {
+        self.seats[seat]
+    }
+
+    /// Frees row `row`, before its walls are bound.
+    #[inline]
+    pub fn free(&mut self, row: usize) {
+        self.lo[row] = f64::NEG_INFINITY;
+        self.hi[row] = f64::INFINITY;
+    }
+
+    /// Binds row `row` on behalf of the wall at `seat`: g·x ≤ `value` for an upper wall, ≥ for a lower one. The tightest of a row counts.
+    #[inline]
+    pub fn bind(&mut self, row: usize, seat: usize, value: f64) {
+        // The first of a row: what others stood for in an earlier step is none of this one's.
+        if self.lo[row] == f64::NEG_INFINITY && self.hi[row] == f64::INFINITY {
+            self.bound[self.starts[row]..self.starts[row + 1]].fill(f64::NAN);
+        }
+        self.bound[seat] = value;
+        if self.seats[seat].stop.upper {
+            self.hi[row] = self.hi[row].min(value);
+        } else {
+            self.lo[row] = self.lo[row].max(value);
+        }
+    }
+
+    /// Holds row `row` where it is, g·x = 0, on behalf of its only wall, which is elastic.
+    #[inline]
+    pub fn hold(&mut self, row: usize) {
+        (self.lo[row], self.hi[row]) = (0.0, 0.0);
+    }
+
+    /// Solves: the minimiser is [`Programme::x`] until the next call. Writes the multiplier of each wall that pushes to `force`, which is all zero before, and its
+    /// index to `pushing`.
+    #[inline]
+    pub fn solve(
+        &mut self,
+        b: &[f64],
+        (time, step): (f64, u64),
+        force: &mut [f64],
+        pushing: &mut Vec<usize>,
+    ) -> Result<()> {
+        let rhs = Rhs { b, lo: &self.lo, hi: &self.hi };
+        let solution = match self.solver.solve(&rhs) {
+            Ok(solution) => solution,
+            Err(fault) => {
+                let name = |row: usize| {
+                    let seat = self.starts.get(row).and_then(|&first| self.seats.get(first))?;
+                    self.names.get(seat.wall).cloned()
+                };
+                let wall = if let Failure::Infeasible { row, .. } = fault { name(row) } else { None };
+                return Err(failure(&fault, wall, time, step));
+            }
+        };
+        for (row, &r) in solution.multiplier.iter().enumerate() {
+            if r == 0.0 {
+                continue;
+            }
+            let range = self.starts[row]..self.starts[row + 1];
+            if let [seat] = self.seats[range.clone()] {
+                force[seat.wall] = r;
+                pushing.push(seat.wall);
+                continue;
+            }
+            // The walls that stand at the bound which holds.
+            let held = if r < 0.0 { self.hi[row] } else { self.lo[row] };
+            let near = ONE_PLACE * held.abs();
+            let carries =
+                |seat: &usize| self.seats[*seat].stop.upper == (r < 0.0) && (self.bound[*seat] - held).abs() <= near;
+            let carriers = range.clone().filter(carries).count();
+            for seat in range.filter(carries) {
+                let wall = self.seats[seat].wall;
+                force[wall] = r / carriers as f64;
+                pushing.push(wall);
+            }
+        }
+        Ok(())
+    }
+
+    /// The minimiser of the last programme solved.
+    #[inline]
+    pub fn x(&self) -> &[f64] {
+        &self.solver.solution().x
+    }
+
+    pub fn backend(&self) -> Backend {
+        self.solver.backend()
+    }
+
+    /// Adds what the programme has cost.
+    pub fn count(&self, counters: &mut Counters) {
+        let inner = self.solver.counters();
+        counters.qp_solves += inner.solves - inner.free;
+        counters.interior_point_iterations += inner.iterations;
+        counters.pivots += inner.pivots;
+    }
+}
+
+fn failure(failure: &Failure, wall: Option<String>, time: f64, step: u64) -> Error {
+    Error::Qp { time, step, wall, reason: failure.to_string() }
+}

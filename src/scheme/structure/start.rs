@@ -1,0 +1,72 @@
+//! What acts at t = 0.
+//!
+//! A rigid wall that the structure touches at rest answers with whatever keeps it from accelerating through: with ẅ = G M⁻¹(F + Gᵀ r),
+//!
+//! minimise ½ aᵀM a − Fᵀa   subject to   ẅ ≥ 0 (lower), ≤ 0 (upper)
+//!
+//! over those walls, whose multipliers are the forces r.
+
+use super::body::Body;
+use super::programme::Programme;
+use crate::error::Result;
+use crate::qp::Backend;
+use crate::scene::{Scene, WallLaw};
+
+/// Units in the last place of the terms of ẇ by which it is not known: a velocity below is rest.
+const REST_UNITS: f64 = 4.0;
+
+/// Forces at t = 0, N.
+#[derive(Debug)]
+pub(super) struct StartForce {
+    /// Smooth force and wall forces together, n entries.
+    pub total: Vec<f64>,
+    /// Force of each wall, signed.
+    pub wall: Vec<f64>,
+}
+
+impl StartForce {
+    /// Without the rigid walls, at displacement `q` and velocity `v`, those after any blow at t = 0.
+    pub fn smooth(body: &Body, q: &[f64], v: &[f64]) -> Self {
+        let mut total = vec![0.0; body.n];
+        body.loads.add_force(0.0, 1.0, &mut total);
+        body.damping.add_product(-1.0, v, &mut total);
+        body.stiffness.add_product(-1.0, q, &mut total);
+        let mut wall = vec![0.0; body.walls.len()];
+        for (index, (stop, r)) in body.walls.iter().zip(&mut wall).enumerate() {
+            let (w, rate) = (body.rows.dot(index, q), body.rows.dot(index, v));
+            *r = stop.sign * stop.law.pressure(stop.depth(w), -stop.sign * rate);
+        }
+        body.push(1.0, &wall, &mut total);
+        Self { total, wall }
+    }
+
+    /// All of it.
+    pub fn new(scene: &Scene, body: &Body, q: &[f64], v: &[f64]) -> Result<Self> {
+        let Self { mut total, mut wall } = Self::smooth(body, q, v);
+        let rests = |index: usize| {
+            let terms: f64 = body.rows.row(index).iter().map(|&(i, weight)| (weight * v[i]).abs()).sum();
+            let still = body.rows.dot(index, v).abs() <= REST_UNITS * f64::EPSILON * terms;
+            let stop = body.walls[index];
+            stop.law.is_rigid() && stop.depth(body.rows.dot(index, q)) >= -body.touch && still
+        };
+        let resting: Vec<usize> = (0..body.walls.len()).filter(|&index| rests(index)).collect();
+        if !resting.is_empty() {
+            let mass = body.matrices.mass.clone();
+            let scale = scene.gap_scale() / (body.h * body.h);
+            let mut programme = Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, Backend::Auto)?;
+            for row in 0..programme.count_rows() {
+                programme.free(row);
+                for seat in programme.seats(row) {
+                    if resting.contains(&programme.seat(seat).wall) {
+                        programme.bind(row, seat, 0.0);
+                    }
+                }
+            }
+            let mut held = vec![0.0; body.walls.len()];
+            programme.solve(&total, (0.0, 0), &mut held, &mut Vec::new())?;
+            body.push(1.0, &held, &mut total);
+            wall.iter_mut().zip(&held).for_each(|(r, held)| *r += held);
+        }
+        Ok(Self { total, wall })
+    }
+}

@@ -1,0 +1,113 @@
+//! How many modes are enough.
+
+use super::{Truncation, Whole};
+use crate::error::{Error, Result};
+use crate::run::{Options, Run, run_with_progress};
+use crate::scene::Reduction;
+use crate::scheme::Method;
+use crate::time::TimeOptions;
+use serde::Serialize;
+use std::fmt;
+
+/// The most modes that are tried, unless the structure has no more than this.
+pub const MOST_CHOSEN: usize = 200;
+
+/// Share of the tolerance that an increase may change. What is left out falls like 1/k in the modes at worst (a bar's wall force): then twice the change of the last
+/// increase, by half, is still to come; and an increase may change little by chance.
+const QUIET: f64 = 0.25;
+
+/// How many increases running must change less than that: one that changes nothing may have added modes with a node at the walls.
+const QUIET_INCREASES: usize = 2;
+
+/// One number of modes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModesLevel {
+    /// The modes.
+    pub modes: usize,
+    /// Largest change of an impulse or peak since the number before; none for the first.
+    pub change: Option<f64>,
+    /// The quantity that it belongs to.
+    pub quantity: Option<String>,
+}
+
+/// A number of modes, and how it was found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ChosenModes {
+    /// The change that was allowed.
+    pub tolerance: f64,
+    /// The modes chosen.
+    pub modes: usize,
+    /// Degrees of freedom of the whole structure: as many modes as there are.
+    pub degrees_of_freedom: usize,
+    /// True if the tolerance is kept: two increases running changed less than a quarter of it, or no mode is left out.
+    pub kept: bool,
+    /// What was tried, in order.
+    pub levels: Vec<ModesLevel>,
+}
+
+impl ChosenModes {
+    /// What was missed, if the tolerance is not kept.
+    #[must_use]
+    pub fn shortfall(&self) -> Option<Error> {
+        let last = self.levels.last().filter(|_| !self.kept)?;
+        let quantity = last.quantity.clone().unwrap_or_else(|| "nothing to compare".to_owned());
+        Some(Error::Truncated {
+            tolerance: self.tolerance,
+            reached: last.change.unwrap_or(f64::INFINITY),
+            quantity,
+            modes: self.modes,
+        })
+    }
+}
+
+/// Increases the modes by half, from `start` on, until two increases running change no wall's impulse and peak by more than a quarter of `tolerance`: runs of `method` with
+/// the step and window of `time`. `progress` hears the time (s) that the run under way has reached.
+///
+/// # Errors
+/// What a cut or a run reports.
+pub fn choose_modes(
+    whole: &Whole,
+    start: usize,
+    method: &Method,
+    time: &TimeOptions,
+    tolerance: f64,
+    progress: &mut dyn FnMut(f64),
+) -> Result<ChosenModes> {
+    let options = Options { time: *time, backend: method.backend };
+    let mut make = |modes: usize| -> Result<(Reduction, Run)> {
+        let cut = whole.cut(modes)?;
+        let run = run_with_progress(&cut.scene, &method.scheme, &options, progress)?;
+        Ok((cut, run))
+    };
+    let mut last = make(start)?;
+    let n = last.0.degrees_of_freedom;
+    let most = if n <= MOST_CHOSEN { n } else { MOST_CHOSEN.max(start) };
+    let mut levels = vec![ModesLevel { modes: start, change: None, quantity: None }];
+    let (mut modes, mut quiet) = (start, 0);
+    while modes < most && quiet < QUIET_INCREASES {
+        modes = (modes + modes.div_ceil(2)).min(most);
+        let next = make(modes)?;
+        let truncation = Truncation::between(whole, [&last.0, &next.0], [&last.1, &next.1], time.statistics_from)?;
+        let (change, quantity) = truncation.worst();
+        quiet = if change <= QUIET * tolerance { quiet + 1 } else { 0 };
+        levels.push(ModesLevel { modes, change: Some(change), quantity: Some(quantity) });
+        last = next;
+    }
+    let kept = quiet >= QUIET_INCREASES || modes == n;
+    Ok(ChosenModes { tolerance, modes, degrees_of_freedom: n, kept, levels })
+}
+
+impl fmt::Display for ChosenModes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {}", self.modes, self.degrees_of_freedom)?;
+        if self.modes == self.degrees_of_freedom {
+            f.write_str(", all there are")?;
+        }
+        for (i, level) in self.levels.iter().enumerate() {
+            let (Some(change), Some(quantity)) = (level.change, &level.quantity) else { continue };
+            let lead = if i == 1 { ": each increase changed by" } else { "," };
+            write!(f, "{lead} {change:.1e} the {quantity}, to {}", level.modes)?;
+        }
+        Ok(())
+    }
+}

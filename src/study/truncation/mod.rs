@@ -1,0 +1,208 @@
+//! Modal truncation: what the modes left out would have changed, and how many are enough.
+//!
+//! A truncation without static correction keeps restitution and changes the mass that a wall feels, 1/(g M⁻¹ gᵀ): it falls as modes are added (on a
+//! continuous string or bar to 0), and with it the impulse of one impact, while impacts grow in number. What converges is what a contact hands over
+//! in all. So a truncation is judged by the wall's impulse over the run, and by its largest force, or largest impulse of one contact where contacts are
+//! impacts, which have no finite force.
+
+mod choose;
+
+pub use choose::{ChosenModes, MOST_CHOSEN, ModesLevel, choose_modes};
+
+use super::change::{Change, relative};
+use crate::error::Result;
+use crate::run::{Options, Run, run_with_progress};
+use crate::scene::{Damping, Reduction, Scene};
+use crate::scheme::Method;
+use crate::time::TimeOptions;
+use serde::Serialize;
+use std::fmt;
+
+/// A scene before it is cut to modes, and how it is cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Whole {
+    /// The scene in its own degrees of freedom.
+    pub scene: Scene,
+    /// Damping that is given to the modes, in place of the scene's own; none where the scene has it.
+    pub damping: Option<Damping>,
+    /// True if walls are given the compliance of the modes left out.
+    pub static_correction: bool,
+}
+
+impl Whole {
+    /// The scene cut to its `modes` slowest modes.
+    ///
+    /// # Errors
+    /// As [`Scene::reduced`].
+    pub fn cut(&self, modes: usize) -> Result<Reduction> {
+        let reduction = self.scene.reduced(modes, self.static_correction)?;
+        match &self.damping {
+            Some(damping) => reduction.with_damping(damping),
+            None => Ok(reduction),
+        }
+    }
+}
+
+/// One wall with the modes kept, and with more.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WallTruncated {
+    /// The wall's name.
+    pub wall: String,
+    /// Impulse over the whole run, N s, signed: of the run, and with more modes.
+    pub impulse_ns: [f64; 2],
+    /// Change of it, as [`WallChange::impulse`](super::change::WallChange::impulse).
+    pub impulse_change: f64,
+    /// Largest finite force in the window for statistics, N; none where contacts are impacts.
+    pub peak_force_n: [Option<f64>; 2],
+    /// Largest impulse of one contact in that window, N s; none without contact.
+    pub largest_impulse_ns: [Option<f64>; 2],
+    /// Change of the peak force where both are finite, else of the largest impulse of one contact; relative to the value with more modes.
+    pub peak_change: f64,
+    /// Mass that the wall feels, kg.
+    pub effective_mass_kg: [f64; 2],
+    /// Share of the static compliance at the wall that the modes carry, 0 to 1.
+    pub compliance_share: [f64; 2],
+}
+
+/// What more modes change of a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Truncation {
+    /// Modes of the run, and of the one that it is held against.
+    pub modes: [usize; 2],
+    /// Degrees of freedom of the whole structure: as many modes as there are.
+    pub degrees_of_freedom: usize,
+    /// True if walls were given the compliance of the modes left out.
+    pub static_correction: bool,
+    /// Largest |Δu| of the first probe over the gap scale, over the whole run; where the motion is chaotic it says nothing.
+    pub displacement: f64,
+    /// One entry a wall, in the scene's order.
+    pub walls: Vec<WallTruncated>,
+}
+
+impl Truncation {
+    /// Holds `run` of the cut `reduction`, made by `method` with the options `time`, against the same with twice its modes, or all of them. None if it has all.
+    /// `progress` hears the time (s) that the other run has reached.
+    ///
+    /// # Errors
+    /// What the other cut or run reports.
+    pub fn of(
+        whole: &Whole,
+        reduction: &Reduction,
+        run: &Run,
+        method: &Method,
+        time: &TimeOptions,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Option<Self>> {
+        let modes = reduction.modes.count();
+        if modes >= reduction.degrees_of_freedom {
+            return Ok(None);
+        }
+        let more = whole.cut((2 * modes).min(reduction.degrees_of_freedom))?;
+        // The same rows, whatever the scheme.
+        let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
+        let options = Options { time: rows, backend: method.backend };
+        let against = run_with_progress(&more.scene, &method.scheme, &options, progress)?;
+        Self::between(whole, [reduction, &more], [run, &against], time.statistics_from).map(Some)
+    }
+
+    /// What changes from one cut and its run to the other.
+    fn between(whole: &Whole, cuts: [&Reduction; 2], runs: [&Run; 2], from: f64) -> Result<Self> {
+        let [run, against] = runs;
+        let change = Change::of_runs(&cuts[1].scene, run, against, against.grid.end, from)?;
+        let mut walls = Vec::new();
+        for (index, wall) in change.walls.iter().enumerate() {
+            let of = |run: &Run| run.statistics.walls.get(index).map(|w| (w.peak_force_n.max, w.impulse_ns.max));
+            let peaks = runs.map(|run| of(run).and_then(|w| w.0));
+            let largest = runs.map(|run| of(run).and_then(|w| w.1));
+            let peak_change = match peaks {
+                [Some(a), Some(b)] => relative([a, b], 0.0),
+                _ => relative(largest.map(|x| x.unwrap_or(0.0)), 0.0),
+            };
+            let kept = cuts.map(|cut| cut.walls.get(index).copied());
+            walls.push(WallTruncated {
+                wall: wall.wall.clone(),
+                impulse_ns: [run.trajectory.impulse(&wall.wall)?, against.trajectory.impulse(&wall.wall)?],
+                impulse_change: wall.impulse,
+                peak_force_n: peaks,
+                largest_impulse_ns: largest,
+                peak_change,
+                effective_mass_kg: kept.map(|w| w.map_or(f64::NAN, |w| w.mass_kept)),
+                compliance_share: kept.map(|w| w.map_or(f64::NAN, |w| w.share())),
+            });
+        }
+        Ok(Self {
+            modes: cuts.map(|cut| cut.modes.count()),
+            degrees_of_freedom: cuts[0].degrees_of_freedom,
+            static_correction: whole.static_correction,
+            displacement: change.displacement,
+            walls,
+        })
+    }
+
+    /// The largest change of any wall's impulse or peak, and the quantity it belongs to; of the displacement in a scene without walls.
+    #[must_use]
+    pub fn worst(&self) -> (f64, String) {
+        if self.walls.is_empty() {
+            return (self.displacement, "displacement".to_owned());
+        }
+        let parts = self.walls.iter().flat_map(|w| {
+            let peak = if w.peak_force_n.iter().all(Option::is_some) {
+                "peak force"
+            } else {
+                "largest impulse of one contact"
+            };
+            [(w.impulse_change, "impulse", &w.wall), (w.peak_change, peak, &w.wall)]
+        });
+        let mut worst = (0.0, "impulse".to_owned());
+        for (part, name, wall) in parts {
+            if part > worst.0 || part.is_nan() {
+                worst = (part, format!("{name} of wall {wall:?}"));
+            }
+        }
+        worst
+    }
+}
+
+impl fmt::Display for Truncation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [kept, more] = self.modes;
+        write!(f, "with {more} of {} modes in place of {kept}", self.degrees_of_freedom)?;
+        if self.walls.is_empty() {
+            return write!(f, " the displacement changes by {:.1e} of the gap scale", self.displacement);
+        }
+        let largest = |part: fn(&WallTruncated) -> f64| {
+            self.walls.iter().max_by(|a, b| part(a).total_cmp(&part(b))).map(|w| (part(w), w))
+        };
+        if let (Some((impulse, at)), Some((peak, peak_at))) =
+            (largest(|w| w.impulse_change), largest(|w| w.peak_change))
+        {
+            write!(
+                f,
+                " the impulse changes by up to {:.2} % (wall {:?}: {:+.4} to {:+.4} N s)",
+                100.0 * impulse,
+                at.wall,
+                at.impulse_ns[0],
+                at.impulse_ns[1]
+            )?;
+            write!(f, ", the peak by up to {:.2} % (wall {:?}: ", 100.0 * peak, peak_at.wall)?;
+            match (peak_at.peak_force_n, peak_at.largest_impulse_ns) {
+                ([Some(a), Some(b)], _) => write!(f, "{a:.4} to {b:.4} N)")?,
+                (_, [a, b]) => {
+                    write!(
+                        f,
+                        "largest impulse of one contact {:.4e} to {:.4e} N s)",
+                        a.unwrap_or(0.0),
+                        b.unwrap_or(0.0)
+                    )?;
+                }
+            }
+        }
+        if !self.static_correction
+            && let Some((_, wall)) = largest(|w| w.effective_mass_kg[0] / w.effective_mass_kg[1])
+        {
+            let [kept, more] = wall.effective_mass_kg;
+            write!(f, "; the mass that wall {:?} feels goes from {kept:.4} to {more:.4} kg", wall.wall)?;
+        }
+        Ok(())
+    }
+}
