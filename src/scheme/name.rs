@@ -127,9 +127,11 @@ impl Scheme {
             Self::MoreauJean { theta } if !(0.5..=1.0).contains(&theta) => {
                 Err(Error::invalid("theta", theta, "a number from 0.5 to 1: below 0.5 the rule is unstable"))
             }
-            Self::GeneralizedAlpha { rho } if !(0.0..=1.0).contains(&rho) => {
-                Err(Error::invalid("rho", rho, "a number from 0 to 1: what is left of the fastest vibration after a step"))
-            }
+            Self::GeneralizedAlpha { rho } if !(0.0..=1.0).contains(&rho) => Err(Error::invalid(
+                "rho",
+                rho,
+                "a number from 0 to 1: what is left of the fastest vibration after a step",
+            )),
             Self::Penalty { law: PenaltyLaw::Quartic { epsilon }, .. } => positive("penalty.epsilon", epsilon),
             Self::Penalty { law: PenaltyLaw::Linear { stiffness, damping }, .. } => {
                 positive("penalty.stiffness", stiffness)?;

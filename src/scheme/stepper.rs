@@ -104,7 +104,8 @@ impl Stepper {
             },
             Scheme::Event => Kernel::Event(Box::new(Event::new(&scene, step)?)),
         };
-        let backend = if let Kernel::Structure(kernel) = &kernel { kernel.backend().unwrap_or(backend) } else { backend };
+        let backend =
+            if let Kernel::Structure(kernel) = &kernel { kernel.backend().unwrap_or(backend) } else { backend };
         let (q, v) = if single { Scalar::new(&scene, step).start(&scene) } else { (0.0, 0.0) };
         let frame = Frame::new(q, v, scene.walls.len());
         let contract = scheme.contract();

@@ -30,7 +30,13 @@ impl Arrival {
         let a = Symmetric::sum(&[(1.0, &m.mass), (0.5 * body.h, &m.damping)]);
         let programme = Programme::new(scene, a, scene.gap_scale() / body.h, |_, _| 0.0, Backend::Auto)?;
         let m = body.walls.len();
-        Ok(Self { programme, masses: scene.wall_masses(), b: vec![0.0; body.n], held: vec![0.0; m], holding: Vec::with_capacity(m) })
+        Ok(Self {
+            programme,
+            masses: scene.wall_masses(),
+            b: vec![0.0; body.n],
+            held: vec![0.0; m],
+            holding: Vec::with_capacity(m),
+        })
     }
 
     /// Writes v⁺ to `v`, from q⁺, v₊ and the load f⁺ (N) at the end of step number `step`.

@@ -96,14 +96,7 @@ impl Body {
     /// The blows in (from, to]: adds `scale` times them to `b` (N s times that) and writes the velocity they leave to `struck`, given `v`. Returns
     /// whether there was one.
     #[inline]
-    pub fn strike(
-        &mut self,
-        (from, to): (f64, f64),
-        v: &[f64],
-        scale: f64,
-        b: &mut [f64],
-        struck: &mut [f64],
-    ) -> bool {
+    pub fn strike(&mut self, (from, to): (f64, f64), v: &[f64], scale: f64, b: &mut [f64], struck: &mut [f64]) -> bool {
         if !self.loads.has_blows() || !self.loads.blow(from, to, &mut self.blow) {
             return false;
         }

@@ -71,8 +71,7 @@ impl GeneralizedAlpha {
         mass.solve(&mut a);
         let scale = h * h * beta;
         let inertia = (1.0 - alpha_m) / ((1.0 - alpha_f) * scale);
-        let matrix =
-            Symmetric::sum(&[(inertia, &m.mass), (gamma / (h * beta), &m.damping), (1.0, &m.stiffness)]);
+        let matrix = Symmetric::sum(&[(inertia, &m.mass), (gamma / (h * beta), &m.damping), (1.0, &m.stiffness)]);
         let elastic = |law: &WallLaw| !law.is_rigid();
         let gap = scene.gap_scale();
         let smooth = Programme::over(scene, elastic, matrix, gap, |k, c| 1.0 / (k + c / h), backend)?;

@@ -76,9 +76,7 @@ impl Structure {
                 Integrator::Trapezoidal => Method::Penalty(Penalty::new(scene, 0.5, Mean::Ends, h)?),
                 Integrator::ImplicitEuler => Method::Penalty(Penalty::new(scene, 1.0, Mean::Ends, h)?),
                 Integrator::DiscreteGradient => Method::Penalty(Penalty::new(scene, 0.5, Mean::DiscreteGradient, h)?),
-                Integrator::CentralDifference => {
-                    Method::CentralDifference(CentralDifference::new(scene, h, &frame)?)
-                }
+                Integrator::CentralDifference => Method::CentralDifference(CentralDifference::new(scene, h, &frame)?),
             },
             Scheme::Event => return Err(Error::invalid("scheme", scheme, "a scheme with a step")),
         };

@@ -148,7 +148,8 @@ impl Walls {
         // Walls out of play take their mismatch as it is, and move the others.
         for (k, &i) in active.iter().enumerate() {
             root[k] = slope[i].sqrt();
-            let others: f64 = (0..m).filter(|&j| slope[j] <= 0.0 && step[j] != 0.0).map(|j| s[i * m + j] * step[j]).sum();
+            let others: f64 =
+                (0..m).filter(|&j| slope[j] <= 0.0 && step[j] != 0.0).map(|j| s[i * m + j] * step[j]).sum();
             u[k] = step[i] / root[k] - root[k] * others;
         }
         for k in 0..active.len() {
@@ -162,7 +163,8 @@ impl Walls {
                 } else {
                     line[..k].iter().map(|a| a * a).sum()
                 };
-                line[j] = if j < k { (entry - dot) / done[j * m + j] } else { (entry - dot).max(f64::MIN_POSITIVE).sqrt() };
+                line[j] =
+                    if j < k { (entry - dot) / done[j * m + j] } else { (entry - dot).max(f64::MIN_POSITIVE).sqrt() };
             }
         }
         let k = active.len();

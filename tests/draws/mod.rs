@@ -119,11 +119,15 @@ pub fn random_scene(draws: &mut Draws) -> Scene {
 fn random_wall(draws: &mut Draws, scene: &Scene, index: usize, n: usize) -> Wall {
     let name = format!("w{index}");
     // A duplicate, a little looser or at the very place, with another law.
-    let copied = (!scene.walls.is_empty() && draws.chance(0.2)).then(|| scene.walls[draws.below(scene.walls.len())].clone());
+    let copied =
+        (!scene.walls.is_empty() && draws.chance(0.2)).then(|| scene.walls[draws.below(scene.walls.len())].clone());
     let row = match draws.below(3) {
         0 if n > 1 => {
             let first = draws.below(n);
-            Row::new(vec![(first, 1.0), ((first + 1 + draws.below(n - 1)) % n, -draws.between(0.3, 1.0).round().max(0.5))])
+            Row::new(vec![
+                (first, 1.0),
+                ((first + 1 + draws.below(n - 1)) % n, -draws.between(0.3, 1.0).round().max(0.5)),
+            ])
         }
         1 if n > 2 => Row::new((0..3).map(|i| (i, draws.between(-1.0, 1.0))).collect()),
         _ => Row::dof(draws.below(n)),
