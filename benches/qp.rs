@@ -1,5 +1,5 @@
-//! Cost of a step's programme: the clamp, bare Clarabel (`update_q`, `update_b`, `solve`), and the polished solver,
-//! measured in turn in one run. Prints a table; asserts nothing about time.
+//! Cost of a step's programme: the clamp, bare Clarabel (`update_q`, `update_b`, `solve`), the polished solver, and the condensed one
+//! against a loop by hand, measured in turn in one run. Prints tables; asserts nothing about time.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSolver, IPSolver, NonnegativeConeT};
@@ -47,7 +47,201 @@ fn bare(problem: &Problem) -> DefaultSolver<f64> {
         .expect("a sound programme")
 }
 
+/// h²θ²k of a chain of masses 1 and springs 1e4 at h = 1e-3, θ = ½: A = (1 + 2c) I − c (neighbours), in velocities.
+const COUPLING: f64 = 0.0025;
+
+/// b, lo and hi of one step.
+type Step = (Vec<f64>, Vec<f64>, Vec<f64>);
+
+/// Programmes of moreau-jean on that chain: every mass between stops at ±1e-3 m without restitution, driven so that about a quarter are
+/// in contact. Bounds are 0 where a stop is reached and infinite elsewhere.
+fn programmes(n: usize, count: usize) -> (Problem, Vec<Step>) {
+    let chain = (0..n).map(|i| (i, i, 1.0 + 2.0 * COUPLING)).chain((1..n).map(|i| (i, i - 1, -COUPLING)));
+    let unit: Vec<[(usize, f64); 1]> = (0..n).map(|i| [(i, 1.0)]).collect();
+    let g = Rows::new(n, unit.iter().map(|row| row.as_slice()));
+    let problem = Problem { a: Symmetric::from_entries(n, chain), g, compliance: vec![0.0; n] };
+    let (h, k, gap) = (1e-3, 1e4, 1e-3);
+    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+    let mut hand = Hand::new(n);
+    let mut steps = Vec::new();
+    for step in 0..1000 + count {
+        let at = |q: &[f64], i: usize, d: isize| i.checked_add_signed(d).and_then(|j| q.get(j)).copied().unwrap_or(0.0);
+        let spring = |q: &[f64], i: usize| k * (2.0 * q[i] - at(q, i, -1) - at(q, i, 1));
+        let drive = |i: usize| 25.0 * (31.4 * h * step as f64 + 2.4 * i as f64).sin();
+        let b: Vec<f64> =
+            (0..n).map(|i| v[i] + h * (drive(i) - spring(&q, i)) - 0.25 * h * h * spring(&v, i)).collect();
+        let reached = |i: usize| q[i] + 0.5 * h * v[i];
+        let lo: Vec<f64> = (0..n).map(|i| if reached(i) <= -gap { 0.0 } else { f64::NEG_INFINITY }).collect();
+        let hi: Vec<f64> = (0..n).map(|i| if reached(i) >= gap { 0.0 } else { f64::INFINITY }).collect();
+        hand.solve(&b, &lo, &hi);
+        for i in 0..n {
+            q[i] += 0.5 * h * (v[i] + hand.x[i]);
+        }
+        v.copy_from_slice(&hand.x);
+        if step >= 1000 {
+            steps.push((b, lo, hi));
+        }
+    }
+    (problem, steps)
+}
+
+/// The same programme by hand, for this chain only: a primal-dual active set, each pass one sweep of the tridiagonal system in which the
+/// masses in contact are held.
+struct Hand {
+    x: Vec<f64>,
+    r: Vec<f64>,
+    side: Vec<i8>,
+    d: Vec<f64>,
+    factor: (Vec<f64>, Vec<f64>),
+    passes: u64,
+}
+
+impl Hand {
+    fn new(n: usize) -> Self {
+        let (mut l, mut d) = (vec![0.0; n], vec![0.0; n]);
+        let mut last = 0.0;
+        for i in 0..n {
+            l[i] = -COUPLING * last;
+            d[i] = 1.0 / (1.0 + 2.0 * COUPLING + COUPLING * l[i]);
+            last = d[i];
+        }
+        l[0] = 0.0;
+        let zero = || vec![0.0; n];
+        Self { x: zero(), r: zero(), side: vec![0; n], d: zero(), factor: (l, d), passes: 0 }
+    }
+
+    fn solve(&mut self, b: &[f64], lo: &[f64], hi: &[f64]) {
+        let n = b.len();
+        let (b, lo, hi) = (&b[..n], &lo[..n], &hi[..n]);
+        let (x, r, side, d) = (&mut self.x[..n], &mut self.r[..n], &mut self.side[..n], &mut self.d[..n]);
+        // Free motion with the factor made before.
+        let (fl, fd) = (&self.factor.0[..n], &self.factor.1[..n]);
+        let mut last = 0.0;
+        for i in 0..n {
+            last = b[i] - fl[i] * last;
+            x[i] = last;
+        }
+        let mut next = 0.0;
+        let mut inside = true;
+        for i in (0..n).rev() {
+            next = (x[i] + COUPLING * next) * fd[i];
+            x[i] = next;
+            inside &= lo[i] <= next && next <= hi[i];
+        }
+        r.fill(0.0);
+        if inside {
+            return;
+        }
+        for i in 0..n {
+            let bound = [lo[i], 0.0, hi[i]][(side[i] + 1) as usize];
+            if bound.is_infinite() {
+                side[i] = 0;
+            }
+            if side[i] == 0 {
+                side[i] = i8::from(x[i] > hi[i]) - i8::from(x[i] < lo[i]);
+            }
+        }
+        for _ in 0..100 {
+            self.passes += 1;
+            // A held mass passes its place on, and nothing of its own stiffness.
+            let (mut last, mut pivot, mut part) = (0.0, 0.0, 0.0);
+            for i in 0..n {
+                if side[i] == 0 {
+                    last = b[i] + COUPLING * part * last;
+                    pivot = 1.0 / (1.0 + 2.0 * COUPLING - COUPLING * COUPLING * pivot);
+                    part = pivot;
+                } else {
+                    last = if side[i] < 0 { lo[i] } else { hi[i] };
+                    (pivot, part) = (0.0, 1.0);
+                }
+                (x[i], d[i]) = (last, pivot);
+            }
+            let (mut next, mut changed) = (0.0, false);
+            for i in (0..n).rev() {
+                if side[i] == 0 {
+                    next = (x[i] + COUPLING * next) * d[i];
+                    x[i] = next;
+                    let new = i8::from(next > hi[i] + 1e-12) - i8::from(next < lo[i] - 1e-12);
+                    changed |= new != 0;
+                    // Twice a side: to be held from the next pass on.
+                    side[i] = 2 * new;
+                } else {
+                    next = x[i];
+                }
+            }
+            for i in 0..n {
+                r[i] = 0.0;
+                if side[i].abs() == 2 {
+                    side[i] /= 2;
+                } else if side[i] != 0 {
+                    let left = if i > 0 { x[i - 1] } else { 0.0 };
+                    let right = if i + 1 < n { x[i + 1] } else { 0.0 };
+                    r[i] = (1.0 + 2.0 * COUPLING) * x[i] - COUPLING * (left + right) - b[i];
+                    if r[i] * f64::from(side[i]) > 0.0 {
+                        (r[i], side[i], changed) = (0.0, 0, true);
+                    }
+                }
+            }
+            if !changed {
+                return;
+            }
+        }
+    }
+}
+
+/// The condensed solver and Clarabel against the loop by hand.
+fn chains() {
+    println!(
+        "{:>5} {:>10} {:>12} {:>7} {:>12} {:>24}",
+        "n", "hand ns", "condensed ns", "ratio", "Clarabel ns", "in play, passes by hand, pivots, free"
+    );
+    for n in [20, 200] {
+        let (problem, steps) = programmes(n, 500);
+        let new = |backend| Solver::new(problem.clone(), backend, 1.0).expect("a sound problem");
+        let (mut hand, mut condensed, mut clarabel) = (Hand::new(n), new(Backend::Condensed), new(Backend::Clarabel));
+        let (mut apart, mut play) = (0.0_f64, 0);
+        for (b, lo, hi) in &steps {
+            hand.solve(b, lo, hi);
+            let found = condensed.solve(&Rhs { b, lo, hi }).expect("feasible");
+            apart = found.multiplier.iter().zip(&hand.r).fold(apart, |most, (a, b)| most.max((a - b).abs()));
+            play += hand.r.iter().filter(|r| **r != 0.0).count();
+        }
+        assert!(apart <= 1e-12, "the two differ by {apart:e}");
+        hand.passes = 0;
+        let before = condensed.counters();
+        let calls = 10 * steps.len();
+        let [by_hand, ours, theirs] = race(ROUNDS, || {
+            [
+                time(calls, |call| {
+                    let (b, lo, hi) = &steps[call % steps.len()];
+                    hand.solve(b, lo, hi);
+                    black_box(&hand.x);
+                }),
+                time(calls, |call| {
+                    let (b, lo, hi) = &steps[call % steps.len()];
+                    black_box(condensed.solve(&Rhs { b, lo, hi }).expect("feasible"));
+                }),
+                time(steps.len() / 10, |call| {
+                    let (b, lo, hi) = &steps[call % steps.len()];
+                    black_box(clarabel.solve(&Rhs { b, lo, hi }).expect("feasible"));
+                }),
+            ]
+        });
+        let all = (calls * ROUNDS) as f64;
+        println!(
+            "{n:>5} {by_hand:>10.0} {ours:>12.0} {:>7.2} {theirs:>12.0} {:>8.1}, {:.2}, {:.2}, {:.2}",
+            ours / by_hand,
+            play as f64 / steps.len() as f64,
+            hand.passes as f64 / all,
+            (condensed.counters().pivots - before.pivots) as f64 / all,
+            (condensed.counters().free - before.free) as f64 / all,
+        );
+    }
+    println!();
+}
+
 fn main() {
+    chains();
     println!("{:>5} {:>14} {:>14} {:>8} {:>18}", "n", "bare ns", "polished ns", "ratio", "iterations a step");
     for n in [1, 5, 20, 40] {
         let (problem, loads) = chain(n);

@@ -51,6 +51,30 @@ impl Trajectory {
         self.velocity.first().map_or(&[], Vec::as_slice)
     }
 
+    /// Displacement at each row, m: one column a probe, in the scene's order.
+    #[must_use]
+    pub fn displacements(&self) -> &[Vec<f64>] {
+        &self.displacement
+    }
+
+    /// Velocity at each row, m/s: one column a probe, in the scene's order.
+    #[must_use]
+    pub fn velocities(&self) -> &[Vec<f64>] {
+        &self.velocity
+    }
+
+    /// Force of each wall on the body at each row, N: one column a wall, in the scene's order.
+    #[must_use]
+    pub fn contact_forces(&self) -> &[Vec<f64>] {
+        &self.force
+    }
+
+    /// Impulse of each wall on the body since the previous row, N s: one column a wall, in the scene's order.
+    #[must_use]
+    pub fn contact_impulses(&self) -> &[Vec<f64>] {
+        &self.impulse
+    }
+
     /// Displacement (m) and velocity (m/s) of the probe of that name at each row.
     ///
     /// # Errors

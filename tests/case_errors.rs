@@ -256,3 +256,264 @@ fn a_file_that_cannot_be_read_is_a_wrong_request() {
         assert!(said.contains(&path.display().to_string()) && said.contains(words), "{said}");
     }
 }
+
+/// A tube that is right. Each wrong one differs from it in one place.
+const TUBE: &str = r#"title = "right"
+
+[system]
+modes = 6
+
+[system.beam]
+length = 3.0
+youngs_modulus = 2e11
+density = 7850.0
+outer_diameter = 0.019
+inner_diameter = 0.016
+elements = 12
+left = "pinned"
+right = { stiffness = 1e6 }
+
+[system.damping]
+ratio = 0.01
+
+[[wall]]
+name = "support"
+at = { position = 1.0 }
+side = "both"
+gap = 2e-4
+
+[[load]]
+at = { spread = [0.5, 1.5] }
+constant = { force = 1.0 }
+
+[initial]
+velocity = { profile = [[0.0, 0.0], [1.5, 1e-3], [3.0, 0.0]] }
+
+[[probe]]
+name = "middle"
+at = { position = 1.5 }
+
+[time]
+end = 1.0
+step = 1e-4
+"#;
+
+/// A chain that is right.
+const CHAIN: &str = r#"title = "right"
+
+[system.chain]
+masses = 4
+mass = 1.0
+springs = 1e4
+left = { stiffness = 1e4 }
+
+[system.damping]
+rayleigh = { stiffness = 1e-5 }
+
+[[wall]]
+name = "stop"
+at = { row = [[0, 1.0], [1, -1.0]] }
+side = "upper"
+position = 1e-3
+
+[[load]]
+at = { dof = 0 }
+constant = { force = 1.0 }
+
+[initial]
+displacement = [0.0, 0.0, 0.0, 0.0]
+
+[[probe]]
+name = "mass"
+at = "each"
+
+[time]
+end = 1.0
+step = 1e-3
+"#;
+
+#[rustfmt::skip]
+const WRONG_TUBES: &[Wrong] = &[
+    // The system.
+    ("two systems", "[system.damping]", "[system.oscillator]\nmass = 1\ndamping = 0\nstiffness = 1\n[system.damping]", "16:1", &["two systems, `oscillator` and `beam`"]),
+    ("no system", "[system.beam]\nlength = 3.0\nyoungs_modulus = 2e11\ndensity = 7850.0\nouter_diameter = 0.019\ninner_diameter = 0.016\nelements = 12\nleft = \"pinned\"\nright = { stiffness = 1e6 }\n", "", "3:1", &["nothing of what vibrates", "[system.chain]"]),
+    ("no length", "length = 3.0", "length = 0", "7:10", &["system.beam.length", "above 0"]),
+    ("negative stiffness", "youngs_modulus = 2e11", "youngs_modulus = -2e11", "8:18", &["system.beam.youngs_modulus", "above 0"]),
+    ("text for a density", "density = 7850.0", "density = \"steel\"", "9:11", &["system.beam.density", "kg/m^3"]),
+    ("no outer diameter", "outer_diameter = 0.019\n", "", "6:1", &["`outer_diameter` is missing in `system.beam`", "in m"]),
+    ("a tube inside out", "inner_diameter = 0.016", "inner_diameter = 0.02", "11:18", &["system.beam.inner_diameter", "less than the outer diameter"]),
+    ("half an element", "elements = 12", "elements = 1.5", "12:12", &["system.beam.elements", "whole number"]),
+    ("too many elements", "elements = 12", "elements = 1e6", "12:12", &["system.beam.elements", "100000"]),
+    ("unknown end", "left = \"pinned\"", "left = \"glued\"", "13:8", &["system.beam.left", "\"clamped\""]),
+    ("an end by number", "left = \"pinned\"", "left = 3", "13:8", &["system.beam.left", "\"pinned\""]),
+    ("a spring that pushes", "stiffness = 1e6 }", "stiffness = -1e6 }", "14:23", &["system.beam.right.stiffness", "0 or more"]),
+    ("a spring without stiffness", "{ stiffness = 1e6 }", "{ rotational = 1e6 }", "14:9", &["system.beam.right", "stiffness"]),
+    ("unknown key of an end", "{ stiffness = 1e6 }", "{ spring = 1e6 }", "14:11", &["unknown key `spring`", "stiffness"]),
+    ("unknown key of a beam", "elements = 12", "elements = 12\narea = 1.0", "13:1", &["unknown key `area`", "outer_diameter"]),
+    // Damping and modes.
+    ("negative ratio", "ratio = 0.01", "ratio = -0.01", "17:9", &["system.damping.ratio", "0 or more"]),
+    ("two kinds of damping", "ratio = 0.01", "ratio = 0.01\nrayleigh = { mass = 1.0 }", "17:9", &["two kinds, `rayleigh` and `ratio`"]),
+    ("no kind of damping", "ratio = 0.01\n", "", "16:1", &["says nothing", "rayleigh"]),
+    ("no ratios", "ratio = 0.01", "ratios = []", "17:10", &["system.damping.ratios", "one ratio or more"]),
+    ("more modes than there are", "modes = 6", "modes = 60", "4:9", &["modes is 60", "from 1 to 25"]),
+    ("no modes", "modes = 6", "modes = 0", "4:9", &["modes", "from 1"]),
+    ("half a mode", "modes = 6", "modes = 2.5", "4:9", &["modes", "whole number"]),
+    ("a correction of nothing", "modes = 6", "static_correction = true", "4:21", &["`static_correction` without `modes`", "modes = k"]),
+    ("a correction by word", "modes = 6", "modes = 6\nstatic_correction = \"yes\"", "5:21", &["system.static_correction", "true or false"]),
+    // Places.
+    ("no place", "at = { position = 1.0 }\n", "", "19:1", &["`at` is missing in wall \"support\"", "position = 0 to 3.0 m"]),
+    ("a place beyond the end", "at = { position = 1.0 }", "at = { position = 3.5 }", "21:19", &["wall \"support\": at is 3.5", "from 0 to 3.0 m"]),
+    ("a place before the start", "at = { position = 1.0 }", "at = { position = -0.1 }", "21:19", &["wall \"support\": at is -0.1"]),
+    ("a place that is no number", "at = { position = 1.0 }", "at = { position = nan }", "21:19", &["wall \"support\": at: position", "a number"]),
+    ("a wall where nothing moves", "at = { position = 1.0 }", "at = { position = 0.0 }", "21:6", &["nothing moves there"]),
+    ("two places", "at = { position = 1.0 }", "at = { position = 1.0, dof = 2 }", "21:24", &["more than one place"]),
+    ("an empty place", "at = { position = 1.0 }", "at = {}", "21:6", &["wall \"support\": at", "position"]),
+    ("a place by number", "at = { position = 1.0 }", "at = 1.0", "21:6", &["wall \"support\": at", "position"]),
+    ("a place by word", "at = { position = 1.0 }", "at = \"all\"", "21:6", &["wall \"support\": at", "\"each\""]),
+    ("a spread wall", "at = { position = 1.0 }", "at = { spread = [0.5, 1.0] }", "21:8", &["unknown key `spread`"]),
+    ("a degree of freedom too many", "at = { position = 1.0 }", "at = { dof = 25 }", "21:14", &["at: dof is 25", "from 0 to 24"]),
+    ("half a degree of freedom", "at = { position = 1.0 }", "at = { dof = 0.5 }", "21:14", &["at: dof", "whole number"]),
+    ("an unknown place", "at = { position = 1.0 }", "at = { node = 3 }", "21:8", &["unknown key `node`", "position"]),
+    ("a gap and one side", "side = \"both\"", "side = \"upper\"", "23:7", &["a gap and one side", "position"]),
+    ("both sides without a gap", "gap = 2e-4\n", "", "19:1", &["`gap` is missing"]),
+    ("a gap that is none", "gap = 2e-4", "gap = -2e-4", "23:7", &["wall \"support\": gap", "0 or more"]),
+    ("a spread of one place", "[0.5, 1.5] }", "[0.5] }", "26:17", &["load 1: at: spread", "[from, to]"]),
+    ("a spread backwards", "[0.5, 1.5] }", "[1.5, 0.5] }", "26:17", &["load 1: at", "more than the start"]),
+    ("a load on each", "at = { spread = [0.5, 1.5] }", "at = \"each\"", "26:6", &["load 1: at", "spread"]),
+    ("a wall twice by expansion", "[[load]]", "[[wall]]\nname = \"support-upper\"\nat = { position = 2.0 }\nside = \"upper\"\nposition = 1.0\n[[load]]", "26:8", &["a name of its own"]),
+    // Start and probes.
+    ("a number for a field", "{ profile = [[0.0, 0.0], [1.5, 1e-3], [3.0, 0.0]] }", "1.0", "30:12", &["initial.velocity", "profile"]),
+    ("a profile that ends early", "[3.0, 0.0]] }", "[2.0, 0.0]] }", "30:12", &["initial.velocity", "from 0 to 3.0 m"]),
+    ("a profile of one point", "[[0.0, 0.0], [1.5, 1e-3], [3.0, 0.0]]", "[[0.0, 0.0]]", "30:12", &["initial.velocity", "two points or more"]),
+    ("a profile of numbers", "[[0.0, 0.0], [1.5, 1e-3], [3.0, 0.0]]", "[0.0, 1.0]", "30:25", &["initial.velocity.profile", "profile"]),
+    ("a profile that moves what is held", "[[0.0, 0.0]", "[[0.0, 1.0]", "30:12", &["initial.velocity", "held"]),
+    ("a field of another length", "{ profile = [[0.0, 0.0], [1.5, 1e-3], [3.0, 0.0]] }", "[1.0, 2.0]", "30:12", &["2 values", "25 numbers"]),
+    ("an unknown field", "profile =", "shape =", "30:14", &["unknown key `shape`", "profile"]),
+    ("a start behind the wall", "velocity = {", "displacement = {", "30:16", &["initial.displacement", "at most 0.0002"]),
+    ("a probe without a place", "at = { position = 1.5 }\n", "", "32:1", &["`at` is missing in probe \"middle\""]),
+    ("a probe of bad name", "name = \"middle\"", "name = \"the middle\"", "33:8", &["probe 1: name", "letters"]),
+    ("two probes of one name", "[time]", "[[probe]]\nname = \"middle\"\nat = { dof = 3 }\n[time]", "37:8", &["probe 2: name", "a name of its own"]),
+    ("an unknown key of a probe", "at = { position = 1.5 }", "where = 1.5", "34:1", &["unknown key `where`", "name or at"]),
+];
+
+#[rustfmt::skip]
+const WRONG_CHAINS: &[Wrong] = &[
+    ("no masses", "masses = 4", "masses = 0", "4:10", &["system.chain.masses", "from 1"]),
+    ("masses without a mass", "mass = 1.0\n", "", "4:10", &["`mass` is missing in `system.chain`", "in kg"]),
+    ("a mass beside a list", "masses = 4", "masses = [1.0, 1.0, 1.0, 1.0]", "5:8", &["beside a list"]),
+    ("an empty list", "masses = 4\nmass = 1.0", "masses = []", "4:10", &["system.chain.masses", "one mass or more"]),
+    ("a mass of nothing", "mass = 1.0", "mass = 0.0", "5:8", &["system.chain.masses: value 1", "above 0"]),
+    ("a negative mass in a list", "masses = 4\nmass = 1.0", "masses = [1.0, 1.0, -1.0, 1.0]", "4:21", &["system.chain.masses: value 3", "above 0"]),
+    ("masses by word", "masses = 4", "masses = \"four\"", "4:10", &["system.chain.masses", "how many"]),
+    ("too few springs", "springs = 1e4", "springs = [1e4]", "6:11", &["system.chain.springs", "one between"]),
+    ("a negative spring", "springs = 1e4", "springs = [1e4, -1.0, 1.0]", "6:17", &["system.chain.springs: value 2", "0 or more"]),
+    ("a chain that is clamped", "left = { stiffness = 1e4 }", "left = \"clamped\"", "7:8", &["system.chain.left", "\"free\""]),
+    ("a chain that turns", "left = { stiffness = 1e4 }", "left = { stiffness = 1e4, rotational = 1 }", "7:27", &["unknown key `rotational`"]),
+    ("negative Rayleigh damping", "stiffness = 1e-5 }", "stiffness = -1e-5 }", "10:26", &["system.damping.rayleigh.stiffness", "0 or more"]),
+    ("unknown Rayleigh coefficient", "{ stiffness = 1e-5 }", "{ alpha = 1e-5 }", "10:14", &["unknown key `alpha`", "mass"]),
+    ("a position on a chain", "at = { dof = 0 }", "at = { position = 1.0 }", "19:8", &["a chain has no positions", "dof"]),
+    ("a spread on a chain", "at = { dof = 0 }", "at = { spread = [0, 1] }", "19:8", &["a chain has no positions", "a row"]),
+    ("an empty row", "[[0, 1.0], [1, -1.0]]", "[]", "14:14", &["wall \"stop\": at: row", "pairs"]),
+    ("a row of numbers", "[[0, 1.0], [1, -1.0]]", "[0, 1.0]", "14:15", &["wall \"stop\": at: row", "pairs"]),
+    ("a weight that is none", "[1, -1.0]", "[1, nan]", "14:29", &["at: row: weight", "finite"]),
+    ("a row of nothing", "[[0, 1.0], [1, -1.0]]", "[[0, 0.0], [1, 0.0]]", "14:14", &["at: row", "not 0"]),
+    ("a degree of freedom twice", "[1, -1.0]", "[0, -1.0]", "14:26", &["at: row: degree of freedom", "once"]),
+    ("a row beyond the end", "[1, -1.0]", "[4, -1.0]", "14:26", &["at: row: degree of freedom is 4", "0 to 3"]),
+    ("a list for a start, too short", "[0.0, 0.0, 0.0, 0.0]", "[0.0]", "23:16", &["initial.displacement has 1 values", "4 numbers"]),
+    ("a start that is no number", "[0.0, 0.0, 0.0, 0.0]", "[0.0, inf, 0.0, 0.0]", "23:22", &["initial.displacement", "numbers"]),
+    ("a profile of a chain", "[0.0, 0.0, 0.0, 0.0]", "{ profile = [[0.0, 0.0]] }", "23:18", &["a chain has no positions", "dofs"]),
+    ("a start behind the stop", "[0.0, 0.0, 0.0, 0.0]", "{ dofs = [[0, 2e-3]] }", "23:16", &["initial.displacement is 0.002", "at most 0.001"]),
+    ("modes of an oscillator", "[system.chain]\nmasses = 4\nmass = 1.0\nsprings = 1e4\nleft = { stiffness = 1e4 }\n", "[system]\nmodes = 1\n[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 0.0\n", "10:1", &["`system.damping` beside an oscillator"]),
+];
+
+/// Every wrong text that is not refused at its place and in its words.
+fn not_refused(right: &str, all: &[Wrong]) -> String {
+    let mut failures = String::new();
+    for (what, old, new, place, words) in all {
+        assert!(right.contains(old), "{what}: nothing to replace");
+        let text = right.replacen(old, new, 1);
+        let said = match Case::parse(&text, "wrong.toml", "") {
+            Ok(_) => "ACCEPTED".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        let at = format!("--> wrong.toml:{place}\n");
+        let fits = said.starts_with("error: ")
+            && said.contains(&at)
+            && said.contains("expected")
+            && words.iter().all(|w| said.contains(w))
+            && said.is_ascii();
+        if !fits {
+            failures += &format!("{what}: wanted {place} and {words:?}\n{said}\n\n");
+        }
+    }
+    failures
+}
+
+#[test]
+fn the_structures_that_the_wrong_ones_start_from_are_right() {
+    for text in [TUBE, CHAIN] {
+        assert!(Case::parse(text, "right.toml", "").is_ok(), "{:?}", Case::parse(text, "right.toml", ""));
+    }
+}
+
+#[test]
+fn every_wrong_structure_is_refused_at_its_place() {
+    let failures = not_refused(TUBE, WRONG_TUBES) + &not_refused(CHAIN, WRONG_CHAINS);
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn a_wall_of_the_compliance_left_out_takes_no_restitution() {
+    let text = TUBE
+        .replace("modes = 6", "modes = 6\nstatic_correction = true")
+        .replace("gap = 2e-4", "gap = 2e-4\nrestitution = 0.5");
+    let said = Case::parse(&text, "wrong.toml", "").unwrap_err().to_string();
+    assert!(said.contains("--> wrong.toml:25:15") && said.contains("cannot rebound"), "{said}");
+    let text = text.replace("restitution = 0.5", "stiffness = 1e5");
+    assert!(Case::parse(&text, "right.toml", "").is_ok());
+}
+
+#[test]
+fn a_malformed_matrix_is_refused_at_its_own_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    let text = "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.mtx\"\n[time]\nend = 1.0\nstep = 1e-3\n";
+    fs::write(&case, text).unwrap();
+    let header = "%%MatrixMarket matrix coordinate real symmetric\n";
+    let k = format!("{header}2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n");
+    let m = "1.0,0.0\n0.0,1.0\n";
+    let read = |m: &str, k: &str| {
+        fs::write(folder.path().join("M.csv"), m).unwrap();
+        fs::write(folder.path().join("K.mtx"), k).unwrap();
+        Case::read(&case)
+    };
+    let right = read(m, &k).unwrap();
+    assert_eq!(right.scene.system.degrees_of_freedom(), 2);
+    let wrong = [
+        (m, k.replace("2 2 3", "2 2 4"), "K.mtx:5", "3 entries of 4"),
+        (m, k.replace("-1.0", "one"), "K.mtx:4", "no finite number"),
+        (m, k.replace("2 1 -1.0", "3 1 -1.0"), "K.mtx:4", "no row or column"),
+        (m, "1.0".to_owned(), "K.mtx:1", "MatrixMarket"),
+        ("1.0,0.5\n0.0,1.0\n", k.clone(), "M.csv:", "symmetric"),
+        ("1.0,0.0\n", k.clone(), "M.csv:1", "2"),
+        ("1.0,nan\n0.0,1.0\n", k.clone(), "M.csv:1", "finite"),
+        ("1.0,0.0\n0.0,-1.0\n", k.clone(), "case.toml:2:8", "positive definite"),
+        ("1.0\n", k.clone(), "case.toml:3:13", "1"),
+        (m, k.replace("1 1 2.0", "1 1 -2.0"), "case.toml:3:13", "semidefinite"),
+    ];
+    for (m, k, place, words) in wrong {
+        let said = read(m, &k).map(|_| "ACCEPTED").unwrap_err().to_string();
+        assert!(said.contains(place) && said.contains(words) && said.contains("expected"), "{place} {words}\n{said}");
+    }
+    read(m, &k).unwrap();
+    for (old, new, words) in [
+        ("K.mtx", "none.mtx", "no such file"),
+        ("K.mtx", "K.txt", "neither .mtx nor .csv"),
+        ("[time]", "[system.damping]\nmatrix = \"none.csv\"\n[time]", "no such file"),
+        ("[time]", "damping = \"M.csv\"\n[system.damping]\nratio = 0.1\n[time]", "twice"),
+    ] {
+        fs::write(&case, text.replace(old, new)).unwrap();
+        let said = Case::read(&case).map(|_| "ACCEPTED").unwrap_err().to_string();
+        assert!(said.contains("--> ") && said.contains(words) && said.contains("expected"), "{said}");
+    }
+}

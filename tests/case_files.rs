@@ -2,8 +2,9 @@
 #![cfg(feature = "cli")]
 
 use signorini::case::{Case, Embedded};
+use signorini::case::{Model, Place};
+use signorini::{Chain, Damping, Load, LoadKind, Probe, Row, Scene, System, Wall};
 use signorini::{Integrator, PenaltyLaw};
-use signorini::{Load, LoadKind, Scene, Wall};
 use std::fs;
 use std::path::Path;
 
@@ -134,4 +135,137 @@ fn changed_values_are_checked_again() {
     let mut case = embedded("rigid-walls-sine");
     case.time.step = 20.0;
     assert!(case.validate().is_err_and(|e| e.is_request() && e.to_string().contains("time.step")));
+}
+
+#[test]
+fn the_chains_are_those_of_the_benchmark() {
+    for n in [20, 200] {
+        let case = embedded(&format!("chain-{n}"));
+        let chain = Chain { masses: vec![1.0; n], springs: vec![1e4; n - 1], grounds: [1e4; 2] };
+        let damping = Damping::Rayleigh { mass: 0.0, stiffness: 1e-5 };
+        let structure = chain.structure().unwrap().with_damping(&damping).unwrap();
+        assert_eq!(case.scene.system, System::Structure(Box::new(structure)));
+        assert_eq!(case.scene.walls.len(), 2 * n);
+        for (i, pair) in case.scene.walls.chunks(2).enumerate() {
+            let wall = |name: &str, position: f64| {
+                let wall = if position > 0.0 { Wall::upper(name, position) } else { Wall::lower(name, position) };
+                Wall { at: Row::dof(i), ..wall.with_restitution(0.0) }
+            };
+            assert_eq!(pair, [wall(&format!("box-{i}-upper"), 1e-3), wall(&format!("box-{i}-lower"), -1e-3)]);
+        }
+        assert_eq!(case.scene.loads, [Load::harmonic(50.0, 5.0, 0.0)]);
+        assert_eq!(case.time.step, 1e-3);
+    }
+}
+
+#[test]
+fn the_bar_starts_compressed_above_its_wall() {
+    let case = embedded("bar-impact");
+    let scene = &case.scene;
+    // One eighth of the elastic energy of a strain of 1/2, E A L = 1: exact, as the profile is linear.
+    assert!((0.5 * scene.system.stiffness_form(&scene.initial.q, &scene.initial.q) - 0.125).abs() < 1e-14);
+    assert!(scene.initial.v.iter().all(|v| *v == 0.0));
+    assert_eq!(scene.walls[0].at.dot(&scene.initial.q), 0.5);
+    assert_eq!(scene.walls[0].law.restitution(), Some(0.0));
+    assert_eq!(scene.probes.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["end", "middle"]);
+    assert!((scene.probes[1].at.dot(&scene.initial.q) - 0.25).abs() < 1e-15);
+}
+
+#[test]
+fn the_tube_is_cut_to_modes_and_keeps_its_whole() {
+    let case = embedded("tube-loose-supports");
+    let truncated = case.truncated.as_ref().unwrap();
+    assert_eq!((case.scene.system.degrees_of_freedom(), case.whole().system.degrees_of_freedom()), (20, 120));
+    // A pinned-pinned beam: ω = (iπ/L)² √(EI/m′); Hermite elements are too stiff by (kh)⁴/1440.
+    let Model::Beam(beam) = &case.model else { panic!("{:?}", case.model) };
+    for (i, omega) in truncated.reduction.modes.omega.iter().enumerate().take(10) {
+        let wave = (i as f64 + 1.0) * std::f64::consts::PI / beam.length;
+        let exact = wave * wave * (beam.bending_stiffness() / beam.mass_per_metre()).sqrt();
+        let stiffer = (wave * beam.length / beam.elements as f64).powi(4) / 1440.0;
+        assert!((omega / exact - 1.0 - stiffer).abs() < 0.05 * stiffer + 1e-9, "{i}: {omega} {exact}");
+        let e: Vec<f64> = (0..20).map(|j| if j == i { 1.0 } else { 0.0 }).collect();
+        // One per cent of critical damping: 2 ζ ω.
+        assert!((case.scene.system.damping_form(&e, &e) - 0.02 * omega).abs() < 1e-12 * omega);
+    }
+    assert_eq!(case.places, [1.0, 1.0, 2.0, 2.0].map(Place::Position));
+    let more = case.clone().with_modes(40).unwrap();
+    assert_eq!((more.scene.system.degrees_of_freedom(), more.whole()), (40, case.whole()));
+    assert!(more.validate().is_ok() && case.clone().with_modes(121).is_err());
+    assert!(embedded("rigid-walls-sine").with_modes(1).is_err_and(|e| e.is_request()));
+    assert!(embedded("chain-20").with_modes(5).is_ok_and(|c| c.scene.system.degrees_of_freedom() == 5));
+}
+
+#[test]
+fn a_place_means_the_same_however_it_is_said() {
+    let text = |at: &str, probes: &str| {
+        format!(
+            "[system.bar]\nlength = 2.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\nelements = 4\nleft = \"clamped\"\nright = \"free\"\n\
+             [[wall]]\nname = \"stop\"\nat = {at}\nside = \"both\"\ngap = 1.0\n{probes}[time]\nend = 1.0\nstep = 1e-2\n"
+        )
+    };
+    let read = |at: &str, probes: &str| Case::parse(&text(at, probes), "bar.toml", "").unwrap();
+    // The clamped node is left out: the node at 1 m, the third, is degree of freedom 1.
+    let case = read("{ position = 1.0 }", "");
+    for other in ["{ dof = 1 }", "{ row = [[1, 1.0]] }"] {
+        assert_eq!(read(other, "").scene, case.scene);
+    }
+    assert_eq!(case.scene.probes, [Probe { name: "stop".into(), at: Row::dof(1) }]);
+    let each = read("\"each\"", "[[probe]]\nname = \"node\"\nat = \"each\"\n");
+    let names: Vec<_> = each.scene.walls.iter().map(|w| w.name.as_str()).collect();
+    let expected: Vec<_> = (1..=4).flat_map(|i| [format!("stop-{i}-upper"), format!("stop-{i}-lower")]).collect();
+    assert_eq!(names, expected);
+    assert_eq!(each.scene.probes.len(), 4);
+    let none =
+        text("{ dof = 0 }", "").split("[[wall]]").next().unwrap().to_owned() + "[time]\nend = 1.0\nstep = 1e-2\n";
+    assert_eq!(
+        Case::parse(&none, "bar.toml", "").unwrap().scene.probes,
+        [Probe { name: "middle".into(), at: Row::dof(1) }]
+    );
+}
+
+#[test]
+fn a_system_of_one_degree_of_freedom_needs_no_place() {
+    let text = "[system.chain]\nmasses = [2.0]\nsprings = []\nleft = { stiffness = 8.0 }\n[[wall]]\nname = \"stop\"\nside = \"upper\"\n\
+                position = 1.0\n[[load]]\nconstant = { force = 1.0 }\n[initial]\ndisplacement = 0.5\n[time]\nend = 1.0\nstep = 1e-2\n";
+    let case = Case::parse(text, "one.toml", "").unwrap();
+    assert_eq!(case.scene.probes, [Probe { name: String::new(), at: Row::dof(0) }]);
+    assert_eq!((case.scene.walls[0].at.clone(), case.scene.initial.q.clone()), (Row::dof(0), vec![0.5]));
+    assert_eq!(case.scene.system.frequencies()[0], 2.0);
+}
+
+#[test]
+fn matrices_of_files_are_those_of_the_builder() {
+    let folder = tempfile::tempdir().unwrap();
+    let chain = Chain { masses: vec![1.0, 2.0, 3.0], springs: vec![4.0, 5.0], grounds: [6.0, 0.0] };
+    let structure = chain.structure().unwrap();
+    let mut lines = String::from("%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n");
+    for (i, j, value) in structure.stiffness.entries() {
+        lines += &format!("{} {} {value:?}\n", i + 1, j + 1);
+    }
+    fs::write(folder.path().join("K.mtx"), lines).unwrap();
+    fs::write(folder.path().join("M.csv"), "1,0,0\n0,2,0\n0,0,3\n").unwrap();
+    let rest = "[[probe]]\nname = \"a\"\nat = { dof = 0 }\n[time]\nend = 1.0\nstep = 1e-2\n";
+    let of_files = format!(
+        "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.mtx\"\n[system.damping]\nrayleigh = {{ mass = 0.5 }}\n{rest}"
+    );
+    let of_builder = format!(
+        "[system.chain]\nmasses = [1, 2, 3]\nsprings = [4, 5]\nleft = {{ stiffness = 6 }}\n[system.damping]\nrayleigh = {{ mass = 0.5 }}\n{rest}"
+    );
+    let read = |text: &str| Case::parse(text, "case.toml", folder.path()).unwrap().scene;
+    let [files, builder] = [read(&of_files), read(&of_builder)].map(|scene| scene.system.structure());
+    for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+        for (a, b) in
+            [(&files.mass, &builder.mass), (&files.damping, &builder.damping), (&files.stiffness, &builder.stiffness)]
+        {
+            assert_eq!(a.get(i, j), b.get(i, j), "{i} {j}");
+        }
+    }
+}
+
+#[test]
+fn a_table_that_no_memory_holds_is_refused() {
+    let mut case = embedded("chain-200");
+    (case.time.step, case.time.sample) = (1e-6, Some(1e-6));
+    // 807 columns, 1e6 rows.
+    assert!(case.validate().is_err_and(|e| e.is_request() && e.to_string().contains("time.sample is 1e-6")));
 }

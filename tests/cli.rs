@@ -281,3 +281,107 @@ fn help_has_examples_everywhere_and_quiet_is_quiet() {
     let output = signorini(dir.path(), &["run", "linear-sine", "--quiet"]);
     assert!(output.status.success() && output.stderr.is_empty());
 }
+
+/// A tube at two supports, small enough to be refined at once.
+const TUBE: &str = "title = \"A small tube\"\n[system]\nmodes = 2\n[system.beam]\nlength = 1.0\nyoungs_modulus = 2e11\ndensity = 7850.0\n\
+    outer_diameter = 0.02\ninner_diameter = 0.018\nelements = 4\nleft = \"pinned\"\nright = \"pinned\"\n[system.damping]\nratio = 0.05\n\
+    [[wall]]\nname = \"support\"\nat = { position = 0.4 }\nside = \"both\"\ngap = 1e-4\nstiffness = 1e6\n\
+    [[load]]\nat = { position = 0.5 }\nharmonic = { amplitude = 50.0, frequency = 40.0 }\n\
+    [[probe]]\nname = \"middle\"\nat = { position = 0.5 }\n[time]\nend = 0.05\nstep = 2e-5\nsample = 1e-4\n";
+
+#[test]
+fn a_run_of_a_structure_names_its_probes_and_walls_and_tells_its_truncation() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("tube.toml"), TUBE).unwrap();
+    let output = signorini(dir.path(), &["run", "tube.toml", "--out", "o"]);
+    let said = text(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("truncation: with 4 of 8 modes in place of 2 the impulse changes by up to"), "{said}");
+    let (header, rows) = csv(&dir.path().join("o/trajectory.csv"));
+    let expected = "time_s,displacement_middle_m,velocity_middle_m_per_s,contact_force_support-upper_N,contact_impulse_support-upper_Ns,\
+                    contact_force_support-lower_N,contact_impulse_support-lower_Ns";
+    assert_eq!(header.join(","), expected);
+    assert_eq!(rows.len(), 501);
+    let summary = json(&dir.path().join("o/summary.json"));
+    let scene = &summary["scene"];
+    assert_eq!(scene["beam"]["elements"], 4);
+    assert_eq!(
+        (scene["structure"]["degrees_of_freedom"].as_u64(), scene["structure"]["unknowns"].as_u64()),
+        (Some(8), Some(2))
+    );
+    assert_eq!(scene["structure"]["frequencies_hz"].as_array().unwrap().len(), 2);
+    assert_eq!(scene["walls"][0]["at"]["position_m"], 0.4);
+    assert!(
+        scene["walls"][0]["effective_mass_kg"].as_f64() > scene["walls"][0]["effective_mass_of_all_modes_kg"].as_f64()
+    );
+    assert_eq!(summary["qp_solver"], "condensed");
+    assert_eq!(summary["truncation"]["modes"], serde_json::json!([2, 4]));
+    // The impulses of the check are those of the run that it repeats.
+    done(dir.path(), &["run", "tube.toml", "--modes", "4", "--no-verdict", "--out", "more"]);
+    let more = json(&dir.path().join("more/summary.json"));
+    for (index, wall) in ["support-upper", "support-lower"].into_iter().enumerate() {
+        let check = &summary["truncation"]["walls"][index];
+        assert_eq!(
+            (&check["impulse_ns"][0], &check["impulse_ns"][1]),
+            (&summary["impulse_ns"][wall], &more["impulse_ns"][wall])
+        );
+    }
+    assert!(more["truncation"].is_null() && more["refinement"].is_null());
+}
+
+#[test]
+fn accuracy_finds_the_modes_as_well_as_the_step() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("tube.toml"), TUBE).unwrap();
+    let request = ["run", "tube.toml", "--scheme", "moreau-jean", "--accuracy", "0.05", "--out", "o"];
+    let output = signorini(dir.path(), &request);
+    let said = text(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("modes: ") && said.contains("accuracy: asked for 5e-2"), "{said}");
+    let summary = json(&dir.path().join("o/summary.json"));
+    assert_eq!(summary["modes"]["kept"], true);
+    assert_eq!(summary["modes"]["modes"], summary["scene"]["structure"]["modes"]);
+    assert!(summary["accuracy"]["reached"].as_f64().unwrap() <= 0.05);
+}
+
+#[test]
+fn explain_tells_structures() {
+    let dir = tempfile::tempdir().unwrap();
+    let tube = done(dir.path(), &["explain", "tube-loose-supports", "--modes", "30"]);
+    for words in [
+        "120 degrees of freedom, cut to 30 modes",
+        "classical damping",
+        "diagonal",
+        "condensed",
+        "1 m along it",
+        "restitution holds with the mass that 30 of 120 modes have",
+    ] {
+        assert!(tube.contains(words), "{words}: {tube}");
+    }
+    let chain = done(dir.path(), &["explain", "chain-200"]);
+    for words in ["a chain, in full", "C = 1e-5 K", "tridiagonal", "and 388 walls more", "degree of freedom 0"] {
+        assert!(chain.contains(words), "{words}: {chain}");
+    }
+    assert!(done(dir.path(), &["explain", "rigid-walls-sine"]).contains("clamp: one unknown"));
+}
+
+#[test]
+fn wrong_requests_about_structures_exit_with_2() {
+    let dir = tempfile::tempdir().unwrap();
+    let static_tube = TUBE.replace("modes = 2", "modes = 2\nstatic_correction = true").replace("stiffness = 1e6\n", "");
+    fs::write(dir.path().join("static.toml"), static_tube).unwrap();
+    let requests: &[(&[&str], &str)] = &[
+        (&["run", "rigid-walls-sine", "--modes", "1"], "one degree of freedom"),
+        (&["explain", "rigid-walls-sine", "--modes", "1"], "one degree of freedom"),
+        (&["run", "chain-20", "--modes", "0"], "from 1 to 20"),
+        (&["run", "chain-20", "--modes", "21"], "from 1 to 20"),
+        (&["compare", "tube-loose-supports", "--modes", "121"], "from 1 to 120"),
+        (&["run", "static.toml", "--restitution", "0.5"], "cannot rebound"),
+        (&["run", "chain-20", "--qp", "clamp"], "one unknown"),
+        (&["run", "chain-200", "--sample", "1e-7", "--step", "1e-7"], "time.sample"),
+    ];
+    for (request, hint) in requests {
+        let message = refused(dir.path(), request, 2);
+        assert!(message.contains(hint), "{request:?} does not mention {hint}: {message}");
+    }
+}

@@ -1,11 +1,11 @@
 //! Nonsmooth generalized-α against closed forms and the exact scheme, and the judge of it against steps that break their word.
 
 mod common;
-mod draws;
+mod random_structures;
 
 use common::{GAP, RIGID_E08, ball, driven, error, on_grid, slope, source};
 use signorini::residual::{Judge, Residuals};
-use signorini::{Load, Options, Path, Scene, Scheme, Step, Stepper, Wall, run};
+use signorini::{Load, Options, Path, Row, Scene, Scheme, Step, Stepper, Wall, run};
 
 const RHOS: [f64; 4] = [0.0, 0.5, 0.8, 1.0];
 
@@ -110,6 +110,33 @@ fn a_body_at_rest_on_a_wall_stays_and_weighs_what_it_weighs() {
         // e times the speed of the blow.
         assert!((stepper.state().v[0] - 1.0).abs() < 1e-12, "{:?}", stepper.state());
     }
+}
+
+/// What the ledger of a chain of 20 masses between walls of e = 0.9 and 0.45 does not account for, over its energy at the start.
+fn unaccounted(scheme: &Scheme, step: f64) -> f64 {
+    let mut scene = random_structures::chain(20, 1e4, 0.0);
+    for i in 0..20 {
+        let e = if i % 2 == 0 { 0.9 } else { 0.45 };
+        let wall = |wall: Wall| random_structures::at(wall, Row::dof(i));
+        scene = scene.with_wall(wall(Wall::upper(&format!("u{i}"), 1e-3).with_restitution(e)));
+        scene = scene.with_wall(wall(Wall::lower(&format!("l{i}"), -1e-3).with_restitution(0.9)));
+    }
+    let v: Vec<f64> = (0..20).map(|i| 0.1 * (1.0 + (1.7 * f64::from(i)).sin())).collect();
+    let scene = scene.with_initial(&[0.0; 20], &v).with_duration(5.0);
+    let energy = run(&scene, scheme, &Options::with_step(step)).expect("a run").residuals.energy;
+    energy.residual_j / energy.initial_j
+}
+
+#[test]
+fn impacts_make_energy_of_the_order_of_the_step_where_moreau_jean_makes_none() {
+    let [coarse, fine, finest] = [1e-3, 1e-4, 1e-5].map(|step| unaccounted(&alpha(0.8), step));
+    println!("{coarse:e} {fine:e} {finest:e}");
+    assert!(coarse > 0.1 && coarse < 0.6, "{coarse}");
+    for (a, b) in [(coarse, fine), (fine, finest)] {
+        // A tenth of the step; thousands of impacts, at phases that are others in each run.
+        assert!(b.abs() < 0.25 * a.abs() && b.abs() > 0.03 * a.abs(), "{a:e} {b:e}");
+    }
+    assert!(unaccounted(&Scheme::MoreauJean { theta: 0.5 }, 1e-3).abs() < 1e-12);
 }
 
 /// What a judge makes of a run whose step number `at` is altered.

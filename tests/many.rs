@@ -1,10 +1,10 @@
 //! Several degrees of freedom: one written as matrices is the oscillator, a symmetric pair stays symmetric, and the numbering is no physics.
 
 mod common;
-mod draws;
+mod random_structures;
 
 use common::{CONSTRAINED, INTEGRATORS, MOREAU_JEAN, schemes, spring};
-use draws::{at, chain, on};
+use random_structures::{at, chain, on};
 use signorini::linear::{Factor, Symmetric};
 use signorini::qp::Backend;
 use signorini::{Error, Integrator, Load, Row, Scene, Scheme, State, Stepper, System, Wall};
@@ -128,7 +128,8 @@ fn numbered(number: impl Fn(usize) -> usize) -> Scene {
     let plain = chain(N, 1e4, 1e-5);
     let System::Structure(matrices) = plain.system else { unreachable!("a chain has matrices") };
     let renumber = |m: &Symmetric| Symmetric::from_entries(N, m.entries().map(|(i, j, x)| (number(i), number(j), x)));
-    let mut scene = draws::scene(renumber(&matrices.mass), renumber(&matrices.damping), renumber(&matrices.stiffness));
+    let mut scene =
+        random_structures::scene(renumber(&matrices.mass), renumber(&matrices.damping), renumber(&matrices.stiffness));
     let mut v = vec![0.0; N];
     for i in 0..N {
         v[number(i)] = 0.1 * (1.7 * i as f64).sin();

@@ -1,10 +1,10 @@
 //! Chains of three masses: every scheme at its order, against the modes where nothing is touched, against a much finer run of another scheme where it is.
 
 mod common;
-mod draws;
+mod random_structures;
 
 use common::{CONSTRAINED, INTEGRATORS, MOREAU_JEAN, slope, spring};
-use draws::{at, chain, on};
+use random_structures::{at, chain, on};
 use signorini::{Integrator, Load, Row, Scene, Scheme, Stepper, Wall};
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
 

@@ -1,10 +1,10 @@
 //! Random systems of up to eight degrees of freedom, walls of every kind on single ones and on rows of several, duplicates among them: every scheme keeps its word.
 
 mod common;
-mod draws;
+mod random_structures;
 
 use common::{INTEGRATORS, MOREAU_JEAN, spring};
-use draws::{Draws, random_scene};
+use random_structures::{Draws, random_scene};
 use signorini::qp::Backend;
 use signorini::residual::{Judge, Residuals};
 use signorini::{Error, Integrator, LoadKind, Scene, Scheme, Stepper, Wall, WallLaw};

@@ -1,7 +1,7 @@
 //! The stepper: allocations, co-simulation, blows, and what is recorded of its steps.
 
 mod common;
-mod draws;
+mod random_structures;
 
 use common::{INTEGRATORS, MOREAU_JEAN, penalty, schemes, source, spring};
 use signorini::qp::Backend;
@@ -73,13 +73,15 @@ fn no_step_after_the_first_allocates() {
 
 #[test]
 fn no_step_of_a_structure_after_the_first_allocates() {
-    let mut scene = draws::chain(30, 1e4, 1e-5).with_load(draws::on(Load::impulse(0.1, 0.0503), 3));
+    let mut scene =
+        random_structures::chain(30, 1e4, 1e-5).with_load(random_structures::on(Load::impulse(0.1, 0.0503), 3));
     for i in 0..30 {
         let upper = Wall::upper(&format!("u{i}"), 1e-3).with_restitution(0.5);
         let lower = Wall::lower(&format!("l{i}"), -1e-3);
         let lower = if i % 3 == 0 { lower.with_elasticity(1e5, 10.0) } else { lower };
         let place = if i % 7 == 1 { Row::new(vec![(i, 1.0), (i - 1, -1.0)]) } else { Row::dof(i) };
-        scene = scene.with_wall(draws::at(upper, place.clone())).with_wall(draws::at(lower, place));
+        scene =
+            scene.with_wall(random_structures::at(upper, place.clone())).with_wall(random_structures::at(lower, place));
     }
     let scene = scene.with_load(Load::harmonic(50.0, 5.0, 0.0));
     for scheme in schemes() {

@@ -110,10 +110,21 @@ impl Case {
     pub fn validate(&self) -> Result<()> {
         self.scene.validate()?;
         self.time.validate(self.scene.duration)?;
+        let rows = self.scene.duration / self.time.sample.map_or(self.time.step, |s| s.max(self.time.step));
+        let columns = 1 + 2 * (self.scene.probes.len() + self.scene.walls.len());
+        if rows * columns as f64 > MOST_VALUES {
+            let least = self.scene.duration * columns as f64 / MOST_VALUES;
+            let value = self.time.sample.map_or("left out".to_owned(), |sample| format!("{sample:?}"));
+            let expected =
+                format!("at least {least:.1e} s: a row has {columns} values, and a table at most {MOST_VALUES:e}");
+            return Err(Error::invalid("time.sample", value, expected));
+        }
         self.penalty.validate(&self.scene.walls)
     }
 }
 
+/// Most values of a trajectory: rows times columns.
+const MOST_VALUES: f64 = 2e8;
 /// Largest case file, bytes.
 const MOST_CASE_BYTES: u64 = 1 << 20;
 /// Largest table file, bytes.

@@ -62,9 +62,12 @@ impl Builder<'_> {
         let place = match entries.as_slice() {
             [(kind, value)] => self.place(&key, kind, value, load)?,
             [] => return Err(self.refuse(at.span(), &key, &self.takes(load))),
-            [_, (second, _), ..] => {
+            [_, _, ..] => {
+                // In the order of the file, whatever that of the table.
+                let later =
+                    entries.iter().map(|entry| entry.0.span()).max_by_key(|span| span.start).unwrap_or(at.span());
                 let title = format!("{key} says more than one place");
-                return Err(self.source.error(second.span(), &title, &format!("expected one of {}", self.takes(load))));
+                return Err(self.source.error(later, &title, &format!("expected one of {}", self.takes(load))));
             }
         };
         let row = self.model.row(&place).map_err(|error| self.at_value(&key, error, &entries[0].1))?;

@@ -82,7 +82,7 @@ impl Case {
             }
         } else if let Some((wall, left)) = rigid.max_by(|a, b| excess(a.1).total_cmp(&excess(b.1))) {
             notes.push(format!(
-                "restitution holds with the mass that {k} of {n} modes have at a wall: {:.4} kg at {:?}, where all have {:.4} kg; it falls as modes                  are added, and impacts grow weaker and more",
+                "restitution holds with the mass that {k} of {n} modes have at a wall: {:.4} kg at {:?}, where all have {:.4} kg; it falls as modes are added, and impacts grow weaker and more",
                 left.mass_kept, wall.name, left.mass
             ));
         }

@@ -31,10 +31,12 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let h = case.time.step;
     ui.answer(&format!("{}: {}", case.name, case.title.as_deref().unwrap_or("no title")));
     ui.answer("model");
-    for line in describe(&case) {
-        ui.answer(&format!("  {line}"));
-    }
-    for line in choice::model(&case.scene) {
+    let mut lines = what(&case);
+    lines.extend(choice::body(&case.scene));
+    lines.extend(walls(&case));
+    lines.push(choice::loads(&case.scene));
+    lines.extend(case.notes().iter().map(|note| format!("note: {note}")));
+    for line in lines {
         ui.answer(&format!("  {line}"));
     }
     ui.answer("scheme");
@@ -77,42 +79,57 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 /// Most walls that are told one by one.
 const MOST_WALLS: usize = 12;
 
-/// What the file says a structure is, where its walls sit, and what a truncation leaves of it; nothing for an oscillator.
-fn describe(case: &Case) -> Vec<String> {
+/// What the file says a structure is, and what it is cut to; nothing for an oscillator.
+fn what(case: &Case) -> Vec<String> {
     let what = match &case.model {
         Model::Oscillator => return Vec::new(),
-        Model::Chain(chain) => format!("a chain of {} masses", chain.masses.len()),
+        Model::Chain(_) => "a chain".to_owned(),
         Model::Bar(bar) => format!("a bar of {} m, {} elements", bar.length, bar.elements),
         Model::Beam(beam) => format!(
-            "a tube of {} m, {} elements: EI = {:.4} N m², {:.4} kg/m",
+            "a tube of {} m, {} elements, EI = {:.4} N m² and {:.4} kg/m",
             beam.length,
             beam.elements,
             beam.bending_stiffness(),
             beam.mass_per_metre()
         ),
         Model::Matrices(_) => "a structure by its matrices".to_owned(),
-        other => other.kind().to_owned(),
     };
-    let mut lines = vec![format!("{what}: {} degrees of freedom", case.whole().system.degrees_of_freedom())];
-    let walls = case.scene.walls.iter().zip(&case.places);
-    lines.extend(walls.take(MOST_WALLS).map(|(wall, place)| format!("wall {:?} on {place}", wall.name)));
+    let mut lines = Vec::new();
     if let Some(truncated) = &case.truncated {
-        let reduction = &truncated.reduction;
-        let next = reduction.next_omega.map_or("nothing is left out".to_owned(), |omega| {
-            format!("the next, left out, is {:.6} Hz", omega / std::f64::consts::TAU)
+        let next = truncated.reduction.next_omega.map_or("nothing is left out".to_owned(), |omega| {
+            format!("the next, left out, has {:.6} Hz", omega / std::f64::consts::TAU)
         });
-        lines.push(format!("cut to {} modes; {next}", reduction.modes.count()));
-        for (wall, left) in case.scene.walls.iter().zip(&reduction.walls).take(MOST_WALLS) {
-            lines.push(format!(
-                "wall {:?}: {:.4} kg where all modes have {:.4} kg, {:.2} % of the static compliance",
-                wall.name,
-                left.mass_kept,
+        let n = truncated.reduction.degrees_of_freedom;
+        lines.push(format!(
+            "{what}: {n} degrees of freedom, cut to {} modes; {next}",
+            truncated.reduction.modes.count()
+        ));
+    } else {
+        lines.push(format!("{what}, in full"));
+    }
+    lines
+}
+
+/// Each wall, where it sits and what a truncation leaves of the structure there.
+fn walls(case: &Case) -> Vec<String> {
+    let mut lines = choice::walls(&case.scene);
+    for (index, line) in lines.iter_mut().enumerate() {
+        if let (Some(place), false) = (case.places.get(index), matches!(case.model, Model::Oscillator)) {
+            line.push_str(&format!(", on {place}"));
+        }
+        if let Some(left) = case.truncated.as_ref().and_then(|t| t.reduction.walls.get(index)) {
+            line.push_str(&format!(
+                " (all modes: {:.4e} kg; kept of the static compliance: {:.2} %)",
                 left.mass,
                 100.0 * left.share()
             ));
         }
     }
-    lines.extend(case.notes());
+    let all = lines.len();
+    if all > MOST_WALLS {
+        lines.truncate(MOST_WALLS);
+        lines.push(format!("and {} walls more", all - MOST_WALLS));
+    }
     lines
 }
 

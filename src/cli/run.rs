@@ -105,6 +105,10 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let target = Target { method, ..Target::new(tolerance, case.time) };
     target.validate()?;
     let (case, modes) = enough_modes(case, &target, ui)?;
+    // A step costs what its unknowns cost: patience for a structure is some times that for one degree of freedom, and no more.
+    let unknowns = case.scene.system.degrees_of_freedom() as u64;
+    let most_steps = (PATIENCE * target.most_steps / unknowns).clamp(FEWEST_STEPS, target.most_steps);
+    let target = Target { most_steps, ..target };
     let bar = ui.progress("refining", UNITS as u64);
     let end = case.scene.duration;
     let outcome = reach(&case.scene, &target, &mut |time| bar.set((UNITS * time / end) as u64));
@@ -138,6 +142,12 @@ fn enough_modes(case: &Case, target: &Target, ui: &Ui) -> Result<(Case, Option<C
     let chosen = chosen?;
     Ok((case.clone().with_modes(chosen.modes)?, Some(chosen)))
 }
+
+/// Unknowns times steps of a refinement's last run, in those of one degree of freedom.
+const PATIENCE: u64 = 8;
+
+/// Steps of one run that a refinement may always take.
+const FEWEST_STEPS: u64 = 1 << 16;
 
 /// Resolution of a bar.
 const UNITS: f64 = 1000.0;

@@ -2,19 +2,12 @@
 //!
 //! With S the rows in play in increasing order, W_SS = L D Lᵀ row by row within its envelope (George and Liu 1981, Computer Solution of
 //! Large Sparse Positive Definite Systems, ch. 4): row k of L begins where row k of W_SS does. A change of S keeps all rows before the
-//! first one changed.
-//!
-//! **Dependent rows.** Walls that see the same motion make W_SS singular. A row k that follows from rows B before it, with
-//! N = eₖ − Σ cⱼ eⱼ and NᵀW N ≤ 1e-12 NᵀD N, D = diag(Wᵢᵢ), stays out of L; W_BB c = W_Bk. Then W_SS r = q is taken for the limit δ → 0
-//! of (W_SS + δ D) r = q, in which every matrix is positive definite and every solution unique:
-//!
-//! r = e/δ + r₀ + O(δ),   e = N z,  NᵀD N z = Nᵀq,   W r₀ = q − D e,  NᵀD r₀ = 0.
-//!
-//! Where the bounds can all be met, Nᵀq = 0, e is 0, and r₀ is the solution of least Σ Wᵢᵢ rᵢ²: equal walls at one place share equally.
-//! Where they cannot, e is the escape: forces that grow without limit and move nothing.
+//! first one changed. A row k that depends on rows before it, NᵀW N ≤ 1e-12 NᵀD N with N = eₖ − Σ cⱼ eⱼ and D = diag(Wᵢᵢ), stays out
+//! of L (see [`super::relations`]). Where a dependent row has large cⱼ — neighbouring walls on a smooth motion — the order of rows is a bad
+//! one, and S is factored again with the largest pivot first.
 
 use super::delassus::Delassus;
-use super::{NOISE, ROUNDING};
+use super::relations::{Relations, SPREAD};
 
 /// NᵀW N over NᵀD N below which rows are dependent (dimensionless, the square of an angle: 1e-6, and 1e4 times its rounding error).
 const DEPENDENT: f64 = 1e-12;
@@ -22,20 +15,14 @@ const DEPENDENT: f64 = 1e-12;
 /// A pivot below this share of Wₖₖ has the quotient above computed. Rounding in a pivot is 1e-16 over the least pivot accepted.
 const SUSPICIOUS: f64 = 1e-3;
 
-/// A row of less than this share in a combination gives way to none of the others (dimensionless).
-const PART: f64 = 1e-3;
-
-/// An escape of this share of the largest one is its rounding (dimensionless).
-const SPREAD: f64 = 1e-9;
-
-/// Most room made beforehand for the relations of dependent rows among each other, 32 MB: more is made when it is needed.
-const MOST_GRAM: usize = 1 << 22;
+/// NᵀD N over Wₖₖ from which the order of rows is a bad one: rounding of a dependent row's combination is 1e-16 of it.
+const SPREAD_OUT: f64 = 1e3;
 
 /// W on the rows in play.
 pub(super) struct Block {
     /// Rows in play, increasing.
     rows: Vec<usize>,
-    /// Those of them in the factor.
+    /// Those of them in the factor, in its order.
     basis: Vec<usize>,
     /// L below its unit diagonal, row after row; row k begins at `starts[k]` with column `from[k]`.
     lower: Vec<f64>,
@@ -43,18 +30,16 @@ pub(super) struct Block {
     from: Vec<usize>,
     /// 1/D of the factor.
     inverse: Vec<f64>,
-    /// Those of them that follow from rows before, each with its c over the basis as far as it was then.
-    dependent: Vec<usize>,
-    combination: Vec<f64>,
-    ends: Vec<usize>,
-    /// Lower Cholesky factor of NᵀD N, row after row without gaps.
-    gram: Vec<f64>,
-    /// Forces of the basis, and of the dependent rows.
-    force: Vec<f64>,
-    share: Vec<f64>,
-    /// e over all m rows; all 0 unless `escapes`.
-    escape: Vec<f64>,
-    escapes: bool,
+    /// True while the factor is in the order of rows.
+    ordered: bool,
+    relations: Relations,
+    /// False if no set of rows can depend on one another.
+    singular: bool,
+    /// Forces of the basis, or a combination.
+    work: Vec<f64>,
+    /// L D of all rows in play, and what is left of their Wᵢᵢ, while the largest pivot is sought.
+    panel: Vec<f64>,
+    left: Vec<f64>,
 }
 
 impl Block {
@@ -69,25 +54,27 @@ impl Block {
             starts: Vec::with_capacity(m + 1),
             from: Vec::with_capacity(m),
             inverse: Vec::with_capacity(m),
-            dependent: Vec::with_capacity(m),
-            combination: Vec::new(),
-            ends: Vec::with_capacity(m + 1),
-            gram: Vec::new(),
-            force: Vec::with_capacity(m),
-            share: Vec::with_capacity(m),
-            escape: vec![0.0; m],
-            escapes: false,
+            ordered: true,
+            relations: Relations::new(m),
+            singular: false,
+            work: Vec::with_capacity(m),
+            panel: Vec::new(),
+            left: Vec::new(),
         };
-        block.keep(0);
-        // All rows at once show how many may ever depend on others; room for those is made here, not in a step.
-        for row in 0..m {
+        block.starts.push(0);
+        // All rows at once show whether any may ever depend on others; room for those is made here, not in a step.
+        let well = (0..m).fold(true, |well, row| {
             block.rows.push(row);
-            block.extend(system, row);
+            block.extend(system, row) & well
+        });
+        block.singular = !block.relations.rows().is_empty();
+        if block.singular {
+            block.relations.reserve(m);
         }
-        let dependent = block.dependent.len();
-        if dependent > 0 {
-            block.combination.reserve(m);
-            block.gram.reserve((dependent * (dependent + 1) / 2).min(MOST_GRAM));
+        if !well {
+            block.left.reserve(m);
+            block.panel.reserve(m * block.basis.len());
+            block.lower.reserve(m * block.basis.len());
         }
         block.keep(0);
         block
@@ -99,9 +86,15 @@ impl Block {
         &self.rows
     }
 
+    /// True if some rows, in play or not, depend on one another.
+    pub(super) fn singular(&self) -> bool {
+        self.singular
+    }
+
     /// What grows without limit as δ → 0: rows that cannot be met together, if the programme was solved with them.
+    #[inline]
     pub(super) fn escape(&self) -> Option<&[f64]> {
-        self.escapes.then_some(&self.escape)
+        self.relations.escape()
     }
 
     /// Puts `rows`, increasing, in play instead of those that were.
@@ -110,64 +103,82 @@ impl Block {
         if same == self.rows.len() && same == rows.len() {
             return;
         }
-        self.keep(same);
-        for &row in &rows[same..] {
+        self.keep(if self.ordered { same } else { 0 });
+        let mut well = true;
+        for &row in &rows[self.rows.len()..] {
             self.rows.push(row);
-            self.extend(system, row);
+            well &= self.extend(system, row);
         }
-        self.relate(system);
+        if !well {
+            self.reorder(system);
+        }
+        if !self.relations.rows().is_empty() {
+            self.relations.factor(system, &self.basis);
+        }
     }
 
     /// Drops all rows in play but the first `count`.
     fn keep(&mut self, count: usize) {
         self.rows.truncate(count);
         let last = self.rows.last().copied();
-        let before = |rows: &[usize]| rows.partition_point(|&row| last.is_some_and(|last| row <= last));
-        let (basis, dependent) = (before(&self.basis), before(&self.dependent));
+        let before = |rows: &[usize]| match last {
+            Some(last) => rows.partition_point(|&row| row <= last),
+            None => 0,
+        };
+        self.relations.truncate(before(self.relations.rows()));
+        let basis = before(&self.basis);
         self.basis.truncate(basis);
         self.from.truncate(basis);
         self.inverse.truncate(basis);
         self.starts.truncate(basis + 1);
-        self.lower.truncate(self.starts.last().copied().unwrap_or(0));
-        self.dependent.truncate(dependent);
-        self.ends.truncate(dependent + 1);
-        self.combination.truncate(self.ends.last().copied().unwrap_or(0));
-        if basis == 0 {
-            self.starts.clear();
-            self.starts.push(0);
-        }
-        if dependent == 0 {
-            self.ends.clear();
-            self.ends.push(0);
-        }
+        self.lower.truncate(self.starts[basis]);
+        self.ordered = true;
     }
 
-    /// Appends a row to the factor, or to the rows that depend on it.
-    fn extend(&mut self, system: &Delassus, row: usize) {
+    /// Appends a row to the factor, or to the rows that depend on it; false if it does in a way that rounding spoils.
+    fn extend(&mut self, system: &Delassus, row: usize) -> bool {
+        let own = system.own(row);
+        let (from, pivot) = self.eliminate(system, row);
+        if pivot <= SUSPICIOUS * own {
+            self.combine(from);
+            let size = self.size(system, row);
+            if pivot <= DEPENDENT * size {
+                self.relations.push(row, &self.work);
+                self.lower.truncate(self.starts[self.basis.len()]);
+                return size <= SPREAD_OUT * own;
+            }
+        }
+        self.admit(row, from, pivot);
+        true
+    }
+
+    /// Appends the line of L of one more row to `lower`; returns its first column and the pivot.
+    fn eliminate(&mut self, system: &Delassus, row: usize) -> (usize, f64) {
         let (first, w) = system.row(row);
         let (k, at) = (self.basis.len(), self.lower.len());
-        let mut from = k;
+        let mut from = if self.ordered { k } else { 0 };
         while from > 0 && self.basis[from - 1] >= first {
             from -= 1;
         }
-        let own = w[row - first];
-        let mut pivot = own;
         // v = L⁻¹ w first; l = D⁻¹ v when all of it is known.
         for p in from..k {
             let start = self.from[p].max(from);
             let above = &self.lower[self.starts[p] + start - self.from[p]..self.starts[p] + p - self.from[p]];
-            let v = w[self.basis[p] - first] - dot(above, &self.lower[at + start - from..at + p - from]);
+            let entry = self.basis[p].checked_sub(first).and_then(|j| w.get(j)).copied().unwrap_or(0.0);
+            let v = entry - dot(above, &self.lower[at + start - from..at + p - from]);
             self.lower.push(v);
         }
+        let mut pivot = system.own(row);
         for (v, inverse) in self.lower[at..].iter_mut().zip(&self.inverse[from..]) {
             let l = *v * inverse;
             pivot -= *v * l;
             *v = l;
         }
-        if pivot <= SUSPICIOUS * own && self.depends(system, row, from, pivot) {
-            self.lower.truncate(at);
-            return;
-        }
+        (from, pivot)
+    }
+
+    /// Takes the last line of `lower`, which begins at column `from`, into the factor.
+    fn admit(&mut self, row: usize, from: usize, pivot: f64) {
         self.basis.push(row);
         self.from.push(from);
         // Positive whatever rounding did, so that nothing is divided by zero.
@@ -175,56 +186,64 @@ impl Block {
         self.starts.push(self.lower.len());
     }
 
-    /// True if the row whose line of L stands last depends on the basis; its combination is then kept.
-    fn depends(&mut self, system: &Delassus, row: usize, from: usize, pivot: f64) -> bool {
-        let (k, at) = (self.basis.len(), self.starts[self.basis.len()]);
-        let mut all = std::mem::take(&mut self.combination);
-        let begin = all.len();
-        all.resize(begin + from, 0.0);
-        all.extend_from_slice(&self.lower[at..]);
-        let c = &mut all[begin..];
-        self.backward(k, c);
-        let square = |row: usize| system.weight[row] * system.weight[row];
-        let size = c.iter().zip(&self.basis).fold(square(row), |sum, (c, &j)| sum + c * c * square(j));
-        let depends = pivot <= DEPENDENT * size;
-        if depends {
-            self.dependent.push(row);
-            self.ends.push(all.len());
-        } else {
-            all.truncate(begin);
-        }
-        self.combination = all;
-        depends
+    /// c, left in `work`, of the row whose line stands last in `lower` and begins at column `from`.
+    fn combine(&mut self, from: usize) {
+        self.work.clear();
+        self.work.resize(from, 0.0);
+        self.work.extend_from_slice(&self.lower[self.starts[self.basis.len()]..]);
+        self.backward();
     }
 
-    /// c of dependent row `i` over the basis.
-    fn combination(&self, i: usize) -> &[f64] {
-        &self.combination[self.ends[i]..self.ends[i + 1]]
+    /// NᵀD N of a row whose combination is in `work`.
+    fn size(&self, system: &Delassus, row: usize) -> f64 {
+        self.work.iter().zip(&self.basis).fold(system.square(row), |sum, (c, &j)| sum + c * c * system.square(j))
     }
 
-    /// Factors NᵀD N.
-    fn relate(&mut self, system: &Delassus) {
-        let count = self.dependent.len();
-        if count == 0 {
-            return;
+    /// Factors the rows in play again, each time the one with the largest share of its Wᵢᵢ left (Higham 2002, Accuracy and Stability of
+    /// Numerical Algorithms, §10.3).
+    fn reorder(&mut self, system: &Delassus) {
+        let rows = std::mem::take(&mut self.rows);
+        let (mut panel, mut left) = (std::mem::take(&mut self.panel), std::mem::take(&mut self.left));
+        self.keep(0);
+        self.ordered = false;
+        panel.clear();
+        left.clear();
+        left.extend(rows.iter().map(|&row| system.own(row)));
+        let count = rows.len();
+        loop {
+            let share = |i: usize| left[i] / system.square(rows[i]);
+            let Some(p) = (0..count).max_by(|&i, &j| share(i).total_cmp(&share(j))) else { break };
+            if !(share(p) > DEPENDENT) {
+                break;
+            }
+            // Column by column: entry i of column q is L D of row i there.
+            let (rank, pivot) = (self.basis.len(), left[p]);
+            let line = |q: usize| panel[q * count + p] * self.inverse[q];
+            self.lower.extend((0..rank).map(line));
+            let l = &self.lower[self.starts[rank]..];
+            let (first, w) = system.row(rows[p]);
+            panel.extend(rows.iter().map(|row| row.checked_sub(first).and_then(|j| w.get(j)).copied().unwrap_or(0.0)));
+            let (before, column) = panel.split_at_mut(rank * count);
+            for (l, before) in l.iter().zip(before.chunks_exact(count)) {
+                for (v, other) in column.iter_mut().zip(before) {
+                    *v -= l * other;
+                }
+            }
+            for (left, v) in left.iter_mut().zip(column.iter()) {
+                *left -= v * v / pivot;
+            }
+            left[p] = f64::NEG_INFINITY;
+            self.admit(rows[p], 0, pivot);
         }
-        let mut gram = std::mem::take(&mut self.gram);
-        gram.clear();
-        let square = |row: usize| system.weight[row] * system.weight[row];
-        for i in 0..count {
-            let at = gram.len();
-            for j in 0..=i {
-                let common = self.combination(i).iter().zip(self.combination(j)).zip(&self.basis);
-                let mut sum = if i == j { square(self.dependent[i]) } else { 0.0 };
-                sum += common.map(|((a, b), &row)| a * b * square(row)).sum::<f64>();
-                let start = j * (j + 1) / 2;
-                let line = if i == j { &gram[at..at + j] } else { &gram[start..start + j] };
-                sum -= dot(line, &gram[at..at + j]);
-                // D is positive, and so is every pivot: no less than the square of the row's own weight.
-                gram.push(if i == j { sum.sqrt() } else { sum / gram[start + j] });
+        for (i, &row) in rows.iter().enumerate() {
+            if left[i] > f64::NEG_INFINITY {
+                self.work.clear();
+                self.work.extend((0..self.basis.len()).map(|q| panel[q * count + i] * self.inverse[q]));
+                self.backward();
+                self.relations.push(row, &self.work);
             }
         }
-        self.gram = gram;
+        (self.rows, self.panel, self.left) = (rows, panel, left);
     }
 
     /// Forces r of the rows in play that move each of them by `shift(row)` (entries of other rows are left alone), and the escape where
@@ -236,104 +255,51 @@ impl Block {
         slack: impl Fn(usize) -> f64,
         r: &mut [f64],
     ) {
-        self.force.clear();
-        self.force.extend(self.basis.iter().map(|&row| shift(row)));
-        if self.escapes {
-            self.escape.fill(0.0);
-            self.escapes = false;
-        }
-        if self.dependent.is_empty() {
+        self.work.clear();
+        self.work.extend(self.basis.iter().map(|&row| shift(row)));
+        self.relations.calm();
+        if self.relations.rows().is_empty() {
             self.invert();
         } else {
-            self.reconcile(system, &shift, slack);
+            self.relations.reconcile(system, &self.basis, &mut self.work, &shift, slack);
             self.invert();
-            self.divide(system);
-            for (&row, &force) in self.dependent.iter().zip(&self.share) {
-                r[row] = force;
-            }
+            self.relations.divide(system, &self.basis, &mut self.work, r);
         }
-        for (&row, &force) in self.basis.iter().zip(&self.force) {
+        for (&row, &force) in self.basis.iter().zip(&self.work) {
             r[row] = force;
         }
     }
 
-    /// Takes from what the rows are asked to do what they cannot: e, and q − D e in the place of q.
-    fn reconcile(&mut self, system: &Delassus, shift: impl Fn(usize) -> f64, slack: impl Fn(usize) -> f64) {
-        let mut share = std::mem::take(&mut self.share);
-        share.clear();
-        for (i, &row) in self.dependent.iter().enumerate() {
-            // Whichever row gives way to the others misses its own bound by the miss over its part in the combination.
-            let (mut miss, mut allowed, mut rounding) = (shift(row), slack(row), 0.0);
-            for ((&c, &q), &j) in self.combination(i).iter().zip(&self.force).zip(&self.basis) {
-                miss -= c * q;
-                rounding += c.abs() * (NOISE * q.abs() + f64::EPSILON / ROUNDING * slack(j));
-                if c.abs() * system.weight[j] > PART * system.weight[row] {
-                    allowed = f64::min(allowed, c.abs() * slack(j));
-                }
-            }
-            let met = miss.abs() <= allowed + rounding;
-            self.escapes |= !met;
-            share.push(if met { 0.0 } else { miss });
+    /// Motion, per δ, of a row that is not in play if it depends on those in play and would be met with them, its bound being `gap` away:
+    /// they yield by δ D r, and it with them. `None` for other rows, and for a motion of 0.
+    pub(super) fn yielding(
+        &mut self,
+        system: &Delassus,
+        row: usize,
+        gap: f64,
+        slack: impl Fn(usize) -> f64,
+        r: &[f64],
+    ) -> Option<f64> {
+        let (from, pivot) = self.eliminate(system, row);
+        if pivot <= SUSPICIOUS * system.own(row) {
+            self.combine(from);
         }
-        self.share = share;
-        if !self.escapes {
-            return;
+        self.lower.truncate(self.starts[self.basis.len()]);
+        let dependent = pivot <= SUSPICIOUS * system.own(row) && pivot <= DEPENDENT * self.size(system, row);
+        if !dependent || gap > 0.5 * Relations::allowed(system, row, &self.work, &self.basis, slack) {
+            return None;
         }
-        self.weigh();
-        for i in 0..self.dependent.len() {
-            let z = self.share[i];
-            self.escape[self.dependent[i]] += z;
-            for k in 0..self.combination(i).len() {
-                self.escape[self.basis[k]] -= self.combination(i)[k] * z;
-            }
+        let (mut motion, mut size) = (0.0, 0.0);
+        for (c, &j) in self.work.iter().zip(&self.basis) {
+            motion -= c * system.square(j) * r[j];
+            size += (c * system.square(j) * r[j]).abs();
         }
-        let reach = |row: usize, e: f64| e.abs() * system.weight[row];
-        let most = self.rows.iter().fold(0.0, |most, &row| f64::max(most, reach(row, self.escape[row])));
-        for &row in &self.rows {
-            if reach(row, self.escape[row]) <= SPREAD * most {
-                self.escape[row] = 0.0;
-            }
-        }
-        for (force, &row) in self.force.iter_mut().zip(&self.basis) {
-            *force -= system.weight[row] * system.weight[row] * self.escape[row];
-        }
+        (motion.abs() > SPREAD * size).then_some(motion)
     }
 
-    /// Of all forces that do the same, those of least Σ Wᵢᵢ rᵢ²: `force` is changed and `share` written.
-    fn divide(&mut self, system: &Delassus) {
-        self.share.clear();
-        for i in 0..self.dependent.len() {
-            let terms = self.combination(i).iter().zip(&self.force).zip(&self.basis);
-            let sum = terms.map(|((c, r), &row)| c * r * system.weight[row] * system.weight[row]).sum();
-            self.share.push(sum);
-        }
-        self.weigh();
-        for (i, &force) in self.share.iter().enumerate() {
-            for (r, c) in self.force.iter_mut().zip(&self.combination[self.ends[i]..self.ends[i + 1]]) {
-                *r -= c * force;
-            }
-        }
-    }
-
-    /// Solves NᵀD N z = `share` in place.
-    fn weigh(&mut self) {
-        let v = &mut self.share;
-        for i in 0..v.len() {
-            let line = &self.gram[i * (i + 1) / 2..];
-            v[i] = (v[i] - dot(&line[..i], &v[..i])) / line[i];
-        }
-        for i in (0..v.len()).rev() {
-            let line = &self.gram[i * (i + 1) / 2..];
-            v[i] /= line[i];
-            for j in 0..i {
-                v[j] -= line[j] * v[i];
-            }
-        }
-    }
-
-    /// Solves W_BB r = `force` in place.
+    /// Solves W_BB r = `work` in place.
     fn invert(&mut self) {
-        let mut v = std::mem::take(&mut self.force);
+        let v = &mut self.work;
         for k in 0..v.len() {
             let line = &self.lower[self.starts[k]..self.starts[k + 1]];
             v[k] -= dot(line, &v[self.from[k]..k]);
@@ -341,15 +307,14 @@ impl Block {
         for (v, inverse) in v.iter_mut().zip(&self.inverse) {
             *v *= inverse;
         }
-        let count = v.len();
-        self.backward(count, &mut v);
-        self.force = v;
+        self.backward();
     }
 
-    /// Solves Lᵀ v = v in place, for the first `count` rows of the basis.
+    /// Solves Lᵀ v = v in place for v in `work`.
     #[inline]
-    fn backward(&self, count: usize, v: &mut [f64]) {
-        for k in (0..count).rev() {
+    fn backward(&mut self) {
+        let v = &mut self.work;
+        for k in (0..v.len()).rev() {
             let line = &self.lower[self.starts[k]..self.starts[k + 1]];
             let (before, own) = v.split_at_mut(k);
             for (v, l) in before[self.from[k]..].iter_mut().zip(line) {

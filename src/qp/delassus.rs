@@ -139,6 +139,25 @@ impl Delassus {
         self.w.row(i)
     }
 
+    /// Wᵢⱼ.
+    pub(super) fn entry(&self, i: usize, j: usize) -> f64 {
+        let (first, row) = self.w.row(i);
+        j.checked_sub(first).and_then(|k| row.get(k)).copied().unwrap_or(0.0)
+    }
+
+    /// Wᵢᵢ.
+    #[inline]
+    pub(super) fn own(&self, i: usize) -> f64 {
+        let (first, row) = self.w.row(i);
+        row[i - first]
+    }
+
+    /// Wᵢᵢ, or 1 where that is 0: the square of a row's weight.
+    #[inline]
+    pub(super) fn square(&self, i: usize) -> f64 {
+        self.weight[i] * self.weight[i]
+    }
+
     /// Adds the motion that force r on row i causes to that of all rows.
     #[inline]
     pub(super) fn push(&self, i: usize, r: f64, y: &mut [f64]) {
@@ -169,20 +188,17 @@ impl Delassus {
         inside
     }
 
-    /// Turns the free motion x into x = A⁻¹(b + Gᵀ r), whose non-zero forces are those of `rows`.
-    pub(super) fn respond(&mut self, b: &[f64], rows: &[usize], r: &[f64], x: &mut [f64]) {
+    /// Turns the free motion x into x = A⁻¹(b + Gᵀ r).
+    pub(super) fn respond(&mut self, b: &[f64], r: &[f64], x: &mut [f64]) {
+        let forces = || r.iter().enumerate().filter(|(_, force)| **force != 0.0);
         if let Some(columns) = &self.columns
-            && rows.iter().map(|&i| columns.row(i).1.len()).sum::<usize>() <= self.solving
+            && forces().map(|(i, _)| columns.row(i).1.len()).sum::<usize>() <= self.solving
         {
-            for &i in rows {
-                columns.add(i, r[i], x);
-            }
+            forces().for_each(|(i, &force)| columns.add(i, force, x));
             return;
         }
         x.copy_from_slice(b);
-        for &i in rows {
-            self.g.add_transposed(i, r[i], x);
-        }
+        forces().for_each(|(i, &force)| self.g.add_transposed(i, force, x));
         self.factor.solve(x);
     }
 }

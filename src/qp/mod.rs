@@ -18,6 +18,7 @@
 
 use crate::linear::{Rows, Symmetric};
 
+mod active_set;
 mod backend;
 mod block;
 mod clamp;
@@ -25,6 +26,7 @@ mod clarabel;
 mod delassus;
 mod failure;
 mod pivoting;
+mod relations;
 mod solver;
 
 pub use backend::Backend;

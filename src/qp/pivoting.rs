@@ -6,12 +6,12 @@
 //! need not (Kostreva 1978, Linear Algebra Appl. 21, 207; Júdice and Pires 1994, doi:10.1016/0305-0548(94)90106-6); after these only the last of them,
 //! until their number has fallen below its least (Murty 1974, Opsearch 11, 123). The latter ends for every P-matrix: if
 //! the programme without row 0 is solved for each state of that row in turn, y₀ increases with r₀, so row 0 changes its state at most
-//! twice; and so on for all rows. A singular W counts as the limit of positive definite ones (see [`super::block`]).
+//! twice; and so on for all rows. A singular W counts as the limit of positive definite ones (see [`super::relations`]).
 
 use super::block::Block;
 use super::clamp::meet;
 use super::delassus::Delassus;
-use super::{Failure, NOISE, ROUNDING, Rhs};
+use super::{Failure, ROUNDING, Rhs};
 
 /// Which bound a row stands on. Its force is sign · (a number ≥ 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +37,12 @@ impl Side {
 /// Passes in which all wrong rows are exchanged although their number has not fallen.
 const PATIENCE: u32 = 10;
 
+/// Times that rows which only touch are looked through for those that must share; 1 is usual.
+const JOINS: u32 = 10;
+
+/// Rounding of the motion that the largest force causes, relative to it (dimensionless).
+const ULPS: f64 = 4.0 * f64::EPSILON;
+
 /// Part of the sign test's tolerance by which dependent rows may miss their bounds and still be met: below 1, so that a row which then
 /// gives way to the others is within the tolerance.
 const MET: f64 = 0.9;
@@ -47,15 +53,54 @@ pub(super) struct Pivoting {
     block: Block,
     /// y under the forces of a pass.
     y: Vec<f64>,
-    /// Rows whose state is wrong.
-    wrong: Vec<usize>,
+    /// Rows whose state is wrong, increasing, and the states that they shall have.
+    wrong: Vec<(usize, Option<Side>)>,
     /// Rows in play in the next pass.
     next: Vec<usize>,
 }
 
-/// Passes after which a programme counts as not settled, for m rows: ten times what any of 1e6 random ones took.
+/// Factor by which the sign test's tolerance grows when pivoting goes round in a circle, which only rounding can make it do: it then
+/// exceeds the tolerance, as it does where rows through one point are nearly dependent.
+const LOOSER: f64 = 10.0;
+
+/// Times that it may grow.
+const LOOSENINGS: u32 = 3;
+
+/// Passes after which a programme of m rows counts as not settled. Most take one or two; the most are taken where
+/// many more rows than unknowns are violated at once.
 pub(super) fn passes(m: usize) -> usize {
     100 + 10 * m
+}
+
+/// Tells a state that has been there before, by the method of Brent 1980 (doi:10.1007/BF01933190).
+#[derive(Default)]
+struct Circle {
+    saved: u64,
+    age: u64,
+    life: u64,
+    /// How often it has been closed.
+    closed: u32,
+}
+
+impl Circle {
+    /// True if wrong rows and rows in play, which tell the state, are those saved.
+    fn closes(&mut self, wrong: &[(usize, Option<Side>)], rows: &[usize]) -> bool {
+        let mix = |hash: u64, word: u64| (hash.rotate_left(5) ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        let hash = wrong.iter().fold(1, |hash, &(row, side)| {
+            mix(hash, 4 * row as u64 + side.map_or(0, |side| 1 + u64::from(side == Side::Upper)))
+        });
+        let hash = rows.iter().fold(hash, |hash, &row| mix(hash, row as u64));
+        if self.life > 0 && hash == self.saved {
+            self.closed += 1;
+            (self.life, self.age) = (0, 0);
+            return true;
+        }
+        self.age += 1;
+        if self.age > self.life {
+            (self.saved, self.age, self.life) = (hash, 0, 2 * self.life + 1);
+        }
+        false
+    }
 }
 
 impl Pivoting {
@@ -80,6 +125,11 @@ impl Pivoting {
         self.side[row] = Some(side);
     }
 
+    /// Rows on a bound, increasing.
+    pub(super) fn called(&self) -> impl Iterator<Item = (usize, Side)> {
+        self.side.iter().enumerate().filter_map(|(row, side)| side.map(|side| (row, side)))
+    }
+
     /// Puts the rows that the free motion violates on the bounds they violate, and frees the others.
     pub(super) fn call_violated(&mut self, system: &Delassus, rhs: &Rhs) {
         for (((side, &y), &lo), &hi) in self.side.iter_mut().zip(&system.y).zip(rhs.lo).zip(rhs.hi) {
@@ -91,11 +141,6 @@ impl Pivoting {
                 None
             };
         }
-    }
-
-    /// Rows with a force, increasing.
-    pub(super) fn rows(&self) -> &[usize] {
-        self.block.rows()
     }
 
     /// Starts from the states of the rows and ends with the exact r (m entries). `scale` is the length that signs of gaps are tested
@@ -117,10 +162,15 @@ impl Pivoting {
             }
         }
         r.fill(0.0);
-        let (mut least, mut patience, mut pivots) = (usize::MAX, PATIENCE, 0);
+        let (mut least, mut patience, mut pivots, mut joins) = (usize::MAX, PATIENCE, 0, 0);
+        let (mut tolerance, mut circle) = (ROUNDING, Circle::default());
         for _ in 0..passes {
             self.block.set(system, &self.next);
-            self.look(system, rhs, scale, r);
+            self.look(system, rhs, scale, tolerance, r);
+            if self.wrong.is_empty() && joins < JOINS {
+                self.join(system, rhs, scale, tolerance, r);
+                joins += 1;
+            }
             if self.wrong.is_empty() {
                 return match self.crossing(system) {
                     Some(failure) => Err(failure),
@@ -132,22 +182,28 @@ impl Pivoting {
             } else if patience > 0 {
                 patience -= 1;
             } else {
+                if circle.closes(&self.wrong, self.block.rows()) {
+                    if circle.closed > LOOSENINGS {
+                        break;
+                    }
+                    tolerance *= LOOSER;
+                }
                 let last = self.wrong.len() - 1;
                 self.wrong.swap(0, last);
                 self.wrong.truncate(1);
             }
             pivots += self.wrong.len() as u64;
-            self.exchange(rhs, r);
+            self.exchange(r);
         }
         Err(Failure::NotSolved { status: "pivoting did not settle" })
     }
 
     /// One pass: forces r, the motion y they cause, and the rows whose state is wrong, increasing.
-    fn look(&mut self, system: &Delassus, rhs: &Rhs, scale: f64, r: &mut [f64]) {
+    fn look(&mut self, system: &Delassus, rhs: &Rhs, scale: f64, tolerance: f64, r: &mut [f64]) {
         let side = &mut self.side;
         let bound = |row: usize, side: &[Option<Side>]| side[row].map_or(0.0, |side| side.bound(rhs, row));
         let length = |row: usize| scale.max(system.y[row].abs());
-        let slack = |row: usize| MET * ROUNDING * length(row);
+        let slack = |row: usize| MET * tolerance * length(row);
         self.block.forces(system, |row| bound(row, side) - system.y[row], slack, r);
         self.wrong.clear();
         self.y.copy_from_slice(&system.y);
@@ -166,7 +222,7 @@ impl Pivoting {
                     // Both bounds are one: either sign will do.
                     side[row] = Some(if force > 0.0 { Side::Lower } else { Side::Upper });
                 } else {
-                    self.wrong.push(row);
+                    self.wrong.push((row, None));
                 }
             }
         }
@@ -174,32 +230,55 @@ impl Pivoting {
         for (row, ((&y, &lo), &hi)) in self.y.iter().zip(rhs.lo).zip(rhs.hi).enumerate() {
             if (y < lo) | (y > hi) {
                 // A force is a number of 16 digits: no row's motion is better than that of the largest.
-                let tolerance = ROUNDING * length(row) + NOISE * reach * system.weight[row];
+                let tolerance = f64::max(tolerance * length(row), ULPS * reach * system.weight[row]);
                 let (lo, hi) = meet(lo, hi);
                 if side[row].is_none() && (lo - y).max(y - hi) > tolerance {
-                    self.wrong.push(row);
+                    self.wrong.push((row, Some(if lo - y > y - hi { Side::Lower } else { Side::Upper })));
                 }
             }
         }
         if pulling > 0 {
-            self.wrong.sort_unstable();
+            self.wrong.sort_unstable_by_key(|wrong| wrong.0);
+        }
+    }
+
+    /// Free rows that touch a bound and depend on rows in play must share their force: they are wrong, too.
+    fn join(&mut self, system: &Delassus, rhs: &Rhs, scale: f64, tolerance: f64, r: &[f64]) {
+        if !self.block.singular() || self.block.rows().is_empty() {
+            return;
+        }
+        let slack = |row: usize| MET * tolerance * scale.max(system.y[row].abs());
+        for row in 0..self.side.len() {
+            if self.side[row].is_some() {
+                continue;
+            }
+            let gap = |side: Side| (self.y[row] - side.bound(rhs, row)).abs();
+            for (side, gap) in [Side::Lower, Side::Upper].map(|side| (side, gap(side))) {
+                if gap <= slack(row)
+                    && let Some(motion) = self.block.yielding(system, row, gap, slack, r)
+                    && side.sign() * motion < 0.0
+                {
+                    self.wrong.push((row, Some(side)));
+                    break;
+                }
+            }
         }
     }
 
     /// Changes the state of the wrong rows, and makes the list of those in play.
-    fn exchange(&mut self, rhs: &Rhs, r: &mut [f64]) {
+    fn exchange(&mut self, r: &mut [f64]) {
         self.next.clear();
         let mut stay = self.block.rows().iter().copied().peekable();
-        for &row in &self.wrong {
+        for &(row, side) in &self.wrong {
             while let Some(other) = stay.next_if(|&other| other < row) {
                 self.next.push(other);
             }
-            if stay.next_if_eq(&row).is_some() {
-                self.side[row] = None;
-                r[row] = 0.0;
-            } else {
-                self.side[row] = Some(if self.y[row] < rhs.lo[row] { Side::Lower } else { Side::Upper });
+            self.side[row] = side;
+            if side.is_some() {
                 self.next.push(row);
+            } else {
+                stay.next_if_eq(&row);
+                r[row] = 0.0;
             }
         }
         self.next.extend(stay);

@@ -1,9 +1,10 @@
 //! The solver in force, and what it has done.
 
+use super::active_set::ActiveSet;
 use super::clamp::{Clamp, meet};
 use super::clarabel::Clarabel;
 use super::delassus::Delassus;
-use super::pivoting::{Pivoting, passes};
+use super::pivoting::{Pivoting, Side, passes};
 use super::{Backend, Failure, NOISE, Problem, Rhs, Solution};
 use std::fmt;
 
@@ -30,7 +31,8 @@ pub struct Counters {
     pub iterations: u64,
     /// Rows that pivoting brought into play or freed, beyond those that it started from.
     pub pivots: u64,
-    /// Programmes on which the condensed solver's pivoting did not settle, so that Clarabel told it where to start.
+    /// Programmes on which the condensed solver's pivoting did not settle, or found that bounds cross, so that Clarabel told it where to
+    /// start once more.
     pub fallbacks: u64,
 }
 
@@ -183,19 +185,16 @@ impl Condensed {
                 pivoting.call_violated(system, rhs);
             }
             match pivoting.solve(system, rhs, scale, self.passes, r) {
-                Err(Failure::NotSolved { .. }) => counters.fallbacks += 1,
                 Ok(pivots) => {
                     counters.pivots += pivots;
                     return self.answer(rhs, solution);
                 }
-                Err(failure) => {
-                    pivoting.clear();
-                    return Err(failure);
-                }
+                // That bounds cross is told after a second opinion only.
+                Err(_) => counters.fallbacks += 1,
             }
         }
-        let scale = system.y.iter().fold(scale, |most, y| f64::max(most, y.abs()));
-        let violation = violation(system, rhs, NOISE * scale);
+        let largest = system.y.iter().fold(scale, |most, y| f64::max(most, y.abs()));
+        let violation = violation(system, rhs, NOISE * largest);
         if violation <= 0.0 {
             counters.free += 1;
             r.fill(0.0);
@@ -203,21 +202,36 @@ impl Condensed {
         }
         super::finite("violation", &[violation], f64::is_finite)?;
         let interior = self.interior.get_or_insert_with(|| Clarabel::new(&self.problem, system));
-        match interior.find(system, rhs, violation, scale, pivoting) {
-            Ok(iterations) => counters.iterations += iterations,
-            Err(failure) => {
-                // The interior point cannot say which bounds cross; pivoting, from nothing, can.
-                pivoting.clear();
-                pivoting.solve(system, rhs, scale, passes(r.len()), r)?;
-                return Err(failure);
+        let found = interior.find(system, rhs, violation, largest, pivoting);
+        if let Ok(iterations) = found {
+            counters.iterations += iterations;
+            let start: Vec<(usize, Side)> = pivoting.called().collect();
+            if let Ok(pivots) = pivoting.solve(system, rhs, scale, passes(r.len()), r) {
+                counters.pivots += pivots;
+                return self.answer(rhs, solution);
             }
+            pivoting.clear();
+            start.into_iter().for_each(|(row, side)| pivoting.call(row, side));
+        } else {
+            pivoting.clear();
         }
-        counters.pivots += pivoting.solve(system, rhs, scale, passes(r.len()), r)?;
+        // What neither settles is left to a method that cannot go round in circles, and can say which bounds cross.
+        let mut play = ActiveSet::new(r.len());
+        pivoting.called().for_each(|(row, side)| play.push(system, row, side));
+        counters.pivots += play.solve(system, rhs.lo, rhs.hi, largest, r)?;
+        found?;
+        let forces = r.clone();
+        pivoting.clear();
+        play.rows().for_each(|(row, side)| pivoting.call(row, side));
+        // From there the share of dependent rows, if pivoting can tell it.
+        if pivoting.solve(system, rhs, scale, passes(r.len()), r).is_err() {
+            r.copy_from_slice(&forces);
+        }
         self.answer(rhs, solution)
     }
 
     fn answer(&mut self, rhs: &Rhs, solution: &mut Solution) -> Result<(), Failure> {
-        self.system.respond(rhs.b, self.pivoting.rows(), &solution.multiplier, &mut solution.x);
+        self.system.respond(rhs.b, &solution.multiplier, &mut solution.x);
         super::finite("solution", &solution.x, |v| v.is_finite())
     }
 }

@@ -1,5 +1,6 @@
 //! What differs between two runs of one scene, in the quantities that matter.
 
+use super::difference::{self, wall_speeds, worse};
 use crate::error::Result;
 use crate::run::Run;
 use crate::scene::{Scene, WallLaw};
@@ -14,14 +15,14 @@ const SLOW: f64 = 1e-2;
 /// How far two runs lie apart. Every number is dimensionless; zero where nothing differs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Change {
-    /// Largest |Δu| over [`Scene::gap_scale`], at the rows up to the time asked for.
+    /// Largest |Δu| of any probe over [`Scene::gap_scale`], at the rows up to the time asked for.
     pub displacement: f64,
     /// One entry a wall, in the scene's order.
     pub walls: Vec<WallChange>,
 }
 
-/// The part of one wall, over the whole run. Each is relative to the wall's own value, or to what one impact at the body's largest
-/// speed v would give where that is more: a wall that is hardly touched does not decide.
+/// The part of one wall, over the whole run. Each is relative to the wall's own value, or to what one impact at the largest speed v
+/// there would give where that is more, with the mass m that the wall feels ([`Scene::wall_masses`]): a wall that is hardly touched does not decide.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WallChange {
     /// The wall's name.
@@ -59,16 +60,16 @@ impl Change {
     /// [`crate::Error::Unknown`] if the runs are not of this scene.
     pub fn between(scene: &Scene, run: &Trajectory, against: &Trajectory, until: f64, from: f64) -> Result<Self> {
         let gap = scene.gap_scale();
-        let pairs = run.displacement().iter().zip(against.displacement());
-        let rows = against.time().iter().zip(pairs).take_while(|(t, _)| **t <= until * (1.0 + 1e-12));
-        let displacement = rows.fold(0.0, |largest, (_, (x, y))| worse(largest, (x - y).abs() / gap));
-        let speed = against.velocity().iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+        let rows = difference::rows(run, against).take_while(|(t, _)| *t <= until * (1.0 + 1e-12));
+        let displacement = rows.fold(0.0, |largest, (_, difference)| worse(largest, difference / gap));
+        let speeds = wall_speeds(scene, against);
         let masses = scene.wall_masses();
         let statistics = [run, against].map(|t| Statistics::new(scene, t.contacts(), from));
         let window = scene.duration - from;
         let mut walls = Vec::new();
         for (index, wall) in scene.walls.iter().enumerate() {
             let mass = masses.get(index).copied().unwrap_or(0.0);
+            let speed = speeds.get(index).copied().unwrap_or(0.0);
             let impulses = [run.impulse(&wall.name)?, against.impulse(&wall.name)?];
             let numbers = [run, against].map(|t| soft_number(t.contacts(), index, from));
             let of =
@@ -115,11 +116,6 @@ impl Change {
     }
 }
 
-/// The larger of two, and NaN if either is: a run that left the numbers agrees with nothing.
-fn worse(a: f64, b: f64) -> f64 {
-    if b > a || b.is_nan() { b } else { a }
-}
-
 pub(super) fn relative([a, b]: [f64; 2], least: f64) -> f64 {
     let difference = (a - b).abs();
     if difference == 0.0 { 0.0 } else { difference / b.abs().max(least) }
@@ -131,13 +127,16 @@ fn soft_number(contacts: &[Contact], wall: usize, from: f64) -> f64 {
     speeds.map(|v| if v >= slow { 1.0 } else { v / slow }).sum()
 }
 
-/// The time (s) up to which the displacements of two runs with the same rows agree to within `tolerance` of the gap scale.
+/// The time (s) up to which the displacements of two runs with the same rows agree at every probe to within `tolerance` of the gap scale.
 #[must_use]
 pub fn agree_until(scene: &Scene, run: &Trajectory, against: &Trajectory, tolerance: f64) -> f64 {
     let gap = scene.gap_scale();
+    if against.displacements().is_empty() {
+        return scene.duration;
+    }
     let mut until = 0.0;
-    for (&t, (x, y)) in against.time().iter().zip(run.displacement().iter().zip(against.displacement())) {
-        let agrees = (x - y).abs() <= tolerance * gap;
+    for (t, difference) in difference::rows(run, against) {
+        let agrees = difference <= tolerance * gap;
         if !agrees {
             return until;
         }

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::linear::{Factor, Symmetric};
 use crate::qp::Backend;
 use crate::run::Run;
-use crate::scene::{MOST_DENSE, Scene, Structure, System, WallLaw};
+use crate::scene::{MOST_DENSE, Scene, Side, Structure, System, Wall, WallLaw};
 use crate::scheme::{Method, Scheme};
 
 /// A method and why.
@@ -42,7 +42,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     let run = match exact {
         Ok(run) => run,
         Err(error) => {
-            let restitution_0 = |w: &crate::scene::Wall| w.law == WallLaw::Rigid { restitution: 0.0 };
+            let restitution_0 = |w: &Wall| w.law == WallLaw::Rigid { restitution: 0.0 };
             let (scheme, why) = match scene.walls.iter().all(restitution_0) {
                 true => (Scheme::PaoliSchatzman, "with e = 0 at every wall paoli-schatzman is of order 2"),
                 false => (Scheme::MoreauJean { theta: 0.5 }, "the constrained QP honours every wall's restitution"),
@@ -110,7 +110,7 @@ fn system(system: &System) -> String {
             let n = s.mass.size();
             let degrees = if n == 1 { "degree" } else { "degrees" };
             format!(
-                "{n} {degrees} of freedom: natural frequencies from {:.6} to {:.6} Hz",
+                "{n} {degrees} of freedom: natural frequencies from {:.6} to about {:.6} Hz",
                 slowest / std::f64::consts::TAU,
                 fastest / std::f64::consts::TAU
             )
@@ -119,13 +119,26 @@ fn system(system: &System) -> String {
     }
 }
 
+/// A share of damping that is rounding.
+const NOTHING: f64 = 1e-9;
+
 /// The damping of a structure in words, and whether it couples its modes.
-fn damping(structure: &Structure) -> String {
+fn damping(system: &System, structure: &Structure) -> String {
     if structure.damping.entries().all(|entry| entry.2 == 0.0) {
         return "no damping".into();
     }
     if let Some((mass, stiffness)) = structure.rayleigh() {
-        return format!("classical damping: C = {mass:.3e} M + {stiffness:.3e} K, modes stay apart");
+        // What one term adds to a mode's damping beside the other may be rounding.
+        let [slowest, fastest] = system.frequencies();
+        let sum = match (
+            mass.abs() > NOTHING * stiffness * slowest * slowest,
+            stiffness * fastest * fastest > NOTHING * mass,
+        ) {
+            (true, false) => format!("{mass:e} M"),
+            (false, true) => format!("{stiffness:e} K"),
+            _ => format!("{mass:e} M + {stiffness:e} K"),
+        };
+        return format!("classical damping: C = {sum}, modes stay apart");
     }
     let widths = [&structure.mass, &structure.damping, &structure.stiffness].map(|m| m.half_bandwidth());
     if widths == [0; 3] {
@@ -151,21 +164,26 @@ pub fn path(scene: &Scene, h: f64) -> Option<String> {
     Some(format!("{}: factored once, solved in every step", factor.describe()))
 }
 
-/// Most walls that are described one by one.
-const MOST_WALLS: usize = 12;
-
-/// The model in words: what the scene is made of, and the numbers that decide how it behaves.
+/// What vibrates and how it is damped, in words.
 #[must_use]
-pub fn model(scene: &Scene) -> Vec<String> {
+pub fn body(scene: &Scene) -> Vec<String> {
     let mut lines = vec![system(&scene.system)];
-    let structure = if let System::Structure(s) = &scene.system { Some(s) } else { None };
-    lines.extend(structure.map(|s| damping(s)));
+    if let System::Structure(structure) = &scene.system {
+        lines.push(damping(&scene.system, structure));
+    }
+    lines
+}
+
+/// Each wall in words, in the scene's order.
+#[must_use]
+pub fn walls(scene: &Scene) -> Vec<String> {
+    let several = matches!(scene.system, System::Structure(_));
     let [slowest, _] = scene.system.frequencies();
-    for (wall, mass) in scene.walls.iter().zip(scene.wall_masses()).take(MOST_WALLS) {
-        let side = if wall.side == crate::scene::Side::Upper { "upper" } else { "lower" };
+    let line = |(wall, mass): (&Wall, f64)| {
+        let side = if wall.side == Side::Upper { "upper" } else { "lower" };
         let law = match wall.law {
             WallLaw::Rigid { restitution } => format!("rigid, restitution {restitution}"),
-            WallLaw::Elastic { stiffness, damping } if structure.is_some() => {
+            WallLaw::Elastic { stiffness, damping } if several => {
                 format!("elastic, {stiffness:e} N/m and {damping:e} N s/m")
             }
             WallLaw::Elastic { stiffness, damping } => {
@@ -177,16 +195,18 @@ pub fn model(scene: &Scene) -> Vec<String> {
             }
             WallLaw::Quartic { epsilon, .. } => format!("penalty, ε = {epsilon:e} m³/N"),
         };
-        let feels = if structure.is_some() { format!("; feels {mass:.4e} kg") } else { String::new() };
-        lines.push(format!("{side} wall {:?} at {} m: {law}{feels}", wall.name, wall.position));
-    }
-    if scene.walls.len() > MOST_WALLS {
-        lines.push(format!("and {} walls more", scene.walls.len() - MOST_WALLS));
-    }
-    lines.push(match scene.loads.len() {
+        let feels = if several { format!("; feels {mass:.4e} kg") } else { String::new() };
+        format!("{side} wall {:?} at {} m: {law}{feels}", wall.name, wall.position)
+    };
+    scene.walls.iter().zip(scene.wall_masses()).map(line).collect()
+}
+
+/// The loads in words.
+#[must_use]
+pub fn loads(scene: &Scene) -> String {
+    match scene.loads.len() {
         0 => "no loads".into(),
         1 => "one load".into(),
         n => format!("{n} loads, added up"),
-    });
-    lines
+    }
 }

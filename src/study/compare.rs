@@ -1,10 +1,13 @@
 //! Several methods on one scene, held against the exact motion.
 
-use super::horizon::{Growth, LARGEST_GROWTH};
+use super::choice::choose;
+use super::difference;
+use super::exact::affordable;
+use super::horizon::{Growth, LARGEST_GROWTH, Source};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::run::{Options, Run, run};
-use crate::scene::Scene;
+use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use std::time::Instant;
@@ -15,6 +18,9 @@ pub const AGREEMENT: f64 = 0.1;
 /// Steps of the bare timing runs, at most, and how many of these runs.
 const TIMED_STEPS: u64 = 20_000;
 const TIMED_RUNS: usize = 3;
+
+/// Where the exact scheme cannot go, the reference is the chosen stepping scheme with this many times finer steps.
+pub const FINER: f64 = 8.0;
 
 /// Impacts slower than this share of the fastest say nothing about restitution: rounding and loads do.
 const SLOW: f64 = 1e-2;
@@ -39,7 +45,7 @@ pub struct Row {
     pub outcome: Result<Run>,
     /// Restitution at the rigid walls; none without impacts.
     pub restitution: Option<Restitution>,
-    /// Largest |Δu| against the reference over the gap scale, up to the horizon.
+    /// Largest |Δu| of any probe against the reference over the gap scale, up to the horizon; none without a probe.
     pub error: Option<f64>,
     /// Time up to which |Δu| stays below [`AGREEMENT`] of the gap scale, s.
     pub agrees_until: Option<f64>,
@@ -50,14 +56,18 @@ pub struct Row {
 /// A comparison.
 #[derive(Debug, Clone)]
 pub struct Comparison {
-    /// The methods in the order asked for, the reference last.
+    /// The methods in the order asked for, the exact one last.
     pub rows: Vec<Row>,
     /// The exact run, or why there is none.
     pub reference: Result<Run>,
+    /// What the methods are held against where there is no exact run: the chosen stepping scheme, [`FINER`] times finer.
+    pub refined: Option<(Method, Run)>,
     /// Time up to which a pointwise error means something, s.
     pub horizon: f64,
-    /// Growth of a small perturbation over the whole run; none without a reference.
+    /// Growth of a small perturbation over the whole run; none where it is not known.
     pub growth: Option<f64>,
+    /// How that was found.
+    pub growth_by: Option<Source>,
     /// What differs and why, in sentences.
     pub findings: Vec<String>,
 }
@@ -81,8 +91,20 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
     // One set of rows for all, the exact run's too, so that they can be subtracted.
     let grid = TimeGrid::stepping(scene.duration, time)?;
     let time = TimeOptions { sample: Some(grid.end / grid.rows as f64), ..*time };
-    let reference = run(scene, &Scheme::Event, &Options { time, backend: Backend::Auto });
-    let growth = Growth::of(scene).ok();
+    let structure = matches!(scene.system, System::Structure(_));
+    let possible = if structure { affordable(scene) } else { Ok(()) };
+    let reference = possible.and_then(|()| run(scene, &Scheme::Event, &Options { time, backend: Backend::Auto }));
+    // Several degrees of freedom: where the exact scheme cannot go, a stepping scheme is refined, and shows what grows.
+    let stand_in = choose(scene).method;
+    let finer = TimeOptions { step: grid.step / FINER, ..time };
+    let refined = match &reference {
+        Err(_) if structure => run(scene, &stand_in.scheme, &Options { time: finer, backend: stand_in.backend }).ok(),
+        _ => None,
+    };
+    let growth = match &refined {
+        Some(_) => Growth::by_runs(scene, &stand_in, grid.step).ok(),
+        None => Growth::of(scene).ok(),
+    };
     let horizon = growth.as_ref().map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH));
     let mut rows = Vec::new();
     let exact = Method::new(Scheme::Event);
@@ -92,11 +114,13 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
             Scheme::Event => reference.clone(),
             _ => run(scene, &method.scheme, &Options { time, backend: method.backend }),
         };
-        rows.push(row(scene, *method, outcome, reference.as_ref().ok(), horizon, &time));
+        rows.push(row(scene, *method, outcome, reference.as_ref().ok().or(refined.as_ref()), horizon, &time));
         progress(index as u64 + 1);
     }
+    let growth_by = growth.as_ref().map(|g| g.source);
     let growth = growth.map(|g| g.until(scene.duration));
-    let mut comparison = Comparison { rows, reference, horizon, growth, findings: Vec::new() };
+    let refined = refined.map(|run| (stand_in, run));
+    let mut comparison = Comparison { rows, reference, refined, horizon, growth, growth_by, findings: Vec::new() };
     comparison.findings = findings(scene, &comparison);
     Ok(comparison)
 }
@@ -122,19 +146,18 @@ fn row(
 /// Largest error over the gap up to the horizon, and the time up to which the two agree.
 fn against(scene: &Scene, run: &Run, reference: &Run, horizon: f64) -> (Option<f64>, Option<f64>) {
     let gap = scene.gap_scale();
-    let (mut error, mut until) = (0.0_f64, None);
-    let pairs = run.trajectory.displacement().iter().zip(reference.trajectory.displacement());
-    for (&t, (&u, &exact)) in run.trajectory.time().iter().zip(pairs) {
-        let difference = (u - exact).abs() / gap;
+    let (mut error, mut until) = (None, None);
+    for (t, difference) in difference::rows(&run.trajectory, &reference.trajectory) {
+        let difference = difference / gap;
         if t <= horizon * (1.0 + 1e-12) {
-            error = error.max(difference);
+            error = Some(difference::worse(error.unwrap_or(0.0), difference));
         }
         // A difference that is no number is none that agrees.
         if until.is_none() && (difference.is_nan() || difference > AGREEMENT) {
             until = Some(t);
         }
     }
-    (Some(error), Some(until.unwrap_or(scene.duration)))
+    (error, error.map(|_| until.unwrap_or(scene.duration)))
 }
 
 /// Restitution at the walls that are rigid in `scene`, whatever the method put in their place.
@@ -175,7 +198,13 @@ fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
             "every wall has e = 1, the limit of a lossless penalty spring: QP and penalty converge to one motion, the penalty as ε → 0 and h²k_w/m → 0 both"
                 .into()
         } else {
-            let e = asked.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+        let mut distinct: Vec<f64> = Vec::new();
+            for e in &asked {
+                if !distinct.contains(e) {
+                    distinct.push(*e);
+                }
+            }
+            let e = distinct.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
             format!("the walls ask for e = {e}, a lossless penalty spring tends to e = 1: the two do not converge to one another")
         });
     }
@@ -188,17 +217,27 @@ fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     if let Some(line) = clarabel_difference(scene, comparison) {
         findings.push(line);
     }
-    match (&comparison.reference, comparison.growth) {
-        (Err(error), _) => findings.push(format!("no reference: {error}")),
-        (_, Some(growth)) if comparison.horizon < scene.duration => findings.push(format!(
-            "chaos: a perturbation of the start grows {growth:.1e}-fold over the run, and {LARGEST_GROWTH:e}-fold by t = {:.3} s; errors are taken up to \
-             then, later compare impulses, contact counts and RMS",
-            comparison.horizon
-        )),
-        (_, Some(growth)) => findings.push(format!(
-            "not chaotic: a perturbation of the start never grows beyond {growth:.1}-fold, so errors are taken over the whole run"
+    match (&comparison.reference, &comparison.refined) {
+        (Err(error), None) => findings.push(format!("no reference: {error}")),
+        (Err(error), Some((method, run))) => findings.push(format!(
+            "no exact motion ({error}): errors are against {method} with steps of {:.2e} s",
+            run.grid.step
         )),
         _ => {}
+    }
+    let held = comparison.reference.is_ok() || comparison.refined.is_some();
+    let by =
+        comparison.growth_by.filter(|by| *by != Source::Saltation).map_or_else(String::new, |by| format!(" ({by})"));
+    match comparison.growth.filter(|_| held) {
+        Some(growth) if comparison.horizon < scene.duration => findings.push(format!(
+            "chaos: a perturbation of the start grows {growth:.1e}-fold over the run{by}, and {LARGEST_GROWTH:e}-fold by t = {:.3} s; errors are taken up \
+             to then, later compare impulses, contact counts and RMS",
+            comparison.horizon
+        )),
+        Some(growth) => findings.push(format!(
+            "not chaotic: a perturbation of the start never grows beyond {growth:.1}-fold{by}, so errors are taken over the whole run"
+        )),
+        None => {}
     }
     findings
 }
@@ -212,22 +251,18 @@ fn clarabel_difference(scene: &Scene, comparison: &Comparison) -> Option<String>
         .find(|r| r.method.scheme == through.method.scheme && r.method.backend != Backend::Clarabel)?;
     let (a, b) = (own.outcome.as_ref().ok()?, through.outcome.as_ref().ok()?);
     let gap = scene.gap_scale();
-    let times = a.trajectory.time().iter();
-    let pairs = a.trajectory.displacement().iter().zip(b.trajectory.displacement());
     let (mut near, mut all) = (0.0_f64, 0.0_f64);
-    for (&t, (&x, &y)) in times.zip(pairs) {
-        let difference = (x - y).abs() / gap;
+    for (t, difference) in difference::rows(&a.trajectory, &b.trajectory) {
+        let difference = difference / gap;
         all = all.max(difference);
         if t <= comparison.horizon {
             near = near.max(difference);
         }
     }
-    let mut force = 0.0_f64;
-    for wall in a.trajectory.walls() {
-        let forces = a.trajectory.contact_force(wall).ok()?.iter().zip(b.trajectory.contact_force(wall).ok()?);
-        let until = a.trajectory.time().iter().take_while(|t| **t <= comparison.horizon).count();
-        force = forces.take(until).map(|(x, y)| (x - y).abs()).fold(force, f64::max);
-    }
+    let until = a.trajectory.time().iter().take_while(|t| **t <= comparison.horizon).count();
+    let walls = a.trajectory.contact_forces().iter().zip(b.trajectory.contact_forces());
+    let pairs = walls.flat_map(|(x, y)| x.iter().zip(y).take(until));
+    let force = pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
     let scale = a.residuals.force_scale_n.max(f64::MIN_POSITIVE);
     Some(format!(
         "{} by {} against every contact step through Clarabel ({} QPs, {} interior-point iterations): displacement differs by at most {near:.1e} of the gap \

@@ -9,13 +9,19 @@ use crate::trajectory::{Recorder, Trajectory};
 /// Steps from event to event that a reference may take: a second or so. The exact scheme itself follows far more before it gives up.
 const MOST_EVENTS: u64 = 1_000_000;
 
+/// What several degrees of freedom cost: each takes its part in every event.
+fn most_events(scene: &Scene) -> u64 {
+    (MOST_EVENTS / scene.system.degrees_of_freedom().max(1) as u64).max(1000)
+}
+
 /// Follows `scene` from event to event and keeps nothing.
 ///
 /// # Errors
-/// What the exact scheme reports, and [`Error::TooManyEvents`] beyond a million steps.
+/// What the exact scheme reports, and [`Error::TooManyEvents`] beyond a million steps of one degree of freedom, the n-th part of it for n.
 pub fn affordable(scene: &Scene) -> Result<()> {
     let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
-    for _ in 0..MOST_EVENTS {
+    let most = most_events(scene);
+    for _ in 0..most {
         if stepper.time() >= scene.duration {
             return Ok(());
         }
@@ -23,7 +29,7 @@ pub fn affordable(scene: &Scene) -> Result<()> {
     }
     let time = stepper.time();
     let wall = scene.walls.first().map_or_else(String::new, |w| w.name.clone());
-    Err(Error::TooManyEvents { time, wall, count: MOST_EVENTS, window: time })
+    Err(Error::TooManyEvents { time, wall, count: most, window: time })
 }
 
 /// Stretches of the other run over the duration: no divisor of anything, so that its stops fall on no row and no period.

@@ -1,26 +1,55 @@
-//! How long a pointwise comparison means anything: the growth of a small change of the start, exactly.
+//! How long a pointwise comparison means anything: the growth of a small change of the start.
 //!
-//! Along an exact run the derivative of the state with respect to the start is a product of free flows and of jumps at events (saltation
+//! For one degree of freedom it is known exactly. Along an exact run the derivative of the state with respect to the start is a product of free flows and of jumps at events (saltation
 //! matrices; Leine & Nijmeijer 2004, doi:10.1007/978-3-540-44398-8, ch. 7). On (u, v), with accelerations a⁻, a⁺ before and after:
 //!
 //! rigid impact [[−e, 0], [(a⁺ + e a⁻)/v⁻, −e]];   elastic entry and exit [[1, 0], [(a⁺ − a⁻)/v, 1]];   coming to rest 0.
+//!
+//! For several it is estimated from below, by exact runs from starts that differ by next to nothing; and where the exact scheme cannot go, by such runs of
+//! a stepping scheme.
 
+use super::perturbation;
 use crate::error::Result;
-use crate::scene::Scene;
-use crate::scheme::{Scheme, Stepper};
+use crate::scene::{Scene, System};
+use crate::scheme::{Method, Scheme, Stepper};
 use crate::step::Path;
+use std::fmt;
 
 /// A perturbation that has grown by this much turns an error of 1e-3 of the gap into a tenth of it: beyond, curves part for reasons that
 /// are the scene's, not the scheme's.
 pub const LARGEST_GROWTH: f64 = 1e2;
 
+/// How a growth was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Source {
+    /// By saltation matrices along the exact motion: exactly.
+    Saltation,
+    /// By exact runs from starts beside the scene's: at least.
+    ExactRuns,
+    /// By such runs of a stepping method: at least.
+    Runs(Method),
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Saltation => f.write_str("by saltation matrices along the exact motion"),
+            Self::ExactRuns => f.write_str("at least, by exact runs from perturbed starts"),
+            Self::Runs(method) => write!(f, "at least, by perturbing the start of a {method} run"),
+        }
+    }
+}
+
 /// Growth over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Growth {
-    /// Ends of the exact run's steps, s.
+    /// Ends of the exact run's steps, or rows of the perturbed runs, s.
     pub time: Vec<f64>,
-    /// Largest singular value of the derivative there, in units of the gap scale and the largest speed; at least 1 at the start.
+    /// Largest singular value of the derivative there, or the growth seen, in units of the gap scale and the largest speed; at least 1 at the start. No
+    /// number where perturbed runs have parted altogether.
     pub factor: Vec<f64>,
+    /// How it was found.
+    pub source: Source,
 }
 
 impl Growth {
@@ -29,6 +58,27 @@ impl Growth {
     /// # Errors
     /// What the exact scheme reports.
     pub fn of(scene: &Scene) -> Result<Self> {
+        match scene.system {
+            System::Oscillator(_) => Self::by_saltation(scene),
+            _ => perturbation::growth(scene, &Method::new(Scheme::Event), scene.duration, perturbation::SMALL),
+        }
+    }
+
+    /// The growth, at least, of a change as large as errors that are compared, a thousandth of the largest speed, along the run of `scene` by `method` with
+    /// steps of `step` (s).
+    ///
+    /// # Errors
+    /// What the runs report.
+    pub fn by_runs(scene: &Scene, method: &Method, step: f64) -> Result<Self> {
+        perturbation::growth(scene, method, step, perturbation::COMPARED)
+    }
+
+    /// The same of a change just above rounding.
+    pub(super) fn of_rounding(scene: &Scene, method: &Method, step: f64) -> Result<Self> {
+        perturbation::growth(scene, method, step, perturbation::SMALL)
+    }
+
+    fn by_saltation(scene: &Scene) -> Result<Self> {
         let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
         let mut product = [[1.0, 0.0], [0.0, 1.0]];
         let (mut time, mut products, mut speed) = (vec![0.0], vec![product], 0.0_f64);
@@ -63,7 +113,7 @@ impl Growth {
         }
         let (length, speed) = (scene.gap_scale(), if speed > 0.0 { speed } else { 1.0 });
         let scaled = |[[a, b], [c, d]]: [[f64; 2]; 2]| norm([[a, b * speed / length], [c * length / speed, d]]);
-        Ok(Self { time, factor: products.into_iter().map(scaled).collect() })
+        Ok(Self { time, factor: products.into_iter().map(scaled).collect(), source: Source::Saltation })
     }
 
     /// The time up to which no perturbation has grown by more than `most`; the end of the run if none ever does.

@@ -4,8 +4,10 @@ pub mod accuracy;
 pub mod change;
 pub mod choice;
 pub mod compare;
+mod difference;
 mod exact;
 pub mod horizon;
+mod perturbation;
 #[cfg(feature = "cli")]
 pub mod stability;
 pub mod truncation;

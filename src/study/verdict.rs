@@ -6,7 +6,7 @@ use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::run::{Options, Run, run_with_progress};
-use crate::scene::Scene;
+use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::statistics::Statistics;
 use crate::time::TimeOptions;
@@ -15,6 +15,9 @@ use std::fmt;
 
 /// What a verdict costs, in runs like the one it is about.
 pub const COST: f64 = 2.0;
+
+/// Walls that a verdict in words speaks of one by one, at most.
+const MOST_NAMED: usize = 4;
 
 /// How a run was checked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -50,7 +53,7 @@ pub struct WallVerdict {
 pub struct Verdict {
     /// How the run was checked.
     pub check: Check,
-    /// Largest |Δu| over the gap scale up to the horizon.
+    /// Largest |Δu| of any probe over the gap scale up to the horizon.
     pub displacement: f64,
     /// Time up to which displacements were compared, s: the end, or where a perturbation of the start has grown
     /// [`LARGEST_GROWTH`]-fold.
@@ -83,6 +86,11 @@ impl Verdict {
         // A penalty moves between springs: what grows there is not what grows between rigid walls.
         let model = Stepper::with_backend(scene, &method.scheme, run.grid.step, backend)?.scene().clone();
         let growth = affordable(&model).and_then(|()| Growth::of(&model));
+        let growth = match (&model.system, growth) {
+            // Several degrees of freedom: where the exact scheme cannot go, the method itself can.
+            (System::Structure(_), Err(_)) => Growth::by_runs(scene, method, run.grid.step),
+            (_, growth) => growth,
+        };
         let horizon_s = growth.map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH));
         let from = time.statistics_from;
         let change = Change::between(scene, &run.trajectory, &trajectory, horizon_s, from)?;
@@ -105,6 +113,16 @@ impl Verdict {
         self.walls.iter().map(|w| share(w.impulse_ns).abs()).fold(0.0, f64::max)
     }
 
+    /// The walls a line has room for: all of a few, else those with the largest impulses.
+    fn foremost(&self) -> Vec<&WallVerdict> {
+        let mut walls: Vec<&WallVerdict> = self.walls.iter().collect();
+        if walls.len() > MOST_NAMED {
+            walls.sort_by(|a, b| b.impulse_ns[0].abs().total_cmp(&a.impulse_ns[0].abs()));
+            walls.truncate(MOST_NAMED);
+        }
+        walls
+    }
+
     /// Contacts that the check has more than the run, all walls together.
     #[must_use]
     pub fn contacts_gained(&self) -> i64 {
@@ -123,7 +141,7 @@ impl fmt::Display for Verdict {
             " the displacement changes by {:.1e} of the gap up to t = {:.4} s",
             self.displacement, self.horizon_s
         )?;
-        for wall in &self.walls {
+        for wall in self.foremost() {
             write!(f, "; wall {:?}: impulse {}", wall.wall, relative(wall.impulse_ns))?;
             let [before, after] = wall.contacts;
             match before == after {
@@ -134,7 +152,17 @@ impl fmt::Display for Verdict {
                 write!(f, ", peak force {}", relative([before, after]))?;
             }
         }
-        Ok(())
+        match self.walls.len() {
+            count if count > MOST_NAMED => {
+                write!(
+                    f,
+                    "; all {count} walls: impulse {:.1e} at most, contacts {:+}",
+                    self.impulse_change(),
+                    self.contacts_gained()
+                )
+            }
+            _ => Ok(()),
+        }
     }
 }
 

@@ -154,9 +154,10 @@ impl<'a> Judge<'a> {
         for i in 0..r.len() {
             let y = (g.row(i) * &x)[0] + compliance[i] * r[i];
             let terms = (g.row(i).abs() * x.abs())[0] + (compliance[i] * r[i]).abs();
-            // A force has 16 digits, and so the motion that the largest of them causes here.
-            let caused = (0..r.len()).fold(0.0, |most, j| f64::max(most, (self.w[(i, j)] * r[j]).abs()));
-            let length = scale.max(terms).max(free[i].abs()).max(1e-2 * caused);
+            // A force has 16 digits, and so has the motion that the largest of them may cause here: 1e-3 of it, times 1e-12, is 4 ulps.
+            let weight = |j: usize| self.w[(j, j)].sqrt();
+            let caused = (0..r.len()).fold(0.0, |most, j| f64::max(most, weight(i) * weight(j) * r[j].abs()));
+            let length = scale.max(terms).max(free[i].abs()).max(1e-3 * caused);
             feasibility = feasibility.max((rhs.lo[i] - y) / length).max((y - rhs.hi[i]) / length);
             // The force as the displacement it causes at its own row, against the gap on its side.
             let reach = r[i].abs() * self.w[(i, i)] / length;
@@ -187,7 +188,8 @@ impl<'a> Judge<'a> {
         }
         let mut best: Option<(f64, Vec<f64>)> = None;
         for set in 0..1_usize << touching.len() {
-            let chosen: Vec<_> = touching.iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|t| t.1).collect();
+            let chosen: Vec<(usize, f64, bool)> =
+                touching.iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|t| *t.1).collect();
             let weight = |i: usize| self.w[(i, i)].sqrt();
             let columns = DMatrix::from_fn(x.len(), chosen.len(), |j, k| g[(chosen[k].0, j)] / weight(chosen[k].0));
             let u = if chosen.is_empty() {
@@ -199,10 +201,10 @@ impl<'a> Judge<'a> {
             };
             let left = if chosen.is_empty() { needed.amax() } else { (&columns * &u - &needed).amax() };
             let most = u.amax();
-            let sound = u.iter().zip(&chosen).all(|(u, &(_, sign, both))| both || sign * u >= -1e-10 * most);
+            let sound = u.iter().zip(&chosen).all(|(u, (_, sign, both))| *both || sign * u >= -1e-10 * most);
             if left <= 1e-9 * size && sound && best.as_ref().is_none_or(|(least, _)| u.norm() < *least * (1.0 - 1e-9)) {
                 let mut r = fixed.clone();
-                chosen.iter().zip(u.iter()).for_each(|(&(i, ..), u)| r[i] = u / weight(i));
+                chosen.iter().zip(u.iter()).for_each(|((i, ..), u)| r[*i] = u / weight(*i));
                 best = Some((u.norm(), r));
             }
         }

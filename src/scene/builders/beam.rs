@@ -36,6 +36,28 @@ pub enum BeamEnd {
 /// Two degrees of freedom a node from left to right, deflection (m) and rotation w′ (rad), without those that the ends hold; the half bandwidth is 3.
 /// Frequencies are too high, at fourth order; static answers to forces and moments at nodes are exact at the nodes. Neither shear nor rotary inertia: good for
 /// wavelengths of many diameters.
+///
+/// ```
+/// use signorini::{Beam, BeamEnd, Damping, Scene, Wall};
+///
+/// // A steel tube of three spans between loose supports, cut to its 20 slowest modes.
+/// let tube = Beam {
+///     length: 3.0,
+///     youngs_modulus: 2.0e11,
+///     density: 7850.0,
+///     outer_diameter: 0.01905,
+///     inner_diameter: 0.01575,
+///     added_mass: 0.3,
+///     elements: 60,
+///     left: BeamEnd::Pinned,
+///     right: BeamEnd::Pinned,
+/// };
+/// let support = Wall { at: tube.at(1.0)?, ..Wall::upper("support", 2e-4).with_restitution(0.0) };
+/// let scene = Scene::structure(tube.structure()?).with_wall(support);
+/// let reduction = scene.reduced(20, false)?.with_damping(&Damping::Modal(vec![0.01]))?;
+/// assert!(reduction.walls[0].share() > 0.9999);
+/// # Ok::<(), signorini::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Beam {
     /// Length, m; positive.

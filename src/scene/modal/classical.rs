@@ -13,7 +13,7 @@ const ROUNDING: f64 = 1e-13;
 /// C M⁻¹ K and its transpose agree to this share of ‖C̃‖ ‖K̃‖; rounding of the products is some 1e-14.
 const COMMUTES: f64 = 1e-12;
 /// Frequencies this close, relative to the faster, are one: their shapes may be turned among themselves.
-const EQUAL: f64 = 1e-7;
+const EQUAL: f64 = 1e-9;
 
 impl Structure {
     /// True if one basis of modes makes M, C and K diagonal (classical damping): C M⁻¹ K is symmetric (Caughey & O'Kelly 1965, doi 10.1115/1.3627262).
@@ -38,17 +38,23 @@ impl Structure {
         (&product - product.transpose()).norm() <= COMMUTES * c.norm() * k.norm()
     }
 
-    /// (α, β) with C = αM + βK, entry by entry to 1e-12 of the terms; none if C is no such sum.
+    /// (α, β) with C = αM + βK, entry by entry to 1e-12 of the terms; none if C is no such sum. Of two terms the smaller is known as far as the rounding of C
+    /// shows it: on a fine mesh βK may hide α.
     #[must_use]
     pub fn rayleigh(&self) -> Option<(f64, f64)> {
-        // Least squares with every entry over √(mᵢᵢ mⱼⱼ), so that units of the degrees of freedom play no part.
         let m = self.mass.diagonal_entries();
         let n = m.len();
         if self.damping.size() != n || self.stiffness.size() != n || m.iter().any(|m| m.is_nan() || *m <= 0.0) {
             return None;
         }
-        let weigh = |(i, j, value): (usize, usize, f64)| value / (m[i] * m[j]).sqrt();
-        let inner = |a: &Symmetric, b: &Symmetric| {
+        // Least squares with every entry over √(mᵢᵢ mⱼⱼ), so that units of the degrees of freedom play no part, and each matrix over its largest.
+        let weigh = |(i, j, value): (usize, usize, f64)| value / (m[i].sqrt() * m[j].sqrt());
+        let largest = |matrix: &Symmetric| {
+            let largest = matrix.entries().map(|entry| weigh(entry).abs()).fold(0.0, f64::max);
+            if largest > 0.0 { largest } else { 1.0 }
+        };
+        let (unit_k, unit_c) = (largest(&self.stiffness), largest(&self.damping));
+        let inner = |(a, unit_a): (&Symmetric, f64), (b, unit_b): (&Symmetric, f64)| {
             let mut b = b.entries().peekable();
             let mut sum = 0.0;
             for entry in a.entries() {
@@ -56,31 +62,35 @@ impl Structure {
                     b.next();
                 }
                 if let Some(other) = b.peek().filter(|other| (other.0, other.1) == (entry.0, entry.1)) {
-                    sum += weigh(entry) * weigh(*other);
+                    sum += (weigh(entry) / unit_a) * (weigh(*other) / unit_b);
                 }
             }
             sum
         };
-        let (mm, mk, kk) = (
-            inner(&self.mass, &self.mass),
-            inner(&self.mass, &self.stiffness),
-            inner(&self.stiffness, &self.stiffness),
-        );
-        let (mc, kc) = (inner(&self.mass, &self.damping), inner(&self.stiffness, &self.damping));
+        let (mass, stiffness) = ((&self.mass, 1.0), (&self.stiffness, unit_k));
+        let (mm, mk, kk) = (inner(mass, mass), inner(mass, stiffness), inner(stiffness, stiffness));
         let determinant = mm * kk - mk * mk;
-        // K in proportion to M, as for one degree of freedom: αM alone says it.
-        let (alpha, beta) = if determinant > 1e-12 * mm * kk {
-            ((mc * kk - kc * mk) / determinant, (kc * mm - mc * mk) / determinant)
-        } else {
-            (mc / mm, 0.0)
-        };
-        let left = Symmetric::sum(&[(1.0, &self.damping), (-alpha, &self.mass), (-beta, &self.stiffness)]);
-        let size = |(i, j): (usize, usize)| {
+        let (mut alpha, mut beta) = (0.0, 0.0);
+        let mut left = self.damping.clone();
+        // The second pass fits what the rounding of long sums left of the first.
+        for _ in 0..2 {
+            let (mc, kc) = (inner(mass, (&left, unit_c)), inner(stiffness, (&left, unit_c)));
+            // K in proportion to M, as for one degree of freedom: αM alone says it.
+            if determinant > 1e-12 * mm * kk {
+                alpha += unit_c * ((mc * kk - kc * mk) / determinant);
+                beta += unit_c / unit_k * ((kc * mm - mc * mk) / determinant);
+            } else {
+                alpha += unit_c * (mc / mm);
+            }
+            left = Symmetric::sum(&[(1.0, &self.damping), (-alpha, &self.mass), (-beta, &self.stiffness)]);
+        }
+        let diagonal = self.stiffness.diagonal_entries();
+        let size = |i: usize, j: usize| {
             let term =
-                |matrix: &Symmetric, factor: f64| factor.abs() * (matrix.get(i, i) * matrix.get(j, j)).abs().sqrt();
-            term(&self.mass, alpha) + term(&self.stiffness, beta)
+                |factor: f64, diagonal: &[f64]| factor.abs() * (diagonal[i].abs().sqrt() * diagonal[j].abs().sqrt());
+            term(alpha, &m) + term(beta, &diagonal)
         };
-        left.entries().all(|(i, j, value)| value.abs() <= 1e-12 * size((i, j))).then_some((alpha, beta))
+        left.entries().all(|(i, j, value)| value.abs() <= 1e-12 * size(i, j)).then_some((alpha, beta))
     }
 }
 
@@ -90,7 +100,12 @@ impl Modes {
     #[must_use]
     pub fn uncouple(&mut self, damping: &Symmetric) -> Option<Vec<f64>> {
         let k = self.count();
-        let mut c = self.project(damping);
+        let c = self.project(damping);
+        let strongest = c.diagonal().iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        let coupled = |c: &DMatrix<f64>, i: usize, j: usize| {
+            let bound = CLASSICAL * (c[(i, i)] * c[(j, j)]).max(0.0).sqrt() + ROUNDING * strongest;
+            c[(i, j)].abs() > bound
+        };
         let fastest = self.omega.last().copied().unwrap_or(0.0);
         let mut turned = self.shapes.clone();
         let mut from = 0;
@@ -99,7 +114,8 @@ impl Modes {
             while to < k && self.omega[to] - self.omega[to - 1] <= EQUAL * self.omega[to].max(1e-6 * fastest) {
                 to += 1;
             }
-            if to - from > 1 {
+            // What is uncoupled stays as it is: where C is the same for all of them any turn would do, and mix what differs in ω a little.
+            if (from..to).any(|i| (from..i).any(|j| coupled(&c, i, j))) {
                 let block = c.view((from, from), (to - from, to - from)).into_owned();
                 let (_, turn) = eigen(block)?;
                 for j in from..to {
@@ -114,13 +130,8 @@ impl Modes {
             from = to;
         }
         let before = std::mem::replace(&mut self.shapes, turned);
-        c = self.project(damping);
-        let strongest = c.diagonal().iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-        let coupled = |i: usize, j: usize| {
-            let bound = CLASSICAL * (c[(i, i)] * c[(j, j)]).max(0.0).sqrt() + ROUNDING * strongest;
-            c[(i, j)].abs() > bound
-        };
-        if (0..k).any(|i| (0..i).any(|j| coupled(i, j))) {
+        let c = self.project(damping);
+        if (0..k).any(|i| (0..i).any(|j| coupled(&c, i, j))) {
             self.shapes = before;
             return None;
         }

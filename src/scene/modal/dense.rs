@@ -18,6 +18,10 @@ pub(super) fn full(matrix: &Symmetric) -> DMatrix<f64> {
 /// Eigenvalues of a full symmetric matrix, increasing, and their unit vectors in the columns of a matrix; none if the iteration does not end.
 pub(super) fn eigen(matrix: DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
     let n = matrix.nrows();
+    // nalgebra refuses both by a panic or a search without end.
+    if n == 0 || matrix.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
     let solved = SymmetricEigen::try_new(matrix, f64::EPSILON, 100 * (n + 10))?;
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|&a, &b| solved.eigenvalues[a].total_cmp(&solved.eigenvalues[b]));

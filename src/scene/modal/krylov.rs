@@ -131,7 +131,11 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
     };
     let failed = || {
         let value = format!("{count}, of which Lanczos' method found not all");
-        Error::invalid("modes", value, "fewer, or a structure with less spread in stiffness")
+        Error::invalid(
+            "modes",
+            value,
+            "fewer, or a coarser mesh: the slowest modes drown in the rounding of a very stiff K",
+        )
     };
     let [_, fastest] = System::Structure(Box::new(structure.clone())).frequencies();
     let least = SHIFT * fastest.powi(2).max(f64::MIN_POSITIVE);

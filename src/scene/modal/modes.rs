@@ -13,7 +13,7 @@ pub const MOST_MODES: usize = 500;
 
 /// Modes of the undamped structure, slowest first: K φᵢ = ωᵢ² M φᵢ, φᵢᵀ M φⱼ = δᵢⱼ.
 ///
-/// ω of a rigid-body motion is exactly 0: where φᵀKφ is no more than the rounding of K's own entries makes it. The largest component of a shape, weighed by
+/// ω of a rigid-body motion is exactly 0: where φᵀKφ is no more than the rounding of K and φ makes it. The largest component of a shape, weighed by
 /// the root of its mass, is positive, so that shapes can be compared from run to run. Shapes of equal ω are any basis of their space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
@@ -23,8 +23,10 @@ pub struct Modes {
     pub shapes: Vec<Vec<f64>>,
 }
 
-/// λ = φᵀKφ below this many roundings of |φ|ᵀ|K||φ| is 0.
+/// λ = φᵀKφ below this many roundings of |φ|ᵀ|K||φ| is 0 …
 const RIGID: f64 = 8.0 * f64::EPSILON;
+/// … and so is λ below this share of the largest kᵢᵢ/mᵢᵢ: what an error of 1e-11 in the shape, the most that is left, adds to its energy.
+const SHAPE: f64 = 1e-22;
 
 /// Components within this of the largest count as the largest: the first of them has the sign, whatever rounding says.
 const TIE: f64 = 1e-6;
@@ -58,7 +60,9 @@ impl Modes {
             return uncoupled(structure, count);
         }
         let all_at_once = n <= MOST_DENSE && (n <= 40 || 3 * count > n);
-        let shapes = if all_at_once { dense::lowest(structure, count)? } else { krylov::lowest(structure, count)? };
+        let (scaled, unit) = scaled(structure);
+        let mut shapes = if all_at_once { dense::lowest(&scaled, count)? } else { krylov::lowest(&scaled, count)? };
+        shapes.iter_mut().flatten().for_each(|x| *x *= unit);
         Self::finish(structure, shapes)
     }
 
@@ -70,6 +74,8 @@ impl Modes {
             structure.stiffness.entries().map(|(i, j, value)| (i, j, value.abs())),
         ));
         let weight: Vec<f64> = structure.mass.diagonal_entries().into_iter().map(f64::sqrt).collect();
+        let squares = structure.stiffness.diagonal_entries();
+        let fastest = squares.iter().zip(&weight).map(|(k, w)| k / w / w).fold(0.0_f64, f64::max);
         let mut modes = Vec::with_capacity(shapes.len());
         let mut product = vec![0.0; weight.len()];
         for mut shape in shapes {
@@ -80,7 +86,7 @@ impl Modes {
             };
             let lambda = form(&stiffness, &shape, &mut product);
             let magnitude: Vec<f64> = shape.iter().map(|x| x.abs()).collect();
-            let rounding = RIGID * form(&size, &magnitude, &mut product);
+            let rounding = RIGID * form(&size, &magnitude, &mut product) + SHAPE * fastest;
             // A shape's own errors add to the rounding of its energy: ten times as much is still no motion that gains from the springs.
             if lambda < -100.0 * rounding {
                 let expected = "a positive semidefinite matrix: no motion gains energy from the springs";
@@ -139,6 +145,23 @@ impl Modes {
         }
         q
     }
+}
+
+/// The structure in units in which the largest entry on the diagonals of M and of K is 1, so that no square overflows; and what its shapes are to be
+/// multiplied by.
+fn scaled(structure: &Structure) -> (Structure, f64) {
+    let unit = |matrix: &Symmetric| {
+        let largest = matrix.diagonal_entries().into_iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        // A power of 2 rounds nothing; a matrix of zeros stays one.
+        if largest > 0.0 { 2.0_f64.powf(largest.log2().round()) } else { 1.0 }
+    };
+    let mass = unit(&structure.mass);
+    let scaled = Structure {
+        mass: Symmetric::sum(&[(1.0 / mass, &structure.mass)]),
+        damping: Symmetric::zeros(0),
+        stiffness: Symmetric::sum(&[(1.0 / unit(&structure.stiffness), &structure.stiffness)]),
+    };
+    (scaled, 1.0 / mass.sqrt())
 }
 
 /// The modes of a structure whose M and K are diagonal: its own degrees of freedom.

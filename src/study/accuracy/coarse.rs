@@ -1,7 +1,7 @@
 //! Where refinement begins: the coarsest step that can see what happens in a scene.
 
 use crate::error::Result;
-use crate::scene::{LoadKind, Loads, Scene, WallLaw};
+use crate::scene::{LoadKind, Loads, Scene, System, WallLaw};
 use crate::time::{TimeGrid, TimeOptions};
 use std::f64::consts::{PI, TAU};
 
@@ -50,11 +50,17 @@ impl CoarseGrid {
     }
 }
 
-/// The shortest time in which something happens, s: a period of the system or of a load, a row of a table, a contact with an elastic wall, the gap at the
+/// The shortest time in which something happens, s: a period of the system (of several degrees of freedom midway between the slowest and the
+/// fastest) or of a load, a row of a table, a contact with an elastic wall, the gap at the
 /// speed of the start.
 /// Infinite where nothing has a time of its own.
 fn shortest_time(scene: &Scene) -> f64 {
-    let [slowest, _] = scene.system.frequencies();
+    let [slowest, fastest] = scene.system.frequencies();
+    let slowest = match scene.system {
+        System::Oscillator(_) => slowest,
+        // Midway, as ratios go: impacts wake more than the slowest motion, and halving goes on to the faster ones.
+        System::Structure(_) => (slowest.max(TAU / scene.duration) * fastest).sqrt(),
+    };
     let mut times = vec![period(slowest * slowest)];
     for load in &scene.loads {
         match &load.kind {

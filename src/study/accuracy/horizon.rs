@@ -3,7 +3,7 @@
 use super::{Judged, JudgedBy, Outcome, Target, exact};
 use crate::error::Result;
 use crate::run::{Options, Run, run};
-use crate::scene::Scene;
+use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme};
 use crate::study::change::Change;
 use crate::study::horizon::{Growth, LARGEST_GROWTH};
@@ -42,13 +42,18 @@ pub(super) fn perturbed(
     found: &Run,
 ) -> Result<Option<f64>> {
     let gap = judged.scene.gap_scale();
+    let time = judged.time(&judged.coarse.options(level, &target.time));
+    if let System::Structure(_) = judged.scene.system {
+        let growth = Growth::of_rounding(&judged.scene, method, time.step)?;
+        let until = growth.horizon(SHARE * target.tolerance / ROUNDING);
+        return Ok((until < judged.scene.duration * (1.0 - 1e-9)).then_some(until));
+    }
     let beside = [PERTURBATION * gap, -PERTURBATION * gap].into_iter().find_map(|by| {
         let mut scene = judged.scene.clone();
         scene.initial.q.first_mut().map(|q| *q += by)?;
         scene.validate().is_ok().then_some(scene)
     });
     let Some(beside) = beside else { return Ok(None) };
-    let time = judged.time(&judged.coarse.options(level, &target.time));
     let other = run(&beside, &method.scheme, &Options { time, backend: method.backend })?;
     let most = (SHARE * target.tolerance * PERTURBATION / ROUNDING).min(SATURATED);
     let until = crate::study::change::agree_until(&judged.scene, &other.trajectory, &found.trajectory, most);

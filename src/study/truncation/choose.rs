@@ -12,7 +12,11 @@ use std::fmt;
 /// The most modes that are tried, unless the structure has no more than this.
 pub const MOST_CHOSEN: usize = 200;
 
-/// How many increases running must change less than the tolerance: one that changes nothing may have added modes with a node at the walls.
+/// Share of the tolerance that an increase may change. What is left out falls like 1/k in the modes at worst (a bar's wall force): then twice the change of the last
+/// increase, by half, is still to come; and an increase may change little by chance.
+const QUIET: f64 = 0.25;
+
+/// How many increases running must change less than that: one that changes nothing may have added modes with a node at the walls.
 const QUIET_INCREASES: usize = 2;
 
 /// One number of modes.
@@ -35,7 +39,7 @@ pub struct ChosenModes {
     pub modes: usize,
     /// Degrees of freedom of the whole structure: as many modes as there are.
     pub degrees_of_freedom: usize,
-    /// True if the tolerance is kept: two increases running changed less, or no mode is left out.
+    /// True if the tolerance is kept: two increases running changed less than a quarter of it, or no mode is left out.
     pub kept: bool,
     /// What was tried, in order.
     pub levels: Vec<ModesLevel>,
@@ -56,7 +60,7 @@ impl ChosenModes {
     }
 }
 
-/// Increases the modes by half, from `start` on, until two increases running change no wall's impulse and peak by more than `tolerance`: runs of `method` with
+/// Increases the modes by half, from `start` on, until two increases running change no wall's impulse and peak by more than a quarter of `tolerance`: runs of `method` with
 /// the step and window of `time`. `progress` hears the time (s) that the run under way has reached.
 ///
 /// # Errors
@@ -85,7 +89,7 @@ pub fn choose_modes(
         let next = make(modes)?;
         let truncation = Truncation::between(whole, [&last.0, &next.0], [&last.1, &next.1], time.statistics_from)?;
         let (change, quantity) = truncation.worst();
-        quiet = if change <= tolerance { quiet + 1 } else { 0 };
+        quiet = if change <= QUIET * tolerance { quiet + 1 } else { 0 };
         levels.push(ModesLevel { modes, change: Some(change), quantity: Some(quantity) });
         last = next;
     }
@@ -101,8 +105,8 @@ impl fmt::Display for ChosenModes {
         }
         for (i, level) in self.levels.iter().enumerate() {
             let (Some(change), Some(quantity)) = (level.change, &level.quantity) else { continue };
-            let lead = if i == 1 { ": more modes changed the walls'" } else { "," };
-            write!(f, "{lead} {change:.1e} ({quantity}) at {}", level.modes)?;
+            let lead = if i == 1 { ": each increase changed by" } else { "," };
+            write!(f, "{lead} {change:.1e} the {quantity}, to {}", level.modes)?;
         }
         Ok(())
     }

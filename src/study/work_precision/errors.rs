@@ -3,14 +3,15 @@
 use super::graph::{Graph, Scales};
 use crate::scene::Scene;
 use crate::step::Contact;
+use crate::study::difference::largest;
 use crate::trajectory::Trajectory;
 
 /// Errors of a run against a reference that shares its rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Errors {
-    /// Largest |Δu| over the gap scale, at the rows.
+    /// Largest |Δu| of any probe over the gap scale, at the rows.
     pub displacement: f64,
-    /// Distance between the completed graphs (t, u, v): see [`Graph`].
+    /// Distance between the completed graphs (t, u, v), the largest of the eight fastest probes: see [`Graph`].
     pub velocity: f64,
     /// |ΔJ| of each wall, in the scene's order, over the sum of |J| of the reference at all walls; empty where the reference has none.
     pub impulse: Vec<f64>,
@@ -30,29 +31,37 @@ pub(super) struct Yardstick {
     /// s; 0 for an exact motion.
     pub step: f64,
     pub scales: Scales,
+    /// Numbers of the probes whose graphs are compared.
+    fastest: Vec<usize>,
 }
+
+/// Probes whose graphs are compared, at most.
+const MOST_GRAPHS: usize = 8;
 
 impl Yardstick {
     /// `trajectory`, made with `step` (s), as the measure of other runs of `scene` up to `until` (s).
     pub fn new(scene: &Scene, trajectory: Trajectory, step: f64, until: f64) -> Self {
-        let speed = trajectory.velocity().iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+        let speed = largest(trajectory.velocities());
         let speed = trajectory.contacts().iter().fold(speed, |a, c| a.max(c.approach_speed));
         let speed = if speed > 0.0 { speed } else { 1.0 };
         let scales = Scales { duration: until.min(scene.duration), length: scene.gap_scale(), speed };
-        Self { scene: scene.clone(), trajectory, step, scales }
+        let fastest = fastest(trajectory.velocities());
+        Self { scene: scene.clone(), trajectory, step, scales, fastest }
     }
 
     /// Errors of `run`, made with `step` (s; 0 for an exact one), whose rows are some of this motion's or all.
     pub fn errors(&self, run: &Trajectory, step: f64) -> Errors {
         let all = |t: &Trajectory| t.time().len().saturating_sub(1).max(1);
         let stride = (all(&self.trajectory) / all(run)).max(1);
-        let mine = self.trajectory.displacement().iter().step_by(stride);
-        let pairs = mine.zip(run.displacement()).take(self.rows(run));
+        let rows = self.rows(run);
+        let probes = self.trajectory.displacements().iter().zip(run.displacements());
+        let pairs = probes.flat_map(|(mine, other)| mine.iter().step_by(stride).zip(other).take(rows));
         let displacement = pairs.map(|(x, y)| (x - y).abs()).fold(0.0, worst);
-        let graph = |t: &Trajectory, stride, step| Graph::of(t, stride, step, &self.scene, &self.scales);
+        let graph = |t: &Trajectory, probe, stride, step| Graph::of(t, probe, stride, step, &self.scene, &self.scales);
+        let apart = |p| graph(run, p, 1, step).distance(&graph(&self.trajectory, p, stride, self.step));
         let mut errors = Errors {
             displacement: displacement / self.scales.length,
-            velocity: graph(run, 1, step).distance(&graph(&self.trajectory, stride, self.step)),
+            velocity: self.fastest.iter().copied().map(apart).fold(0.0, worst),
             impulse: self.impulse(run),
             ..Errors::default()
         };
@@ -129,6 +138,17 @@ impl Errors {
     pub fn worst_impulse(&self) -> Option<f64> {
         self.impulse.iter().copied().reduce(worst)
     }
+}
+
+/// Numbers of the columns with the largest entries, [`MOST_GRAPHS`] at most, in their order.
+fn fastest(velocities: &[Vec<f64>]) -> Vec<usize> {
+    let speed = |column: &Vec<f64>| column.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+    let mut numbered: Vec<(usize, f64)> = velocities.iter().map(speed).enumerate().collect();
+    numbered.sort_by(|a, b| b.1.total_cmp(&a.1));
+    numbered.truncate(MOST_GRAPHS);
+    let mut numbers: Vec<usize> = numbered.into_iter().map(|n| n.0).collect();
+    numbers.sort_unstable();
+    numbers
 }
 
 /// The larger; a NaN is the worst.

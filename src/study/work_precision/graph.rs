@@ -5,7 +5,7 @@
 //! the velocity before to the one after. With t over the duration, u over the gap scale and v over the reference's largest speed, it is
 //! Hausdorff's: the farthest that a point of either curve is from the other curve.
 
-use crate::scene::Scene;
+use crate::scene::{Row, Scene, Wall};
 use crate::trajectory::Trajectory;
 use std::collections::BTreeSet;
 
@@ -34,33 +34,46 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The graph of every `stride`-th row of `trajectory` up to the duration compared, with the jumps at those walls that are rigid in `scene`.
+    /// The graph that probe number `probe` shows in every `stride`-th row of `trajectory` up to the duration compared, with the jumps at those walls that
+    /// are rigid in `scene` and stand where the probe looks. What other walls do to it shows in the rows alone, within the spacing of two.
     ///
     /// A contact shorter than the spacing of these rows stands between the two corners (start, −approach) and (end, departure) at the wall; a
-    /// longer one has rows of its own for all but its first corner. Rows within a `step` (s) of a contact are left out: a scheme on positions has
-    /// no speed there. At walls that are springs the velocity is continuous and the rows show it.
+    /// longer one has rows of its own for all but its first corner. Rows within a `step` (s) of a contact at a wall that shares a degree of
+    /// freedom with the probe are left out: a scheme on positions has no speed there. At walls that are springs the velocity is continuous and the rows show it.
     #[must_use]
-    pub fn of(trajectory: &Trajectory, stride: usize, step: f64, scene: &Scene, scales: &Scales) -> Self {
+    pub fn of(trajectory: &Trajectory, probe: usize, stride: usize, step: f64, scene: &Scene, scales: &Scales) -> Self {
         let point = |t: f64, u: f64, v: f64| [t / scales.duration, u / scales.length, v / scales.speed];
         let stride = stride.max(1);
         let spacing = trajectory.time().get(stride).copied().unwrap_or(scales.duration);
         let until = scales.duration * (1.0 + 1e-12);
         let contacts = trajectory.contacts();
+        let place = scene.probes.get(probe).map(|p| &p.at);
+        let shares = |wall: &Wall| {
+            let dofs = |row: &Row| row.entries().iter().map(|entry| entry.0).collect::<Vec<_>>();
+            place.is_some_and(|place| dofs(place).iter().any(|i| dofs(&wall.at).contains(i)))
+        };
+        let near_probe: Vec<bool> = scene.walls.iter().map(|w| w.law.is_rigid() && shares(w)).collect();
         let mut vertices = Vec::with_capacity(trajectory.time().len() / stride + 1 + 2 * contacts.len());
         let mut blurred = BTreeSet::new();
         for contact in contacts.iter().filter(|c| c.start <= until) {
-            let Some(wall) = scene.walls.get(contact.wall).filter(|w| w.law.is_rigid()) else { continue };
+            let seen = near_probe.get(contact.wall).copied().unwrap_or(false);
+            let Some(wall) = scene.walls.get(contact.wall).filter(|_| seen) else { continue };
             let sign = wall.side.sign();
             let before = (contact.start / spacing).floor();
             let near = |row: &f64| (row * spacing - contact.start).abs() <= step * (1.0 + 1e-9);
             blurred.extend([before, before + 1.0].into_iter().filter(near).map(|row| row as usize));
+            if place != Some(&wall.at) {
+                continue;
+            }
             vertices.push(point(contact.start, wall.position, -sign * contact.approach_speed));
             let short = contact.end.filter(|end| end - contact.start <= spacing);
             if let (Some(end), Some(departure)) = (short, contact.departure_speed) {
                 vertices.push(point(end, wall.position, sign * departure));
             }
         }
-        let motion = trajectory.time().iter().zip(trajectory.displacement()).zip(trajectory.velocity());
+        let displacement = trajectory.displacements().get(probe).into_iter().flatten();
+        let velocity = trajectory.velocities().get(probe).into_iter().flatten();
+        let motion = trajectory.time().iter().zip(displacement).zip(velocity);
         let rows = motion.step_by(stride).map(|((&t, &u), &v)| (t, u, v)).take_while(|row| row.0 <= until);
         let clear = rows.enumerate().filter(|(row, _)| !blurred.contains(row));
         vertices.extend(clear.map(|(_, (t, u, v))| point(t, u, v)));

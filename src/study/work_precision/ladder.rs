@@ -73,7 +73,8 @@ impl Ladder {
     }
 }
 
-/// The shortest period of the scene: of its free motion without walls and of its harmonic loads, s.
+/// The shortest period of the scene: of its free motion without walls (of several degrees of freedom the slowest: finer steps down the ladder
+/// resolve the others, one by one) and of its harmonic loads, s.
 fn fastest_period(scene: &Scene) -> f64 {
     let natural = std::f64::consts::TAU / scene.system.frequencies()[0];
     let loads = scene.loads.iter().filter_map(|load| match &load.kind {

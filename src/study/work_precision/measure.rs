@@ -5,7 +5,7 @@ use super::ladder::Ladder;
 use super::reference::{Horizon, PERTURBED_STEPS, Reference};
 use super::timing::{self, Job};
 use super::{Effort, Floor, Measured, Outcome, Point, Series, WorkPrecision};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::run::{Options, Run, run};
 use crate::scene::Scene;
 use crate::scheme::{Counters, Integrator, Method, Scheme, Stepper};
@@ -17,6 +17,9 @@ use crate::study::choice::choose;
 /// [`crate::Error::Invalid`] for steps that make no sense, and whatever leaves the study without a reference. What a single run fails at is in its point.
 pub fn study(scene: &Scene, methods: &[Method], effort: &Effort, progress: &dyn Fn(f64)) -> Result<WorkPrecision> {
     scene.validate()?;
+    if scene.probes.is_empty() {
+        return Err(Error::invalid("probe", "missing", "a scene with a probe to compare"));
+    }
     let stand_in = choose(scene).method;
     let horizon = Horizon::of(scene, stand_in, PERTURBED_STEPS)?;
     let scene = &scene.clone().with_duration(horizon.end);

@@ -6,18 +6,17 @@ use crate::error::Result;
 use crate::run::{Options, Run, run};
 use crate::scene::Scene;
 use crate::scheme::{Method, Scheme, Stepper};
+use crate::study::exact::affordable;
 use crate::study::horizon::{Growth, LARGEST_GROWTH};
-use crate::time::TimeOptions;
 use crate::trajectory::{Recorder, Trajectory};
 
 /// Shares of the duration after which the exact scheme is made to start a new arc, so that it rounds differently.
 const STRIDES: [f64; 3] = [1.0 / 7.3, 1.0 / 31.7, 1.0 / 101.9];
 /// How many times finer than the finest run a refined reference is: its error is then a sixteenth of that run's, for a scheme of order 2.
 const FINER: u64 = 4;
-/// Perturbation of the start where growth is found by two runs, in units of the scene: far above rounding, far below the errors compared.
-const PERTURBATION: f64 = 1e-8;
-/// Steps of these two runs, at most.
+/// Steps of the runs that show growth where the exact scheme cannot go, at most, for one degree of freedom.
 pub(super) const PERTURBED_STEPS: u64 = 262_144;
+const FEWEST_PERTURBED: u64 = 1024;
 /// The comparison ends this much before the event at which growth exceeds the limit, so that no impact falls on its last row.
 const SHAVED: f64 = 0.99;
 
@@ -35,16 +34,17 @@ pub struct Horizon {
 }
 
 impl Horizon {
-    /// The horizon of `scene`: exactly, by saltation matrices, or by two runs of `stand_in` in `steps` steps where the exact scheme cannot go.
+    /// The horizon of `scene`: by the exact motion, or by perturbed runs of `stand_in` in `steps` steps where the exact scheme cannot go.
     pub(super) fn of(scene: &Scene, stand_in: Method, steps: u64) -> Result<Self> {
+        let exact = |scene: &Scene| affordable(scene).and_then(|()| Growth::of(scene));
         let exact = match stand_in.scheme {
-            Scheme::Penalty { law, .. } => scene.penalised(law).and_then(|scene| Growth::of(&scene)),
-            _ => Growth::of(scene),
+            Scheme::Penalty { law, .. } => scene.penalised(law).and_then(|scene| exact(&scene)),
+            _ => exact(scene),
         };
-        let (growth, found) = match exact {
-            Ok(growth) => (growth, "by saltation matrices along the exact motion".to_owned()),
-            Err(_) => (perturbed(scene, stand_in, steps)?, format!("by perturbing the start of a {stand_in} run")),
-        };
+        let most = (PERTURBED_STEPS / scene.system.degrees_of_freedom().max(1) as u64).max(FEWEST_PERTURBED);
+        let step = scene.duration / steps.clamp(FEWEST_PERTURBED, most) as f64;
+        let growth = exact.or_else(|_| Growth::by_runs(scene, &stand_in, step))?;
+        let found = growth.source.to_string();
         let whole = scene.duration;
         let limit = growth.horizon(LARGEST_GROWTH);
         let end = if limit >= whole {
@@ -56,25 +56,6 @@ impl Horizon {
         };
         Ok(Self { end, growth: growth.until(end), growth_of_all: growth.until(whole), how: found })
     }
-}
-
-/// Growth of |Δu| between two runs of `method`, one started a little faster.
-fn perturbed(scene: &Scene, method: Method, steps: u64) -> Result<Growth> {
-    let time = TimeOptions {
-        step: scene.duration / steps.clamp(1024, PERTURBED_STEPS) as f64,
-        sample: Some(scene.duration / 1024.0),
-        statistics_from: 0.0,
-    };
-    let go = |scene: &Scene| run(scene, &method.scheme, &Options { time, backend: method.backend });
-    let first = go(scene)?.trajectory;
-    let speed = first.velocity().iter().fold(f64::MIN_POSITIVE, |a, v| a.max(v.abs()));
-    let mut moved = scene.clone();
-    moved.initial.v.iter_mut().for_each(|v| *v += PERTURBATION * speed);
-    let second = go(&moved)?.trajectory;
-    let scale = PERTURBATION * scene.gap_scale();
-    let pairs = first.displacement().iter().zip(second.displacement());
-    let factor = pairs.map(|(x, y)| ((x - y).abs() / scale).max(1.0)).collect();
-    Ok(Growth { time: first.time().to_vec(), factor })
 }
 
 /// A motion to hold others against.
@@ -116,6 +97,7 @@ impl Reference {
     /// By the exact scheme. Its error is what changes when the arcs are cut elsewhere, and every rounding with them; and never less than one
     /// rounding, grown as the scene makes it grow.
     fn exact(scene: &Scene, rows: u64, horizon: &Horizon) -> Result<Self> {
+        affordable(scene)?;
         let yardstick = Yardstick::new(scene, cut(scene, scene.duration, rows)?, 0.0, horizon.end);
         let mut uncertainty = Errors::default();
         for share in STRIDES {

@@ -1,18 +1,19 @@
 //! `summary.json`: what a run was, what it cost and how far it is to be trusted.
 
+mod scene;
+
 use super::atomic::write_whole;
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::residual::Residuals;
 use crate::run::Run;
-use crate::scene::{LoadKind, Scene, Side, System, WallLaw};
 use crate::scheme::Counters;
 use crate::statistics::Statistics;
 use crate::study::accuracy::Accuracy;
 use crate::study::truncation::{ChosenModes, Truncation};
 use crate::study::verdict::Verdict;
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -79,7 +80,7 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
         case: &case.name,
         title: case.title.as_deref(),
         source: case.source.as_deref(),
-        scene: scene(&case.scene),
+        scene: scene::scene(case),
         scheme: run.scheme.to_string(),
         scheme_reason: &reasons.scheme,
         qp_solver: if run.scheme.has_qp() { run.backend.to_string() } else { "none".into() },
@@ -101,48 +102,4 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
     let mut text = serde_json::to_string_pretty(&summary).map_err(failed)?;
     text.push('\n');
     write_whole(path, text.as_bytes())
-}
-
-fn scene(scene: &Scene) -> Value {
-    let system = match &scene.system {
-        System::Oscillator(o) => {
-            json!({ "mass_kg": o.mass, "damping_ns_per_m": o.damping, "stiffness_n_per_m": o.stiffness })
-        }
-        System::Structure(s) => json!({ "degrees_of_freedom": s.mass.size() }),
-    };
-    let kind = if matches!(scene.system, System::Oscillator(_)) { "oscillator" } else { "structure" };
-    let walls: Vec<Value> = scene
-        .walls
-        .iter()
-        .map(|wall| {
-            let side = if wall.side == Side::Upper { "upper" } else { "lower" };
-            let law = match wall.law {
-                WallLaw::Rigid { restitution } => json!({ "restitution": restitution }),
-                WallLaw::Elastic { stiffness, damping } => {
-                    json!({ "stiffness_n_per_m": stiffness, "damping_ns_per_m": damping })
-                }
-                WallLaw::Quartic { epsilon, span } => json!({ "epsilon_m3_per_n": epsilon, "span_m": span }),
-            };
-            json!({ "name": wall.name, "side": side, "position_m": wall.position, "law": law })
-        })
-        .collect();
-    let loads: Vec<Value> = scene
-        .loads
-        .iter()
-        .map(|load| match &load.kind {
-            LoadKind::Constant { force } => json!({ "constant": { "force_n": force } }),
-            LoadKind::Harmonic { amplitude, frequency, phase } => {
-                json!({ "harmonic": { "amplitude_n": amplitude, "frequency_hz": frequency, "phase_rad": phase } })
-            }
-            LoadKind::Impulse { impulse, time } => json!({ "impulse": { "impulse_ns": impulse, "time_s": time } }),
-            LoadKind::Table(table) => json!({ "table": { "rows": table.time().len() } }),
-        })
-        .collect();
-    json!({
-        kind: system,
-        "walls": walls,
-        "loads": loads,
-        "initial": { "displacement_m": scene.initial.q, "velocity_m_per_s": scene.initial.v },
-        "duration_s": scene.duration,
-    })
 }

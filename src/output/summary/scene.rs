@@ -1,0 +1,161 @@
+//! The scene of a case, as the summary tells it.
+
+use crate::case::{Case, Model, Place};
+use crate::scene::{BarEnd, BeamEnd, Damping, Load, LoadKind, Side, System, Wall, WallLaw};
+use crate::study::choice;
+use serde_json::{Map, Value, json};
+use std::f64::consts::TAU;
+
+/// More degrees of freedom than this, and the start is not listed.
+const MOST_LISTED: usize = 1000;
+
+pub(super) fn scene(case: &Case) -> Value {
+    let whole = case.whole();
+    let n = whole.system.degrees_of_freedom();
+    let mut out = Map::new();
+    out.insert(case.model.kind().to_owned(), system(case));
+    if !matches!(case.scene.system, System::Oscillator(_)) {
+        out.insert("structure".to_owned(), structure(case));
+    }
+    let masses = case.scene.wall_masses();
+    let several = !matches!(case.model, Model::Oscillator);
+    let walls = whole.walls.iter().enumerate().map(|(index, w)| {
+        let mut value = wall(w);
+        if let (Some(place), Some(mass), true, Some(map)) =
+            (case.places.get(index), masses.get(index), several, value.as_object_mut())
+        {
+            map.insert("at".to_owned(), at(place));
+            map.insert("effective_mass_kg".to_owned(), json!(mass));
+            if let Some(left) = case.truncated.as_ref().and_then(|t| t.reduction.walls.get(index)) {
+                map.insert("effective_mass_of_all_modes_kg".to_owned(), json!(left.mass));
+                map.insert("static_compliance_kept".to_owned(), json!(left.share()));
+                map.insert("residual_compliance_m_per_n".to_owned(), json!(left.residual()));
+                map.insert("statically_corrected".to_owned(), json!(left.corrected));
+            }
+        }
+        value
+    });
+    out.insert("walls".to_owned(), walls.collect());
+    out.insert("loads".to_owned(), whole.loads.iter().map(load).collect());
+    if several {
+        out.insert("probes".to_owned(), whole.probes.iter().map(|probe| json!(probe.name)).collect());
+    }
+    let start =
+        (n <= MOST_LISTED).then(|| json!({ "displacement_m": whole.initial.q, "velocity_m_per_s": whole.initial.v }));
+    out.insert("initial".to_owned(), start.unwrap_or(Value::Null));
+    out.insert("duration_s".to_owned(), json!(case.scene.duration));
+    Value::Object(out)
+}
+
+/// What the file says vibrates.
+fn system(case: &Case) -> Value {
+    match (&case.model, &case.scene.system) {
+        (_, System::Oscillator(o)) => {
+            json!({ "mass_kg": o.mass, "damping_ns_per_m": o.damping, "stiffness_n_per_m": o.stiffness })
+        }
+        (Model::Chain(chain), _) => json!({
+            "masses": chain.masses.len(),
+            "mass_kg": chain.masses.iter().sum::<f64>(),
+            "ground_springs_n_per_m": chain.grounds,
+        }),
+        (Model::Bar(bar), _) => json!({
+            "length_m": bar.length,
+            "youngs_modulus_pa": bar.youngs_modulus,
+            "density_kg_per_m3": bar.density,
+            "area_m2": bar.area,
+            "elements": bar.elements,
+            "ends": ([bar.left, bar.right].map(bar_end)),
+        }),
+        (Model::Beam(beam), _) => json!({
+            "length_m": beam.length,
+            "youngs_modulus_pa": beam.youngs_modulus,
+            "density_kg_per_m3": beam.density,
+            "outer_diameter_m": beam.outer_diameter,
+            "inner_diameter_m": beam.inner_diameter,
+            "added_mass_kg_per_m": beam.added_mass,
+            "elements": beam.elements,
+            "bending_stiffness_n_m2": beam.bending_stiffness(),
+            "mass_kg_per_m": beam.mass_per_metre(),
+            "ends": ([beam.left, beam.right].map(beam_end)),
+        }),
+        _ => json!({}),
+    }
+}
+
+fn bar_end(end: BarEnd) -> Value {
+    match end {
+        BarEnd::Free => json!("free"),
+        BarEnd::Fixed => json!("clamped"),
+        BarEnd::Sprung { stiffness } => json!({ "stiffness_n_per_m": stiffness }),
+    }
+}
+
+fn beam_end(end: BeamEnd) -> Value {
+    match end {
+        BeamEnd::Free => json!("free"),
+        BeamEnd::Pinned => json!("pinned"),
+        BeamEnd::Clamped => json!("clamped"),
+        BeamEnd::Sprung { stiffness, rotational } => {
+            json!({ "stiffness_n_per_m": stiffness, "rotational_n_m_per_rad": rotational })
+        }
+    }
+}
+
+/// What is run of it, and how.
+fn structure(case: &Case) -> Value {
+    let [slowest, fastest] = case.scene.system.frequencies().map(|omega| omega / TAU);
+    let mut out = json!({
+        "degrees_of_freedom": case.whole().system.degrees_of_freedom(),
+        "unknowns": case.scene.system.degrees_of_freedom(),
+        "slowest_frequency_hz": slowest,
+        "fastest_frequency_hz": fastest,
+        "damping": choice::body(&case.scene).pop(),
+        "matrices": choice::path(&case.scene, case.time.step),
+    });
+    if let (Some(truncated), Some(map)) = (&case.truncated, out.as_object_mut()) {
+        let reduction = &truncated.reduction;
+        let frequencies: Vec<f64> = reduction.modes.omega.iter().map(|omega| omega / TAU).collect();
+        map.insert("modes".to_owned(), json!(reduction.modes.count()));
+        map.insert("frequencies_hz".to_owned(), json!(frequencies));
+        map.insert("next_frequency_hz".to_owned(), json!(reduction.next_omega.map(|omega| omega / TAU)));
+        if let Some(Damping::Modal(ratios)) = &truncated.whole.damping {
+            map.insert("damping_ratios".to_owned(), json!(ratios));
+        }
+        map.insert("static_correction".to_owned(), json!(truncated.whole.static_correction));
+        map.insert("start_energy_left_out".to_owned(), json!(reduction.start_energy_lost));
+        map.insert("residual_coupling_neglected".to_owned(), json!(reduction.coupling_neglected));
+    }
+    out
+}
+
+fn at(place: &Place) -> Value {
+    match place {
+        Place::Dof(i) => json!({ "dof": i }),
+        Place::Position(x) => json!({ "position_m": x }),
+        Place::Row(entries) => json!({ "row": entries }),
+        Place::Spread { from, to } => json!({ "spread_m": [from, to] }),
+    }
+}
+
+fn wall(wall: &Wall) -> Value {
+    let side = if wall.side == Side::Upper { "upper" } else { "lower" };
+    let law = match wall.law {
+        WallLaw::Rigid { restitution } => json!({ "restitution": restitution }),
+        WallLaw::Elastic { stiffness, damping } => {
+            json!({ "stiffness_n_per_m": stiffness, "damping_ns_per_m": damping })
+        }
+        WallLaw::Quartic { epsilon, span } => json!({ "epsilon_m3_per_n": epsilon, "span_m": span }),
+    };
+    json!({ "name": wall.name, "side": side, "position_m": wall.position, "law": law })
+}
+
+fn load(load: &Load) -> Value {
+    match &load.kind {
+        LoadKind::Constant { force } => json!({ "constant": { "force_n": force } }),
+        LoadKind::Harmonic { amplitude, frequency, phase } => {
+            json!({ "harmonic": { "amplitude_n": amplitude, "frequency_hz": frequency, "phase_rad": phase } })
+        }
+        LoadKind::Impulse { impulse, time } => json!({ "impulse": { "impulse_ns": impulse, "time_s": time } }),
+        LoadKind::Table(table) => json!({ "table": { "rows": table.time().len() } }),
+    }
+}

@@ -1,0 +1,259 @@
+//! The programme on its rows, solved exactly from a guess of the rows in play.
+//!
+//! Find r with lᵢ ≤ yᵢ ≤ uᵢ, y = y_free + W r, and rᵢ of the sign of the bound it stands on. A dual active set (Goldfarb
+//! and Idnani 1983, doi:10.1007/BF02591962) written on W: the multipliers always have their sign, each pivot raises the
+//! dual objective, so no set returns and the method ends for any positive semidefinite W — also where several rows see
+//! the same motion (duplicate walls): a row that depends on those in play is left out if they already satisfy it,
+//! exchanged for one of them if not, and reported as infeasible if none can give way. One row at a time, and W in full: the last resort
+//! behind [`super::pivoting`], for rows so nearly dependent that rounding decides its signs.
+
+use super::delassus::Delassus;
+use super::pivoting::Side;
+use super::{Failure, ROUNDING};
+
+/// Pivot of the factor, relative to Wᵢᵢ, under which a row is taken to depend on those before it (dimensionless; the
+/// pivot is sin² of the angle between them, so this is an angle of 1e-6, and 1e4 times its rounding error).
+const DEPENDENT: f64 = 1e-12;
+
+/// The rows in play, the factor of W on them, and work space for all m rows.
+pub(super) struct ActiveSet {
+    m: usize,
+    rows: Vec<usize>,
+    sides: Vec<Side>,
+    /// Lower Cholesky factor of W on `rows`, row by row with stride m.
+    factor: Vec<f64>,
+    /// Forces of `rows`, and the change of them per unit of force on an entering row.
+    force: Vec<f64>,
+    change: Vec<f64>,
+}
+
+impl ActiveSet {
+    pub(super) fn new(m: usize) -> Self {
+        Self {
+            m,
+            rows: Vec::with_capacity(m),
+            sides: Vec::with_capacity(m),
+            factor: vec![0.0; m * m],
+            force: vec![0.0; m],
+            change: vec![0.0; m],
+        }
+    }
+
+    /// Rows in play, in no order.
+    pub(super) fn rows(&self) -> impl Iterator<Item = (usize, Side)> {
+        self.rows.iter().copied().zip(self.sides.iter().copied())
+    }
+
+    /// Calls a row in play; one that depends on those already there stays out. W is positive on what is in play.
+    pub(super) fn push(&mut self, system: &Delassus, row: usize, side: Side) {
+        if self.rows.len() < self.m && !self.rows.contains(&row) && self.extend_factor(system, self.rows.len(), row) {
+            self.rows.push(row);
+            self.sides.push(side);
+        }
+    }
+
+    /// Starts from the rows in play and ends with the exact r (m entries). `scale` is the length that signs of gaps are
+    /// tested against. Returns the number of pivots.
+    pub(super) fn solve(
+        &mut self,
+        system: &Delassus,
+        lo: &[f64],
+        hi: &[f64],
+        scale: f64,
+        r: &mut [f64],
+    ) -> Result<u64, Failure> {
+        let bounds = |row: usize| super::clamp::meet(lo[row], hi[row]);
+        let mut pivots = 0;
+        // A guess is a valid start once no force has the wrong sign; each round removes a row, so this ends.
+        loop {
+            self.balance(system, bounds);
+            let before = self.rows.len();
+            self.keep(system, |side, force| side.sign() * force >= 0.0);
+            if self.rows.len() == before {
+                break;
+            }
+            pivots += (before - self.rows.len()) as u64;
+        }
+        // Far above the few exchanges per row ever seen; a wrong bound here would hang, so it is a failure instead.
+        let limit = 100 + 50 * self.m as u64;
+        loop {
+            r.fill(0.0);
+            for (&row, &force) in self.rows.iter().zip(&self.force) {
+                r[row] = force;
+            }
+            let Some((row, side)) = self.worst(system, bounds, scale, r) else { return Ok(pivots) };
+            self.enter(system, bounds, row, side, r, &mut pivots, limit)?;
+            self.balance(system, bounds);
+            // Only rounding gives a wrong sign here: a force that is zero. It is made so.
+            for (force, side) in self.force.iter_mut().zip(&self.sides) {
+                if side.sign() * *force < 0.0 {
+                    *force = 0.0;
+                }
+            }
+        }
+    }
+
+    /// The row, not in play, whose bound is violated most in units of √Wᵢᵢ, if one is by more than rounding.
+    fn worst(
+        &self,
+        system: &Delassus,
+        bounds: impl Fn(usize) -> (f64, f64),
+        scale: f64,
+        r: &[f64],
+    ) -> Option<(usize, Side)> {
+        let mut worst = (0.0, None);
+        for row in (0..self.m).filter(|row| !self.rows.contains(row)) {
+            let y = self.displacement(system, row, r);
+            let (lo, hi) = bounds(row);
+            let (excess, side) = if y < lo { (lo - y, Side::Lower) } else { (y - hi, Side::Upper) };
+            if excess > ROUNDING * scale && excess / system.weight[row] > worst.0 {
+                worst = (excess / system.weight[row], Some((row, side)));
+            }
+        }
+        worst.1
+    }
+
+    /// y of a row under the forces r.
+    fn displacement(&self, system: &Delassus, row: usize, r: &[f64]) -> f64 {
+        self.rows.iter().fold(system.y[row], |y, &j| y + system.entry(row, j) * r[j])
+    }
+
+    /// Brings a violated row into play, dropping rows whose force falls to zero on the way.
+    #[allow(clippy::too_many_arguments)]
+    fn enter(
+        &mut self,
+        system: &Delassus,
+        bounds: impl Fn(usize) -> (f64, f64),
+        row: usize,
+        side: Side,
+        r: &mut [f64],
+        pivots: &mut u64,
+        limit: u64,
+    ) -> Result<(), Failure> {
+        loop {
+            *pivots += 1;
+            if *pivots > limit {
+                return Err(Failure::NotSolved { status: "the active set did not settle" });
+            }
+            let k = self.rows.len();
+            let independent = self.extend_factor(system, k, row);
+            // W_SS d = −W_Sp σ keeps the rows in play where they are while row p is pushed with σ.
+            for (change, &j) in self.change.iter_mut().zip(&self.rows) {
+                *change = -system.entry(j, row) * side.sign();
+            }
+            triangular(&self.factor, self.m, k, &mut self.change);
+            // Largest push before a force in play would change sign.
+            let mut blocking = (f64::INFINITY, None);
+            for (i, side) in self.sides.iter().enumerate() {
+                let rate = side.sign() * self.change[i];
+                if rate < 0.0 && self.force[i].abs() / -rate < blocking.0 {
+                    blocking = (self.force[i].abs() / -rate, Some(i));
+                }
+            }
+            // Push that brings the row onto its bound: its violation over the Schur complement of W.
+            let full = if independent {
+                let y =
+                    self.rows.iter().zip(&self.force).fold(system.y[row], |y, (&j, f)| y + system.entry(row, j) * f)
+                        + system.entry(row, row) * r[row];
+                let (lo, hi) = bounds(row);
+                let bound = if side == Side::Lower { lo } else { hi };
+                let pivot = self.factor[k * self.m + k];
+                (side.sign() * (bound - y)).max(0.0) / (pivot * pivot)
+            } else {
+                f64::INFINITY
+            };
+            let push = full.min(blocking.0);
+            if push.is_infinite() {
+                return Err(Failure::Infeasible { row, against: self.strongest(system).unwrap_or(row) });
+            }
+            for (force, change) in self.force.iter_mut().zip(&self.change[..k]) {
+                *force += push * change;
+            }
+            r[row] += side.sign() * push;
+            if full <= blocking.0 {
+                self.rows.push(row);
+                self.sides.push(side);
+                return Ok(());
+            }
+            if let Some(i) = blocking.1 {
+                self.rows.remove(i);
+                self.sides.remove(i);
+                self.force.copy_within(i + 1.., i);
+                self.refactor(system);
+            }
+        }
+    }
+
+    /// The row in play that resists an impossible push most.
+    fn strongest(&self, system: &Delassus) -> Option<usize> {
+        let resistance = |i: usize| self.change[i].abs() * system.weight[self.rows[i]];
+        (0..self.rows.len())
+            .filter(|&i| self.change[i] != 0.0)
+            .max_by(|&i, &j| resistance(i).total_cmp(&resistance(j)))
+            .map(|i| self.rows[i])
+    }
+
+    /// Forces that put every row in play exactly on its bound: W_SS r = bound − y_free.
+    fn balance(&mut self, system: &Delassus, bounds: impl Fn(usize) -> (f64, f64)) {
+        for (i, (&row, &side)) in self.rows.iter().zip(&self.sides).enumerate() {
+            let (lo, hi) = bounds(row);
+            let bound = if side == Side::Lower { lo } else { hi };
+            self.force[i] = bound - system.y[row];
+        }
+        triangular(&self.factor, self.m, self.rows.len(), &mut self.force);
+    }
+
+    fn keep(&mut self, system: &Delassus, wanted: impl Fn(Side, f64) -> bool) {
+        let mut kept = 0;
+        for i in 0..self.rows.len() {
+            if wanted(self.sides[i], self.force[i]) {
+                (self.rows[kept], self.sides[kept]) = (self.rows[i], self.sides[i]);
+                kept += 1;
+            }
+        }
+        if kept < self.rows.len() {
+            self.rows.truncate(kept);
+            self.sides.truncate(kept);
+            self.refactor(system);
+        }
+    }
+
+    fn refactor(&mut self, system: &Delassus) {
+        for k in 0..self.rows.len() {
+            // A subset of independent rows is independent.
+            self.extend_factor(system, k, self.rows[k]);
+        }
+    }
+
+    /// Row k of the Cholesky factor, for `row` behind the first k rows in play. False where it depends on them.
+    fn extend_factor(&mut self, system: &Delassus, k: usize, row: usize) -> bool {
+        let m = self.m;
+        let (done, line) = self.factor.split_at_mut(k * m);
+        let mut pivot = system.entry(row, row);
+        for j in 0..k {
+            let above = &done[j * m..=j * m + j];
+            let dot: f64 = above[..j].iter().zip(&line[..j]).map(|(a, b)| a * b).sum();
+            line[j] = (system.entry(row, self.rows[j]) - dot) / above[j];
+            pivot -= line[j] * line[j];
+        }
+        let independent = pivot > DEPENDENT * system.entry(row, row);
+        // Kept positive so that a refactored row divides by a number whatever rounding did.
+        line[k] = pivot.max(f64::MIN_POSITIVE).sqrt();
+        independent
+    }
+}
+
+/// Solves L Lᵀ v = v in place for the leading k × k part of a factor stored by rows with stride m.
+fn triangular(factor: &[f64], m: usize, k: usize, v: &mut [f64]) {
+    for i in 0..k {
+        let line = &factor[i * m..=i * m + i];
+        let dot: f64 = line[..i].iter().zip(&v[..i]).map(|(a, b)| a * b).sum();
+        v[i] = (v[i] - dot) / line[i];
+    }
+    for i in (0..k).rev() {
+        v[i] /= factor[i * m + i];
+        for j in 0..i {
+            v[j] -= factor[i * m + j] * v[i];
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! Rows in play that follow from others in play.
+//!
+//! Walls that see the same motion make W singular on the rows S in play. A row k that follows from the rows B of the factor, W_BB c = W_Bk,
+//! gives the direction N = eₖ − Σ cⱼ eⱼ of forces that move nothing. W_SS r = q is then taken for the limit δ → 0 of (W_SS + δ D) r = q,
+//! D = diag(Wᵢᵢ), in which every matrix is positive definite and every solution unique:
+//!
+//! r = e/δ + r₀ + O(δ),   e = N z,  NᵀD N z = Nᵀq,   W r₀ = q − D e,  NᵀD r₀ = 0.
+//!
+//! Where the bounds can all be met, Nᵀq = 0, e is 0, and r₀ is the solution of least Σ Wᵢᵢ rᵢ²: equal walls at one place share equally.
+//! Where they cannot, e is the escape: forces that grow without limit and move nothing.
+
+use super::delassus::Delassus;
+use super::{NOISE, ROUNDING};
+
+/// A row of less than this share in a combination gives way to none of the others (dimensionless).
+const PART: f64 = 1e-3;
+
+/// An escape, or a yielding, of this share of the largest one is its rounding (dimensionless).
+pub(super) const SPREAD: f64 = 1e-9;
+
+/// Most room made beforehand for the relations of dependent rows among each other, 32 MB: more is made when it is needed.
+const MOST_GRAM: usize = 1 << 22;
+
+/// The dependent rows, and what they have to do with those of the factor.
+#[derive(Default)]
+pub(super) struct Relations {
+    /// The rows, in the order in which they were met.
+    rows: Vec<usize>,
+    /// c of each, one after the other, over the rows of the factor as far as it was then.
+    combination: Vec<f64>,
+    ends: Vec<usize>,
+    /// Lower Cholesky factor of NᵀD N, row after row without gaps.
+    gram: Vec<f64>,
+    /// z, or the forces of the dependent rows.
+    share: Vec<f64>,
+    /// e over all m rows; all 0 unless `escapes`.
+    escape: Vec<f64>,
+    escapes: bool,
+}
+
+impl Relations {
+    pub(super) fn new(m: usize) -> Self {
+        Self { ends: vec![0], escape: vec![0.0; m], ..Self::default() }
+    }
+
+    /// The dependent rows.
+    pub(super) fn rows(&self) -> &[usize] {
+        &self.rows
+    }
+
+    /// Makes room for as many rows as there are now, and as long combinations as `m` rows can have.
+    pub(super) fn reserve(&mut self, m: usize) {
+        let count = self.rows.len();
+        self.combination.reserve(m);
+        self.gram.reserve((count * (count + 1) / 2).min(MOST_GRAM));
+        self.share.reserve(count);
+    }
+
+    /// Keeps the first `count`.
+    pub(super) fn truncate(&mut self, count: usize) {
+        self.rows.truncate(count);
+        self.ends.truncate(count + 1);
+        self.combination.truncate(self.ends.last().copied().unwrap_or(0));
+    }
+
+    /// Adds a row with its combination.
+    pub(super) fn push(&mut self, row: usize, combination: &[f64]) {
+        self.rows.push(row);
+        self.combination.extend_from_slice(combination);
+        self.ends.push(self.combination.len());
+    }
+
+    /// c of dependent row `i`.
+    fn combination(&self, i: usize) -> &[f64] {
+        &self.combination[self.ends[i]..self.ends[i + 1]]
+    }
+
+    /// Factors NᵀD N.
+    pub(super) fn factor(&mut self, system: &Delassus, basis: &[usize]) {
+        let mut gram = std::mem::take(&mut self.gram);
+        gram.clear();
+        for i in 0..self.rows.len() {
+            let at = gram.len();
+            for j in 0..=i {
+                let common = self.combination(i).iter().zip(self.combination(j)).zip(basis);
+                let start = j * (j + 1) / 2;
+                let mut sum: f64 = common.map(|((a, b), &row)| a * b * system.square(row)).sum();
+                sum -= gram[start..start + j].iter().zip(&gram[at..]).map(|(a, b)| a * b).sum::<f64>();
+                // D of the row itself bounds the pivot from below.
+                gram.push(match i == j {
+                    true => (sum.max(0.0) + system.square(self.rows[i])).sqrt(),
+                    false => sum / gram[start + j],
+                });
+            }
+        }
+        self.gram = gram;
+    }
+
+    /// Solves NᵀD N z = `share` in place.
+    fn weigh(&mut self) {
+        let v = &mut self.share;
+        for i in 0..v.len() {
+            let line = &self.gram[i * (i + 1) / 2..];
+            let known: f64 = line[..i].iter().zip(&v[..i]).map(|(a, b)| a * b).sum();
+            v[i] = (v[i] - known) / line[i];
+        }
+        for i in (0..v.len()).rev() {
+            let line = &self.gram[i * (i + 1) / 2..];
+            v[i] /= line[i];
+            for j in 0..i {
+                v[j] -= line[j] * v[i];
+            }
+        }
+    }
+
+    /// How far a row may miss its bound for rounding of states and bounds, and still be met with the rows of its combination. Whichever of
+    /// them gives way to the others misses its own bound by the miss over its part.
+    pub(super) fn allowed(
+        system: &Delassus,
+        row: usize,
+        combination: &[f64],
+        basis: &[usize],
+        slack: impl Fn(usize) -> f64,
+    ) -> f64 {
+        combination.iter().zip(basis).fold(slack(row), |allowed, (&c, &j)| {
+            let part = c.abs() * system.weight[j] > PART * system.weight[row];
+            if part { f64::min(allowed, c.abs() * slack(j)) } else { allowed }
+        })
+    }
+
+    /// Forgets the escape.
+    pub(super) fn calm(&mut self) {
+        if self.escapes {
+            self.escape.fill(0.0);
+            self.escapes = false;
+        }
+    }
+
+    /// e, if it is not 0.
+    pub(super) fn escape(&self) -> Option<&[f64]> {
+        self.escapes.then_some(&self.escape)
+    }
+
+    /// Finds e, and puts q − D e in the place of q, which `asked` holds over the basis and `shift` gives for the dependent rows.
+    pub(super) fn reconcile(
+        &mut self,
+        system: &Delassus,
+        basis: &[usize],
+        asked: &mut [f64],
+        shift: impl Fn(usize) -> f64,
+        slack: impl Fn(usize) -> f64,
+    ) {
+        self.share.clear();
+        for (i, &row) in self.rows.iter().enumerate() {
+            let combination = &self.combination[self.ends[i]..self.ends[i + 1]];
+            let (mut miss, mut rounding) = (shift(row), 0.0);
+            for ((&c, &q), &j) in combination.iter().zip(asked.iter()).zip(basis) {
+                miss -= c * q;
+                rounding += c.abs() * (NOISE * q.abs() + f64::EPSILON / ROUNDING * slack(j));
+            }
+            let met = miss.abs() <= Self::allowed(system, row, combination, basis, &slack) + rounding;
+            self.escapes |= !met;
+            self.share.push(if met { 0.0 } else { miss });
+        }
+        if !self.escapes {
+            return;
+        }
+        self.weigh();
+        for (i, &row) in self.rows.iter().enumerate() {
+            self.escape[row] += self.share[i];
+            for (&j, c) in basis.iter().zip(&self.combination[self.ends[i]..self.ends[i + 1]]) {
+                self.escape[j] -= c * self.share[i];
+            }
+        }
+        let reach = |row: usize, e: f64| e.abs() * system.weight[row];
+        let all = || basis.iter().chain(&self.rows);
+        let most = all().fold(0.0, |most, &row| f64::max(most, reach(row, self.escape[row])));
+        for &row in basis.iter().chain(&self.rows) {
+            if reach(row, self.escape[row]) <= SPREAD * most {
+                self.escape[row] = 0.0;
+            }
+        }
+        for (q, &row) in asked.iter_mut().zip(basis) {
+            *q -= system.square(row) * self.escape[row];
+        }
+    }
+
+    /// Of all forces that do the same as `force` on the basis, those of least Σ Wᵢᵢ rᵢ²; r of the dependent rows is written.
+    pub(super) fn divide(&mut self, system: &Delassus, basis: &[usize], force: &mut [f64], r: &mut [f64]) {
+        self.share.clear();
+        for i in 0..self.rows.len() {
+            let terms = self.combination(i).iter().zip(force.iter()).zip(basis);
+            let sum = terms.map(|((c, r), &row)| c * r * system.square(row)).sum();
+            self.share.push(sum);
+        }
+        self.weigh();
+        for (i, &share) in self.share.iter().enumerate() {
+            for (r, c) in force.iter_mut().zip(&self.combination[self.ends[i]..self.ends[i + 1]]) {
+                *r -= c * share;
+            }
+            r[self.rows[i]] = share;
+        }
+    }
+}

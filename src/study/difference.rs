@@ -1,0 +1,45 @@
+//! How far two recorded motions of one scene lie apart, row by row: what every study calls |Δu|.
+
+use crate::scene::Scene;
+use crate::trajectory::Trajectory;
+
+/// The rows of `run` and of `against`, which share them: time (s) and the largest |Δu| (m) over the probes. Nothing where no probe is common to both.
+/// A difference that is no number is kept as such.
+pub(crate) fn rows<'a>(run: &'a Trajectory, against: &'a Trajectory) -> impl Iterator<Item = (f64, f64)> + 'a {
+    let probes = run.displacements().len().min(against.displacements().len());
+    let (mine, others) = (run.displacements(), against.displacements());
+    let length = run.time().len().min(against.time().len());
+    let count = if probes == 0 { 0 } else { length };
+    let largest = move |row: usize| {
+        let pairs = mine.iter().zip(others).filter_map(move |(x, y)| Some((x.get(row)?, y.get(row)?)));
+        pairs.fold(0.0, |most, (x, y)| worse(most, (x - y).abs()))
+    };
+    against.time().iter().take(count).enumerate().map(move |(row, &t)| (t, largest(row)))
+}
+
+/// The larger of two, and NaN if either is: a run that left the numbers agrees with nothing.
+pub(crate) fn worse(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
+}
+
+/// The largest |value| of some columns.
+pub(crate) fn largest(columns: &[Vec<f64>]) -> f64 {
+    columns.iter().flatten().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// The largest speed at each wall, m/s, in the scene's order: by the probe that looks where the wall stands; where there is none, the larger of the fastest
+/// contact and the fastest probe.
+pub(crate) fn wall_speeds(scene: &Scene, motion: &Trajectory) -> Vec<f64> {
+    let fastest = largest(motion.velocities());
+    let speed = |(index, wall): (usize, &crate::scene::Wall)| {
+        let probe = scene.probes.iter().position(|p| p.at == wall.at).and_then(|p| motion.velocities().get(p));
+        match probe {
+            Some(column) => column.iter().fold(0.0, |most: f64, v| most.max(v.abs())),
+            None => {
+                let here = motion.contacts().iter().filter(|c| c.wall == index);
+                here.fold(fastest, |most, c| most.max(c.approach_speed))
+            }
+        }
+    };
+    scene.walls.iter().enumerate().map(speed).collect()
+}
