@@ -27,7 +27,7 @@ Examples:
   signorini run rigid-walls-sine --restitution 0.8 --scheme moreau-jean --accuracy 1e-3
   signorini run tube-loose-supports --modes 40
 
-Schemes: implicit-euler, paoli-schatzman, moreau-jean, newmark (an exhibit), penalty, event (exact).";
+Schemes: implicit-euler, paoli-schatzman, moreau-jean, generalized-alpha, newmark (an exhibit), penalty, event (exact).";
 
 /// Run one case by one scheme: trajectory, contacts, summary and figures
 #[derive(Debug, clap::Args)]

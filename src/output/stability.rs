@@ -144,7 +144,7 @@ pub fn impact_figure(maps: &[ImpactMap], e: f64) -> String {
         let (low, high) = wide.fold((1.0_f64, 1.0_f64), |(a, b), (low, high)| (a.min(low), b.max(high)));
         let mut panel = Panel::new("Restitution (–)").heading(format!("Penalty, h²k_w/m = {kappa}"));
         panel = if high / low.max(f64::MIN_POSITIVE) > 100.0 { panel.log() } else { panel };
-        for (map, look) in maps.iter().filter(|m| m.kappa == Some(kappa)).zip(7..) {
+        for (map, look) in maps.iter().filter(|m| m.kappa == Some(kappa)).zip(8..) {
             let name = map.label.split(", ").nth(1).unwrap_or_default();
             panel = panel.curve(Curve::new(format!("penalty, {name}"), points(map)).look(look));
         }
