@@ -27,7 +27,7 @@ Examples:
   signorini run rigid-walls-sine --restitution 0.8 --scheme moreau-jean --accuracy 1e-3
   signorini run tube-loose-supports --modes 40
 
-Schemes: implicit-euler, paoli-schatzman, moreau-jean, newmark (an exhibit), penalty, event (exact).";
+Schemes: implicit-euler, paoli-schatzman, moreau-jean, generalized-alpha, newmark (an exhibit), penalty, event (exact).";
 
 /// Run one case by one scheme: trajectory, contacts, summary and figures
 #[derive(Debug, clap::Args)]
@@ -42,7 +42,7 @@ pub struct Args {
     /// not kept to the end; where the case is cut to modes, as many of them as that takes
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     accuracy: Option<f64>,
-    /// Do not repeat the run with half the step
+    /// Do not repeat the run with half the step, nor with more modes where the case is cut to modes
     #[arg(long)]
     no_verdict: bool,
 }
