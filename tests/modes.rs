@@ -264,7 +264,7 @@ fn few_modes_of_random_networks_are_those_of_full_matrices_and_survive_renumberi
                 all.omega[i]
             );
             // 7 i + 3 is a renumbering where 7 does not divide n.
-            if let Some(renumbered) = renumbered.as_ref().ok().filter(|_| n % 7 != 0) {
+            if let Some(renumbered) = renumbered.as_ref().ok().filter(|_| !n.is_multiple_of(7)) {
                 assert!((few.omega[i] - renumbered.omega[i]).abs() <= bound, "{draw}, mode {i}");
             }
         }
@@ -305,21 +305,23 @@ fn rayleigh_damping_is_recognised_on_large_structures() {
 
 #[test]
 fn equal_frequencies_are_all_found() {
-    // Six equal chains that do not touch: each frequency six times, more than Lanczos starts with vectors.
-    let (one, copies) = (120, 6);
-    let cut = |i: usize| (i + 1) % one == 0;
-    let n = one * copies;
-    let springs: Vec<f64> = (0..n - 1).map(|i| if cut(i) { 0.0 } else { 1e4 }).collect();
-    let chain = Chain { masses: vec![1.0; n], springs, grounds: [0.0, 0.0] }.structure().unwrap();
-    let held = (0..copies).flat_map(|c| [(c * one, c * one, 1e4), (c * one + one - 1, c * one + one - 1, 1e4)]);
-    let ground = Symmetric::from_entries(n, held);
-    let structure = Structure { stiffness: Symmetric::sum(&[(1.0, &chain.stiffness), (1.0, &ground)]), ..chain };
-    let modes = Modes::lowest(&structure, 3 * copies).unwrap();
-    for (i, omega) in modes.omega.iter().enumerate() {
-        let exact = 200.0 * ((i / copies + 1) as f64 * PI / (2.0 * (one + 1) as f64)).sin();
-        assert!((omega - exact).abs() < 1e-10 * exact, "mode {i}: {omega} {exact}");
+    // Equal chains that do not touch: each frequency as many times, more than Lanczos has start vectors. Fifty short ones exhaust its space at once, where only
+    // the count of what is below tells that most are missing.
+    for (one, copies, count) in [(120, 6, 18), (4, 50, 20)] {
+        let n = one * copies;
+        let springs: Vec<f64> = (1..n).map(|i| if i % one == 0 { 0.0 } else { 1e4 }).collect();
+        let chain = Chain { masses: vec![1.0; n], springs, grounds: [0.0, 0.0] }.structure().unwrap();
+        let held = (0..copies).flat_map(|c| [c * one, c * one + one - 1]).map(|i| (i, i, 1e4));
+        let ground = Symmetric::from_entries(n, held);
+        let structure = Structure { stiffness: Symmetric::sum(&[(1.0, &chain.stiffness), (1.0, &ground)]), ..chain };
+        let modes = Modes::lowest(&structure, count).unwrap();
+        for (i, omega) in modes.omega.iter().enumerate() {
+            let exact = 200.0 * ((i / copies + 1) as f64 * PI / (2.0 * (one + 1) as f64)).sin();
+            // Shapes are good to 1e-11, frequencies to its square and rounding.
+            assert!((omega - exact).abs() < 1e-10 * exact, "{copies} copies, mode {i}: {omega} {exact}");
+        }
+        assert!(defects(&structure, &modes).0 < 1e-12);
     }
-    assert!(defects(&structure, &modes).0 < 1e-12);
 }
 
 #[test]

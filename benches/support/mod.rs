@@ -1,5 +1,7 @@
 //! What the benches share: timing, and Clarabel as one would set it by hand.
 
+#![allow(dead_code)] // each bench uses a part of it
+
 use clarabel::solver::DefaultSettings;
 use std::time::Instant;
 

@@ -123,6 +123,12 @@ fn files(folder: &Path, case: &Case, comparison: &Comparison, verdicts: &[Option
             Some(Labelled { label, run, reference: row.method.scheme == Scheme::Event })
         })
         .collect();
+    let refined =
+        comparison.refined.as_ref().map(|(method, run)| (format!("{method}, h = {:.1e} s", run.grid.step), run));
+    let runs: Vec<Labelled<'_>> = match &refined {
+        Some((label, run)) => runs.into_iter().chain([Labelled { label, run, reference: true }]).collect(),
+        None => runs,
+    };
     let title = case.title.as_deref().unwrap_or(&case.name);
     let sheet = Sheet { title, scene: &case.scene, runs: &runs, until: comparison.horizon };
     for (name, svg) in sheet.figures()? {
@@ -149,6 +155,7 @@ fn cells(case: &Case, comparison: &Comparison, show: impl Fn(f64) -> String) -> 
     let walls = &case.scene.walls;
     header.extend(walls.iter().map(|w| format!("impulse_{}_Ns", w.name)));
     header.extend(walls.iter().map(|w| format!("contacts_{}", w.name)));
+    header.extend(walls.iter().map(|w| format!("peak_force_{}_N", w.name)));
     header.extend(["energy_residual", "complementarity_residual", "step_ns", "failure"].map(str::to_owned));
     let number = |x: Option<f64>| x.map_or_else(String::new, &show);
     let line = |row: &Row| {
@@ -168,12 +175,13 @@ fn cells(case: &Case, comparison: &Comparison, show: impl Fn(f64) -> String) -> 
         line.push(number(row.error));
         line.push(number(row.error.map(|_| comparison.horizon)));
         line.push(number(row.agrees_until));
-        line.push(show(largest(run.trajectory.displacement())));
+        line.push(show(largest(run.trajectory.displacements())));
         line.push(show(penetration(case, run)));
-        line.push(number(peak(run)));
+        line.push(number(peak(run, None)));
         line.extend(walls.iter().map(|w| number(run.trajectory.impulse(&w.name).ok())));
         let contacts = |wall| run.trajectory.contacts().iter().filter(|c| c.wall == wall).count();
         line.extend((0..walls.len()).map(|wall| contacts(wall).to_string()));
+        line.extend((0..walls.len()).map(|wall| number(peak(run, Some(wall)))));
         line.extend([run.residuals.energy.residual, run.residuals.complementarity].map(&show));
         line.push(number(row.step_ns));
         line.push(String::new());
@@ -183,8 +191,8 @@ fn cells(case: &Case, comparison: &Comparison, show: impl Fn(f64) -> String) -> 
     (header, rows)
 }
 
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |a, x| a.max(x.abs()))
+fn largest(columns: &[Vec<f64>]) -> f64 {
+    columns.iter().flatten().fold(0.0, |a, x| a.max(x.abs()))
 }
 
 /// Deepest position behind a wall that the scene calls rigid, m.
@@ -193,9 +201,10 @@ fn penetration(case: &Case, run: &crate::run::Run) -> f64 {
     walls.filter(|(wall, _)| wall.law.is_rigid()).fold(0.0, |a, (_, depth)| a.max(*depth))
 }
 
-/// Largest force of all contacts whose force is finite, N.
-fn peak(run: &crate::run::Run) -> Option<f64> {
-    run.trajectory.contacts().iter().filter_map(|c| c.peak_force).reduce(f64::max)
+/// Largest force of the contacts whose force is finite, N: of one wall, or of all.
+fn peak(run: &crate::run::Run, wall: Option<usize>) -> Option<f64> {
+    let here = run.trajectory.contacts().iter().filter(|c| wall.is_none_or(|wall| c.wall == wall));
+    here.filter_map(|c| c.peak_force).reduce(f64::max)
 }
 
 fn table(case: &Case, comparison: &Comparison, ui: &Ui) {
@@ -207,13 +216,17 @@ fn table(case: &Case, comparison: &Comparison, ui: &Ui) {
     }
     let rows: Vec<_> = comparison.rows.iter().map(|row| terminal_row(case, comparison, row)).collect();
     let walls: Vec<&str> = case.scene.walls.iter().map(|w| w.name.as_str()).collect();
-    let of_walls = format!("impulse {} (N s)", walls.join(" "));
+    let of_walls = match walls.len() {
+        count if count > MOST_WALLS => format!("Σ|impulse| of {count} walls (N s)"),
+        _ => format!("impulse {} (N s)", walls.join(" ")),
+    };
     let mut header = TERMINAL_HEADER;
     header[IMPULSE_COLUMN] = of_walls.trim();
     ui.table(&header, &rows);
 }
 
-/// The columns a reader compares, in few characters; the CSV and `--json` have them all. Columns of walls list them in the scene's order.
+/// The columns a reader compares, in few characters; the CSV and `--json` have them all. Columns of walls list them in the scene's order,
+/// or sum over them.
 const TERMINAL_HEADER: [&str; 13] = [
     "method",
     "step (s)",
@@ -229,6 +242,9 @@ const TERMINAL_HEADER: [&str; 13] = [
     "compl. res.",
     "ns/step",
 ];
+
+/// Walls that the terminal lists one by one, at most: beyond, it shows sums over all.
+const MOST_WALLS: usize = 4;
 
 /// Where the impulses stand among them.
 const IMPULSE_COLUMN: usize = 8;
@@ -249,6 +265,7 @@ fn terminal_row(case: &Case, comparison: &Comparison, row: &Row) -> Vec<String> 
         }
     });
     let walls = &case.scene.walls;
+    let many = walls.len() > MOST_WALLS;
     let per_wall = |text: &dyn Fn(usize, &str) -> String| {
         let all: Vec<String> = walls.iter().enumerate().map(|(i, w)| text(i, &w.name)).collect();
         if all.is_empty() { dash() } else { all.join(" ") }
@@ -262,11 +279,20 @@ fn terminal_row(case: &Case, comparison: &Comparison, row: &Row) -> Vec<String> 
         row.agrees_until.map_or_else(dash, |t| {
             if t >= comparison.horizon.max(case.scene.duration) { "end".into() } else { format!("{t:.3}") }
         }),
-        format!("{:.4}", 1e3 * largest(run.trajectory.displacement())),
+        format!("{:.4}", 1e3 * largest(run.trajectory.displacements())),
         short(1e3 * penetration(case, run)),
-        peak(run).map_or_else(|| if impacts_only { "impacts".into() } else { dash() }, |f| format!("{f:.2}")),
-        per_wall(&|_, name| format!("{:+.3}", run.trajectory.impulse(name).unwrap_or(f64::NAN))),
-        per_wall(&|i, _| run.trajectory.contacts().iter().filter(|c| c.wall == i).count().to_string()),
+        peak(run, None).map_or_else(|| if impacts_only { "impacts".into() } else { dash() }, |f| format!("{f:.2}")),
+        if many {
+            let impulse = |w: &crate::scene::Wall| run.trajectory.impulse(&w.name).unwrap_or(f64::NAN).abs();
+            format!("{:.3}", walls.iter().map(impulse).sum::<f64>())
+        } else {
+            per_wall(&|_, name| format!("{:+.3}", run.trajectory.impulse(name).unwrap_or(f64::NAN)))
+        },
+        if many {
+            run.trajectory.contacts().len().to_string()
+        } else {
+            per_wall(&|i, _| run.trajectory.contacts().iter().filter(|c| c.wall == i).count().to_string())
+        },
         short(run.residuals.energy.residual),
         short(run.residuals.complementarity),
         row.step_ns.map_or_else(dash, |ns| format!("{ns:.0}")),

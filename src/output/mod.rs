@@ -14,6 +14,7 @@ pub mod atomic;
 pub mod csv;
 pub mod figure;
 pub mod pictures;
+mod places;
 pub mod stability;
 pub mod summary;
 pub mod work_precision;

@@ -1,9 +1,13 @@
 //! The figures of one run, or of several laid over one another.
+//!
+//! One degree of freedom has one panel a figure. Of several, each probe has its panel, and in the figure of forces each place at which walls stand; where there
+//! are more than a page holds, those with the most contact are drawn, and the title says of how many.
 
 use super::figure::{Curve, Figure, Mark, Panel, Stems};
+use super::places::{Chosen, Place};
 use crate::error::Result;
 use crate::run::Run;
-use crate::scene::{Scene, Side};
+use crate::scene::{Row, Scene, Side};
 use crate::step::Contact;
 
 /// Rows of the CSV are SI; figures of vibrations read better in millimetres.
@@ -39,15 +43,44 @@ impl Sheet<'_> {
     /// # Errors
     /// None beyond those of a trajectory asked for its own walls.
     pub fn figures(&self) -> Result<Vec<(&'static str, String)>> {
-        let mut figures = vec![
-            ("displacement.svg", self.displacement()),
-            ("velocity.svg", self.velocity()),
-            ("phase.svg", self.phase()),
-        ];
+        let mut figures = Vec::new();
+        let probes = self.probes();
+        if !probes.shown.is_empty() {
+            figures.push(("displacement.svg", self.displacement(&probes)));
+            figures.push(("velocity.svg", self.velocity(&probes)));
+            figures.push(("phase.svg", self.phase(&probes)));
+        }
         if !self.scene.walls.is_empty() {
             figures.push(("contact-force.svg", self.contact_force()?));
         }
         Ok(figures)
+    }
+
+    /// The run whose contacts decide what is drawn: the reference, else the first.
+    fn leading(&self) -> Option<&Run> {
+        self.runs.iter().find(|r| r.reference).or(self.runs.first()).map(|r| r.run)
+    }
+
+    fn probes(&self) -> Chosen<usize> {
+        Chosen::probes(self.scene, self.leading().map(|run| &run.trajectory))
+    }
+
+    fn title(&self, left_out: Option<String>) -> String {
+        left_out.map_or_else(|| self.title.to_owned(), |what| format!("{} ({what})", self.title))
+    }
+
+    /// A panel for a probe: with its name, where there are several.
+    fn panel(&self, label: &str, probe: usize) -> Panel {
+        let name = self.scene.probes.get(probe).map_or("", |p| p.name.as_str());
+        let panel = Panel::new(label);
+        if self.scene.probes.len() > 1 { panel.heading(name) } else { panel }
+    }
+
+    /// The walls that stand where the probe looks: its panel alone shows them.
+    fn marks(&self, probe: usize) -> impl Iterator<Item = Mark> {
+        let place: Option<&Row> = self.scene.probes.get(probe).map(|p| &p.at);
+        let seen = self.scene.walls.iter().filter(move |wall| Some(&wall.at) == place);
+        seen.map(|wall| Mark::wall(MM * wall.position, wall.name.as_str()))
     }
 
     fn curve(&self, labelled: &Labelled<'_>, points: impl Iterator<Item = (f64, f64)>) -> Curve {
@@ -55,48 +88,60 @@ impl Sheet<'_> {
         if labelled.reference { curve.backdrop() } else { curve }
     }
 
-    fn rows<'b>(&self, run: &'b Run) -> impl Iterator<Item = (f64, f64, f64)> + 'b {
+    fn rows<'b>(&self, run: &'b Run, probe: usize) -> impl Iterator<Item = (f64, f64, f64)> + 'b {
         let t = &run.trajectory;
         let until = self.until;
-        let rows = t.time().iter().zip(t.displacement()).zip(t.velocity()).map(|((&t, &q), &v)| (t, q, v));
+        let displacement = t.displacements().get(probe).into_iter().flatten();
+        let velocity = t.velocities().get(probe).into_iter().flatten();
+        let rows = t.time().iter().zip(displacement).zip(velocity).map(|((&t, &q), &v)| (t, q, v));
         rows.take_while(move |row| row.0 <= until * (1.0 + 1e-12))
     }
 
-    fn displacement(&self) -> String {
-        let mut panel = Panel::new("Displacement (mm)");
-        for labelled in self.runs {
-            panel = panel.curve(self.curve(labelled, self.rows(labelled.run).map(|(t, q, _)| (t, MM * q))));
+    fn displacement(&self, probes: &Chosen<usize>) -> String {
+        let mut figure = Figure::new(self.title(probes.left_out("probes")), "Time (s)");
+        for &probe in &probes.shown {
+            let mut panel = self.panel("Displacement (mm)", probe);
+            for labelled in self.runs {
+                let rows = self.rows(labelled.run, probe);
+                panel = panel.curve(self.curve(labelled, rows.map(|(t, q, _)| (t, MM * q))));
+            }
+            figure = figure.panel(self.marks(probe).fold(panel, Panel::mark));
         }
-        for wall in &self.scene.walls {
-            panel = panel.mark(Mark::wall(MM * wall.position, wall.name.as_str()));
-        }
-        Figure::new(self.title, "Time (s)").panel(panel).to_svg()
+        figure.to_svg()
     }
 
-    fn velocity(&self) -> String {
-        let mut panel = Panel::new("Velocity (mm/s)");
-        for labelled in self.runs {
-            panel = panel.curve(self.curve(labelled, self.rows(labelled.run).map(|(t, _, v)| (t, MM * v))));
+    fn velocity(&self, probes: &Chosen<usize>) -> String {
+        let mut figure = Figure::new(self.title(probes.left_out("probes")), "Time (s)");
+        for &probe in &probes.shown {
+            let mut panel = self.panel("Velocity (mm/s)", probe);
+            for labelled in self.runs {
+                let rows = self.rows(labelled.run, probe);
+                panel = panel.curve(self.curve(labelled, rows.map(|(t, _, v)| (t, MM * v))));
+            }
+            figure = figure.panel(panel);
         }
-        Figure::new(self.title, "Time (s)").panel(panel).to_svg()
+        figure.to_svg()
     }
 
-    fn phase(&self) -> String {
-        let mut panel = Panel::new("Velocity (mm/s)");
-        for labelled in self.runs {
-            panel = panel.curve(self.curve(labelled, self.orbit(labelled.run).into_iter()));
+    fn phase(&self, probes: &Chosen<usize>) -> String {
+        let mut figure = Figure::new(self.title(probes.left_out("probes")), "Displacement (mm)");
+        for &probe in &probes.shown {
+            let mut panel = self.panel("Velocity (mm/s)", probe);
+            for labelled in self.runs {
+                panel = panel.curve(self.curve(labelled, self.orbit(labelled.run, probe).into_iter()));
+            }
+            figure = figure.panel(self.marks(probe).map(Mark::upright).fold(panel, Panel::mark));
         }
-        for wall in &self.scene.walls {
-            panel = panel.mark(Mark::wall(MM * wall.position, wall.name.as_str()).upright());
-        }
-        Figure::new(self.title, "Displacement (mm)").panel(panel).to_svg()
+        figure.to_svg()
     }
 
     /// The orbit with the corners of its rigid impacts put in, so that they are drawn at the wall and upright.
-    fn orbit(&self, run: &Run) -> Vec<(f64, f64)> {
-        let mut impacts = run.trajectory.contacts().iter().filter(|c| is_impact(c)).peekable();
+    fn orbit(&self, run: &Run, probe: usize) -> Vec<(f64, f64)> {
+        let place = self.scene.probes.get(probe).map(|p| &p.at);
+        let seen = |c: &&Contact| self.scene.walls.get(c.wall).map(|w| &w.at) == place;
+        let mut impacts = run.trajectory.contacts().iter().filter(|c| is_impact(c)).filter(seen).peekable();
         let mut points = Vec::new();
-        for (t, q, v) in self.rows(run) {
+        for (t, q, v) in self.rows(run, probe) {
             while let Some(c) = impacts.next_if(|c| c.start <= t) {
                 if let (Some(wall), Some(departure)) = (self.scene.walls.get(c.wall), c.departure_speed) {
                     let sign = wall.side.sign();
@@ -109,41 +154,51 @@ impl Sheet<'_> {
         points
     }
 
-    /// Finite forces as curves in N, impulses of impacts as stems in N s, each in a panel of its own where it occurs.
+    /// Of each place, finite forces as curves in N, impulses of impacts as stems in N s, each in a panel of its own where it occurs.
     fn contact_force(&self) -> Result<String> {
-        let mut force = Panel::new("Contact force (N)");
-        let mut impulse = Panel::new("Contact impulse (N s)");
-        let (mut forces, mut impulses) = (false, false);
-        for labelled in self.runs {
-            let run = labelled.run;
-            let seen = run.trajectory.contacts().iter().filter(|c| c.start <= self.until);
-            let impacts: Vec<_> = seen.clone().filter(|c| is_impact(c)).map(|c| (c.start, c.impulse)).collect();
-            if seen.clone().any(|c| !is_impact(c)) || run.trajectory.contacts().is_empty() {
-                force = force.curve(self.curve(labelled, self.force_points(run)?.into_iter()));
-                forces = true;
+        let places = Chosen::places(self.scene, self.leading().map(|run| &run.trajectory));
+        let mut figure = Figure::new(self.title(places.left_out("places of contact")), "Time (s)");
+        let headed = |label: &str, place: &Place| {
+            let panel = Panel::new(label);
+            if places.count > 1 { panel.heading(place.name(self.scene)) } else { panel }
+        };
+        for place in &places.shown {
+            let mut force = headed("Contact force (N)", place);
+            let mut impulse = headed("Contact impulse (N s)", place);
+            let (mut forces, mut impulses) = (false, false);
+            for labelled in self.runs {
+                let run = labelled.run;
+                let here = run.trajectory.contacts().iter().filter(|c| place.walls.contains(&c.wall));
+                let none = here.clone().next().is_none();
+                let seen = here.filter(|c| c.start <= self.until);
+                let impacts: Vec<_> = seen.clone().filter(|c| is_impact(c)).map(|c| (c.start, c.impulse)).collect();
+                if seen.clone().any(|c| !is_impact(c)) || none {
+                    force = force.curve(self.curve(labelled, self.force_points(run, place)?.into_iter()));
+                    forces = true;
+                }
+                if !impacts.is_empty() {
+                    impulse = impulse.stems(Stems::new(labelled.label, impacts));
+                    impulses = true;
+                }
             }
-            if !impacts.is_empty() {
-                impulse = impulse.stems(Stems::new(labelled.label, impacts));
-                impulses = true;
+            if forces || !impulses {
+                figure = figure.panel(force);
             }
-        }
-        let mut figure = Figure::new(self.title, "Time (s)");
-        if forces || !impulses {
-            figure = figure.panel(force);
-        }
-        if impulses {
-            figure = figure.panel(impulse);
+            if impulses {
+                figure = figure.panel(impulse);
+            }
         }
         Ok(figure.to_svg())
     }
 
-    /// Sum of the walls' forces at the rows, without rigid impacts, and with the peak of every contact too short for the rows to show.
-    fn force_points(&self, run: &Run) -> Result<Vec<(f64, f64)>> {
+    /// Sum of the forces of a place's walls at the rows, without rigid impacts, and with the peak of every contact too short for the rows to show.
+    fn force_points(&self, run: &Run, place: &Place) -> Result<Vec<(f64, f64)>> {
         let t = &run.trajectory;
         let spacing = t.time().get(1).copied().unwrap_or(0.0);
-        let mut points: Vec<(f64, f64)> = self.rows(run).map(|(time, _, _)| (time, 0.0)).collect();
-        for name in t.walls() {
-            for (point, f) in points.iter_mut().zip(t.contact_force(name)?) {
+        let rows = t.time().iter().take_while(|time| **time <= self.until * (1.0 + 1e-12));
+        let mut points: Vec<(f64, f64)> = rows.map(|&time| (time, 0.0)).collect();
+        for column in place.walls.iter().filter_map(|&wall| t.contact_forces().get(wall)) {
+            for (point, f) in points.iter_mut().zip(column) {
                 point.1 += f;
             }
         }
@@ -153,7 +208,8 @@ impl Sheet<'_> {
         // A penalty's walls are springs, whatever the scene calls them.
         let springs = matches!(run.scheme, crate::scheme::Scheme::Penalty { .. });
         let rigid = |c: &Contact| !springs && self.scene.walls.get(c.wall).is_some_and(|w| w.law.is_rigid());
-        for c in t.contacts().iter().filter(|c| c.start <= self.until) {
+        let here = |c: &&Contact| place.walls.contains(&c.wall) && c.start <= self.until;
+        for c in t.contacts().iter().filter(here) {
             let end = c.end.unwrap_or(self.until);
             let sign = self.scene.walls.get(c.wall).map_or(0.0, |w| if w.side == Side::Upper { -1.0 } else { 1.0 });
             let Some(peak) = c.peak_force else {

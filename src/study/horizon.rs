@@ -60,16 +60,22 @@ impl Growth {
     pub fn of(scene: &Scene) -> Result<Self> {
         match scene.system {
             System::Oscillator(_) => Self::by_saltation(scene),
-            _ => perturbation::growth(scene, &Method::new(Scheme::Event), scene.duration),
+            _ => perturbation::growth(scene, &Method::new(Scheme::Event), scene.duration, perturbation::SMALL),
         }
     }
 
-    /// The growth along the run of `scene` by `method` with steps of `step` (s): at least.
+    /// The growth, at least, of a change as large as errors that are compared, a thousandth of the largest speed, along the run of `scene` by `method` with
+    /// steps of `step` (s).
     ///
     /// # Errors
     /// What the runs report.
     pub fn by_runs(scene: &Scene, method: &Method, step: f64) -> Result<Self> {
-        perturbation::growth(scene, method, step)
+        perturbation::growth(scene, method, step, perturbation::COMPARED)
+    }
+
+    /// The same of a change just above rounding.
+    pub(super) fn of_rounding(scene: &Scene, method: &Method, step: f64) -> Result<Self> {
+        perturbation::growth(scene, method, step, perturbation::SMALL)
     }
 
     fn by_saltation(scene: &Scene) -> Result<Self> {

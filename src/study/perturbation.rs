@@ -5,6 +5,10 @@
 //! what the change was at the start, in the same places. ẇδ is the slope of wδ between two rows, since the velocities themselves differ by a whole jump
 //! for the instant that lies between two impacts. A few directions rarely hold the worst one, but soon turn towards it: where growth is
 //! large the estimate falls short of it by a factor of order 1.
+//!
+//! A stepping scheme touches walls at the grid's instants, and a change far below its own error may change nothing there, or a whole step. Where runs of such a
+//! scheme are to say how long errors can be compared, δ is as large as these errors ([`COMPARED`]); where they are to say how far rounding grows, it is small
+//! ([`SMALL`]).
 
 use super::difference::largest;
 use super::horizon::{Growth, Source};
@@ -14,8 +18,10 @@ use crate::scheme::{Method, Scheme, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
 
-/// δ: far above rounding and what solvers leave, far below what is compared.
-const PERTURBATION: f64 = 1e-10;
+/// Far above rounding and what solvers leave, far below what is compared.
+pub(super) const SMALL: f64 = 1e-10;
+/// As large as errors that are compared.
+pub(super) const COMPARED: f64 = 1e-3;
 /// Directions, where there is more than one degree of freedom.
 const DIRECTIONS: u64 = 2;
 /// A difference above this share of the gap grows no further: the gap is full.
@@ -25,11 +31,11 @@ const ROWS: u64 = 1024;
 /// Places watched at most, where neither walls nor probes are.
 const FEW: usize = 16;
 
-/// The growth along the run of `scene` by `method` with steps of `step` (s), which the exact scheme does without.
+/// The growth of a change of size `delta` along the run of `scene` by `method` with steps of `step` (s), which the exact scheme does without.
 ///
 /// # Errors
 /// What the runs report.
-pub(super) fn growth(scene: &Scene, method: &Method, step: f64) -> Result<Growth> {
+pub(super) fn growth(scene: &Scene, method: &Method, step: f64, delta: f64) -> Result<Growth> {
     let watched = watching(scene);
     let base = record(&watched, method, step)?;
     let length = scene.gap_scale();
@@ -41,7 +47,7 @@ pub(super) fn growth(scene: &Scene, method: &Method, step: f64) -> Result<Growth
         let changes = directions_of(scene.initial.v.len(), direction);
         let mut beside = watched.clone();
         for (v, change) in beside.initial.v.iter_mut().zip(changes) {
-            *v += PERTURBATION * speed * change;
+            *v += delta * speed * change;
         }
         let moved = record(&beside, method, step)?;
         for ((w, w_moved), probe) in base.displacements().iter().zip(moved.displacements()).zip(&watched.probes) {
@@ -50,7 +56,7 @@ pub(super) fn growth(scene: &Scene, method: &Method, step: f64) -> Result<Growth
             follow(base.time(), w, w_moved, (length, speed), &mut factor);
         }
     }
-    let start = if start > 0.0 { start } else { PERTURBATION };
+    let start = if start > 0.0 { start } else { delta };
     let factor = factor.into_iter().map(|f| if f.is_nan() { f } else { (f / start).max(1.0) }).collect();
     let source = if method.scheme == Scheme::Event { Source::ExactRuns } else { Source::Runs(*method) };
     Ok(Growth { time: base.time().to_vec(), factor, source })

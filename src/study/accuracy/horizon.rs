@@ -44,7 +44,7 @@ pub(super) fn perturbed(
     let gap = judged.scene.gap_scale();
     let time = judged.time(&judged.coarse.options(level, &target.time));
     if let System::Structure(_) = judged.scene.system {
-        let growth = Growth::by_runs(&judged.scene, method, time.step)?;
+        let growth = Growth::of_rounding(&judged.scene, method, time.step)?;
         let until = growth.horizon(SHARE * target.tolerance / ROUNDING);
         return Ok((until < judged.scene.duration * (1.0 - 1e-9)).then_some(until));
     }

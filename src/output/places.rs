@@ -1,0 +1,120 @@
+//! Where walls stand and probes look, and which of them a page has room for.
+
+use crate::scene::Scene;
+use crate::trajectory::Trajectory;
+
+/// Panels under one another that a page holds.
+const MOST: usize = 4;
+
+/// A place at which walls stand: all that see one row.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Place {
+    /// Indices of the walls, in the scene's order.
+    pub walls: Vec<usize>,
+}
+
+impl Place {
+    /// The names of its walls.
+    pub fn name(&self, scene: &Scene) -> String {
+        let names = self.walls.iter().filter_map(|&wall| scene.walls.get(wall)).map(|wall| wall.name.as_str());
+        names.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Every place of a scene, in the order of its first wall.
+    fn all(scene: &Scene) -> Vec<Self> {
+        let mut places: Vec<Self> = Vec::new();
+        for (index, wall) in scene.walls.iter().enumerate() {
+            let same = |place: &&mut Self| {
+                place.walls.first().and_then(|&first| scene.walls.get(first)).is_some_and(|first| first.at == wall.at)
+            };
+            match places.iter_mut().find(same) {
+                Some(place) => place.walls.push(index),
+                None => places.push(Self { walls: vec![index] }),
+            }
+        }
+        places
+    }
+
+    /// Impulse of its walls over a run, as magnitudes, N s.
+    fn impulse(&self, motion: Option<&Trajectory>) -> f64 {
+        let column = |wall: &usize| motion.and_then(|m| m.contact_impulses().get(*wall));
+        self.walls.iter().filter_map(column).flatten().map(|p| p.abs()).sum()
+    }
+}
+
+/// What is drawn of several.
+#[derive(Debug)]
+pub(super) struct Chosen<T> {
+    /// In the scene's order.
+    pub shown: Vec<T>,
+    /// How many there are.
+    pub count: usize,
+}
+
+impl<T> Chosen<T> {
+    /// What the title says, if some are left out.
+    pub fn left_out(&self, what: &str) -> Option<String> {
+        (self.shown.len() < self.count)
+            .then(|| format!("{} of {} {what}, those with the most contact", self.shown.len(), self.count))
+    }
+
+    /// Those of the largest weight, in their order; of equal weight the first.
+    fn heaviest(weighted: Vec<(f64, T)>) -> Self {
+        let count = weighted.len();
+        let mut numbered: Vec<(usize, (f64, T))> = weighted.into_iter().enumerate().collect();
+        numbered.sort_by(|a, b| b.1.0.total_cmp(&a.1.0));
+        numbered.truncate(MOST);
+        numbered.sort_by_key(|entry| entry.0);
+        Self { shown: numbered.into_iter().map(|(_, (_, item))| item).collect(), count }
+    }
+}
+
+impl Chosen<Place> {
+    /// The places with the largest impulses in `motion`.
+    pub fn places(scene: &Scene, motion: Option<&Trajectory>) -> Self {
+        let weighted = Place::all(scene).into_iter().map(|place| (place.impulse(motion), place));
+        Self::heaviest(weighted.collect())
+    }
+}
+
+impl Chosen<usize> {
+    /// The probes that look at the places with the largest impulses in `motion`.
+    pub fn probes(scene: &Scene, motion: Option<&Trajectory>) -> Self {
+        let places = Place::all(scene);
+        let weight = |index: usize| {
+            let at = scene.probes.get(index).map(|p| &p.at);
+            let seen =
+                |place: &&Place| place.walls.first().and_then(|&wall| scene.walls.get(wall)).map(|w| &w.at) == at;
+            places.iter().find(seen).map_or(0.0, |place| place.impulse(motion))
+        };
+        Self::heaviest((0..scene.probes.len()).map(|index| (weight(index), index)).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Row, Wall};
+
+    #[test]
+    fn walls_of_one_row_are_one_place_and_carry_its_names() {
+        let mut there = Wall::upper("there", 1.0);
+        there.at = Row::new(vec![(0, 1.0), (1, -1.0)]);
+        let scene = Scene::oscillator(1.0, 0.0, 1.0)
+            .with_wall(Wall::upper("upper", 1.0))
+            .with_wall(there)
+            .with_wall(Wall::lower("lower", -1.0));
+        let places = Place::all(&scene);
+        assert_eq!(places, [Place { walls: vec![0, 2] }, Place { walls: vec![1] }]);
+        assert_eq!(places[0].name(&scene), "upper, lower");
+    }
+
+    #[test]
+    fn the_heaviest_are_kept_in_their_order_and_the_title_says_of_how_many() {
+        let weighted = [1.0, 5.0, 2.0, 0.0, 3.0, 4.0].into_iter().zip(0..6).collect();
+        let chosen = Chosen::heaviest(weighted);
+        assert_eq!(chosen.shown, [1, 2, 4, 5]);
+        assert_eq!(chosen.left_out("probes").unwrap(), "4 of 6 probes, those with the most contact");
+        assert_eq!(Chosen::heaviest(vec![(0.0, 7)]).left_out("probes"), None);
+    }
+}
