@@ -377,7 +377,7 @@ fn wrong_requests_about_structures_exit_with_2() {
         (&["run", "chain-20", "--modes", "21"], "from 1 to 20"),
         (&["compare", "tube-loose-supports", "--modes", "121"], "from 1 to 120"),
         (&["run", "static.toml", "--restitution", "0.5"], "cannot rebound"),
-        (&["run", "chain-20", "--qp", "clamp"], "one unknown"),
+        (&["run", "chain-20", "--qp", "clamp"], "more than one unknown"),
         (&["run", "chain-200", "--sample", "1e-7", "--step", "1e-7"], "time.sample"),
     ];
     for (request, hint) in requests {

@@ -3,7 +3,7 @@
 use crate::case::{Case, Embedded};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::WallLaw;
+use crate::scene::{System, WallLaw};
 use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ pub struct Request {
     /// Step of the stepping schemes, s
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub step: Option<f64>,
-    /// End of the run, s
+    /// End of the run, s; a window for statistics that begins later begins at 0 then
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub end: Option<f64>,
     /// Spacing of the recorded rows, s
@@ -99,6 +99,9 @@ impl Request {
             case.change(|scene| scene.duration = end)?;
             let until_end = |x: &f64| *x <= end;
             case.time.sample = case.time.sample.filter(until_end);
+            if case.time.statistics_from >= end {
+                case.time.statistics_from = 0.0;
+            }
         }
         case.time.step = self.step.unwrap_or(case.time.step);
         case.time.sample = self.sample.or(case.time.sample);
@@ -145,6 +148,13 @@ impl Request {
         }
         if method.scheme.has_qp() {
             method.backend = self.qp.unwrap_or(method.backend);
+        }
+        if method.backend == Backend::Clamp && !matches!(case.scene.system, System::Oscillator(_)) {
+            return Err(Error::invalid(
+                "qp",
+                "clamp",
+                "auto, condensed or clarabel: the case has more than one unknown",
+            ));
         }
         method.scheme.validate()?;
         Ok(method)

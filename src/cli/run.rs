@@ -42,7 +42,7 @@ pub struct Args {
     /// not kept to the end; where the case is cut to modes, as many of them as that takes
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     accuracy: Option<f64>,
-    /// Do not repeat the run with half the step
+    /// Do not repeat the run with half the step, nor with more modes where the case is cut to modes
     #[arg(long)]
     no_verdict: bool,
 }
