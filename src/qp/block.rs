@@ -213,7 +213,7 @@ impl Block {
         loop {
             let share = |i: usize| left[i] / system.square(rows[i]);
             let Some(p) = (0..count).max_by(|&i, &j| share(i).total_cmp(&share(j))) else { break };
-            if !(share(p) > DEPENDENT) {
+            if share(p).is_nan() || share(p) <= DEPENDENT {
                 break;
             }
             // Column by column: entry i of column q is L D of row i there.

@@ -91,13 +91,13 @@ impl Delassus {
         // Wⱼⱼ of all rows come first, since the others are measured by them.
         let mut weight = vec![0.0; m];
         let mut columns = Some(Runs::with_capacity(m));
-        for j in 0..m {
+        for (j, weight) in weight.iter_mut().enumerate() {
             respond(j, &mut response);
             let own = g.dot(j, &response) + problem.compliance[j];
-            weight[j] = if own > 0.0 { own.sqrt() } else { 1.0 };
+            *weight = if own > 0.0 { own.sqrt() } else { 1.0 };
             if let Some(runs) = &mut columns {
                 // √Aᵢᵢ is at most 1/√(A⁻¹)ᵢᵢ, so no unknown of small motion is cut too early.
-                runs.push(&response, |i, v| v.abs() * unit[i] > NOTHING * weight[j]);
+                runs.push(&response, |i, v| v.abs() * unit[i] > NOTHING * *weight);
                 if runs.values.len() > MOST_COLUMNS {
                     columns = None;
                 }

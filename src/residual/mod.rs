@@ -6,6 +6,7 @@ mod energy;
 mod grid;
 mod quadrature;
 mod scales;
+mod series;
 
 pub use energy::Energy;
 
@@ -78,6 +79,8 @@ pub struct Judge {
     normal_reach: f64,
     force_scale: f64,
     speed_scale: f64,
+    /// Largest velocity in the metric of the mass along exact motion, √J.
+    normal_speed: f64,
     scales: Scales,
     /// What a generalized-α run remembers from step to step.
     memory: Option<Box<Memory>>,
@@ -153,6 +156,7 @@ impl Judge {
             normal_reach: 0.0,
             force_scale: 0.0,
             speed_scale: 0.0,
+            normal_speed: 0.0,
             scene: scene.clone(),
         }
     }
@@ -183,6 +187,13 @@ impl Judge {
             Path::Grid => self.see_grid(step),
             Path::Corrected { q, v } => self.see_corrected(step, q, v),
             Path::Exact(arc) => self.see_arc(step, arc),
+            Path::Series(series) => self.see_series(step, series),
+            Path::Handed { contract, step: h } => {
+                let own = (self.contract, self.h);
+                (self.contract, self.h) = (contract, h);
+                self.see_grid(step);
+                (self.contract, self.h) = own;
+            }
         }
         for (wall, depth) in self.scene.walls.iter().zip(&mut self.depth) {
             *depth = depth.max(-wall.gap(wall.at.dot(step.q)));

@@ -31,7 +31,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// Every family, in the order of tables.
+    /// Every family, in the order of tables; generalized-alpha with the ρ∞ that most choose.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let constrained = [
@@ -39,6 +39,7 @@ impl Family {
             Scheme::MoreauJean { theta: 1.0 },
             Scheme::GeneralizedAlpha { rho: 0.8 },
             Scheme::PaoliSchatzman,
+            Scheme::GeneralizedAlpha { rho: 0.8 },
             Scheme::ImplicitEuler,
             Scheme::Newmark,
         ];
