@@ -64,6 +64,10 @@ fn one_degree_of_freedom_as_matrices_is_the_oscillator() {
             list.extend(INTEGRATORS.map(|i| spring(1e4, i)));
             if scene.walls.iter().all(|w| w.law.is_rigid()) && scene.walls.len() == 2 {
                 list.extend(INTEGRATORS.map(|i| common::penalty(1e-9, i)));
+                // h²k_w/m = 100.
+                list.extend(
+                    [Integrator::DiscreteGradient, Integrator::ImplicitEuler].map(|i| common::penalty(1e-12, i)),
+                );
             }
         }
         for scheme in list {

@@ -5,7 +5,7 @@ mod random_structures;
 
 use common::{CONSTRAINED, INTEGRATORS, MOREAU_JEAN, slope, spring};
 use random_structures::{at, chain, on};
-use signorini::{Integrator, Load, Row, Scene, Scheme, Stepper, Wall};
+use signorini::{Integrator, Load, Options, Row, Scene, Scheme, Stepper, TimeOptions, Wall, run};
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
 const K: f64 = 150.0;
@@ -98,4 +98,28 @@ fn plastic_impacts_of_a_chain_converge_to_one_motion() {
         // One at least; impact times fall where they fall in a step, so that the slope of three runs scatters.
         assert!(order > 0.75 && errors[2].1 < 1e-2, "{scheme}: {order} {errors:?}");
     }
+}
+
+#[test]
+fn the_discrete_gradient_keeps_the_energy_of_a_chain_behind_stiff_walls_for_ever() {
+    let mut scene = chain(5, 1e4, 0.0).with_initial(&[0.0; 5], &[0.1, -0.2, 0.15, 0.05, -0.1]);
+    for i in 0..5 {
+        scene = scene.with_wall(at(Wall::upper(&format!("u{i}"), 1e-4), Row::dof(i)));
+        scene = scene.with_wall(at(Wall::lower(&format!("l{i}"), -1e-4), Row::dof(i)));
+    }
+    // h²k_w/m = 100: a step that does not resolve the walls.
+    let run = run(
+        &scene.with_duration(200.0),
+        &spring(1e8, Integrator::DiscreteGradient),
+        &Options {
+            time: TimeOptions { sample: Some(1.0), ..TimeOptions::with_step(1e-3) },
+            ..Options::with_step(1e-3)
+        },
+    )
+    .expect("a run");
+    let energy = run.residuals.energy;
+    println!("{energy:?} {} contacts", run.trajectory.contacts().len());
+    assert!(run.trajectory.contacts().len() > 10_000);
+    // Rounding of 2e5 steps: each some units of the energy, at random.
+    assert!((energy.final_j / energy.initial_j - 1.0).abs() < 1e-11, "{energy:?}");
 }

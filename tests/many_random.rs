@@ -128,3 +128,28 @@ fn clarabel_and_the_condensed_solver_make_the_same_motion() {
     }
     assert!(compared > 100, "{compared}");
 }
+
+#[test]
+fn newton_settles_behind_walls_however_stiff() {
+    let mut met = 0;
+    for seed in 0..150 {
+        let mut draws = Draws::new(seed);
+        let scene = random_scene(&mut draws);
+        let stiffness = 10_f64.powf(draws.between(5.0, 12.0));
+        if !scene.walls.iter().any(|wall| wall.law.is_rigid()) {
+            continue;
+        }
+        for integrator in INTEGRATORS.into_iter().filter(|i| *i != Integrator::CentralDifference) {
+            let what = format!("seed {seed}, {integrator}, {stiffness:e} N/m");
+            let r = judged(&scene, &spring(stiffness, integrator), Backend::Auto, 150, 1.0)
+                .unwrap_or_else(|error| panic!("{what}: {error}"));
+            met += u32::from(r.force_scale_n > 0.0);
+            // The depth behind a wall is known to some roundings of its place: the stiffness makes a force of that.
+            let reach = scene.gap_scale() + r.depth_m.iter().fold(0.0_f64, |a, b| a.max(*b));
+            let rounding = 16.0 * f64::EPSILON * stiffness * reach / r.force_scale_n.max(f64::MIN_POSITIVE);
+            assert!(r.complementarity <= 1e-12 + rounding, "{what}: {rounding:e} {r:?}");
+            assert!(r.force_balance <= 1e-10 && r.tension_n == 0.0, "{what}: {r:?}");
+        }
+    }
+    assert!(met > 200, "{met}");
+}
