@@ -36,6 +36,9 @@ pub struct Request {
     /// θ of moreau-jean, 0.5 to 1
     #[arg(long, value_name = "θ", allow_hyphen_values = true)]
     pub theta: Option<f64>,
+    /// ρ∞ of generalized-alpha, 0 to 1
+    #[arg(long, value_name = "ρ", allow_hyphen_values = true)]
+    pub rho: Option<f64>,
     /// Integrator of the penalty: trapezoidal, implicit-euler, central-difference, discrete-gradient
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<Integrator>,
@@ -137,6 +140,7 @@ impl Request {
         let names_integrator = name.contains("integrator=");
         match &mut method.scheme {
             Scheme::MoreauJean { theta } if !name.contains("theta=") => *theta = self.theta.unwrap_or(*theta),
+            Scheme::GeneralizedAlpha { rho } if !name.contains("rho=") => *rho = self.rho.unwrap_or(*rho),
             Scheme::Penalty { integrator, .. } if !names_integrator => {
                 *integrator = case.penalty.integrator.unwrap_or_default();
             }
@@ -162,6 +166,7 @@ impl Request {
         let number = |x: Option<f64>| x.map(|x| x.to_string());
         let options = [
             ("--theta", number(self.theta), given("theta=")),
+            ("--rho", number(self.rho), given("rho=")),
             ("--epsilon", number(self.epsilon), given("epsilon=") || given("stiffness=")),
             ("--integrator", self.integrator.map(|i| i.to_string()), given("integrator=")),
             ("--qp", self.qp.map(|q| q.to_string()), given("qp=")),
@@ -191,6 +196,9 @@ impl Request {
         }
         if let (Some(qp), false) = (self.qp, any(Scheme::has_qp)) {
             return unused("--qp", qp.to_string(), "a scheme that solves quadratic programmes");
+        }
+        if let (Some(rho), false) = (self.rho, any(|s| matches!(s, Scheme::GeneralizedAlpha { .. }))) {
+            return unused("--rho", rho.to_string(), "generalized-alpha");
         }
         match (self.theta, self.epsilon, self.integrator) {
             (Some(theta), _, _) if !any(|s| matches!(s, Scheme::MoreauJean { .. })) => {
