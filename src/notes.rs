@@ -61,7 +61,7 @@ pub(crate) fn notes(scene: &Scene, run: &Run) -> Vec<String> {
     }
     for handed in run.handed.iter().take(MOST_HANDED) {
         notes.push(format!(
-            "from {:.6} s to {:.6} s impacts crowd closer than the exact scheme follows them: moreau-jean made that stretch, with steps of {:.1e} s",
+            "from {:.6} s to {:.6} s impacts crowd closer than the exact scheme follows them: moreau-jean stepped through it, with steps of {:.1e} s",
             handed.from, handed.to, handed.step
         ));
     }

@@ -261,3 +261,88 @@ fn permuting_degrees_of_freedom_permutes_the_motion() {
         assert!(error < 1e-13, "{name}: {error:e}");
     }
 }
+
+#[test]
+fn three_supports_of_a_rigid_bar_share_its_weight() {
+    // Heave and tilt of a free bar on three walls: the reactions of least Σ Wᵢᵢ rᵢ² among those in balance. By symmetry the outer two are equal, and of
+    // r = (a, N − 2a, a) with W = (1/m + d²/I, 1/m, 1/m + d²/I) the least is at a = N/(m (2 W₀ + 4 W₁)) · 2 … solved below.
+    let (m, inertia, d, g) = (2.0, 0.5, 0.7, 9.81);
+    let mut bar = scene(diagonal(&[m, inertia], &[0.1, 0.1], &[0.0; 2]))
+        .with_load(load_at(Load::constant(-m * g), Row::dof(0)))
+        .with_initial(&[1e-3, 0.0], &[0.0; 2])
+        .with_duration(1.0);
+    for (name, arm) in [("left", -d), ("middle", 0.0), ("right", d)] {
+        let row = Row::new(vec![(0, 1.0), (1, arm)]);
+        bar = bar.with_wall(at(Wall::lower(name, 0.0).with_restitution(0.0), row));
+    }
+    let run = exact(&bar, 100.0);
+    let (outer, middle) = (1.0 / m + d * d / inertia, 1.0 / m);
+    // d/da [2 W₀ a² + W₁ (N − 2a)²] = 0.
+    let a = middle * m * g / (outer + 2.0 * middle);
+    for (name, expected) in [("left", a), ("middle", m * g - 2.0 * a), ("right", a)] {
+        let force = run.trajectory.contact_force(name).unwrap();
+        assert!((force[100] - expected).abs() < 1e-12, "{name}: {} {expected}", force[100]);
+    }
+    assert_judged(&run);
+}
+
+#[test]
+fn code_aster_benchmarks_hold_for_matrices_of_one_entry() {
+    // SDND101: an oscillator thrown at a spring of 1e6 N/m at gap 0.
+    let hit = as_matrices(
+        Scene::oscillator(100.0, 0.0, 1e4)
+            .with_initial(&[0.0], &[-1.0])
+            .with_duration(0.4)
+            .with_wall(Wall::lower("spring", 0.0).with_elasticity(1e6, 0.0)),
+    );
+    let run_ = exact(&hit, 400.0);
+    let first = run_.trajectory.contacts()[0];
+    let omega = f64::sqrt(1.01e6 / 100.0);
+    assert!((first.end.unwrap() - PI / omega).abs() < 1e-14, "{first:?}");
+    assert!((first.peak_force.unwrap() - 9950.37).abs() < 5e-3, "{first:?}");
+    assert!((first.impulse - 198.020).abs() < 5e-4, "{first:?}");
+    // SDND108A: a free fall onto a spring 2 m below.
+    let fall = as_matrices(
+        Scene::oscillator(1.0, 0.0, 0.0)
+            .with_load(Load::constant(-10.0))
+            .with_initial(&[0.0], &[-1.0])
+            .with_duration(1.1),
+    )
+    .with_wall(Wall::lower("spring", -2.0).with_elasticity(100.0, 0.0));
+    let run_ = exact(&fall, 11.0);
+    let contact = run_.trajectory.contacts()[0];
+    assert!((contact.start - 0.540_312_423_74).abs() < 1e-11, "{contact:?}");
+    assert!((contact.end.unwrap() - 0.885_456_153_07).abs() < 1e-11, "{contact:?}");
+    assert!((contact.peak_force.unwrap() - 74.807_41).abs() < 5e-6, "{contact:?}");
+    let z = run_.trajectory.displacement();
+    assert!((z[10] + 1.332_162_981_855).abs() < 1e-12 && (z[11] + 0.856_394_405_035).abs() < 1e-12, "{:?}", &z[10..]);
+}
+
+#[test]
+fn elastic_and_rigid_walls_on_one_structure_are_what_refined_steps_tend_to() {
+    let mut mixed = scene(chain(5, 1.0, 500.0, 2e-3)).with_load(Load::harmonic(20.0, 2.0, 0.0)).with_duration(1.0);
+    mixed = mixed
+        .with_wall(at(Wall::upper("stop", 0.02).with_restitution(0.6), Row::dof(0)))
+        .with_wall(at(Wall::lower("pad", -0.02).with_elasticity(5e3, 10.0), Row::dof(1)))
+        .with_wall(at(Wall::upper("between", 0.015).with_restitution(0.2), Row::new(vec![(3, 1.0), (4, -1.0)])))
+        .with_wall(at(Wall::lower("soft", -0.01).with_elasticity(1e3, 0.0), Row::new(vec![(2, 0.5), (4, 0.5)])));
+    let reference = exact(&mixed, 100.0);
+    println!("{:?}", reference.counters);
+    assert_judged(&reference);
+    assert!(reference.trajectory.contacts().len() > 8);
+    let error = |h: f64| {
+        let mut options = Options::with_step(h);
+        options.time = TimeOptions { sample: Some(0.01), ..options.time };
+        let run = run(&mixed, &common::MOREAU_JEAN, &options).unwrap();
+        let of = |i: usize| {
+            let name = format!("q{i}");
+            let (a, b) = (reference.trajectory.probe(&name).unwrap().0, run.trajectory.probe(&name).unwrap().0);
+            a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / 0.02
+        };
+        (0..5).map(of).fold(0.0, f64::max)
+    };
+    let (coarse, fine) = (error(1e-4), error(1e-5));
+    println!("{coarse:e} {fine:e}");
+    // Order 1 through impacts.
+    assert!(fine < 2e-3 && fine < 0.3 * coarse, "{coarse:e} {fine:e}");
+}

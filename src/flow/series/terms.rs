@@ -124,7 +124,7 @@ impl Series {
             }
             let rows = hold.rows();
             if !rows.is_empty() {
-                for (work, held) in work.iter_mut().zip(rows) {
+                for (work, held) in work.iter_mut().zip(hold.independent()) {
                     *work = body.answer(held.row, force);
                 }
                 for (i, held) in rows.iter().enumerate() {

@@ -85,7 +85,7 @@ impl StructureEvent {
             step: 0,
             contract,
         }));
-        let joins = |last: &&mut Handed| last.to == self.time;
+        let joins = |last: &&mut Handed| self.time <= last.to + window;
         match self.crowd.stretches.last_mut().filter(joins) {
             Some(last) => (last.to, last.step) = (to, last.step.max(h)),
             None => self.crowd.stretches.push(Handed { from: self.time, to, step: h }),
@@ -174,7 +174,7 @@ impl StructureEvent {
             self.marks += 1;
         }
         self.places.iter_mut().for_each(|place| place.held = 0.0);
-        self.hold.set(&self.body, std::iter::empty());
+        self.hold.set(&self.body, std::iter::empty(), std::iter::empty());
         self.carriers.clear();
         self.decided = f64::NEG_INFINITY;
         self.reclassify();

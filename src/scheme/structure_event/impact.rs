@@ -32,7 +32,10 @@ const TOLD: f64 = 4e-12;
 impl StructureEvent {
     /// Rates away from the walls that are below this are none, m/s.
     pub(super) fn quiet(&self, row: usize) -> f64 {
-        let own = noise(size(&self.body, row, &self.v));
+        let column = self.body.column(row).iter().zip(&self.sizes.instant);
+        let pull: f64 = column.map(|(y, f)| (y * f).abs()).sum();
+        // What forces in balance leave of a velocity is the rounding of their terms over the last stretch.
+        let own = noise(size(&self.body, row, &self.v) + pull * self.series.unit());
         if self.seats.len() < 2 {
             return own;
         }

@@ -181,10 +181,17 @@ impl StructureEvent {
                 fate: Fate::None,
             });
         }
+        if self.seats.is_empty() {
+            return;
+        }
         let Self { surface, body, seats, places, q, scratch, .. } = self;
         let held = |s: &Seat| Held { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
-        surface.set(body, seats.iter().map(held));
+        surface.set(body, std::iter::empty(), seats.iter().map(held));
         surface.place(body, q, scratch);
+        self.derivatives[0].copy_from_slice(&self.q);
+        self.derivatives[1].copy_from_slice(&self.v);
+        self.forces(0);
+        self.sizes.instant.copy_from_slice(&self.rhs_size);
     }
 
     /// What a blow does at a wall that carried the structure is an impact of its own: the rest ends before it.

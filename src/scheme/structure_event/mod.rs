@@ -354,7 +354,7 @@ impl StructureEvent {
             self.derivatives[0].copy_from_slice(&self.q);
             self.derivatives[1].copy_from_slice(&self.v);
             self.forces(0);
-            for (b, held) in self.scratch.iter_mut().zip(self.hold.rows()) {
+            for (b, held) in self.scratch.iter_mut().zip(self.hold.independent()) {
                 *b = self.body.answer(held.row, &self.rhs);
             }
             for &(wall, k, share) in &self.carriers {

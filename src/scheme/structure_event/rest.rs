@@ -138,10 +138,9 @@ impl StructureEvent {
             let position = places.get(s.row).map_or(0.0, |place| place.bound[side_of(s.sign)]);
             matches!(s.fate, Fate::Held(_)).then_some(Held { row: s.row, sign: s.sign, position })
         };
-        // Those pressed first: a row that follows from them carries nothing.
-        let levels = (0..LEVELS).chain(std::iter::once(TERMS));
-        let of = |level: usize| seats.iter().filter(move |s| s.fate == Fate::Held(level));
-        hold.set(body, levels.flat_map(of).filter_map(held));
+        // Those that are pressed share what presses; of the others a row that follows from those before it carries nothing.
+        let of = |level: usize| seats.iter().filter(move |s| s.fate == Fate::Held(level)).filter_map(&held);
+        hold.set(body, of(0), (1..LEVELS).chain(std::iter::once(TERMS)).flat_map(of));
         for s in seats.iter() {
             let (side, place) = (side_of(s.sign), &mut places[s.row]);
             let in_hold = hold.rows().iter().any(|held| held.row == s.row);

@@ -73,12 +73,14 @@ pub(super) struct Sizes {
     /// Sizes of the terms of the force (N) and of its rate (N/s), n entries each.
     pub force: [Vec<f64>; 2],
     pub known: bool,
+    /// Sizes of the terms of the force at the last event, N.
+    pub instant: Vec<f64>,
     pub work: Vec<f64>,
 }
 
 impl Sizes {
     pub fn new(n: usize) -> Self {
-        Self { force: [vec![0.0; n], vec![0.0; n]], known: false, work: vec![0.0; n] }
+        Self { force: [vec![0.0; n], vec![0.0; n]], known: false, instant: vec![0.0; n], work: vec![0.0; n] }
     }
 }
 

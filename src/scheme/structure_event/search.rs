@@ -143,10 +143,12 @@ impl StructureEvent {
     pub(super) fn noises(&self, row: usize, position: f64) -> [f64; 4] {
         let unit = self.series.unit();
         let answer = |x: &[f64]| self.body.column(row).iter().zip(x).map(|(y, x)| (y * x).abs()).sum::<f64>();
+        let second = noise(answer(&self.sizes.force[0])) * unit * unit / 2.0;
         [
             self.resolution(row, position),
-            noise(size(&self.body, row, self.series.term(1))),
-            noise(answer(&self.sizes.force[0])) * unit * unit / 2.0,
+            // What forces in balance leave of a velocity is the rounding of their terms.
+            noise(size(&self.body, row, self.series.term(1))) + 2.0 * second,
+            second,
             noise(answer(&self.sizes.force[1])) * unit * unit * unit / 6.0,
         ]
     }
@@ -155,7 +157,7 @@ impl StructureEvent {
     fn force_noises(&self, k: usize) -> [f64; 4] {
         let unit = self.series.unit();
         let mut out = [0.0; 4];
-        for (held, w) in self.hold.rows().iter().zip(self.hold.inverse(k)) {
+        for (held, w) in self.hold.independent().iter().zip(self.hold.inverse(k)) {
             let column = self.body.column(held.row);
             for (order, out) in out.iter_mut().take(2).enumerate() {
                 let terms = column.iter().zip(&self.sizes.force[order]).map(|(y, x)| (y * x).abs()).sum::<f64>();
