@@ -67,7 +67,7 @@ fn programmes(n: usize, count: usize) -> (Problem, Vec<Step>) {
     for step in 0..1000 + count {
         let at = |q: &[f64], i: usize, d: isize| i.checked_add_signed(d).and_then(|j| q.get(j)).copied().unwrap_or(0.0);
         let spring = |q: &[f64], i: usize| k * (2.0 * q[i] - at(q, i, -1) - at(q, i, 1));
-        let drive = |i: usize| 25.0 * (31.4 * h * step as f64 + 2.4 * i as f64).sin();
+        let drive = |i: usize| 35.0 * (31.4 * h * step as f64 + 2.4 * i as f64).sin();
         let b: Vec<f64> =
             (0..n).map(|i| v[i] + h * (drive(i) - spring(&q, i)) - 0.25 * h * h * spring(&v, i)).collect();
         let reached = |i: usize| q[i] + 0.5 * h * v[i];

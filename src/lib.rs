@@ -39,7 +39,7 @@ pub use scene::{
     Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, Row, Scene, Side, State, Structure, System, Table,
     Wall, WallLaw,
 };
-pub use scheme::{Counters, Integrator, Method, PenaltyLaw, Scheme, Stepper};
+pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper};
 pub use statistics::{Statistics, Summary, WallStatistics};
 pub use step::{Balance, Contact, Contract, Path, Promise, Step};
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};

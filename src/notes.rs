@@ -12,6 +12,9 @@ const WORTH_SAYING: f64 = 1e-2;
 /// further gain, and little of all that arrives is new. More than start and loads ever gave is worth a sentence in any case.
 const SHARE_OF_LARGEST: f64 = 0.1;
 
+/// Stretches handed over that are told one by one.
+const MOST_HANDED: usize = 5;
+
 pub(crate) fn notes(scene: &Scene, run: &Run) -> Vec<String> {
     let mut notes = Vec::new();
     let energy = &run.residuals.energy;
@@ -55,6 +58,15 @@ pub(crate) fn notes(scene: &Scene, run: &Run) -> Vec<String> {
             100.0 * energy.residual,
             energy.largest_j
         ));
+    }
+    for handed in run.handed.iter().take(MOST_HANDED) {
+        notes.push(format!(
+            "from {:.6} s to {:.6} s impacts crowd closer than the exact scheme follows them: moreau-jean made that stretch, with steps of {:.1e} s",
+            handed.from, handed.to, handed.step
+        ));
+    }
+    if let Some(more) = run.handed.len().checked_sub(MOST_HANDED).filter(|&more| more > 0) {
+        notes.push(format!("so it did {more} stretches more, {} steps in all", run.counters.handed_steps));
     }
     if run.counters.frozen_steps > 0 {
         notes.push(format!(

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::qp::Backend;
 use crate::residual::{Judge, Residuals};
 use crate::scene::Scene;
-use crate::scheme::{Counters, Scheme, Stepper};
+use crate::scheme::{Counters, Handed, Scheme, Stepper};
 use crate::statistics::Statistics;
 use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
@@ -49,6 +49,8 @@ pub struct Run {
     pub counters: Counters,
     /// What it cost, wall-clock seconds, recording and judging included.
     pub seconds: f64,
+    /// Stretches that the exact scheme handed to moreau-jean; none for other schemes.
+    pub handed: Vec<Handed>,
     /// What a reader must know of this run, in sentences.
     pub notes: Vec<String>,
 }
@@ -106,6 +108,7 @@ pub fn run_with_progress(
         residuals: judge.residuals(),
         counters: stepper.counters(),
         seconds: started.elapsed().as_secs_f64(),
+        handed: stepper.handed().to_vec(),
         notes: Vec::new(),
     };
     run.notes = crate::notes::notes(scene, &run);

@@ -1,6 +1,6 @@
 //! One step of time as data: what a scheme hands to whoever records or judges it.
 
-use crate::flow::Arc;
+use crate::flow::{Arc, Series};
 
 /// The momentum balance that every step of a scheme fulfils. With it a judge can hold a step to its word without
 /// knowing the scheme. F(t, q, v) = f(t) − C v − K q is the smooth force, f_x the extra force of the step ([`Step::extra`]), J the sum of
@@ -31,7 +31,7 @@ pub enum Balance {
         /// γ.
         gamma: f64,
     },
-    /// The differential equation itself over the step's [`Arc`], M q̈ = F(t, q, q̇) + f_x + r; at the instant t⁺ that ends it the velocity
+    /// The differential equation itself over the step's [`Arc`] or [`Series`], M q̈ = F(t, q, q̇) + f_x + r; at the instant t⁺ that ends it the velocity
     /// jumps by M(v₊ − v) = J + p⁺, with v the arc's last, J what falls in (t, t⁺] (an arc ends at each impulse), and p⁺ the
     /// [`Step::jump`] of the walls.
     Exact,
@@ -62,7 +62,7 @@ pub enum Promise {
     LawAtStart,
     /// Every wall: |p|/h = (ΔU/Δs + c_a(s⁺₊ − s₊)/h)₊, the discrete gradient of the wall's energy U between s and s⁺.
     DiscreteGradient,
-    /// The conditions themselves, at every instant of the step's [`Arc`].
+    /// The conditions themselves, at every instant of the step's [`Arc`] or [`Series`].
     Exact,
 }
 
@@ -108,8 +108,50 @@ pub enum Path<'a> {
         /// Velocity, m/s; length n.
         v: &'a [f64],
     },
-    /// The exact motion and wall forces.
+    /// The exact motion and wall forces of one degree of freedom.
     Exact(&'a Arc),
+    /// The same of several.
+    Series(&'a Series),
+    /// A step of the exact scheme over a stretch that it hands to a scheme on a grid.
+    Handed {
+        /// What the step keeps, in place of the run's contract.
+        contract: Contract,
+        /// Its length, s: that of the step's times but for their rounding.
+        step: f64,
+    },
+}
+
+impl Path<'_> {
+    /// Displacement (m) and velocity (m/s) at `t` within the step, into slices over degrees of freedom. Nothing is written for a step on a grid.
+    pub(crate) fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
+        match self {
+            Self::Grid | Self::Corrected { .. } | Self::Handed { .. } => {}
+            Self::Exact(arc) => {
+                if let (Some(q), Some(v)) = (q.first_mut(), v.first_mut()) {
+                    (*q, *v) = arc.state(t);
+                }
+            }
+            Self::Series(series) => series.state(t, q, v),
+        }
+    }
+
+    /// Force of wall `wall` at `t` within the step, N, signed; 0 on a grid.
+    pub(crate) fn contact_force(&self, wall: usize, t: f64) -> f64 {
+        match self {
+            Self::Grid | Self::Corrected { .. } | Self::Handed { .. } => 0.0,
+            Self::Exact(arc) => arc.contact_force(wall, t),
+            Self::Series(series) => series.contact_force(wall, t),
+        }
+    }
+
+    /// Impulse of wall `wall` over [from, to] within the step, N s, signed; 0 on a grid.
+    pub(crate) fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
+        match self {
+            Self::Grid | Self::Corrected { .. } | Self::Handed { .. } => 0.0,
+            Self::Exact(arc) => arc.contact_impulse(wall, from, to),
+            Self::Series(series) => series.contact_impulse(wall, from, to),
+        }
+    }
 }
 
 /// One step, lent by the stepper until the next one.

@@ -130,6 +130,8 @@ pub struct Recorder {
     /// Impulse per wall since the last row, N s.
     pending: Vec<f64>,
     partial: Vec<f64>,
+    /// Displacement and velocity at a row, n entries each.
+    state: [Vec<f64>; 2],
 }
 
 impl Recorder {
@@ -156,6 +158,7 @@ impl Recorder {
             rows,
             pending: vec![0.0; m],
             partial: vec![0.0; m],
+            state: [vec![0.0; q.len()], vec![0.0; q.len()]],
         };
         let force: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(q), w.at.dot(v))).collect();
         recorder.push(0.0, q, v, &force);
@@ -185,11 +188,35 @@ impl Recorder {
                     self.push(due, step.q, step.v, step.force);
                 }
             }
-            Path::Exact(arc) => self.see_arc(step, arc),
+            Path::Exact(_) | Path::Series(_) => self.see_exact(step),
+            Path::Handed { .. } => self.see_handed(step),
         }
     }
 
-    fn see_arc(&mut self, step: &Step<'_>, arc: &crate::flow::Arc) {
+    /// A step between two instants that fall on no row: on the way between its ends the displacement is a line.
+    fn see_handed(&mut self, step: &Step<'_>) {
+        for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
+            *sum += p;
+        }
+        loop {
+            let row = self.trajectory.time.len() as u64;
+            let due = self.row_time(row);
+            if row > self.rows || due > step.end {
+                break;
+            }
+            let [mut q, mut v] = std::mem::take(&mut self.state);
+            v.copy_from_slice(if due > step.start { step.v } else { step.velocity_before });
+            let back = 0.5 * (step.end - due);
+            for (i, q) in q.iter_mut().enumerate() {
+                *q = step.q[i] - back * (step.velocity_before[i] + step.v[i]);
+            }
+            self.push(due, &q, &v, step.force);
+            self.state = [q, v];
+        }
+    }
+
+    fn see_exact(&mut self, step: &Step<'_>) {
+        let path = step.path;
         let mut from = step.start;
         if step.start == 0.0 && step.end == 0.0 {
             self.restart(step);
@@ -198,7 +225,7 @@ impl Recorder {
         if step.start == 0.0 {
             // Only now is it known whether the body rests on a rigid wall, and how hard.
             for (wall, column) in self.trajectory.force.iter_mut().enumerate() {
-                column[0] = arc.contact_force(wall, 0.0);
+                column[0] = path.contact_force(wall, 0.0);
             }
         }
         // Right-continuity: a row at the very end of this arc is the next arc's, or the run's last.
@@ -208,18 +235,19 @@ impl Recorder {
             if row >= self.rows || due >= step.end {
                 break;
             }
-            let (q, v) = arc.state(due);
+            let [mut q, mut v] = std::mem::take(&mut self.state);
+            path.state(due, &mut q, &mut v);
             let mut force = std::mem::take(&mut self.partial);
             for (wall, (sum, f)) in self.pending.iter_mut().zip(&mut force).enumerate() {
-                *sum += arc.contact_impulse(wall, from, due);
-                *f = arc.contact_force(wall, due);
+                *sum += path.contact_impulse(wall, from, due);
+                *f = path.contact_force(wall, due);
             }
-            self.push(due, &[q], &[v], &force);
-            self.partial = force;
+            self.push(due, &q, &v, &force);
+            (self.partial, self.state) = (force, [q, v]);
             from = due;
         }
         for (wall, ((sum, &whole), &jump)) in self.pending.iter_mut().zip(step.impulse).zip(step.jump).enumerate() {
-            *sum += if from > step.start { arc.contact_impulse(wall, from, step.end) + jump } else { whole };
+            *sum += if from > step.start { path.contact_impulse(wall, from, step.end) + jump } else { whole };
         }
         if step.end >= self.end {
             self.push(self.end, step.q, step.v, step.force);

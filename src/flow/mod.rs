@@ -1,12 +1,15 @@
-//! The closed-form motion of one degree of freedom between two events.
+//! The exact motion between two events: of one degree of freedom in closed form, of a structure by its Taylor series.
 
 mod contact;
 mod divided;
 mod force;
 mod response;
+mod series;
 
 pub(crate) use contact::{Support, Touch};
 pub(crate) use response::Jet;
+pub use series::Series;
+pub(crate) use series::{Body, Held, Hold, Start as SeriesStart, TERMS, Touching, value};
 
 use crate::scene::{Forcing, Oscillator};
 use force::LocalForce;

@@ -164,6 +164,10 @@ impl Scene {
         for wall in &self.walls {
             wall.validate()?;
             self.check_row(&format!("wall {:?}", wall.name), &wall.at)?;
+            if wall.at.is_blind() {
+                let key = format!("wall {:?}: at", wall.name);
+                return Err(Error::invalid(key, "a place that nothing moves", "a place that can move"));
+            }
         }
         for wall in &self.walls {
             self.check_crossing(wall)?;

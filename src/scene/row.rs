@@ -26,6 +26,12 @@ impl Row {
         &self.entries
     }
 
+    /// True if the row sees nothing: no entries, or only such as cancel.
+    pub(crate) fn is_blind(&self) -> bool {
+        let weight = |i: usize| self.entries.iter().filter(|e| e.0 == i).map(|e| e.1).sum::<f64>();
+        self.entries.iter().all(|&(i, _)| weight(i) == 0.0)
+    }
+
     /// w = g · q for a vector `q` of one value per degree of freedom; degrees of freedom beyond its length count as 0.
     #[must_use]
     pub fn dot(&self, q: &[f64]) -> f64 {

@@ -182,6 +182,18 @@ impl Frame {
     }
 }
 
+/// A stretch that the exact scheme handed to moreau-jean: more impacts crowd there than it follows one by one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "cli", derive(serde::Serialize))]
+pub struct Handed {
+    /// From when, s.
+    pub from: f64,
+    /// Until when, s.
+    pub to: f64,
+    /// With which step at most, s.
+    pub step: f64,
+}
+
 /// What a run has cost, in units that do not depend on the machine.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(serde::Serialize))]
@@ -203,4 +215,6 @@ pub struct Counters {
     pub flow_evaluations: u64,
     /// Steps in which opposite walls took turns, so that the body stood still between them: the step is too large.
     pub frozen_steps: u64,
+    /// Steps by which the exact scheme had moreau-jean cross stretches that it cannot close.
+    pub handed_steps: u64,
 }

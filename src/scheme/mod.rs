@@ -14,8 +14,9 @@ mod position;
 mod programme;
 mod stepper;
 mod structure;
+mod structure_event;
 
-pub use grid::Counters;
+pub use grid::{Counters, Handed};
 pub use method::Method;
 pub use penalty_law::{Integrator, PenaltyLaw};
 pub use stepper::Stepper;

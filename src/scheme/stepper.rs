@@ -2,12 +2,13 @@
 
 use super::central_difference::CentralDifference;
 use super::event::Event;
-use super::grid::{Counters, Frame, Scalar};
+use super::grid::{Counters, Frame, Handed, Scalar};
 use super::moreau_jean::MoreauJean;
 use super::paoli_schatzman::PaoliSchatzman;
 use super::penalty::{Mean, Penalty};
 use super::position::Position;
 use super::structure::Structure;
+use super::structure_event::StructureEvent;
 use super::{Integrator, Scheme};
 use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
@@ -25,6 +26,7 @@ enum Kernel {
     CentralDifference(CentralDifference),
     Event(Box<Event>),
     Structure(Box<Structure>),
+    StructureEvent(Box<StructureEvent>),
 }
 
 /// Advances a scene step by step.
@@ -85,6 +87,7 @@ impl Stepper {
         // One degree of freedom: the programme has one unknown, and a clamp solves it exactly.
         let backend = if single && backend == Backend::Auto { Backend::Clamp } else { backend };
         let kernel = match *scheme {
+            Scheme::Event if !single => Kernel::StructureEvent(Box::new(StructureEvent::new(&scene, step)?)),
             // Of generalized-α there is no scalar kernel: an oscillator is a structure of 1 × 1 matrices to it.
             _ if !single => Kernel::Structure(Box::new(Structure::new(&scene, scheme, step, backend)?)),
             Scheme::ImplicitEuler => Kernel::Position(Position::new(&scene, 1.0, step, backend)?),
@@ -130,8 +133,8 @@ impl Stepper {
     /// As [`Stepper::step`]; [`Error::Invalid`] for a force of the wrong length or not finite.
     #[inline]
     pub fn step_with(&mut self, extra: &[f64]) -> Result<Step<'_>> {
-        if let Kernel::Structure(kernel) = &self.kernel {
-            let n = kernel.state().0.len();
+        if matches!(self.kernel, Kernel::Structure(_) | Kernel::StructureEvent(_)) {
+            let n = self.scene.system.degrees_of_freedom();
             if let Some(force) = extra.iter().find(|force| !force.is_finite()) {
                 return Err(Error::invalid("extra force", force, "a finite number"));
             }
@@ -156,11 +159,15 @@ impl Stepper {
     /// A step of several degrees of freedom.
     #[inline(never)]
     fn advance_structure(&mut self, extra: Option<&[f64]>) -> Result<()> {
-        if let Kernel::Structure(kernel) = &mut self.kernel {
-            kernel.advance(self.index, extra)?;
-            self.index += 1;
-            kernel.tell(&self.scene, self.step, &mut self.episodes);
+        match &mut self.kernel {
+            Kernel::Structure(kernel) => {
+                kernel.advance(self.index, extra)?;
+                kernel.tell(&self.scene, self.step, &mut self.episodes);
+            }
+            Kernel::StructureEvent(event) => event.advance(extra)?,
+            _ => {}
         }
+        self.index += 1;
         Ok(())
     }
 
@@ -174,7 +181,7 @@ impl Stepper {
             Kernel::Penalty(kernel) => kernel.advance(index, extra, frame),
             Kernel::CentralDifference(kernel) => kernel.advance(index, extra, frame),
             Kernel::Event(event) => event.advance(extra),
-            Kernel::Structure(_) => return self.advance_structure(None),
+            Kernel::Structure(_) | Kernel::StructureEvent(_) => return self.advance_structure(None),
         }?;
         self.index += 1;
         // The exact scheme leaves the frame untouched and keeps its own episodes.
@@ -195,7 +202,7 @@ impl Stepper {
     #[inline]
     fn last(&self) -> Step<'_> {
         let (index, frame) = (self.index - 1, &self.frame);
-        if matches!(self.kernel, Kernel::Event(_) | Kernel::Structure(_)) {
+        if matches!(self.kernel, Kernel::Event(_) | Kernel::Structure(_) | Kernel::StructureEvent(_)) {
             return self.last_elsewhere(index);
         }
         Step {
@@ -220,6 +227,7 @@ impl Stepper {
     fn last_elsewhere(&self, index: u64) -> Step<'_> {
         match &self.kernel {
             Kernel::Structure(kernel) => kernel.step(index, &self.episodes),
+            Kernel::StructureEvent(event) => event.step(index),
             Kernel::Event(event) => event.step(index, &self.frame.extra),
             _ => self.last(),
         }
@@ -231,6 +239,7 @@ impl Stepper {
         match &self.kernel {
             Kernel::Event(event) => event.end(),
             Kernel::Structure(kernel) => kernel.end(),
+            Kernel::StructureEvent(event) => event.end(),
             _ => self.frame.end,
         }
     }
@@ -242,6 +251,10 @@ impl Stepper {
             Kernel::Event(event) => State { q: event.q().to_vec(), v: event.v().to_vec() },
             Kernel::Structure(kernel) => {
                 let (q, v) = kernel.state();
+                State { q: q.to_vec(), v: v.to_vec() }
+            }
+            Kernel::StructureEvent(event) => {
+                let (q, v) = event.state();
                 State { q: q.to_vec(), v: v.to_vec() }
             }
             _ => State { q: self.frame.q.to_vec(), v: self.frame.v.to_vec() },
@@ -277,8 +290,15 @@ impl Stepper {
     pub fn open_contacts(&self) -> Vec<Contact> {
         match &self.kernel {
             Kernel::Event(event) => event.open_contacts().copied().collect(),
+            Kernel::StructureEvent(event) => event.open_contacts().copied().collect(),
             _ => self.episodes.still_open(),
         }
+    }
+
+    /// Stretches that the exact scheme has handed to moreau-jean so far; none for other schemes.
+    #[must_use]
+    pub fn handed(&self) -> &[Handed] {
+        if let Kernel::StructureEvent(event) = &self.kernel { event.stretches() } else { &[] }
     }
 
     /// What the run has cost so far.
@@ -292,14 +312,19 @@ impl Stepper {
             Kernel::Penalty(kernel) => kernel.count(&mut counters),
             Kernel::CentralDifference(_) => {}
             Kernel::Structure(kernel) => kernel.count(&mut counters),
-            Kernel::Event(event) => {
-                let inner = event.counters();
-                counters.events = inner.events;
-                counters.flow_evaluations = inner.evaluations;
+            Kernel::Event(event) => of_events(&mut counters, event.counters()),
+            Kernel::StructureEvent(event) => {
+                of_events(&mut counters, event.counters());
+                counters.handed_steps = event.handed_steps();
             }
         }
         counters
     }
+}
+
+fn of_events(counters: &mut Counters, inner: super::event::Counters) {
+    counters.events = inner.events;
+    counters.flow_evaluations = inner.evaluations;
 }
 
 /// The scene, if its walls are such that a quadratic programme can hold them: the φ² law is none of those.

@@ -1,6 +1,9 @@
 //! The energy ledger: E(t) − E(0) = work of the load − damping − losses at the walls + residual.
 
 mod arc;
+mod series;
+
+pub(super) use series::Moved;
 
 use crate::scene::{Scene, Wall, WallLaw};
 use crate::step::{Balance, Contract, Step};

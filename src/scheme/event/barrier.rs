@@ -6,7 +6,7 @@ use crate::step::Contact;
 
 /// Where the body is with respect to one wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Phase {
+pub(in crate::scheme) enum Phase {
     /// A rigid wall, with its restitution e.
     Rigid(f64),
     /// An elastic wall, before it: s ≤ 0.
@@ -19,7 +19,7 @@ pub(super) enum Phase {
 
 /// One wall of a run.
 #[derive(Debug, Clone)]
-pub(super) struct Barrier {
+pub(in crate::scheme) struct Barrier {
     pub name: String,
     pub side: Side,
     /// Away from the wall: +1 at a lower wall, −1 at an upper one.

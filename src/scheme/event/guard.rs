@@ -19,7 +19,7 @@ pub struct Counters {
 
 /// Counts within the current window.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Guard {
+pub(in crate::scheme) struct Guard {
     pub total: Counters,
     since: f64,
     at_since: Counters,

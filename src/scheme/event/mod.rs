@@ -14,8 +14,8 @@ use crate::error::{Error, Result};
 use crate::flow::Arc;
 use crate::scene::{Forcing, Oscillator, Scene, System};
 use crate::step::{Balance, Contact, Contract, Promise};
-use barrier::Barrier;
-use guard::Guard;
+pub(in crate::scheme) use barrier::{Barrier, Phase};
+pub(in crate::scheme) use guard::Guard;
 
 /// What a sum of terms of this size may err by: four units in the last place.
 pub(crate) fn noise(size: f64) -> f64 {

@@ -210,7 +210,7 @@ pub fn wall_stiffness(law: WallLaw) -> Option<f64> {
 ///
 /// | walls and scheme | bound |
 /// |---|---|
-/// | rigid, implicit-euler and newmark | 0 |
+/// | rigid, implicit-euler, newmark and generalized-alpha | 0 |
 /// | rigid, paoli-schatzman | 2e h v/(1+e) |
 /// | rigid, moreau-jean | h v (1 − e/2) |
 /// | elastic or penalty of stiffness k_w, any | h v + √(2E/k_w) + 2ma/k_w: a step, the way in which the spring stores E, and twice what the load holds in |

@@ -172,8 +172,8 @@ pub fn every_method(laws: &[PenaltyLaw]) -> Vec<Method> {
     let schemes = [
         Scheme::Event,
         Scheme::MoreauJean { theta: 0.5 },
-        Scheme::PaoliSchatzman,
         Scheme::GeneralizedAlpha { rho: 0.8 },
+        Scheme::PaoliSchatzman,
         Scheme::ImplicitEuler,
     ];
     let penalty = |&law| Integrator::ALL.into_iter().rev().map(move |integrator| Scheme::Penalty { law, integrator });

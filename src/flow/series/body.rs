@@ -1,0 +1,226 @@
+//! The structure, its loads and the rows of its walls, made ready for series.
+
+use crate::linear::{Factor, Operator, Rows, Symmetric};
+use crate::scene::{Forcing, Loads, Row, Scene, Structure};
+
+/// M, C and K as operators, the loads by row, and what a force behind each wall's row does.
+#[derive(Debug)]
+pub(crate) struct Body {
+    /// n.
+    pub n: usize,
+    mass: Factor,
+    inertia: Operator,
+    /// C; none where it is zero.
+    pub(super) damping: Option<Operator>,
+    /// K.
+    pub(super) stiffness: Operator,
+    /// |C| and |K|, entry by entry: what products may err by.
+    sizes: [Operator; 2],
+    /// The rows of the loads, and what acts behind each.
+    pub(super) loads: Vec<(Row, Forcing)>,
+    /// The distinct rows of the walls.
+    pub rows: Rows,
+    /// Which of them each wall has, in the scene's order.
+    pub row_of: Vec<usize>,
+    /// yᵣ = M⁻¹ gᵣᵀ, one after the other, n entries each.
+    columns: Vec<f64>,
+    /// W = G M⁻¹ Gᵀ over those rows, by rows.
+    delassus: Vec<f64>,
+    /// Bounds on the free motion: ω² (1/s²), the rate of its damping (1/s) and the fastest load (rad/s).
+    rates: [f64; 3],
+}
+
+/// The power method finds the largest ratio from within; this share covers what it may miss, and each series looks at its last terms besides.
+const MARGIN: f64 = 1.05;
+
+/// Iterations of it for the damping.
+const ITERATIONS: usize = 40;
+
+impl Body {
+    /// `scene` made ready; none if its mass cannot be factored, which the scene itself refuses.
+    pub fn new(scene: &Scene) -> Option<Self> {
+        let Structure { mass, damping, stiffness } = scene.system.structure();
+        let n = mass.size();
+        let mut factor = Factor::new(&mass).ok()?;
+        let (mut rows, mut row_of): (Vec<&Row>, Vec<usize>) = (Vec::new(), Vec::new());
+        for wall in &scene.walls {
+            let known = rows.iter().position(|row| **row == wall.at);
+            row_of.push(known.unwrap_or(rows.len()));
+            if known.is_none() {
+                rows.push(&wall.at);
+            }
+        }
+        let count = rows.len();
+        let rows = Rows::new(n, rows.iter().map(|row| row.entries()));
+        let mut columns = vec![0.0; n * count];
+        for (row, column) in columns.chunks_exact_mut(n).enumerate() {
+            rows.add_transposed(row, 1.0, column);
+            factor.solve(column);
+        }
+        let mut delassus = vec![0.0; count * count];
+        for i in 0..count {
+            for j in 0..=i {
+                let w = rows.dot(i, &columns[j * n..(j + 1) * n]);
+                (delassus[i * count + j], delassus[j * count + i]) = (w, w);
+            }
+        }
+        let loads = Loads::new(&scene.loads).parts().to_vec();
+        let waves = loads.iter().flat_map(|(_, forcing)| &forcing.harmonics);
+        let load = waves.map(|wave| wave.omega).fold(0.0, f64::max);
+        let damped = damping.entries().any(|entry| entry.2 != 0.0);
+        let rub = if damped { largest_ratio(&mass, &mut factor, &damping) } else { 0.0 };
+        let omega = largest_ratio(&mass, &mut factor, &stiffness).max(scene.system.frequencies()[1].powi(2));
+        let absolute = |m: &Symmetric| Symmetric::from_entries(n, m.entries().map(|(i, j, x)| (i, j, x.abs())));
+        Some(Self {
+            n,
+            mass: factor,
+            inertia: Operator::new(&mass),
+            sizes: [Operator::new(&absolute(&damping)), Operator::new(&absolute(&stiffness))],
+            damping: damped.then(|| Operator::new(&damping)),
+            stiffness: Operator::new(&stiffness),
+            loads,
+            rows,
+            row_of,
+            columns,
+            delassus,
+            rates: [MARGIN * omega, MARGIN * rub, load],
+        })
+    }
+
+    /// yᵣ = M⁻¹ gᵣᵀ.
+    #[inline]
+    pub fn column(&self, row: usize) -> &[f64] {
+        &self.columns[row * self.n..(row + 1) * self.n]
+    }
+
+    /// yᵣ · x: what a force x does at row r.
+    #[inline]
+    pub fn answer(&self, row: usize, x: &[f64]) -> f64 {
+        self.column(row).iter().zip(x).map(|(y, x)| y * x).sum()
+    }
+
+    /// Adds `force` · yᵣ to `out`.
+    #[inline]
+    pub fn add_column(&self, row: usize, force: f64, out: &mut [f64]) {
+        for (out, y) in out.iter_mut().zip(self.column(row)) {
+            *out += force * y;
+        }
+    }
+
+    /// Entry (i, j) of the Delassus operator, 1/kg.
+    #[inline]
+    pub fn delassus(&self, i: usize, j: usize) -> f64 {
+        self.delassus[i * self.rows.count() + j]
+    }
+
+    /// M⁻¹ x in place.
+    #[inline]
+    pub fn solve(&mut self, x: &mut [f64]) {
+        self.mass.solve(x);
+    }
+
+    /// Adds M x to `out`.
+    #[inline]
+    pub fn add_inertia(&self, x: &[f64], out: &mut [f64]) {
+        self.inertia.add_product(1.0, x, out);
+    }
+
+    /// A rate (1/s) that nothing in the motion exceeds by much, with springs and dashpots (rows, N/m, N s/m) at the walls: for z̈ + 2δż + ω²z = 0 no
+    /// eigenvalue is beyond δ + √(δ² + ω²).
+    pub(super) fn rate(&self, walls: impl Iterator<Item = (usize, f64, f64)>) -> f64 {
+        let [mut square, mut rub, load] = self.rates;
+        for (row, stiffness, damping) in walls {
+            square += stiffness * self.delassus(row, row);
+            rub += damping * self.delassus(row, row);
+        }
+        let oscillation = square.sqrt();
+        // An oscillation below its critical damping is no faster than without it.
+        let own = if rub < 2.0 * oscillation { oscillation } else { rub };
+        own.max(load)
+    }
+
+    /// Adds |C| |v| + |K| |q| to `out`, N: sizes of the terms whose sum is the force.
+    pub fn add_sizes(&self, q: &[f64], v: &[f64], work: &mut [f64], out: &mut [f64]) {
+        for (operator, x) in self.sizes.iter().zip([v, q]) {
+            work.iter_mut().zip(x).for_each(|(w, x)| *w = x.abs());
+            operator.add_product(1.0, work, out);
+        }
+    }
+
+    /// Adds −C v − K q to `out`, N.
+    pub fn add_force(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
+        if let Some(damping) = &self.damping {
+            damping.add_product(-1.0, v, out);
+        }
+        self.stiffness.add_product(-1.0, q, out);
+    }
+
+    /// Times of the blows, s, increasing, each once.
+    pub fn blow_times(&self) -> Vec<f64> {
+        let blows = self.loads.iter().flat_map(|(_, forcing)| &forcing.impulses);
+        let mut times: Vec<f64> = blows.map(|&(time, _)| time).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// The next row of a table after `time`, s.
+    pub fn next_corner(&self, time: f64) -> Option<f64> {
+        let tables = self.loads.iter().flat_map(|(_, forcing)| &forcing.tables);
+        let next =
+            |table: &crate::scene::Table| table.time().get(table.time().partition_point(|&t| t <= time)).copied();
+        tables.filter_map(next).reduce(f64::min)
+    }
+
+    /// Adds the `order`-th derivative of the loads at `t`, from the right, to `out` (N/sᵏ), and to `size` what it may be large of.
+    pub fn add_load(&self, order: u32, t: f64, out: &mut [f64], size: &mut [f64]) {
+        for (row, forcing) in &self.loads {
+            let (mut value, mut large) =
+                if order == 0 { (forcing.constant, forcing.constant.abs()) } else { (0.0, 0.0) };
+            for table in &forcing.tables {
+                let (at, slope) = table.piece(t);
+                let term = [at, slope].get(order as usize).copied().unwrap_or(0.0);
+                value += term;
+                large += term.abs() + if order == 0 { slope.abs() * t } else { 0.0 };
+            }
+            for wave in &forcing.harmonics {
+                let amplitude = wave.amplitude * wave.omega.powi(order as i32);
+                let (sin, cos) = (wave.omega * t + wave.phase).sin_cos();
+                value += amplitude * [sin, cos, -sin, -cos][order as usize % 4];
+                // The instant itself is known to an ulp of the time only.
+                large += amplitude.abs() * (1.0 + wave.omega * t);
+            }
+            for &(i, weight) in row.entries() {
+                if let (Some(out), Some(size)) = (out.get_mut(i), size.get_mut(i)) {
+                    *out += weight * value;
+                    *size += weight.abs() * large;
+                }
+            }
+        }
+    }
+}
+
+/// The largest λ of B x = λ M x, by the power method.
+fn largest_ratio(mass: &Symmetric, factor: &mut Factor, b: &Symmetric) -> f64 {
+    let n = mass.size();
+    // A diagonal pencil is known at once.
+    if mass.half_bandwidth() == 0 && b.half_bandwidth() == 0 {
+        let pairs = mass.diagonal_entries().into_iter().zip(b.diagonal_entries());
+        return pairs.map(|(m, b)| b / m).fold(0.0, f64::max);
+    }
+    let mut x: Vec<f64> = (0..n).map(|i| (1.0 + 0.754_877_666 * i as f64).fract() - 0.4).collect();
+    let mut largest = 0.0_f64;
+    for _ in 0..ITERATIONS {
+        let norm = mass.form(&x, &x).sqrt();
+        if norm.is_nan() || norm <= 0.0 {
+            break;
+        }
+        x.iter_mut().for_each(|x| *x /= norm);
+        largest = largest.max(b.form(&x, &x));
+        let mut y = vec![0.0; n];
+        b.add_product(1.0, &x, &mut y);
+        factor.solve(&mut y);
+        x = y;
+    }
+    largest
+}

@@ -1,0 +1,189 @@
+//! The exact motion of a structure over a short stretch: its Taylor series, down to rounding.
+//!
+//! Between events M q̈ + C q̇ + K q = f(t) + Gᵀ r with r linear in the state. From (q, q̇) at the start every derivative follows,
+//!
+//! M q⁽ᵏ⁺²⁾ = f⁽ᵏ⁾ − C q⁽ᵏ⁺¹⁾ − K q⁽ᵏ⁾ + Gᵀ r⁽ᵏ⁾,
+//!
+//! which is the action of the exponential of the first-order system on its state (Al-Mohy and Higham 2011, doi:10.1137/100788860): products with M⁻¹, C and K only,
+//! whatever the structure. A stretch is no longer than two radians of the fastest motion, so that no term is much larger than the motion itself and nothing cancels, and
+//! the series goes on until its terms are below rounding. Nothing is discretised.
+//!
+//! An elastic wall that touches gives r⁽ᵏ⁾ = −k_a (w − g)⁽ᵏ⁾ − c_a w⁽ᵏ⁺¹⁾. Rigid walls in lasting contact give the r⁽ᵏ⁾ for which G q⁽ᵏ⁺²⁾ = 0.
+
+mod body;
+mod hold;
+mod terms;
+
+pub(crate) use body::Body;
+pub(crate) use hold::{Held, Hold};
+use terms::Wave;
+pub(crate) use terms::{Start, Touching};
+
+/// Terms of the longest series, and the stride of a polynomial.
+pub(crate) const TERMS: usize = 32;
+
+/// A stretch of exact motion of a structure on which the set of touching walls does not change.
+///
+/// With x = (t − start)/unit the displacement is q(t) = Σ aₖ xᵏ, n entries each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    n: usize,
+    start: f64,
+    end: f64,
+    /// The unit of x, s: 0 ≤ x ≤ 1 on the stretch.
+    unit: f64,
+    /// Number of terms in use.
+    terms: usize,
+    /// aₖ one after the other, n entries each.
+    motion: Vec<f64>,
+    /// Displacements seen by the rows of the walls, m: a polynomial in x each.
+    seen: Vec<f64>,
+    /// Force polynomials of what acts, N: of the touching elastic walls, then of the held rows.
+    forces: Vec<f64>,
+    acting: Vec<Acting>,
+    waves: Vec<Wave>,
+    /// The fastest rate that the stretch was made for, 1/s.
+    rate: f64,
+}
+
+/// A wall that acts on a stretch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Acting {
+    wall: usize,
+    /// Which force polynomial.
+    slot: usize,
+    /// Its share of it: walls at one place carry it equally.
+    share: f64,
+    /// For a rigid wall the sign of its force, which only rounding turns round.
+    sign: Option<f64>,
+}
+
+impl Series {
+    /// Time at which it starts, s.
+    #[must_use]
+    pub fn start(&self) -> f64 {
+        self.start
+    }
+
+    /// Time at which it ends, s.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.end
+    }
+
+    /// n.
+    #[must_use]
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.n
+    }
+
+    /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at the end, into slices of n entries.
+    pub fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
+        self.state_at((t - self.start) / self.unit, q, v);
+    }
+
+    /// The same at x.
+    pub(crate) fn state_at(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
+        let n = self.n;
+        let (q, v) = (&mut q[..n], &mut v[..n]);
+        q.fill(0.0);
+        v.fill(0.0);
+        for k in (0..self.terms).rev() {
+            let term = &self.motion[k * n..(k + 1) * n];
+            if k > 0 {
+                let factor = k as f64;
+                for ((q, v), a) in q.iter_mut().zip(&mut *v).zip(term) {
+                    *q = *q * x + a;
+                    *v = *v * x + factor * a;
+                }
+            } else {
+                for (q, a) in q.iter_mut().zip(term) {
+                    *q = *q * x + a;
+                }
+            }
+        }
+        let inverse = 1.0 / self.unit;
+        v.iter_mut().for_each(|v| *v *= inverse);
+    }
+
+    /// Force of wall `wall` on the structure at `t`, N, signed: 0 if it does not act.
+    #[must_use]
+    pub fn contact_force(&self, wall: usize, t: f64) -> f64 {
+        let x = (t - self.start) / self.unit;
+        let Some(acting) = self.acting.iter().find(|a| a.wall == wall) else { return 0.0 };
+        acting.keep(value(self.force(acting.slot), x))
+    }
+
+    /// Impulse of wall `wall` on the structure over [from, to] within the stretch, N s, in closed form.
+    #[must_use]
+    pub fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
+        let Some(acting) = self.acting.iter().find(|a| a.wall == wall) else { return 0.0 };
+        let force = self.force(acting.slot);
+        let (a, b) = ((from - self.start) / self.unit, (to - self.start) / self.unit);
+        // ∫ xᵏ over [a, b] is (b − a) Σ aʲ bᵏ⁻ʲ/(k + 1): no difference of large powers.
+        let (mut sum, mut mixed, mut power) = (0.0, 1.0, 1.0);
+        for (k, c) in force.iter().enumerate() {
+            sum += c * mixed / (k + 1) as f64;
+            power *= b;
+            mixed = a * mixed + power;
+        }
+        acting.keep(sum * (b - a) * self.unit)
+    }
+
+    /// Walls that act, each with the polynomial of its force in x before its share.
+    pub(crate) fn acting(&self) -> impl Iterator<Item = (usize, &[f64], f64)> {
+        self.acting.iter().map(|a| (a.wall, self.force(a.slot), a.share))
+    }
+
+    /// The force polynomial of held row number `held`, N: positive for a lower wall's side.
+    pub(crate) fn held_force(&self, held: usize) -> &[f64] {
+        let touching = self.acting.iter().filter(|a| a.sign.is_none()).count();
+        self.force(touching + held)
+    }
+
+    /// The displacement polynomial that row `row` sees, m.
+    #[inline]
+    pub(crate) fn seen(&self, row: usize) -> &[f64] {
+        &self.seen[row * TERMS..row * TERMS + self.terms]
+    }
+
+    /// The unit of x, s.
+    #[inline]
+    pub(crate) fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    /// The end in x.
+    pub(crate) fn span(&self) -> f64 {
+        (self.end - self.start) / self.unit
+    }
+
+    /// aₖ, n entries.
+    pub(crate) fn term(&self, k: usize) -> &[f64] {
+        &self.motion[k * self.n..(k + 1) * self.n]
+    }
+
+    /// Cuts it off at `end` (s).
+    pub(crate) fn cut(&mut self, end: f64) {
+        self.end = end;
+    }
+
+    #[inline]
+    fn force(&self, slot: usize) -> &[f64] {
+        &self.forces[slot * TERMS..slot * TERMS + self.terms]
+    }
+}
+
+impl Acting {
+    #[inline]
+    fn keep(&self, force: f64) -> f64 {
+        let force = self.share * force;
+        self.sign.map_or(force, |sign| sign * (sign * force).max(0.0))
+    }
+}
+
+/// Σ cₖ xᵏ.
+#[inline]
+pub(crate) fn value(c: &[f64], x: f64) -> f64 {
+    c.iter().rev().fold(0.0, |sum, c| sum * x + c)
+}

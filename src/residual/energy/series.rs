@@ -1,0 +1,60 @@
+//! The ledger of a structure's exact motion: what its powers sum up to over a stretch, and what happens in the instant that ends it.
+
+use super::{Flows, Ledger, stored};
+use crate::scene::{Scene, WallLaw};
+use crate::step::Step;
+
+/// What moves over a stretch, J.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in super::super) struct Moved {
+    /// ∫ f·q̇ and ∫ |f·q̇|.
+    pub work: f64,
+    pub passed: f64,
+    /// ∫ q̇ᵀC q̇.
+    pub damping: f64,
+    /// ∫ −r ẇ over damped walls.
+    pub push: f64,
+    /// The largest energy seen.
+    pub largest: f64,
+}
+
+impl Ledger {
+    /// Energy of structure and walls at a state; `force` is that of each wall.
+    pub fn energy_at(scene: &Scene, q: &[f64], v: &[f64], force: impl Fn(usize) -> f64) -> f64 {
+        let walls = scene.walls.iter().enumerate();
+        let held: f64 = walls.map(|(index, wall)| stored(wall, wall.at.dot(q), force(index) != 0.0)).sum();
+        0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + held
+    }
+
+    /// Books a stretch, and the instant at its end, at which the velocity goes from `left` by blows (N s) to `mid` and by impacts to the step's.
+    pub fn see_series(
+        &mut self,
+        scene: &Scene,
+        step: &Step<'_>,
+        moved: Moved,
+        blow: &[f64],
+        left: &[f64],
+        mid: &[f64],
+    ) {
+        let mut flows =
+            Flows { work: moved.work, passed: moved.passed, damping: moved.damping, dashpot: moved.push, impact: 0.0 };
+        self.report.largest_j = self.report.largest_j.max(moved.largest);
+        for ((blow, left), mid) in blow.iter().zip(left).zip(mid) {
+            let struck = 0.5 * blow * (left + mid);
+            flows.work += struck;
+            flows.passed += struck.abs();
+        }
+        let mut walls = 0.0;
+        for (index, wall) in scene.walls.iter().enumerate() {
+            flows.impact -= 0.5 * step.jump[index] * (wall.at.dot(mid) + wall.at.dot(step.v));
+            let now = stored(wall, wall.at.dot(step.q), step.force[index] != 0.0);
+            walls += now;
+            let held = std::mem::replace(&mut self.held[index], now);
+            if matches!(wall.law, WallLaw::Elastic { damping, .. } if damping > 0.0) {
+                flows.dashpot -= now - held;
+            }
+        }
+        let system = &scene.system;
+        self.book(0.5 * (system.mass_form(step.v, step.v) + system.stiffness_form(step.q, step.q)) + walls, flows);
+    }
+}

@@ -1,0 +1,119 @@
+//! The judge on a structure's exact motion.
+//!
+//! A stretch lasts two radians of its fastest motion at most, so that Gauss's rule of ten points integrates powers, which have twice that rate, to 1e-20 of their size; were
+//! a stretch longer than it says, the ledger would not close.
+
+use super::energy::{Ledger, Moved};
+use super::{Judge, PLACE_UNITS};
+use crate::flow::Series;
+use crate::scene::WallLaw;
+use crate::step::Step;
+
+/// Nodes and weights of the ten-point Gauss–Legendre rule on [−1, 1], the positive half.
+const GAUSS: [(f64, f64); 5] = [
+    (0.148_874_338_981_631_21, 0.295_524_224_714_752_87),
+    (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
+    (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
+    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
+    (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
+];
+
+/// Units in the last place of the largest momentum by which those at the ends of a stretch are not known.
+const MOMENTUM_UNITS: f64 = 4.0;
+
+impl Judge {
+    pub(super) fn see_series(&mut self, step: &Step<'_>, series: &Series) {
+        for (index, wall) in self.scene.walls.iter().enumerate() {
+            self.tension = self.tension.max(-wall.side.sign() * step.jump[index]);
+        }
+        let mut moved = Moved::default();
+        self.scratch.damper.copy_from_slice(step.velocity_before);
+        if step.end > step.start {
+            self.follow(step, series, &mut moved);
+            // The velocity at the end, from the left.
+            let s = &mut self.scratch;
+            series.state(step.end, &mut s.mean_q, &mut s.damper);
+            self.weigh(step);
+        }
+        let s = &mut self.scratch;
+        for (i, mid) in s.spring.iter_mut().enumerate() {
+            *mid = s.damper[i] + s.struck[i];
+            self.normal_speed = self.normal_speed.max(mid.abs() * self.scales.root_mass[i]);
+        }
+        self.energy.see_series(&self.scene, step, moved, &s.blow, &s.damper, &s.spring);
+    }
+
+    /// Integrates over the stretch, and holds the walls to their laws on the way. Leaves ∫ of the net force in `residual`, N s.
+    fn follow(&mut self, step: &Step<'_>, series: &Series, moved: &mut Moved) {
+        let s = &mut self.scratch;
+        let (half, middle) = (0.5 * (step.end - step.start), 0.5 * (step.start + step.end));
+        s.residual.fill(0.0);
+        s.inertia.fill(0.0);
+        s.spring.fill(0.0);
+        let system = &self.scene.system;
+        for (node, weight) in GAUSS.iter().flat_map(|&(x, w)| [(-x, w), (x, w)]) {
+            let (t, weight) = (middle + half * node, half * weight);
+            series.state(t, &mut s.mean_q, &mut s.mean_v);
+            s.load.copy_from_slice(step.extra);
+            self.loads.add_force(t, 1.0, &mut s.load);
+            let power: f64 = s.load.iter().zip(&s.mean_v).map(|(f, v)| f * v).sum();
+            moved.work += weight * power;
+            moved.passed += weight * power.abs();
+            moved.damping += weight * system.damping_form(&s.mean_v, &s.mean_v);
+            for i in 0..s.residual.len() {
+                s.residual[i] += weight * s.load[i];
+                // ∫q and ∫q̇: one product each at the end.
+                s.inertia[i] += weight * s.mean_q[i];
+                s.spring[i] += weight * s.mean_v[i];
+                let weight = self.scales.root_mass[i];
+                self.balance_scale = self.balance_scale.max(s.load[i].abs() / weight);
+                self.normal_speed = self.normal_speed.max(s.mean_v[i].abs() * weight);
+            }
+            let force = |wall: usize| series.contact_force(wall, t);
+            moved.largest = moved.largest.max(Ledger::energy_at(&self.scene, &s.mean_q, &s.mean_v, force));
+            for (index, wall) in self.scene.walls.iter().enumerate() {
+                let (sign, r) = (wall.side.sign(), force(index));
+                let (w, rate) = (wall.at.dot(&s.mean_q), wall.at.dot(&s.mean_v));
+                let pressure = sign * r;
+                self.force_scale = self.force_scale.max(pressure.abs());
+                self.tension = self.tension.max(-pressure);
+                self.depth[index] = self.depth[index].max(-wall.gap(w));
+                for &(i, g) in wall.at.entries() {
+                    s.residual[i] += weight * g * r;
+                }
+                if wall.law.is_rigid() {
+                    self.pairs.add(wall.gap(w), pressure);
+                    continue;
+                }
+                if matches!(wall.law, WallLaw::Elastic { damping, .. } if damping > 0.0) {
+                    moved.push -= weight * r * rate;
+                }
+                let terms: f64 = wall.at.entries().iter().map(|&(i, g)| (g * s.mean_q[i]).abs()).sum();
+                let rounding = PLACE_UNITS * f64::EPSILON * (terms + wall.position.abs() + rate.abs() * t);
+                let law = |depth: f64| wall.law.pressure(depth, -sign * rate);
+                let (low, high) = (law(-wall.gap(w) - rounding), law(-wall.gap(w) + rounding));
+                self.law_error = self.law_error.max(low - pressure).max(pressure - high);
+            }
+        }
+        system.add_damping(-1.0, &s.spring, &mut s.residual);
+        system.add_stiffness(-1.0, &s.inertia, &mut s.residual);
+    }
+
+    /// The momentum balance over the stretch: M(v₁ − v₀) less the impulse of the net force.
+    fn weigh(&mut self, step: &Step<'_>) {
+        let s = &mut self.scratch;
+        let span = step.end - step.start;
+        for ((v, end), start) in s.mean_v.iter_mut().zip(&s.damper).zip(step.velocity_before) {
+            *v = end - start;
+        }
+        s.inertia.fill(0.0);
+        self.scene.system.add_mass(1.0, &s.mean_v, &mut s.inertia);
+        // Over a stretch as short as the clock can tell, the rounding of the momentum would pass for a force.
+        let rounding = MOMENTUM_UNITS * f64::EPSILON * self.normal_speed;
+        for (i, weight) in self.scales.root_mass.iter().enumerate() {
+            let open = ((s.inertia[i] - s.residual[i]).abs() - rounding * weight).max(0.0);
+            self.balance = self.balance.max(open / span);
+            self.normal_balance = self.normal_balance.max(open / (span * weight));
+        }
+    }
+}

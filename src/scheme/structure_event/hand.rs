@@ -1,0 +1,184 @@
+//! Stretches that are handed to moreau-jean.
+//!
+//! Impacts may accumulate where no rule closes them: at several walls in turn, under a force that changes meanwhile, or at e = 1 under drag. More than [`CROWD`] events within
+//! two radians of the fastest motion (or a thousandth of the run, if that is shorter) are such a place. That long a stretch is then stepped by moreau-jean with
+//! θ = ½ in [`PARTS`] steps, and the exact motion goes on from where it ends, put back onto walls that the steps have passed. Whoever reads the run is told.
+
+use super::StructureEvent;
+use crate::contact::Episodes;
+use crate::error::Result;
+use crate::qp::Backend;
+use crate::scene::{Load, LoadKind, Scene, State, Table};
+use crate::scheme::structure::Structure;
+use crate::scheme::{Handed, Scheme};
+
+/// Events within a stretch that are followed one by one …
+const CROWD: u64 = 5000;
+
+/// … and where the stretch before has been handed over already.
+const CROWD_AGAIN: u64 = 50;
+
+/// Steps of a stretch that is handed over: a hundredth of a radian of the fastest motion each.
+const PARTS: u64 = 200;
+
+/// The longest stretch, as a share of the run.
+const LONGEST: f64 = 1e-3;
+
+/// The rule that steps.
+const RULE: Scheme = Scheme::MoreauJean { theta: 0.5 };
+
+/// A stretch under way.
+#[derive(Debug)]
+pub(super) struct Stretch {
+    kernel: Structure,
+    episodes: Episodes,
+    scene: Scene,
+    from: f64,
+    to: f64,
+    /// Its step, s.
+    pub h: f64,
+    step: u64,
+    /// The contract that its steps keep.
+    pub contract: crate::step::Contract,
+}
+
+/// Counts events, to know a crowd.
+#[derive(Debug, Default)]
+pub(super) struct Crowd {
+    since: f64,
+    at_since: u64,
+    /// End of the last stretch handed over, s.
+    handed: f64,
+    /// Stretches handed over, those that follow one another as one.
+    pub stretches: Vec<Handed>,
+    pub steps: u64,
+}
+
+impl StructureEvent {
+    /// The length of a stretch in which events are counted, s.
+    fn crowd_window(&self) -> f64 {
+        let rate = self.series.rate();
+        let longest = LONGEST * self.duration;
+        if rate > 0.0 { longest.min(2.0 / rate) } else { longest }
+    }
+
+    /// Hands the stretch ahead over if events crowd here.
+    pub(super) fn hand_over(&mut self) -> Result<()> {
+        let (window, events) = (self.crowd_window(), self.guard.total.events);
+        if self.time > self.crowd.since + window {
+            (self.crowd.since, self.crowd.at_since) = (self.time, events);
+        }
+        let again = !self.crowd.stretches.is_empty() && self.time <= self.crowd.handed + window;
+        if events - self.crowd.at_since <= if again { CROWD_AGAIN } else { CROWD } {
+            return Ok(());
+        }
+        let to = self.limit().min(self.time + window);
+        let (scene, h) = (self.scene_from_here(to - self.time), (to - self.time) / PARTS as f64);
+        let contract = RULE.contract();
+        self.stretch = Some(Box::new(Stretch {
+            kernel: Structure::new(&scene, &RULE, h, Backend::Auto)?,
+            episodes: Episodes::new(&scene, contract),
+            scene,
+            from: self.time,
+            to,
+            h,
+            step: 0,
+            contract,
+        }));
+        let joins = |last: &&mut Handed| last.to == self.time;
+        match self.crowd.stretches.last_mut().filter(joins) {
+            Some(last) => (last.to, last.step) = (to, last.step.max(h)),
+            None => self.crowd.stretches.push(Handed { from: self.time, to, step: h }),
+        }
+        Ok(())
+    }
+
+    /// The scene from the present on, its loads as they are until the next event of theirs.
+    fn scene_from_here(&self, duration: f64) -> Scene {
+        let now = self.time;
+        let shifted = |load: &Load| {
+            let kind = match &load.kind {
+                LoadKind::Constant { .. } => load.kind.clone(),
+                LoadKind::Harmonic { amplitude, frequency, phase } => LoadKind::Harmonic {
+                    amplitude: *amplitude,
+                    frequency: *frequency,
+                    phase: phase + std::f64::consts::TAU * frequency * now,
+                },
+                // A stretch ends before the next blow.
+                LoadKind::Impulse { .. } => return None,
+                LoadKind::Table(table) => {
+                    let (at, slope) = table.piece(now);
+                    let line = Table::new(vec![0.0, 2.0 * duration], vec![at, at + 2.0 * slope * duration]).ok()?;
+                    LoadKind::Table(line)
+                }
+            };
+            Some(Load { kind, at: load.at.clone() })
+        };
+        Scene {
+            system: self.scene.system.clone(),
+            walls: self.scene.walls.clone(),
+            loads: self.scene.loads.iter().filter_map(shifted).collect(),
+            probes: Vec::new(),
+            initial: State { q: self.q.clone(), v: self.v.clone() },
+            duration,
+        }
+    }
+
+    /// One step of the stretch under way.
+    pub(super) fn advance_stretch(&mut self, mut stretch: Box<Stretch>) -> Result<()> {
+        if stretch.step == 0 {
+            // The exact episodes end here; the steps have their own.
+            for b in &mut self.barriers {
+                self.closed.extend(b.close(self.time, 0.0));
+            }
+        }
+        let s = &mut *stretch;
+        s.kernel.advance(s.step, Some(&self.extra))?;
+        s.kernel.tell(&s.scene, s.h, &mut s.episodes);
+        s.step += 1;
+        self.crowd.steps += 1;
+        let last = s.step == PARTS;
+        self.time = if last { s.to } else { s.from + s.step as f64 * s.h };
+        let step = s.kernel.step(s.step - 1, &s.episodes);
+        self.q.copy_from_slice(step.q);
+        self.v.copy_from_slice(step.v);
+        self.impulse.copy_from_slice(step.impulse);
+        self.force.copy_from_slice(step.force);
+        let later = |c: &crate::step::Contact| {
+            let mut c = *c;
+            c.start += s.from;
+            c.end = c.end.map(|end| end + s.from);
+            c
+        };
+        self.closed.extend(step.closed.iter().map(later));
+        if !last {
+            self.stretch = Some(stretch);
+            return Ok(());
+        }
+        let ended = |mut c: crate::step::Contact| {
+            c = later(&c);
+            c.end = Some(self.time.max(c.start));
+            c.departure_speed = Some(c.departure_speed.unwrap_or(0.0));
+            c
+        };
+        let still = s.episodes.still_open();
+        self.closed.extend(still.into_iter().map(ended));
+        self.resume()
+    }
+
+    /// Takes up the exact motion where a stretch has ended.
+    fn resume(&mut self) -> Result<()> {
+        self.crowd.handed = self.time;
+        (self.crowd.since, self.crowd.at_since) = (self.time, self.guard.total.events);
+        if self.time >= self.next_mark() {
+            self.marks += 1;
+        }
+        self.places.iter_mut().for_each(|place| place.held = 0.0);
+        self.hold.set(&self.body, std::iter::empty());
+        self.carriers.clear();
+        self.decided = f64::NEG_INFINITY;
+        self.reclassify();
+        // Blows due now come with the next step of the exact motion.
+        Ok(())
+    }
+}

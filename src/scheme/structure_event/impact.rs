@@ -1,0 +1,225 @@
+//! Impacts at several walls at once.
+//!
+//! Over the closed walls that are approached or at rest, with ẇ counted away from the wall,
+//!
+//! minimise ½ (v⁺ − v)ᵀ M (v⁺ − v)   subject to   ẇ⁺ + e ẇ ≥ 0,
+//!
+//! which is Newton's law with an impulse at each wall that its own approach calls for (Moreau 1988, doi:10.1007/978-3-7091-2624-0_1). It is repeated while any closed wall is
+//! approached, for one impulse may throw the structure onto the next wall; after [`PASSES`] of them, or where walls on opposite sides leave no room for a rebound, one programme over all closed walls with e = 0 ends it. Energy never
+//! grows: in each pass p · (ẇ⁺ + ẇ) ≤ 0 at every wall with an impulse.
+
+use super::rows::size;
+use super::{StructureEvent, instant::side_of};
+use crate::error::{Error, Result};
+use crate::qp::{Failure, Rhs};
+use crate::scheme::event::noise;
+
+/// Programmes of an instant after which one with e = 0 over all closed walls ends it.
+const PASSES: usize = 20;
+
+/// A flight after an impact is the tail of an accumulation if it is lower than this share of the scene's length …
+const TAIL_HEIGHT: f64 = 1e-12;
+
+/// … and if the pressing acceleration will change by less than this share until the impacts have accumulated.
+const TAIL_CHANGE: f64 = 1e-6;
+
+/// A flight of fewer units in the last place of the time than this is not resolved.
+const TIME_UNITS: f64 = 8.0;
+
+/// Signs in a programme are told down to this share of the largest speed of any row.
+const TOLD: f64 = 4e-12;
+
+impl StructureEvent {
+    /// Rates away from the walls that are below this are none, m/s.
+    pub(super) fn quiet(&self, row: usize) -> f64 {
+        let own = noise(size(&self.body, row, &self.v));
+        if self.seats.len() < 2 {
+            return own;
+        }
+        own.max(TOLD * self.fastest_row)
+    }
+
+    /// True if a seat's wall is approached.
+    pub(super) fn is_approached(&self, seat: usize) -> bool {
+        let s = &self.seats[seat];
+        let rate = self.rate_of(seat);
+        let quiet = self.quiet(s.row);
+        if s.both { rate.abs() > quiet } else { rate < -quiet }
+    }
+
+    /// ẇ away from the wall, m/s.
+    pub(super) fn rate_of(&self, seat: usize) -> f64 {
+        let s = &self.seats[seat];
+        s.sign * self.body.rows.dot(s.row, &self.v)
+    }
+
+    /// The impacts of this instant, with those that close an accumulation.
+    pub(super) fn impact(&mut self) -> Result<()> {
+        for seat in 0..self.seats.len() {
+            let s = self.seats[seat];
+            let e = self.places[s.row].restitution[side_of(s.sign)];
+            self.seats[seat].restitution = if s.both { 0.0 } else { e };
+        }
+        self.arriving.copy_from_slice(&self.v);
+        self.strike()?;
+        let mut stuck = false;
+        if self.seats.iter().any(|s| s.restitution > 0.0) {
+            stuck = self.stick()?;
+        }
+        if stuck {
+            self.v.copy_from_slice(&self.arriving);
+            self.strike()?;
+        }
+        Ok(())
+    }
+
+    /// Passes of the impact law from the present velocity.
+    fn strike(&mut self) -> Result<()> {
+        self.seats.iter_mut().for_each(|s| s.push = [0.0; 2]);
+        if let [seat] = self.seats[..] {
+            let rate = self.rate_of(0);
+            let push = -(1.0 + seat.restitution) * rate / self.body.delassus(seat.row, seat.row);
+            self.body.add_column(seat.row, seat.sign * push, &mut self.v);
+            self.seats[0].push[side_of(seat.sign * push)] = push.abs();
+            return Ok(());
+        }
+        for pass in 0..=PASSES {
+            if !(0..self.seats.len()).any(|seat| self.is_approached(seat)) {
+                break;
+            }
+            if pass == PASSES || !self.pass(false)? {
+                self.pass(true)?;
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// One programme; the `last` one is over all closed walls, with e = 0. False if walls on opposite sides leave no room for the rebounds asked for.
+    fn pass(&mut self, last: bool) -> Result<bool> {
+        self.lo.fill(f64::NEG_INFINITY);
+        self.hi.fill(f64::INFINITY);
+        for seat in 0..self.seats.len() {
+            let (s, rate, quiet) = (self.seats[seat], self.rate_of(seat), self.quiet(self.seats[seat].row));
+            if !(last || s.both || rate <= quiet) {
+                continue;
+            }
+            let bound = if last || rate >= -quiet { 0.0 } else { -s.restitution * rate };
+            // Between walls of both sides the one that is approached counts, and the other in the next pass: an impulse against the motion never gains.
+            let fixed = s.both && (last || rate.abs() <= quiet);
+            let lower = if s.both { s.sign * rate < 0.0 } else { s.sign > 0.0 };
+            if lower || fixed {
+                self.lo[s.row] = bound;
+            }
+            if !lower || fixed {
+                self.hi[s.row] = -bound;
+            }
+        }
+        self.rhs.fill(0.0);
+        self.body.add_inertia(&self.v, &mut self.rhs);
+        if !self.solve()? {
+            return Ok(false);
+        }
+        let Self { solver: Some(solver), seats, body, v, .. } = self else { return Ok(true) };
+        for s in seats {
+            let p = solver.solution().multiplier.get(s.row).copied().unwrap_or(0.0);
+            if p != 0.0 {
+                s.push[side_of(p)] += p.abs();
+                body.add_column(s.row, p, v);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Solves the programme of `rhs`, `lo` and `hi`. False if no motion keeps the bounds.
+    pub(super) fn solve(&mut self) -> Result<bool> {
+        let (time, step) = (self.time, self.steps);
+        let Some(solver) = &mut self.solver else { return Ok(true) };
+        match solver.solve(&Rhs { b: &self.rhs, lo: &self.lo, hi: &self.hi }) {
+            Ok(_) => Ok(true),
+            Err(Failure::Infeasible { .. }) => Ok(false),
+            Err(fault) => Err(Error::Qp { time, step, wall: None, reason: fault.to_string() }),
+        }
+    }
+
+    /// Takes the restitution from the seats whose flight after the impact is the tail of an accumulation, or below what double precision resolves. Returns whether there
+    /// is one.
+    fn stick(&mut self) -> Result<bool> {
+        // What presses is at most this; a flight far too high then needs no closer look.
+        self.derivatives[0].copy_from_slice(&self.q);
+        self.derivatives[1].copy_from_slice(&self.v);
+        self.forces(0);
+        let short = TIME_UNITS * f64::EPSILON * self.time;
+        let mut any = false;
+        for seat in 0..self.seats.len() {
+            let s = self.seats[seat];
+            let (rate, position) = (self.rate_of(seat), self.places[s.row].bound[side_of(s.sign)]);
+            let most: f64 = self.body.column(s.row).iter().zip(&self.rhs_size).map(|(y, f)| (y * f).abs()).sum();
+            let resolved = self.resolution(s.row, position);
+            let low = TAIL_HEIGHT * self.length + resolved;
+            let wanted = s.push[side_of(s.sign)] > 0.0 && s.restitution > 0.0 && rate > 0.0;
+            // Others that are held press by their reactions too, which are of the size of what they react to.
+            let most = if self.seats.len() > 1 { f64::INFINITY } else { most };
+            self.seats[seat].candidate = wanted && (rate * rate <= 4.0 * most * low || rate <= most * short);
+            any |= self.seats[seat].candidate;
+        }
+        if !any {
+            return Ok(false);
+        }
+        self.departing.copy_from_slice(&self.v);
+        self.reclassify();
+        self.settle(None)?;
+        // The stretch that led here stays as it is: it is what the step shows.
+        std::mem::swap(&mut self.series, &mut self.flight);
+        self.begin_series(self.limit());
+        self.measure();
+        let mut found = false;
+        for seat in 0..self.seats.len() {
+            let s = self.seats[seat];
+            if s.candidate && self.is_tail(seat, short) {
+                self.seats[seat].restitution = 0.0;
+                found = true;
+            }
+            self.seats[seat].candidate = false;
+        }
+        std::mem::swap(&mut self.series, &mut self.flight);
+        self.v.copy_from_slice(&self.departing);
+        Ok(found)
+    }
+
+    /// True if the flight of a seat in the series just begun is a tail.
+    ///
+    /// Sticking at once takes the momentum and the energy of the whole tail: of steady pressing that is what its impacts sum up to.
+    fn is_tail(&self, seat: usize, short: f64) -> bool {
+        let s = self.seats[seat];
+        let (c, unit) = (self.series.seen(s.row), self.series.unit());
+        let rate = s.sign * c[1] / unit;
+        let press = -2.0 * s.sign * c[2] / (unit * unit);
+        let column = self.body.column(s.row);
+        let large: f64 = column.iter().zip(&self.sizes.force[0]).map(|(y, f)| (y * f).abs()).sum();
+        if press <= noise(large) || rate <= 0.0 {
+            return false;
+        }
+        let (height, flight) = (0.5 * rate * rate / press, 2.0 * rate / press);
+        let position = self.places[s.row].bound[side_of(s.sign)];
+        if height <= self.resolution(s.row, position) || flight <= short {
+            return true;
+        }
+        if height >= TAIL_HEIGHT * self.length || s.restitution >= 1.0 {
+            return false;
+        }
+        let remaining = flight / (1.0 - s.restitution) / unit;
+        let (mut change, mut power) = (0.0, remaining);
+        for (k, c) in c.iter().enumerate().skip(3) {
+            change += (k * (k - 1)) as f64 * c.abs() * power;
+            power *= remaining;
+        }
+        change / (unit * unit) <= TAIL_CHANGE * press
+    }
+
+    /// What the displacement of a row may err by here, m.
+    pub(super) fn resolution(&self, row: usize, position: f64) -> f64 {
+        let moved = self.series.span() * size(&self.body, row, self.series.term(1));
+        noise(size(&self.body, row, &self.q) + moved + position.abs())
+    }
+}

@@ -1,0 +1,261 @@
+//! What happens in an instant: blows, impacts, lasting contact and its end, entry into elastic walls and letting go.
+
+use super::rest::Fate;
+use super::rows::SIGNS;
+use super::{Cause, StructureEvent};
+use crate::error::Result;
+use crate::flow::Held;
+use crate::scheme::event::{Barrier, Phase};
+use crate::step::Contact;
+
+/// A closed row at an instant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seat {
+    pub row: usize,
+    /// The sign of the force of the walls that are touched.
+    pub sign: f64,
+    /// Walls of both sides are touched: the row cannot move.
+    pub both: bool,
+    /// The sign of the walls that held the row so far; 0 without.
+    pub was: f64,
+    /// ẇ away from the walls before the instant, m/s.
+    pub arrived: f64,
+    pub restitution: f64,
+    /// Impulses of the lower and the upper walls, magnitudes, N s.
+    pub push: [f64; 2],
+    /// Its flight may be the tail of an accumulation.
+    pub candidate: bool,
+    pub fate: Fate,
+}
+
+/// 0 for lower walls, 1 for upper ones.
+pub(super) fn side_of(sign: f64) -> usize {
+    usize::from(sign < 0.0)
+}
+
+impl StructureEvent {
+    /// Everything that happens at the present instant, to which `hit` has led. True if the velocity jumped or a contact changed.
+    pub(super) fn happen(&mut self, hit: Option<Cause>) -> Result<bool> {
+        let blown = self.blow();
+        if hit.is_none() && !blown {
+            return Ok(false);
+        }
+        self.counters_mut().events += 1;
+        let wall = match hit {
+            Some(Cause::Elastic(wall)) => Some(wall),
+            Some(Cause::Gap(row, _) | Cause::Release(row)) => self.walls_of.get(row).and_then(|w| w.first()).copied(),
+            None => None,
+        };
+        self.last_wall = wall.or(self.last_wall);
+        if let Some(Cause::Elastic(wall)) = hit {
+            self.cross(wall);
+        }
+        let jumped = self.meet(hit, blown)?;
+        if jumped || blown {
+            self.reclassify();
+        }
+        Ok(true)
+    }
+
+    /// The blow that is due.
+    fn blow(&mut self) -> bool {
+        let before = self.blow.checked_sub(1).and_then(|i| self.blows.get(i)).copied().unwrap_or(0.0);
+        if self.blows.get(self.blow).is_none_or(|&time| time > self.time) {
+            return false;
+        }
+        self.blow += 1;
+        if !self.loads.blow(before, self.time, &mut self.rhs) {
+            return false;
+        }
+        self.body.solve(&mut self.rhs);
+        self.v.iter_mut().zip(&self.rhs).for_each(|(v, change)| *v += change);
+        true
+    }
+
+    /// Moves an elastic wall into its next phase.
+    fn cross(&mut self, wall: usize) {
+        let row = self.body.row_of[wall];
+        let (w, rate) = (self.body.rows.dot(row, &self.q), self.body.rows.dot(row, &self.v));
+        let resolution = self.resolution(row, self.barriers[wall].position);
+        let Some(b) = self.barriers.get_mut(wall) else { return };
+        let at_surface = b.gap(w).abs() <= resolution;
+        let next = match b.phase {
+            Phase::Rigid(_) => return,
+            Phase::Outside => Phase::Touching,
+            Phase::Touching if at_surface || b.damping == 0.0 => Phase::Outside,
+            Phase::Touching => Phase::Detached,
+            Phase::Detached if at_surface => Phase::Outside,
+            Phase::Detached => Phase::Touching,
+        };
+        (b.phase, b.changed) = (next, self.time);
+        follow(b, wall, self.time, rate, &mut self.closed);
+    }
+
+    /// After a jump of velocity: elastic walls with damping may let go or take hold.
+    pub(super) fn reclassify(&mut self) {
+        for wall in 0..self.barriers.len() {
+            if matches!(self.barriers[wall].phase, Phase::Rigid(_)) {
+                continue;
+            }
+            let row = self.body.row_of[wall];
+            let (w, rate) = (self.body.rows.dot(row, &self.q), self.body.rows.dot(row, &self.v));
+            let resolution = self.resolution(row, self.barriers[wall].position);
+            let b = &mut self.barriers[wall];
+            b.classify(w, rate, resolution);
+            follow(b, wall, self.time, rate, &mut self.closed);
+        }
+    }
+
+    /// Rigid walls that touch: impacts for what is approached, lasting contact or leaving for the rest. Returns whether the velocity jumped.
+    fn meet(&mut self, hit: Option<Cause>, blown: bool) -> Result<bool> {
+        self.seat(hit);
+        if self.seats.is_empty() {
+            return Ok(false);
+        }
+        let struck = (0..self.seats.len()).any(|seat| self.is_approached(seat));
+        if struck {
+            if blown {
+                self.end_rests();
+            }
+            self.impact()?;
+            self.reclassify();
+        }
+        let released = if let (Some(Cause::Release(row)), false) = (hit, blown || struck) { Some(row) } else { None };
+        self.settle(released)?;
+        self.decided = self.time;
+        for seat in 0..self.seats.len() {
+            self.tell(seat);
+        }
+        Ok(struck)
+    }
+
+    /// Finds the closed rows, and puts the structure onto their surfaces.
+    fn seat(&mut self, hit: Option<Cause>) {
+        self.seats.clear();
+        self.fastest_row = 0.0;
+        for row in 0..self.places.len() {
+            let place = self.places[row];
+            if place.carriers == [0, 0] {
+                continue;
+            }
+            let (w, rate) = (self.body.rows.dot(row, &self.q), self.body.rows.dot(row, &self.v));
+            self.fastest_row = self.fastest_row.max(rate.abs());
+            let mut closed = [false; 2];
+            for (side, closed) in closed.iter_mut().enumerate().filter(|(side, _)| place.carriers[*side] > 0) {
+                // The instant is known to an ulp of the time only.
+                let late = 4.0 * f64::EPSILON * self.time * rate.abs();
+                *closed = hit == Some(Cause::Gap(row, side))
+                    || place.held == SIGNS[side]
+                    || place.gap(side, w) <= self.resolution(row, place.bound[side]) + late;
+            }
+            if closed == [false, false] {
+                continue;
+            }
+            let both = closed == [true, true];
+            let sign = match closed {
+                [true, true] if place.held != 0.0 => place.held,
+                [true, true] => {
+                    if rate > 0.0 {
+                        -1.0
+                    } else {
+                        1.0
+                    }
+                }
+                [lower, _] => {
+                    if lower {
+                        1.0
+                    } else {
+                        -1.0
+                    }
+                }
+            };
+            self.seats.push(Seat {
+                row,
+                sign,
+                both,
+                was: place.held,
+                arrived: sign * rate,
+                restitution: 0.0,
+                push: [0.0; 2],
+                candidate: false,
+                fate: Fate::None,
+            });
+        }
+        let Self { surface, body, seats, places, q, scratch, .. } = self;
+        let held = |s: &Seat| Held { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
+        surface.set(body, seats.iter().map(held));
+        surface.place(body, q, scratch);
+    }
+
+    /// What a blow does at a wall that carried the structure is an impact of its own: the rest ends before it.
+    fn end_rests(&mut self) {
+        for seat in 0..self.seats.len() {
+            if self.seats[seat].was != 0.0 && self.is_approached(seat) {
+                let s = self.seats[seat];
+                self.each_wall(s.row, s.was, |b, _, closed, time| closed.extend(b.close(time, 0.0)));
+                self.seats[seat].was = 0.0;
+            }
+        }
+    }
+
+    /// Calls `of` for each rigid wall that stands nearest on one side of a row.
+    fn each_wall(&mut self, row: usize, sign: f64, mut of: impl FnMut(&mut Barrier, usize, &mut Vec<Contact>, f64)) {
+        let bound = self.places[row].bound[side_of(sign)];
+        for &wall in &self.walls_of[row] {
+            let b = &mut self.barriers[wall];
+            if matches!(b.phase, Phase::Rigid(_)) && b.sign == sign && b.position == bound {
+                of(b, wall, &mut self.closed, self.time);
+            }
+        }
+    }
+
+    /// Writes what has happened at a seat into the step and the episodes of its walls.
+    fn tell(&mut self, seat: usize) {
+        let s = self.seats[seat];
+        let (rate, place) = (s.sign * self.rate_of(seat), self.places[s.row]);
+        for (side, sign) in SIGNS.into_iter().enumerate() {
+            let stays = place.held == sign;
+            if s.push[side] > 0.0 {
+                self.counters_mut().impacts += 1;
+                self.tell_impact(s, side, stays, rate);
+            } else if s.was == sign && !stays {
+                self.each_wall(s.row, sign, |b, _, closed, time| closed.extend(b.close(time, sign * rate)));
+            }
+            if stays {
+                self.each_wall(s.row, sign, |b, wall, _, time| b.open(wall, time, 0.0));
+            }
+        }
+    }
+
+    /// An impulse: the walls of the largest restitution share it.
+    fn tell_impact(&mut self, s: Seat, side: usize, stays: bool, rate: f64) {
+        let (place, sign) = (self.places[s.row], SIGNS[side]);
+        let (e, arrived) = (place.restitution[side], s.sign * sign * s.arrived);
+        let impulse = sign * s.push[side] / place.strikers[side] as f64;
+        let mut jump = std::mem::take(&mut self.jump);
+        self.each_wall(s.row, sign, |b, wall, closed, time| {
+            if b.phase == Phase::Rigid(e) {
+                if let Some(jump) = jump.get_mut(wall) {
+                    *jump += impulse;
+                }
+                b.open(wall, time, -arrived);
+                if let Some(open) = &mut b.open {
+                    open.impulse += impulse;
+                }
+            }
+            if !stays {
+                closed.extend(b.close(time, sign * rate));
+            }
+        });
+        self.jump = jump;
+    }
+}
+
+/// Opens or closes the episode of an elastic wall as its phase asks.
+fn follow(b: &mut Barrier, wall: usize, time: f64, rate: f64, closed: &mut Vec<Contact>) {
+    match b.phase {
+        Phase::Touching => b.open(wall, time, -b.sign * rate),
+        Phase::Outside | Phase::Detached => closed.extend(b.close(time, b.sign * rate)),
+        Phase::Rigid(_) => {}
+    }
+}

@@ -1,0 +1,406 @@
+//! The exact scheme for several degrees of freedom: series between events, and the events to rounding.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `rows.rs` | the rows of the walls: bounds, what is held, roundings |
+//! | `search.rs`, `root.rs` | the first event of a stretch |
+//! | `instant.rs` | what happens in an instant, and the episodes of contact |
+//! | `impact.rs` | impacts, at several walls at once |
+//! | `rest.rs` | which walls carry what touches without speed |
+//! | `hand.rs` | what is handed to moreau-jean |
+//! | `view.rs` | what a run shows of itself |
+
+mod hand;
+mod impact;
+mod instant;
+mod rest;
+mod root;
+mod rows;
+mod search;
+mod view;
+
+use super::event::{Barrier, Counters, Guard, Phase, WINDOWS};
+use crate::error::{Error, Result};
+use crate::flow::{Body, Hold, Series, SeriesStart, Touching};
+use crate::qp::{self, Backend};
+use crate::scene::{Loads, Scene};
+use crate::step::{Contact, Contract};
+use hand::{Crowd, Stretch};
+use instant::Seat;
+use rows::{Place, Sizes};
+use search::Cause;
+
+/// A structure between walls, from event to event:
+///
+/// M q̈ + C q̇ + K q = f(t) + Gᵀ r,  0 ≤ gap ⟂ |r| ≥ 0 and an impact law at rigid walls, |r| = max(0, k_a s + c_a ṡ) for s > 0 at elastic ones.
+///
+/// Between events the motion is a [`Series`]; a step ends with an event or with the series. The first root of each gap, and of the force of each wall that touches, is never
+/// passed (`root.rs`).
+///
+/// - Impacts at several walls at once are one quadratic programme in the metric of M: see `impact.rs`. They never gain energy.
+/// - Walls that touch without speed carry what presses on them: 0 ≤ ẅ ⟂ λ ≥ 0, one quadratic programme, and where both vanish the next derivatives decide (`rest.rs`).
+/// - Accumulations of impacts close into lasting contact as they do for one degree of freedom.
+#[derive(Debug)]
+pub(super) struct StructureEvent {
+    scene: Scene,
+    body: Body,
+    loads: Loads,
+    barriers: Vec<Barrier>,
+    /// One for each row of the body.
+    places: Vec<Place>,
+    /// Walls of each row.
+    walls_of: Vec<Vec<usize>>,
+    solver: Option<qp::Solver>,
+    series: Series,
+    /// Room for a look ahead.
+    flight: Series,
+    hold: Hold,
+    /// Rows that touch at an instant: what puts the structure onto their surfaces.
+    surface: Hold,
+    /// Walls behind held rows: wall, number of the held row, share.
+    carriers: Vec<(usize, usize, f64)>,
+    touching: Vec<Touching>,
+    seats: Vec<Seat>,
+    /// The largest speed of any row at the present instant, m/s.
+    fastest_row: f64,
+    sizes: Sizes,
+    /// The guard's window, s.
+    duration: f64,
+    window: f64,
+    stride: f64,
+    /// A displacement of ordinary size, m.
+    length: f64,
+    time: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    extra: Vec<f64>,
+    /// The instant at which places were last decided, s.
+    decided: f64,
+    marks: u64,
+    /// Times of the blows after the start, s, and how many have been given.
+    blows: Vec<f64>,
+    blow: usize,
+    guard: Guard,
+    crowd: Crowd,
+    stretch: Option<Box<Stretch>>,
+    /// The rule of the last step, if it was handed over, and its step, s.
+    handed: Option<(Contract, f64)>,
+    last_wall: Option<usize>,
+    steps: u64,
+    // Vectors of length n.
+    derivatives: [Vec<f64>; 5],
+    rhs: Vec<f64>,
+    rhs_size: Vec<f64>,
+    arriving: Vec<f64>,
+    departing: Vec<f64>,
+    // Vectors over rows.
+    scratch: Vec<f64>,
+    lo: Vec<f64>,
+    hi: Vec<f64>,
+    // The last step, as `Step` wants it.
+    start: f64,
+    velocity_before: Vec<f64>,
+    impulse: Vec<f64>,
+    jump: Vec<f64>,
+    force: Vec<f64>,
+    closed: Vec<Contact>,
+}
+
+/// Changes that take no time, within one advance: beyond them the step is handed over with no length, and the guard counts.
+const CHANGES_AT_ONCE: usize = 16;
+
+/// The programme's signs are tested relative to the motion at hand, so any positive length will do.
+const SCALE: f64 = 1e-200;
+
+impl StructureEvent {
+    /// The scene at its start, after the blows at t = 0. Steps end at events, with a series, and at multiples of `stride` (s).
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a wall of the φ² penalty, which has no linear law.
+    pub fn new(scene: &Scene, stride: f64) -> Result<Self> {
+        let mut barriers = Vec::with_capacity(scene.walls.len());
+        for wall in &scene.walls {
+            let barrier = Barrier::new(wall).ok_or_else(|| {
+                let key = format!("wall {:?}: law", wall.name);
+                Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
+            })?;
+            barriers.push(barrier);
+        }
+        let singular = || Error::invalid("system: mass matrix", "singular", "a positive definite matrix");
+        let mut body = Body::new(scene).ok_or_else(singular)?;
+        let (n, rows, walls) = (body.n, body.rows.count(), barriers.len());
+        let places = (0..rows).map(|row| Place::new(scene, &body, row)).collect();
+        let walls_of = (0..rows).map(|row| (0..walls).filter(|&w| body.row_of[w] == row).collect()).collect();
+        let solver = if rows > 1 {
+            let problem =
+                qp::Problem { a: scene.system.structure().mass, g: body.rows.clone(), compliance: vec![0.0; rows] };
+            let refused = |f: qp::Failure| Error::Qp { time: 0.0, step: 0, wall: None, reason: f.to_string() };
+            Some(qp::Solver::new(problem, Backend::Condensed, SCALE).map_err(refused)?)
+        } else {
+            None
+        };
+        let loads = Loads::new(&scene.loads);
+        let (mut v, mut blow) = (scene.initial.v.clone(), vec![0.0; n]);
+        if loads.initial_blow(&mut blow) {
+            body.solve(&mut blow);
+            v.iter_mut().zip(&blow).for_each(|(v, change)| *v += change);
+        }
+        let mut blows: Vec<f64> = body.blow_times();
+        blows.retain(|&t| t > 0.0);
+        let zero = || vec![0.0; n];
+        let mut event = Self {
+            loads,
+            barriers,
+            places,
+            walls_of,
+            solver,
+            series: Series::new(&body),
+            flight: Series::new(&body),
+            hold: Hold::with_room(rows),
+            surface: Hold::with_room(rows),
+            carriers: Vec::with_capacity(walls),
+            touching: Vec::with_capacity(walls),
+            seats: Vec::with_capacity(rows),
+            fastest_row: 0.0,
+            sizes: Sizes::new(n),
+            duration: scene.duration,
+            window: scene.duration / WINDOWS,
+            stride,
+            length: if walls > 0 { scene.gap_scale() } else { 0.0 },
+            time: 0.0,
+            q: scene.initial.q.clone(),
+            velocity_before: v.clone(),
+            v,
+            extra: zero(),
+            decided: f64::NEG_INFINITY,
+            marks: 0,
+            blows,
+            blow: 0,
+            guard: Guard::default(),
+            crowd: Crowd::default(),
+            stretch: None,
+            handed: None,
+            scene: scene.clone(),
+            last_wall: None,
+            steps: 0,
+            derivatives: std::array::from_fn(|_| zero()),
+            rhs: zero(),
+            rhs_size: zero(),
+            arriving: zero(),
+            departing: zero(),
+            scratch: vec![0.0; rows],
+            lo: vec![f64::NEG_INFINITY; rows],
+            hi: vec![f64::INFINITY; rows],
+            start: 0.0,
+            impulse: vec![0.0; walls],
+            jump: vec![0.0; walls],
+            force: vec![0.0; walls],
+            closed: Vec::with_capacity(3 * walls + 2),
+            body,
+        };
+        event.reclassify();
+        event.set_forces();
+        Ok(event)
+    }
+
+    /// Moves on to the next event, end of a series, multiple of the stride, or the end of the scene, whichever is first, under a constant extra force (N, n entries; none is none).
+    /// A step of no length happens where the structure starts on a wall and moves into it. At the end of the scene nothing moves any more.
+    ///
+    /// # Errors
+    /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow; [`Error::Qp`] if a programme is not solved.
+    pub fn advance(&mut self, extra: Option<&[f64]>) -> Result<()> {
+        self.closed.clear();
+        self.impulse.fill(0.0);
+        self.jump.fill(0.0);
+        self.start = self.time;
+        self.velocity_before.copy_from_slice(&self.v);
+        let changed = match extra {
+            Some(extra) => self.extra != extra,
+            None => self.extra.iter().any(|&f| f != 0.0),
+        };
+        if changed {
+            match extra {
+                Some(extra) => self.extra.copy_from_slice(extra),
+                None => self.extra.fill(0.0),
+            }
+            self.decided = f64::NEG_INFINITY;
+        }
+        if self.is_done() {
+            return Ok(());
+        }
+        self.steps += 1;
+        self.handed = None;
+        if self.stretch.is_none() {
+            self.hand_over()?;
+        }
+        if let Some(stretch) = self.stretch.take() {
+            self.handed = Some((stretch.contract, stretch.h));
+            self.advance_stretch(stretch)?;
+            return self.check_guard();
+        }
+        for _ in 0..CHANGES_AT_ONCE {
+            let limit = self.limit();
+            self.begin_series(limit);
+            self.guard.total.evaluations += 1;
+            let hit = self.search();
+            let (x, end) = match hit {
+                Some(hit) => (hit.x, (self.time + hit.x * self.series.unit()).min(self.series.end())),
+                None => (self.series.span(), self.series.end()),
+            };
+            self.note_pressures(x);
+            self.time = end;
+            self.series.cut(end);
+            if x > 0.0 {
+                self.series.state_at(x, &mut self.q, &mut self.v);
+                self.check()?;
+            }
+            self.gather_impulses();
+            let changed = self.happen(hit.map(|hit| hit.cause))?;
+            let jumped = self.jump.iter().any(|&p| p != 0.0);
+            if end > self.start || jumped || !changed {
+                break;
+            }
+        }
+        if self.time >= self.next_mark() {
+            self.marks += 1;
+        }
+        for (impulse, jump) in self.impulse.iter_mut().zip(&self.jump) {
+            *impulse += jump;
+        }
+        self.set_forces();
+        self.check_guard()
+    }
+
+    /// The series from here on, with the walls that touch and the rows that are held.
+    fn begin_series(&mut self, limit: f64) {
+        if self.decided != self.time {
+            self.places.iter_mut().for_each(Place::forget);
+        }
+        let Self { body, series, barriers, touching, hold, carriers, .. } = self;
+        touching.clear();
+        touching.extend(barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching).map(|(wall, b)| {
+            Touching { wall, row: body.row_of[wall], position: b.position, stiffness: b.stiffness, damping: b.damping }
+        }));
+        if !hold.rows().is_empty() {
+            hold.place(body, &mut self.q, &mut self.scratch);
+            hold.stop(body, &mut self.v, &mut self.scratch);
+        }
+        let from = SeriesStart { time: self.time, q: &self.q, v: &self.v, extra: &self.extra, span: limit - self.time };
+        series.begin(body, &from, touching, hold, carriers.iter().copied(), &mut self.scratch);
+        self.sizes.known = false;
+    }
+
+    /// Adds the impulses of the stretch just run through to the step and to the episodes under way.
+    fn gather_impulses(&mut self) {
+        let Self { series, barriers, impulse, .. } = self;
+        for (wall, ..) in series.acting() {
+            let p = series.contact_impulse(wall, series.start(), series.end());
+            if let (Some(total), Some(b)) = (impulse.get_mut(wall), barriers.get_mut(wall)) {
+                *total += p;
+                if let Some(open) = &mut b.open {
+                    open.impulse += p;
+                }
+            }
+        }
+    }
+
+    /// The derivative of `order` of the force on the structure, free of rigid walls, at the present instant from the right, and the sizes of its terms: into `rhs` (N/sᵏ)
+    /// and `rhs_size`. Reads the derivatives of q from `order` to `order` + 1.
+    fn forces(&mut self, order: usize) {
+        let Self { body, derivatives, rhs, rhs_size, sizes, barriers, .. } = self;
+        rhs.fill(0.0);
+        rhs_size.fill(0.0);
+        if order == 0 {
+            rhs.copy_from_slice(&self.extra);
+            rhs_size.iter_mut().zip(&self.extra).for_each(|(size, f)| *size = f.abs());
+        }
+        let (x, rate) = (&derivatives[order], &derivatives[order + 1]);
+        body.add_load(order as u32, self.time, rhs, rhs_size);
+        body.add_force(x, rate, rhs);
+        body.add_sizes(x, rate, &mut sizes.work, rhs_size);
+        for (wall, b) in barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching) {
+            let row = body.row_of[wall];
+            let depth = body.rows.dot(row, x) - if order == 0 { b.position } else { 0.0 };
+            let (spring, dashpot) = (-b.stiffness * depth, -b.damping * body.rows.dot(row, rate));
+            body.rows.add_transposed(row, spring + dashpot, rhs);
+            for &(i, g) in body.rows.row(row) {
+                rhs_size[i] += g.abs() * (spring.abs() + dashpot.abs());
+            }
+        }
+    }
+
+    /// The sizes of force and rate at the start of the series, once.
+    fn measure(&mut self) {
+        if self.sizes.known {
+            return;
+        }
+        self.sizes.known = true;
+        self.derivatives[0].copy_from_slice(&self.q);
+        self.derivatives[1].copy_from_slice(&self.v);
+        let factor = 2.0 / (self.series.unit() * self.series.unit());
+        for (a, term) in self.derivatives[2].iter_mut().zip(self.series.term(2)) {
+            *a = factor * term;
+        }
+        for order in 0..2 {
+            self.forces(order);
+            self.sizes.force[order].copy_from_slice(&self.rhs_size);
+        }
+    }
+
+    /// The force of each wall now.
+    fn set_forces(&mut self) {
+        self.force.fill(0.0);
+        if !self.hold.rows().is_empty() {
+            self.derivatives[0].copy_from_slice(&self.q);
+            self.derivatives[1].copy_from_slice(&self.v);
+            self.forces(0);
+            for (b, held) in self.scratch.iter_mut().zip(self.hold.rows()) {
+                *b = self.body.answer(held.row, &self.rhs);
+            }
+            for &(wall, k, share) in &self.carriers {
+                let (Some(force), Some(held)) = (self.force.get_mut(wall), self.hold.rows().get(k)) else { continue };
+                let push = -self.hold.inverse(k).iter().zip(&self.scratch).map(|(w, b)| w * b).sum::<f64>();
+                *force = share * held.sign * (held.sign * push).max(0.0);
+            }
+        }
+        for (wall, b) in self.barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching) {
+            let row = self.body.row_of[wall];
+            let sum = b.sum(self.body.rows.dot(row, &self.q), self.body.rows.dot(row, &self.v));
+            self.force[wall] = b.sign * sum.max(0.0);
+        }
+    }
+
+    fn check(&self) -> Result<()> {
+        let sum = |x: &[f64]| x.iter().fold(0.0, |sum, x| sum + x * 0.0);
+        if sum(&self.q) + sum(&self.v) == 0.0 {
+            return Ok(());
+        }
+        Err(Error::NotFinite { time: self.time, step: self.steps, what: "state" })
+    }
+
+    fn counters_mut(&mut self) -> &mut Counters {
+        &mut self.guard.total
+    }
+
+    /// The next multiple of the stride, s; the end of the scene where only rounding would separate the two.
+    fn next_mark(&self) -> f64 {
+        let mark = (self.marks + 1) as f64 * self.stride;
+        if self.duration - mark < 1e-9 * self.stride { self.duration } else { mark }
+    }
+
+    /// How far the next series can reach: a mark, a row of a table, a blow, the end; s.
+    fn limit(&self) -> f64 {
+        let mut limit = self.next_mark().min(self.duration);
+        if let Some(&time) = self.blows.get(self.blow) {
+            limit = limit.min(time);
+        }
+        self.body.next_corner(self.time).map_or(limit, |corner| limit.min(corner))
+    }
+
+    fn check_guard(&mut self) -> Result<()> {
+        let (time, window) = (self.time, self.window);
+        let Some(count) = self.guard.exceeded(time, window) else { return Ok(()) };
+        let wall = self.last_wall.and_then(|i| self.barriers.get(i)).or(self.barriers.first());
+        Err(Error::TooManyEvents { time, wall: wall.map_or_else(String::new, |b| b.name.clone()), count, window })
+    }
+}

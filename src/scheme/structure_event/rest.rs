@@ -1,0 +1,175 @@
+//! Which walls carry what touches without speed.
+//!
+//! Over the closed rows without speed, 0 ≤ ẅ ⟂ λ ≥ 0: the accelerations minimise ½ (q̈ − M⁻¹F)ᵀ M (q̈ − M⁻¹F) over G q̈ ≥ 0, Gauss's principle. Rows with λ > 0 are
+//! held, rows with ẅ > 0 leave. Where both vanish to rounding the next derivative decides in the same way, with the rows that are held held in it too; a row on
+//! which no derivative has a say is held, and carries nothing.
+
+use super::StructureEvent;
+use super::instant::{Seat, side_of};
+use super::rows::SIGNS;
+use crate::error::Result;
+use crate::flow::{Held, TERMS};
+use crate::scheme::event::noise;
+
+/// Derivatives of the acceleration that are asked, with itself.
+const LEVELS: usize = 3;
+
+/// What becomes of a row without speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Fate {
+    /// It has speed, or is not closed.
+    None,
+    Open,
+    /// Held, by the derivative of this order of its force.
+    Held(usize),
+    /// Let go, by the derivative of this order of its acceleration.
+    Gone(usize),
+}
+
+/// A force that has just been found to vanish does so to this share of its terms, or something else has happened to it.
+const VANISHED: f64 = 1e-9;
+
+impl StructureEvent {
+    /// Decides over the seats without speed and holds those that are pressed. `released` is the row whose force has just vanished.
+    pub(super) fn settle(&mut self, released: Option<usize>) -> Result<()> {
+        for seat in 0..self.seats.len() {
+            let s = self.seats[seat];
+            let (rate, quiet) = (self.rate_of(seat), self.quiet(s.row));
+            // Without restitution an impulse leaves no speed but rounding.
+            let stopped = s.push != [0.0; 2] && s.restitution == 0.0 && rate.abs() <= 1e3 * quiet;
+            let rests = !s.candidate && (s.both || stopped || rate.abs() <= quiet || rate < 0.0);
+            self.seats[seat].fate = if rests { Fate::Open } else { Fate::None };
+        }
+        self.derivatives[0].copy_from_slice(&self.q);
+        self.derivatives[1].copy_from_slice(&self.v);
+        for level in 0..LEVELS {
+            if !self.seats.iter().any(|s| s.fate == Fate::Open) {
+                break;
+            }
+            self.forces(level);
+            self.decide(level, released)?;
+        }
+        // What no derivative decides is held, and carries nothing.
+        for s in &mut self.seats {
+            if s.fate == Fate::Open {
+                s.fate = Fate::Held(TERMS);
+            }
+        }
+        self.hold_seats();
+        Ok(())
+    }
+
+    /// One level: the derivative of the acceleration, and of the forces.
+    fn decide(&mut self, level: usize, released: Option<usize>) -> Result<()> {
+        let resting = |s: &&Seat| matches!(s.fate, Fate::Open | Fate::Held(_));
+        if let (1, Some(at)) = (self.seats.iter().filter(resting).count(), self.seats.iter().position(|s| resting(&s)))
+        {
+            return self.decide_one(level, at, released);
+        }
+        self.lo.fill(f64::NEG_INFINITY);
+        self.hi.fill(f64::INFINITY);
+        for s in self.seats.iter().filter(resting) {
+            let held = s.both || matches!(s.fate, Fate::Held(_));
+            if s.sign > 0.0 || held {
+                self.lo[s.row] = 0.0;
+            }
+            if s.sign < 0.0 || held {
+                self.hi[s.row] = 0.0;
+            }
+        }
+        self.solve()?;
+        let Some(solver) = &self.solver else { return Ok(()) };
+        let solution = solver.solution();
+        self.derivatives[level + 2].copy_from_slice(&solution.x);
+        for at in 0..self.seats.len() {
+            let s = self.seats[at];
+            if s.fate != Fate::Open {
+                continue;
+            }
+            let push = s.sign * solution.multiplier.get(s.row).copied().unwrap_or(0.0);
+            let away = s.sign * self.body.rows.dot(s.row, &solution.x);
+            self.seats[at] = self.judged(s, level, push * self.body.delassus(s.row, s.row), away, released);
+        }
+        Ok(())
+    }
+
+    /// The same for a single row.
+    fn decide_one(&mut self, level: usize, at: usize, released: Option<usize>) -> Result<()> {
+        let s = self.seats[at];
+        let away = s.sign * self.body.answer(s.row, &self.rhs);
+        let held = s.both || away < 0.0;
+        let judged = self.judged(s, level, -away, away.max(0.0), released);
+        let w = self.body.delassus(s.row, s.row);
+        let next = &mut self.derivatives[level + 2];
+        next.copy_from_slice(&self.rhs);
+        self.body.solve(next);
+        if held {
+            self.body.add_column(s.row, -s.sign * away / w, &mut self.derivatives[level + 2]);
+        }
+        self.seats[at] = judged;
+        Ok(())
+    }
+
+    /// A seat after the verdict of one level: `push` is its force's share of the acceleration, `away` the acceleration that is left.
+    fn judged(&self, mut s: Seat, level: usize, push: f64, away: f64, released: Option<usize>) -> Seat {
+        let column = self.body.column(s.row);
+        let large: f64 = column.iter().zip(&self.rhs_size).map(|(y, f)| (y * f).abs()).sum();
+        let vanished = level == 0 && released == Some(s.row) && push.abs() <= VANISHED * large;
+        let little = if vanished { VANISHED * large } else { noise(large) };
+        if s.both && push.abs() > little {
+            s.sign *= push.signum();
+            s.fate = Fate::Held(level);
+        } else if push > little || away < -little {
+            s.fate = Fate::Held(level);
+        } else if !s.both && away > little {
+            s.fate = Fate::Gone(level);
+        }
+        s
+    }
+
+    /// Holds the seats that are to be held, and notes what has been decided.
+    fn hold_seats(&mut self) {
+        let Self { hold, body, seats, places, carriers, walls_of, barriers, v, scratch, .. } = self;
+        for place in places.iter_mut() {
+            place.held = 0.0;
+            place.forget();
+        }
+        let held = |s: &Seat| {
+            let position = places.get(s.row).map_or(0.0, |place| place.bound[side_of(s.sign)]);
+            matches!(s.fate, Fate::Held(_)).then_some(Held { row: s.row, sign: s.sign, position })
+        };
+        // Those pressed first: a row that follows from them carries nothing.
+        let levels = (0..LEVELS).chain(std::iter::once(TERMS));
+        let of = |level: usize| seats.iter().filter(move |s| s.fate == Fate::Held(level));
+        hold.set(body, levels.flat_map(of).filter_map(held));
+        for s in seats.iter() {
+            let (side, place) = (side_of(s.sign), &mut places[s.row]);
+            let in_hold = hold.rows().iter().any(|held| held.row == s.row);
+            match s.fate {
+                Fate::Held(level) if in_hold => {
+                    place.held = s.sign;
+                    place.force_zeros = Some(level);
+                    if s.both {
+                        place.gap_zeros = [Some(TERMS); 2];
+                    }
+                }
+                Fate::Held(_) | Fate::Open => place.gap_zeros[side] = Some(TERMS),
+                Fate::Gone(level) => place.gap_zeros[side] = Some(level + 2),
+                Fate::None => place.gap_zeros[side] = Some(1),
+            }
+        }
+        // The speed that rounding has left of a stop belongs to this instant, not to the motion that follows.
+        hold.stop(body, v, scratch);
+        carriers.clear();
+        for (k, held) in hold.rows().iter().enumerate() {
+            let side = side_of(held.sign);
+            let place = &places[held.row];
+            let carries = |wall: &&usize| {
+                let b = &barriers[**wall];
+                b.sign == SIGNS[side] && b.stiffness == 0.0 && b.position == place.bound[side]
+            };
+            let share = 1.0 / place.carriers[side] as f64;
+            carriers.extend(walls_of[held.row].iter().filter(carries).map(|&wall| (wall, k, share)));
+        }
+    }
+}

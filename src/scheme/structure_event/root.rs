@@ -1,0 +1,214 @@
+//! The first root of a polynomial on an interval, never passed: by its Bernstein coefficients.
+//!
+//! On [0, X] a polynomial lies within the hull of its Bernstein coefficients: all above 0 means no root. De Casteljau's subdivision halves the interval, the left half
+//! first, until one change of sign is left, which is one root (Descartes' rule), and Newton's method kept inside the interval finds it to rounding. Where a minimum
+//! touches 0 to rounding the halving ends at it: a touch counts.
+
+use crate::flow::{TERMS, value};
+
+/// Halvings after which an interval is one point of the stretch to rounding.
+const DEPTH: usize = 52;
+
+/// Steps of the last search; each halves the interval at least every second time.
+const REFINEMENTS: usize = 120;
+
+/// Terms of the quick test: what is left of the series beyond them is bounded by its size.
+const QUICK: usize = 8;
+
+/// The smallest x in [0, `end`] at which p(x) = Σ cₖ xᵏ is 0 or below, for p(0) > 0; none if there is none.
+pub(super) fn first_root(c: &[f64], end: f64) -> Option<f64> {
+    let count = c.len().min(TERMS);
+    let mut p = [0.0; TERMS];
+    let (mut power, mut fall) = (1.0, 0.0);
+    for (p, c) in p.iter_mut().zip(&c[..count]) {
+        *p = c * power;
+        power *= end;
+        fall += p.min(0.0);
+    }
+    // The first coefficient is positive, and counts for nothing in the fall.
+    if p[0] + fall > 0.0 {
+        return None;
+    }
+    if count > QUICK {
+        let tail: f64 = p[QUICK..count].iter().map(|c| c.abs()).sum();
+        let mut b = [0.0; QUICK];
+        b.copy_from_slice(&p[..QUICK]);
+        to_bernstein(&mut b);
+        if b.iter().all(|b| *b > tail) {
+            return None;
+        }
+    }
+    let mut b = p;
+    to_bernstein(&mut b[..count]);
+    descend(&p[..count], b, count).map(|x| x * end)
+}
+
+/// Power coefficients to Bernstein coefficients on [0, 1]: bⱼ = Σ C(j,k)/C(N,k) cₖ, every weight at most 1.
+fn to_bernstein(b: &mut [f64]) {
+    let top = b.len() - 1;
+    let mut binomial = 1.0;
+    for (k, c) in b.iter_mut().enumerate() {
+        *c /= binomial;
+        binomial *= (top - k) as f64 / (k + 1) as f64;
+    }
+    for level in 0..top {
+        for j in (level + 1..=top).rev() {
+            b[j] += b[j - 1];
+        }
+    }
+}
+
+/// Halves intervals, the left one first.
+fn descend(p: &[f64], b: [f64; TERMS], count: usize) -> Option<f64> {
+    // The right halves still to be looked at: one for each level of the way down.
+    let mut waiting = [(0.0, 0.0); DEPTH + 2];
+    let mut depth = 0;
+    let (mut low, mut high, mut b) = (0.0, 1.0, b);
+    loop {
+        let negative = b[..count].iter().any(|b| *b <= 0.0);
+        if negative {
+            if b[0] <= 0.0 {
+                return Some(low);
+            }
+            let changes = b[..count].windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0)).count();
+            if changes == 1 && b[count - 1] <= 0.0 {
+                return Some(refine(p, low, high));
+            }
+            if depth >= DEPTH || high - low <= f64::EPSILON * high {
+                return Some(low);
+            }
+            let middle = 0.5 * (low + high);
+            waiting[depth] = (middle, high);
+            depth += 1;
+            high = middle;
+            left_half(&mut b[..count]);
+            continue;
+        }
+        if depth == 0 {
+            return None;
+        }
+        depth -= 1;
+        (low, high) = waiting[depth];
+        b = over(p, low, high, count);
+    }
+}
+
+/// Bernstein coefficients on the left half of the interval, by de Casteljau's algorithm.
+fn left_half(b: &mut [f64]) {
+    for level in 1..b.len() {
+        for j in (level..b.len()).rev() {
+            b[j] = 0.5 * (b[j - 1] + b[j]);
+        }
+    }
+}
+
+/// Bernstein coefficients of p on [`low`, `high`]: p shifted to `low` and scaled, by Horner's scheme.
+fn over(p: &[f64], low: f64, high: f64, count: usize) -> [f64; TERMS] {
+    let mut shifted = [0.0; TERMS];
+    shifted[..count].copy_from_slice(p);
+    for level in 0..count {
+        for k in (level..count - 1).rev() {
+            shifted[k] += low * shifted[k + 1];
+        }
+    }
+    let mut power = 1.0;
+    for c in &mut shifted[..count] {
+        *c *= power;
+        power *= high - low;
+    }
+    to_bernstein(&mut shifted[..count]);
+    shifted
+}
+
+/// The single root between `low`, where p is above 0, and `high`.
+fn refine(p: &[f64], mut low: f64, mut high: f64) -> f64 {
+    let mut x = 0.5 * (low + high);
+    for _ in 0..REFINEMENTS {
+        let (mut at, mut rate) = (0.0, 0.0);
+        for c in p.iter().rev() {
+            rate = rate * x + at;
+            at = at * x + c;
+        }
+        if at > 0.0 {
+            low = x;
+        } else {
+            high = x;
+        }
+        let newton = x - at / rate;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if next == x || at == 0.0 || (next - x).abs() <= 0.5 * f64::EPSILON * x {
+            return if at == 0.0 { x } else { next };
+        }
+        x = next;
+    }
+    x
+}
+
+/// The largest value of a polynomial on [0, `end`], to what its second derivative leaves of the place of the peak.
+pub(super) fn highest(c: &[f64], sign: f64, end: f64) -> f64 {
+    let rate = |x: f64| sign * c.iter().enumerate().skip(1).rev().fold(0.0, |sum, (k, c)| sum * x + k as f64 * c);
+    let mut best = (sign * value(c, 0.0)).max(sign * value(c, end));
+    let (mut left, mut before) = (0.0, rate(0.0));
+    for part in 1..=PARTS {
+        let right = end * part as f64 / PARTS as f64;
+        let after = rate(right);
+        if before > 0.0 && after < 0.0 {
+            let (mut low, mut high) = (left, right);
+            // The value is flat at the peak: 2⁻³⁰ of the interval is 2⁻⁶⁰ of its variation.
+            for _ in 0..30 {
+                let middle = 0.5 * (low + high);
+                if rate(middle) > 0.0 { low = middle } else { high = middle }
+            }
+            best = best.max(sign * value(c, low));
+        }
+        (left, before) = (right, after);
+    }
+    best
+}
+
+/// Parts of a stretch in which a force has one peak at most: a quarter of a radian of its fastest motion each.
+const PARTS: usize = 8;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_root_is_found_to_rounding() {
+        // (x − 0.3)(x − 0.30001)(x − 0.9) at the sign that starts above 0.
+        let c = [0.3 * 0.30001 * 0.9, -(0.3 * 0.30001 + 0.3 * 0.9 + 0.30001 * 0.9), 0.3 + 0.30001 + 0.9, -1.0];
+        let x = first_root(&c, 1.0).unwrap();
+        // Of neighbours 1e-5 apart rounding of the coefficients moves each by 1e-16/1e-5.
+        assert!((x - 0.3).abs() < 1e-10, "{x}");
+        assert_eq!(first_root(&c, 0.29), None);
+    }
+
+    #[test]
+    fn a_graze_counts_and_a_miss_does_not() {
+        for (miss, met) in [(1e-3, false), (1e-12, false), (-1e-12, true)] {
+            // (x − ½)² + miss: the second root of a hit is 2e-6 behind the first.
+            let x = first_root(&[0.25 + miss, -1.0, 1.0], 1.0);
+            assert_eq!(x.is_some(), met, "{miss}");
+            if let Some(x) = x {
+                assert!((x - (0.5 - 1e-6)).abs() < 1e-9, "{x}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_second_of_two_dips_is_found() {
+        // 1 − 4x(1−x)·… by a sine over three quarters of its turns: cos(9x) + 0.95 dips below 0 first at 0.3138….
+        let mut c = [0.0; TERMS];
+        let mut term = 1.0;
+        for (k, c) in c.iter_mut().enumerate() {
+            if k > 0 {
+                term *= 2.0 / k as f64;
+            }
+            *c = term * [1.0, 0.0, -1.0, 0.0][k % 4];
+        }
+        c[0] += 0.3;
+        let x = first_root(&c, 1.0).unwrap();
+        assert!((x - 0.5 * (-0.3_f64).acos()).abs() < 1e-15, "{x}");
+        assert!((highest(&c, -1.0, 1.0) - (-0.3 - 2.0_f64.cos())).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,192 @@
+//! The search for the first event of a stretch.
+
+use super::StructureEvent;
+use super::root::highest;
+use super::rows::{SIGNS, Seen, Watched, size};
+use crate::flow::TERMS;
+use crate::scheme::event::{Phase, noise};
+
+/// What a stretch ends with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Cause {
+    /// A gap of a rigid wall closes: row and side.
+    Gap(usize, usize),
+    /// The force that holds a row vanishes.
+    Release(usize),
+    /// An elastic wall is entered, left, lets go or takes hold.
+    Elastic(usize),
+}
+
+/// When, in the stretch's x, and with what.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Hit {
+    pub x: f64,
+    pub cause: Cause,
+}
+
+/// A gap above this share of all that the row moves and stands off is no rounding, however the terms cancel.
+const NEAR: f64 = 1e-9;
+
+impl StructureEvent {
+    /// The first event of the stretch, none if there is none up to its end.
+    pub(super) fn search(&mut self) -> Option<Hit> {
+        let mut end = self.series.span();
+        let mut hit = None;
+        for row in 0..self.places.len() {
+            let place = self.places[row];
+            let seen = self.series.seen(row);
+            let (w, reach) = (seen[0], seen[1..].iter().map(|c| c.abs()).sum::<f64>());
+            if place.held != 0.0 {
+                self.watch_hold(row, &mut end, &mut hit);
+            }
+            for (side, sign) in SIGNS.into_iter().enumerate() {
+                // Rounding aside a gap wider than all the row can move stays open.
+                if place.gap(side, w) > reach || place.held == sign || place.bound[side].is_infinite() {
+                    continue;
+                }
+                if place.held != 0.0 && place.bound[0] == place.bound[1] {
+                    continue;
+                }
+                self.watch_gap(row, side, reach, &mut end, &mut hit);
+            }
+        }
+        for wall in 0..self.barriers.len() {
+            if !matches!(self.barriers[wall].phase, Phase::Rigid(_)) {
+                self.watch_elastic(wall, &mut end, &mut hit);
+            }
+        }
+        hit
+    }
+
+    fn watch_gap(&mut self, row: usize, side: usize, reach: f64, end: &mut f64, hit: &mut Option<Hit>) {
+        let place = self.places[row];
+        let mut watched = Watched { c: [0.0; TERMS], terms: 0 };
+        let seen = self.series.seen(row);
+        watched.terms = seen.len();
+        for (c, s) in watched.c.iter_mut().zip(seen) {
+            *c = SIGNS[side] * s;
+        }
+        watched.c[0] = place.gap(side, seen[0]);
+        let near = watched.c[0] <= NEAR * (reach + place.bound[side].abs() + seen[0].abs());
+        if near && place.gap_zeros[side].is_none() {
+            self.measure();
+        }
+        let found = watched.first(place.gap_zeros[side], || self.noises(row, place.bound[side]), near, *end);
+        note(found, Cause::Gap(row, side), end, hit);
+    }
+
+    fn watch_hold(&mut self, row: usize, end: &mut f64, hit: &mut Option<Hit>) {
+        let Some(k) = self.hold.rows().iter().position(|held| held.row == row) else { return };
+        let place = self.places[row];
+        if place.bound[0] == place.bound[1] && place.force_zeros.is_some_and(|zeros| zeros >= TERMS) {
+            return;
+        }
+        let mut watched = Watched { c: [0.0; TERMS], terms: 0 };
+        let force = self.series.held_force(k);
+        // The last two coefficients of a force are not known: nothing follows from them.
+        watched.terms = force.len() - 2;
+        for (c, f) in watched.c.iter_mut().zip(force) {
+            *c = place.held * f;
+        }
+        if place.force_zeros.is_none() {
+            self.measure();
+        }
+        let found = watched.first(place.force_zeros, || self.force_noises(k), true, *end);
+        note(found, Cause::Release(row), end, hit);
+    }
+
+    fn watch_elastic(&mut self, wall: usize, end: &mut f64, hit: &mut Option<Hit>) {
+        let b = &self.barriers[wall];
+        let (sign, stiffness, damping, position) = (b.sign, b.stiffness, b.damping, b.position);
+        let (phase, changed) = (b.phase, b.changed == self.series.start());
+        let row = self.body.row_of[wall];
+        let seen = self.series.seen(row);
+        let reach = seen[1..].iter().map(|c| c.abs()).sum::<f64>();
+        if phase == Phase::Outside && b.gap(seen[0]) > reach {
+            return;
+        }
+        let (terms, unit) = (seen.len(), self.series.unit());
+        let mut gap = Watched { c: [0.0; TERMS], terms };
+        for (c, s) in gap.c.iter_mut().zip(seen) {
+            *c = sign * s;
+        }
+        gap.c[0] = b.gap(seen[0]);
+        // k_a s + c_a ṡ, without its last coefficient, which the series does not know.
+        let mut sum = Watched { c: [0.0; TERMS], terms: if damping > 0.0 { terms - 1 } else { terms } };
+        for k in 0..sum.terms {
+            let next = if k + 1 < terms { gap.c[k + 1] } else { 0.0 };
+            sum.c[k] = -stiffness * gap.c[k] - damping * (k + 1) as f64 * next / unit;
+        }
+        self.measure();
+        let noises = self.noises(row, position);
+        let of_sum = std::array::from_fn(|k| {
+            let next = noises.get(k + 1).copied().unwrap_or(noises[3]);
+            stiffness * noises[k] + damping * (k + 1) as f64 * next / unit
+        });
+        let looks: [Option<(Watched, f64, [f64; 4])>; 2] = match phase {
+            Phase::Rigid(_) => [None, None],
+            Phase::Outside => [Some((gap, 1.0, noises)), None],
+            Phase::Touching => [Some((sum, 1.0, of_sum)), None],
+            Phase::Detached => [Some((sum, -1.0, of_sum)), Some((gap, -1.0, noises))],
+        };
+        for (mut watched, sign, noise) in looks.into_iter().flatten() {
+            watched.c.iter_mut().for_each(|c| *c *= sign);
+            if changed {
+                // It was at 0 to the rounding of the stretch before, which may be coarser than that of this one.
+                watched.c[0] = watched.c[0].max(0.0);
+            }
+            note(watched.first(None, || noise, true, *end), Cause::Elastic(wall), end, hit);
+        }
+    }
+
+    /// What the coefficients of a row's displacement may err by at the start, m: of displacement, velocity, acceleration and its rate.
+    pub(super) fn noises(&self, row: usize, position: f64) -> [f64; 4] {
+        let unit = self.series.unit();
+        let answer = |x: &[f64]| self.body.column(row).iter().zip(x).map(|(y, x)| (y * x).abs()).sum::<f64>();
+        [
+            self.resolution(row, position),
+            noise(size(&self.body, row, self.series.term(1))),
+            noise(answer(&self.sizes.force[0])) * unit * unit / 2.0,
+            noise(answer(&self.sizes.force[1])) * unit * unit * unit / 6.0,
+        ]
+    }
+
+    /// The same of the force on held row number `k`, N.
+    fn force_noises(&self, k: usize) -> [f64; 4] {
+        let unit = self.series.unit();
+        let mut out = [0.0; 4];
+        for (held, w) in self.hold.rows().iter().zip(self.hold.inverse(k)) {
+            let column = self.body.column(held.row);
+            for (order, out) in out.iter_mut().take(2).enumerate() {
+                let terms = column.iter().zip(&self.sizes.force[order]).map(|(y, x)| (y * x).abs()).sum::<f64>();
+                *out += noise(w.abs() * terms);
+            }
+        }
+        // Of the higher ones what the fastest rate makes of the second.
+        let fast = self.series.rate() * unit;
+        [out[0], out[1] * unit, out[1] * unit * fast, out[1] * unit * fast * fast]
+    }
+
+    /// Notes the pressures of the stretch up to `x` in the episodes under way.
+    pub(super) fn note_pressures(&mut self, x: f64) {
+        let Self { series, barriers, .. } = self;
+        for (wall, force, share) in series.acting() {
+            if let Some(b) = barriers.get_mut(wall) {
+                let peak = share * highest(force, b.sign, x);
+                b.note(peak);
+            }
+        }
+    }
+}
+
+fn note(found: Seen, cause: Cause, end: &mut f64, hit: &mut Option<Hit>) {
+    let x = match found {
+        Seen::Now => 0.0,
+        Seen::Root(x) => x,
+        Seen::Nothing => return,
+    };
+    if hit.is_none() || x < *end {
+        *end = x;
+        *hit = Some(Hit { x, cause });
+    }
+}

@@ -1,0 +1,65 @@
+//! What a run shows of itself after each step.
+
+use super::StructureEvent;
+use crate::scheme::Handed;
+use crate::scheme::event::Counters;
+use crate::step::{Contact, Path, Step};
+
+impl StructureEvent {
+    /// The last step, number `index`.
+    pub fn step(&self, index: u64) -> Step<'_> {
+        Step {
+            index,
+            start: self.start,
+            end: self.time,
+            q: &self.q,
+            v: &self.v,
+            velocity_before: &self.velocity_before,
+            velocity_after: &self.v,
+            impulse: &self.impulse,
+            jump: &self.jump,
+            force: &self.force,
+            extra: &self.extra,
+            closed: &self.closed,
+            path: match self.handed {
+                Some((contract, step)) => Path::Handed { contract, step },
+                None => Path::Series(&self.series),
+            },
+        }
+    }
+
+    /// True once the end of the scene is reached.
+    pub fn is_done(&self) -> bool {
+        self.time >= self.duration
+    }
+
+    /// Time reached, s.
+    pub fn end(&self) -> f64 {
+        self.time
+    }
+
+    /// Displacement and velocity there, m and m/s, n entries each.
+    pub fn state(&self) -> (&[f64], &[f64]) {
+        (&self.q, &self.v)
+    }
+
+    /// Contact episodes under way.
+    pub fn open_contacts(&self) -> impl Iterator<Item = &Contact> {
+        self.barriers.iter().filter_map(|b| b.open.as_ref())
+    }
+
+    /// Stretches handed to moreau-jean so far.
+    pub fn stretches(&self) -> &[Handed] {
+        &self.crowd.stretches
+    }
+
+    /// Steps of them.
+    pub fn handed_steps(&self) -> u64 {
+        self.crowd.steps
+    }
+
+    /// Work done so far.
+    pub fn counters(&self) -> Counters {
+        self.guard.total
+    }
+}
