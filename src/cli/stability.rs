@@ -120,7 +120,10 @@ fn contacts(quality: &Quality, ui: &Ui) {
 fn contact_line(line: &Line) -> Vec<String> {
     let mut row = vec![line.scheme.to_string(), format!("{:.2e}", line.step)];
     match &line.outcome {
-        Err(error) => row.push(format!("failed: {error}")),
+        Err(error) => {
+            row.resize(8, String::new());
+            row.push(format!("failed: {error}"));
+        }
         Ok(seen) => {
             row.extend([seen.largest, seen.last, seen.lost_at_walls].map(|x| format!("{x:.3}")));
             row.push(format!("{:.1e}", seen.unexplained));

@@ -232,8 +232,9 @@ fn counted(contacts: &[Contact], threshold: f64, joined: Option<f64>) -> Vec<f64
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measurement {
     /// Energy that the scheme made, beyond what restitution takes, over the kinetic energy that arrived at the walls: a share of it
-    /// gained (+) or lost (−) per impact; none without a contact. Of several degrees of freedom, what it made at and between the walls beyond what the
-    /// reference's walls take, over the energy that arrived or the reference's largest kinetic energy, if that is more.
+    /// gained (+) or lost (−) per impact; none without a contact. Of several degrees of freedom, what it made at and between the walls
+    /// all in all (+), or took beyond what the reference's walls take (−), over the energy that arrived or the reference's largest kinetic energy, if that
+    /// is more.
     pub growth: Option<f64>,
     /// Largest speed over the reference's.
     pub speed: f64,
@@ -348,9 +349,9 @@ impl Measurement {
 fn growth(record: &Record, scene: &Scene, masses: &[f64], ruler: &Ruler) -> Option<f64> {
     if let System::Structure(_) = scene.system {
         let share = record.made / exchanged(record, masses, ruler.energy);
-        let beyond = ruler.taken.beyond(share);
-        // Energy out of nothing is a gain whatever walls take.
-        return (!record.contacts.is_empty()).then(|| if share > 0.0 { beyond.max(share) } else { beyond });
+        // Walls that take less than the reference's make a livelier motion, but no energy: only more than nothing is a gain.
+        let growth = if share > 0.0 { share } else { ruler.taken.beyond(share).min(0.0) };
+        return (!record.contacts.is_empty()).then_some(growth);
     }
     let mass = masses.iter().copied().reduce(f64::min).unwrap_or(0.0);
     let energy = |speed: f64| 0.5 * mass * speed * speed;
