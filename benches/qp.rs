@@ -53,7 +53,7 @@ const COUPLING: f64 = 0.0025;
 /// b, lo and hi of one step.
 type Step = (Vec<f64>, Vec<f64>, Vec<f64>);
 
-/// Programmes of moreau-jean on that chain: every mass between stops at ±1e-3 m without restitution, driven so that about a quarter are
+/// Programmes of moreau-jean on that chain: every mass between stops at ±1e-3 m without restitution, driven so that about a fifth are
 /// in contact. Bounds are 0 where a stop is reached and infinite elsewhere.
 fn programmes(n: usize, count: usize) -> (Problem, Vec<Step>) {
     let chain = (0..n).map(|i| (i, i, 1.0 + 2.0 * COUPLING)).chain((1..n).map(|i| (i, i - 1, -COUPLING)));
@@ -67,7 +67,7 @@ fn programmes(n: usize, count: usize) -> (Problem, Vec<Step>) {
     for step in 0..1000 + count {
         let at = |q: &[f64], i: usize, d: isize| i.checked_add_signed(d).and_then(|j| q.get(j)).copied().unwrap_or(0.0);
         let spring = |q: &[f64], i: usize| k * (2.0 * q[i] - at(q, i, -1) - at(q, i, 1));
-        let drive = |i: usize| 25.0 * (31.4 * h * step as f64 + 2.4 * i as f64).sin();
+        let drive = |i: usize| 40.0 * (31.4 * h * step as f64 + 2.4 * i as f64).sin();
         let b: Vec<f64> =
             (0..n).map(|i| v[i] + h * (drive(i) - spring(&q, i)) - 0.25 * h * h * spring(&v, i)).collect();
         let reached = |i: usize| q[i] + 0.5 * h * v[i];

@@ -471,6 +471,20 @@ fn a_wall_of_the_compliance_left_out_takes_no_restitution() {
     assert!(said.contains("--> wrong.toml:25:15") && said.contains("cannot rebound"), "{said}");
     let text = text.replace("restitution = 0.5", "stiffness = 1e5");
     assert!(Case::parse(&text, "right.toml", "").is_ok());
+    let text = text + "[penalty]\nstiffness = [1e7]\n";
+    let said = Case::parse(&text, "wrong.toml", "").unwrap_err().to_string();
+    assert!(said.contains("--> wrong.toml:41:1") && said.contains("`penalty` beside static_correction"), "{said}");
+}
+
+#[test]
+fn walls_without_number_are_refused() {
+    let text = "[system.chain]\nmasses = 5000\nmass = 1.0\nsprings = 1.0\n[[wall]]\nname = \"stop\"\nat = \"each\"\nside = \"upper\"\n\
+                position = 1.0\n[time]\nend = 1.0\nstep = 1e-3\n";
+    let said = Case::parse(text, "wrong.toml", "").unwrap_err().to_string();
+    assert!(
+        said.contains("--> wrong.toml:7:6\n") && said.contains("makes 5000 walls") && said.contains("at most 4096"),
+        "{said}"
+    );
 }
 
 #[test]

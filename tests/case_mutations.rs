@@ -4,6 +4,9 @@
 use proptest::prelude::*;
 use signorini::Error;
 use signorini::case::{Case, Embedded};
+use std::fs;
+use std::path::Path;
+use std::sync::LazyLock;
 
 /// One change to a text: at a place (a fraction of its length), something cut, doubled or replaced.
 #[derive(Debug, Clone)]
@@ -106,22 +109,63 @@ fn bare(text: &str) -> String {
     text.lines().map(|line| line.split('#').next().unwrap_or_default().trim_end().to_owned() + "\n").collect()
 }
 
+/// What the cases of the crate leave unsaid.
+const MORE: [&str; 4] = [
+    "[system]\nmodes = 4\nstatic_correction = true\n[system.bar]\nlength = 2.0\nyoungs_modulus = 1e9\ndensity = 1e3\narea = 1e-4\n\
+     elements = 8\nmass_matrix = \"lumped\"\nleft = { stiffness = 1e5 }\nright = \"free\"\n[system.damping]\nratios = [0.01, 0.02]\n\
+     [[wall]]\nname = \"stop\"\nat = { position = 2.0 }\nside = \"both\"\nposition = 1e-3\ngap = 1e-2\n\
+     [[load]]\nat = { spread = [0.5, 1.0] }\nimpulse = { impulse = 1.0, time = 0.1 }\n[initial]\n\
+     displacement = { profile = [[0.0, 0.0], [2.0, 1e-3]] }\nvelocity = { dofs = [[1, 1e-3]] }\n[time]\nend = 1.0\nstep = 1e-3\n",
+    "[system.beam]\nlength = 1.0\nyoungs_modulus = 2e11\ndensity = 7850\nouter_diameter = 0.02\nelements = 3\nleft = \"clamped\"\n\
+     right = { stiffness = 1e6, rotational = 10.0 }\n[[wall]]\nname = \"s\"\nat = { position = 0.4 }\nside = \"lower\"\nposition = -1e-3\n\
+     stiffness = 1e5\ndamping = 1.0\n[[probe]]\nname = \"p\"\nat = \"each\"\n[initial]\n\
+     velocity = { profile = [[0.0, 0.0], [0.5, 0.1], [1.0, 0.0]] }\n[time]\nend = 1.0\nstep = 1e-3\n",
+    "[system.chain]\nmasses = [1.0, 2.0, 3.0]\nsprings = [4.0, 5.0]\nright = \"free\"\n[[wall]]\nname = \"s\"\n\
+     at = { row = [[0, 1.0], [2, -0.5]] }\nside = \"upper\"\nposition = 1.0\nrestitution = 0.2\n[initial]\ndisplacement = [0.0, 0.1, 0.2]\n\
+     [time]\nend = 1.0\nstep = 1e-3\n",
+    "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.mtx\"\n[system.damping]\nmatrix = \"M.csv\"\n[[wall]]\nname = \"s\"\n\
+     at = { dof = 1 }\nside = \"upper\"\nposition = 1.0\n[time]\nend = 1.0\nstep = 1e-3\n",
+];
+
+/// Where the matrices of the last of them lie.
+static FOLDER: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("M.csv"), "1.0,0.0\n0.0,2.0\n").unwrap();
+    let matrix = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n";
+    fs::write(folder.path().join("K.mtx"), matrix).unwrap();
+    folder
+});
+
+#[test]
+fn the_cases_that_are_mutated_are_right() {
+    for text in MORE {
+        assert!(
+            Case::parse(text, "right.toml", FOLDER.path()).is_ok(),
+            "{:?}",
+            Case::parse(text, "right.toml", FOLDER.path())
+        );
+    }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn mutated_case_files_never_panic_and_what_is_accepted_makes_sense(
-        which in 0..Embedded::all().len(),
+        which in 0..Embedded::all().len() + 3 * MORE.len(),
         stripped in any::<bool>(),
         changes in changes(),
     ) {
-        let embedded = &Embedded::all()[which];
-        let mut text = if stripped { bare(embedded.text) } else { embedded.text.to_owned() }.into_bytes();
+        let (right, folder) = match Embedded::all().get(which) {
+            Some(embedded) => (embedded.text, Path::new("cases")),
+            None => (MORE[which % MORE.len()], FOLDER.path()),
+        };
+        let mut text = if stripped { bare(right) } else { right.to_owned() }.into_bytes();
         for change in &changes {
             apply(&mut text, change);
         }
         let text = String::from_utf8_lossy(&text);
-        match Case::parse(&text, "mutated.toml", "cases") {
+        match Case::parse(&text, "mutated.toml", folder) {
             Ok(case) => {
                 prop_assert!(case.scene.validate().is_ok());
                 prop_assert!(case.validate().is_ok());
@@ -130,7 +174,7 @@ proptest! {
                 prop_assert!(matches!(error, Error::Case(_)), "{error:?}");
                 let said = error.to_string();
                 prop_assert!(said.starts_with("error: "), "{}", said);
-                prop_assert!(said.contains("--> mutated.toml:") || said.contains("tabulated-pulse.csv:"), "{}", said);
+                prop_assert!(said.contains("--> mutated.toml:") || said.contains("tabulated-pulse.csv:") || said.contains("M.csv:") || said.contains("K.mtx:"), "{}", said);
                 prop_assert!(said.contains("help: expected "), "{}", said);
             }
         }

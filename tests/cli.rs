@@ -207,6 +207,10 @@ fn a_wrong_request_exits_with_2_and_says_what_would_be_accepted() {
         (&["run", case, "--scheme", "event:qp=clarabel"], "quadratic"),
         (&["run", case, "--scheme", "penalty:epsilon=1e-9", "--epsilon", "1e-6"], "either"),
         (&["run", case, "--scheme", "moreau-jean:theta=0.6", "--theta", "0.7"], "either"),
+        (&["run", case, "--scheme", "generalized-alpha:rho=1.5"], "0 to 1"),
+        (&["run", case, "--scheme", "generalized-alpha", "--rho", "-0.1"], "0 to 1"),
+        (&["run", case, "--scheme", "generalized-alpha:rho=0.5", "--rho", "0.7"], "either"),
+        (&["run", case, "--rho", "0.6", "--scheme", "moreau-jean"], "generalized-alpha"),
         (&["compare", case, "--schemes", "moreau-jean,event,moreau-jean"], "twice"),
         (&["new", "no-such-case"], "rigid-walls-sine"),
         (&["explain", "nowhere"], "nowhere"),
@@ -373,7 +377,7 @@ fn wrong_requests_about_structures_exit_with_2() {
         (&["run", "chain-20", "--modes", "21"], "from 1 to 20"),
         (&["compare", "tube-loose-supports", "--modes", "121"], "from 1 to 120"),
         (&["run", "static.toml", "--restitution", "0.5"], "cannot rebound"),
-        (&["run", "chain-20", "--qp", "clamp"], "one unknown"),
+        (&["run", "chain-20", "--qp", "clamp"], "more than one unknown"),
         (&["run", "chain-200", "--sample", "1e-7", "--step", "1e-7"], "time.sample"),
     ];
     for (request, hint) in requests {

@@ -69,7 +69,14 @@ fn recursion(integrator: Integrator, kappa: f64, phase: f64) -> f64 {
 #[test]
 fn schemes_that_carry_the_law_return_it_at_every_phase() {
     let all = impacts();
-    for label in ["event", "paoli-schatzman", "moreau-jean", "moreau-jean:theta=0.75", "moreau-jean:theta=1"] {
+    for label in [
+        "event",
+        "paoli-schatzman",
+        "generalized-alpha",
+        "moreau-jean",
+        "moreau-jean:theta=0.75",
+        "moreau-jean:theta=1",
+    ] {
         let (low, high) = find(&all, label).range().unwrap();
         // Rounding of positions of a few steps; the margin is a thousandfold.
         assert!((low - E).abs() < 1e-9 && (high - E).abs() < 1e-9, "{label}: {low} to {high}");

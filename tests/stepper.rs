@@ -1,14 +1,15 @@
 //! The stepper: allocations, co-simulation, blows, and what is recorded of its steps.
 
 mod common;
+mod random_structures;
 
 use common::{INTEGRATORS, MOREAU_JEAN, penalty, schemes, source, spring};
 use signorini::qp::Backend;
 use signorini::residual::Judge;
 use signorini::scheme::event::Event;
 use signorini::{
-    Balance, Contact, Error, Integrator, Load, Options, Recorder, Scene, Scheme, Stepper, TimeOptions, Wall, WallLaw,
-    run,
+    Balance, Contact, Error, Integrator, Load, Options, Recorder, Row, Scene, Scheme, Stepper, TimeOptions, Wall,
+    WallLaw, run,
 };
 
 mod counting {
@@ -67,6 +68,35 @@ fn no_step_after_the_first_allocates() {
             assert_eq!(counting::count() - before, 0, "{scheme}");
             assert!(contacts > 2, "{scheme}: {contacts} contacts only");
         }
+    }
+}
+
+#[test]
+fn no_step_of_a_structure_after_the_first_allocates() {
+    let mut scene =
+        random_structures::chain(30, 1e4, 1e-5).with_load(random_structures::on(Load::impulse(0.1, 0.0503), 3));
+    for i in 0..30 {
+        let upper = Wall::upper(&format!("u{i}"), 1e-3).with_restitution(0.5);
+        let lower = Wall::lower(&format!("l{i}"), -1e-3);
+        let lower = if i % 3 == 0 { lower.with_elasticity(1e5, 10.0) } else { lower };
+        let place = if i % 7 == 1 { Row::new(vec![(i, 1.0), (i - 1, -1.0)]) } else { Row::dof(i) };
+        scene =
+            scene.with_wall(random_structures::at(upper, place.clone())).with_wall(random_structures::at(lower, place));
+    }
+    let scene = scene.with_load(Load::harmonic(50.0, 5.0, 0.0));
+    for scheme in schemes() {
+        let mut stepper = Stepper::new(&scene, &scheme, 1e-4).expect("a sound scene");
+        stepper.step().expect("a step");
+        let before = counting::count();
+        let mut contacts = 0;
+        for _ in 0..2000 {
+            contacts += stepper.step().expect("a step").closed.len();
+        }
+        for _ in 0..100 {
+            stepper.step_with(&[0.5; 30]).expect("a step");
+        }
+        assert_eq!(counting::count() - before, 0, "{scheme}");
+        assert!(contacts > 2, "{scheme}: {contacts} contacts only");
     }
 }
 

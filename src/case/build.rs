@@ -74,6 +74,10 @@ impl Builder<'_> {
             sample: self.optional("time.sample", time.sample.as_ref()),
             statistics_from: self.optional("time.statistics_from", time.statistics_from.as_ref()).unwrap_or(0.0),
         };
+        if let Some(penalty) = file.penalty.as_ref().filter(|_| self.static_correction) {
+            let help = "expected no [penalty]: with static_correction rigid walls are springs of the compliance that the modes leave out already";
+            return Err(self.source.error(penalty.span.clone(), "`penalty` beside static_correction", help));
+        }
         let penalty = file.penalty.map(|penalty| self.penalty(penalty.value)).transpose()?.unwrap_or_default();
         let stem = Path::new(self.source.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("case");
         let mut case = Case {

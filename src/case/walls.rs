@@ -10,6 +10,9 @@ use crate::scene::{Probe, Row, Side, Wall, WallLaw};
 use std::ops::Range;
 use toml::Spanned;
 
+/// Most walls of a scene. Each is checked against every other.
+const MOST_WALLS: usize = 4096;
+
 impl Builder<'_> {
     /// The walls of table `index`, the first of which is number `first` of the scene: with the name of their site, and their place.
     pub fn walls(
@@ -24,7 +27,17 @@ impl Builder<'_> {
         let sides = self.sides(&owner, &wall, span.clone())?;
         let law = self.law_of(&owner, &wall)?;
         let mut walls = Vec::new();
-        for site in self.sites(&owner, wall.at.as_ref(), span, false)? {
+        let sites = self.sites(&owner, wall.at.as_ref(), span.clone(), false)?;
+        let count = first + sites.len() * sides.len();
+        if count > MOST_WALLS {
+            let place = wall.at.as_ref().map_or(span, Spanned::span);
+            return Err(self.source.error(
+                place,
+                &format!("{owner} makes {count} walls"),
+                &format!("expected at most {MOST_WALLS} in all"),
+            ));
+        }
+        for site in sites {
             let name = format!("{base}{}", site.suffix);
             for &(side, position, suffix) in &sides {
                 let full = format!("{name}{suffix}");

@@ -101,6 +101,7 @@ impl Args {
             epsilon: None,
             qp: None,
             theta: None,
+            rho: None,
             integrator: None,
             out: self.out.clone(),
         }

@@ -74,6 +74,9 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     if case.penalty.laws.is_empty() && args.schemes.is_none() && case.scene.walls.iter().any(|w| w.law.is_rigid()) {
         ui.message("- the case has no [penalty] table: no penalty was compared");
     }
+    for note in case.notes() {
+        ui.message(&format!("- {note}"));
+    }
     ui.message(&format!("results in {}", folder.display()));
     if !args.no_verdict {
         ui.message(&format!("refinement: {}", verdicts::line(&comparison, &verdicts)));

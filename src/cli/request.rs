@@ -3,7 +3,7 @@
 use crate::case::{Case, Embedded};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::WallLaw;
+use crate::scene::{System, WallLaw};
 use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ pub struct Request {
     /// Step of the stepping schemes, s
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub step: Option<f64>,
-    /// End of the run, s
+    /// End of the run, s; a window for statistics that begins later begins at 0 then
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub end: Option<f64>,
     /// Spacing of the recorded rows, s
@@ -36,6 +36,9 @@ pub struct Request {
     /// θ of moreau-jean, 0.5 to 1
     #[arg(long, value_name = "θ", allow_hyphen_values = true)]
     pub theta: Option<f64>,
+    /// ρ∞ of generalized-alpha, 0 to 1
+    #[arg(long, value_name = "ρ", allow_hyphen_values = true)]
+    pub rho: Option<f64>,
     /// Integrator of the penalty: trapezoidal, implicit-euler, central-difference, discrete-gradient
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<Integrator>,
@@ -96,6 +99,9 @@ impl Request {
             case.change(|scene| scene.duration = end)?;
             let until_end = |x: &f64| *x <= end;
             case.time.sample = case.time.sample.filter(until_end);
+            if case.time.statistics_from >= end {
+                case.time.statistics_from = 0.0;
+            }
         }
         case.time.step = self.step.unwrap_or(case.time.step);
         case.time.sample = self.sample.or(case.time.sample);
@@ -134,6 +140,7 @@ impl Request {
         let names_integrator = name.contains("integrator=");
         match &mut method.scheme {
             Scheme::MoreauJean { theta } if !name.contains("theta=") => *theta = self.theta.unwrap_or(*theta),
+            Scheme::GeneralizedAlpha { rho } if !name.contains("rho=") => *rho = self.rho.unwrap_or(*rho),
             Scheme::Penalty { integrator, .. } if !names_integrator => {
                 *integrator = case.penalty.integrator.unwrap_or_default();
             }
@@ -141,6 +148,13 @@ impl Request {
         }
         if method.scheme.has_qp() {
             method.backend = self.qp.unwrap_or(method.backend);
+        }
+        if method.backend == Backend::Clamp && !matches!(case.scene.system, System::Oscillator(_)) {
+            return Err(Error::invalid(
+                "qp",
+                "clamp",
+                "auto, condensed or clarabel: the case has more than one unknown",
+            ));
         }
         method.scheme.validate()?;
         Ok(method)
@@ -152,6 +166,7 @@ impl Request {
         let number = |x: Option<f64>| x.map(|x| x.to_string());
         let options = [
             ("--theta", number(self.theta), given("theta=")),
+            ("--rho", number(self.rho), given("rho=")),
             ("--epsilon", number(self.epsilon), given("epsilon=") || given("stiffness=")),
             ("--integrator", self.integrator.map(|i| i.to_string()), given("integrator=")),
             ("--qp", self.qp.map(|q| q.to_string()), given("qp=")),
@@ -181,6 +196,9 @@ impl Request {
         }
         if let (Some(qp), false) = (self.qp, any(Scheme::has_qp)) {
             return unused("--qp", qp.to_string(), "a scheme that solves quadratic programmes");
+        }
+        if let (Some(rho), false) = (self.rho, any(|s| matches!(s, Scheme::GeneralizedAlpha { .. }))) {
+            return unused("--rho", rho.to_string(), "generalized-alpha");
         }
         match (self.theta, self.epsilon, self.integrator) {
             (Some(theta), _, _) if !any(|s| matches!(s, Scheme::MoreauJean { .. })) => {

@@ -27,7 +27,7 @@ Examples:
   signorini run rigid-walls-sine --restitution 0.8 --scheme moreau-jean --accuracy 1e-3
   signorini run tube-loose-supports --modes 40
 
-Schemes: implicit-euler, paoli-schatzman, moreau-jean, newmark (an exhibit), penalty, event (exact).";
+Schemes: implicit-euler, paoli-schatzman, moreau-jean, generalized-alpha, newmark (an exhibit), penalty, event (exact).";
 
 /// Run one case by one scheme: trajectory, contacts, summary and figures
 #[derive(Debug, clap::Args)]
@@ -42,7 +42,7 @@ pub struct Args {
     /// not kept to the end; where the case is cut to modes, as many of them as that takes
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     accuracy: Option<f64>,
-    /// Do not repeat the run with half the step
+    /// Do not repeat the run with half the step, nor with more modes where the case is cut to modes
     #[arg(long)]
     no_verdict: bool,
 }
@@ -63,8 +63,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let truncated = case.truncated.is_some() && !args.no_verdict;
     let checks = if args.no_verdict { 0.0 } else { verdict::COST } + if truncated { 1.0 } else { 0.0 };
     let bar = Bar::new(&method, &case, 1.0 + checks, ui);
-    let mut run = bar.run(&case, &method)?;
-    run.notes.extend(case.notes());
+    let run = bar.run(&case, &method)?;
     let verdict = if args.no_verdict { None } else { Some(bar.verdict(&case, &method, &run)) };
     let truncation = if truncated { bar.truncation(&case, &method, &run).transpose() } else { None };
     bar.finish();
@@ -113,8 +112,7 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let end = case.scene.duration;
     let outcome = reach(&case.scene, &target, &mut |time| bar.set((UNITS * time / end) as u64));
     bar.finish();
-    let Outcome { method, reason, mut run, accuracy, mut shortfall } = outcome?;
-    run.notes.extend(case.notes());
+    let Outcome { method, reason, run, accuracy, mut shortfall } = outcome?;
     ui.message(&format!("{method}: {reason}"));
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
     let checks = Checks { accuracy: Some(&accuracy), modes: modes.as_ref(), ..Checks::default() };
@@ -266,7 +264,7 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
         r.energy.residual,
         run.seconds
     ));
-    for note in &run.notes {
+    for note in run.notes.iter().chain(&case.notes()) {
         ui.message(&format!("note: {note}"));
     }
     Ok(())

@@ -2,12 +2,14 @@
 
 use super::request;
 use super::ui::Ui;
+use crate::case::Case;
 use crate::error::Result;
 use crate::output::atomic::{check_folder, write_whole};
 use crate::output::stability as output;
-use crate::scheme::Scheme;
-use crate::study::stability::family::Question;
+use crate::scheme::{PenaltyLaw, Scheme};
+use crate::study::stability::family::{Family, Question};
 use crate::study::stability::impact::{self, ImpactMap};
+use crate::study::stability::lasting::{Line, Quality};
 use crate::study::stability::plan::{Grid, Maps, Plan, Row};
 use std::path::{Path, PathBuf};
 
@@ -18,7 +20,9 @@ Examples:
   signorini stability bouncing-ball --out results
 
 Writes impact-map.csv and .svg (the restitution of one free impact by its phase within the step), stability.csv (every run of
-every map) and one stability-*.svg a scheme: classes over step and restitution, ε or wall stiffness.
+every map) and one stability-*.svg a scheme: classes over step and restitution, ε or wall stiffness; and lasting-contact.csv,
+what each scheme does at the case's step, at a quarter and at four times of it, to the energy and to the force of the largest
+contact that lasts: its ripple is the deviation of the force from its mean, over that mean (0: constant, 1: on and off).
 
 Classes, from harmless to worst, against a fine run of the same scene:
   stable           energy kept as the walls' law has it; speeds, contacts and rest as in the reference (right in kind, not exact)
@@ -28,6 +32,9 @@ Classes, from harmless to worst, against a fine run of the same scene:
                    below 0.7 of the reference's, or no rest where rest is due
   energy-gaining   more than 1 % of the energy arriving at the walls made per impact
   diverged         speeds above 10 times the reference's, not finite, or a step that cannot be solved";
+
+/// h²k_w/m, at the case's step, of the penalty that is tried on a case without one: resolved.
+const KAPPA: f64 = 0.1;
 
 /// Map where each scheme fails on a case: steps against restitution, ε or wall stiffness
 #[derive(Debug, clap::Args)]
@@ -51,7 +58,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let case = request::case_with_restitution(&args.case, args.restitution)?;
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join("stability"));
     check_folder(&folder)?;
-    let plan = Plan::new(Question { scene: &case.scene, laws: &case.penalty.laws }, &Grid::default())?;
+    let question = Question { scene: &case.scene, laws: &case.penalty.laws };
+    let plan = Plan::new(question, &Grid::of(&case.scene))?;
     let e = impact::wall_restitution(&case.scene);
     let impacts = impact::maps(plan.scale.mass, case.time.step, e);
     output::impacts(&folder.join("impact-map.csv"), &impacts)?;
@@ -64,9 +72,72 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     for (name, svg) in output::maps_figures(&maps, case.title.as_deref().unwrap_or(&case.name)) {
         write_whole(&folder.join(name), svg.as_bytes())?;
     }
+    let quality = Quality::of(&case.scene, &schemes(&case), &case.time, &maps.scale)?;
+    output::quality(&folder.join("lasting-contact.csv"), &quality)?;
     report(&maps, &impacts, ui);
+    contacts(&quality, ui);
     ui.message(&format!("results in {}", folder.display()));
     Ok(())
+}
+
+/// The schemes of the maps on the case's own penalties, or on a spring of `KAPPA` at its step.
+fn schemes(case: &Case) -> Vec<Scheme> {
+    let mass = case.scene.wall_masses().into_iter().reduce(f64::min).unwrap_or(1.0);
+    let stiffness = KAPPA * mass / (case.time.step * case.time.step);
+    let own = case.penalty.laws.first().copied();
+    let law = own.unwrap_or(PenaltyLaw::Linear { stiffness, damping: 0.0 });
+    let scheme = |family| match family {
+        Family::Constrained(scheme) => scheme,
+        Family::Penalty(integrator) => Scheme::Penalty { law, integrator },
+    };
+    Family::all().into_iter().map(scheme).collect()
+}
+
+/// What each scheme does to energy and to the force of a lasting contact.
+fn contacts(quality: &Quality, ui: &Ui) {
+    let lasts = |line: &Line| line.outcome.as_ref().is_ok_and(|seen| seen.contact.is_some());
+    let what = if quality.lines.iter().any(lasts) {
+        "and the force of the largest lasting contact"
+    } else {
+        "; no contact lasts"
+    };
+    ui.message(&format!("energy, in shares of {:.3e} J, {what}:", quality.energy));
+    let headers = [
+        "scheme",
+        "step (s)",
+        "largest energy",
+        "at the end",
+        "lost at walls",
+        "unexplained",
+        "contact (s)",
+        "impulse (N s)",
+        "ripple",
+    ];
+    let rows: Vec<Vec<String>> = quality.lines.iter().map(contact_line).collect();
+    ui.table(&headers, &rows);
+}
+
+fn contact_line(line: &Line) -> Vec<String> {
+    let mut row = vec![line.scheme.to_string(), format!("{:.2e}", line.step)];
+    match &line.outcome {
+        Err(error) => {
+            row.resize(8, String::new());
+            row.push(format!("failed: {error}"));
+        }
+        Ok(seen) => {
+            row.extend([seen.largest, seen.last, seen.lost_at_walls].map(|x| format!("{x:.3}")));
+            row.push(format!("{:.1e}", seen.unexplained));
+            row.extend(match &seen.contact {
+                Some((wall, c)) => [
+                    format!("{wall} {:.4} to {:.4}", c.start, c.end),
+                    format!("{:.4}", c.impulse),
+                    format!("{:.3}", c.ripple),
+                ],
+                None => ["-".to_owned(), "-".to_owned(), "-".to_owned()],
+            });
+        }
+    }
+    row
 }
 
 fn report(maps: &Maps, impacts: &[ImpactMap], ui: &Ui) {

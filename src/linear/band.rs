@@ -51,7 +51,7 @@ impl Band {
 pub(super) struct BandFactor {
     n: usize,
     width: usize,
-    /// L below its unit diagonal, by rows: entry i·width + k is that of row i and column i − width + k.
+    /// L below its unit diagonal, by rows: entry i·width + k is that of row i and column i − width + k. Of a tridiagonal matrix: see [`twist`].
     lower: Vec<f64>,
     /// 1/D.
     inverse: Vec<f64>,
@@ -84,16 +84,18 @@ impl BandFactor {
                 let dot: f64 = row[a..at].iter().zip(above).map(|(x, y)| x * y).sum();
                 row[at] -= dot;
             }
-            for j in first..i {
-                let at = j + width - i;
-                let l = row[at] / pivots[j];
-                pivot -= row[at] * l;
-                row[at] = l;
+            for (entry, d) in row[first + width - i..].iter_mut().zip(&pivots[first..i]) {
+                let l = *entry / d;
+                pivot -= *entry * l;
+                *entry = l;
             }
             if pivot.is_nan() || pivot <= LEAST_PIVOT * diagonal[i].abs() {
                 return Err(NotDefinite { row: i });
             }
             pivots[i] = pivot;
+        }
+        if width == 1 {
+            twist(matrix, &diagonal, &mut lower, &mut pivots);
         }
         let inverse = pivots.iter().map(|d| 1.0 / d).collect();
         Ok(Self { n, width, lower, inverse })
@@ -132,19 +134,60 @@ impl BandFactor {
         }
     }
 
-    /// One unknown after the other, with nothing between: the chains of additions are all there is to wait for.
+    /// Two chains of operations, one from either end, that do not wait for one another: waiting is all that this costs.
     fn solve_tridiagonal(&self, x: &mut [f64]) {
-        let mut last = 0.0;
-        for (x, l) in x.iter_mut().zip(&self.lower) {
-            last = *x - l * last;
-            *x = last;
+        let (n, middle) = (self.n, self.n / 2);
+        let (x, lower, inverse) = (&mut x[..n], &self.lower[..n], &self.inverse[..n]);
+        let (mut top, mut bottom) = (x[0], x[n - 1]);
+        for k in 1..n - middle - 1 {
+            let j = n - 1 - k;
+            top = x[k] - lower[k] * top;
+            bottom = x[j] - lower[j + 1] * bottom;
+            (x[k], x[j]) = (top, bottom);
         }
-        // Backwards the entry of the row below couples.
-        let (mut last, mut coupling) = (0.0, 0.0);
-        for ((x, l), d) in x.iter_mut().zip(&self.lower).zip(&self.inverse).rev() {
-            last = *x * d - coupling * last;
-            *x = last;
-            coupling = *l;
+        // The upper half is one longer where n is even; with two unknowns the lower one is the middle.
+        for k in (n - middle - 1).max(1)..middle {
+            top = x[k] - lower[k] * top;
+            x[k] = top;
         }
+        let mut own = x[middle] - lower[middle] * top;
+        if middle + 1 < n {
+            own -= lower[middle + 1] * bottom;
+        }
+        own *= inverse[middle];
+        x[middle] = own;
+        (top, bottom) = (own, own);
+        for k in 1..n - middle {
+            let (i, j) = (middle - k, middle + k);
+            top = x[i] * inverse[i] - lower[i + 1] * top;
+            bottom = x[j] * inverse[j] - lower[j] * bottom;
+            (x[i], x[j]) = (top, bottom);
+        }
+        if n == 2 * middle {
+            x[0] = x[0] * inverse[0] - lower[1] * top;
+        }
+    }
+}
+
+/// The factor of a tridiagonal matrix that is eliminated from both ends at once towards row n/2 (the twisted factorisation): entry k
+/// of `lower` is that of rows k and k − 1, over the pivot of the one further from the middle.
+fn twist(matrix: &Symmetric, diagonal: &[f64], lower: &mut [f64], pivots: &mut [f64]) {
+    let (n, middle) = (diagonal.len(), diagonal.len() / 2);
+    lower.fill(0.0);
+    for (i, j, value) in matrix.entries() {
+        if j + 1 == i {
+            lower[i] = value;
+        }
+    }
+    pivots.copy_from_slice(diagonal);
+    for k in 1..=middle {
+        let l = lower[k] / pivots[k - 1];
+        pivots[k] -= lower[k] * l;
+        lower[k] = l;
+    }
+    for k in (middle + 1..n).rev() {
+        let l = lower[k] / pivots[k];
+        pivots[k - 1] -= lower[k] * l;
+        lower[k] = l;
     }
 }

@@ -99,7 +99,9 @@ mod tests {
     #[test]
     fn every_kind_of_factor_solves_to_rounding() {
         let mut seed = 1;
-        for (n, width, far) in [(1, 0, 0), (7, 0, 0), (9, 1, 0), (30, 3, 0), (12, 11, 0), (200, 1, 60)] {
+        for (n, width, far) in
+            [(1, 0, 0), (7, 0, 0), (9, 1, 0), (2, 1, 0), (3, 1, 0), (10, 1, 0), (30, 3, 0), (12, 11, 0), (200, 1, 60)]
+        {
             let mut entries = Vec::new();
             for i in 0..n {
                 entries.push((i, i, 3.0 + 2.0 * width as f64));

@@ -62,7 +62,7 @@ impl Sheet<'_> {
     }
 
     fn probes(&self) -> Chosen<usize> {
-        Chosen::probes(self.scene, self.leading().map(|run| &run.trajectory))
+        Chosen::probes(self.scene, self.leading().map(|run| &run.trajectory), self.until)
     }
 
     fn title(&self, left_out: Option<String>) -> String {
@@ -156,8 +156,8 @@ impl Sheet<'_> {
 
     /// Of each place, finite forces as curves in N, impulses of impacts as stems in N s, each in a panel of its own where it occurs.
     fn contact_force(&self) -> Result<String> {
-        let places = Chosen::places(self.scene, self.leading().map(|run| &run.trajectory));
-        let mut figure = Figure::new(self.title(places.left_out("places of contact")), "Time (s)");
+        let places = Chosen::places(self.scene, self.leading().map(|run| &run.trajectory), self.until);
+        let mut figure = Figure::new(self.title(places.left_out("places")), "Time (s)");
         let headed = |label: &str, place: &Place| {
             let panel = Panel::new(label);
             if places.count > 1 { panel.heading(place.name(self.scene)) } else { panel }

@@ -35,10 +35,12 @@ impl Place {
         places
     }
 
-    /// Impulse of its walls over a run, as magnitudes, N s.
-    fn impulse(&self, motion: Option<&Trajectory>) -> f64 {
-        let column = |wall: &usize| motion.and_then(|m| m.contact_impulses().get(*wall));
-        self.walls.iter().filter_map(column).flatten().map(|p| p.abs()).sum()
+    /// Impulse of its walls up to a time of a run (s), as magnitudes, N s.
+    fn impulse(&self, motion: Option<&Trajectory>, until: f64) -> f64 {
+        let Some(motion) = motion else { return 0.0 };
+        let rows = motion.time().partition_point(|t| *t <= until);
+        let columns = self.walls.iter().filter_map(|&wall| motion.contact_impulses().get(wall));
+        columns.flat_map(|column| column.iter().take(rows)).map(|p| p.abs()).sum()
     }
 }
 
@@ -55,7 +57,7 @@ impl<T> Chosen<T> {
     /// What the title says, if some are left out.
     pub fn left_out(&self, what: &str) -> Option<String> {
         (self.shown.len() < self.count)
-            .then(|| format!("{} of {} {what}, those with the most contact", self.shown.len(), self.count))
+            .then(|| format!("the {} of {} {what} with the most contact", self.shown.len(), self.count))
     }
 
     /// Those of the largest weight, in their order; of equal weight the first.
@@ -70,22 +72,22 @@ impl<T> Chosen<T> {
 }
 
 impl Chosen<Place> {
-    /// The places with the largest impulses in `motion`.
-    pub fn places(scene: &Scene, motion: Option<&Trajectory>) -> Self {
-        let weighted = Place::all(scene).into_iter().map(|place| (place.impulse(motion), place));
+    /// The places with the largest impulses in `motion` up to the time `until` (s).
+    pub fn places(scene: &Scene, motion: Option<&Trajectory>, until: f64) -> Self {
+        let weighted = Place::all(scene).into_iter().map(|place| (place.impulse(motion, until), place));
         Self::heaviest(weighted.collect())
     }
 }
 
 impl Chosen<usize> {
-    /// The probes that look at the places with the largest impulses in `motion`.
-    pub fn probes(scene: &Scene, motion: Option<&Trajectory>) -> Self {
+    /// The probes that look at these places.
+    pub fn probes(scene: &Scene, motion: Option<&Trajectory>, until: f64) -> Self {
         let places = Place::all(scene);
         let weight = |index: usize| {
             let at = scene.probes.get(index).map(|p| &p.at);
             let seen =
                 |place: &&Place| place.walls.first().and_then(|&wall| scene.walls.get(wall)).map(|w| &w.at) == at;
-            places.iter().find(seen).map_or(0.0, |place| place.impulse(motion))
+            places.iter().find(seen).map_or(0.0, |place| place.impulse(motion, until))
         };
         Self::heaviest((0..scene.probes.len()).map(|index| (weight(index), index)).collect())
     }
@@ -114,7 +116,7 @@ mod tests {
         let weighted = [1.0, 5.0, 2.0, 0.0, 3.0, 4.0].into_iter().zip(0..6).collect();
         let chosen = Chosen::heaviest(weighted);
         assert_eq!(chosen.shown, [1, 2, 4, 5]);
-        assert_eq!(chosen.left_out("probes").unwrap(), "4 of 6 probes, those with the most contact");
+        assert_eq!(chosen.left_out("probes").unwrap(), "the 4 of 6 probes with the most contact");
         assert_eq!(Chosen::heaviest(vec![(0.0, 7)]).left_out("probes"), None);
     }
 }

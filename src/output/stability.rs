@@ -7,6 +7,7 @@ use crate::scheme::Scheme;
 use crate::study::stability::class::Class;
 use crate::study::stability::family::{Family, Parameter};
 use crate::study::stability::impact::{ImpactMap, KAPPAS};
+use crate::study::stability::lasting::{Lasting, Line, Quality};
 use crate::study::stability::plan::{Maps, Row};
 use std::path::Path;
 
@@ -17,7 +18,7 @@ use std::path::Path;
 pub fn impacts(path: &Path, maps: &[ImpactMap]) -> Result<()> {
     let header = [
         "scheme",
-        "integrator_or_theta",
+        "integrator_or_setting",
         "kappa",
         "phase",
         "restitution",
@@ -29,6 +30,7 @@ pub fn impacts(path: &Path, maps: &[ImpactMap]) -> Result<()> {
     let row = |map: &ImpactMap, i: usize| {
         let kind = match map.scheme {
             Scheme::MoreauJean { theta } => theta.to_string(),
+            Scheme::GeneralizedAlpha { rho } => rho.to_string(),
             Scheme::Penalty { integrator, .. } => integrator.to_string(),
             _ => String::new(),
         };
@@ -117,6 +119,43 @@ pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
     csv::table(path, &header.map(str::to_owned), rows.map(line))
 }
 
+/// Writes one row for every scheme and step of [`Quality`]: energies as shares of the reference's largest, and the largest lasting contact; failed ones with the reason.
+///
+/// # Errors
+/// [`crate::Error::Io`] where the file cannot be written.
+pub fn quality(path: &Path, quality: &Quality) -> Result<()> {
+    let header = [
+        "scheme",
+        "step_s",
+        "largest_energy",
+        "last_energy",
+        "lost_at_walls",
+        "unexplained_energy",
+        "wall",
+        "contact_start_s",
+        "contact_end_s",
+        "contact_impulse_Ns",
+        "ripple",
+        "failure",
+    ];
+    let line = |line: &Line| {
+        let mut row = vec![line.scheme.to_string(), number(Some(line.step))];
+        match &line.outcome {
+            Ok(seen) => {
+                row.extend([seen.largest, seen.last, seen.lost_at_walls, seen.unexplained].map(|x| number(Some(x))));
+                let contact = seen.contact.as_ref();
+                row.push(contact.map_or_else(String::new, |c| c.0.clone()));
+                let value = |of: fn(&Lasting) -> f64| number(contact.map(|c| of(&c.1)));
+                row.extend([value(|c| c.start), value(|c| c.end), value(|c| c.impulse), value(|c| c.ripple)]);
+                row.push(String::new());
+            }
+            Err(error) => row.extend(failure(9, error.to_string())),
+        }
+        row
+    };
+    csv::table(path, &header.map(str::to_owned), quality.lines.iter().map(line))
+}
+
 /// Nine significant digits, enough for what is a measurement; empty where there is none.
 fn number(value: Option<f64>) -> String {
     value.map_or_else(String::new, |x| format!("{x:.8e}"))
@@ -144,7 +183,7 @@ pub fn impact_figure(maps: &[ImpactMap], e: f64) -> String {
         let (low, high) = wide.fold((1.0_f64, 1.0_f64), |(a, b), (low, high)| (a.min(low), b.max(high)));
         let mut panel = Panel::new("Restitution (–)").heading(format!("Penalty, h²k_w/m = {kappa}"));
         panel = if high / low.max(f64::MIN_POSITIVE) > 100.0 { panel.log() } else { panel };
-        for (map, look) in maps.iter().filter(|m| m.kappa == Some(kappa)).zip(7..) {
+        for (map, look) in maps.iter().filter(|m| m.kappa == Some(kappa)).zip(8..) {
             let name = map.label.split(", ").nth(1).unwrap_or_default();
             panel = panel.curve(Curve::new(format!("penalty, {name}"), points(map)).look(look));
         }

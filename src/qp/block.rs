@@ -213,7 +213,7 @@ impl Block {
         loop {
             let share = |i: usize| left[i] / system.square(rows[i]);
             let Some(p) = (0..count).max_by(|&i, &j| share(i).total_cmp(&share(j))) else { break };
-            if !(share(p) > DEPENDENT) {
+            if share(p).is_nan() || share(p) <= DEPENDENT {
                 break;
             }
             // Column by column: entry i of column q is L D of row i there.
@@ -327,6 +327,9 @@ impl Block {
 /// a · b, in four sums that do not wait for one another.
 #[inline]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
+    if a.len() < 8 {
+        return a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b);
+    }
     let mut sums = [0.0; 4];
     let (left, right) = (a.chunks_exact(4), b.chunks_exact(4));
     let rest: f64 = left.remainder().iter().zip(right.remainder()).map(|(a, b)| a * b).sum();

@@ -2,14 +2,14 @@
 //!
 //! W = G A⁻¹ Gᵀ + diag(c) says how far row i moves per unit of force on row j. In a chain, a bar or a tube that is stepped through
 //! time the answer to a force dies away from it, so only the entries of a row that matter are kept: from the first to the
-//! last column with |Wᵢⱼ| > 1e-20 √(Wᵢᵢ Wⱼⱼ). What is left out is 1e-4 of half an ulp of the motion that the same force causes
-//! at its own row, so that all of it together, up to 1e4 rows, is below the rounding of W itself.
+//! last column with |Wᵢⱼ| > 1e-17 √(Wᵢᵢ Wⱼⱼ). What is left out is below a fifth of half an ulp of the motion that the same force causes at
+//! its own row, and dies away from there: less than the rounding of W itself.
 
 use super::{Failure, Problem, Rhs};
 use crate::linear::{Factor, Rows};
 
 /// Share of a force's own motion below which its motion elsewhere is nothing (dimensionless; see above).
-const NOTHING: f64 = 1e-20;
+const NOTHING: f64 = 1e-17;
 
 /// Most entries of A⁻¹Gᵀ that are kept, 32 MB of them: beyond, x is found by solving with A again.
 const MOST_COLUMNS: usize = 1 << 22;
@@ -91,13 +91,13 @@ impl Delassus {
         // Wⱼⱼ of all rows come first, since the others are measured by them.
         let mut weight = vec![0.0; m];
         let mut columns = Some(Runs::with_capacity(m));
-        for j in 0..m {
+        for (j, weight) in weight.iter_mut().enumerate() {
             respond(j, &mut response);
             let own = g.dot(j, &response) + problem.compliance[j];
-            weight[j] = if own > 0.0 { own.sqrt() } else { 1.0 };
+            *weight = if own > 0.0 { own.sqrt() } else { 1.0 };
             if let Some(runs) = &mut columns {
                 // √Aᵢᵢ is at most 1/√(A⁻¹)ᵢᵢ, so no unknown of small motion is cut too early.
-                runs.push(&response, |i, v| v.abs() * unit[i] > NOTHING * weight[j]);
+                runs.push(&response, |i, v| v.abs() * unit[i] > NOTHING * *weight);
                 if runs.values.len() > MOST_COLUMNS {
                     columns = None;
                 }
@@ -188,17 +188,16 @@ impl Delassus {
         inside
     }
 
-    /// Turns the free motion x into x = A⁻¹(b + Gᵀ r).
-    pub(super) fn respond(&mut self, b: &[f64], r: &[f64], x: &mut [f64]) {
-        let forces = || r.iter().enumerate().filter(|(_, force)| **force != 0.0);
+    /// Turns the free motion x into x = A⁻¹(b + Gᵀ r), r being 0 on all rows but `rows`.
+    pub(super) fn respond(&mut self, b: &[f64], rows: &[usize], r: &[f64], x: &mut [f64]) {
         if let Some(columns) = &self.columns
-            && forces().map(|(i, _)| columns.row(i).1.len()).sum::<usize>() <= self.solving
+            && rows.iter().map(|&i| columns.row(i).1.len()).sum::<usize>() <= self.solving
         {
-            forces().for_each(|(i, &force)| columns.add(i, force, x));
+            rows.iter().for_each(|&i| columns.add(i, r[i], x));
             return;
         }
         x.copy_from_slice(b);
-        forces().for_each(|(i, &force)| self.g.add_transposed(i, force, x));
+        rows.iter().for_each(|&i| self.g.add_transposed(i, r[i], x));
         self.factor.solve(x);
     }
 }

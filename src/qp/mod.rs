@@ -11,8 +11,12 @@
 //! | solver | what it does |
 //! |---|---|
 //! | [`Backend::Clamp`] | one unknown: exact, finite, nanoseconds |
-//! | [`Backend::Condensed`] | any number: block principal pivoting on W, exact |
+//! | [`Backend::Condensed`] | any number: block principal pivoting on W from the last programme's rows in play, exact |
 //! | [`Backend::Clarabel`] | any number: an interior point finds the rows in play, then they are solved exactly |
+//!
+//! [`Backend::Auto`] takes the clamp for one unknown and the condensed solver for more: both are exact, and cost nothing where nothing is in
+//! contact but the free motion. Where rows depend on one another the multipliers are those of least Σ Wᵢᵢ rᵢ². If pivoting does
+//! not settle, Clarabel tells where to start, and a dual active set is the last resort.
 //!
 //! [`clamp()`] is the same scalar programme without matrices, for kernels that hold floats only.
 
@@ -105,7 +109,7 @@ impl Rhs<'_> {
         finite("lower bound", self.lo, |v| v < f64::INFINITY)?;
         finite("upper bound", self.hi, |v| v > f64::NEG_INFINITY)?;
         for (row, (&lo, &hi)) in self.lo.iter().zip(self.hi).enumerate() {
-            if lo - hi > ROUNDING * scale.max(lo.abs()).max(hi.abs()) {
+            if lo > hi && lo - hi > ROUNDING * scale.max(lo.abs()).max(hi.abs()) {
                 return Err(Failure::Infeasible { row, against: row });
             }
         }

@@ -34,6 +34,9 @@ impl Side {
     }
 }
 
+/// State of a row that is below its lower bound (1), above its upper one (2), neither or both.
+const STATES: [Option<Side>; 4] = [None, Some(Side::Lower), Some(Side::Upper), Some(Side::Lower)];
+
 /// Passes in which all wrong rows are exchanged although their number has not fallen.
 const PATIENCE: u32 = 10;
 
@@ -133,14 +136,14 @@ impl Pivoting {
     /// Puts the rows that the free motion violates on the bounds they violate, and frees the others.
     pub(super) fn call_violated(&mut self, system: &Delassus, rhs: &Rhs) {
         for (((side, &y), &lo), &hi) in self.side.iter_mut().zip(&system.y).zip(rhs.lo).zip(rhs.hi) {
-            *side = if y < lo {
-                Some(Side::Lower)
-            } else if y > hi {
-                Some(Side::Upper)
-            } else {
-                None
-            };
+            // Looked up rather than branched on: which rows are violated cannot be predicted.
+            *side = STATES[usize::from(y < lo) + 2 * usize::from(y > hi)];
         }
+    }
+
+    /// Rows in play, increasing.
+    pub(super) fn rows(&self) -> &[usize] {
+        self.block.rows()
     }
 
     /// Starts from the states of the rows and ends with the exact r (m entries). `scale` is the length that signs of gaps are tested
@@ -153,14 +156,17 @@ impl Pivoting {
         passes: usize,
         r: &mut [f64],
     ) -> Result<u64, Failure> {
-        self.next.clear();
-        for (row, side) in self.side.iter_mut().enumerate() {
-            if side.is_some_and(|side| side.bound(rhs, row).is_finite()) {
-                self.next.push(row);
-            } else {
-                *side = None;
-            }
+        // Each row is written and the place moved on only if it stays, for the same reason.
+        let mut count = 0;
+        self.next.resize(self.side.len(), 0);
+        for (row, ((side, &lo), &hi)) in self.side.iter_mut().zip(rhs.lo).zip(rhs.hi).enumerate() {
+            let bound = if *side == Some(Side::Lower) { lo } else { hi };
+            let stays = side.is_some() & bound.is_finite();
+            *side = if stays { *side } else { None };
+            self.next[count] = row;
+            count += usize::from(stays);
         }
+        self.next.truncate(count);
         r.fill(0.0);
         let (mut least, mut patience, mut pivots, mut joins) = (usize::MAX, PATIENCE, 0, 0);
         let (mut tolerance, mut circle) = (ROUNDING, Circle::default());

@@ -48,6 +48,8 @@ struct Condensed {
     /// What the interior point is built from when it is needed.
     problem: Problem,
     interior: Option<Clarabel>,
+    /// Rows that the interior point called.
+    start: Vec<(usize, Side)>,
     /// True if the interior point is asked every time.
     always: bool,
     /// Passes that pivoting has before the interior point is asked.
@@ -88,6 +90,7 @@ impl Solver {
                 pivoting,
                 problem,
                 interior: None,
+                start: Vec::new(),
                 always,
                 passes: passes(m),
             }))
@@ -205,13 +208,14 @@ impl Condensed {
         let found = interior.find(system, rhs, violation, largest, pivoting);
         if let Ok(iterations) = found {
             counters.iterations += iterations;
-            let start: Vec<(usize, Side)> = pivoting.called().collect();
+            self.start.clear();
+            self.start.extend(pivoting.called());
             if let Ok(pivots) = pivoting.solve(system, rhs, scale, passes(r.len()), r) {
                 counters.pivots += pivots;
                 return self.answer(rhs, solution);
             }
             pivoting.clear();
-            start.into_iter().for_each(|(row, side)| pivoting.call(row, side));
+            self.start.iter().for_each(|&(row, side)| pivoting.call(row, side));
         } else {
             pivoting.clear();
         }
@@ -227,11 +231,13 @@ impl Condensed {
         if pivoting.solve(system, rhs, scale, passes(r.len()), r).is_err() {
             r.copy_from_slice(&forces);
         }
-        self.answer(rhs, solution)
+        let all: Vec<usize> = (0..r.len()).collect();
+        system.respond(rhs.b, &all, r, x);
+        super::finite("solution", x, |v| v.is_finite())
     }
 
     fn answer(&mut self, rhs: &Rhs, solution: &mut Solution) -> Result<(), Failure> {
-        self.system.respond(rhs.b, &solution.multiplier, &mut solution.x);
+        self.system.respond(rhs.b, self.pivoting.rows(), &solution.multiplier, &mut solution.x);
         super::finite("solution", &solution.x, |v| v.is_finite())
     }
 }
@@ -243,4 +249,28 @@ fn violation(system: &Delassus, rhs: &Rhs, noise: f64) -> f64 {
         let excess = (lo - system.y[row]).max(system.y[row] - hi);
         if excess > noise { f64::max(most, excess / system.weight[row]) } else { most }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::{Rows, Symmetric};
+
+    #[test]
+    fn clarabel_answers_where_pivoting_does_not_settle() {
+        let chain = || Problem {
+            a: Symmetric::from_entries(3, [(0, 0, 2.0), (1, 1, 2.0), (2, 2, 2.0), (1, 0, -1.0), (2, 1, -1.0)]),
+            g: Rows::new(3, [[(0, 1.0)], [(1, 1.0)], [(2, 1.0)]].iter().map(|row| row.as_slice())),
+            compliance: vec![0.0; 3],
+        };
+        let rhs = Rhs { b: &[5.0, -4.0, 1.0], lo: &[-1.0; 3], hi: &[1.0; 3] };
+        let mut sound = Solver::new(chain(), Backend::Condensed, 1.0).unwrap();
+        let exact = sound.solve(&rhs).unwrap().clone();
+        let mut hurried = Solver::new(chain(), Backend::Condensed, 1.0).unwrap();
+        let Kind::Condensed(condensed) = &mut hurried.kind else { panic!("not condensed") };
+        condensed.passes = 0;
+        assert_eq!(hurried.solve(&rhs).unwrap(), &exact);
+        assert_eq!((hurried.counters().fallbacks, sound.counters().fallbacks), (1, 0));
+        assert!(hurried.counters().iterations > 0 && sound.counters().iterations == 0);
+    }
 }

@@ -43,7 +43,8 @@ pub struct Residuals {
     /// of), or a gap in the run's duration if that is more (a body held fast has a speed of rounding), m/s. A promise on both levels measures its gaps by
     /// the first and its speeds by the second; the first is given.
     pub gap_scale: f64,
-    /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid).
+    /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid). Where there is none, an elastic wall that should have pushed is held against
+    /// what the stiffest would make of the gap scale.
     pub force_scale_n: f64,
 }
 
@@ -251,7 +252,8 @@ impl Judge {
         let speed_scale = self.speed_scale.max(self.energy.gap_scale / self.scene.duration);
         let gap_scale = if self.contract.promise == Promise::Velocity { speed_scale } else { self.energy.gap_scale };
         let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
-        let law = over(self.law_error, self.force_scale);
+        // Where no wall ever pushed, an elastic one is measured by what it would make of a gap.
+        let law = over(self.law_error, if self.force_scale > 0.0 { self.force_scale } else { self.scales.wall });
         let walls = self.pairs.worst(self.energy.gap_scale, self.force_scale);
         let rebounds = self.rebounds.worst(speed_scale, self.force_scale);
         let force = self.scales.normal_force(self.force_scale).max(self.scales.spring);

@@ -16,6 +16,8 @@ pub(super) struct Scales {
     /// What its springs would exert over the gap scale, N/√kg, so that a run without loads and contacts has a scale too: the largest term of K q, of which the
     /// sum is known to rounding only.
     pub spring: f64,
+    /// What the stiffest elastic wall makes of the gap scale, N.
+    pub wall: f64,
 }
 
 impl Scales {
@@ -27,7 +29,9 @@ impl Scales {
         let gap = scene.gap_scale() * root_wall_mass;
         let stiffness = structure.stiffness.diagonal_entries();
         let fastest = stiffness.iter().zip(&root_mass).map(|(k, m)| k / (m * m)).fold(0.0, f64::max);
-        Self { root_mass, root_wall_mass, gap, spring: fastest * gap }
+        // Its tangent at the face; 0 for a rigid wall.
+        let stiffest = scene.walls.iter().map(|wall| wall.law.tangent(f64::MIN_POSITIVE)).fold(0.0, f64::max);
+        Self { root_mass, root_wall_mass, gap, spring: fastest * gap, wall: stiffest * scene.gap_scale() }
     }
 
     /// A wall's force (N) as what it makes of the mass it feels, N/√kg.

@@ -2,13 +2,13 @@
 //!
 //! The velocities of the start are changed by pseudo-random amounts, δ of the largest speed at most, in a few directions. Of the difference to the
 //! unchanged run the displacement wδ at every wall and probe is watched, at the rows: its growth is the largest of √((wδ/gap)² + (ẇδ/speed)²) over
-//! what the change was at the start, in the same places. ẇδ is the slope of wδ between two rows, since the velocities themselves differ by a whole jump
-//! for the instant that lies between two impacts. A few directions rarely hold the worst one, but soon turn towards it: where growth is
+//! what the change was at the start, in the same places. ẇδ is the slope of wδ between two rows, the least of those about a row: at an
+//! impact wδ itself jumps, to −e wδ, and the velocities differ by a whole jump for the instant that lies between the two impacts. A few directions rarely hold the worst one, but soon turn towards it: where growth is
 //! large the estimate falls short of it by a factor of order 1.
 //!
 //! A stepping scheme touches walls at the grid's instants, and a change far below its own error may change nothing there, or a whole step. Where runs of such a
 //! scheme are to say how long errors can be compared, δ is as large as these errors ([`COMPARED`]); where they are to say how far rounding grows, it is small
-//! ([`SMALL`]).
+//! ([`SMALL`]). What a scheme makes of the phase of an impact within its step separates two of its runs like any other change, and is part of what they show.
 
 use super::difference::largest;
 use super::horizon::{Growth, Source};
@@ -67,11 +67,12 @@ fn follow(time: &[f64], w: &[f64], moved: &[f64], (length, speed): (f64, f64), f
     let difference = |row: usize| Some((moved.get(row)? - w.get(row)?, *time.get(row)?));
     let mut full = false;
     for (row, factor) in factor.iter_mut().enumerate() {
-        let Some((now, t)) = difference(row) else { return };
-        let rate = match difference(row + 1).or_else(|| difference(row.checked_sub(1)?)) {
-            Some((other, at)) if at != t => (other - now) / (at - t),
-            _ => 0.0,
+        let Some((now, _)) = difference(row) else { return };
+        let slope = |from: usize| {
+            let ((a, t), (b, u)) = (difference(from)?, difference(from + 1)?);
+            Some(((b - a) / (u - t)).abs())
         };
+        let rate = (row.saturating_sub(2)..row + 2).filter_map(slope).reduce(f64::min).unwrap_or(0.0);
         full |= now.is_nan() || now.abs() > FULL * length;
         *factor = if full { f64::NAN } else { super::difference::worse(*factor, (now / length).hypot(rate / speed)) };
     }

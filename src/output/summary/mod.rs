@@ -40,7 +40,7 @@ struct Summary<'a> {
     wear: &'static str,
     #[serde(flatten)]
     checks: Checks<'a>,
-    notes: &'a [String],
+    notes: Vec<String>,
 }
 
 /// How the run was held against others; each is null where it was not.
@@ -95,7 +95,7 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
         statistics: &run.statistics,
         wear: "impact power only: contact is frictionless and the motion normal to the wall, so there is no sliding wear here",
         checks,
-        notes: &run.notes,
+        notes: run.notes.iter().cloned().chain(case.notes()).collect(),
     };
     let failed =
         |e: serde_json::Error| Error::Io { path: path.display().to_string(), reason: e.to_string(), request: false };

@@ -102,7 +102,7 @@ impl Ledger {
                 *held = half(wall, w, -h * rate, wall.law_force(w, rate) != 0.0);
             }
             self.energy = self.half_step(scene, -h, b, q0, before) + self.held.iter().sum::<f64>();
-            self.report.initial_j = self.energy;
+            (self.report.initial_j, self.report.largest_j) = (self.energy, self.energy);
         }
         self.started = true;
         let mut flows = Flows::default();

@@ -204,7 +204,11 @@ impl Programme {
                     self.names.get(seat.wall).cloned()
                 };
                 let wall = if let Failure::Infeasible { row, .. } = fault { name(row) } else { None };
-                return Err(failure(&fault, wall, time, step));
+                return Err(match fault {
+                    // Matrices are sound since the beginning: it is the motion that has left the numbers.
+                    Failure::NotFinite { .. } => Error::NotFinite { time, step, what: "motion" },
+                    _ => failure(&fault, wall, time, step),
+                });
             }
         };
         for (row, &r) in solution.multiplier.iter().enumerate() {

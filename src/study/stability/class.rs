@@ -1,8 +1,8 @@
 //! What the measurements of a run amount to.
 
 use super::scale::Scale;
-use super::watch::{Record, depth_bound};
-use crate::scene::{Scene, WallLaw};
+use super::watch::{Record, depth_bound, total_mass};
+use crate::scene::{Scene, System, WallLaw};
 use crate::scheme::Scheme;
 use crate::step::Contact;
 use std::fmt;
@@ -15,6 +15,8 @@ pub const GAIN: f64 = 0.01;
 /// Share of the arriving energy lost per impact above which a scheme dissipates: 5 % is a restitution off by 0.025, less than what
 /// restitution is known to for any real wall. A loss does not compound: a load makes up for it.
 pub const LOSS: f64 = 0.05;
+/// What walls of several degrees of freedom take scatters by this share from run to run: which contacts come together is chance.
+pub const SCATTER: f64 = 0.04;
 /// Speed over the reference's largest above which the motion is another one: twice its energy.
 pub const FAST: f64 = 1.5;
 /// Root-mean-square speed over the reference's below which the motion is another one: half its energy.
@@ -129,7 +131,13 @@ pub struct Ruler {
     pub contacts: Range,
     /// Approach speed above which a contact is counted, m/s.
     threshold: f64,
+    /// Contacts of one wall less than this apart count as one, s; none for one degree of freedom, where each counts.
+    joined: Option<f64>,
     rests: bool,
+    /// What the walls of several degrees of freedom rightly take, over the energy that [`exchanged`] counts.
+    taken: Range,
+    /// Largest kinetic energy of each run, J.
+    energy: f64,
 }
 
 /// Least and largest of several values.
@@ -147,6 +155,18 @@ impl Range {
         values.fold(all, |r, x| Self { low: r.low.min(x), high: r.high.max(x) })
     }
 
+    /// Of values that are few for how much they scatter: [`SCATTER`] more to either side.
+    fn scattered(values: impl Iterator<Item = f64>) -> Self {
+        let all = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
+        let seen = values.fold(all, |r, x| Self { low: r.low.min(x), high: r.high.max(x) });
+        Self { low: seen.low - SCATTER, high: seen.high + SCATTER }
+    }
+
+    /// How far a value lies outside the range: 0 within it.
+    fn beyond(self, x: f64) -> f64 {
+        x - x.clamp(self.low.min(self.high), self.high)
+    }
+
     /// The value over the nearest one of the range: 1 within it.
     fn ratio(self, x: f64) -> f64 {
         let nearest = x.clamp(self.low.min(self.high), self.high);
@@ -155,36 +175,66 @@ impl Range {
 }
 
 impl Ruler {
-    /// The ruler that fine runs make.
+    /// The ruler that fine runs of `scene` make. On a mesh a contact may let go and touch again with its vibrations: those are one.
     #[must_use]
-    pub fn new(records: &[Record]) -> Self {
+    pub fn new(records: &[Record], scene: &Scene, scale: &Scale) -> Self {
+        let joined = matches!(scene.system, System::Structure(_)).then(|| scale.joined());
+        let masses = &scene.wall_masses()[..];
         let approach = |record: &Record| record.contacts.iter().map(|c| c.approach_speed).fold(0.0, f64::max);
         let threshold = COUNTED * Range::of(records.iter().map(approach)).high;
         let speed = Range::of(records.iter().map(|r| r.speed));
+        let energy = 0.5 * total_mass(&scene.system) * speed.high * speed.high;
         Self {
             speed,
             rms_speed: Range::of(records.iter().map(|r| r.rms_speed)),
-            contacts: Range::of(records.iter().map(|r| counted(&r.contacts, threshold).count() as f64)),
+            contacts: Range::of(records.iter().map(|r| counted(&r.contacts, threshold, joined).len() as f64)),
             threshold,
+            joined,
+            taken: Range::scattered(records.iter().map(|r| r.made / exchanged(r, masses, energy))),
+            energy,
             rests: records.iter().all(|r| r.last_speed < REST * speed.high),
         }
     }
 
     /// Times of the contacts counted, s.
-    pub fn contact_times<'a>(&self, record: &'a Record) -> impl Iterator<Item = f64> + use<'a> {
-        counted(&record.contacts, self.threshold).map(|c| c.start)
+    #[must_use]
+    pub fn contact_times(&self, record: &Record) -> Vec<f64> {
+        counted(&record.contacts, self.threshold, self.joined)
     }
 }
 
-fn counted(contacts: &[Contact], threshold: f64) -> impl Iterator<Item = &Contact> {
-    contacts.iter().filter(move |c| c.approach_speed > threshold)
+/// Starts of the contacts faster than `threshold`, in the order of the list; those of one wall that begin within `joined` of the end of the one before are part of it.
+fn counted(contacts: &[Contact], threshold: f64, joined: Option<f64>) -> Vec<f64> {
+    let fast = contacts.iter().filter(|c| c.approach_speed > threshold);
+    let Some(joined) = joined else { return fast.map(|c| c.start).collect() };
+    let mut ends: Vec<(usize, f64)> = Vec::new();
+    let mut starts = Vec::new();
+    for contact in fast {
+        let end = contact.end.unwrap_or(f64::INFINITY);
+        match ends.iter_mut().find(|(wall, _)| *wall == contact.wall) {
+            Some((_, last)) => {
+                if contact.start > *last + joined {
+                    starts.push(contact.start);
+                }
+                *last = last.max(end);
+            }
+            None => {
+                starts.push(contact.start);
+                ends.push((contact.wall, end));
+            }
+        }
+    }
+    starts.sort_by(f64::total_cmp);
+    starts
 }
 
 /// A run held against its ruler.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measurement {
     /// Energy that the scheme made, beyond what restitution takes, over the kinetic energy that arrived at the walls: a share of it
-    /// gained (+) or lost (−) per impact; none without a contact.
+    /// gained (+) or lost (−) per impact; none without a contact. Of several degrees of freedom, what it made at and between the walls
+    /// all in all (+), or took beyond what the reference's walls take (−), over the energy that arrived or the reference's largest kinetic energy, if that
+    /// is more.
     pub growth: Option<f64>,
     /// Largest speed over the reference's.
     pub speed: f64,
@@ -213,13 +263,23 @@ pub struct Measurement {
 impl Measurement {
     /// The run `record` of `scene` (as the scheme sees it) by `scheme` with steps of `h` (s) against `ruler`.
     #[must_use]
-    pub fn new(record: &Record, ruler: &Ruler, scene: &Scene, scheme: &Scheme, scale: &Scale, h: f64) -> Self {
-        let contacts = counted(&record.contacts, ruler.threshold).count();
+    pub fn new(record: &Record, ruler: &Ruler, scene: &Scene, scheme: &Scheme, h: f64) -> Self {
+        let contacts = ruler.contact_times(record).len();
         let touch = TOUCH * scene.gap_scale();
-        let passed = scene.walls.iter().zip(&record.depth).filter(|(_, depth)| **depth > touch);
-        let bound = |law| depth_bound(law, scheme, scale, h, record.speed, record.acceleration).max(touch);
+        let masses = scene.wall_masses();
+        let passed = scene.walls.iter().zip(&record.depth).enumerate().filter(|(_, (_, depth))| **depth > touch);
+        let of = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
+        let bound = |index: usize, law| {
+            let (v, a) = (of(&record.wall_speed, index), of(&record.acceleration, index));
+            // Behind the one mass of an oscillator comes nothing more; behind the node of a structure all that moves.
+            let energy = match scene.system {
+                System::Oscillator(_) => 0.5 * of(&masses, index) * v * v,
+                _ => ruler.energy,
+            };
+            depth_bound(law, scheme, of(&masses, index), energy, h, v, a).max(touch)
+        };
         Self {
-            growth: growth(record, scene, scale.mass),
+            growth: growth(record, scene, &masses, ruler),
             speed: ruler.speed.ratio(record.speed),
             rms_speed: ruler.rms_speed.ratio(record.rms_speed),
             contacts,
@@ -227,7 +287,7 @@ impl Measurement {
             spurious: contacts.saturating_sub(ruler.contacts.high as usize),
             contact_ratio: ruler.contacts.ratio(contacts as f64),
             depth: record.depth.iter().copied().fold(0.0, f64::max),
-            passed: passed.map(|(wall, depth)| depth / bound(wall.law)).fold(0.0, f64::max),
+            passed: passed.map(|(index, (wall, depth))| depth / bound(index, wall.law)).fold(0.0, f64::max),
             frozen: record.frozen_steps as f64 / record.steps.max(1) as f64,
             rest: match (ruler.rests, record.last_speed < REST * ruler.speed.high) {
                 (false, _) => Rest::NotDue,
@@ -284,9 +344,16 @@ impl Measurement {
     }
 }
 
-/// Kinetic energy with which the body leaves rigid walls beyond e² of that with which it came, and what the scheme made elsewhere, over
-/// the kinetic energy that arrived at all walls.
-fn growth(record: &Record, scene: &Scene, mass: f64) -> Option<f64> {
+/// Of one degree of freedom: kinetic energy with which the body leaves rigid walls beyond e² of that with which it came, and what the scheme made
+/// elsewhere, over the kinetic energy that arrived at all walls.
+fn growth(record: &Record, scene: &Scene, masses: &[f64], ruler: &Ruler) -> Option<f64> {
+    if let System::Structure(_) = scene.system {
+        let share = record.made / exchanged(record, masses, ruler.energy);
+        // Walls that take less than the reference's make a livelier motion, but no energy: only more than nothing is a gain.
+        let growth = if share > 0.0 { share } else { ruler.taken.beyond(share).min(0.0) };
+        return (!record.contacts.is_empty()).then_some(growth);
+    }
+    let mass = masses.iter().copied().reduce(f64::min).unwrap_or(0.0);
     let energy = |speed: f64| 0.5 * mass * speed * speed;
     let arrived: f64 = record.contacts.iter().map(|c| energy(c.approach_speed)).sum();
     let beyond = |c: &Contact| match (scene.walls.get(c.wall).map(|w| w.law), c.departure_speed) {
@@ -296,4 +363,10 @@ fn growth(record: &Record, scene: &Scene, mass: f64) -> Option<f64> {
         _ => 0.0,
     };
     (arrived > 0.0).then(|| (record.made + record.contacts.iter().map(beyond).sum::<f64>()) / arrived)
+}
+
+/// Kinetic energy that arrived at the walls, each with the mass that it feels, or `least` if that is more, J: at the node of a fine mesh little mass arrives.
+fn exchanged(record: &Record, masses: &[f64], least: f64) -> f64 {
+    let energy = |c: &Contact| 0.5 * masses.get(c.wall).copied().unwrap_or(0.0) * c.approach_speed * c.approach_speed;
+    record.contacts.iter().map(energy).sum::<f64>().max(least).max(f64::MIN_POSITIVE)
 }

@@ -31,13 +31,14 @@ pub enum Family {
 }
 
 impl Family {
-    /// Every family, in the order of tables.
+    /// Every family, in the order of tables; generalized-alpha with the ρ∞ that most choose.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let constrained = [
             Scheme::MoreauJean { theta: 0.5 },
             Scheme::MoreauJean { theta: 1.0 },
             Scheme::PaoliSchatzman,
+            Scheme::GeneralizedAlpha { rho: 0.8 },
             Scheme::ImplicitEuler,
             Scheme::Newmark,
         ];

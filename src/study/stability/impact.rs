@@ -85,7 +85,8 @@ pub fn maps(mass: f64, h: f64, e: f64) -> Vec<ImpactMap> {
     let mut schemes: Vec<(Scheme, String, Option<f64>)> = Vec::new();
     let rigid = [Scheme::Event, Scheme::PaoliSchatzman].into_iter();
     let jean = THETAS.into_iter().map(|theta| Scheme::MoreauJean { theta });
-    for scheme in rigid.chain(jean).chain([Scheme::ImplicitEuler, Scheme::Newmark]) {
+    let others = [Scheme::GeneralizedAlpha { rho: 0.8 }, Scheme::ImplicitEuler, Scheme::Newmark];
+    for scheme in rigid.chain(jean).chain(others) {
         schemes.push((scheme, scheme.to_string(), None));
     }
     for kappa in KAPPAS {

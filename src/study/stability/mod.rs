@@ -7,6 +7,8 @@
 //! | [`scale`] | the frequency by which steps are measured |
 //! | [`family`] | the schemes of the maps and their second parameter |
 //! | [`watch`] | one run, measured |
+//! | `ledger` | the energy that a scheme makes of itself |
+//! | [`lasting`] | what schemes do to energy and to the force of a lasting contact |
 //! | [`class`] | what the measurements amount to |
 //! | [`row`] | one scheme on one scene over all steps |
 //! | [`plan`] | the maps of a case, computed in parallel |
@@ -14,6 +16,8 @@
 pub mod class;
 pub mod family;
 pub mod impact;
+pub mod lasting;
+mod ledger;
 pub mod plan;
 pub mod row;
 pub mod scale;

@@ -6,7 +6,7 @@ use super::row::{Cell, Safe, Subject};
 use super::scale::Scale;
 use super::watch::{Record, STARTS, nudged, watch};
 use crate::error::Result;
-use crate::scene::Scene;
+use crate::scene::{Scene, System};
 use crate::scheme::{Integrator, PenaltyLaw, Scheme};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -36,6 +36,25 @@ pub struct Grid {
 impl Default for Grid {
     fn default() -> Self {
         Self { finest: 1e-4, coarsest: 3.2, per_decade: 7.0, contacts: 100, most_steps: 1e6, families: Family::all() }
+    }
+}
+
+/// Steps of several degrees of freedom in all of a map's finest cells, times their number, and the fewest of one cell.
+const MOST_WORK: f64 = 5e5;
+const FEWEST_STEPS: f64 = 1e4;
+
+impl Grid {
+    /// The grid for `scene`: the default for one degree of freedom; for several, whose steps cost in proportion, coarser ones and fewer to a decade. Steps are
+    /// measured by the slowest frequency, and reach from where most is resolved to where not even that is.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        match scene.system {
+            System::Oscillator(_) => Self::default(),
+            _ => {
+                let n = scene.system.degrees_of_freedom().max(1) as f64;
+                Self { per_decade: 4.0, most_steps: (MOST_WORK / n).max(FEWEST_STEPS), ..Self::default() }
+            }
+        }
     }
 }
 
@@ -94,8 +113,8 @@ impl Plan {
         let own = reference_of(scene, None);
         let h = finest(&first, scene.duration);
         let record = watch(&own.0, &own.1, h, scene.duration, f64::INFINITY)?;
-        let ruler = Ruler::new(std::slice::from_ref(&record));
-        let times: Vec<f64> = ruler.contact_times(&record).collect();
+        let ruler = Ruler::new(std::slice::from_ref(&record), scene, &first);
+        let times = ruler.contact_times(&record);
         let horizon = times.get(grid.contacts).copied().unwrap_or(scene.duration).min(scene.duration);
         let scale = Scale::of(scene, times.first().copied());
         let finest = finest(&scale, horizon);
@@ -176,7 +195,7 @@ impl Plan {
                 tell(self.cost(h));
                 Ok(record)
             };
-            Ok(Ruler::new(&(0..STARTS).map(run).collect::<Result<Vec<_>>>()?))
+            Ok(Ruler::new(&(0..STARTS).map(run).collect::<Result<Vec<_>>>()?, scene, &self.scale))
         };
         let rulers: Vec<Ruler> = self.references.par_iter().map(reference).collect::<Result<_>>()?;
         let ruled: Vec<(&Subject, &Ruler)> =

@@ -73,7 +73,7 @@ impl Subject {
         match watch(&nudged(&self.scene, start, scale), &self.scheme, h, horizon, limit) {
             Err(error) => Cell { step: h, measured: None, class: Class::Diverged, reason: error.to_string() },
             Ok(record) => {
-                let measured = Measurement::new(&record, ruler, &self.seen, &self.scheme, scale, h);
+                let measured = Measurement::new(&record, ruler, &self.seen, &self.scheme, h);
                 let (class, reason) = measured.classify();
                 Cell { step: h, measured: Some(measured), class, reason }
             }

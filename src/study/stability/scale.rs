@@ -11,7 +11,7 @@ const FASTEST_FLIGHT: f64 = 1e3;
 /// Where the circular frequency of a scene comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// √(k/m), the oscillator's own.
+    /// √(k/m), the oscillator's own; of several degrees of freedom the slowest.
     Spring,
     /// The slowest sine of the load, where nothing but the walls holds the body.
     Load,
@@ -41,11 +41,20 @@ pub struct Scale {
     pub omega: f64,
     /// Where it comes from.
     pub origin: Origin,
-    /// Mass at the walls, kg.
+    /// Mass at the walls, kg: the least that a wall feels.
     pub mass: f64,
 }
 
+/// Share of the period within which touches of one wall are one contact.
+const JOINED: f64 = 1.0 / 32.0;
+
 impl Scale {
+    /// The time within which touches of one wall are one contact of a structure that vibrates at the wall, s.
+    #[must_use]
+    pub fn joined(&self) -> f64 {
+        JOINED * TAU / self.omega
+    }
+
     /// The scale of `scene`; `first_contact` (s) is used where neither spring nor sine sets one.
     #[must_use]
     pub fn of(scene: &Scene, first_contact: Option<f64>) -> Self {

@@ -1,10 +1,12 @@
 //! One run, measured: what a stability map needs to know of it.
 
+use super::ledger::Ledger;
 use super::scale::Scale;
 use crate::error::Result;
-use crate::scene::{Scene, Wall, WallLaw};
+use crate::residual::Judge;
+use crate::scene::{Scene, System, WallLaw};
 use crate::scheme::{Scheme, Stepper};
-use crate::step::{Balance, Contact, Step};
+use crate::step::{Contact, Step};
 
 /// The share of the horizon, at its end, in which a body that is due to rest must rest.
 const LAST: f64 = 0.1;
@@ -16,9 +18,10 @@ const LASTING: f64 = 10.0;
 pub struct Record {
     /// Contact episodes that ended within the horizon, in the order of their ends, then lasting ones, with a departure speed of 0.
     pub contacts: Vec<Contact>,
-    /// Energy that the scheme made between impacts, J: away from walls and in the springs of elastic and penalised ones.
+    /// Energy that the scheme made, J: of one degree of freedom between impacts, away from walls and in the springs of elastic and penalised ones; of
+    /// several what rigid walls give and take as well.
     pub made: f64,
-    /// Largest speed, m/s.
+    /// Largest speed, m/s: of several degrees of freedom the one with which all of the mass would have the kinetic energy, √(vᵀMv / 1ᵀM1).
     pub speed: f64,
     /// Root mean square of the speed, m/s.
     pub rms_speed: f64,
@@ -26,8 +29,10 @@ pub struct Record {
     pub last_speed: f64,
     /// Deepest position behind each wall at the end of a step, m, ≥ 0.
     pub depth: Vec<f64>,
-    /// Largest acceleration in a step without contact, m/s².
-    pub acceleration: f64,
+    /// Largest speed at each wall, m/s.
+    pub wall_speed: Vec<f64>,
+    /// Largest acceleration at each wall in a step without contact there or at a wall that shares a degree of freedom with it, m/s².
+    pub acceleration: Vec<f64>,
     /// Steps taken.
     pub steps: u64,
     /// Steps in which opposite walls took turns, as the scheme itself counts them.
@@ -44,34 +49,38 @@ pub struct Record {
 /// What the scheme reports.
 pub fn watch(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -> Result<Record> {
     let mut stepper = Stepper::new(scene, scheme, h)?;
-    let mut ledger = Ledger::new(&stepper, h);
+    let mut books = Books::new(&stepper, h);
     let steps = (horizon / h * (1.0 - 1e-12)).ceil().max(1.0) as u64;
-    let mut record = Record { depth: vec![0.0; scene.walls.len()], ..Record::default() };
+    let m = scene.walls.len();
+    let zero = || vec![0.0; m];
+    let mut record = Record { depth: zero(), wall_speed: zero(), acceleration: zero(), ..Record::default() };
     let mut squares = 0.0;
-    let walls: Vec<_> = scene.walls.iter().map(|w| (w.side.sign(), w.position)).collect();
+    let beside = neighbours(scene);
+    let gauge = Gauge::new(&scene.system);
     let last = horizon * (1.0 - LAST);
     for _ in 0..steps {
         let step = stepper.step()?;
-        let (q, v, before) = (at(step.q), at(step.velocity_after), at(step.velocity_before));
-        let speed = v.abs();
+        let speed = gauge.speed(step.velocity_after);
         record.speed = record.speed.max(speed);
         record.steps += 1;
-        squares += v * v;
+        squares += speed * speed;
         if step.end > last {
             record.last_speed = record.last_speed.max(speed);
         }
-        let mut inside = false;
-        for (depth, (sign, position)) in record.depth.iter_mut().zip(&walls) {
-            let now = sign * (position - q);
-            inside |= now > 0.0;
-            *depth = depth.max(now);
-        }
         let pushed = step.impulse.iter().any(|&p| p != 0.0);
-        if !pushed {
-            record.acceleration = record.acceleration.max((v - before).abs() / h);
+        let mut inside = false;
+        for (index, wall) in scene.walls.iter().enumerate() {
+            let now = -wall.gap(wall.at.dot(step.q));
+            inside |= now > 0.0;
+            record.depth[index] = record.depth[index].max(now);
+            let (before, after) = (wall.at.dot(step.velocity_before), wall.at.dot(step.velocity_after));
+            record.wall_speed[index] = record.wall_speed[index].max(after.abs());
+            if !(pushed && beside[index].iter().any(|&other| step.impulse[other] != 0.0)) {
+                record.acceleration[index] = record.acceleration[index].max((after - before).abs() / h);
+            }
         }
         record.contacts.extend_from_slice(step.closed);
-        ledger.see(&step, pushed || inside);
+        books.see(&step, pushed || inside);
         if speed > limit {
             record.escaped = Some(step.end);
             break;
@@ -80,7 +89,7 @@ pub fn watch(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -
     let (time, open) = (stepper.time(), stepper.open_contacts());
     let lasting = open.into_iter().filter(|c| c.start < time - LASTING * h);
     record.contacts.extend(lasting.map(|c| Contact { departure_speed: Some(0.0), ..c }));
-    record.made = ledger.made;
+    record.made = books.made();
     record.rms_speed = (squares / record.steps as f64).sqrt();
     record.frozen_steps = stepper.counters().frozen_steps;
     Ok(record)
@@ -92,106 +101,98 @@ pub const STARTS: u32 = 4;
 /// See [`STARTS`].
 pub const NUDGE: f64 = 1e-3;
 
-/// The scene from start number `start`, 0 its own.
+/// The scene from start number `start`, 0 its own. The nudge brings the energy of that speed at the mass of a wall, in a motion of all together.
 #[must_use]
 pub fn nudged(scene: &Scene, start: u32, scale: &Scale) -> Scene {
     let mut scene = scene.clone();
-    let nudge = f64::from(start) * NUDGE * scene.gap_scale() * scale.omega;
+    let speed = f64::from(start) * NUDGE * scene.gap_scale() * scale.omega;
+    let nudge = match scene.system {
+        System::Oscillator(_) => speed,
+        _ => speed * (scale.mass / total_mass(&scene.system)).sqrt(),
+    };
     scene.initial.v.iter_mut().for_each(|v| *v += nudge);
     scene
 }
 
-/// One degree of freedom: the walls' rows are the displacement itself.
-fn at(x: &[f64]) -> f64 {
+/// The single degree of freedom.
+pub(super) fn at(x: &[f64]) -> f64 {
     x.first().copied().unwrap_or(0.0)
 }
 
-/// The energy that a scheme makes between impacts, without knowing the load: by the balance of momentum that every scheme states
-/// ([`Balance`]), the work of load and dampers in a step equals the change of energy but for the terms booked here.
-///
-/// θ-balance: p·Δq/h + ΔU − (θ−½)(mΔv² + kΔq²). Staggered: p·(v₋ + v₊)/2 + ΔU between half steps. U is the energy in the
-/// springs of the walls; what their dashpots take, and what a damped wall keeps as it lets go of the body, is no loss of the scheme.
-/// Steps in which a rigid wall pushes are left out: what it makes or takes is seen in the speeds before and after.
-struct Ledger {
-    springs: Vec<Spring>,
-    /// Numbers of the rigid walls.
-    rigid: Vec<usize>,
-    balance: Balance,
-    h: f64,
-    mass: f64,
-    stiffness: f64,
-    q: f64,
-    /// True where a wall pushed or held the body in the last step: the staggered energy of a wall is that of two ends.
-    busy: bool,
-    made: f64,
+/// Who keeps the books of energy.
+enum Books {
+    Single(Box<Ledger>),
+    /// Of several degrees of freedom the judge: what no load, damping or wall accounts for, less what rigid walls took.
+    Several(Box<Judge>),
 }
 
-/// A wall that is not rigid.
-struct Spring {
-    index: usize,
-    wall: Wall,
-    damping: f64,
-    /// Energy in it where the last step left it, J.
-    stored: f64,
-}
-
-impl Ledger {
+impl Books {
     fn new(stepper: &Stepper, h: f64) -> Self {
-        let scene = stepper.scene();
-        let (mass, stiffness) = (scene.system.mass_form(&[1.0], &[1.0]), scene.system.stiffness_form(&[1.0], &[1.0]));
-        let q = at(&stepper.state().q);
-        let (mut springs, mut rigid) = (Vec::new(), Vec::new());
-        for (index, wall) in scene.walls.iter().enumerate() {
-            let damping = match wall.law {
-                WallLaw::Rigid { .. } => {
-                    rigid.push(index);
-                    continue;
-                }
-                WallLaw::Elastic { damping, .. } => damping,
-                WallLaw::Quartic { .. } => 0.0,
-            };
-            springs.push(Spring { index, wall: wall.clone(), damping, stored: wall.law.energy(-wall.gap(q)) });
+        let state = stepper.state();
+        match stepper.scene().system {
+            System::Oscillator(_) => Self::Single(Box::new(Ledger::new(stepper, h))),
+            _ => Self::Several(Box::new(Judge::new(stepper.scene(), stepper.contract(), h, &state.q, &state.v))),
         }
-        Self { springs, rigid, balance: stepper.contract().balance, h, mass, stiffness, q, busy: true, made: 0.0 }
     }
 
-    /// Takes in a step; `busy` where a wall pushed in it or holds the body at its end.
     #[inline]
     fn see(&mut self, step: &Step<'_>, busy: bool) {
-        let (q, before, after) = (at(step.q), at(step.velocity_before), at(step.velocity_after));
-        let shift = q - self.q;
-        let touched = busy || self.busy;
-        let impulse = |index: usize| step.impulse.get(index).copied().unwrap_or(0.0);
-        let struck = touched && self.rigid.iter().any(|&index| impulse(index) != 0.0);
-        if let (Balance::Theta(theta), false) = (self.balance, struck)
-            && theta != 0.5
-        {
-            let jump = after - before;
-            self.made -= (theta - 0.5) * (self.mass * jump * jump + self.stiffness * shift * shift);
+        match self {
+            Self::Single(ledger) => ledger.see(step, busy),
+            Self::Several(judge) => judge.see(step),
         }
-        if touched {
-            let staggered = matches!(self.balance, Balance::Staggered(_));
-            let rate = if staggered { 0.5 * (before + after) } else { shift / self.h };
-            for spring in &mut self.springs {
-                let wall = &spring.wall;
-                let (depth, depth_end) = (-wall.gap(self.q), -wall.gap(q));
-                let (energy, energy_end) = (wall.law.energy(depth), wall.law.energy(depth_end));
-                let stored = if staggered { 0.5 * (energy + energy_end) } else { energy_end };
-                let p = impulse(spring.index);
-                if p != 0.0 || spring.damping == 0.0 {
-                    self.made += p * rate + stored - spring.stored;
-                    // What the dashpot's share of p takes.
-                    let depth_rate = -wall.side.sign() * rate;
-                    let plate_rate =
-                        if staggered { depth_rate } else { (depth_end.max(0.0) - depth.max(0.0)) / self.h };
-                    self.made += spring.damping * plate_rate * depth_rate * self.h;
-                }
-                spring.stored = stored;
+    }
+
+    fn made(&self) -> f64 {
+        match self {
+            Self::Single(ledger) => ledger.made(),
+            Self::Several(judge) => {
+                let energy = judge.residuals().energy;
+                energy.residual_j - energy.impact_loss_j
             }
         }
-        self.busy = busy;
-        self.q = q;
     }
+}
+
+/// For each wall those whose impulses are felt there at once: itself, and all that share a degree of freedom with it.
+fn neighbours(scene: &Scene) -> Vec<Vec<usize>> {
+    let dofs = |wall: &crate::scene::Wall| wall.at.entries().iter().map(|entry| entry.0).collect::<Vec<_>>();
+    let all: Vec<Vec<usize>> = scene.walls.iter().map(dofs).collect();
+    let shares = |a: &Vec<usize>, b: &Vec<usize>| a.iter().any(|i| b.contains(i));
+    let of = |(index, mine): (usize, &Vec<usize>)| {
+        let others = all.iter().enumerate().filter(|(other, theirs)| *other == index || shares(mine, theirs));
+        others.map(|(other, _)| other).collect()
+    };
+    all.iter().enumerate().map(of).collect()
+}
+
+/// What makes a speed of a vector of velocities.
+enum Gauge<'a> {
+    Single,
+    /// The system, and the mass of all of it, kg.
+    Several(&'a System, f64),
+}
+
+impl<'a> Gauge<'a> {
+    fn new(system: &'a System) -> Self {
+        match system {
+            System::Oscillator(_) => Self::Single,
+            several => Self::Several(several, total_mass(several)),
+        }
+    }
+
+    fn speed(&self, v: &[f64]) -> f64 {
+        match self {
+            Self::Single => at(v).abs(),
+            Self::Several(system, mass) => (system.mass_form(v, v) / mass).sqrt(),
+        }
+    }
+}
+
+/// 1ᵀM1, kg.
+pub(super) fn total_mass(system: &System) -> f64 {
+    let ones = vec![1.0; system.degrees_of_freedom()];
+    system.mass_form(&ones, &ones)
 }
 
 /// Stiffness of a wall where the body meets it, N/m; none for a rigid one.
@@ -204,25 +205,24 @@ pub fn wall_stiffness(law: WallLaw) -> Option<f64> {
     }
 }
 
-/// How deep behind wall number `wall` of `scene` (as the scheme sees it) a body may come that behaves, m: the bound
-/// stated for the scheme, with the speed `v` (m/s) and free acceleration `a` (m/s²) of the run, plus h²a for the order
-/// of the step.
+/// How deep behind a wall of this law (as the scheme sees it) a body may come that behaves, m: the bound stated for the scheme, with the mass m that the
+/// wall feels (kg), the energy E that may come to it (J), the largest speed `v` (m/s) and free acceleration `a` (m/s²) there, plus h²a for the order of the step.
 ///
 /// | walls and scheme | bound |
 /// |---|---|
-/// | rigid, implicit-euler and newmark | 0 |
+/// | rigid, implicit-euler, newmark and generalized-alpha | 0 |
 /// | rigid, paoli-schatzman | 2e h v/(1+e) |
 /// | rigid, moreau-jean | h v (1 − e/2) |
-/// | elastic or penalty of stiffness k_w, any | h v + v√(m/k_w) + 2ma/k_w: a step, the way in which the spring stores ½mv², and twice what the load holds in |
+/// | elastic or penalty of stiffness k_w, any | h v + √(2E/k_w) + 2ma/k_w: a step, the way in which the spring stores E, and twice what the load holds in |
 #[must_use]
-pub fn depth_bound(law: WallLaw, scheme: &Scheme, scale: &Scale, h: f64, v: f64, a: f64) -> f64 {
+pub fn depth_bound(law: WallLaw, scheme: &Scheme, mass: f64, energy: f64, h: f64, v: f64, a: f64) -> f64 {
     let stated = match (law, wall_stiffness(law)) {
         (WallLaw::Rigid { restitution: e }, _) => match scheme {
             Scheme::PaoliSchatzman => 2.0 * e * h * v / (1.0 + e),
             Scheme::MoreauJean { .. } => h * v * (1.0 - 0.5 * e),
             _ => 0.0,
         },
-        (_, Some(k)) => h * v + v * (scale.mass / k).sqrt() + 2.0 * scale.mass * a / k,
+        (_, Some(k)) => h * v + (2.0 * energy / k).sqrt() + 2.0 * mass * a / k,
         (_, None) => 0.0,
     };
     stated + h * h * a

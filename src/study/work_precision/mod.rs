@@ -169,7 +169,13 @@ impl WorkPrecision {
 /// Every scheme: those of the constrained QP, every penalty with every integrator, and the exact one.
 #[must_use]
 pub fn every_method(laws: &[PenaltyLaw]) -> Vec<Method> {
-    let schemes = [Scheme::Event, Scheme::MoreauJean { theta: 0.5 }, Scheme::PaoliSchatzman, Scheme::ImplicitEuler];
+    let schemes = [
+        Scheme::Event,
+        Scheme::MoreauJean { theta: 0.5 },
+        Scheme::GeneralizedAlpha { rho: 0.8 },
+        Scheme::PaoliSchatzman,
+        Scheme::ImplicitEuler,
+    ];
     let penalty = |&law| Integrator::ALL.into_iter().rev().map(move |integrator| Scheme::Penalty { law, integrator });
     let all = schemes.into_iter().chain([Scheme::Newmark]).chain(laws.iter().flat_map(penalty));
     all.map(Method::new).collect()

@@ -1,0 +1,99 @@
+//! The energy that a scheme makes of itself, of one degree of freedom: a few operations a step, where the judge needs many.
+
+use super::watch::at;
+use crate::scene::{Wall, WallLaw};
+use crate::scheme::Stepper;
+use crate::step::{Balance, Step};
+
+/// The energy that a scheme makes between impacts, without knowing the load: by the balance of momentum that every scheme states
+/// ([`Balance`]), the work of load and dampers in a step equals the change of energy but for the terms booked here.
+///
+/// θ-balance: p·Δq/h + ΔU − (θ−½)(mΔv² + kΔq²). Staggered: p·(v₋ + v₊)/2 + ΔU between half steps. U is the energy in the
+/// springs of the walls; what their dashpots take, and what a damped wall keeps as it lets go of the body, is no loss of the scheme.
+/// Steps in which a rigid wall pushes are left out: what it makes or takes is seen in the speeds before and after.
+pub(super) struct Ledger {
+    springs: Vec<Spring>,
+    /// Numbers of the rigid walls.
+    rigid: Vec<usize>,
+    balance: Balance,
+    h: f64,
+    mass: f64,
+    stiffness: f64,
+    q: f64,
+    /// True where a wall pushed or held the body in the last step: the staggered energy of a wall is that of two ends.
+    busy: bool,
+    made: f64,
+}
+
+/// A wall that is not rigid.
+struct Spring {
+    index: usize,
+    wall: Wall,
+    damping: f64,
+    /// Energy in it where the last step left it, J.
+    stored: f64,
+}
+
+impl Ledger {
+    pub fn new(stepper: &Stepper, h: f64) -> Self {
+        let scene = stepper.scene();
+        let (mass, stiffness) = (scene.system.mass_form(&[1.0], &[1.0]), scene.system.stiffness_form(&[1.0], &[1.0]));
+        let q = at(&stepper.state().q);
+        let (mut springs, mut rigid) = (Vec::new(), Vec::new());
+        for (index, wall) in scene.walls.iter().enumerate() {
+            let damping = match wall.law {
+                WallLaw::Rigid { .. } => {
+                    rigid.push(index);
+                    continue;
+                }
+                WallLaw::Elastic { damping, .. } => damping,
+                WallLaw::Quartic { .. } => 0.0,
+            };
+            springs.push(Spring { index, wall: wall.clone(), damping, stored: wall.law.energy(-wall.gap(q)) });
+        }
+        Self { springs, rigid, balance: stepper.contract().balance, h, mass, stiffness, q, busy: true, made: 0.0 }
+    }
+
+    /// The energy made so far, J.
+    pub fn made(&self) -> f64 {
+        self.made
+    }
+
+    /// Takes in a step; `busy` where a wall pushed in it or holds the body at its end.
+    #[inline]
+    pub fn see(&mut self, step: &Step<'_>, busy: bool) {
+        let (q, before, after) = (at(step.q), at(step.velocity_before), at(step.velocity_after));
+        let shift = q - self.q;
+        let touched = busy || self.busy;
+        let impulse = |index: usize| step.impulse.get(index).copied().unwrap_or(0.0);
+        let struck = touched && self.rigid.iter().any(|&index| impulse(index) != 0.0);
+        if let (Balance::Theta(theta), false) = (self.balance, struck)
+            && theta != 0.5
+        {
+            let jump = after - before;
+            self.made -= (theta - 0.5) * (self.mass * jump * jump + self.stiffness * shift * shift);
+        }
+        if touched {
+            let staggered = matches!(self.balance, Balance::Staggered(_));
+            let rate = if staggered { 0.5 * (before + after) } else { shift / self.h };
+            for spring in &mut self.springs {
+                let wall = &spring.wall;
+                let (depth, depth_end) = (-wall.gap(self.q), -wall.gap(q));
+                let (energy, energy_end) = (wall.law.energy(depth), wall.law.energy(depth_end));
+                let stored = if staggered { 0.5 * (energy + energy_end) } else { energy_end };
+                let p = impulse(spring.index);
+                if p != 0.0 || spring.damping == 0.0 {
+                    self.made += p * rate + stored - spring.stored;
+                    // What the dashpot's share of p takes.
+                    let depth_rate = -wall.side.sign() * rate;
+                    let plate_rate =
+                        if staggered { depth_rate } else { (depth_end.max(0.0) - depth.max(0.0)) / self.h };
+                    self.made += spring.damping * plate_rate * depth_rate * self.h;
+                }
+                spring.stored = stored;
+            }
+        }
+        self.busy = busy;
+        self.q = q;
+    }
+}
