@@ -147,7 +147,8 @@ proptest! {
             Ok(r) => {
                 // Held fast on all sides a structure exchanges rounding only, of forces of some newtons over some centimetres.
                 let fast = r.energy.residual_j.abs() < 1e-14;
-                prop_assert!(r.energy.residual < 1e-12 || fast, "{:?}", r.energy);
+                // The ends of stretches are known to an ulp of the time, and where impacts accumulate there are hundreds of them.
+                prop_assert!(r.energy.residual < 1e-11 || fast, "{:?}", r.energy);
                 prop_assert!(r.complementarity < 1e-10, "complementarity {}", r.complementarity);
                 prop_assert!(r.penetration_m <= 1e-12, "penetration {}", r.penetration_m);
                 prop_assert!(r.force_balance < 1e-9, "balance {}", r.force_balance);

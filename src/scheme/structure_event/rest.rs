@@ -77,7 +77,9 @@ impl StructureEvent {
                 self.hi[s.row] = 0.0;
             }
         }
-        self.solve()?;
+        if !self.solve()? {
+            return Err(self.unsolved("the forces of walls in lasting contact are not found"));
+        }
         let Some(solver) = &self.solver else { return Ok(()) };
         let solution = solver.solution();
         self.derivatives[level + 2].copy_from_slice(&solution.x);
