@@ -315,7 +315,7 @@ impl Stepper {
             Kernel::Event(event) => of_events(&mut counters, event.counters()),
             Kernel::StructureEvent(event) => {
                 of_events(&mut counters, event.counters());
-                counters.handed_steps = event.handed_steps();
+                event.count(&mut counters);
             }
         }
         counters

@@ -107,27 +107,40 @@ pub(super) enum Seen {
 }
 
 impl Watched {
-    /// The first root up to `end`. Coefficients below their `noise` at the start are none; `zeros` says how many are none whatever they show.
-    pub fn first(&self, zeros: Option<usize>, noise: impl FnOnce() -> [f64; 4], near: bool, end: f64) -> Seen {
+    /// The first root up to `end`. Coefficients below their `noise` at the start are none; `zeros` says how many are none whatever they show. A `force` below 0 is an event
+    /// whatever follows, a gap only if it goes on falling.
+    pub fn first(
+        &self,
+        zeros: Option<usize>,
+        noise: impl FnOnce() -> [f64; 4],
+        near: bool,
+        force: bool,
+        end: f64,
+    ) -> Seen {
         let c = &self.c[..self.terms];
-        let mut from = 0;
-        if let Some(zeros) = zeros {
+        let known = NOISES.min(self.terms);
+        let from = match zeros {
             // What has been decided at this instant is not decided again by rounding.
-            from = (zeros..self.terms).find(|&k| c[k] > 0.0).unwrap_or(self.terms);
-        } else if near || c[0] <= 0.0 {
-            let noise = noise();
-            if c[0] <= noise[0] {
-                match (1..4.min(self.terms)).find(|&k| c[k].abs() > noise[k]) {
-                    Some(k) if c[k] > 0.0 => from = k,
-                    Some(_) => return Seen::Now,
-                    None if c[0] < -2.0 * noise[0] => return Seen::Now,
-                    None => return Seen::Nothing,
+            Some(zeros) if zeros >= NOISES => (zeros..self.terms).find(|&k| c[k] > 0.0),
+            None if !near && c[0] > 0.0 => Some(0),
+            _ => {
+                let (noise, slack) = (noise(), if zeros.is_some() { DECIDED } else { 1.0 });
+                let falls = |k: usize| c[k] < -slack * noise[k] && (k > 0 || force);
+                let rises = |k: usize| c[k] > if zeros == Some(k) { 0.0 } else { noise[k] };
+                match (zeros.unwrap_or(0)..known).find(|&k| rises(k) || falls(k)) {
+                    Some(k) if falls(k) => return Seen::Now,
+                    None if zeros.is_none() && c[0] < -2.0 * noise[0] => return Seen::Now,
+                    found => found,
                 }
             }
-        }
-        if from >= self.terms {
-            return Seen::Nothing;
-        }
+        };
+        let Some(from) = from else { return Seen::Nothing };
         super::root::first_root(&c[from..], end).map_or(Seen::Nothing, Seen::Root)
     }
 }
+
+/// Coefficients whose noise is known.
+const NOISES: usize = 4;
+
+/// How far beyond its rounding a coefficient may contradict what a programme has decided, whose signs are told more coarsely.
+const DECIDED: f64 = 1e3;

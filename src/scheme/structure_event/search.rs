@@ -68,10 +68,10 @@ impl StructureEvent {
         }
         watched.c[0] = place.gap(side, seen[0]);
         let near = watched.c[0] <= NEAR * (reach + place.bound[side].abs() + seen[0].abs());
-        if near && place.gap_zeros[side].is_none() {
+        if near || place.gap_zeros[side].is_some() {
             self.measure();
         }
-        let found = watched.first(place.gap_zeros[side], || self.noises(row, place.bound[side]), near, *end);
+        let found = watched.first(place.gap_zeros[side], || self.noises(row, place.bound[side]), near, false, *end);
         note(found, Cause::Gap(row, side), end, hit);
     }
 
@@ -88,10 +88,8 @@ impl StructureEvent {
         for (c, f) in watched.c.iter_mut().zip(force) {
             *c = place.held * f;
         }
-        if place.force_zeros.is_none() {
-            self.measure();
-        }
-        let found = watched.first(place.force_zeros, || self.force_noises(k), true, *end);
+        self.measure();
+        let found = watched.first(place.force_zeros, || self.force_noises(k), true, true, *end);
         note(found, Cause::Release(row), end, hit);
     }
 
@@ -135,7 +133,7 @@ impl StructureEvent {
                 // It was at 0 to the rounding of the stretch before, which may be coarser than that of this one.
                 watched.c[0] = watched.c[0].max(0.0);
             }
-            note(watched.first(None, || noise, true, *end), Cause::Elastic(wall), end, hit);
+            note(watched.first(None, || noise, true, false, *end), Cause::Elastic(wall), end, hit);
         }
     }
 

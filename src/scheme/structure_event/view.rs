@@ -53,9 +53,14 @@ impl StructureEvent {
         &self.crowd.stretches
     }
 
-    /// Steps of them.
-    pub fn handed_steps(&self) -> u64 {
-        self.crowd.steps
+    /// Programmes solved, and steps handed over.
+    pub fn count(&self, counters: &mut crate::scheme::Counters) {
+        counters.handed_steps = self.crowd.steps;
+        if let Some(solver) = &self.solver {
+            let inner = solver.counters();
+            counters.qp_solves = inner.solves - inner.free;
+            counters.pivots = inner.pivots;
+        }
     }
 
     /// Work done so far.
