@@ -39,7 +39,7 @@ pub struct Args {
     /// Restitution of every rigid wall, 0 to 1
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     restitution: Option<f64>,
-    /// Coarsest and finest step, s [default: a sixteenth of the fastest period, and 1e6 steps]
+    /// Coarsest and finest step, s [default: a sixteenth of the fastest period, and 1e6 steps, fewer for many degrees of freedom]
     #[arg(long, value_name = "COARSE:FINE")]
     steps: Option<String>,
     /// How many steps are tried in that range, at most; each a power of two finer than the last

@@ -68,6 +68,11 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     any_succeeded(&comparison)?;
     files(&folder, &case, &comparison, &verdicts)?;
     table(&case, &comparison, ui);
+    for row in &comparison.rows {
+        if let Err(error) = &row.outcome {
+            ui.message(&format!("- {} failed: {error}", row.method));
+        }
+    }
     for finding in &comparison.findings {
         ui.message(&format!("- {finding}"));
     }
@@ -256,7 +261,7 @@ fn terminal_row(case: &Case, comparison: &Comparison, row: &Row) -> Vec<String> 
     let short = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") };
     let run = match &row.outcome {
         Ok(run) => run,
-        Err(error) => return vec![row.method.to_string(), format!("failed: {error}")],
+        Err(_) => return vec![row.method.to_string(), "failed".to_owned()],
     };
     let exact = row.method.scheme == Scheme::Event;
     let dash = || "-".to_owned();

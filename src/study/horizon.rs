@@ -130,10 +130,11 @@ impl Growth {
         last
     }
 
-    /// The largest growth up to `time` (s).
+    /// The largest growth up to `time` (s). Where perturbed runs have parted, it is [`LARGEST_GROWTH`] at least.
     #[must_use]
     pub fn until(&self, time: f64) -> f64 {
-        self.time.iter().zip(&self.factor).filter(|(t, _)| **t <= time).map(|(_, f)| *f).fold(1.0, f64::max)
+        let rows = self.time.iter().zip(&self.factor).filter(|(t, _)| **t <= time);
+        rows.map(|(_, f)| if f.is_nan() { LARGEST_GROWTH } else { *f }).fold(1.0, f64::max)
     }
 }
 

@@ -7,8 +7,9 @@ use crate::time::{MOST_STEPS, TimeOptions};
 /// Steps of a run, at least, over the duration, and over the fastest period of the scene.
 const COARSE: f64 = 64.0;
 const COARSE_A_PERIOD: f64 = 16.0;
-/// Steps of the finest run unless asked otherwise: some hundredths of a second of a penalty.
+/// Steps of the finest run unless asked otherwise: some hundredths of a second of a penalty. Of n degrees of freedom four n-ths as many, and this few at least.
 const FINE: f64 = 1e6;
+const FEWEST_FINE: f64 = 2e4;
 /// Rows at which runs are compared, at most, where the coarsest run does not have more steps.
 const MOST_ROWS: u64 = 2048;
 
@@ -17,7 +18,7 @@ const MOST_ROWS: u64 = 2048;
 pub struct Steps {
     /// Coarsest, s; none: a sixteenth of the scene's fastest period, and at least 64 steps.
     pub coarsest: Option<f64>,
-    /// Finest, s; none: some 10⁶ steps.
+    /// Finest, s; none: some 10⁶ steps, fewer where many degrees of freedom make each of them dear.
     pub finest: Option<f64>,
     /// How many, at most; none: 8.
     pub levels: Option<u32>,
@@ -45,7 +46,9 @@ impl Ladder {
         let coarsest =
             steps.coarsest.unwrap_or_else(|| (duration / COARSE).min(fastest_period(scene) / COARSE_A_PERIOD));
         let first = (duration / coarsest * (1.0 - 1e-12)).ceil().clamp(2.0, MOST_STEPS);
-        let finest = steps.finest.unwrap_or(duration / FINE.max(first));
+        let n = scene.system.degrees_of_freedom().max(1) as f64;
+        let fine = (4.0 * FINE / n).clamp(FEWEST_FINE, FINE);
+        let finest = steps.finest.unwrap_or(duration / fine.max(first));
         if finest > coarsest * (1.0 + 1e-12) {
             return Err(Error::invalid("finest step", finest, format!("at most the coarsest, {coarsest}")));
         }
