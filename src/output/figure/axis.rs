@@ -104,7 +104,18 @@ impl Axis {
         (even - self.extent.low) / self.extent.span().max(f64::MIN_POSITIVE)
     }
 
+    /// One number tells no scale: then twice as many are wanted.
     fn number_evenly(&mut self, wanted: usize) {
+        for times in [1, 2, 4] {
+            self.ticks.clear();
+            self.number_by(times * wanted);
+            if self.ticks.len() > 1 {
+                return;
+            }
+        }
+    }
+
+    fn number_by(&mut self, wanted: usize) {
         let step = nice_step(self.extent.span() / wanted.max(1) as f64);
         if !(step > 0.0 && step.is_finite()) {
             return;
@@ -166,4 +177,17 @@ fn nice_step(rough: f64) -> f64 {
 /// The power of ten at or below `value`.
 fn decade(value: f64) -> i32 {
     if value > 0.0 && value.is_finite() { value.log10().floor() as i32 } else { 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_about_zero_has_more_than_one_number() {
+        // A step of 100 would leave 0 alone.
+        let axis = Axis::new(Scale::Linear, Extent { low: -90.0, high: 90.0 }, 3);
+        let numbers: Vec<&str> = axis.ticks.iter().map(|tick| tick.body.as_str()).collect();
+        assert_eq!(numbers, ["−50", "0", "50"]);
+    }
 }
