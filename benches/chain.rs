@@ -217,6 +217,14 @@ fn main() {
         );
         let mean = |held: u64| held as f64 / steps as f64;
         println!("  masses held, mean over the run {:>10.2} {:>10.2}", mean(hand.held), mean(ours.held));
-        println!("  {counters:?}");
+        if let Some(counters) = counters {
+            let per_step = |count: u64| count as f64 / steps as f64;
+            println!(
+                "  programmes a step                         {:>10.2}, pivots {:.4}, {} left to Clarabel",
+                per_step(counters.qp_solves),
+                per_step(counters.pivots),
+                counters.qp_fallbacks
+            );
+        }
     }
 }

@@ -290,6 +290,10 @@ fn solved(run: &Run) -> String {
     match run.scheme {
         Scheme::Event => format!("{} contact events", counters.events),
         Scheme::Penalty { .. } => format!("{} Newton iterations", counters.newton_iterations),
+        _ if counters.qp_fallbacks > 0 => {
+            let (all, left) = (counters.qp_solves, counters.qp_fallbacks);
+            format!("{all} QPs by {}, {left} of them left to Clarabel", run.backend)
+        }
         _ => format!("{} QPs by {}", counters.qp_solves, run.backend),
     }
 }

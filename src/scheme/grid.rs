@@ -207,6 +207,8 @@ pub struct Counters {
     pub interior_point_iterations: u64,
     /// Pivots of those.
     pub pivots: u64,
+    /// Programmes that pivoting did not settle, and that were solved through Clarabel.
+    pub qp_fallbacks: u64,
     /// Newton iterations of the penalty schemes.
     pub newton_iterations: u64,
     /// Contact events of the exact scheme.

@@ -252,6 +252,7 @@ impl Programme {
         counters.qp_solves += inner.solves - inner.free;
         counters.interior_point_iterations += inner.iterations;
         counters.pivots += inner.pivots;
+        counters.qp_fallbacks += inner.fallbacks;
     }
 }
 

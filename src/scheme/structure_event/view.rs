@@ -60,6 +60,7 @@ impl StructureEvent {
             let inner = solver.counters();
             counters.qp_solves = inner.solves - inner.free;
             counters.pivots = inner.pivots;
+            counters.qp_fallbacks = inner.fallbacks;
         }
     }
 
