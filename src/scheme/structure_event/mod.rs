@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `rows.rs` | the rows of the walls: bounds, what is held, roundings |
 //! | `search.rs`, `root.rs` | the first event of a stretch |
+//! | `motion.rs` | what drives the structure: series, forces, impulses |
 //! | `instant.rs` | what happens in an instant, and the episodes of contact |
 //! | `impact.rs` | impacts, at several walls at once |
 //! | `rest.rs` | which walls carry what touches without speed |
@@ -13,15 +14,16 @@
 mod hand;
 mod impact;
 mod instant;
+mod motion;
 mod rest;
 mod root;
 mod rows;
 mod search;
 mod view;
 
-use super::event::{Barrier, Counters, Guard, Phase, WINDOWS};
+use super::event::{Barrier, Counters, Guard, WINDOWS};
 use crate::error::{Error, Result};
-use crate::flow::{Body, Hold, Series, SeriesStart, Touching};
+use crate::flow::{Body, Hold, Series, Touching};
 use crate::qp::{self, Backend};
 use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Contract};
@@ -269,105 +271,6 @@ impl StructureEvent {
         }
         self.set_forces();
         self.check_guard()
-    }
-
-    /// The series from here on, with the walls that touch and the rows that are held.
-    fn begin_series(&mut self, limit: f64) {
-        if self.decided != self.time {
-            self.places.iter_mut().for_each(Place::forget);
-        }
-        let Self { body, series, barriers, touching, hold, carriers, .. } = self;
-        touching.clear();
-        touching.extend(barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching).map(|(wall, b)| {
-            Touching { wall, row: body.row_of[wall], position: b.position, stiffness: b.stiffness, damping: b.damping }
-        }));
-        if !hold.rows().is_empty() {
-            hold.place(body, &mut self.q, &mut self.scratch);
-            hold.stop(body, &mut self.v, &mut self.scratch);
-        }
-        let from = SeriesStart { time: self.time, q: &self.q, v: &self.v, extra: &self.extra, span: limit - self.time };
-        series.begin(body, &from, touching, hold, carriers.iter().copied(), &mut self.scratch);
-        self.sizes.known = false;
-    }
-
-    /// Adds the impulses of the stretch just run through to the step and to the episodes under way.
-    fn gather_impulses(&mut self) {
-        let Self { series, barriers, impulse, .. } = self;
-        for (wall, ..) in series.acting() {
-            let p = series.contact_impulse(wall, series.start(), series.end());
-            if let (Some(total), Some(b)) = (impulse.get_mut(wall), barriers.get_mut(wall)) {
-                *total += p;
-                if let Some(open) = &mut b.open {
-                    open.impulse += p;
-                }
-            }
-        }
-    }
-
-    /// The derivative of `order` of the force on the structure, free of rigid walls, at the present instant from the right, and the sizes of its terms: into `rhs` (N/sᵏ)
-    /// and `rhs_size`. Reads the derivatives of q from `order` to `order` + 1.
-    fn forces(&mut self, order: usize) {
-        let Self { body, derivatives, rhs, rhs_size, sizes, barriers, .. } = self;
-        rhs.fill(0.0);
-        rhs_size.fill(0.0);
-        if order == 0 {
-            rhs.copy_from_slice(&self.extra);
-            rhs_size.iter_mut().zip(&self.extra).for_each(|(size, f)| *size = f.abs());
-        }
-        let (x, rate) = (&derivatives[order], &derivatives[order + 1]);
-        body.add_load(order as u32, self.time, rhs, rhs_size);
-        body.add_force(x, rate, rhs);
-        body.add_sizes(x, rate, &mut sizes.work, rhs_size);
-        for (wall, b) in barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching) {
-            let row = body.row_of[wall];
-            let depth = body.rows.dot(row, x) - if order == 0 { b.position } else { 0.0 };
-            let (spring, dashpot) = (-b.stiffness * depth, -b.damping * body.rows.dot(row, rate));
-            body.rows.add_transposed(row, spring + dashpot, rhs);
-            for &(i, g) in body.rows.row(row) {
-                rhs_size[i] += g.abs() * (spring.abs() + dashpot.abs());
-            }
-        }
-    }
-
-    /// The sizes of force and rate at the start of the series, once.
-    fn measure(&mut self) {
-        if self.sizes.known {
-            return;
-        }
-        self.sizes.known = true;
-        self.derivatives[0].copy_from_slice(&self.q);
-        self.derivatives[1].copy_from_slice(&self.v);
-        let factor = 2.0 / (self.series.unit() * self.series.unit());
-        for (a, term) in self.derivatives[2].iter_mut().zip(self.series.term(2)) {
-            *a = factor * term;
-        }
-        for order in 0..2 {
-            self.forces(order);
-            self.sizes.force[order].copy_from_slice(&self.rhs_size);
-        }
-    }
-
-    /// The force of each wall now.
-    fn set_forces(&mut self) {
-        self.force.fill(0.0);
-        if !self.hold.rows().is_empty() {
-            self.derivatives[0].copy_from_slice(&self.q);
-            self.derivatives[1].copy_from_slice(&self.v);
-            self.forces(0);
-            for (b, held) in self.scratch.iter_mut().zip(self.hold.independent()) {
-                *b = self.body.answer(held.row, &self.rhs);
-            }
-            for &(wall, k, share) in &self.carriers {
-                let (Some(force), Some(held)) = (self.force.get_mut(wall), self.hold.rows().get(k)) else { continue };
-                let push = -self.hold.inverse(k).iter().zip(&self.scratch).map(|(w, b)| w * b).sum::<f64>();
-                *force = share * held.sign * (held.sign * push).max(0.0);
-            }
-        }
-        for (wall, b) in self.barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching) {
-            let row = self.body.row_of[wall];
-            let sum = b.sum(self.body.rows.dot(row, &self.q), self.body.rows.dot(row, &self.v));
-            self.force[wall] = b.sign * sum.max(0.0);
-        }
     }
 
     fn check(&self) -> Result<()> {
