@@ -9,7 +9,7 @@
 
 use super::delassus::Delassus;
 use super::pivoting::Side;
-use super::{Failure, ROUNDING};
+use super::{Failure, NOISE, ROUNDING, ULPS};
 
 /// Pivot of the factor, relative to Wᵢᵢ, under which a row is taken to depend on those before it (dimensionless; the
 /// pivot is sin² of the angle between them, so this is an angle of 1e-6, and 1e4 times its rounding error).
@@ -95,22 +95,40 @@ impl ActiveSet {
 
     /// The row, not in play, whose bound is violated most in units of √Wᵢᵢ, if one is by more than rounding.
     fn worst(
-        &self,
+        &mut self,
         system: &Delassus,
         bounds: impl Fn(usize) -> (f64, f64),
         scale: f64,
         r: &[f64],
     ) -> Option<(usize, Side)> {
         let mut worst = (0.0, None);
-        for row in (0..self.m).filter(|row| !self.rows.contains(row)) {
+        let reach = self.rows.iter().fold(0.0, |reach, &j| f64::max(reach, r[j].abs() * system.weight[j]));
+        for row in 0..self.m {
+            if self.rows.contains(&row) {
+                continue;
+            }
             let y = self.displacement(system, row, r);
             let (lo, hi) = bounds(row);
             let (excess, side) = if y < lo { (lo - y, Side::Lower) } else { (y - hi, Side::Upper) };
-            if excess > ROUNDING * scale && excess / system.weight[row] > worst.0 {
+            if excess > ROUNDING * scale
+                && excess / system.weight[row] > worst.0
+                && excess > self.rounding(system, row, reach)
+            {
                 worst = (excess / system.weight[row], Some((row, side)));
             }
         }
         worst.1
+    }
+
+    /// Rounding of a row's motion: each row in play stands where it should within ulps of the largest motion, `reach` √Wᵢᵢ, that a force
+    /// causes at its own row.
+    fn rounding(&mut self, system: &Delassus, row: usize, reach: f64) -> f64 {
+        for (change, &j) in self.change.iter_mut().zip(&self.rows) {
+            *change = system.entry(j, row);
+        }
+        triangular(&self.factor, self.m, self.rows.len(), &mut self.change);
+        let parts = self.change.iter().zip(&self.rows).map(|(c, &j)| c.abs() * system.weight[j]);
+        ULPS * reach * (system.weight[row] + parts.sum::<f64>())
     }
 
     /// y of a row under the forces r.
@@ -164,6 +182,19 @@ impl ActiveSet {
             };
             let push = full.min(blocking.0);
             if push.is_infinite() {
+                // Farkas's lemma, as in `pivoting`.
+                let term = |row: usize, side: Side, part: f64| {
+                    let (lo, hi) = bounds(row);
+                    part * if side == Side::Lower { lo } else { hi }
+                };
+                let own = term(row, side, side.sign());
+                let (sum, size) = (0..k).fold((own, own.abs()), |(sum, size), i| {
+                    let term = term(self.rows[i], self.sides[i], self.change[i]);
+                    (sum + term, size + term.abs())
+                });
+                if sum <= NOISE * size {
+                    return Err(Failure::NotSolved { status: "rows too nearly dependent" });
+                }
                 return Err(Failure::Infeasible { row, against: self.strongest(system).unwrap_or(row) });
             }
             for (force, change) in self.force.iter_mut().zip(&self.change[..k]) {

@@ -6,6 +6,7 @@
 //! of L (see [`super::relations`]). Where a dependent row has large cⱼ — neighbouring walls on a smooth motion — the order of rows is a bad
 //! one, and S is factored again with the largest pivot first.
 
+use super::ULPS;
 use super::delassus::Delassus;
 use super::relations::{Relations, SPREAD};
 
@@ -261,13 +262,29 @@ impl Block {
         if self.relations.rows().is_empty() {
             self.invert();
         } else {
-            self.relations.reconcile(system, &self.basis, &mut self.work, &shift, slack);
             self.invert();
+            if self.relations.escapes(system, &self.basis, &self.work, &shift, slack) {
+                self.work.clear();
+                self.work.extend(self.basis.iter().map(|&row| shift(row)));
+                self.relations.escape_by(system, &self.basis, &mut self.work);
+                self.invert();
+            }
             self.relations.divide(system, &self.basis, &mut self.work, r);
         }
         for (&row, &force) in self.basis.iter().zip(&self.work) {
             r[row] = force;
         }
+    }
+
+    /// Rounding of the motion of a row that is not in play, the largest force moving its own row by `reach` √Wᵢᵢ: each row in play stands
+    /// where it should within ulps of that, and c tells what comes of it here.
+    pub(super) fn rounding(&mut self, system: &Delassus, row: usize, reach: f64) -> f64 {
+        let (from, _) = self.eliminate(system, row);
+        self.combine(from);
+        self.lower.truncate(self.starts[self.basis.len()]);
+        let all =
+            self.work.iter().zip(&self.basis).fold(system.weight[row], |w, (c, &j)| w + c.abs() * system.weight[j]);
+        ULPS * reach * all
     }
 
     /// Motion, per δ, of a row that is not in play if it depends on those in play and would be met with them, its bound being `gap` away:

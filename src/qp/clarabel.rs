@@ -177,7 +177,8 @@ fn run(solver: &mut DefaultSolver<f64>) -> Result<u64, Failure> {
         shorten(solver, STEPS[0])?;
     }
     match solver.solution.status {
-        SolverStatus::Solved => Ok(iterations),
+        // Polishing tests every condition, so less accuracy will do where that is all there is.
+        SolverStatus::Solved | SolverStatus::AlmostSolved => Ok(iterations),
         status => Err(Failure::NotSolved { status: words(status) }),
     }
 }

@@ -76,6 +76,9 @@ const ROUNDING: f64 = 1e-12;
 /// Rounding of bounds and free motion, relative to the lengths in play (dimensionless): some ulps.
 const NOISE: f64 = 16.0 * f64::EPSILON;
 
+/// Rounding of the motion that the largest force causes, relative to it (dimensionless).
+const ULPS: f64 = 4.0 * f64::EPSILON;
+
 impl Problem {
     /// Sizes agree and every entry is a number: n ≥ 1, A n × n, G m × n, compliance m entries, none negative.
     fn check(&self) -> Result<(), Failure> {

@@ -11,7 +11,7 @@
 use super::block::Block;
 use super::clamp::meet;
 use super::delassus::Delassus;
-use super::{Failure, ROUNDING, Rhs};
+use super::{Failure, NOISE, ROUNDING, Rhs, ULPS};
 
 /// Which bound a row stands on. Its force is sign · (a number ≥ 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +28,7 @@ impl Side {
         }
     }
 
-    fn bound(self, rhs: &Rhs, row: usize) -> f64 {
+    pub(super) fn bound(self, rhs: &Rhs, row: usize) -> f64 {
         let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
         if self == Self::Lower { lo } else { hi }
     }
@@ -43,12 +43,13 @@ const PATIENCE: u32 = 10;
 /// Times that rows which only touch are looked through for those that must share; 1 is usual.
 const JOINS: u32 = 10;
 
-/// Rounding of the motion that the largest force causes, relative to it (dimensionless).
-const ULPS: f64 = 4.0 * f64::EPSILON;
-
 /// Part of the sign test's tolerance by which dependent rows may miss their bounds and still be met: below 1, so that a row which then
 /// gives way to the others is within the tolerance.
 const MET: f64 = 0.9;
+
+/// A violation above this share of the motions in play is no rounding (dimensionless): 1e-16 over the least angle squared, 1e-12, is not
+/// reached by rows whose forces are of any use.
+const SMALL: f64 = 1e-6;
 
 /// The state of every row, kept from programme to programme.
 pub(super) struct Pivoting {
@@ -178,7 +179,7 @@ impl Pivoting {
                 joins += 1;
             }
             if self.wrong.is_empty() {
-                return match self.crossing(system) {
+                return match self.crossing(system, rhs) {
                     Some(failure) => Err(failure),
                     None => Ok(pivots),
                 };
@@ -238,7 +239,13 @@ impl Pivoting {
                 // A force is a number of 16 digits: no row's motion is better than that of the largest.
                 let tolerance = f64::max(tolerance * length(row), ULPS * reach * system.weight[row]);
                 let (lo, hi) = meet(lo, hi);
-                if side[row].is_none() && (lo - y).max(y - hi) > tolerance {
+                let excess = (lo - y).max(y - hi);
+                if side[row].is_none() && excess > tolerance {
+                    // Nearly dependent rows pass their rounding on to the row, multiplied.
+                    let small = reach > 0.0 && excess <= SMALL * f64::max(length(row), reach * system.weight[row]);
+                    if small && self.block.singular() && excess <= self.block.rounding(system, row, reach) {
+                        continue;
+                    }
                     self.wrong.push((row, Some(if lo - y > y - hi { Side::Lower } else { Side::Upper })));
                 }
             }
@@ -291,8 +298,20 @@ impl Pivoting {
     }
 
     /// The two rows that resist each other most, if forces grow without limit: their bounds cannot be met together.
-    fn crossing(&self, system: &Delassus) -> Option<Failure> {
+    ///
+    /// By Farkas's lemma they cannot if Gᵀe = 0 and Σ eᵢ · boundᵢ > 0, with eᵢ of the sign of its bound: so never where all bounds contain 0.
+    /// Anything less is rounding, and says nothing about bounds.
+    fn crossing(&self, system: &Delassus, rhs: &Rhs) -> Option<Failure> {
         let escape = self.block.escape()?;
+        let (mut sum, mut size) = (0.0, 0.0);
+        for (row, side) in self.called() {
+            let term = escape[row] * side.bound(rhs, row);
+            sum += term;
+            size += term.abs();
+        }
+        if sum <= NOISE * size {
+            return Some(Failure::NotSolved { status: "rows too nearly dependent" });
+        }
         let strongest = |except: Option<usize>| {
             let reach = |row: usize| escape[row].abs() * system.weight[row];
             let rows = self.block.rows().iter().copied();

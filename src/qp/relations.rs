@@ -10,7 +10,7 @@
 //! Where they cannot, e is the escape: forces that grow without limit and move nothing.
 
 use super::delassus::Delassus;
-use super::{NOISE, ROUNDING};
+use super::{NOISE, ROUNDING, ULPS};
 
 /// A row of less than this share in a combination gives way to none of the others (dimensionless).
 const PART: f64 = 1e-3;
@@ -141,30 +141,36 @@ impl Relations {
         self.escapes.then_some(&self.escape)
     }
 
-    /// Finds e, and puts q − D e in the place of q, which `asked` holds over the basis and `shift` gives for the dependent rows.
-    pub(super) fn reconcile(
+    /// True if the rows cannot all move by `shift`: e is then what is left of it. `force` holds W⁻¹q on the basis.
+    pub(super) fn escapes(
         &mut self,
         system: &Delassus,
         basis: &[usize],
-        asked: &mut [f64],
+        force: &[f64],
         shift: impl Fn(usize) -> f64,
         slack: impl Fn(usize) -> f64,
-    ) {
+    ) -> bool {
         self.share.clear();
+        let reach = basis.iter().zip(force).fold(0.0, |reach, (&j, r)| f64::max(reach, r.abs() * system.weight[j]));
         for (i, &row) in self.rows.iter().enumerate() {
             let combination = &self.combination[self.ends[i]..self.ends[i + 1]];
-            let (mut miss, mut rounding) = (shift(row), 0.0);
-            for ((&c, &q), &j) in combination.iter().zip(asked.iter()).zip(basis) {
+            // An entry of W is wrong by ulps, and the combination by what that moves the row under the forces of the basis.
+            let (mut miss, mut rounding) = (shift(row), ULPS * reach * system.weight[row]);
+            for (&c, &j) in combination.iter().zip(basis) {
+                let q = shift(j);
                 miss -= c * q;
-                rounding += c.abs() * (NOISE * q.abs() + f64::EPSILON / ROUNDING * slack(j));
+                rounding +=
+                    c.abs() * (NOISE * q.abs() + f64::EPSILON / ROUNDING * slack(j) + ULPS * reach * system.weight[j]);
             }
             let met = miss.abs() <= Self::allowed(system, row, combination, basis, &slack) + rounding;
             self.escapes |= !met;
             self.share.push(if met { 0.0 } else { miss });
         }
-        if !self.escapes {
-            return;
-        }
+        self.escapes
+    }
+
+    /// Makes e of what is left, and puts q − D e in the place of q, which `asked` holds over the basis.
+    pub(super) fn escape_by(&mut self, system: &Delassus, basis: &[usize], asked: &mut [f64]) {
         self.weigh();
         for (i, &row) in self.rows.iter().enumerate() {
             self.escape[row] += self.share[i];
