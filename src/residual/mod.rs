@@ -170,6 +170,15 @@ impl Judge {
         if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != walls) {
             return;
         }
+        let fits = match step.path {
+            Path::Corrected { q, v } => q.len() == n && v.len() == n,
+            Path::Series(series) => series.degrees_of_freedom() == n,
+            Path::Exact(_) => n == 1,
+            Path::Grid | Path::Handed { .. } => true,
+        };
+        if !fits {
+            return;
+        }
         self.scratch.load_end.fill(0.0);
         self.loads.add_force(step.end, 1.0, &mut self.scratch.load_end);
         let struck = match self.contract.balance {

@@ -13,7 +13,7 @@ use super::{Integrator, Scheme};
 use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::{Scene, State, System, WallLaw};
+use crate::scene::{Row, Scene, State, System, WallLaw};
 use crate::step::{Contact, Contract, Path, Step};
 
 /// The state and constants of one scheme on one scene. Smallness is a variant's content: these hold floats, no matrices.
@@ -83,7 +83,9 @@ impl Stepper {
             Scheme::Event => scene.clone(),
             _ => without_quartic(scene)?.clone(),
         };
-        let single = matches!(scene.system, System::Oscillator(_));
+        // A wall behind a lever is more than the scalar kernels hold: then the oscillator is a structure of 1 × 1 matrices.
+        let direct = scene.walls.iter().all(|wall| wall.at == Row::dof(0));
+        let single = matches!(scene.system, System::Oscillator(_)) && direct;
         // One degree of freedom: the programme has one unknown, and a clamp solves it exactly.
         let backend = if single && backend == Backend::Auto { Backend::Clamp } else { backend };
         let kernel = match *scheme {

@@ -94,6 +94,7 @@ impl Series {
             Acting { wall, slot: touching.len() + k, share, sign }
         };
         self.acting.extend(carriers.map(held));
+        self.acting.sort_unstable_by_key(|acting| acting.wall);
         self.forces[..(touching.len() + hold.rows().len()) * TERMS].fill(0.0);
         self.motion[..n].copy_from_slice(from.q);
         for (a, v) in self.motion[n..2 * n].iter_mut().zip(from.v) {

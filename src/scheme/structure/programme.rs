@@ -9,7 +9,7 @@ use super::body::{Stop, touching_distance};
 use crate::error::{Error, Result};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{self, Backend, Failure, Rhs};
-use crate::scene::{Scene, Side, Wall, WallLaw};
+use crate::scene::{Scene, Side, Wall, WallLaw, distinct};
 use crate::scheme::Counters;
 
 /// A wall behind a row of the programme.
@@ -64,15 +64,18 @@ impl Programme {
         backend: Backend,
     ) -> Result<Self> {
         let mut places: Vec<Vec<usize>> = Vec::new();
+        let distinct = distinct(scene.walls.iter().map(|wall| &wall.at));
+        // The place of the rigid walls of each distinct row.
+        let mut shared: Vec<Option<usize>> = vec![None; distinct.rows.len()];
         for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| wanted(&wall.law)) {
-            let rigid = |wall: &Wall| wall.law.is_rigid();
-            let shared = |place: &&mut Vec<usize>| {
-                let first = place.first().and_then(|&w| scene.walls.get(w));
-                rigid(wall) && first.is_some_and(|first| rigid(first) && first.at == wall.at)
-            };
-            match places.iter_mut().find(shared) {
-                Some(place) => place.push(index),
-                None => places.push(vec![index]),
+            match &mut shared[distinct.of[index]] {
+                Some(place) if wall.law.is_rigid() => places[*place].push(index),
+                place => {
+                    if wall.law.is_rigid() {
+                        *place = Some(places.len());
+                    }
+                    places.push(vec![index]);
+                }
             }
         }
         let walls = |place: &[usize]| place.iter().filter_map(|&w| scene.walls.get(w)).collect::<Vec<_>>();

@@ -131,8 +131,9 @@ impl StructureEvent {
         let singular = || Error::invalid("system: mass matrix", "singular", "a positive definite matrix");
         let mut body = Body::new(scene).ok_or_else(singular)?;
         let (n, rows, walls) = (body.n, body.rows.count(), barriers.len());
-        let places = (0..rows).map(|row| Place::new(scene, &body, row)).collect();
-        let walls_of = (0..rows).map(|row| (0..walls).filter(|&w| body.row_of[w] == row).collect()).collect();
+        let mut walls_of = vec![Vec::new(); rows];
+        body.row_of.iter().enumerate().for_each(|(wall, &row)| walls_of[row].push(wall));
+        let places = walls_of.iter().map(|walls| Place::new(scene, walls)).collect();
         let solver = if rows > 1 {
             let problem =
                 qp::Problem { a: scene.system.structure().mass, g: body.rows.clone(), compliance: vec![0.0; rows] };
