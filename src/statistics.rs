@@ -42,8 +42,8 @@ pub struct WallStatistics {
     pub impulse_ns: Summary,
     /// Time in contact over the window's length.
     pub contact_time_ratio: f64,
-    /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W, with m the mass that the wall feels ([`Scene::wall_masses`]). The motion is normal to the wall and frictionless: this is
-    /// impact power, there is no sliding wear in it.
+    /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W, with m the mass that the wall feels ([`Scene::wall_masses`]).
+    /// The motion is normal to the wall and frictionless: this is impact power, there is no sliding wear in it.
     pub impact_power_w: f64,
     /// The part of it that had not returned to the body when it left, Σ ½m(approach² − departure²)/T, W; of closed episodes. At impacts
     /// this is what restitution takes. Where a contact lasts (elastic walls, penalties, rest), the loads and the structure work on the body

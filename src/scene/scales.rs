@@ -56,8 +56,8 @@ fn power(a: &Symmetric, b: &Symmetric) -> Option<f64> {
 }
 
 impl Scene {
-    /// The mass that each wall feels, kg, in the scene's order: 1/(g M⁻¹ gᵀ), what an impulse divided by it changes of the velocity there. Infinite for a wall whose
-    /// row sees nothing.
+    /// The mass that each wall feels, kg, in the scene's order: 1/(g M⁻¹ gᵀ), what an impulse divided by it changes of the velocity there.
+    /// Infinite for a wall whose row sees nothing.
     #[must_use]
     pub fn wall_masses(&self) -> Vec<f64> {
         match &self.system {

@@ -4,9 +4,9 @@
 //!
 //! M q⁽ᵏ⁺²⁾ = f⁽ᵏ⁾ − C q⁽ᵏ⁺¹⁾ − K q⁽ᵏ⁾ + Gᵀ r⁽ᵏ⁾,
 //!
-//! which is the action of the exponential of the first-order system on its state (Al-Mohy and Higham 2011, doi:10.1137/100788860): products with M⁻¹, C and K only,
-//! whatever the structure. A stretch is no longer than two radians of the fastest motion, so that no term is much larger than the motion itself and nothing cancels, and
-//! the series goes on until its terms are below rounding. Nothing is discretised.
+//! which is the action of the exponential of the first-order system on its state (Al-Mohy and Higham 2011, doi:10.1137/100788860): products
+//! with M⁻¹, C and K only, whatever the structure. A stretch is no longer than two radians of the fastest motion, so that no term is much
+//! larger than the motion itself and nothing cancels, and the series goes on until its terms are below rounding. Nothing is discretised.
 //!
 //! An elastic wall that touches gives r⁽ᵏ⁾ = −k_a (w − g)⁽ᵏ⁾ − c_a w⁽ᵏ⁺¹⁾. Rigid walls in lasting contact give the r⁽ᵏ⁾ for which G q⁽ᵏ⁺²⁾ = 0.
 
@@ -78,8 +78,8 @@ impl Series {
         self.n
     }
 
-    /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at the end, into slices of n entries; others are left as they
-    /// are.
+    /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at the end, into slices of n entries;
+    /// others are left as they are.
     pub fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
         if q.len() != self.n || v.len() != self.n {
             return;

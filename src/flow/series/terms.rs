@@ -65,7 +65,8 @@ impl Series {
         self.rate
     }
 
-    /// Starts anew, as far as two radians of the fastest motion and the span let it. `carriers` are the walls behind the held rows: wall, number of the held row, share.
+    /// Starts anew, as far as two radians of the fastest motion and the span let it. `carriers` are the walls behind the held rows: wall,
+    /// number of the held row, share.
     pub(crate) fn begin(
         &mut self,
         body: &mut Body,

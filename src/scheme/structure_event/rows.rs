@@ -107,8 +107,8 @@ pub(super) enum Seen {
 }
 
 impl Watched {
-    /// The first root up to `end`. Coefficients below their `noise` at the start are none; `zeros` says how many are none whatever they show. A `force` below 0 is an event
-    /// whatever follows, a gap only if it goes on falling.
+    /// The first root up to `end`. Coefficients below their `noise` at the start are none; `zeros` says how many are none whatever they
+    /// show. A `force` below 0 is an event whatever follows, a gap only if it goes on falling.
     pub fn first(
         &self,
         zeros: Option<usize>,
