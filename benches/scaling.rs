@@ -1,9 +1,9 @@
-//! What a step costs against the number of degrees of freedom, and against the number of walls: moreau-jean, e = 0, h = 1e-3, on chains like those of the
-//! built-in cases (1 kg, 1e4 N/m, stops at ±1 mm, 50 sin(10πt) N on the first mass). Prints two tables, writes a chart of each, and asserts nothing about
-//! time. `cargo bench --bench scaling -- FOLDER` says where to; otherwise it is `target/scaling`.
+//! What a step costs against the number of degrees of freedom, and against the number of walls: moreau-jean, e = 0, h = 1e-3, on chains
+//! like those of the built-in cases (1 kg, 1e4 N/m, stops at ±1 mm, 50 sin(10πt) N on the first mass). Prints two tables, writes a chart of
+//! each, and asserts nothing about time. `cargo bench --bench scaling -- FOLDER` says where to; otherwise it is `target/scaling`.
 //!
-//! With walls at the first few masses only, n grows from 1 to 1e5: the step of a banded system is linear in n. With stops on every mass, driven at every tenth so
-//! that many of them touch, walls grow to 1000 (of both sides together).
+//! With walls at the first few masses only, n grows from 1 to 1e5: the step of a banded system is linear in n. With stops on every mass,
+//! driven at every tenth so that many of them touch, walls grow to 1000 (of both sides together).
 
 use signorini::linear::{Factor, Symmetric};
 use signorini::output::atomic::write_whole;

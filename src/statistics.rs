@@ -1,6 +1,6 @@
 //! Contact statistics: what wear models ask of a run.
 
-use crate::scene::Scene;
+use crate::scene::{Scene, Wall};
 use crate::step::Contact;
 use serde::Serialize;
 
@@ -42,8 +42,8 @@ pub struct WallStatistics {
     pub impulse_ns: Summary,
     /// Time in contact over the window's length.
     pub contact_time_ratio: f64,
-    /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W, with m the mass that the wall feels ([`Scene::wall_masses`]). The motion is normal to the wall and frictionless: this is
-    /// impact power, there is no sliding wear in it.
+    /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W, with m the mass that the wall feels ([`Scene::wall_masses`]).
+    /// The motion is normal to the wall and frictionless: this is impact power, there is no sliding wear in it.
     pub impact_power_w: f64,
     /// The part of it that had not returned to the body when it left, Σ ½m(approach² − departure²)/T, W; of closed episodes. At impacts
     /// this is what restitution takes. Where a contact lasts (elastic walls, penalties, rest), the loads and the structure work on the body
@@ -72,14 +72,19 @@ impl Statistics {
         let from = from.min(to);
         let masses = scene.wall_masses();
         let per_time = |x: f64| if to > from { x / (to - from) } else { 0.0 };
-        let wall = |(index, wall): (usize, &crate::scene::Wall)| {
-            let here = contacts.iter().filter(move |c| c.wall == index && c.start >= from);
+        let mut by_wall = vec![Vec::new(); scene.walls.len()];
+        for contact in contacts {
+            if let Some(list) = by_wall.get_mut(contact.wall) {
+                list.push(contact);
+            }
+        }
+        let wall = |(index, (wall, all)): (usize, (&Wall, &Vec<&Contact>))| {
+            let here = all.iter().copied().filter(|c| c.start >= from);
             let mass = masses.get(index).copied().unwrap_or(0.0);
             let energy = |speed: f64| 0.5 * mass * speed * speed;
             // An empty sum of floats is −0, which nobody wants to read.
             let total = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |sum, x| sum + x);
-            let touching = contacts.iter().filter(|c| c.wall == index);
-            let time = total(&mut touching.map(|c| (c.end.unwrap_or(to).min(to) - c.start.max(from)).max(0.0)));
+            let time = total(&mut all.iter().map(|c| (c.end.unwrap_or(to).min(to) - c.start.max(from)).max(0.0)));
             let arrived = total(&mut here.clone().map(|c| energy(c.approach_speed)));
             let lost = |c: &Contact| c.departure_speed.map_or(0.0, |d| energy(c.approach_speed) - energy(d));
             WallStatistics {
@@ -92,6 +97,6 @@ impl Statistics {
                 unreturned_power_w: per_time(total(&mut here.map(lost))),
             }
         };
-        Self { from_s: from, to_s: to, walls: scene.walls.iter().enumerate().map(wall).collect() }
+        Self { from_s: from, to_s: to, walls: scene.walls.iter().zip(&by_wall).enumerate().map(wall).collect() }
     }
 }

@@ -19,8 +19,8 @@ pub enum Balance {
     ///
     /// M(ṽ − v) = h[(1−γ)s + γs⁺ + f_x] + J,   M(q̃ − q − hv) = h²[(½−β)s + βs⁺ + ½f_x] + ½hJ,   M(v⁺ − ṽ) = p,
     ///
-    /// where (1−α_m)s⁺ + α_m s = (1−α_f)F̃⁺ + α_f F̃ with F̃ = F(t, q, v) and F̃⁺ = F(t⁺, q̃, ṽ), each with the elastic walls' forces [`Step::force`] there; at the
-    /// start s = F̃. p is that of the rigid walls. To J belongs what falls in (t, t⁺].
+    /// where (1−α_m)s⁺ + α_m s = (1−α_f)F̃⁺ + α_f F̃ with F̃ = F(t, q, v) and F̃⁺ = F(t⁺, q̃, ṽ), each with the elastic walls' forces
+    /// [`Step::force`] there; at the start s = F̃. p is that of the rigid walls. To J belongs what falls in (t, t⁺].
     GeneralizedAlpha {
         /// α_m.
         alpha_m: f64,
@@ -31,8 +31,8 @@ pub enum Balance {
         /// γ.
         gamma: f64,
     },
-    /// The differential equation itself over the step's [`Arc`] or [`Series`], M q̈ = F(t, q, q̇) + f_x + r; at the instant t⁺ that ends it the velocity
-    /// jumps by M(v₊ − v) = J + p⁺, with v the arc's last, J what falls in (t, t⁺] (an arc ends at each impulse), and p⁺ the
+    /// The differential equation itself over the step's [`Arc`] or [`Series`], M q̈ = F(t, q, q̇) + f_x + r; at the instant t⁺ that ends it
+    /// the velocity jumps by M(v₊ − v) = J + p⁺, with v the arc's last, J what falls in (t, t⁺] (an arc ends at each impulse), and p⁺ the
     /// [`Step::jump`] of the walls.
     Exact,
 }
@@ -46,15 +46,18 @@ pub enum Promise {
     /// Rigid: 0 ≤ gap(w⁺) ⟂ |r| ≥ 0, with r at t⁺. Elastic: |r| = (k_a s⁺ + c_a(s⁺ − s₊)/h)₊.
     EndPosition,
     /// Rigid: 0 ≤ slack of (1+e_l)g_l − e_l w⁻ ≤ w⁺ ≤ (1+e_u)g_u − e_u w⁻ ⟂ |r| ≥ 0, the smaller e in both where unequal ones would make
-    /// them cross, and w⁻ = w − hẇ with ẇ = v₋ after the step's load impulses, which come first. Elastic: |r| = (k_a s̄ + c_a(s⁺ − s⁻₊)/2h)₊ at the mean depth s̄ = ¼s⁻ + ½s + ¼s⁺.
+    /// them cross, and w⁻ = w − hẇ with ẇ = v₋ after the step's load impulses, which come first. Elastic: |r| = (k_a s̄ + c_a(s⁺ −
+    /// s⁻₊)/2h)₊ at the mean depth s̄ = ¼s⁻ + ½s + ¼s⁺.
     MeanPosition,
     /// With ẇ the velocity after the step's load impulses, which come first. Rigid, for walls that w + ½hẇ reaches to within 1e-12 of the
     /// gap scale: 0 ≤ rebound ⟂ |p| ≥ 0, rebound = ±(ẇ⁺ + ε ẇ) away from
     /// the wall, ε = e if approaching or at rest and 1 if separating; no force elsewhere.
     /// Elastic: |p|/h = (k_a s_θ + c_a(s_θ − s₊)/θh)₊ at s_θ = (1−θ)s + θs⁺.
     Velocity,
-    /// Rigid: 0 ≤ gap(w⁺) ⟂ |p| ≥ 0, and for walls that are closed after it (gap within 1e-12 of the gap scale, or p not 0) 0 ≤ rebound ⟂ |p| ≥ 0 with the rebound of
-    /// [`Promise::Velocity`]. Elastic: |r| = (k_a s̃⁺ + c_a(s̃⁺ − s₊)/h)₊ at the displacement before correction, and |p| the mean of |r| at both ends, times h.
+    /// Rigid: 0 ≤ gap(w⁺) ⟂ |p| ≥ 0, and for walls that are closed after it (gap within 1e-12 of the gap scale, or p not 0) 0 ≤ rebound ⟂
+    /// |p| ≥ 0 with the rebound of
+    /// [`Promise::Velocity`]. Elastic: |r| = (k_a s̃⁺ + c_a(s̃⁺ − s₊)/h)₊ at the displacement before correction, and |p| the mean of |r| at
+    /// both ends, times h.
     Corrected,
     /// Every wall: |p|/h = ((1−θ)|r|(s) + θ|r|(s⁺) + c_a(s⁺₊ − s₊)/h)₊ with the wall's spring |r|(s) and the θ of the balance.
     LawAtEnds,

@@ -140,7 +140,7 @@ impl Recorder {
     pub fn new(scene: &Scene, rows: u64, q: &[f64], v: &[f64]) -> Self {
         let capacity = usize::try_from(rows).unwrap_or(0).saturating_add(1).min(1 << 24);
         let column = || Vec::with_capacity(capacity);
-        let m = scene.walls.len();
+        let (n, m) = (scene.system.degrees_of_freedom(), scene.walls.len());
         let columns = |count: usize| (0..count).map(|_| column()).collect::<Vec<_>>();
         let mut recorder = Self {
             trajectory: Trajectory {
@@ -158,7 +158,7 @@ impl Recorder {
             rows,
             pending: vec![0.0; m],
             partial: vec![0.0; m],
-            state: [vec![0.0; q.len()], vec![0.0; q.len()]],
+            state: [vec![0.0; n], vec![0.0; n]],
         };
         let force: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(q), w.at.dot(v))).collect();
         recorder.push(0.0, q, v, &force);
@@ -171,8 +171,15 @@ impl Recorder {
         if k >= self.rows { self.end } else { k as f64 / (self.rows as f64 / self.end) }
     }
 
-    /// Takes in one step. Steps must come in order; those after the last row are none of the run's and change nothing.
+    /// Takes in one step. Steps must come in order; those after the last row are none of the run's and change nothing, nor do
+    /// steps of another scene, one with other numbers of walls or degrees of freedom.
     pub fn see(&mut self, step: &Step<'_>) {
+        let (n, m) = (self.state[0].len(), self.pending.len());
+        let moved = [step.q, step.v, step.velocity_before];
+        let pushed = [step.impulse, step.jump, step.force];
+        if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != m) {
+            return;
+        }
         if self.trajectory.time.len() as u64 > self.rows {
             return;
         }

@@ -83,8 +83,8 @@ fn duration_stress_and_rebound_converge_to_the_closed_form() {
 
 #[test]
 fn an_impact_takes_the_energy_of_the_end_node_alone() {
-    // The end node stops dead: with a consistent mass it carries ½ m v² with m = 1/(g M⁻¹ gᵀ), which is 1/(2√3) of an element's mass on a long bar, at the
-    // speed ½ of the bar. What the scheme takes beyond that would be its own.
+    // The end node stops dead: with a consistent mass it carries ½ m v² with m = 1/(g M⁻¹ gᵀ), which is 1/(2√3) of an element's mass on a
+    // long bar, at the speed ½ of the bar. What the scheme takes beyond that would be its own.
     for (elements, scheme) in [(50, Scheme::Event), (50, Scheme::MoreauJean { theta: 0.5 }), (200, Scheme::Event)] {
         let scene = scene(elements).with_duration(1.5);
         let step = 0.02 / elements as f64;

@@ -26,7 +26,8 @@ fn impacts_without_end_are_handed_to_moreau_jean_and_the_run_says_so() {
     let first = run.handed[0];
     // Until then 5000 impacts have not fallen into one stretch, a thousandth of the run.
     assert!(first.from > 0.2 && first.from < 6.0, "{first:?}");
-    // Momentum: from the first fall to the end the floor has carried the weight, but for what drag took: m v is nothing at both ends, and the drag's impulse is c times the fall.
+    // Momentum: from the first fall to the end the floor has carried the weight, but for what drag took: m v is nothing at both ends, and
+    // the drag's impulse is c times the fall.
     let impulse = run.trajectory.impulse("floor").unwrap();
     let expected = 9.81 * 8.0 - 30.0 * 1e-3;
     // The ball ends within a bounce of a step, g h per step of 4e-5 s.

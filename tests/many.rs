@@ -13,7 +13,8 @@ fn source(upper: f64, lower: f64) -> Scene {
     common::source(upper, lower).with_load(Load::impulse(0.05, 0.3))
 }
 
-/// The scenes in which one degree of freedom meets everything: restitutions, elastic and damped walls, blows (one at the start), a start at rest on a wall.
+/// The scenes in which one degree of freedom meets everything: restitutions, elastic and damped walls, blows (one at the start), a start at
+/// rest on a wall.
 fn scenes() -> Vec<(&'static str, Scene)> {
     let mut leaning = Scene::oscillator(2.0, 0.3, 50.0)
         .with_wall(Wall::upper("upper", 0.01).with_restitution(0.6))
@@ -75,8 +76,8 @@ fn one_degree_of_freedom_as_matrices_is_the_oscillator() {
             if scheme == spring(1e6, Integrator::CentralDifference) {
                 continue;
             }
-            // Some roundings of the gap, in another order, grown by the few impacts of 0.6 s; much more where a scheme adds to the energy at each: there
-            // over a fifth of that time.
+            // Some roundings of the gap, in another order, grown by the few impacts of 0.6 s; much more where a scheme adds to the energy
+            // at each: there over a fifth of that time.
             let wild = scheme == Scheme::Newmark || scheme == spring(1e6, Integrator::Trapezoidal);
             let (steps, bound) = if wild { (120, 1e-8) } else { (600, 1e-10) };
             for push in [0.0, 0.7] {

@@ -1,4 +1,5 @@
-//! Chains of three masses: every scheme at its order, against the modes where nothing is touched, against a much finer run of another scheme where it is.
+//! Chains of three masses: every scheme at its order, against the modes where nothing is touched, against a much finer run of another
+//! scheme where it is.
 
 mod common;
 mod random_structures;

@@ -1,4 +1,5 @@
-//! Random systems of up to eight degrees of freedom, walls of every kind on single ones and on rows of several, duplicates among them: every scheme keeps its word.
+//! Random systems of up to eight degrees of freedom, walls of every kind on single ones and on rows of several, duplicates among them:
+//! every scheme keeps its word.
 
 mod common;
 mod random_structures;
@@ -39,8 +40,8 @@ fn judged(scene: &Scene, scheme: &Scheme, backend: Backend, steps: u32, push: f6
     Ok(judge.residuals())
 }
 
-/// The condensed solver takes a bound for met that is missed by 1e-12 of the gap scale, or of a gap a step; measured by the run's own speeds, which are lower, or
-/// its forces, which a stiff wall makes of less, that is more.
+/// The condensed solver takes a bound for met that is missed by 1e-12 of the gap scale, or of a gap a step; measured by the run's own
+/// speeds, which are lower, or its forces, which a stiff wall makes of less, that is more.
 fn allowed(scene: &Scene, scheme: &Scheme, r: &Residuals) -> f64 {
     let gap = scene.gap_scale();
     let stiffest = scene.walls.iter().map(|wall| match wall.law {

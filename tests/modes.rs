@@ -305,8 +305,8 @@ fn rayleigh_damping_is_recognised_on_large_structures() {
 
 #[test]
 fn equal_frequencies_are_all_found() {
-    // Equal chains that do not touch: each frequency as many times, more than Lanczos has start vectors. Fifty short ones exhaust its space at once, where only
-    // the count of what is below tells that most are missing.
+    // Equal chains that do not touch: each frequency as many times, more than Lanczos has start vectors. Fifty short ones exhaust its space
+    // at once, where only the count of what is below tells that most are missing.
     for (one, copies, count) in [(120, 6, 18), (4, 50, 20)] {
         let n = one * copies;
         let springs: Vec<f64> = (1..n).map(|i| if i % one == 0 { 0.0 } else { 1e4 }).collect();
@@ -459,8 +459,8 @@ fn more_modes_keep_more_compliance_and_less_mass() {
 
 #[test]
 fn the_effective_mass_of_a_string_falls_as_modes_are_added() {
-    // A string of mass 1 struck at its middle is the bar's equation: 2 Σ sin²(iπ/2) over its modes, so 1/2 with one mode and 1/20 with nineteen, of which
-    // ten move the middle.
+    // A string of mass 1 struck at its middle is the bar's equation: 2 Σ sin²(iπ/2) over its modes, so 1/2 with one mode and 1/20 with
+    // nineteen, of which ten move the middle.
     let string = bar(2000, BarEnd::Fixed, BarEnd::Fixed, MassMatrix::Consistent);
     let wall = Wall { at: string.at(0.5).unwrap(), ..Wall::upper("stop", 1.0) };
     let scene = Scene::structure(string.structure().unwrap()).with_wall(wall);

@@ -180,8 +180,8 @@ fn masses_are_those_of_rigid_motions() {
 
 #[test]
 fn the_smoothest_curve_through_points_is_the_bent_tube() {
-    // A force in the middle bends a clamped tube into two cubics: the spline through three points with slope 0 at the ends. With one end pinned, the same
-    // with its moment 0.
+    // A force in the middle bends a clamped tube into two cubics: the spline through three points with slope 0 at the ends. With one end
+    // pinned, the same with its moment 0.
     for ends in
         [[BeamEnd::Clamped, BeamEnd::Clamped], [BeamEnd::Clamped, BeamEnd::Pinned], [BeamEnd::Pinned, BeamEnd::Pinned]]
     {

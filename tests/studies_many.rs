@@ -55,7 +55,8 @@ fn beside(first: &Scene, second: &Scene) -> Scene {
     scene
 }
 
-/// A bar of unit length, modulus and density, its free end at a rigid wall with e = 0 and its other end held: the closed form is contact for t in [1, 2] under the stress ½.
+/// A bar of unit length, modulus and density, its free end at a rigid wall with e = 0 and its other end held: the closed form is contact for
+/// t in [1, 2] under the stress ½.
 fn bar(elements: usize) -> Scene {
     let (n, size) = (elements, 1.0 / elements as f64);
     let masses: Vec<f64> = (0..n).map(|i| if i == 0 { 0.5 * size } else { size }).collect();
@@ -89,7 +90,8 @@ fn two_oscillators_side_by_side_grow_as_the_more_sensitive_of_them() {
     assert!(matches!(found.source, Source::Runs(_)));
     let by_exact_runs = Growth::of(&beside(&wild, &tame)).unwrap();
     assert_eq!(by_exact_runs.source, Source::ExactRuns);
-    // So small a change of exact runs is their derivative in two directions, which misses the worst one: never above the growth, but for rows beside impacts.
+    // So small a change of exact runs is their derivative in two directions, which misses the worst one: never above the growth, but for
+    // rows beside impacts.
     let exactly = by_exact_runs.until(1.0);
     assert!(exactly > 0.2 * larger && exactly < 1.1 * larger, "{exactly}, alone {exact:?}");
     let found = found.until(1.0);
@@ -111,8 +113,8 @@ fn errors_are_those_of_the_worst_probe_and_a_method_that_cannot_go_is_a_row_with
     let comparison = compare(&scene, &[Method::new(MOREAU), refused], &time, &|_| {}).unwrap();
     let alone = compare(&source(0.8, 0.5), &[Method::new(MOREAU)], &time, &|_| {}).unwrap();
     let (found, expected) = (comparison.rows[0].error.unwrap(), alone.rows[0].error.unwrap());
-    // Where the exact scheme does not go the reference is the same scheme at an eighth of the step: its own error, of order 1, is an eighth of this one and a
-    // phase of impacts within steps that makes it twice that at worst.
+    // Where the exact scheme does not go the reference is the same scheme at an eighth of the step: its own error, of order 1, is an eighth
+    // of this one and a phase of impacts within steps that makes it twice that at worst.
     assert!((found / expected - 1.0).abs() < 0.5, "{found} against {expected}");
     assert_eq!(comparison.rows.len(), 3);
     assert!(comparison.rows[1].outcome.is_err(), "a clamp is for one unknown");

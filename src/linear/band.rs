@@ -25,6 +25,10 @@ impl Band {
         Self { n, diagonals }
     }
 
+    pub(super) fn size(&self) -> usize {
+        self.n
+    }
+
     /// Adds `scale` · A x to `out`; both of length n.
     #[inline]
     pub(super) fn add_product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
@@ -96,6 +100,10 @@ impl BandFactor {
         }
         if width == 1 {
             twist(matrix, &diagonal, &mut lower, &mut pivots);
+            // Close to singular, rounding may turn a pivot of this order round that the other order left positive.
+            if let Some(row) = pivots.iter().position(|pivot| pivot.is_nan() || *pivot <= 0.0) {
+                return Err(NotDefinite { row });
+            }
         }
         let inverse = pivots.iter().map(|d| 1.0 / d).collect();
         Ok(Self { n, width, lower, inverse })

@@ -32,11 +32,12 @@ impl Operator {
         if is_band(matrix) { Self::Band(Band::new(matrix)) } else { Self::Sparse(matrix.clone()) }
     }
 
-    /// Adds `scale` · A x to `out`; both of length n.
+    /// Adds `scale` · A x to `out`; both of length n, others are left as they are.
     #[inline]
     pub fn add_product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         match self {
-            Self::Band(band) => band.add_product(scale, x, out),
+            Self::Band(band) if x.len() == band.size() && out.len() == band.size() => band.add_product(scale, x, out),
+            Self::Band(_) => {}
             Self::Sparse(matrix) => matrix.add_product(scale, x, out),
         }
     }

@@ -42,11 +42,11 @@ impl Rows {
         }
     }
 
-    /// gᵢ · x.
+    /// gᵢ · x; entries beyond the length of x count as 0.
     #[inline]
     #[must_use]
     pub fn dot(&self, i: usize, x: &[f64]) -> f64 {
-        self.row(i).iter().map(|&(j, value)| value * x[j]).sum()
+        self.row(i).iter().map(|&(j, value)| value * x.get(j).copied().unwrap_or(0.0)).sum()
     }
 
     /// G x, m entries written to `out`.
@@ -57,11 +57,13 @@ impl Rows {
         }
     }
 
-    /// Adds `force` · gᵢᵀ to `out`, n entries.
+    /// Adds `force` · gᵢᵀ to `out`, n entries; what lies beyond its length is left out.
     #[inline]
     pub fn add_transposed(&self, i: usize, force: f64, out: &mut [f64]) {
         for &(j, value) in self.row(i) {
-            out[j] += value * force;
+            if let Some(out) = out.get_mut(j) {
+                *out += value * force;
+            }
         }
     }
 }

@@ -53,6 +53,9 @@ fn factorise(matrix: &Symmetric) -> Option<QDLDLFactorisation<f64>> {
 /// The number of negative eigenvalues of `matrix`, by Sylvester's law of inertia: that of the negative pivots of L D Lᵀ. None where a pivot vanishes.
 #[must_use]
 pub fn negative_pivots(matrix: &Symmetric) -> Option<usize> {
+    if matrix.size() == 0 {
+        return Some(0);
+    }
     let factor = factorise(matrix)?;
     (!factor.D.iter().any(|d| d.is_nan())).then(|| factor.D.iter().filter(|d| **d < 0.0).count())
 }

@@ -117,9 +117,13 @@ impl Symmetric {
         Self::from_entries(n, terms.iter().flat_map(scaled))
     }
 
-    /// Adds `scale` · A x to `out`; both of length n.
+    /// Adds `scale` · A x to `out`; both of length n, others are left as they are.
     pub fn add_product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
-        for i in 0..self.size().min(x.len()).min(out.len()) {
+        let n = self.size();
+        if x.len() != n || out.len() != n {
+            return;
+        }
+        for i in 0..n {
             let (mut sum, xi) = (0.0, scale * x[i]);
             for (j, value) in self.row(i) {
                 sum += value * x[j];

@@ -1,7 +1,7 @@
 //! The figures of one run, or of several laid over one another.
 //!
-//! One degree of freedom has one panel a figure. Of several, each probe has its panel, and in the figure of forces each place at which walls stand; where there
-//! are more than a page holds, those with the most contact are drawn, and the title says of how many.
+//! One degree of freedom has one panel a figure. Of several, each probe has its panel, and in the figure of forces each place at which
+//! walls stand; where there are more than a page holds, those with the most contact are drawn, and the title says of how many.
 
 use super::figure::{Curve, Figure, Mark, Panel, Stems};
 use super::places::{Chosen, Place};

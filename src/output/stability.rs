@@ -119,7 +119,8 @@ pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
     csv::table(path, &header.map(str::to_owned), rows.map(line))
 }
 
-/// Writes one row for every scheme and step of [`Quality`]: energies as shares of the reference's largest, and the largest lasting contact; failed ones with the reason.
+/// Writes one row for every scheme and step of [`Quality`]: energies as shares of the reference's largest, and the largest lasting contact;
+/// failed ones with the reason.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written.

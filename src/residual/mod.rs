@@ -39,12 +39,12 @@ pub struct Residuals {
     pub force_balance: f64,
     /// The energy ledger.
     pub energy: Energy,
-    /// γ₀: what gaps are measured by, m; for a velocity-level promise the run's largest speed at a rigid wall (Σ|gᵢvᵢ|, the size of what its speed is a sum
-    /// of), or a gap in the run's duration if that is more (a body held fast has a speed of rounding), m/s. A promise on both levels measures its gaps by
-    /// the first and its speeds by the second; the first is given.
+    /// γ₀: what gaps are measured by, m; for a velocity-level promise the run's largest speed at a rigid wall (Σ|gᵢvᵢ|, the size of what
+    /// its speed is a sum of), or a gap in the run's duration if that is more (a body held fast has a speed of rounding), m/s. A promise on
+    /// both levels measures its gaps by the first and its speeds by the second; the first is given.
     pub gap_scale: f64,
-    /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid). Where there is none, an elastic wall that should have pushed is held against
-    /// what the stiffest would make of the gap scale.
+    /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid). Where there is none, an elastic wall that should
+    /// have pushed is held against what the stiffest would make of the gap scale.
     pub force_scale_n: f64,
 }
 
@@ -168,6 +168,15 @@ impl Judge {
         let moved = [step.q, step.v, step.velocity_before, step.velocity_after, step.extra];
         let pushed = [step.impulse, step.jump, step.force];
         if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != walls) {
+            return;
+        }
+        let fits = match step.path {
+            Path::Corrected { q, v } => q.len() == n && v.len() == n,
+            Path::Series(series) => series.degrees_of_freedom() == n,
+            Path::Exact(_) => n == 1,
+            Path::Grid | Path::Handed { .. } => true,
+        };
+        if !fits {
             return;
         }
         self.scratch.load_end.fill(0.0);

@@ -13,8 +13,8 @@ pub(super) struct Scales {
     root_wall_mass: f64,
     /// The gap scale, m √kg.
     pub gap: f64,
-    /// What its springs would exert over the gap scale, N/√kg, so that a run without loads and contacts has a scale too: the largest term of K q, of which the
-    /// sum is known to rounding only.
+    /// What its springs would exert over the gap scale, N/√kg, so that a run without loads and contacts has a scale too: the largest term
+    /// of K q, of which the sum is known to rounding only.
     pub spring: f64,
     /// What the stiffest elastic wall makes of the gap scale, N.
     pub wall: f64,

@@ -1,7 +1,7 @@
 //! The judge on a structure's exact motion.
 //!
-//! A stretch lasts two radians of its fastest motion at most, so that Gauss's rule of ten points integrates powers, which have twice that rate, to 1e-20 of their size; were
-//! a stretch longer than it says, the ledger would not close.
+//! A stretch lasts two radians of its fastest motion at most, so that Gauss's rule of ten points integrates powers, which have twice that
+//! rate, to 1e-20 of their size; were a stretch longer than it says, the ledger would not close.
 
 use super::energy::{Ledger, Moved};
 use super::{Judge, PLACE_UNITS};

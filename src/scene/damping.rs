@@ -19,8 +19,9 @@ pub enum Damping {
         /// β, s; 0 or more.
         stiffness: f64,
     },
-    /// C = M Φ diag(2 ζᵢ ωᵢ) Φᵀ M with the M-orthonormal modes Φ, slowest first: one ratio ζ for each mode, the last repeated; one alone is for all. Rigid-body
-    /// motions have none. C is full, so a structure beyond [`MOST_DENSE`] degrees of freedom is to be cut to modes first.
+    /// C = M Φ diag(2 ζᵢ ωᵢ) Φᵀ M with the M-orthonormal modes Φ, slowest first: one ratio ζ for each mode, the last repeated; one alone is
+    /// for all. Rigid-body motions have none. C is full, so a structure beyond [`MOST_DENSE`] degrees of freedom is to be cut to modes
+    /// first.
     Modal(Vec<f64>),
     /// C itself, N s/m.
     Matrix(Symmetric),
@@ -30,8 +31,8 @@ impl Damping {
     /// C for the M and K of `structure`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `system.damping.mass`, `.stiffness`, `.ratios` or `.matrix`; where modal ratios meet a structure too large; or the errors of
-    /// [`Modes::lowest`].
+    /// [`Error::Invalid`] under `system.damping.mass`, `.stiffness`, `.ratios` or `.matrix`; where modal ratios meet a structure too large;
+    /// or the errors of [`Modes::lowest`].
     pub fn matrix(&self, structure: &Structure) -> Result<Symmetric> {
         let n = structure.mass.size();
         match self {

@@ -1,7 +1,7 @@
 //! The loads of a scene as vectors over its degrees of freedom.
 
 use super::load::{Forcing, Load};
-use super::row::Row;
+use super::row::{Row, distinct};
 
 /// All loads, sorted by where they act: one sum over time for each row, however many degrees of freedom it reaches.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,15 +15,13 @@ impl Loads {
     /// The loads, those of one row together.
     #[must_use]
     pub fn new(loads: &[Load]) -> Self {
-        let mut rows: Vec<(Row, Vec<Load>)> = Vec::new();
-        for load in loads {
-            let unit = Load { kind: load.kind.clone(), at: Row::dof(0) };
-            match rows.iter_mut().find(|(row, _)| *row == load.at) {
-                Some((_, list)) => list.push(unit),
-                None => rows.push((load.at.clone(), vec![unit])),
-            }
+        let places = distinct(loads.iter().map(|load| &load.at));
+        let mut lists = vec![Vec::new(); places.rows.len()];
+        for (load, place) in loads.iter().zip(places.of) {
+            lists[place].push(Load { kind: load.kind.clone(), at: Row::dof(0) });
         }
-        let parts: Vec<_> = rows.into_iter().map(|(row, list)| (row, Forcing::on(0, &list))).collect();
+        let parts: Vec<_> =
+            places.rows.into_iter().zip(lists).map(|(row, list)| (row.clone(), Forcing::on(0, &list))).collect();
         let blows = parts.iter().any(|(_, forcing)| !forcing.impulses.is_empty());
         Self { parts, blows }
     }

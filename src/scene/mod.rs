@@ -17,12 +17,14 @@ pub use damping::Damping;
 pub use load::{Forcing, Harmonic, Load, LoadKind, Table};
 pub use loads::Loads;
 pub use modal::{MOST_DENSE, MOST_MODES, Modes, Reduction, WallTruncation};
+pub(crate) use row::distinct;
 pub use row::{Probe, Row};
 pub use structure::Structure;
 pub use system::{Oscillator, System};
 pub use wall::{Side, Wall, WallLaw};
 
 use crate::error::{Error, Result};
+use std::collections::HashSet;
 use system::{finite, positive};
 
 /// Displacements and velocities at one instant.
@@ -111,19 +113,27 @@ impl Scene {
     #[must_use]
     pub fn gap_scale(&self) -> f64 {
         let positive = |x: &f64| x.is_finite() && *x > 0.0;
-        let mut spans = Vec::new();
-        for upper in self.walls.iter().filter(|w| w.side == Side::Upper) {
-            for lower in self.walls.iter().filter(|w| w.side == Side::Lower && w.at == upper.at) {
-                spans.push(0.5 * (upper.position - lower.position));
-            }
-        }
+        let (place, lower) = self.lower_walls();
+        let uppers = self.walls.iter().zip(place).filter(|(w, _)| w.side == Side::Upper);
+        let spans = uppers
+            .flat_map(|(upper, place)| lower[place].iter().map(move |lower| 0.5 * (upper.position - lower.position)));
         let start = |w: &Wall| w.gap(w.at.dot(&self.initial.q)).abs();
-        let least = spans.into_iter().filter(positive).reduce(f64::min);
+        let least = spans.filter(positive).reduce(f64::min);
         least
             .or_else(|| self.walls.iter().map(start).filter(positive).reduce(f64::max))
             .or_else(|| self.walls.iter().map(|w| w.position.abs()).filter(positive).reduce(f64::max))
             .or_else(|| self.initial.q.iter().map(|q| q.abs()).filter(positive).reduce(f64::max))
             .unwrap_or(1.0)
+    }
+
+    /// Which of the distinct rows each wall has, and the lower walls of each of those rows.
+    fn lower_walls(&self) -> (Vec<usize>, Vec<Vec<&Wall>>) {
+        let places = distinct(self.walls.iter().map(|wall| &wall.at));
+        let mut lower = vec![Vec::new(); places.rows.len()];
+        for (wall, &place) in self.walls.iter().zip(&places.of).filter(|(wall, _)| wall.side == Side::Lower) {
+            lower[place].push(wall);
+        }
+        (places.of, lower)
     }
 
     /// Checks everything a scheme relies on.
@@ -151,9 +161,10 @@ impl Scene {
         for probe in &self.probes {
             self.check_row(&format!("probe {:?}", probe.name), &probe.at)?;
         }
+        let mut names = HashSet::new();
         for (index, wall) in self.walls.iter().enumerate() {
             wall.validate_name(index)?;
-            if self.walls[..index].iter().any(|other| other.name == wall.name) {
+            if !names.insert(wall.name.as_str()) {
                 return Err(Error::invalid(
                     format!("wall {}: name", index + 1),
                     format!("{:?}, which another wall has", wall.name),
@@ -169,8 +180,9 @@ impl Scene {
                 return Err(Error::invalid(key, "a place that nothing moves", "a place that can move"));
             }
         }
-        for wall in &self.walls {
-            self.check_crossing(wall)?;
+        let (place, lower) = self.lower_walls();
+        for (wall, place) in self.walls.iter().zip(place) {
+            check_crossing(wall, &lower[place])?;
         }
         for wall in &self.walls {
             self.check_start(wall)?;
@@ -199,21 +211,19 @@ impl Scene {
         }
         Ok(())
     }
+}
 
-    fn check_crossing(&self, upper: &Wall) -> Result<()> {
-        let crossed = |lower: &&Wall| {
-            lower.side == Side::Lower && lower.at == upper.at && lower.law.is_rigid() && lower.position > upper.position
-        };
-        if upper.side == Side::Lower || !upper.law.is_rigid() {
-            return Ok(());
-        }
-        match self.walls.iter().find(crossed) {
-            Some(lower) => Err(Error::invalid(
-                format!("wall {:?}: position", upper.name),
-                format_args!("{:?}", upper.position),
-                format!("at least {:?}, the position of the rigid lower wall {:?}", lower.position, lower.name),
-            )),
-            None => Ok(()),
-        }
+/// Refuses a rigid upper wall below a rigid lower one of its row.
+fn check_crossing(upper: &Wall, lower: &[&Wall]) -> Result<()> {
+    if upper.side == Side::Lower || !upper.law.is_rigid() {
+        return Ok(());
+    }
+    match lower.iter().find(|lower| lower.law.is_rigid() && lower.position > upper.position) {
+        Some(lower) => Err(Error::invalid(
+            format!("wall {:?}: position", upper.name),
+            format_args!("{:?}", upper.position),
+            format!("at least {:?}, the position of the rigid lower wall {:?}", lower.position, lower.name),
+        )),
+        None => Ok(()),
     }
 }

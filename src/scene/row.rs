@@ -1,5 +1,8 @@
 //! Where on a structure something sits: a sparse row.
 
+use std::collections::HashMap;
+use std::hash::{Hash, Hasher};
+
 /// A sparse row g of weights on the degrees of freedom: the displacement seen through it is w = g · q, and a force r
 /// behind it acts on the structure as gᵀ r.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +39,42 @@ impl Row {
     #[must_use]
     pub fn dot(&self, q: &[f64]) -> f64 {
         self.entries.iter().map(|&(i, weight)| weight * q.get(i).copied().unwrap_or(0.0)).sum()
+    }
+}
+
+/// The rows of a list, each once.
+pub(crate) struct Distinct<'a> {
+    /// In the order in which they first occur.
+    pub rows: Vec<&'a Row>,
+    /// Which of them each member of the list is.
+    pub of: Vec<usize>,
+}
+
+/// The rows of a list, each once: equal rows have the same entries in the same order.
+pub(crate) fn distinct<'a>(list: impl IntoIterator<Item = &'a Row>) -> Distinct<'a> {
+    let (mut known, mut rows, mut of) = (HashMap::new(), Vec::new(), Vec::new());
+    for row in list {
+        let index = *known.entry(Key(row)).or_insert(rows.len());
+        if index == rows.len() {
+            rows.push(row);
+        }
+        of.push(index);
+    }
+    Distinct { rows, of }
+}
+
+/// A row to look up by. A weight that is no number equals none, so that such a row is only ever itself another one.
+#[derive(PartialEq)]
+struct Key<'a>(&'a Row);
+
+impl Eq for Key<'_> {}
+
+impl Hash for Key<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        for &(i, weight) in &self.0.entries {
+            // Both zeros are equal, and so must their hashes be.
+            (i, (weight + 0.0).to_bits()).hash(state);
+        }
     }
 }
 

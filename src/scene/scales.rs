@@ -1,6 +1,6 @@
 //! Typical sizes of a scene: frequencies, and the mass a wall feels.
 
-use super::{Scene, System};
+use super::{Scene, System, Wall};
 use crate::linear::{Factor, Symmetric};
 
 /// Iterations of the power method: a frequency that sets a scale needs no more digits than they give.
@@ -56,8 +56,8 @@ fn power(a: &Symmetric, b: &Symmetric) -> Option<f64> {
 }
 
 impl Scene {
-    /// The mass that each wall feels, kg, in the scene's order: 1/(g M⁻¹ gᵀ), what an impulse divided by it changes of the velocity there. Infinite for a wall whose
-    /// row sees nothing.
+    /// The mass that each wall feels, kg, in the scene's order: 1/(g M⁻¹ gᵀ), what an impulse divided by it changes of the velocity there.
+    /// Infinite for a wall whose row sees nothing.
     #[must_use]
     pub fn wall_masses(&self) -> Vec<f64> {
         match &self.system {
@@ -67,16 +67,28 @@ impl Scene {
             }
             System::Structure(s) => {
                 let Ok(mut factor) = Factor::new(&s.mass) else { return vec![f64::INFINITY; self.walls.len()] };
+                let lumped = s.mass.half_bandwidth() == 0;
                 let mut response = vec![0.0; s.mass.size()];
-                let mass = |wall: &super::Wall| {
-                    response.fill(0.0);
+                let mass = |wall: &Wall| {
+                    let mut inverse = 0.0;
                     for &(i, weight) in wall.at.entries() {
                         if let Some(x) = response.get_mut(i) {
                             *x += weight;
                         }
                     }
-                    factor.solve(&mut response);
-                    1.0 / wall.at.dot(&response)
+                    if lumped {
+                        // Entry by entry: a wall costs nothing of n.
+                        for &(i, _) in wall.at.entries() {
+                            if let Some(x) = response.get_mut(i) {
+                                inverse += std::mem::take(x).powi(2) / s.mass.get(i, i);
+                            }
+                        }
+                    } else {
+                        factor.solve(&mut response);
+                        inverse += wall.at.dot(&response);
+                        response.fill(0.0);
+                    }
+                    1.0 / inverse
                 };
                 self.walls.iter().map(mass).collect()
             }

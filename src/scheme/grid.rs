@@ -1,7 +1,8 @@
-//! What every scheme on a fixed grid shares: the oscillator's numbers, its walls in scalar form, and the frame it fills.
+//! What every scheme on a fixed grid shares: the oscillator's numbers, its walls, and the frame it fills.
 
+use super::stop::{Stop, touching_distance};
 use crate::error::{Error, Result};
-use crate::scene::{Forcing, Scene, Side, WallLaw};
+use crate::scene::{Forcing, Scene};
 
 /// The scene of one degree of freedom as a kernel wants it.
 #[derive(Debug, Clone)]
@@ -11,51 +12,21 @@ pub(super) struct Scalar {
     pub k: f64,
     pub h: f64,
     pub forcing: Forcing,
-    pub walls: Vec<ScalarWall>,
+    pub walls: Vec<Stop>,
     /// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
     pub touch: f64,
 }
 
-/// A wall of that scene.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ScalarWall {
-    pub upper: bool,
-    /// +1 lower, −1 upper: the sign of its force.
-    pub sign: f64,
-    pub g: f64,
-    pub law: WallLaw,
-}
-
-impl ScalarWall {
-    /// Depth behind the wall, m.
-    #[inline]
-    pub fn depth(&self, w: f64) -> f64 {
-        self.sign * (self.g - w)
-    }
-
-    /// The larger of the depth and zero, as a coordinate: where a dashpot's plate stands when the body is at `w`.
-    #[inline]
-    pub fn plate(&self, w: f64) -> f64 {
-        if self.upper { w.max(self.g) } else { w.min(self.g) }
-    }
-}
-
 impl Scalar {
     pub fn new(scene: &Scene, h: f64) -> Self {
-        let walls = scene.walls.iter().map(|w| ScalarWall {
-            upper: w.side == Side::Upper,
-            sign: w.side.sign(),
-            g: w.position,
-            law: w.law,
-        });
         Self {
             m: scene.system.mass_form(&[1.0], &[1.0]),
             c: scene.system.damping_form(&[1.0], &[1.0]),
             k: scene.system.stiffness_form(&[1.0], &[1.0]),
             h,
             forcing: Forcing::on(0, &scene.loads),
-            walls: walls.collect(),
-            touch: 1e-12 * scene.gap_scale(),
+            walls: scene.walls.iter().map(Stop::new).collect(),
+            touch: touching_distance(scene),
         }
     }
 
@@ -65,7 +36,7 @@ impl Scalar {
         if self.walls.iter().any(|w| !w.law.is_rigid()) {
             return (f64::INFINITY, f64::NEG_INFINITY);
         }
-        let ends = |(lo, hi): (f64, f64), w: &ScalarWall| match w.upper {
+        let ends = |(lo, hi): (f64, f64), w: &Stop| match w.upper {
             true => (lo, hi.min(w.g - 2.0 * self.touch)),
             false => (lo.max(w.g + 2.0 * self.touch), hi),
         };

@@ -3,6 +3,7 @@
 mod central_difference;
 pub mod event;
 mod grid;
+mod kernel;
 mod method;
 mod moreau_jean;
 mod name;
@@ -13,6 +14,7 @@ mod penalty_law;
 mod position;
 mod programme;
 mod stepper;
+mod stop;
 mod structure;
 mod structure_event;
 
@@ -82,7 +84,8 @@ impl Scheme {
     }
 }
 
-/// The rule's weights (Chung & Hulbert 1993, doi:10.1115/1.2900803, eqs 17, 20 and 25): order 2, and the least damping of slow vibrations that ρ∞ allows.
+/// The rule's weights (Chung & Hulbert 1993, doi:10.1115/1.2900803, eqs 17, 20 and 25): order 2, and the least damping of slow vibrations
+/// that ρ∞ allows.
 fn generalized_alpha(rho: f64) -> Balance {
     let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
     let gamma = 0.5 + alpha_f - alpha_m;

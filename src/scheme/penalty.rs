@@ -4,12 +4,14 @@
 //!
 //! A (v_θ − v)/θ = b + h Σ ± P̄(s, s⁺),    A = M + hθC + h²θ²K,
 //!
-//! holds a mean pressure P̄ per wall: (1−θ)|r|(s) + θ|r|(s⁺) for `trapezoidal` (θ = ½) and `implicit-euler` (θ = 1), or, with
-//! θ = ½, the discrete gradient ΔU/Δs of the wall's energy (Gonzalez 1996, doi:10.1007/BF02440162), which keeps the energy of the penalised
-//! system at any step. (With a displacement for unknown, v⁺ would be a quotient by h, whose rounding has a constant part: the energy
-//! drifts by 1e-16 a step. The mean velocity is small where a stiff wall turns the body round, and so is the work of its rounding.) The trapezoidal rule does not, once h²k_w/m is not small: "unconditionally stable" is a statement about linear systems.
+//! holds a mean pressure P̄ per wall: (1−θ)|r|(s) + θ|r|(s⁺) for `trapezoidal` (θ = ½) and `implicit-euler` (θ = 1), or, with θ = ½, the
+//! discrete gradient ΔU/Δs of the wall's energy (Gonzalez 1996, doi:10.1007/BF02440162), which keeps the energy of the penalised system at
+//! any step. (With a displacement for unknown, v⁺ would be a quotient by h, whose rounding has a constant part: the energy drifts by 1e-16
+//! a step. The mean velocity is small where a stiff wall turns the body round, and so is the work of its rounding.) The trapezoidal rule
+//! does not, once h²k_w/m is not small: "unconditionally stable" is a statement about linear systems.
 
-use super::grid::{Counters, Frame, Scalar, ScalarWall};
+use super::grid::{Counters, Frame, Scalar};
+use super::stop::Stop;
 use crate::error::{Error, Result};
 use crate::scene::{Scene, WallLaw};
 
@@ -119,7 +121,7 @@ impl Penalty {
 
     /// Mean pressure of a wall while the body goes from `w` to `w + shift`, and its derivative with respect to the end's depth.
     #[inline]
-    fn pressure(&self, wall: &ScalarWall, w: f64, shift: f64) -> (f64, f64) {
+    fn pressure(&self, wall: &Stop, w: f64, shift: f64) -> (f64, f64) {
         let s0 = wall.depth(w);
         mean_pressure(&wall.law, self.mean, self.theta, self.s.h, s0, s0 - wall.sign * shift)
     }

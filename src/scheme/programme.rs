@@ -104,7 +104,7 @@ pub(super) fn elastic_row(upper: bool, stiffness: f64, offset: f64) -> ScalarRow
 
 /// Compliance of each wall's row, given the row stiffness a scheme sees behind an elastic wall (k_a, c_a).
 pub(super) fn compliances(scalar: &Scalar, stiffness: impl Fn(f64, f64) -> f64) -> Vec<f64> {
-    let law = |wall: &super::grid::ScalarWall| match wall.law {
+    let law = |wall: &super::stop::Stop| match wall.law {
         crate::scene::WallLaw::Elastic { stiffness: k, damping: c } => 1.0 / stiffness(k, c),
         _ => 0.0,
     };

@@ -1,33 +1,14 @@
 //! The stepper: one public type over all schemes.
 
-use super::central_difference::CentralDifference;
-use super::event::Event;
-use super::grid::{Counters, Frame, Handed, Scalar};
-use super::moreau_jean::MoreauJean;
-use super::paoli_schatzman::PaoliSchatzman;
-use super::penalty::{Mean, Penalty};
-use super::position::Position;
-use super::structure::Structure;
-use super::structure_event::StructureEvent;
-use super::{Integrator, Scheme};
+use super::Scheme;
+use super::grid::{Frame, Handed, Scalar};
+use super::kernel::Kernel;
 use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::{Scene, State, System, WallLaw};
+use crate::scene::{Row, Scene, State, System, WallLaw};
+use crate::scheme::Counters;
 use crate::step::{Contact, Contract, Path, Step};
-
-/// The state and constants of one scheme on one scene. Smallness is a variant's content: these hold floats, no matrices.
-#[derive(Debug)]
-enum Kernel {
-    Position(Position),
-    PaoliSchatzman(PaoliSchatzman),
-    MoreauJean(MoreauJean),
-    Penalty(Penalty),
-    CentralDifference(CentralDifference),
-    Event(Box<Event>),
-    Structure(Box<Structure>),
-    StructureEvent(Box<StructureEvent>),
-}
 
 /// Advances a scene step by step.
 ///
@@ -83,30 +64,12 @@ impl Stepper {
             Scheme::Event => scene.clone(),
             _ => without_quartic(scene)?.clone(),
         };
-        let single = matches!(scene.system, System::Oscillator(_));
+        // A wall behind a lever is more than the scalar kernels hold: then the oscillator is a structure of 1 × 1 matrices.
+        let direct = scene.walls.iter().all(|wall| wall.at == Row::dof(0));
+        let single = matches!(scene.system, System::Oscillator(_)) && direct;
         // One degree of freedom: the programme has one unknown, and a clamp solves it exactly.
         let backend = if single && backend == Backend::Auto { Backend::Clamp } else { backend };
-        let kernel = match *scheme {
-            Scheme::Event if !single => Kernel::StructureEvent(Box::new(StructureEvent::new(&scene, step)?)),
-            // Of generalized-α there is no scalar kernel: an oscillator is a structure of 1 × 1 matrices to it.
-            _ if !single => Kernel::Structure(Box::new(Structure::new(&scene, scheme, step, backend)?)),
-            Scheme::ImplicitEuler => Kernel::Position(Position::new(&scene, 1.0, step, backend)?),
-            Scheme::Newmark => Kernel::Position(Position::new(&scene, 0.5, step, backend)?),
-            Scheme::PaoliSchatzman => Kernel::PaoliSchatzman(PaoliSchatzman::new(&scene, step, backend)?),
-            Scheme::MoreauJean { theta } => Kernel::MoreauJean(MoreauJean::new(&scene, theta, step, backend)?),
-            Scheme::GeneralizedAlpha { .. } => {
-                Kernel::Structure(Box::new(Structure::new(&scene, scheme, step, backend)?))
-            }
-            Scheme::Penalty { integrator, .. } => match integrator {
-                Integrator::Trapezoidal => Kernel::Penalty(Penalty::new(&scene, 0.5, Mean::Ends, step)),
-                Integrator::ImplicitEuler => Kernel::Penalty(Penalty::new(&scene, 1.0, Mean::Ends, step)),
-                Integrator::DiscreteGradient => {
-                    Kernel::Penalty(Penalty::new(&scene, 0.5, Mean::DiscreteGradient, step))
-                }
-                Integrator::CentralDifference => Kernel::CentralDifference(CentralDifference::new(&scene, step)),
-            },
-            Scheme::Event => Kernel::Event(Box::new(Event::new(&scene, step)?)),
-        };
+        let kernel = Kernel::new(&scene, scheme, step, backend, single)?;
         let backend =
             if let Kernel::Structure(kernel) = &kernel { kernel.backend().unwrap_or(backend) } else { backend };
         let (q, v) = if single { Scalar::new(&scene, step).start(&scene) } else { (0.0, 0.0) };
@@ -305,26 +268,9 @@ impl Stepper {
     #[must_use]
     pub fn counters(&self) -> Counters {
         let mut counters = Counters { steps: self.index, ..Counters::default() };
-        match &self.kernel {
-            Kernel::Position(kernel) => kernel.count(&mut counters),
-            Kernel::PaoliSchatzman(kernel) => kernel.count(&mut counters),
-            Kernel::MoreauJean(kernel) => kernel.count(&mut counters),
-            Kernel::Penalty(kernel) => kernel.count(&mut counters),
-            Kernel::CentralDifference(_) => {}
-            Kernel::Structure(kernel) => kernel.count(&mut counters),
-            Kernel::Event(event) => of_events(&mut counters, event.counters()),
-            Kernel::StructureEvent(event) => {
-                of_events(&mut counters, event.counters());
-                event.count(&mut counters);
-            }
-        }
+        self.kernel.count(&mut counters);
         counters
     }
-}
-
-fn of_events(counters: &mut Counters, inner: super::event::Counters) {
-    counters.events = inner.events;
-    counters.flow_evaluations = inner.evaluations;
 }
 
 /// The scene, if its walls are such that a quadratic programme can hold them: the φ² law is none of those.

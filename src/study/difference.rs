@@ -27,8 +27,8 @@ pub(crate) fn largest(columns: &[Vec<f64>]) -> f64 {
     columns.iter().flatten().fold(0.0, |most, x| most.max(x.abs()))
 }
 
-/// The largest speed at each wall, m/s, in the scene's order: by the probe that looks where the wall stands; where there is none, the larger of the fastest
-/// contact and the fastest probe.
+/// The largest speed at each wall, m/s, in the scene's order: by the probe that looks where the wall stands; where there is none, the
+/// larger of the fastest contact and the fastest probe.
 pub(crate) fn wall_speeds(scene: &Scene, motion: &Trajectory) -> Vec<f64> {
     let fastest = largest(motion.velocities());
     let speed = |(index, wall): (usize, &crate::scene::Wall)| {

@@ -1,12 +1,13 @@
 //! How long a pointwise comparison means anything: the growth of a small change of the start.
 //!
-//! For one degree of freedom it is known exactly. Along an exact run the derivative of the state with respect to the start is a product of free flows and of jumps at events (saltation
-//! matrices; Leine & Nijmeijer 2004, doi:10.1007/978-3-540-44398-8, ch. 7). On (u, v), with accelerations a⁻, a⁺ before and after:
+//! For one degree of freedom it is known exactly. Along an exact run the derivative of the state with respect to the start is a product of
+//! free flows and of jumps at events (saltation matrices; Leine & Nijmeijer 2004, doi:10.1007/978-3-540-44398-8, ch. 7). On (u, v), with
+//! accelerations a⁻, a⁺ before and after:
 //!
 //! rigid impact [[−e, 0], [(a⁺ + e a⁻)/v⁻, −e]];   elastic entry and exit [[1, 0], [(a⁺ − a⁻)/v, 1]];   coming to rest 0.
 //!
-//! For several it is estimated from below, by exact runs from starts that differ by next to nothing; and where the exact scheme cannot go, by such runs of
-//! a stepping scheme.
+//! For several it is estimated from below, by exact runs from starts that differ by next to nothing; and where the exact scheme cannot go,
+//! by such runs of a stepping scheme.
 
 use super::perturbation;
 use crate::error::Result;
@@ -64,8 +65,8 @@ impl Growth {
         }
     }
 
-    /// The growth, at least, of a change as large as errors that are compared, a thousandth of the largest speed, along the run of `scene` by `method` with
-    /// steps of `step` (s).
+    /// The growth, at least, of a change as large as errors that are compared, a thousandth of the largest speed, along the run of `scene`
+    /// by `method` with steps of `step` (s).
     ///
     /// # Errors
     /// What the runs report.

@@ -1,14 +1,16 @@
 //! The growth of a small change of the start, seen in runs that really are changed: an estimate from below, for scenes that have no formula.
 //!
-//! The velocities of the start are changed by pseudo-random amounts, δ of the largest speed at most, in a few directions. Of the difference to the
-//! unchanged run the displacement wδ at every wall and probe is watched, at the rows: its growth is the largest of √((wδ/gap)² + (ẇδ/speed)²) over
-//! what the change was at the start, in the same places. ẇδ is the slope of wδ between two rows, the least of those about a row: at an
-//! impact wδ itself jumps, to −e wδ, and the velocities differ by a whole jump for the instant that lies between the two impacts. A few directions rarely hold the worst one, but soon turn towards it: where growth is
-//! large the estimate falls short of it by a factor of order 1.
+//! The velocities of the start are changed by pseudo-random amounts, δ of the largest speed at most, in a few directions. Of the difference
+//! to the unchanged run the displacement wδ at every wall and probe is watched, at the rows: its growth is the largest of √((wδ/gap)² +
+//! (ẇδ/speed)²) over what the change was at the start, in the same places. ẇδ is the slope of wδ between two rows, the least of those about
+//! a row: at an impact wδ itself jumps, to −e wδ, and the velocities differ by a whole jump for the instant that lies between the two
+//! impacts. A few directions rarely hold the worst one, but soon turn towards it: where growth is large the estimate falls short of it by a
+//! factor of order 1.
 //!
-//! A stepping scheme touches walls at the grid's instants, and a change far below its own error may change nothing there, or a whole step. Where runs of such a
-//! scheme are to say how long errors can be compared, δ is as large as these errors ([`COMPARED`]); where they are to say how far rounding grows, it is small
-//! ([`SMALL`]). What a scheme makes of the phase of an impact within its step separates two of its runs like any other change, and is part of what they show.
+//! A stepping scheme touches walls at the grid's instants, and a change far below its own error may change nothing there, or a whole step.
+//! Where runs of such a scheme are to say how long errors can be compared, δ is as large as these errors ([`COMPARED`]); where they are to
+//! say how far rounding grows, it is small ([`SMALL`]). What a scheme makes of the phase of an impact within its step separates two of its
+//! runs like any other change, and is part of what they show.
 
 use super::difference::largest;
 use super::horizon::{Growth, Source};

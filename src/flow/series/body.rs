@@ -1,7 +1,7 @@
 //! The structure, its loads and the rows of its walls, made ready for series.
 
 use crate::linear::{Factor, Operator, Rows, Symmetric};
-use crate::scene::{Forcing, Loads, Row, Scene, Structure};
+use crate::scene::{Forcing, Loads, Row, Scene, Structure, distinct};
 
 /// M, C and K as operators, the loads by row, and what a force behind each wall's row does.
 #[derive(Debug)]
@@ -42,16 +42,9 @@ impl Body {
         let Structure { mass, damping, stiffness } = scene.system.structure();
         let n = mass.size();
         let mut factor = Factor::new(&mass).ok()?;
-        let (mut rows, mut row_of): (Vec<&Row>, Vec<usize>) = (Vec::new(), Vec::new());
-        for wall in &scene.walls {
-            let known = rows.iter().position(|row| **row == wall.at);
-            row_of.push(known.unwrap_or(rows.len()));
-            if known.is_none() {
-                rows.push(&wall.at);
-            }
-        }
-        let count = rows.len();
-        let rows = Rows::new(n, rows.iter().map(|row| row.entries()));
+        let places = distinct(scene.walls.iter().map(|wall| &wall.at));
+        let (count, row_of) = (places.rows.len(), places.of);
+        let rows = Rows::new(n, places.rows.iter().map(|row| row.entries()));
         let mut columns = vec![0.0; n * count];
         for (row, column) in columns.chunks_exact_mut(n).enumerate() {
             rows.add_transposed(row, 1.0, column);

@@ -14,9 +14,9 @@ pub(crate) struct Held {
 
 /// The rows that lasting contact holds, and the forces that hold them.
 ///
-/// λ = −W⁻¹ G M⁻¹ F makes G q̈ = 0, and the same holds for every derivative. Where rows depend on one another, W_jI = C W_II for rows j beyond an independent set I, the
-/// share of least Σ Wᵢᵢ λᵢ² is taken, as the quadratic programme does: (D_J + C D_I Cᵀ) λ_J = C D_I λ*, λ_I = λ* − Cᵀ λ_J with λ* = −W_II⁻¹ b_I and D the diagonal of W.
-/// All of it is linear in b_I, and is kept as one matrix.
+/// λ = −W⁻¹ G M⁻¹ F makes G q̈ = 0, and the same holds for every derivative. Where rows depend on one another, W_jI = C W_II for rows j
+/// beyond an independent set I, the share of least Σ Wᵢᵢ λᵢ² is taken, as the quadratic programme does: (D_J + C D_I Cᵀ) λ_J = C D_I λ*,
+/// λ_I = λ* − Cᵀ λ_J with λ* = −W_II⁻¹ b_I and D the diagonal of W. All of it is linear in b_I, and is kept as one matrix.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Hold {
     /// The independent rows, then those that depend on them.

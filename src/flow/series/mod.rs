@@ -4,9 +4,9 @@
 //!
 //! M q⁽ᵏ⁺²⁾ = f⁽ᵏ⁾ − C q⁽ᵏ⁺¹⁾ − K q⁽ᵏ⁾ + Gᵀ r⁽ᵏ⁾,
 //!
-//! which is the action of the exponential of the first-order system on its state (Al-Mohy and Higham 2011, doi:10.1137/100788860): products with M⁻¹, C and K only,
-//! whatever the structure. A stretch is no longer than two radians of the fastest motion, so that no term is much larger than the motion itself and nothing cancels, and
-//! the series goes on until its terms are below rounding. Nothing is discretised.
+//! which is the action of the exponential of the first-order system on its state (Al-Mohy and Higham 2011, doi:10.1137/100788860): products
+//! with M⁻¹, C and K only, whatever the structure. A stretch is no longer than two radians of the fastest motion, so that no term is much
+//! larger than the motion itself and nothing cancels, and the series goes on until its terms are below rounding. Nothing is discretised.
 //!
 //! An elastic wall that touches gives r⁽ᵏ⁾ = −k_a (w − g)⁽ᵏ⁾ − c_a w⁽ᵏ⁺¹⁾. Rigid walls in lasting contact give the r⁽ᵏ⁾ for which G q⁽ᵏ⁺²⁾ = 0.
 
@@ -40,6 +40,7 @@ pub struct Series {
     seen: Vec<f64>,
     /// Force polynomials of what acts, N: of the touching elastic walls, then of the held rows.
     forces: Vec<f64>,
+    /// By wall, increasing.
     acting: Vec<Acting>,
     waves: Vec<Wave>,
     /// The fastest rate that the stretch was made for, 1/s.
@@ -77,8 +78,12 @@ impl Series {
         self.n
     }
 
-    /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at the end, into slices of n entries.
+    /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at the end, into slices of n entries;
+    /// others are left as they are.
     pub fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
+        if q.len() != self.n || v.len() != self.n {
+            return;
+        }
         self.state_at((t - self.start) / self.unit, q, v);
     }
 
@@ -110,14 +115,14 @@ impl Series {
     #[must_use]
     pub fn contact_force(&self, wall: usize, t: f64) -> f64 {
         let x = (t - self.start) / self.unit;
-        let Some(acting) = self.acting.iter().find(|a| a.wall == wall) else { return 0.0 };
+        let Some(acting) = self.of_wall(wall) else { return 0.0 };
         acting.keep(value(self.force(acting.slot), x))
     }
 
     /// Impulse of wall `wall` on the structure over [from, to] within the stretch, N s, in closed form.
     #[must_use]
     pub fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
-        let Some(acting) = self.acting.iter().find(|a| a.wall == wall) else { return 0.0 };
+        let Some(acting) = self.of_wall(wall) else { return 0.0 };
         let force = self.force(acting.slot);
         let (a, b) = ((from - self.start) / self.unit, (to - self.start) / self.unit);
         // ∫ xᵏ over [a, b] is (b − a) Σ aʲ bᵏ⁻ʲ/(k + 1): no difference of large powers.
@@ -166,6 +171,10 @@ impl Series {
     /// Cuts it off at `end` (s).
     pub(crate) fn cut(&mut self, end: f64) {
         self.end = end;
+    }
+
+    fn of_wall(&self, wall: usize) -> Option<&Acting> {
+        self.acting.binary_search_by_key(&wall, |acting| acting.wall).ok().and_then(|at| self.acting.get(at))
     }
 
     #[inline]

@@ -65,7 +65,8 @@ impl Series {
         self.rate
     }
 
-    /// Starts anew, as far as two radians of the fastest motion and the span let it. `carriers` are the walls behind the held rows: wall, number of the held row, share.
+    /// Starts anew, as far as two radians of the fastest motion and the span let it. `carriers` are the walls behind the held rows: wall,
+    /// number of the held row, share.
     pub(crate) fn begin(
         &mut self,
         body: &mut Body,
@@ -94,6 +95,7 @@ impl Series {
             Acting { wall, slot: touching.len() + k, share, sign }
         };
         self.acting.extend(carriers.map(held));
+        self.acting.sort_unstable_by_key(|acting| acting.wall);
         self.forces[..(touching.len() + hold.rows().len()) * TERMS].fill(0.0);
         self.motion[..n].copy_from_slice(from.q);
         for (a, v) in self.motion[n..2 * n].iter_mut().zip(from.v) {

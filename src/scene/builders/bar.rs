@@ -27,8 +27,8 @@ pub enum MassMatrix {
     /// ∫ ρ A Nᵀ N dx: frequencies are too high, at second order.
     #[default]
     Consistent,
-    /// Half of the element's mass on each of its nodes: M is diagonal; frequencies are too low, at second order. A wave then meets a wall one node at a time,
-    /// which is why impact studies often choose it.
+    /// Half of the element's mass on each of its nodes: M is diagonal; frequencies are too low, at second order. A wave then meets a wall
+    /// one node at a time, which is why impact studies often choose it.
     Lumped,
 }
 
@@ -118,8 +118,8 @@ impl Bar {
         self.mesh()?.at(position, shape)
     }
 
-    /// The row of a force spread evenly over a stretch, from and to in m from the left end: a load behind it is the resultant, N (a force per metre times the
-    /// length of the stretch), as consistent nodal forces. As a probe it sees the mean displacement of the stretch.
+    /// The row of a force spread evenly over a stretch, from and to in m from the left end: a load behind it is the resultant, N (a force
+    /// per metre times the length of the stretch), as consistent nodal forces. As a probe it sees the mean displacement of the stretch.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `from` or `to`, or of the bar itself.

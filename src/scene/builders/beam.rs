@@ -33,9 +33,9 @@ pub enum BeamEnd {
 /// K = EI/ℎ³ [12 6ℎ −12 6ℎ; · 4ℎ² −6ℎ 2ℎ²; · · 12 −6ℎ; · · · 4ℎ²],
 /// M = m′ℎ/420 [156 22ℎ 54 −13ℎ; · 4ℎ² 13ℎ −3ℎ²; · · 156 −22ℎ; · · · 4ℎ²].
 ///
-/// Two degrees of freedom a node from left to right, deflection (m) and rotation w′ (rad), without those that the ends hold; the half bandwidth is 3.
-/// Frequencies are too high, at fourth order; static answers to forces and moments at nodes are exact at the nodes. Neither shear nor rotary inertia: good for
-/// wavelengths of many diameters.
+/// Two degrees of freedom a node from left to right, deflection (m) and rotation w′ (rad), without those that the ends hold; the half
+/// bandwidth is 3. Frequencies are too high, at fourth order; static answers to forces and moments at nodes are exact at the nodes. Neither
+/// shear nor rotary inertia: good for wavelengths of many diameters.
 ///
 /// ```
 /// use signorini::{Beam, BeamEnd, Damping, Scene, Wall};
@@ -169,8 +169,9 @@ impl Beam {
         mesh.at(position, shape(mesh.size()))
     }
 
-    /// The row of a force spread evenly over a stretch, from and to in m from the left end: a load behind it is the resultant, N (a force per metre times the
-    /// length of the stretch), as consistent nodal forces and moments. As a probe it sees the mean deflection of the stretch.
+    /// The row of a force spread evenly over a stretch, from and to in m from the left end: a load behind it is the resultant, N (a force
+    /// per metre times the length of the stretch), as consistent nodal forces and moments. As a probe it sees the mean deflection of the
+    /// stretch.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `from` or `to`, or of the beam itself.
@@ -189,8 +190,8 @@ impl Beam {
         mesh.gather(key, &values)
     }
 
-    /// The vector q of the smoothest deflection (or velocity) through `points` (position m, value): the cubic spline, which of all curves through them bends
-    /// with the least energy, with slope 0 where an end is clamped. Errors name `key`.
+    /// The vector q of the smoothest deflection (or velocity) through `points` (position m, value): the cubic spline, which of all curves
+    /// through them bends with the least energy, with slope 0 where an end is clamped. Errors name `key`.
     ///
     /// # Errors
     /// As [`Beam::field`]; and where the positions do not increase from 0 to the length.

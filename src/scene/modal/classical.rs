@@ -18,8 +18,8 @@ const EQUAL: f64 = 1e-9;
 impl Structure {
     /// True if one basis of modes makes M, C and K diagonal (classical damping): C M⁻¹ K is symmetric (Caughey & O'Kelly 1965, doi 10.1115/1.3627262).
     ///
-    /// C = 0, matrices that are all diagonal, and C = αM + βK are recognised for any size; any other C up to [`MOST_DENSE`] degrees of freedom, beyond which
-    /// the answer is no.
+    /// C = 0, matrices that are all diagonal, and C = αM + βK are recognised for any size; any other C up to [`MOST_DENSE`] degrees of
+    /// freedom, beyond which the answer is no.
     #[must_use]
     pub fn is_classically_damped(&self) -> bool {
         let n = self.mass.size();
@@ -38,8 +38,8 @@ impl Structure {
         (&product - product.transpose()).norm() <= COMMUTES * c.norm() * k.norm()
     }
 
-    /// (α, β) with C = αM + βK, entry by entry to 1e-12 of the terms; none if C is no such sum. Of two terms the smaller is known as far as the rounding of C
-    /// shows it: on a fine mesh βK may hide α.
+    /// (α, β) with C = αM + βK, entry by entry to 1e-12 of the terms; none if C is no such sum. Of two terms the smaller is known as far as
+    /// the rounding of C shows it: on a fine mesh βK may hide α.
     #[must_use]
     pub fn rayleigh(&self) -> Option<(f64, f64)> {
         let m = self.mass.diagonal_entries();
@@ -95,8 +95,8 @@ impl Structure {
 }
 
 impl Modes {
-    /// The damping of each mode, φᵀCφ = 2ζω (1/s), if C couples none of them: off the diagonal ΦᵀCΦ is at most 1e-10 of √(diagonal · diagonal). Shapes of
-    /// equal ω are turned among themselves to make it so. None if C couples modes: then the shapes are as before.
+    /// The damping of each mode, φᵀCφ = 2ζω (1/s), if C couples none of them: off the diagonal ΦᵀCΦ is at most 1e-10 of √(diagonal ·
+    /// diagonal). Shapes of equal ω are turned among themselves to make it so. None if C couples modes: then the shapes are as before.
     #[must_use]
     pub fn uncouple(&mut self, damping: &Symmetric) -> Option<Vec<f64>> {
         let k = self.count();

@@ -17,7 +17,8 @@ const ROUNDING: f64 = 1e-14;
 const SHIFT: f64 = 1e-11;
 
 /// A basis V of the Krylov space of B = (K + σM)⁻¹M, orthonormal in M, grown a vector at a time: with `BLOCK` start vectors, the p-th vector's image
-/// B vₚ is orthogonalised against all of V, twice, and added to it (band Lanczos with full orthogonalisation; Ruhe 1979, doi 10.1090/S0025-5718-1979-0521282-9).
+/// B vₚ is orthogonalised against all of V, twice, and added to it (band Lanczos with full orthogonalisation; Ruhe 1979, doi
+/// 10.1090/S0025-5718-1979-0521282-9).
 struct Basis {
     mass: Operator,
     factor: Factor,

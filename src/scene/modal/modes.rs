@@ -34,13 +34,13 @@ const TIE: f64 = 1e-6;
 impl Modes {
     /// The `count` slowest modes of M and K, from 1 to n; C plays no part.
     ///
-    /// Up to [`MOST_DENSE`] degrees of freedom many modes are found all at once, by the symmetric eigenvalue problem L⁻¹ K L⁻ᵀ with M = L Lᵀ; few modes, and
-    /// those of larger structures, by Lanczos' method on (K + σM)⁻¹M, until ‖(K + σM)⁻¹Mφ − φ/(ω² + σ)‖ ≤ 1e-11/(ω² + σ) in the norm of M. That none was
-    /// missed is then counted by Sylvester's law of inertia.
+    /// Up to [`MOST_DENSE`] degrees of freedom many modes are found all at once, by the symmetric eigenvalue problem L⁻¹ K L⁻ᵀ with M = L
+    /// Lᵀ; few modes, and those of larger structures, by Lanczos' method on (K + σM)⁻¹M, until ‖(K + σM)⁻¹Mφ − φ/(ω² + σ)‖ ≤ 1e-11/(ω² + σ)
+    /// in the norm of M. That none was missed is then counted by Sylvester's law of inertia.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `modes` for a count that does not fit, or that was not reached; under `system` where M is not positive definite or K has
-    /// a negative ω².
+    /// [`Error::Invalid`] under `modes` for a count that does not fit, or that was not reached; under `system` where M is not positive
+    /// definite or K has a negative ω².
     pub fn lowest(structure: &Structure, count: usize) -> Result<Self> {
         let n = structure.mass.size();
         if count == 0 || count > n {

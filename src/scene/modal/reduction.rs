@@ -8,9 +8,10 @@ use crate::scene::{Damping, Row, Scene, State, Structure, System, Wall, WallLaw}
 
 /// A scene cut to its slowest modes, and what that cost.
 ///
-/// With q = Φ a, the k slowest modes: M becomes 1, K diag(ω²), C ΦᵀCΦ (stored as a diagonal where it couples nothing), a row g of a wall, load or probe
-/// g Φ, a start q ΦᵀM q. What a truncation changes at a wall is its effective mass 1/(g M⁻¹ gᵀ), which falls as modes are added and so decides what a blow
-/// with restitution does, and its static compliance g K⁻¹ gᵀ, which rises. The residual response to loads is left out of probes.
+/// With q = Φ a, the k slowest modes: M becomes 1, K diag(ω²), C ΦᵀCΦ (stored as a diagonal where it couples nothing), a row g of a wall,
+/// load or probe g Φ, a start q ΦᵀM q. What a truncation changes at a wall is its effective mass 1/(g M⁻¹ gᵀ), which falls as modes are
+/// added and so decides what a blow with restitution does, and its static compliance g K⁻¹ gᵀ, which rises. The residual response to loads
+/// is left out of probes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reduction {
     /// The scene in modal coordinates; walls, loads and probes are in the order they had.
@@ -25,7 +26,8 @@ pub struct Reduction {
     pub walls: Vec<WallTruncation>,
     /// Share of the energy at the start, ½vᵀMv + ½qᵀKq, that is left out; 0 for a start without energy.
     pub start_energy_lost: f64,
-    /// With a static correction: the largest |sᵢⱼ|/√(sᵢᵢ sⱼⱼ) of the residual compliance between walls at different places, which is neglected. 0 without.
+    /// With a static correction: the largest |sᵢⱼ|/√(sᵢᵢ sⱼⱼ) of the residual compliance between walls at different places, which is
+    /// neglected. 0 without.
     pub coupling_neglected: f64,
 }
 
@@ -64,14 +66,14 @@ const NOTHING: f64 = 1e-12;
 impl Scene {
     /// The scene in the coordinates of its `modes` slowest modes.
     ///
-    /// With `static_correction` the residual compliance s = g (K⁺ − ΦΩ⁻²Φᵀ) gᵀ of each wall, that of the modes left out, becomes a spring between structure and
-    /// wall. A rigid wall so becomes an elastic one of stiffness 1/s: what is massless neither jumps nor rebounds, so its restitution is lost. An
-    /// elastic wall of stiffness k and damping c gets k′ = 1/(1/k + s), and c (k′/k)², which takes the same power at slow rates. Each wall is corrected
-    /// by itself: s between walls at different places is neglected, and reported.
+    /// With `static_correction` the residual compliance s = g (K⁺ − ΦΩ⁻²Φᵀ) gᵀ of each wall, that of the modes left out, becomes a spring
+    /// between structure and wall. A rigid wall so becomes an elastic one of stiffness 1/s: what is massless neither jumps nor rebounds, so
+    /// its restitution is lost. An elastic wall of stiffness k and damping c gets k′ = 1/(1/k + s), and c (k′/k)², which takes the same
+    /// power at slow rates. Each wall is corrected by itself: s between walls at different places is neglected, and reported.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `modes`: a count that does not fit, fewer than the rigid-body motions, or so few that the start comes to lie behind a wall; under
-    /// `static_correction` for a φ² wall; or what [`Scene::validate`] says.
+    /// [`Error::Invalid`] under `modes`: a count that does not fit, fewer than the rigid-body motions, or so few that the start comes to
+    /// lie behind a wall; under `static_correction` for a φ² wall; or what [`Scene::validate`] says.
     pub fn reduced(&self, modes: usize, static_correction: bool) -> Result<Reduction> {
         self.validate()?;
         let System::Structure(structure) = &self.system else {
@@ -173,7 +175,8 @@ impl Scene {
         Ok((walls, coupling))
     }
 
-    /// The start, cut to `reduced`, must not lie behind a wall that it was not behind. A wall that it touched it touches still: its position takes the rounding.
+    /// The start, cut to `reduced`, must not lie behind a wall that it was not behind. A wall that it touched it touches still: its
+    /// position takes the rounding.
     fn keep_start(&self, reduced: &mut Self, modes: usize) -> Result<()> {
         let rounding = 1e-12 * self.gap_scale();
         for (before, wall) in self.walls.iter().zip(&mut reduced.walls) {

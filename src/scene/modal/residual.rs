@@ -10,9 +10,9 @@ const PASSES: usize = 40;
 
 /// Solves for the response that the modes Φ leave out, x = (K⁺ − ΦΩ⁻²Φᵀ) gᵀ: that of all other modes to a static force.
 ///
-/// With P = I − MΦΦᵀ, which takes from a force what the modes carry, K x = P gᵀ has the one solution with ΦᵀM x = 0. It is defined though K may be singular,
-/// if the rigid-body motions are among the modes. Then it is found by x ← P⊤(K + σM)⁻¹(P gᵀ + σ M x), which shrinks the error by σ/(ω² + σ) for each ω left
-/// out: σ is a hundredth of the slowest of their ω².
+/// With P = I − MΦΦᵀ, which takes from a force what the modes carry, K x = P gᵀ has the one solution with ΦᵀM x = 0. It is defined though K
+/// may be singular, if the rigid-body motions are among the modes. Then it is found by x ← P⊤(K + σM)⁻¹(P gᵀ + σ M x), which shrinks the
+/// error by σ/(ω² + σ) for each ω left out: σ is a hundredth of the slowest of their ω².
 pub(super) struct Residual<'a> {
     mass: &'a Symmetric,
     modes: &'a Modes,

@@ -2,7 +2,8 @@
 
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Operator, Rows, Symmetric};
-use crate::scene::{Loads, Scene, Side, Structure, Wall, WallLaw};
+use crate::scene::{Loads, Scene, Structure};
+use crate::scheme::stop::{Stop, touching_distance};
 
 /// The structure as a kernel wants it.
 #[derive(Debug)]
@@ -24,39 +25,6 @@ pub(super) struct Body {
     blow: Vec<f64>,
     /// Force of each part of the loads at the end of the last step and of the present one, N.
     load: [Vec<f64>; 2],
-}
-
-/// A wall as a kernel wants it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Stop {
-    pub upper: bool,
-    /// +1 lower, −1 upper: the sign of its force.
-    pub sign: f64,
-    pub g: f64,
-    pub law: WallLaw,
-}
-
-/// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
-pub(super) fn touching_distance(scene: &Scene) -> f64 {
-    1e-12 * scene.gap_scale()
-}
-
-impl Stop {
-    pub fn new(wall: &Wall) -> Self {
-        Self { upper: wall.side == Side::Upper, sign: wall.side.sign(), g: wall.position, law: wall.law }
-    }
-
-    /// Depth behind the wall, m.
-    #[inline]
-    pub fn depth(&self, w: f64) -> f64 {
-        self.sign * (self.g - w)
-    }
-
-    /// The larger of the depth and zero, as a coordinate: where a dashpot's plate stands when the body is at `w`.
-    #[inline]
-    pub fn plate(&self, w: f64) -> f64 {
-        if self.upper { w.max(self.g) } else { w.min(self.g) }
-    }
 }
 
 impl Body {

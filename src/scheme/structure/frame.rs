@@ -5,7 +5,8 @@ use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Path, Step};
 
-/// What a kernel reads and writes of each step; lent out as a [`Step`]. Vectors over degrees of freedom have n entries, those over walls as many as there are.
+/// What a kernel reads and writes of each step; lent out as a [`Step`]. Vectors over degrees of freedom have n entries, those over walls as
+/// many as there are.
 #[derive(Debug)]
 pub(super) struct Frame {
     pub start: f64,

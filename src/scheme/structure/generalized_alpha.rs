@@ -1,21 +1,23 @@
 //! `generalized-alpha`: nonsmooth generalized-α, the walls on the displacement and on the velocity.
 //!
-//! Brüls, Acary & Cardona 2014, Comput. Methods Appl. Mech. Engrg. 281, doi:10.1016/j.cma.2014.07.025, decoupled. A step without walls, by Chung & Hulbert's rule
-//! with an auxiliary acceleration a,
+//! Brüls, Acary & Cardona 2014, Comput. Methods Appl. Mech. Engrg. 281, doi:10.1016/j.cma.2014.07.025, decoupled. A step without walls, by
+//! Chung & Hulbert's rule with an auxiliary acceleration a,
 //!
 //! q̃ = q + hv + h²[(½−β)a + βa⁺],   ṽ = v + h[(1−γ)a + γa⁺],   M[(1−α_m)a⁺ + α_m a] = (1−α_f)F̃⁺ + α_f F,
 //!
-//! with the smooth force F = f − Cv − Kq + r_elastic, at the end that of the uncorrected state; with Δ = h²βa⁺ it is the optimality condition A Δ = b + Gᵀr of a
-//! programme over the elastic walls, A = [M(1−α_m)/(1−α_f) + hγC + h²βK]/(h²β). The rigid walls then correct the displacement, and those that it leaves closed
-//! the velocity, both in the metric M:
+//! with the smooth force F = f − Cv − Kq + r_elastic, at the end that of the uncorrected state; with Δ = h²βa⁺ it is the optimality
+//! condition A Δ = b + Gᵀr of a programme over the elastic walls, A = [M(1−α_m)/(1−α_f) + hγC + h²βK]/(h²β). The rigid walls then correct
+//! the displacement, and those that it leaves closed the velocity, both in the metric M:
 //!
 //! M(q⁺ − q̃) = Gᵀν,   0 ≤ gap(q⁺) ⟂ |ν| ≥ 0;   M(v⁺ − ṽ) = Gᵀp,   0 ≤ ±(ẇ⁺ + εẇ) ⟂ |p| ≥ 0,
 //!
-//! with ε = e where the body approaches or rests, 1 where it separates; ẇ is the velocity after the step's blows, so v⁺ = −v is among the motions allowed: there is
-//! always one. p is the impulse of a wall, ν no force. No rigid wall is ever passed, and no force of one enters the rule's memory a. In return nothing accounts
-//! for the work that the smooth force does on q⁺ − q̃: each impact makes or loses energy of order h.
+//! with ε = e where the body approaches or rests, 1 where it separates; ẇ is the velocity after the step's blows, so v⁺ = −v is among the
+//! motions allowed: there is always one. p is the impulse of a wall, ν no force. No rigid wall is ever passed, and no force of one enters
+//! the rule's memory a. In return nothing accounts for the work that the smooth force does on q⁺ − q̃: each impact makes or loses energy of
+//! order h.
 //!
-//! What is given as an impulse (a blow, an extra force over the step) moves the velocity at once and the displacement by half a step of that, outside of a.
+//! What is given as an impulse (a blow, an extra force over the step) moves the velocity at once and the displacement by half a step of
+//! that, outside of a.
 
 use super::body::{Body, factor};
 use super::frame::{Frame, Predicted};

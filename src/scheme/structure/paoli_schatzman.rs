@@ -3,8 +3,8 @@
 //! A Δ = b + Gᵀ r, A = M/h² + C/2h + K/4, b = M v₋/h − ½C v₋ − K(q − ¼h v₋) + f + J/h, over
 //! (1+e_l)g_l − e_l w⁻ ≤ w⁺ ≤ (1+e_u)g_u − e_u w⁻ with w = G q.
 //!
-//! Where e differs between walls on rows that depend on one another (two masses and their distance), and one of them is penetrated, these bounds may contradict:
-//! then the step is refused and the wall named. With one e they never do.
+//! Where e differs between walls on rows that depend on one another (two masses and their distance), and one of them is penetrated, these
+//! bounds may contradict: then the step is refused and the wall named. With one e they never do.
 
 use super::arrival::{Arrival, back};
 use super::body::Body;

@@ -2,15 +2,15 @@
 //!
 //! minimise ½ xᵀA x − bᵀx over lᵢ ≤ gᵢ·x ≤ uᵢ, elastic rows yielding with a compliance.
 //!
-//! Rigid walls at one place (one row g) share a row of the programme: the tightest bound of each side counts, and walls that stand at that bound share its force equally.
-//! An elastic wall has a row of its own.
+//! Rigid walls at one place (one row g) share a row of the programme: the tightest bound of each side counts, and walls that stand at that
+//! bound share its force equally. An elastic wall has a row of its own.
 
-use super::body::{Stop, touching_distance};
 use crate::error::{Error, Result};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{self, Backend, Failure, Rhs};
-use crate::scene::{Scene, Side, Wall, WallLaw};
+use crate::scene::{Scene, Side, Wall, WallLaw, distinct};
 use crate::scheme::Counters;
+use crate::scheme::stop::{Stop, touching_distance};
 
 /// A wall behind a row of the programme.
 #[derive(Debug, Clone, Copy)]
@@ -43,7 +43,8 @@ pub(super) struct Programme {
 const ONE_PLACE: f64 = 1e-12;
 
 impl Programme {
-    /// The programme with curvature `a`, a typical length `scale` of g·x, and the compliance of each elastic wall's row as a function of its stiffness and damping.
+    /// The programme with curvature `a`, a typical length `scale` of g·x, and the compliance of each elastic wall's row as a function of
+    /// its stiffness and damping.
     pub fn new(
         scene: &Scene,
         a: Symmetric,
@@ -64,15 +65,18 @@ impl Programme {
         backend: Backend,
     ) -> Result<Self> {
         let mut places: Vec<Vec<usize>> = Vec::new();
+        let distinct = distinct(scene.walls.iter().map(|wall| &wall.at));
+        // The place of the rigid walls of each distinct row.
+        let mut shared: Vec<Option<usize>> = vec![None; distinct.rows.len()];
         for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| wanted(&wall.law)) {
-            let rigid = |wall: &Wall| wall.law.is_rigid();
-            let shared = |place: &&mut Vec<usize>| {
-                let first = place.first().and_then(|&w| scene.walls.get(w));
-                rigid(wall) && first.is_some_and(|first| rigid(first) && first.at == wall.at)
-            };
-            match places.iter_mut().find(shared) {
-                Some(place) => place.push(index),
-                None => places.push(vec![index]),
+            match &mut shared[distinct.of[index]] {
+                Some(place) if wall.law.is_rigid() => places[*place].push(index),
+                place => {
+                    if wall.law.is_rigid() {
+                        *place = Some(places.len());
+                    }
+                    places.push(vec![index]);
+                }
             }
         }
         let walls = |place: &[usize]| place.iter().filter_map(|&w| scene.walls.get(w)).collect::<Vec<_>>();
@@ -185,8 +189,8 @@ impl Programme {
         (self.lo[row], self.hi[row]) = (0.0, 0.0);
     }
 
-    /// Solves: the minimiser is [`Programme::x`] until the next call. Writes the multiplier of each wall that pushes to `force`, which is all zero before, and its
-    /// index to `pushing`.
+    /// Solves: the minimiser is [`Programme::x`] until the next call. Writes the multiplier of each wall that pushes to `force`, which is
+    /// all zero before, and its index to `pushing`.
     #[inline]
     pub fn solve(
         &mut self,

@@ -1,8 +1,9 @@
 //! Stretches that are handed to moreau-jean.
 //!
-//! Impacts may accumulate where no rule closes them: at several walls in turn, under a force that changes meanwhile, or at e = 1 under drag. More than [`CROWD`] events within
-//! two radians of the fastest motion (or a thousandth of the run, if that is shorter) are such a place. That long a stretch is then stepped by moreau-jean with
-//! θ = ½ in [`PARTS`] steps, and the exact motion goes on from where it ends, put back onto walls that the steps have passed. Whoever reads the run is told.
+//! Impacts may accumulate where no rule closes them: at several walls in turn, under a force that changes meanwhile, or at e = 1 under
+//! drag. More than [`CROWD`] events within two radians of the fastest motion (or a thousandth of the run, if that is shorter) are such a
+//! place. That long a stretch is then stepped by moreau-jean with θ = ½ in [`PARTS`] steps, and the exact motion goes on from where it
+//! ends, put back onto walls that the steps have passed. Whoever reads the run is told.
 
 use super::StructureEvent;
 use crate::contact::Episodes;

@@ -4,9 +4,10 @@
 //!
 //! minimise ½ (v⁺ − v)ᵀ M (v⁺ − v)   subject to   ẇ⁺ + e ẇ ≥ 0,
 //!
-//! which is Newton's law with an impulse at each wall that its own approach calls for (Moreau 1988, doi:10.1007/978-3-7091-2624-0_1). It is repeated while any closed wall is
-//! approached, for one impulse may throw the structure onto the next wall; after [`PASSES`] of them, or where walls on opposite sides leave no room for a rebound, one programme over all closed walls with e = 0 ends it. Energy never
-//! grows: in each pass p · (ẇ⁺ + ẇ) ≤ 0 at every wall with an impulse.
+//! which is Newton's law with an impulse at each wall that its own approach calls for (Moreau 1988, doi:10.1007/978-3-7091-2624-0_1). It is
+//! repeated while any closed wall is approached, for one impulse may throw the structure onto the next wall; after [`PASSES`] of them, or
+//! where walls on opposite sides leave no room for a rebound, one programme over all closed walls with e = 0 ends it. Energy never grows:
+//! in each pass p · (ẇ⁺ + ẇ) ≤ 0 at every wall with an impulse.
 
 use super::rows::size;
 use super::{StructureEvent, instant::side_of};
@@ -100,8 +101,8 @@ impl StructureEvent {
         Ok(())
     }
 
-    /// The end of an instant: one programme over all closed walls with e = 0. Should rows that nearly depend on one another be more than it can tell apart, the walls that
-    /// are approached are taken in turn, which ends at a motion that none opposes, too.
+    /// The end of an instant: one programme over all closed walls with e = 0. Should rows that nearly depend on one another be more than it
+    /// can tell apart, the walls that are approached are taken in turn, which ends at a motion that none opposes, too.
     fn stop(&mut self) -> Result<()> {
         if self.pass(true)? {
             return Ok(());
@@ -169,8 +170,8 @@ impl StructureEvent {
         Error::Qp { time: self.time, step: self.steps, wall: None, reason: reason.to_owned() }
     }
 
-    /// Takes the restitution from the seats whose flight after the impact is the tail of an accumulation, or below what double precision resolves. Returns whether there
-    /// is one.
+    /// Takes the restitution from the seats whose flight after the impact is the tail of an accumulation, or below what double precision
+    /// resolves. Returns whether there is one.
     fn stick(&mut self) -> Result<bool> {
         // What presses is at most this; a flight far too high then needs no closer look.
         self.derivatives[0].copy_from_slice(&self.q);

@@ -36,11 +36,12 @@ use search::Cause;
 ///
 /// M q̈ + C q̇ + K q = f(t) + Gᵀ r,  0 ≤ gap ⟂ |r| ≥ 0 and an impact law at rigid walls, |r| = max(0, k_a s + c_a ṡ) for s > 0 at elastic ones.
 ///
-/// Between events the motion is a [`Series`]; a step ends with an event or with the series. The first root of each gap, and of the force of each wall that touches, is never
-/// passed (`root.rs`).
+/// Between events the motion is a [`Series`]; a step ends with an event or with the series. The first root of each gap, and of the force of
+/// each wall that touches, is never passed (`root.rs`).
 ///
 /// - Impacts at several walls at once are one quadratic programme in the metric of M: see `impact.rs`. They never gain energy.
-/// - Walls that touch without speed carry what presses on them: 0 ≤ ẅ ⟂ λ ≥ 0, one quadratic programme, and where both vanish the next derivatives decide (`rest.rs`).
+/// - Walls that touch without speed carry what presses on them: 0 ≤ ẅ ⟂ λ ≥ 0, one quadratic programme, and where both vanish the next
+///   derivatives decide (`rest.rs`).
 /// - Accumulations of impacts close into lasting contact as they do for one degree of freedom.
 #[derive(Debug)]
 pub(super) struct StructureEvent {
@@ -131,8 +132,9 @@ impl StructureEvent {
         let singular = || Error::invalid("system: mass matrix", "singular", "a positive definite matrix");
         let mut body = Body::new(scene).ok_or_else(singular)?;
         let (n, rows, walls) = (body.n, body.rows.count(), barriers.len());
-        let places = (0..rows).map(|row| Place::new(scene, &body, row)).collect();
-        let walls_of = (0..rows).map(|row| (0..walls).filter(|&w| body.row_of[w] == row).collect()).collect();
+        let mut walls_of = vec![Vec::new(); rows];
+        body.row_of.iter().enumerate().for_each(|(wall, &row)| walls_of[row].push(wall));
+        let places = walls_of.iter().map(|walls| Place::new(scene, walls)).collect();
         let solver = if rows > 1 {
             let problem =
                 qp::Problem { a: scene.system.structure().mass, g: body.rows.clone(), compliance: vec![0.0; rows] };
@@ -205,7 +207,8 @@ impl StructureEvent {
         Ok(event)
     }
 
-    /// Moves on to the next event, end of a series, multiple of the stride, or the end of the scene, whichever is first, under a constant extra force (N, n entries; none is none).
+    /// Moves on to the next event, end of a series, multiple of the stride, or the end of the scene, whichever is first, under a constant
+    /// extra force (N, n entries; none is none).
     /// A step of no length happens where the structure starts on a wall and moves into it. At the end of the scene nothing moves any more.
     ///
     /// # Errors
@@ -283,21 +286,6 @@ impl StructureEvent {
 
     fn counters_mut(&mut self) -> &mut Counters {
         &mut self.guard.total
-    }
-
-    /// The next multiple of the stride, s; the end of the scene where only rounding would separate the two.
-    fn next_mark(&self) -> f64 {
-        let mark = (self.marks + 1) as f64 * self.stride;
-        if self.duration - mark < 1e-9 * self.stride { self.duration } else { mark }
-    }
-
-    /// How far the next series can reach: a mark, a row of a table, a blow, the end; s.
-    fn limit(&self) -> f64 {
-        let mut limit = self.next_mark().min(self.duration);
-        if let Some(&time) = self.blows.get(self.blow) {
-            limit = limit.min(time);
-        }
-        self.body.next_corner(self.time).map_or(limit, |corner| limit.min(corner))
     }
 
     fn check_guard(&mut self) -> Result<()> {

@@ -6,6 +6,21 @@ use crate::flow::{SeriesStart, Touching};
 use crate::scheme::event::Phase;
 
 impl StructureEvent {
+    /// The next multiple of the stride, s; the end of the scene where only rounding would separate the two.
+    pub(super) fn next_mark(&self) -> f64 {
+        let mark = (self.marks + 1) as f64 * self.stride;
+        if self.duration - mark < 1e-9 * self.stride { self.duration } else { mark }
+    }
+
+    /// How far the next series can reach: a mark, a row of a table, a blow, the end; s.
+    pub(super) fn limit(&self) -> f64 {
+        let mut limit = self.next_mark().min(self.duration);
+        if let Some(&time) = self.blows.get(self.blow) {
+            limit = limit.min(time);
+        }
+        self.body.next_corner(self.time).map_or(limit, |corner| limit.min(corner))
+    }
+
     /// The series from here on, with the walls that touch and the rows that are held.
     pub(super) fn begin_series(&mut self, limit: f64) {
         if self.decided != self.time {
@@ -39,8 +54,8 @@ impl StructureEvent {
         }
     }
 
-    /// The derivative of `order` of the force on the structure, free of rigid walls, at the present instant from the right, and the sizes of its terms: into `rhs` (N/sᵏ)
-    /// and `rhs_size`. Reads the derivatives of q from `order` to `order` + 1.
+    /// The derivative of `order` of the force on the structure, free of rigid walls, at the present instant from the right, and the sizes
+    /// of its terms: into `rhs` (N/sᵏ) and `rhs_size`. Reads the derivatives of q from `order` to `order` + 1.
     pub(super) fn forces(&mut self, order: usize) {
         let Self { body, derivatives, rhs, rhs_size, sizes, barriers, .. } = self;
         rhs.fill(0.0);

@@ -1,8 +1,8 @@
 //! Which walls carry what touches without speed.
 //!
-//! Over the closed rows without speed, 0 ≤ ẅ ⟂ λ ≥ 0: the accelerations minimise ½ (q̈ − M⁻¹F)ᵀ M (q̈ − M⁻¹F) over G q̈ ≥ 0, Gauss's principle. Rows with λ > 0 are
-//! held, rows with ẅ > 0 leave. Where both vanish to rounding the next derivative decides in the same way, with the rows that are held held in it too; a row on
-//! which no derivative has a say is held, and carries nothing.
+//! Over the closed rows without speed, 0 ≤ ẅ ⟂ λ ≥ 0: the accelerations minimise ½ (q̈ − M⁻¹F)ᵀ M (q̈ − M⁻¹F) over G q̈ ≥ 0, Gauss's
+//! principle. Rows with λ > 0 are held, rows with ẅ > 0 leave. Where both vanish to rounding the next derivative decides in the same way,
+//! with the rows that are held held in it too; a row on which no derivative has a say is held, and carries nothing.
 
 use super::StructureEvent;
 use super::instant::{Seat, side_of};

@@ -1,8 +1,8 @@
 //! The first root of a polynomial on an interval, never passed: by its Bernstein coefficients.
 //!
-//! On [0, X] a polynomial lies within the hull of its Bernstein coefficients: all above 0 means no root. De Casteljau's subdivision halves the interval, the left half
-//! first, until one change of sign is left, which is one root (Descartes' rule), and Newton's method kept inside the interval finds it to rounding. Where a minimum
-//! touches 0 to rounding the halving ends at it: a touch counts.
+//! On [0, X] a polynomial lies within the hull of its Bernstein coefficients: all above 0 means no root. De Casteljau's subdivision halves
+//! the interval, the left half first, until one change of sign is left, which is one root (Descartes' rule), and Newton's method kept
+//! inside the interval finds it to rounding. Where a minimum touches 0 to rounding the halving ends at it: a touch counts.
 
 use crate::flow::{TERMS, value};
 

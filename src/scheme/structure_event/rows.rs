@@ -25,7 +25,8 @@ pub(super) struct Place {
 }
 
 impl Place {
-    pub fn new(scene: &Scene, body: &Body, row: usize) -> Self {
+    /// The row that the walls of these numbers share.
+    pub fn new(scene: &Scene, walls: &[usize]) -> Self {
         let mut place = Self {
             bound: [f64::NEG_INFINITY, f64::INFINITY],
             restitution: [0.0; 2],
@@ -35,8 +36,7 @@ impl Place {
             gap_zeros: [None; 2],
             force_zeros: None,
         };
-        let here = |wall: &usize| body.row_of.get(*wall) == Some(&row);
-        for wall in (0..scene.walls.len()).filter(here).filter_map(|i| scene.walls.get(i)) {
+        for wall in walls.iter().filter_map(|&i| scene.walls.get(i)) {
             let (Some(e), side) = (wall.law.restitution(), usize::from(wall.side == Side::Upper)) else { continue };
             let nearer = SIGNS[side] * (wall.position - place.bound[side]);
             if nearer > 0.0 {
@@ -107,8 +107,8 @@ pub(super) enum Seen {
 }
 
 impl Watched {
-    /// The first root up to `end`. Coefficients below their `noise` at the start are none; `zeros` says how many are none whatever they show. A `force` below 0 is an event
-    /// whatever follows, a gap only if it goes on falling.
+    /// The first root up to `end`. Coefficients below their `noise` at the start are none; `zeros` says how many are none whatever they
+    /// show. A `force` below 0 is an event whatever follows, a gap only if it goes on falling.
     pub fn first(
         &self,
         zeros: Option<usize>,

@@ -1,14 +1,17 @@
 //! What a scheme does to the energy of a run, and to the force of a contact that lasts.
 //!
-//! A lasting contact is where schemes on a mesh show their known weakness: the node at the wall is stopped at every touch, the elements behind it are not, and
-//! the force rings at the frequencies of the mesh though the exact one is smooth, or constant as in the impact of a bar. The measure is the ripple
+//! A lasting contact is where schemes on a mesh show their known weakness: the node at the wall is stopped at every touch, the elements
+//! behind it are not, and the force rings at the frequencies of the mesh though the exact one is smooth, or constant as in the impact of a
+//! bar. The measure is the ripple
 //!
 //! ρ = √(mean of (F − F̄)²) / F̄
 //!
-//! of the mean force F of each step over the inner four fifths of the contact, F̄ being its mean there: 0 for a constant force; 1 for one that comes and
-//! goes every other step. The first and the last tenth are left out: they hold the rise and the fall, which take a step or two even where nothing rings.
+//! of the mean force F of each step over the inner four fifths of the contact, F̄ being its mean there: 0 for a constant force; 1 for one
+//! that comes and goes every other step. The first and the last tenth are left out: they hold the rise and the fall, which take a step or
+//! two even where nothing rings.
 //!
-//! Pushes of one wall that follow one another within a thirty-second of the slowest period are one contact: a force that rings may well let go in between.
+//! Pushes of one wall that follow one another within a thirty-second of the slowest period are one contact: a force that rings may well let
+//! go in between.
 
 use super::scale::Scale;
 use crate::error::Result;
@@ -39,8 +42,8 @@ pub struct Lasting {
     pub ripple: f64,
 }
 
-/// The contact with the largest impulse among those of a wall that last ten steps or more; none where there is none. `impulse` holds the wall's impulse (N s) in each of
-/// equal steps of `h` (s) from t = 0 on; pushes less than `joined` (s) apart belong together.
+/// The contact with the largest impulse among those of a wall that last ten steps or more; none where there is none. `impulse` holds the
+/// wall's impulse (N s) in each of equal steps of `h` (s) from t = 0 on; pushes less than `joined` (s) apart belong together.
 ///
 /// ```
 /// use signorini::study::stability::lasting::lasting;
@@ -110,8 +113,8 @@ pub struct Quality {
 }
 
 impl Quality {
-    /// Runs `schemes` on `scene` with [`MULTIPLES`] of the step of `time`, in parallel; a run that fails is a line with the reason. `scale` says what the slowest
-    /// period is.
+    /// Runs `schemes` on `scene` with [`MULTIPLES`] of the step of `time`, in parallel; a run that fails is a line with the reason. `scale`
+    /// says what the slowest period is.
     ///
     /// # Errors
     /// What the reference reports.

@@ -9,6 +9,7 @@
 //! | [`watch`] | one run, measured |
 //! | `ledger` | the energy that a scheme makes of itself |
 //! | [`lasting`] | what schemes do to energy and to the force of a lasting contact |
+//! | [`ruler`] | what they are held against: fine runs from neighbouring starts |
 //! | [`class`] | what the measurements amount to |
 //! | [`row`] | one scheme on one scene over all steps |
 //! | [`plan`] | the maps of a case, computed in parallel |
@@ -20,6 +21,7 @@ pub mod lasting;
 mod ledger;
 pub mod plan;
 pub mod row;
+pub mod ruler;
 pub mod scale;
 pub mod theory;
 pub mod watch;

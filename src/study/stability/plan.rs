@@ -1,8 +1,8 @@
 //! The maps of a case: every scheme, step and parameter, in parallel.
 
-use super::class::{Range, Ruler};
 use super::family::{self, Family, Parameter, Question};
 use super::row::{Cell, Safe, Subject};
+use super::ruler::{Range, Ruler};
 use super::scale::Scale;
 use super::watch::{Record, STARTS, nudged, watch};
 use crate::error::Result;
@@ -44,8 +44,8 @@ const MOST_WORK: f64 = 5e5;
 const FEWEST_STEPS: f64 = 1e4;
 
 impl Grid {
-    /// The grid for `scene`: the default for one degree of freedom; for several, whose steps cost in proportion, coarser ones and fewer to a decade. Steps are
-    /// measured by the slowest frequency, and reach from where most is resolved to where not even that is.
+    /// The grid for `scene`: the default for one degree of freedom; for several, whose steps cost in proportion, coarser ones and fewer to
+    /// a decade. Steps are measured by the slowest frequency, and reach from where most is resolved to where not even that is.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         match scene.system {

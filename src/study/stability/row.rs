@@ -1,7 +1,8 @@
 //! One scheme on one scene, over all steps.
 
-use super::class::{Class, DIVERGED, Measurement, Ruler};
+use super::class::{Class, DIVERGED, Measurement};
 use super::family::{Family, Parameter};
+use super::ruler::Ruler;
 use super::scale::Scale;
 use super::watch::{STARTS, nudged, wall_stiffness, watch};
 use crate::scene::Scene;

@@ -205,8 +205,9 @@ pub fn wall_stiffness(law: WallLaw) -> Option<f64> {
     }
 }
 
-/// How deep behind a wall of this law (as the scheme sees it) a body may come that behaves, m: the bound stated for the scheme, with the mass m that the
-/// wall feels (kg), the energy E that may come to it (J), the largest speed `v` (m/s) and free acceleration `a` (m/s²) there, plus h²a for the order of the step.
+/// How deep behind a wall of this law (as the scheme sees it) a body may come that behaves, m: the bound stated for the scheme, with the
+/// mass m that the wall feels (kg), the energy E that may come to it (J), the largest speed `v` (m/s) and free acceleration `a` (m/s²)
+/// there, plus h²a for the order of the step.
 ///
 /// | walls and scheme | bound |
 /// |---|---|

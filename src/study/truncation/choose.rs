@@ -12,8 +12,8 @@ use std::fmt;
 /// The most modes that are tried, unless the structure has no more than this.
 pub const MOST_CHOSEN: usize = 200;
 
-/// Share of the tolerance that an increase may change. What is left out falls like 1/k in the modes at worst (a bar's wall force): then twice the change of the last
-/// increase, by half, is still to come; and an increase may change little by chance.
+/// Share of the tolerance that an increase may change. What is left out falls like 1/k in the modes at worst (a bar's wall force): then
+/// twice the change of the last increase, by half, is still to come; and an increase may change little by chance.
 const QUIET: f64 = 0.25;
 
 /// How many increases running must change less than that: one that changes nothing may have added modes with a node at the walls.
@@ -60,8 +60,8 @@ impl ChosenModes {
     }
 }
 
-/// Increases the modes by half, from `start` on, until two increases running change no wall's impulse and peak by more than a quarter of `tolerance`: runs of `method` with
-/// the step and window of `time`. `progress` hears the time (s) that the run under way has reached.
+/// Increases the modes by half, from `start` on, until two increases running change no wall's impulse and peak by more than a quarter of
+/// `tolerance`: runs of `method` with the step and window of `time`. `progress` hears the time (s) that the run under way has reached.
 ///
 /// # Errors
 /// What a cut or a run reports.

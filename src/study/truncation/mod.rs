@@ -80,8 +80,8 @@ pub struct Truncation {
 }
 
 impl Truncation {
-    /// Holds `run` of the cut `reduction`, made by `method` with the options `time`, against the same with twice its modes, or all of them. None if it has all.
-    /// `progress` hears the time (s) that the other run has reached.
+    /// Holds `run` of the cut `reduction`, made by `method` with the options `time`, against the same with twice its modes, or all of them.
+    /// None if it has all. `progress` hears the time (s) that the other run has reached.
     ///
     /// # Errors
     /// What the other cut or run reports.

@@ -34,12 +34,14 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The graph that probe number `probe` shows in every `stride`-th row of `trajectory` up to the duration compared, with the jumps at those walls that
-    /// are rigid in `scene` and stand where the probe looks. What other walls do to it shows in the rows alone, within the spacing of two.
+    /// The graph that probe number `probe` shows in every `stride`-th row of `trajectory` up to the duration compared, with the jumps at
+    /// those walls that are rigid in `scene` and stand where the probe looks. What other walls do to it shows in the rows alone, within the
+    /// spacing of two.
     ///
     /// A contact shorter than the spacing of these rows stands between the two corners (start, −approach) and (end, departure) at the wall; a
     /// longer one has rows of its own for all but its first corner. Rows within a `step` (s) of a contact at a wall that shares a degree of
-    /// freedom with the probe are left out: a scheme on positions has no speed there. At walls that are springs the velocity is continuous and the rows show it.
+    /// freedom with the probe are left out: a scheme on positions has no speed there. At walls that are springs the velocity is continuous
+    /// and the rows show it.
     #[must_use]
     pub fn of(trajectory: &Trajectory, probe: usize, stride: usize, step: f64, scene: &Scene, scales: &Scales) -> Self {
         let point = |t: f64, u: f64, v: f64| [t / scales.duration, u / scales.length, v / scales.speed];

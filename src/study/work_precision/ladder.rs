@@ -7,7 +7,8 @@ use crate::time::{MOST_STEPS, TimeOptions};
 /// Steps of a run, at least, over the duration, and over the fastest period of the scene.
 const COARSE: f64 = 64.0;
 const COARSE_A_PERIOD: f64 = 16.0;
-/// Steps of the finest run unless asked otherwise: some hundredths of a second of a penalty. Of n degrees of freedom four n-ths as many, and this few at least.
+/// Steps of the finest run unless asked otherwise: some hundredths of a second of a penalty. Of n degrees of freedom four n-ths as many,
+/// and this few at least.
 const FINE: f64 = 1e6;
 const FEWEST_FINE: f64 = 2e4;
 /// Rows at which runs are compared, at most, where the coarsest run does not have more steps.

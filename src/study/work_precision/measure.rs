@@ -14,7 +14,8 @@ use crate::study::choice::choose;
 /// Measures `methods` on `scene`; `progress` hears the share done, from 0 to 1.
 ///
 /// # Errors
-/// [`crate::Error::Invalid`] for steps that make no sense, and whatever leaves the study without a reference. What a single run fails at is in its point.
+/// [`crate::Error::Invalid`] for steps that make no sense, and whatever leaves the study without a reference. What a single run fails at is
+/// in its point.
 pub fn study(scene: &Scene, methods: &[Method], effort: &Effort, progress: &dyn Fn(f64)) -> Result<WorkPrecision> {
     scene.validate()?;
     if scene.probes.is_empty() {

@@ -1,0 +1,36 @@
+//! A wall as the kernels on a grid want it.
+
+use crate::scene::{Scene, Side, Wall, WallLaw};
+
+/// The numbers of a wall, without its name and row.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stop {
+    pub upper: bool,
+    /// +1 lower, −1 upper: the sign of its force.
+    pub sign: f64,
+    pub g: f64,
+    pub law: WallLaw,
+}
+
+impl Stop {
+    pub fn new(wall: &Wall) -> Self {
+        Self { upper: wall.side == Side::Upper, sign: wall.side.sign(), g: wall.position, law: wall.law }
+    }
+
+    /// Depth behind the wall, m.
+    #[inline]
+    pub fn depth(&self, w: f64) -> f64 {
+        self.sign * (self.g - w)
+    }
+
+    /// The larger of the depth and zero, as a coordinate: where a dashpot's plate stands when the body is at `w`.
+    #[inline]
+    pub fn plate(&self, w: f64) -> f64 {
+        if self.upper { w.max(self.g) } else { w.min(self.g) }
+    }
+}
+
+/// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
+pub(super) fn touching_distance(scene: &Scene) -> f64 {
+    1e-12 * scene.gap_scale()
+}

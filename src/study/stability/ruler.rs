@@ -1,0 +1,124 @@
+//! What a run is measured by: fine runs from neighbouring starts.
+
+use super::class::{COUNTED, REST, SCATTER};
+use super::scale::Scale;
+use super::watch::{Record, total_mass};
+use crate::scene::{Scene, System};
+use crate::step::Contact;
+
+/// Fine runs that others are held against: several, from starts that differ by next to nothing. Where the motion is
+/// chaotic they scatter, and only what lies outside their scatter is wrong.
+#[derive(Debug, Clone)]
+pub struct Ruler {
+    /// Largest speed of each run, m/s: least and largest.
+    pub speed: Range,
+    /// Root-mean-square speed of each run, m/s.
+    pub rms_speed: Range,
+    /// Contacts counted in each run.
+    pub contacts: Range,
+    /// Approach speed above which a contact is counted, m/s.
+    pub(super) threshold: f64,
+    /// Contacts of one wall less than this apart count as one, s; none for one degree of freedom, where each counts.
+    pub(super) joined: Option<f64>,
+    pub(super) rests: bool,
+    /// What the walls of several degrees of freedom rightly take, over the energy that [`exchanged`] counts.
+    pub(super) taken: Range,
+    /// Largest kinetic energy of each run, J.
+    pub(super) energy: f64,
+}
+
+/// Least and largest of several values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// The least.
+    pub low: f64,
+    /// The largest.
+    pub high: f64,
+}
+
+impl Range {
+    pub(super) fn of(values: impl Iterator<Item = f64>) -> Self {
+        let all = Self { low: f64::INFINITY, high: 0.0 };
+        values.fold(all, |r, x| Self { low: r.low.min(x), high: r.high.max(x) })
+    }
+
+    /// Of values that are few for how much they scatter: [`SCATTER`] more to either side.
+    pub(super) fn scattered(values: impl Iterator<Item = f64>) -> Self {
+        let all = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
+        let seen = values.fold(all, |r, x| Self { low: r.low.min(x), high: r.high.max(x) });
+        Self { low: seen.low - SCATTER, high: seen.high + SCATTER }
+    }
+
+    /// How far a value lies outside the range: 0 within it.
+    pub(super) fn beyond(self, x: f64) -> f64 {
+        x - x.clamp(self.low.min(self.high), self.high)
+    }
+
+    /// The value over the nearest one of the range: 1 within it.
+    pub(super) fn ratio(self, x: f64) -> f64 {
+        let nearest = x.clamp(self.low.min(self.high), self.high);
+        if x == nearest { 1.0 } else { x / nearest }
+    }
+}
+
+impl Ruler {
+    /// The ruler that fine runs of `scene` make. On a mesh a contact may let go and touch again with its vibrations: those are one.
+    #[must_use]
+    pub fn new(records: &[Record], scene: &Scene, scale: &Scale) -> Self {
+        let joined = matches!(scene.system, System::Structure(_)).then(|| scale.joined());
+        let masses = &scene.wall_masses()[..];
+        let approach = |record: &Record| record.contacts.iter().map(|c| c.approach_speed).fold(0.0, f64::max);
+        let threshold = COUNTED * Range::of(records.iter().map(approach)).high;
+        let speed = Range::of(records.iter().map(|r| r.speed));
+        let energy = 0.5 * total_mass(&scene.system) * speed.high * speed.high;
+        Self {
+            speed,
+            rms_speed: Range::of(records.iter().map(|r| r.rms_speed)),
+            contacts: Range::of(records.iter().map(|r| counted(&r.contacts, threshold, joined).len() as f64)),
+            threshold,
+            joined,
+            taken: Range::scattered(records.iter().map(|r| r.made / exchanged(r, masses, energy))),
+            energy,
+            rests: records.iter().all(|r| r.last_speed < REST * speed.high),
+        }
+    }
+
+    /// Times of the contacts counted, s.
+    #[must_use]
+    pub fn contact_times(&self, record: &Record) -> Vec<f64> {
+        counted(&record.contacts, self.threshold, self.joined)
+    }
+}
+
+/// Starts of the contacts faster than `threshold`, in the order of the list; those of one wall that begin within `joined` of the end of the
+/// one before are part of it.
+pub(super) fn counted(contacts: &[Contact], threshold: f64, joined: Option<f64>) -> Vec<f64> {
+    let fast = contacts.iter().filter(|c| c.approach_speed > threshold);
+    let Some(joined) = joined else { return fast.map(|c| c.start).collect() };
+    let mut ends: Vec<(usize, f64)> = Vec::new();
+    let mut starts = Vec::new();
+    for contact in fast {
+        let end = contact.end.unwrap_or(f64::INFINITY);
+        match ends.iter_mut().find(|(wall, _)| *wall == contact.wall) {
+            Some((_, last)) => {
+                if contact.start > *last + joined {
+                    starts.push(contact.start);
+                }
+                *last = last.max(end);
+            }
+            None => {
+                starts.push(contact.start);
+                ends.push((contact.wall, end));
+            }
+        }
+    }
+    starts.sort_by(f64::total_cmp);
+    starts
+}
+
+/// Kinetic energy that arrived at the walls, each with the mass that it feels, or `least` if that is more, J: at the node of a fine mesh
+/// little mass arrives.
+pub(super) fn exchanged(record: &Record, masses: &[f64], least: f64) -> f64 {
+    let energy = |c: &Contact| 0.5 * masses.get(c.wall).copied().unwrap_or(0.0) * c.approach_speed * c.approach_speed;
+    record.contacts.iter().map(energy).sum::<f64>().max(least).max(f64::MIN_POSITIVE)
+}
