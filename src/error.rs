@@ -160,7 +160,7 @@ impl fmt::Display for Error {
                  a smaller step or a softer penalty would"
             ),
             Self::NotFinite { time, step, what } => {
-                write!(f, "the {what} is no longer finite at t = {time} s, step {step}: the scheme has diverged")
+                write!(f, "the {what} is no longer finite at t = {time:.4e} s, step {step}: the scheme has diverged")
             }
             Self::TooManyEvents { time, wall, count, window } => write!(
                 f,

@@ -4,6 +4,7 @@
 use super::file::{self, File};
 use super::model::{Model, Place};
 use super::report::Source;
+use super::system::MOST_MASSES;
 use super::value::{Number, Section};
 use super::{Case, PenaltyOptions, TimeOptions, Truncated, table};
 use crate::error::{Error, Result};
@@ -105,7 +106,7 @@ impl Builder<'_> {
 
     /// `modes` and `static_correction`.
     fn modes(&mut self, system: &file::System) -> Result<Option<usize>> {
-        let modes = system.modes.as_ref().map(|modes| self.whole("modes", modes)).transpose()?;
+        let modes = system.modes.as_ref().map(|modes| self.whole("modes", modes, MOST_MASSES)).transpose()?;
         if let Some(correction) = system.static_correction.as_ref().filter(|word| *word.get_ref()) {
             self.places.push(("static_correction".to_owned(), correction.span()));
             self.static_correction = true;

@@ -6,12 +6,12 @@ use super::file;
 use super::model::Model;
 use super::value::{Number, Section, Value};
 use crate::error::{Error, Result};
-use crate::scene::{Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MassMatrix, Oscillator, System};
+use crate::scene::{Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MOST_ELEMENTS, MassMatrix, Oscillator, System};
 use std::ops::Range;
 use toml::Spanned;
 
 /// Most masses of a chain.
-const MOST_MASSES: usize = 1_000_000;
+pub const MOST_MASSES: usize = 1_000_000;
 
 /// A system and what it was made from.
 pub(super) struct Built {
@@ -176,7 +176,7 @@ impl Builder<'_> {
             area: self.number("system.bar.area", &bar.area),
             youngs_modulus: self.number("system.bar.youngs_modulus", &bar.youngs_modulus),
             density: self.number("system.bar.density", &bar.density),
-            elements: self.whole("system.bar.elements", &bar.elements)?,
+            elements: self.whole("system.bar.elements", &bar.elements, MOST_ELEMENTS)?,
             left: ends[0],
             right: ends[1],
             mass,
@@ -200,7 +200,7 @@ impl Builder<'_> {
             outer_diameter: self.number("system.beam.outer_diameter", &beam.outer_diameter),
             inner_diameter: self.optional("system.beam.inner_diameter", beam.inner_diameter.as_ref()).unwrap_or(0.0),
             added_mass: self.optional("system.beam.added_mass", beam.added_mass.as_ref()).unwrap_or(0.0),
-            elements: self.whole("system.beam.elements", &beam.elements)?,
+            elements: self.whole("system.beam.elements", &beam.elements, MOST_ELEMENTS)?,
             left: ends[0],
             right: ends[1],
         })
@@ -250,10 +250,10 @@ impl Builder<'_> {
         Ok(list)
     }
 
-    /// A whole number that counts something.
-    pub fn whole(&mut self, key: &str, value: &Spanned<Number>) -> Result<usize> {
+    /// A whole number that counts something, at most `most`.
+    pub fn whole(&mut self, key: &str, value: &Spanned<Number>, most: usize) -> Result<usize> {
         let x = self.number(key, value);
-        self.count(key, x, value.span(), MOST_MASSES)
+        self.count(key, x, value.span(), most)
     }
 
     fn count(&self, key: &str, x: f64, span: Range<usize>, most: usize) -> Result<usize> {

@@ -192,7 +192,7 @@ fn best(chart: &WorkPrecision, tolerance: f64) -> Option<(&Series, Option<f64>, 
 fn report(case: &Case, chart: &WorkPrecision, ui: &Ui) {
     let (horizon, reference) = (&chart.horizon, &chart.reference);
     ui.message(&format!(
-        "compared up to t = {} s of {} s: a small change of the start grows by {:.1e} until then, {:.1e} over all ({})",
+        "compared up to t = {:.4} s of {} s: a small change of the start grows by {:.1e} until then, {:.1e} over all ({})",
         horizon.end, case.scene.duration, horizon.growth, horizon.growth_of_all, horizon.how
     ));
     ui.message(&format!(

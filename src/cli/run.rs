@@ -227,16 +227,17 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
         "not returned (W)",
     ];
     // A person reads a few digits, a program all of them.
-    let show = |x: f64, digits: usize| if ui.json() { format!("{x:?}") } else { format!("{x:.digits$}") };
+    let show =
+        |x: f64, digits: usize| if ui.json() { format!("{x:?}") } else { format!("{:.digits$}", settled(x, digits)) };
     let mut rows = Vec::new();
-    let shown = if ui.json() { run.statistics.walls.iter().collect() } else { busiest(run) };
-    for wall in &shown {
+    let shown = if ui.json() { run.statistics.walls.iter().enumerate().collect() } else { busiest(run) };
+    for (index, wall) in &shown {
         let none = if wall.contacts == 0 { "-" } else { "impacts" };
         rows.push(vec![
             wall.wall.clone(),
             wall.contacts.to_string(),
             show(run.trajectory.impulse(&wall.wall)?, 6),
-            wall.peak_force_n.max.map_or_else(|| none.into(), |f| show(f, 4)),
+            largest_force(run, *index).map_or_else(|| none.into(), |f| show(f, 4)),
             show(100.0 * wall.contact_time_ratio, 3),
             show(wall.impact_power_w, 6),
             show(wall.unreturned_power_w, 6),
@@ -249,6 +250,12 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
             ui.message(&format!(
                 "{} of {all} walls, those of the largest impulses; the summary has them all",
                 rows.len()
+            ));
+        }
+        if run.statistics.from_s > 0.0 {
+            ui.message(&format!(
+                "contacts, times and powers from t = {} s on, contacts that begin in it; impulses of the whole run",
+                run.statistics.from_s
             ));
         }
         ui.message("impact power is normal impact only: frictionless contact has no sliding wear in it");
@@ -270,18 +277,30 @@ fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
     Ok(())
 }
 
+/// 0 instead of what would be shown as −0.
+fn settled(x: f64, digits: usize) -> f64 {
+    if x.abs() < 0.5 * 10f64.powi(-(digits as i32)) { 0.0 } else { x }
+}
+
+/// The largest force of the contacts at a wall that reach into the window of the statistics, N: also of one that began before it and lasts.
+fn largest_force(run: &Run, index: usize) -> Option<f64> {
+    let from = run.statistics.from_s;
+    let here = run.trajectory.contacts().iter().filter(|c| c.wall == index && c.end.is_none_or(|end| end >= from));
+    here.filter_map(|c| c.peak_force).map(f64::abs).reduce(f64::max)
+}
+
 /// Most walls of a table that a person reads.
 const MOST_ROWS: usize = 24;
 
 /// The walls of the largest impulses, in the scene's order.
-fn busiest(run: &Run) -> Vec<&WallStatistics> {
+fn busiest(run: &Run) -> Vec<(usize, &WallStatistics)> {
     let walls = &run.statistics.walls;
     let impulse = |wall: &str| run.trajectory.impulse(wall).map_or(0.0, f64::abs);
     let mut order: Vec<(usize, f64)> = walls.iter().map(|wall| impulse(&wall.wall)).enumerate().collect();
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
     order.truncate(MOST_ROWS);
     order.sort_by_key(|entry| entry.0);
-    order.into_iter().filter_map(|(i, _)| walls.get(i)).collect()
+    order.into_iter().filter_map(|(i, _)| walls.get(i).map(|wall| (i, wall))).collect()
 }
 
 /// What solved the steps that met a wall, and how often.

@@ -125,12 +125,12 @@ fn contact_line(line: &Line) -> Vec<String> {
             row.push(format!("failed: {error}"));
         }
         Ok(seen) => {
-            row.extend([seen.largest, seen.last, seen.lost_at_walls].map(|x| format!("{x:.3}")));
+            row.extend([seen.largest, seen.last, seen.lost_at_walls].map(share));
             row.push(format!("{:.1e}", seen.unexplained));
             row.extend(match &seen.contact {
                 Some((wall, c)) => [
                     format!("{wall} {:.4} to {:.4}", c.start, c.end),
-                    format!("{:.4}", c.impulse),
+                    if c.impulse.abs() < 1e4 { format!("{:.4}", c.impulse) } else { format!("{:.2e}", c.impulse) },
                     format!("{:.3}", c.ripple),
                 ],
                 None => ["-".to_owned(), "-".to_owned(), "-".to_owned()],
@@ -138,6 +138,11 @@ fn contact_line(line: &Line) -> Vec<String> {
         }
     }
     row
+}
+
+/// Three decimals while they say something; a share of millions is a diverging scheme's, and its size is all there is to it.
+fn share(x: f64) -> String {
+    if x.abs() < 1e4 { format!("{x:.3}") } else { format!("{x:.2e}") }
 }
 
 fn report(maps: &Maps, impacts: &[ImpactMap], ui: &Ui) {

@@ -107,10 +107,13 @@ impl Verdict {
         Ok(Self { check, displacement: change.displacement, horizon_s, walls })
     }
 
-    /// Largest change of a wall's impulse, as a share of that impulse.
+    /// Largest change of a wall's impulse, as a share of the largest impulse that a wall has in either run: a wall that is hardly touched,
+    /// or in one of the runs only, does not decide. With one wall this is the change over that wall's larger impulse; 0 where nothing differs.
     #[must_use]
     pub fn impulse_change(&self) -> f64 {
-        self.walls.iter().map(|w| share(w.impulse_ns).abs()).fold(0.0, f64::max)
+        let largest = |of: fn(&WallVerdict) -> f64| self.walls.iter().map(of).fold(0.0, f64::max);
+        let change = largest(|w| (w.impulse_ns[1] - w.impulse_ns[0]).abs());
+        if change == 0.0 { 0.0 } else { change / largest(|w| w.impulse_ns[0].abs().max(w.impulse_ns[1].abs())) }
     }
 
     /// The walls a line has room for: all of a few, else those with the largest impulses.
@@ -156,7 +159,7 @@ impl fmt::Display for Verdict {
             count if count > MOST_NAMED => {
                 write!(
                     f,
-                    "; all {count} walls: impulse {:.1e} at most, contacts {:+}",
+                    "; all {count} walls: impulse {:.1e} of the largest wall's at most, contacts {:+}",
                     self.impulse_change(),
                     self.contacts_gained()
                 )
@@ -166,14 +169,38 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// The change as a share of the value after it.
-fn share([before, after]: [f64; 2]) -> f64 {
-    if before == after { 0.0 } else { (after - before) / after.abs().max(f64::MIN_POSITIVE) }
+/// The change as a share of the value after it, which is not 0 unless both are.
+fn relative([before, after]: [f64; 2]) -> String {
+    if before == after {
+        "unchanged".into()
+    } else if after == 0.0 {
+        format!("{before:.1e} → none")
+    } else {
+        format!("{:+.1e}", (after - before) / after.abs())
+    }
 }
 
-fn relative(values: [f64; 2]) -> String {
-    match share(values) {
-        0.0 => "unchanged".into(),
-        share => format!("{share:+.1e}"),
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdict(impulses: &[[f64; 2]]) -> Verdict {
+        let wall = |(i, &impulse_ns): (usize, &[f64; 2])| WallVerdict {
+            wall: format!("wall-{i}"),
+            impulse_ns,
+            contacts: [1, 1],
+            peak_force_n: [None, None],
+        };
+        let walls = impulses.iter().enumerate().map(wall).collect();
+        Verdict { check: Check::HalfStep { step_s: 1e-3 }, displacement: 0.0, horizon_s: 1.0, walls }
+    }
+
+    #[test]
+    fn a_wall_that_only_one_run_touches_is_measured_by_the_largest() {
+        let one_run_only = verdict(&[[-2.0, -2.0], [0.5, 0.0], [0.0, -0.25]]);
+        assert!((one_run_only.impulse_change() - 0.25).abs() < 1e-15);
+        assert!(one_run_only.to_string().contains("5.0e-1 → none"), "{one_run_only}");
+        assert!(verdict(&[[0.0, 0.0], [0.0, 0.0]]).impulse_change() == 0.0);
+        assert!((verdict(&[[1.0, 0.8]]).impulse_change() - 0.2).abs() < 1e-15);
     }
 }
