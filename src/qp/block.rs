@@ -248,12 +248,14 @@ impl Block {
     }
 
     /// Forces r of the rows in play that move each of them by `shift(row)` (entries of other rows are left alone), and the escape where
-    /// that cannot be. What dependent rows may miss for rounding, of states and bounds, is `slack(row)`.
+    /// that cannot be. What dependent rows may miss for rounding, of states and bounds, is `slack(row)`, and of forces `ulps` of what
+    /// the largest moves.
     pub(super) fn forces(
         &mut self,
         system: &Delassus,
         shift: impl Fn(usize) -> f64,
         slack: impl Fn(usize) -> f64,
+        ulps: f64,
         r: &mut [f64],
     ) {
         self.work.clear();
@@ -263,7 +265,7 @@ impl Block {
             self.invert();
         } else {
             self.invert();
-            if self.relations.escapes(system, &self.basis, &self.work, &shift, slack) {
+            if self.relations.escapes(system, &self.basis, &self.work, &shift, slack, ulps) {
                 self.work.clear();
                 self.work.extend(self.basis.iter().map(|&row| shift(row)));
                 self.relations.escape_by(system, &self.basis, &mut self.work);

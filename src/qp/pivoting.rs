@@ -170,16 +170,21 @@ impl Pivoting {
         self.next.truncate(count);
         r.fill(0.0);
         let (mut least, mut patience, mut pivots, mut joins) = (usize::MAX, PATIENCE, 0, 0);
-        let (mut tolerance, mut circle) = (ROUNDING, Circle::default());
+        // Rounding of forces passed on between rows counts only where pivoting fails without: it would let sets of needlessly large forces pass.
+        let (mut tolerance, mut ulps, mut circle) = (ROUNDING, 0.0, Circle::default());
         for _ in 0..passes {
             self.block.set(system, &self.next);
-            self.look(system, rhs, scale, tolerance, r);
+            self.look(system, rhs, scale, tolerance, ulps, r);
             if self.wrong.is_empty() && joins < JOINS {
                 self.join(system, rhs, scale, tolerance, r);
                 joins += 1;
             }
             if self.wrong.is_empty() {
                 return match self.crossing(system, rhs) {
+                    Some(Failure::NotSolved { .. }) if ulps == 0.0 => {
+                        ulps = ULPS;
+                        continue;
+                    }
                     Some(failure) => Err(failure),
                     None => Ok(pivots),
                 };
@@ -193,7 +198,7 @@ impl Pivoting {
                     if circle.closed > LOOSENINGS {
                         break;
                     }
-                    tolerance *= LOOSER;
+                    (tolerance, ulps) = (tolerance * LOOSER, ULPS);
                 }
                 let last = self.wrong.len() - 1;
                 self.wrong.swap(0, last);
@@ -206,12 +211,12 @@ impl Pivoting {
     }
 
     /// One pass: forces r, the motion y they cause, and the rows whose state is wrong, increasing.
-    fn look(&mut self, system: &Delassus, rhs: &Rhs, scale: f64, tolerance: f64, r: &mut [f64]) {
+    fn look(&mut self, system: &Delassus, rhs: &Rhs, scale: f64, tolerance: f64, ulps: f64, r: &mut [f64]) {
         let side = &mut self.side;
         let bound = |row: usize, side: &[Option<Side>]| side[row].map_or(0.0, |side| side.bound(rhs, row));
         let length = |row: usize| scale.max(system.y[row].abs());
         let slack = |row: usize| MET * tolerance * length(row);
-        self.block.forces(system, |row| bound(row, side) - system.y[row], slack, r);
+        self.block.forces(system, |row| bound(row, side) - system.y[row], slack, ulps, r);
         self.wrong.clear();
         self.y.copy_from_slice(&system.y);
         let mut reach = 0.0;
@@ -242,7 +247,9 @@ impl Pivoting {
                 let excess = (lo - y).max(y - hi);
                 if side[row].is_none() && excess > tolerance {
                     // Nearly dependent rows pass their rounding on to the row, multiplied.
-                    let small = reach > 0.0 && excess <= SMALL * f64::max(length(row), reach * system.weight[row]);
+                    let small = ulps > 0.0
+                        && reach > 0.0
+                        && excess <= SMALL * f64::max(length(row), reach * system.weight[row]);
                     if small && self.block.singular() && excess <= self.block.rounding(system, row, reach) {
                         continue;
                     }

@@ -10,7 +10,7 @@
 //! Where they cannot, e is the escape: forces that grow without limit and move nothing.
 
 use super::delassus::Delassus;
-use super::{NOISE, ROUNDING, ULPS};
+use super::{NOISE, ROUNDING};
 
 /// A row of less than this share in a combination gives way to none of the others (dimensionless).
 const PART: f64 = 1e-3;
@@ -149,18 +149,19 @@ impl Relations {
         force: &[f64],
         shift: impl Fn(usize) -> f64,
         slack: impl Fn(usize) -> f64,
+        ulps: f64,
     ) -> bool {
         self.share.clear();
         let reach = basis.iter().zip(force).fold(0.0, |reach, (&j, r)| f64::max(reach, r.abs() * system.weight[j]));
         for (i, &row) in self.rows.iter().enumerate() {
             let combination = &self.combination[self.ends[i]..self.ends[i + 1]];
             // An entry of W is wrong by ulps, and the combination by what that moves the row under the forces of the basis.
-            let (mut miss, mut rounding) = (shift(row), ULPS * reach * system.weight[row]);
+            let (mut miss, mut rounding) = (shift(row), ulps * reach * system.weight[row]);
             for (&c, &j) in combination.iter().zip(basis) {
                 let q = shift(j);
                 miss -= c * q;
                 rounding +=
-                    c.abs() * (NOISE * q.abs() + f64::EPSILON / ROUNDING * slack(j) + ULPS * reach * system.weight[j]);
+                    c.abs() * (NOISE * q.abs() + f64::EPSILON / ROUNDING * slack(j) + ulps * reach * system.weight[j]);
             }
             let met = miss.abs() <= Self::allowed(system, row, combination, basis, &slack) + rounding;
             self.escapes |= !met;
