@@ -165,6 +165,12 @@ pub struct Handed {
     pub step: f64,
 }
 
+/// True if every number is finite. Without a branch an entry, so that the compiler looks at several at once.
+#[inline]
+pub(super) fn all_finite(x: &[f64]) -> bool {
+    x.iter().fold(true, |all, x| all & x.is_finite())
+}
+
 /// What a run has cost, in units that do not depend on the machine.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(serde::Serialize))]

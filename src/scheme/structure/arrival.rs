@@ -8,6 +8,7 @@
 //! is known: there G δ = 0. A blow since t⁺ − ½h is not in v₊ yet, and the caller's to add.
 
 use super::body::Body;
+use super::frame::Frame;
 use super::programme::{Programme, Seat};
 use crate::error::Result;
 use crate::linear::Symmetric;
@@ -39,8 +40,27 @@ impl Arrival {
         })
     }
 
+    /// Ends step number `step` of a staggered scheme that has moved the frame's displacement with the velocity `v` = v₊: shows it, takes the load at the end (N) for the
+    /// last and writes the velocity there, under the caller's extra force (N) and after the blows since.
+    pub fn finish(
+        &mut self,
+        body: &mut Body,
+        step: u64,
+        v: &[f64],
+        (load, extra): (&mut [f64], &[f64]),
+        frame: &mut Frame,
+    ) -> Result<()> {
+        frame.after.copy_from_slice(v);
+        load.fill(0.0);
+        body.loads.add_force(frame.end, 1.0, load);
+        let felt = load.iter().zip(extra).map(|(load, extra)| load + extra);
+        self.velocity(body, (step, frame.end), &frame.q, v, felt, &mut frame.v)?;
+        body.kick((step as f64 + 0.5) * body.h, frame.end, &mut frame.v);
+        Ok(())
+    }
+
     /// Writes v⁺ to `v`, from q⁺, v₊ and the load f⁺ (N) at the end of step number `step`.
-    pub fn velocity(
+    fn velocity(
         &mut self,
         body: &Body,
         (step, time): (u64, f64),

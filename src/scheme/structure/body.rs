@@ -1,5 +1,6 @@
 //! What every scheme knows of the scene.
 
+use super::frame::Frame;
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Operator, Rows, Symmetric};
 use crate::scene::{Loads, Scene, Structure};
@@ -50,6 +51,24 @@ impl Body {
             loads,
             matrices,
         }
+    }
+
+    /// The θ-method's A = M + hθC + h²θ²K, and C + hθK.
+    pub fn theta_matrices(&self, theta: f64) -> (Symmetric, Operator) {
+        let (m, ht) = (&self.matrices, self.h * theta);
+        let a = Symmetric::sum(&[(1.0, &m.mass), (ht, &m.damping), (ht * ht, &m.stiffness)]);
+        (a, Operator::new(&Symmetric::sum(&[(1.0, &m.damping), (ht, &m.stiffness)])))
+    }
+
+    /// Writes h[f_θ + f_x − (C + hθK) v − K q] to `b`, N s, `drag` being C + hθK, and notes the velocity before the step. Once a step.
+    #[inline]
+    pub fn theta_momentum(&mut self, theta: f64, drag: &Operator, frame: &mut Frame, b: &mut [f64]) {
+        let h = self.h;
+        b.iter_mut().zip(&frame.extra).for_each(|(b, extra)| *b = h * extra);
+        self.add_load(frame.end, h * (1.0 - theta), h * theta, b);
+        drag.add_product(-h, &frame.v, b);
+        self.stiffness.add_product(-h, &frame.q, b);
+        frame.before.copy_from_slice(&frame.v);
     }
 
     /// Adds `before` times the load at the end of the last step and `after` times that at `end` (s), the end of this one, to `out`. Once a step.

@@ -90,13 +90,7 @@ impl CentralDifference {
             *v += d;
             *q += h * *v;
         }
-        frame.after.copy_from_slice(v);
-        load.fill(0.0);
-        body.loads.add_force(frame.end, 1.0, load);
-        let felt = load.iter().zip(extra.iter()).map(|(load, extra)| load + extra);
-        arrival.velocity(body, (step, frame.end), &frame.q, v, felt, &mut frame.v)?;
-        body.kick((step as f64 + 0.5) * h, frame.end, &mut frame.v);
-        Ok(())
+        arrival.finish(body, step, v, (load, extra), frame)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::body::factor;
 use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
+use crate::scheme::grid::all_finite;
 use crate::step::{Contact, Path, Step};
 
 /// What a kernel reads and writes of each step; lent out as a [`Step`]. Vectors over degrees of freedom have n entries, those over walls as
@@ -97,12 +98,10 @@ impl Frame {
     /// Refuses a state that is not finite.
     #[inline]
     pub fn check(&self, step: u64) -> Result<()> {
-        // Without a branch an entry, so that the compiler looks at several at once.
-        let finite = |x: &[f64]| x.iter().fold(true, |all, x| all & x.is_finite());
-        if finite(&self.q) && finite(&self.v) {
+        if all_finite(&self.q) && all_finite(&self.v) {
             return Ok(());
         }
-        let what = if finite(&self.q) { "velocity" } else { "displacement" };
+        let what = if all_finite(&self.q) { "velocity" } else { "displacement" };
         Err(Error::NotFinite { time: self.end, step, what })
     }
 

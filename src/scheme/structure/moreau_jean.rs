@@ -6,7 +6,7 @@ use super::body::Body;
 use super::frame::Frame;
 use super::programme::Programme;
 use crate::error::Result;
-use crate::linear::{Operator, Symmetric};
+use crate::linear::Operator;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
 use crate::scheme::Counters;
@@ -31,9 +31,7 @@ impl MoreauJean {
     pub fn new(scene: &Scene, theta: f64, h: f64, backend: Backend) -> Result<Self> {
         let body = Body::new(scene, h);
         let ht = h * theta;
-        let m = &body.matrices;
-        let a = Symmetric::sum(&[(1.0, &m.mass), (ht, &m.damping), (ht * ht, &m.stiffness)]);
-        let drag = Operator::new(&Symmetric::sum(&[(1.0, &m.damping), (ht, &m.stiffness)]));
+        let (a, drag) = body.theta_matrices(theta);
         let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
         let programme = Programme::new(scene, a, scene.gap_scale() / h, compliance, backend)?;
         let (n, rows) = (body.n, programme.count_rows());
@@ -54,11 +52,7 @@ impl MoreauJean {
         let Self { body, theta, drag, b, .. } = self;
         let (h, theta) = (body.h, *theta);
         frame.begin(step, h);
-        b.iter_mut().zip(&frame.extra).for_each(|(b, extra)| *b = h * extra);
-        body.add_load(frame.end, h * (1.0 - theta), h * theta, b);
-        drag.add_product(-h, &frame.v, b);
-        body.stiffness.add_product(-h, &frame.q, b);
-        frame.before.copy_from_slice(&frame.v);
+        body.theta_momentum(theta, drag, frame, b);
         frame.blown = body.strike((frame.start, frame.end), &frame.v, 1.0, b, &mut frame.struck);
         self.bind(frame);
         self.programme.solve(&self.b, (frame.start, step), &mut frame.impulse, &mut frame.pushing)?;

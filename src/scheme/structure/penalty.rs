@@ -7,7 +7,7 @@ use super::body::{Body, factor};
 use super::frame::Frame;
 use super::newton::{Answer, Walls};
 use crate::error::{Error, Result};
-use crate::linear::{Factor, Operator, Symmetric};
+use crate::linear::{Factor, Operator};
 use crate::scene::Scene;
 use crate::scheme::Counters;
 use crate::scheme::penalty::{Mean, mean_pressure};
@@ -37,9 +37,7 @@ impl Penalty {
     pub fn new(scene: &Scene, theta: f64, mean: Mean, h: f64) -> Result<Self> {
         let body = Body::new(scene, h);
         let ht = h * theta;
-        let m = &body.matrices;
-        let a = Symmetric::sum(&[(1.0, &m.mass), (ht, &m.damping), (ht * ht, &m.stiffness)]);
-        let drag = Operator::new(&Symmetric::sum(&[(1.0, &m.damping), (ht, &m.stiffness)]));
+        let (a, drag) = body.theta_matrices(theta);
         let mut factor = factor(&a)?;
         let walls = Walls::new(&mut factor, &body.rows, ht);
         let (over, along) = (vec![0.0; body.n], vec![0.0; body.walls.len()]);
@@ -64,11 +62,7 @@ impl Penalty {
         let Self { body, theta, drag, factor, b, delta, place, .. } = self;
         let (h, theta) = (body.h, *theta);
         frame.begin(step, h);
-        b.iter_mut().zip(&frame.extra).for_each(|(b, extra)| *b = h * extra);
-        body.add_load(frame.end, h * (1.0 - theta), h * theta, b);
-        drag.add_product(-h, &frame.v, b);
-        body.stiffness.add_product(-h, &frame.q, b);
-        frame.before.copy_from_slice(&frame.v);
+        body.theta_momentum(theta, drag, frame, b);
         body.strike((frame.start, frame.end), &frame.v, 1.0, b, &mut frame.struck);
         delta.copy_from_slice(b);
         factor.solve(delta);

@@ -22,6 +22,7 @@ mod search;
 mod view;
 
 use super::event::{Barrier, Counters, Guard, WINDOWS};
+use super::grid::all_finite;
 use crate::error::{Error, Result};
 use crate::flow::{Body, Hold, Series, Touching};
 use crate::qp::{self, Backend};
@@ -277,8 +278,7 @@ impl StructureEvent {
     }
 
     fn check(&self) -> Result<()> {
-        let sum = |x: &[f64]| x.iter().fold(0.0, |sum, x| sum + x * 0.0);
-        if sum(&self.q) + sum(&self.v) == 0.0 {
+        if all_finite(&self.q) && all_finite(&self.v) {
             return Ok(());
         }
         Err(Error::NotFinite { time: self.time, step: self.steps, what: "state" })
