@@ -1,7 +1,18 @@
 //! Band matrices: products by diagonals, and the factor L D Lᵀ.
 
 use super::Symmetric;
-use super::factor::NotDefinite;
+use super::definite::NotDefinite;
+
+/// A band is stored by diagonals if that takes at most this many times the room of the entries alone.
+const FILL: usize = 4;
+/// … or if it is this narrow.
+const NARROW: usize = 8;
+
+/// True if `matrix` is best taken for a band.
+pub(super) fn is_band(matrix: &Symmetric) -> bool {
+    let width = matrix.half_bandwidth();
+    width <= NARROW || (width + 1) * matrix.size() <= FILL * matrix.stored()
+}
 
 /// A symmetric band matrix by diagonals.
 #[derive(Debug, Clone)]

@@ -1,25 +1,9 @@
 //! The factor of a positive definite matrix.
 
 use super::Symmetric;
-use super::band::BandFactor;
-use super::operator::is_band;
+use super::band::{BandFactor, is_band};
+use super::definite::NotDefinite;
 use super::sparse::SparseFactor;
-use std::fmt;
-
-/// A matrix that should be positive definite is not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NotDefinite {
-    /// The row in which its elimination found no positive pivot.
-    pub row: usize,
-}
-
-impl fmt::Display for NotDefinite {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the matrix is not positive definite: no positive pivot in row {}", self.row)
-    }
-}
-
-impl std::error::Error for NotDefinite {}
 
 /// A = L D Lᵀ, factored once and solved many times.
 ///

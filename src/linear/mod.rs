@@ -8,13 +8,15 @@
 //! | [`Factor`] | L D Lᵀ of a positive definite matrix: a band's own, or a sparse one with a fill-reducing order |
 
 mod band;
+mod definite;
 mod factor;
 mod operator;
 mod rows;
 mod sparse;
 mod symmetric;
 
-pub use factor::{Factor, NotDefinite};
+pub use definite::NotDefinite;
+pub use factor::Factor;
 pub use operator::Operator;
 pub use rows::Rows;
 pub use sparse::negative_pivots;

@@ -1,7 +1,7 @@
 //! A symmetric matrix made ready for many products.
 
 use super::Symmetric;
-use super::band::Band;
+use super::band::{Band, is_band};
 
 /// A symmetric matrix stored for products: by diagonals where it is a band (diagonal, tridiagonal, a beam's, dense), else by rows.
 #[derive(Debug, Clone)]
@@ -12,17 +12,6 @@ pub enum Operator {
     /// By rows of the lower triangle.
     #[doc(hidden)]
     Sparse(Symmetric),
-}
-
-/// A band is stored by diagonals if that takes at most this many times the room of the entries alone.
-pub(super) const FILL: usize = 4;
-/// … or if it is this narrow.
-pub(super) const NARROW: usize = 8;
-
-/// True if `matrix` is best taken for a band.
-pub(super) fn is_band(matrix: &Symmetric) -> bool {
-    let width = matrix.half_bandwidth();
-    width <= NARROW || (width + 1) * matrix.size() <= FILL * matrix.stored()
 }
 
 impl Operator {

@@ -1,7 +1,7 @@
 //! The sparse factor: QDLDL with an approximate-minimum-degree order, as Clarabel carries it.
 
 use super::Symmetric;
-use super::factor::NotDefinite;
+use super::definite::NotDefinite;
 use clarabel::algebra::CscMatrix;
 use clarabel::qdldl::{QDLDLFactorisation, QDLDLSettings};
 

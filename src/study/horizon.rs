@@ -9,49 +9,17 @@
 //! For several it is estimated from below, by exact runs from starts that differ by next to nothing; and where the exact scheme cannot go,
 //! by such runs of a stepping scheme.
 
+pub use super::growth::{Growth, Source};
+
 use super::perturbation;
 use crate::error::Result;
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::step::Path;
-use std::fmt;
 
 /// A perturbation that has grown by this much turns an error of 1e-3 of the gap into a tenth of it: beyond, curves part for reasons that
 /// are the scene's, not the scheme's.
 pub const LARGEST_GROWTH: f64 = 1e2;
-
-/// How a growth was found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Source {
-    /// By saltation matrices along the exact motion: exactly.
-    Saltation,
-    /// By exact runs from starts beside the scene's: at least.
-    ExactRuns,
-    /// By such runs of a stepping method: at least.
-    Runs(Method),
-}
-
-impl fmt::Display for Source {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Saltation => f.write_str("by saltation matrices along the exact motion"),
-            Self::ExactRuns => f.write_str("at least, by exact runs from perturbed starts"),
-            Self::Runs(method) => write!(f, "at least, by perturbing the start of a {method} run"),
-        }
-    }
-}
-
-/// Growth over time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Growth {
-    /// Ends of the exact run's steps, or rows of the perturbed runs, s.
-    pub time: Vec<f64>,
-    /// Largest singular value of the derivative there, or the growth seen, in units of the gap scale and the largest speed; at least 1 at the start. No
-    /// number where perturbed runs have parted altogether.
-    pub factor: Vec<f64>,
-    /// How it was found.
-    pub source: Source,
-}
 
 impl Growth {
     /// The growth along the exact run of `scene`.

@@ -6,6 +6,7 @@ pub mod choice;
 pub mod compare;
 mod difference;
 mod exact;
+mod growth;
 pub mod horizon;
 mod perturbation;
 #[cfg(feature = "cli")]

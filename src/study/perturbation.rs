@@ -13,7 +13,7 @@
 //! runs like any other change, and is part of what they show.
 
 use super::difference::largest;
-use super::horizon::{Growth, Source};
+use super::growth::{Growth, Source};
 use crate::error::Result;
 use crate::scene::{Probe, Row, Scene};
 use crate::scheme::{Method, Scheme, Stepper};

@@ -1,6 +1,6 @@
 //! All modes at once, by full matrices.
 
-use super::modes::definite;
+use super::definite::definite;
 use crate::error::{Error, Result};
 use crate::linear::Symmetric;
 use crate::scene::Structure;

@@ -1,7 +1,7 @@
 //! The slowest modes of a large structure, by Lanczos' method.
 
+use super::definite::definite;
 use super::dense::eigen;
-use super::modes::definite;
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Operator, Symmetric, negative_pivots};
 use crate::scene::{Structure, System};

@@ -3,6 +3,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `modes.rs` | [`Modes`]: ω and M-orthonormal shapes |
+//! | `definite.rs` | the check of the mass matrix |
 //! | `dense.rs` | all of them at once |
 //! | `krylov.rs` | the slowest of many |
 //! | `classical.rs` | whether damping couples them |
@@ -10,6 +11,7 @@
 //! | `residual.rs` | the static compliance that is left out |
 
 mod classical;
+mod definite;
 mod dense;
 mod krylov;
 mod modes;

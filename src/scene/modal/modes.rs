@@ -1,8 +1,9 @@
 //! Modes of vibration.
 
+use super::definite::definite;
 use super::{dense, krylov};
 use crate::error::{Error, Result};
-use crate::linear::{Factor, Operator, Symmetric};
+use crate::linear::{Operator, Symmetric};
 use crate::scene::{Row, Structure};
 
 /// Up to this many degrees of freedom full matrices are made where they serve: all modes at once, modal damping.
@@ -182,16 +183,4 @@ fn uncoupled(structure: &Structure, count: usize) -> Result<Modes> {
         shape
     };
     Ok(Modes { omega, shapes: order.iter().map(shape).collect() })
-}
-
-/// An error unless `mass` is positive definite.
-pub(super) fn definite(mass: &Symmetric) -> Result<()> {
-    match Factor::new(mass) {
-        Ok(_) => Ok(()),
-        Err(fault) => {
-            let key = format!("system: mass matrix, row {}", fault.row + 1);
-            let value = mass.get(fault.row, fault.row);
-            Err(Error::invalid(key, format_args!("{value:?} on the diagonal"), "a positive definite matrix"))
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! What the measurements of a run amount to.
 
-use super::ruler::{Ruler, exchanged};
+use super::ruler::{REST, Ruler, exchanged};
 use super::watch::{Record, depth_bound};
 use crate::scene::{Scene, System, WallLaw};
 use crate::scheme::Scheme;
@@ -15,8 +15,6 @@ pub const GAIN: f64 = 0.01;
 /// Share of the arriving energy lost per impact above which a scheme dissipates: 5 % is a restitution off by 0.025, less than what
 /// restitution is known to for any real wall. A loss does not compound: a load makes up for it.
 pub const LOSS: f64 = 0.05;
-/// What walls of several degrees of freedom take scatters by this share from run to run: which contacts come together is chance.
-pub const SCATTER: f64 = 0.04;
 /// Speed over the reference's largest above which the motion is another one: twice its energy.
 pub const FAST: f64 = 1.5;
 /// Root-mean-square speed over the reference's below which the motion is another one: half its energy.
@@ -26,9 +24,6 @@ pub const SLOW: f64 = 0.7;
 pub const FROZEN: f64 = 0.01;
 /// Root-mean-square speed over the reference's below which a body stands still.
 pub const STILL: f64 = 0.01;
-/// Contacts are counted where the approach is faster than this share of the reference's largest: the number of slower ones,
-/// in chatter and accumulations, depends on resolution alone.
-pub const COUNTED: f64 = 0.05;
 /// Contact counts off by more than this factor are wrong.
 pub const MISCOUNTED: f64 = 2.0;
 /// Fewer contacts than this are too few to be held against a factor.
@@ -37,8 +32,6 @@ pub const FEW: usize = 4;
 pub const PASSED: f64 = 1.05;
 /// Depths below this share of the scene's gap scale are rounding, for bounds of 0.
 pub const TOUCH: f64 = 1e-9;
-/// Speeds below this share of the reference's largest are rest.
-pub const REST: f64 = 1e-3;
 
 /// What becomes of a scene under a scheme at a step, from harmless to worst.
 ///
@@ -131,7 +124,7 @@ pub struct Measurement {
     pub speed: f64,
     /// Root-mean-square speed over the reference's.
     pub rms_speed: f64,
-    /// Contacts counted ([`COUNTED`]).
+    /// Contacts counted ([`COUNTED`](super::ruler::COUNTED)).
     pub contacts: usize,
     /// How many fewer than in any reference run.
     pub missed: usize,

@@ -1,6 +1,5 @@
 //! The energy that a scheme makes of itself, of one degree of freedom: a few operations a step, where the judge needs many.
 
-use super::watch::at;
 use crate::scene::{Wall, WallLaw};
 use crate::scheme::Stepper;
 use crate::step::{Balance, Step};
@@ -96,4 +95,9 @@ impl Ledger {
         self.busy = busy;
         self.q = q;
     }
+}
+
+/// The single degree of freedom.
+pub(super) fn at(x: &[f64]) -> f64 {
+    x.first().copied().unwrap_or(0.0)
 }

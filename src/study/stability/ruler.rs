@@ -1,10 +1,17 @@
 //! What a run is measured by: fine runs from neighbouring starts.
 
-use super::class::{COUNTED, REST, SCATTER};
 use super::scale::Scale;
 use super::watch::{Record, total_mass};
 use crate::scene::{Scene, System};
 use crate::step::Contact;
+
+/// What walls of several degrees of freedom take scatters by this share from run to run: which contacts come together is chance.
+pub const SCATTER: f64 = 0.04;
+/// Contacts are counted where the approach is faster than this share of the reference's largest: the number of slower ones,
+/// in chatter and accumulations, depends on resolution alone.
+pub const COUNTED: f64 = 0.05;
+/// Speeds below this share of the reference's largest are rest.
+pub const REST: f64 = 1e-3;
 
 /// Fine runs that others are held against: several, from starts that differ by next to nothing. Where the motion is
 /// chaotic they scatter, and only what lies outside their scatter is wrong.

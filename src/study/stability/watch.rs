@@ -1,6 +1,6 @@
 //! One run, measured: what a stability map needs to know of it.
 
-use super::ledger::Ledger;
+use super::ledger::{Ledger, at};
 use super::scale::Scale;
 use crate::error::Result;
 use crate::residual::Judge;
@@ -112,11 +112,6 @@ pub fn nudged(scene: &Scene, start: u32, scale: &Scale) -> Scene {
     };
     scene.initial.v.iter_mut().for_each(|v| *v += nudge);
     scene
-}
-
-/// The single degree of freedom.
-pub(super) fn at(x: &[f64]) -> f64 {
-    x.first().copied().unwrap_or(0.0)
 }
 
 /// Who keeps the books of energy.
