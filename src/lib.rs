@@ -30,7 +30,7 @@ mod time;
 mod trajectory;
 
 pub use error::{Error, Result};
-pub use run::{Options, Run, run, run_with_progress};
+pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{
     Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MOST_DENSE, MOST_ELEMENTS, MOST_MODES, MassMatrix, Modes, Reduction,
     WallTruncation, matrices,

@@ -1,8 +1,10 @@
 //! What a reader must know of a run: sentences, drawn from its residuals and counters.
 
-use crate::run::Run;
+use crate::residual::Energy;
+use crate::run::{Judging, Recording, Run};
 use crate::scene::Scene;
 use crate::scheme::Scheme;
+use crate::step::Contact;
 
 /// A ledger open by this share of the energy exchanged is worth a sentence, and so are impacts that give back this share more than
 /// arrived at them. (Of Paoli & Schatzman's that is 0.1 % in the source scene at h = 1 ms, of Newmark's a multiple.)
@@ -15,9 +17,8 @@ const SHARE_OF_LARGEST: f64 = 0.1;
 /// Stretches handed over that are told one by one.
 const MOST_HANDED: usize = 5;
 
-pub(crate) fn notes(scene: &Scene, run: &Run) -> Vec<String> {
+pub(crate) fn notes<J: Judging, R: Recording>(scene: &Scene, run: &Run<J, R>) -> Vec<String> {
     let mut notes = Vec::new();
-    let energy = &run.residuals.energy;
     let asked: Vec<f64> = scene.walls.iter().filter_map(|w| w.law.restitution()).collect();
     if run.grid.shortened {
         notes.push(format!(
@@ -40,24 +41,8 @@ pub(crate) fn notes(scene: &Scene, run: &Run) -> Vec<String> {
     if matches!(run.scheme, Scheme::Penalty { law, .. } if law.is_lossless()) && asked.iter().any(|&e| e < 1.0) {
         notes.push("a penalty spring without damping realises e = 1, not the walls' own restitution".into());
     }
-    let arrived = arrived(scene, run);
-    let created = -energy.impact_loss_j;
-    let given = energy.initial_j + energy.load_work_j.abs();
-    if created > WORTH_SAYING * arrived || created > SHARE_OF_LARGEST * energy.largest_j || created > given {
-        notes.push(format!(
-            "the scheme created {created:.3e} J at the rigid walls, beyond the {arrived:.3e} J that arrived there (largest energy of \
-             the run {:.3e} J): do not trust this run",
-            energy.largest_j
-        ));
-    } else if energy.residual > WORTH_SAYING {
-        let verb = if energy.residual_j > 0.0 { "created" } else { "lost" };
-        notes.push(format!(
-            "the scheme {verb} {:.3e} J that no load, damping or wall accounts for, {:.1} % of the energy exchanged (largest energy \
-             of the run {:.3e} J): the step is too large for it, do not trust this run",
-            energy.residual_j.abs(),
-            100.0 * energy.residual,
-            energy.largest_j
-        ));
+    if let Some(residuals) = run.judged() {
+        notes.extend(of_energy(&residuals.energy, run.recorded().map(|t| arrived(scene, t.contacts()))));
     }
     for handed in run.handed.iter().take(MOST_HANDED) {
         notes.push(format!(
@@ -77,11 +62,36 @@ pub(crate) fn notes(scene: &Scene, run: &Run) -> Vec<String> {
     notes
 }
 
+/// What the ledger tells against a run; `arrived` is the energy (J) that arrived at its rigid walls, where it is known.
+fn of_energy(energy: &Energy, arrived: Option<f64>) -> Option<String> {
+    let created = -energy.impact_loss_j;
+    let given = energy.initial_j + energy.load_work_j.abs();
+    let beyond = arrived.is_some_and(|arrived| created > WORTH_SAYING * arrived);
+    if beyond || created > SHARE_OF_LARGEST * energy.largest_j || created > given {
+        let arrived = arrived.map_or_else(String::new, |a| format!(", beyond the {a:.3e} J that arrived there"));
+        return Some(format!(
+            "the scheme created {created:.3e} J at the rigid walls{arrived} (largest energy of the run {:.3e} J): do not \
+             trust this run",
+            energy.largest_j
+        ));
+    }
+    (energy.residual > WORTH_SAYING).then(|| {
+        let verb = if energy.residual_j > 0.0 { "created" } else { "lost" };
+        format!(
+            "the scheme {verb} {:.3e} J that no load, damping or wall accounts for, {:.1} % of the energy exchanged (largest energy \
+             of the run {:.3e} J): the step is too large for it, do not trust this run",
+            energy.residual_j.abs(),
+            100.0 * energy.residual,
+            energy.largest_j
+        )
+    })
+}
+
 /// Kinetic energy that arrived at rigid walls, J, by the speeds before each contact.
-fn arrived(scene: &Scene, run: &Run) -> f64 {
+fn arrived(scene: &Scene, contacts: &[Contact]) -> f64 {
     let masses = scene.wall_masses();
     let mass = |wall: usize| masses.get(wall).copied().unwrap_or(0.0);
     let rigid = |wall: usize| scene.walls.get(wall).is_some_and(|w| w.law.is_rigid());
-    let contacts = run.trajectory.contacts().iter().filter(|c| rigid(c.wall));
+    let contacts = contacts.iter().filter(|c| rigid(c.wall));
     contacts.map(|c| 0.5 * mass(c.wall) * c.approach_speed * c.approach_speed).sum()
 }

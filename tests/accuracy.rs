@@ -98,7 +98,7 @@ fn time() -> TimeOptions {
 fn true_error(scene: &Scene, found: &Run) -> (f64, String) {
     let sample = found.grid.end / found.grid.rows as f64;
     let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(sample) };
-    let exact = run(scene, &Scheme::Event, &Options { time, backend: Backend::Auto }).unwrap();
+    let exact = run(scene, &Scheme::Event, &Options::new(time, Backend::Auto)).unwrap();
     let change = Change::of_runs(scene, found, &exact, scene.duration, 0.0).unwrap();
     change.worst()
 }
@@ -107,7 +107,7 @@ fn true_error(scene: &Scene, found: &Run) -> (f64, String) {
 fn displacement_and_impulse(scene: &Scene, found: &Run) -> f64 {
     let sample = found.grid.end / found.grid.rows as f64;
     let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(sample) };
-    let exact = run(scene, &Scheme::Event, &Options { time, backend: Backend::Auto }).unwrap();
+    let exact = run(scene, &Scheme::Event, &Options::new(time, Backend::Auto)).unwrap();
     let pairs = found.trajectory.displacement().iter().zip(exact.trajectory.displacement());
     let mut error = pairs.map(|(x, y)| (x - y).abs() / scene.gap_scale()).fold(0.0, f64::max);
     let speed = exact.trajectory.velocity().iter().fold(0.0_f64, |a, v| a.max(v.abs()));
@@ -121,7 +121,7 @@ fn displacement_and_impulse(scene: &Scene, found: &Run) -> f64 {
 
 fn at_step(scene: &Scene, scheme: &Scheme, step: f64, sample: f64) -> Run {
     let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(step) };
-    run(scene, scheme, &Options { time, backend: Backend::Auto }).unwrap()
+    run(scene, scheme, &Options::new(time, Backend::Auto)).unwrap()
 }
 
 fn target(scheme: Scheme, against: Against, tolerance: f64) -> Target {

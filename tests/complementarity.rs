@@ -39,7 +39,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
 }
 
 fn options(step: f64, backend: Backend) -> Options {
-    Options { time: TimeOptions { sample: Some(1e-2), ..TimeOptions::with_step(step) }, backend }
+    Options::new(TimeOptions { sample: Some(1e-2), ..TimeOptions::with_step(step) }, backend)
 }
 
 #[test]

@@ -171,7 +171,7 @@ impl Bar {
     }
 
     fn run(&self, case: &Case, method: &Method) -> Result<Run> {
-        let options = Options { time: case.time, backend: method.backend };
+        let options = Options::new(case.time, method.backend);
         run_with_progress(&case.scene, &method.scheme, &options, &mut |time| self.set(time / self.end))
     }
 

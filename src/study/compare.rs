@@ -93,12 +93,12 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
     let time = TimeOptions { sample: Some(grid.end / grid.rows as f64), ..*time };
     let structure = matches!(scene.system, System::Structure(_));
     let possible = if structure { affordable(scene) } else { Ok(()) };
-    let reference = possible.and_then(|()| run(scene, &Scheme::Event, &Options { time, backend: Backend::Auto }));
+    let reference = possible.and_then(|()| run(scene, &Scheme::Event, &Options::new(time, Backend::Auto)));
     // Several degrees of freedom: where the exact scheme cannot go, a stepping scheme is refined, and shows what grows.
     let stand_in = choose(scene).method;
     let finer = TimeOptions { step: grid.step / FINER, ..time };
     let refined = match &reference {
-        Err(_) if structure => run(scene, &stand_in.scheme, &Options { time: finer, backend: stand_in.backend }).ok(),
+        Err(_) if structure => run(scene, &stand_in.scheme, &Options::new(finer, stand_in.backend)).ok(),
         _ => None,
     };
     let growth = match &refined {
@@ -112,7 +112,7 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
     for (index, method) in others.chain(std::iter::once(&exact)).enumerate() {
         let outcome = match method.scheme {
             Scheme::Event => reference.clone(),
-            _ => run(scene, &method.scheme, &Options { time, backend: method.backend }),
+            _ => run(scene, &method.scheme, &Options::new(time, method.backend)),
         };
         rows.push(row(scene, *method, outcome, reference.as_ref().ok().or(refined.as_ref()), horizon, &time));
         progress(index as u64 + 1);

@@ -79,7 +79,7 @@ impl Verdict {
             (Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run)?, Backend::Auto)
         } else {
             let step_s = 0.5 * run.grid.step;
-            let options = Options { time: TimeOptions { step: step_s, ..rows }, backend: method.backend };
+            let options = Options::new(TimeOptions { step: step_s, ..rows }, method.backend);
             let half = run_with_progress(scene, &method.scheme, &options, progress)?;
             (Check::HalfStep { step_s }, half.trajectory, method.backend)
         };

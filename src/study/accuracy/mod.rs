@@ -173,7 +173,7 @@ pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> R
 /// The exact motion of `scene`, at the rows of `time`, where it can be afforded.
 fn exact(scene: &Scene, time: TimeOptions) -> Result<Run> {
     affordable(scene)?;
-    run(scene, &Scheme::Event, &Options { time, backend: Backend::Auto })
+    run(scene, &Scheme::Event, &Options::new(time, Backend::Auto))
 }
 
 /// What is judged: the scene up to the horizon.
@@ -255,7 +255,7 @@ fn finish(
             true => judged.coarse.options(refined.level, &target.time),
             false => target.time,
         };
-        let options = Options { time, backend: method.backend };
+        let options = Options::new(time, method.backend);
         run_with_progress(scene, &method.scheme, &options, progress)?
     } else {
         refined.run

@@ -59,7 +59,7 @@ pub(super) fn refine(
             break;
         }
         let time = judged.time(&judged.coarse.options(level, &target.time));
-        let options = Options { time, backend: method.backend };
+        let options = Options::new(time, method.backend);
         let run = match run_with_progress(&judged.scene, &method.scheme, &options, progress) {
             Ok(run) => run,
             Err(error) if error.is_request() => return Err(error),

@@ -73,7 +73,7 @@ pub fn choose_modes(
     tolerance: f64,
     progress: &mut dyn FnMut(f64),
 ) -> Result<ChosenModes> {
-    let options = Options { time: *time, backend: method.backend };
+    let options = Options::new(*time, method.backend);
     let mut make = |modes: usize| -> Result<(Reduction, Run)> {
         let cut = whole.cut(modes)?;
         let run = run_with_progress(&cut.scene, &method.scheme, &options, progress)?;

@@ -100,7 +100,7 @@ impl Truncation {
         let more = whole.cut((2 * modes).min(reduction.degrees_of_freedom))?;
         // The same rows, whatever the scheme.
         let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
-        let options = Options { time: rows, backend: method.backend };
+        let options = Options::new(rows, method.backend);
         let against = run_with_progress(&more.scene, &method.scheme, &options, progress)?;
         Self::between(whole, [reduction, &more], [run, &against], time.statistics_from).map(Some)
     }

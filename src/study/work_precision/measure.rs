@@ -94,7 +94,7 @@ fn errors_of(
         let outcome = if expected > effort.most_seconds {
             Outcome::LeftOut(expected)
         } else {
-            match run(scene, &method.scheme, &Options { time, backend: method.backend }) {
+            match run(scene, &method.scheme, &Options::new(time, method.backend)) {
                 Ok(run) => {
                     pace = run.seconds / count as f64;
                     ran(measure(run, reference, own))

@@ -119,7 +119,7 @@ impl Reference {
     ) -> Result<Self> {
         let go = |count| {
             let time = ladder.time(count);
-            run(scene, &method.scheme, &Options { time, backend: method.backend })
+            run(scene, &method.scheme, &Options::new(time, method.backend))
         };
         let finest = ladder.counts.last().copied().unwrap_or(ladder.rows).max(ladder.rows);
         let mut count = ladder.rows;

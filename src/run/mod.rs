@@ -1,53 +1,41 @@
 //! The loop: a stepper, the judge and the recorder, from the start of a scene to its end.
 
+mod options;
+
+pub use options::{Judged, Judging, Options, Recorded, Recording, Unjudged, Unrecorded};
+
 use crate::error::Result;
 use crate::qp::Backend;
-use crate::residual::{Judge, Residuals};
-use crate::scene::Scene;
+use crate::residual::Residuals;
+use crate::scene::{Scene, State};
 use crate::scheme::{Counters, Handed, Scheme, Stepper};
-use crate::statistics::Statistics;
-use crate::time::{TimeGrid, TimeOptions};
-use crate::trajectory::{Recorder, Trajectory};
+use crate::time::TimeGrid;
+use crate::trajectory::Trajectory;
 use std::time::Instant;
 
 /// Steps between two reports of progress.
 const PROGRESS_STRIDE: u64 = 1 << 14;
 
-/// What a run needs to know beside the scene and the scheme.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
-    /// Step, recording and statistics. The exact scheme has no use for the step.
-    pub time: TimeOptions,
-    /// Solver of the quadratic programmes.
-    pub backend: Backend,
-}
-
-impl Options {
-    /// Steps of `step` seconds, all of them recorded, statistics from the start, the solver chosen by the scene.
-    #[must_use]
-    pub fn with_step(step: f64) -> Self {
-        Self { time: TimeOptions::with_step(step), backend: Backend::Auto }
-    }
-}
-
-/// A finished run.
+/// A finished run: judged and recorded, unless the [`Options`] left one of them out.
 #[derive(Debug, Clone)]
-pub struct Run {
+pub struct Run<J: Judging = Judged, R: Recording = Recorded> {
     /// The scheme that made it.
     pub scheme: Scheme,
     /// The solver of its quadratic programmes: the one in force, not `auto`.
     pub backend: Backend,
     /// Its steps and rows.
     pub grid: TimeGrid,
-    /// The recorded motion.
-    pub trajectory: Trajectory,
-    /// The judge's verdict.
-    pub residuals: Residuals,
-    /// Contact statistics over the window asked for.
-    pub statistics: Statistics,
+    /// The state at the end.
+    pub state: State,
+    /// The recorded motion, a [`Trajectory`]; `()` if the run was not recorded.
+    pub trajectory: R::Motion,
+    /// The judge's verdict, [`Residuals`]; `()` if the run was not judged.
+    pub residuals: J::Verdict,
+    /// Contact [`Statistics`](crate::Statistics) over the window asked for; `()` if the run was not recorded.
+    pub statistics: R::Statistics,
     /// What it cost, machine-independent.
     pub counters: Counters,
-    /// What it cost, wall-clock seconds, recording and judging included.
+    /// What it cost, wall-clock seconds, recording and judging included where they were asked for.
     pub seconds: f64,
     /// Stretches that the exact scheme handed to moreau-jean; none for other schemes.
     pub handed: Vec<Handed>,
@@ -55,11 +43,25 @@ pub struct Run {
     pub notes: Vec<String>,
 }
 
+impl<J: Judging, R: Recording> Run<J, R> {
+    /// The judge's verdict, if the run was judged: for code that takes runs of any kind.
+    #[must_use]
+    pub fn judged(&self) -> Option<&Residuals> {
+        J::residuals(&self.residuals)
+    }
+
+    /// The recorded motion, if the run was recorded: for code that takes runs of any kind.
+    #[must_use]
+    pub fn recorded(&self) -> Option<&Trajectory> {
+        R::trajectory(&self.trajectory)
+    }
+}
+
 /// Runs `scene` by `scheme` to its end.
 ///
 /// # Errors
 /// [`crate::Error::Invalid`] for a request that makes no sense, and what [`Stepper::step`] reports.
-pub fn run(scene: &Scene, scheme: &Scheme, options: &Options) -> Result<Run> {
+pub fn run<J: Judging, R: Recording>(scene: &Scene, scheme: &Scheme, options: &Options<J, R>) -> Result<Run<J, R>> {
     run_with_progress(scene, scheme, options, &mut |_| {})
 }
 
@@ -67,28 +69,25 @@ pub fn run(scene: &Scene, scheme: &Scheme, options: &Options) -> Result<Run> {
 ///
 /// # Errors
 /// As [`run`].
-pub fn run_with_progress(
+pub fn run_with_progress<J: Judging, R: Recording>(
     scene: &Scene,
     scheme: &Scheme,
-    options: &Options,
+    options: &Options<J, R>,
     progress: &mut dyn FnMut(f64),
-) -> Result<Run> {
+) -> Result<Run<J, R>> {
     scene.validate()?;
     let exact = *scheme == Scheme::Event;
-    let grid = match exact {
-        true => TimeGrid::exact(scene.duration, &options.time)?,
-        false => TimeGrid::stepping(scene.duration, &options.time)?,
-    };
+    let grid = options.grid(scene, exact)?;
     let started = Instant::now();
     let mut stepper = Stepper::with_backend(scene, scheme, grid.step, options.backend)?;
-    let state = stepper.state();
-    let mut judge = Judge::new(stepper.scene(), stepper.contract(), grid.step, &state.q, &state.v);
-    let mut recorder = Recorder::new(stepper.scene(), grid.rows, &state.q, &state.v);
+    let start = stepper.state();
+    let mut judge = J::begin(&stepper, grid.step, &start);
+    let mut recorder = R::begin(&stepper, grid.rows, &start);
     let mut count = 0;
     loop {
         let step = stepper.step()?;
-        judge.see(&step);
-        recorder.see(&step);
+        J::see(&mut judge, &step);
+        R::see(&mut recorder, &step);
         let time = step.end;
         count += 1;
         if count % PROGRESS_STRIDE == 0 {
@@ -98,14 +97,16 @@ pub fn run_with_progress(
             break;
         }
     }
-    let trajectory = recorder.finish(&stepper.open_contacts());
+    let from = options.time.statistics_from;
+    let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), scene, from);
     let mut run = Run {
         scheme: *scheme,
         backend: stepper.backend(),
         grid,
-        statistics: Statistics::new(scene, trajectory.contacts(), options.time.statistics_from),
+        state: stepper.state(),
+        statistics,
         trajectory,
-        residuals: judge.residuals(),
+        residuals: J::verdict(judge),
         counters: stepper.counters(),
         seconds: started.elapsed().as_secs_f64(),
         handed: stepper.handed().to_vec(),

@@ -1,0 +1,247 @@
+//! What a run needs to know beside the scene and the scheme, and what it is asked to keep.
+
+use crate::error::Result;
+use crate::qp::Backend;
+use crate::residual::{Judge, Residuals};
+use crate::scene::{Scene, State};
+use crate::scheme::Stepper;
+use crate::statistics::Statistics;
+use crate::step::{Contact, Step};
+use crate::time::{TimeGrid, TimeOptions};
+use crate::trajectory::{Recorder, Trajectory};
+use std::fmt::Debug;
+
+/// What a run needs to know beside the scene and the scheme.
+///
+/// A run is judged and recorded unless told otherwise. A study that needs only one of the two, or only the state at the
+/// end, leaves the other out and saves its time; what was not asked for is then no field full of zeros, but absent from the
+/// type of the [`Run`](crate::Run):
+///
+/// ```
+/// use signorini::{Load, Options, Scene, Scheme, Wall, run};
+///
+/// let scene = Scene::oscillator(1.0, 0.2, 100.0)
+///     .with_wall(Wall::upper("upper", 5e-3))
+///     .with_load(Load::harmonic(3.0, 5.0, 0.0));
+/// let options = Options::with_step(1e-4);
+///
+/// let full = run(&scene, &Scheme::Event, &options)?;
+/// let judged = run(&scene, &Scheme::Event, &options.unrecorded())?; // residuals, no trajectory
+/// let bare = run(&scene, &Scheme::Event, &options.unjudged().unrecorded())?; // the state at the end, and counters
+/// assert_eq!(judged.residuals, full.residuals);
+/// assert_eq!(bare.state, full.state);
+/// # Ok::<(), signorini::Error>(())
+/// ```
+///
+/// `bare.residuals` would not compile to a number:
+///
+/// ```compile_fail
+/// # use signorini::{Options, Scene, Scheme, run};
+/// let bare = run(&Scene::oscillator(1.0, 0.0, 1.0), &Scheme::Event, &Options::with_step(1e-4).unjudged()).unwrap();
+/// println!("{}", bare.residuals.complementarity);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options<J: Judging = Judged, R: Recording = Recorded> {
+    /// Step, rows and the window of the statistics. The exact scheme has no use for the step.
+    pub time: TimeOptions,
+    /// Solver of the quadratic programmes.
+    pub backend: Backend,
+    /// Whether the run is judged.
+    pub judge: J,
+    /// Whether it is recorded.
+    pub record: R,
+}
+
+impl Options {
+    /// Steps of `step` seconds, all of them recorded, statistics from the start, the solver chosen by the scene.
+    #[must_use]
+    pub fn with_step(step: f64) -> Self {
+        Self::new(TimeOptions::with_step(step), Backend::Auto)
+    }
+
+    /// A judged and recorded run.
+    #[must_use]
+    pub fn new(time: TimeOptions, backend: Backend) -> Self {
+        Self { time, backend, judge: Judged, record: Recorded }
+    }
+}
+
+impl<J: Judging, R: Recording> Options<J, R> {
+    /// The same, with a row every `sample` seconds instead of every step.
+    #[must_use]
+    pub fn with_sample(mut self, sample: f64) -> Self {
+        self.time.sample = Some(sample);
+        self
+    }
+
+    /// The same without the judge: [`Run::residuals`](crate::Run::residuals) is then `()`.
+    #[must_use]
+    pub fn unjudged(self) -> Options<Unjudged, R> {
+        let Self { time, backend, record, .. } = self;
+        Options { time, backend, judge: Unjudged, record }
+    }
+
+    /// The same without rows, contacts and statistics: [`Run::trajectory`](crate::Run::trajectory) and
+    /// [`Run::statistics`](crate::Run::statistics) are then `()`. (Contacts and statistics without rows to speak of:
+    /// [`Options::with_sample`] of the duration.)
+    #[must_use]
+    pub fn unrecorded(self) -> Options<J, Unrecorded> {
+        let Self { time, backend, judge, .. } = self;
+        Options { time, backend, judge, record: Unrecorded }
+    }
+
+    /// The steps and rows of a run over `scene`.
+    pub(super) fn grid(&self, scene: &Scene, exact: bool) -> Result<TimeGrid> {
+        let mut time = self.time;
+        if R::ROWLESS && time.sample.is_none() {
+            // The bound on rows is none of a run without them. A spacing that is given stays: steps end on its rows.
+            time.sample = Some(scene.duration);
+        }
+        if exact { TimeGrid::exact(scene.duration, &time) } else { TimeGrid::stepping(scene.duration, &time) }
+    }
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Judged {}
+    impl Sealed for super::Unjudged {}
+    impl Sealed for super::Recorded {}
+    impl Sealed for super::Unrecorded {}
+}
+
+/// Whether a run is judged: [`Judged`] or [`Unjudged`], no others.
+pub trait Judging: sealed::Sealed + Debug + Copy {
+    /// What the judge hands over: [`Residuals`], or nothing.
+    type Verdict: Debug + Clone;
+    #[doc(hidden)]
+    type Judge;
+    #[doc(hidden)]
+    fn begin(stepper: &Stepper, step: f64, start: &State) -> Self::Judge;
+    #[doc(hidden)]
+    fn see(judge: &mut Self::Judge, step: &Step<'_>);
+    #[doc(hidden)]
+    fn verdict(judge: Self::Judge) -> Self::Verdict;
+    #[doc(hidden)]
+    fn residuals(verdict: &Self::Verdict) -> Option<&Residuals>;
+}
+
+/// The run is judged step by step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Judged;
+
+/// The run is not judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Unjudged;
+
+impl Judging for Judged {
+    type Verdict = Residuals;
+    type Judge = Judge;
+
+    fn begin(stepper: &Stepper, step: f64, start: &State) -> Judge {
+        Judge::new(stepper.scene(), stepper.contract(), step, &start.q, &start.v)
+    }
+
+    fn see(judge: &mut Judge, step: &Step<'_>) {
+        judge.see(step);
+    }
+
+    fn verdict(judge: Judge) -> Residuals {
+        judge.residuals()
+    }
+
+    fn residuals(verdict: &Residuals) -> Option<&Residuals> {
+        Some(verdict)
+    }
+}
+
+impl Judging for Unjudged {
+    type Verdict = ();
+    type Judge = ();
+
+    fn begin(_: &Stepper, _: f64, _: &State) {}
+
+    fn see((): &mut (), _: &Step<'_>) {}
+
+    fn verdict((): ()) {}
+
+    fn residuals((): &()) -> Option<&Residuals> {
+        None
+    }
+}
+
+/// Whether a run is recorded: [`Recorded`] or [`Unrecorded`], no others.
+pub trait Recording: sealed::Sealed + Debug + Copy {
+    /// What is recorded of the motion: a [`Trajectory`], or nothing.
+    type Motion: Debug + Clone;
+    /// What is drawn from its contacts: [`Statistics`], or nothing.
+    type Statistics: Debug + Clone;
+    #[doc(hidden)]
+    type Recorder;
+    #[doc(hidden)]
+    const ROWLESS: bool;
+    #[doc(hidden)]
+    fn begin(stepper: &Stepper, rows: u64, start: &State) -> Self::Recorder;
+    #[doc(hidden)]
+    fn see(recorder: &mut Self::Recorder, step: &Step<'_>);
+    #[doc(hidden)]
+    fn finish(
+        recorder: Self::Recorder,
+        open: &[Contact],
+        scene: &Scene,
+        statistics_from: f64,
+    ) -> (Self::Motion, Self::Statistics);
+    #[doc(hidden)]
+    fn trajectory(motion: &Self::Motion) -> Option<&Trajectory>;
+}
+
+/// Rows, contacts and their statistics are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Recorded;
+
+/// Nothing is kept of the motion but its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Unrecorded;
+
+impl Recording for Recorded {
+    type Motion = Trajectory;
+    type Statistics = Statistics;
+    type Recorder = Recorder;
+    const ROWLESS: bool = false;
+
+    fn begin(stepper: &Stepper, rows: u64, start: &State) -> Recorder {
+        Recorder::new(stepper.scene(), rows, &start.q, &start.v)
+    }
+
+    fn see(recorder: &mut Recorder, step: &Step<'_>) {
+        recorder.see(step);
+    }
+
+    fn finish(recorder: Recorder, open: &[Contact], scene: &Scene, from: f64) -> (Trajectory, Statistics) {
+        let trajectory = recorder.finish(open);
+        let statistics = Statistics::new(scene, trajectory.contacts(), from);
+        (trajectory, statistics)
+    }
+
+    fn trajectory(motion: &Trajectory) -> Option<&Trajectory> {
+        Some(motion)
+    }
+}
+
+impl Recording for Unrecorded {
+    type Motion = ();
+    type Statistics = ();
+    type Recorder = ();
+    const ROWLESS: bool = true;
+
+    fn begin(_: &Stepper, _: u64, _: &State) {}
+
+    fn see((): &mut (), _: &Step<'_>) {}
+
+    fn finish((): (), _: &[Contact], _: &Scene, _: f64) -> ((), ()) {
+        ((), ())
+    }
+
+    fn trajectory((): &()) -> Option<&Trajectory> {
+        None
+    }
+}
