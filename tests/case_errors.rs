@@ -111,6 +111,18 @@ const WRONG: &[Wrong] = &[
     ("no kind", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "", "18:1", &["load 1 has no kind", "constant"]),
     ("table that is not there", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\" }", "19:18", &["no.csv", "no such file", "time_s,force_N"]),
     ("table that is a folder", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \".\" }", "19:18", &["a folder", "time_s,force_N"]),
+    // Keys of a table.
+    ("a time without a name", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", time = \"\" }", "19:35", &["load 1: table: time", "header of a column"]),
+    ("a force without a name", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", force = \" \" }", "19:36", &["load 1: table: force", "header of a column"]),
+    ("time and force of one column", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", time = \"F\", force = \"F\" }", "19:48", &["load 1: table: force", "another column"]),
+    ("a delimiter of two signs", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", delimiter = \"; \" }", "19:40", &["load 1: table: delimiter", "\";\""]),
+    ("a letter for a delimiter", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", delimiter = \"x\" }", "19:40", &["load 1: table: delimiter", "\";\""]),
+    ("a semicolon for a point", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", decimal = \";\" }", "19:38", &["load 1: table: decimal", "\",\""]),
+    ("decimal commas between commas", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", decimal = \",\" }", "19:38", &["load 1: table: decimal", "delimiter = \";\" beside it"]),
+    ("a scale of nothing", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", scale = 0 }", "19:36", &["load 1: table: scale", "other than 0"]),
+    ("a scale that is no number", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", scale = nan }", "19:36", &["load 1: table: scale", "other than 0"]),
+    ("a column by number", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", force = 2 }", "19:36", &["load.table.force", "header of the column of forces"]),
+    ("an unknown key of a table", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", column = 2 }", "19:28", &["unknown key `column`", "delimiter"]),
     // Times.
     ("no time", "end = 10.0", "end = 0.0", "26:7", &["time.end", "above 0"]),
     ("endless", "end = 10.0", "end = inf", "26:7", &["time.end", "finite"]),
@@ -232,6 +244,61 @@ fn a_malformed_table_is_refused_at_its_own_line() {
     assert!(said.contains("line 3 is not UTF-8") && said.contains("case.toml:22:18"), "{said}");
     fs::write(&table, b"\xef\xbb\xbftime_s,force_N\r\n0, 1\r\n1, 2\r\n").unwrap();
     assert!(Case::read(&case).is_ok(), "{:?}", Case::read(&case));
+}
+
+#[test]
+fn a_measured_table_is_refused_at_its_own_place_with_what_would_read_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    let path = folder.path().join("force.csv");
+    let wrong: &[(&str, &str, &str, &[&str])] = &[
+        (", time = \"t\"", "t,F\n0,1\n1,2\n", "1:1", &["no column \"force_N\"", "\"t\", \"F\""]),
+        (
+            ", time = \"t\", force = \"F2\"",
+            "t,F1,F3\n0,1,2\n1,2,3\n",
+            "1:1",
+            &["no column \"F2\"", "\"t\", \"F1\", \"F3\""],
+        ),
+        ("", "t;F\n0;1\n1;2\n", "1:1", &["its header is \"t;F\"", "delimiter = \";\" beside file"]),
+        (", delimiter = \";\"", "time_s,force_N\n0,1\n", "1:1", &["delimiter = \",\" beside file"]),
+        (
+            ", delimiter = \";\"",
+            "time_s;force_N\n0;1\n1;2,5\n",
+            "3:3",
+            &["force_N is \"2,5\"", "decimal = \",\" beside file"],
+        ),
+        (
+            ", delimiter = \";\", decimal = \",\"",
+            "time_s;force_N\n0;1\n1;2.5\n",
+            "3:3",
+            &["force_N is \"2.5\"", "decimal = \".\" beside file"],
+        ),
+        (
+            ", delimiter = \";\", decimal = \",\"",
+            "time_s;force_N\n0;1\n1;1.000,5\n",
+            "3:3",
+            &["\"1.000,5\"", "decimal comma"],
+        ),
+        (", force = \"F\"", "time_s,F,F\n0,1,2\n1,2,3\n", "1:10", &["two columns", "\"F\"", "once"]),
+        (", scale = 1e300", "time_s,force_N\n0,1\n1,1e30\n", "3:3", &["times scale is inf"]),
+        (", force = \"F\"", "time_s,,F\n0,,1\n1,,x\n", "3:4", &["F is \"x\"", "decimal point"]),
+        (", force = \"F\"", "time_s,a,F\n0,,1\n0,,2\n", "3:1", &["more than the row before"]),
+    ];
+    for (keys, csv, place, words) in wrong {
+        let load = format!("[[load]]\ntable = {{ file = \"force.csv\"{keys} }}\n\n[initial]");
+        fs::write(&case, RIGHT.replace("[initial]", &load)).unwrap();
+        fs::write(&path, csv).unwrap();
+        let said = Case::read(&case).map(|_| "ACCEPTED").unwrap_err().to_string();
+        let at = format!("--> {}:{place}\n", path.display());
+        let fits = said.contains(&at) && said.contains("expected") && words.iter().all(|word| said.contains(word));
+        assert!(fits, "{keys} {csv:?} {place} {words:?}\n{said}");
+    }
+    // A header of 2000 columns is not shown whole.
+    let wide: Vec<String> = (0..2000).map(|i| format!("channel_{i}")).collect();
+    fs::write(&case, RIGHT.replace("[initial]", "[[load]]\ntable = { file = \"force.csv\" }\n\n[initial]")).unwrap();
+    fs::write(&path, wide.join(",") + "\n").unwrap();
+    let said = Case::read(&case).map(|_| "ACCEPTED").unwrap_err().to_string();
+    assert!(said.contains("and 1976 more") && said.len() < 2000, "{} characters\n{said}", said.len());
 }
 
 #[test]

@@ -269,3 +269,31 @@ fn a_table_that_no_memory_holds_is_refused() {
     // 807 columns, 1e6 rows.
     assert!(case.validate().is_err_and(|e| e.is_request() && e.to_string().contains("time.sample is 1e-6")));
 }
+
+#[test]
+fn a_measured_table_is_read_by_the_names_of_its_columns() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = |keys: &str| {
+        let text = format!(
+            "[system.oscillator]\nmass = 1\ndamping = 0\nstiffness = 1\n[[load]]\ntable = {{ file = \"force.csv\"{keys} }}\n\
+             [time]\nend = 1\nstep = 0.1\n"
+        );
+        fs::write(folder.path().join("case.toml"), text).unwrap();
+        Case::read(folder.path().join("case.toml")).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let table = |case: &Case| match &case.scene.loads[0].kind {
+        LoadKind::Table(table) => (table.time().to_vec(), table.force().to_vec()),
+        other => panic!("{other:?}"),
+    };
+    // As a German data logger writes it: a byte-order mark, semicolons, decimal commas, quotes, spaces, columns of no interest.
+    let german =
+        "\u{feff}\"t\"; F1 ;\"F2; raw\";Bemerkung\r\n0,0;1,5;-2,25;ok\r\n 0,5 ;2;\"1e-3\";a,b\r\n1;3;0,125;\r\n";
+    fs::write(folder.path().join("force.csv"), german).unwrap();
+    let read = case(", time = \"t\", force = \"F2; raw\", delimiter = \";\", decimal = \",\", scale = 2.0");
+    assert_eq!(table(&read), (vec![0.0, 0.5, 1.0], vec![-4.5, 2e-3, 0.25]));
+    fs::write(folder.path().join("force.csv"), "force_N\ttime_s\n1\t0\n2\t1\n").unwrap();
+    assert_eq!(table(&case(", delimiter = \"\\t\", scale = -1e3")), (vec![0.0, 1.0], vec![-1e3, -2e3]));
+    // Columns beside the two are no reason to refuse a table.
+    fs::write(folder.path().join("force.csv"), "time_s,force_N,note\n0,1,start\n1,2,end\n").unwrap();
+    assert_eq!(table(&case("")), (vec![0.0, 1.0], vec![1.0, 2.0]));
+}

@@ -6,9 +6,9 @@ use super::model::{Model, Place};
 use super::report::Source;
 use super::system::MOST_MASSES;
 use super::value::{Number, Section};
-use super::{Case, PenaltyOptions, TimeOptions, Truncated, table};
+use super::{Case, PenaltyOptions, TimeOptions, Truncated};
 use crate::error::{Error, Result};
-use crate::scene::{Load, Scene, State, Wall};
+use crate::scene::{Scene, State, Wall};
 use crate::scheme::{Integrator, PenaltyLaw};
 use crate::study::truncation::Whole;
 use std::ops::Range;
@@ -116,57 +116,6 @@ impl Builder<'_> {
             }
         }
         Ok(modes)
-    }
-
-    fn load(&mut self, index: usize, load: Section<file::Load>) -> Result<Load> {
-        let key = |what: &str| format!("load {}: {what}", index + 1);
-        let file::Load { at, constant, harmonic, impulse, table } = load.value;
-        self.places.push((format!("load {}", index + 1), load.span.clone()));
-        let given: Vec<_> = [
-            ("constant", constant.as_ref().map(|s| s.span.clone())),
-            ("harmonic", harmonic.as_ref().map(|s| s.span.clone())),
-            ("impulse", impulse.as_ref().map(|s| s.span.clone())),
-            ("table", table.as_ref().map(|s| s.span.clone())),
-        ]
-        .into_iter()
-        .filter_map(|(kind, span)| Some((kind, span?)))
-        .collect();
-        if let [(first, _), (second, span), ..] = given.as_slice() {
-            return Err(self.source.error(
-                span.clone(),
-                &format!("load {} has two kinds, `{first}` and `{second}`", index + 1),
-                "expected one kind in each [[load]]; loads add up, so write a second [[load]]",
-            ));
-        }
-        let owner = format!("load {}", index + 1);
-        let mut sites = self.sites(&owner, at.as_ref(), load.span.clone(), true)?;
-        let site = sites.pop().ok_or_else(|| self.refuse(load.span.clone(), &owner, "a place"))?;
-        let on = |load: Load| Load { at: site.row.clone(), ..load };
-        if let Some(Section { value: constant, .. }) = constant {
-            return Ok(on(Load::constant(self.number(key("force"), &constant.force))));
-        }
-        if let Some(Section { value: sine, .. }) = harmonic {
-            let amplitude = self.number(key("amplitude"), &sine.amplitude);
-            let frequency = self.number(key("frequency"), &sine.frequency);
-            let phase = self.optional(key("phase"), sine.phase.as_ref()).unwrap_or(0.0);
-            return Ok(on(Load::harmonic(amplitude, frequency, phase)));
-        }
-        if let Some(Section { value: blow, .. }) = impulse {
-            let impulse = self.number(key("impulse"), &blow.impulse);
-            let time = self.optional(key("time"), blow.time.as_ref()).unwrap_or(0.0);
-            return Ok(on(Load::impulse(impulse, time)));
-        }
-        let Some(Section { value: table, .. }) = table else {
-            let help = "expected one of constant = { force }, harmonic = { amplitude, frequency, phase }, \
-                        impulse = { impulse, time }, table = { file }";
-            return Err(self.source.error(load.span, &format!("load {} has no kind", index + 1), help));
-        };
-        let file = table.file.get_ref();
-        let (path, text) = (self.tables)(file).map_err(|reason| {
-            let help = "expected a CSV file with the header time_s,force_N; its path is relative to the case file";
-            self.source.error(table.file.span(), &format!("load {}: table {file:?}: {reason}", index + 1), help)
-        })?;
-        Ok(on(Load::table(table::read(&path, &text)?)))
     }
 
     fn penalty(&mut self, penalty: file::Penalty) -> Result<PenaltyOptions> {

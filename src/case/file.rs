@@ -155,6 +155,11 @@ pub(super) struct Impulse {
 #[serde(deny_unknown_fields)]
 pub(super) struct Table {
     pub file: Spanned<String>,
+    pub time: Option<Spanned<String>>,
+    pub force: Option<Spanned<String>>,
+    pub delimiter: Option<Spanned<String>>,
+    pub decimal: Option<Spanned<String>>,
+    pub scale: Option<Spanned<Number>>,
 }
 
 #[derive(Debug, Deserialize)]

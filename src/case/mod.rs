@@ -15,6 +15,7 @@ mod damping;
 mod embedded;
 mod file;
 mod initial;
+mod loads;
 mod model;
 mod penalty;
 mod place;
@@ -28,6 +29,7 @@ mod walls;
 pub use embedded::Embedded;
 pub use model::{Model, Place};
 pub use penalty::PenaltyOptions;
+pub use table::TableColumns;
 pub use truncated::Truncated;
 
 use crate::error::{Error, Result};

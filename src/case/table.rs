@@ -1,69 +1,209 @@
-//! Tabulated loads: CSV files with the header `time_s,force_N`.
+//! Tabulated loads: two columns of a CSV file, as data loggers and spreadsheets write them.
 
 use super::report::Source;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scene::Table;
 use std::ops::Range;
 
-const HEADER: [&str; 2] = ["time_s", "force_N"];
-const FORMAT: &str = "expected the header time_s,force_N, and below it rows of two finite numbers";
+/// Which two columns of a file are meant, and how its numbers are written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableColumns {
+    /// Header of the column of times, s.
+    pub time: String,
+    /// Header of the column of forces.
+    pub force: String,
+    /// What stands between columns.
+    pub delimiter: char,
+    /// The decimal sign: a point or a comma.
+    pub decimal: char,
+    /// Newtons in one unit of the force column.
+    pub scale: f64,
+}
+
+impl Default for TableColumns {
+    fn default() -> Self {
+        Self { time: "time_s".into(), force: "force_N".into(), delimiter: ',', decimal: '.', scale: 1.0 }
+    }
+}
+
+impl TableColumns {
+    /// What such a file looks like, for messages.
+    pub(super) fn expected(&self) -> String {
+        let Self { time, force, .. } = self;
+        match self.is_plain() {
+            true => format!(
+                "expected a header with the columns {time},{force}, and below it rows of finite numbers; time = \"..\", force = \"..\", \
+                 delimiter = \";\" and decimal = \",\" beside file read other tables"
+            ),
+            false => {
+                let Self { delimiter, decimal, .. } = self;
+                format!(
+                    "expected a header with the columns {time:?} and {force:?}, and below it rows of finite numbers, with {delimiter:?} \
+                     between columns and {decimal:?} as decimal sign"
+                )
+            }
+        }
+    }
+
+    fn is_plain(&self) -> bool {
+        let plain = Self::default();
+        *self == Self { scale: self.scale, ..plain }
+    }
+}
 
 /// Reads the table in `text`; messages call it `name`.
-pub(super) fn read(name: &str, text: &str) -> Result<Table> {
+pub(super) fn read(name: &str, text: &str, columns: &TableColumns) -> Result<Table> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let source = Source { name, text };
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
+    let reader = Reader { source: Source { name, text }, columns };
+    let mut rows = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .delimiter(u8::try_from(columns.delimiter).unwrap_or(b','))
+        .from_reader(text.as_bytes());
     let (mut time, mut force) = (Vec::<f64>::new(), Vec::new());
-    let mut header = true;
+    let mut found: Option<Header> = None;
     let mut row = csv::StringRecord::new();
     loop {
-        let from = usize::try_from(reader.position().byte()).unwrap_or(usize::MAX);
-        match reader.read_record(&mut row) {
+        let from = usize::try_from(rows.position().byte()).unwrap_or(usize::MAX);
+        match rows.read_record(&mut row) {
             Ok(true) => {}
             Ok(false) => break,
-            Err(error) => return Err(source.error(from..text.len(), &error.to_string(), FORMAT)),
-        }
-        let to = usize::try_from(reader.position().byte()).unwrap_or(usize::MAX);
-        let line = line_of(text, from..to);
-        let fields: Vec<&str> = row.iter().collect();
-        if header {
-            if fields != HEADER {
-                let title = format!("the header of the table is {:?}", source.slice(line.clone()));
-                return Err(source.error(line, &title, FORMAT));
+            Err(error) => {
+                return Err(reader.source.error(from..text.len(), &error.to_string(), &columns.expected()));
             }
-            header = false;
+        }
+        let to = usize::try_from(rows.position().byte()).unwrap_or(usize::MAX);
+        let line = line_of(text, from..to);
+        let Some(header) = &found else {
+            found = Some(reader.header(&row, line)?);
             continue;
-        }
-        let [t, f] = fields.as_slice() else {
-            let title = format!("{} value{} in a row of two", fields.len(), if fields.len() == 1 { "" } else { "s" });
-            return Err(source.error(line, &title, FORMAT));
         };
-        let t = number(&source, &line, HEADER[0], t)?;
-        if let Some(before) = time.last().filter(|before| t <= **before) {
-            let title = format!("time_s is {t:?}");
-            return Err(source.error(line, &title, &format!("expected more than the row before, {before:?}")));
+        if row.len() != header.count {
+            let (n, wanted) = (row.len(), header.count);
+            let title = format!("{n} value{} in a row of {wanted}", if n == 1 { "" } else { "s" });
+            return Err(reader.source.error(line, &title, &columns.expected()));
         }
-        force.push(number(&source, &line, HEADER[1], f)?);
+        let t = reader.number(&line, &row, header.time, &columns.time)?;
+        if let Some(before) = time.last().filter(|before| t <= **before) {
+            let title = format!("{} is {t:?}", columns.time);
+            let at = reader.field(&line, header.time);
+            return Err(reader.source.error(at, &title, &format!("expected more than the row before, {before:?}")));
+        }
+        let f = reader.number(&line, &row, header.force, &columns.force)? * columns.scale;
+        if !f.is_finite() {
+            let title = format!("{} times scale is {f:?}", columns.force);
+            return Err(reader.source.error(
+                reader.field(&line, header.force),
+                &title,
+                "expected a finite number of N",
+            ));
+        }
+        force.push(f);
         time.push(t);
     }
     if time.len() < 2 {
         let title = format!("the table has {} row{}", time.len(), if time.len() == 1 { "" } else { "s" });
         let end = text.trim_end().len();
-        return Err(source.error(end..end, &title, &format!("{FORMAT}; two rows or more")));
+        return Err(reader.source.error(end..end, &title, &format!("{}; two rows or more", columns.expected())));
     }
     Table::new(time, force)
 }
 
-fn number(source: &Source<'_>, line: &Range<usize>, column: &str, field: &str) -> Result<f64> {
-    match field.trim().parse::<f64>() {
-        Ok(x) if x.is_finite() => Ok(x),
-        _ => {
-            let offset = source.slice(line.clone()).find(',').map_or(0, |comma| comma + 1);
-            let start = if column == HEADER[0] { line.start } else { line.start + offset };
-            let end = if column == HEADER[0] && offset > 0 { line.start + offset - 1 } else { line.end };
-            Err(source.error(start..end, &format!("{column} is {field:?}"), "expected a finite number"))
+/// Where the two columns stand in a header, and how many columns it has.
+struct Header {
+    time: usize,
+    force: usize,
+    count: usize,
+}
+
+struct Reader<'a> {
+    source: Source<'a>,
+    columns: &'a TableColumns,
+}
+
+impl Reader<'_> {
+    fn header(&self, row: &csv::StringRecord, line: Range<usize>) -> Result<Header> {
+        let names: Vec<&str> = row.iter().map(str::trim).collect();
+        let place = |wanted: &str| {
+            let mut places = names.iter().enumerate().filter(|(_, name)| **name == wanted).map(|(i, _)| i);
+            match (places.next(), places.next()) {
+                (Some(i), None) => Ok(i),
+                (Some(_), Some(again)) => {
+                    let title = format!("two columns of the table are named {wanted:?}");
+                    Err(self.source.error(self.field(&line, again), &title, "expected each name once"))
+                }
+                (None, _) => Err(self.no_column(wanted, &names, line.clone())),
+            }
+        };
+        Ok(Header { time: place(&self.columns.time)?, force: place(&self.columns.force)?, count: names.len() })
+    }
+
+    fn no_column(&self, wanted: &str, names: &[&str], line: Range<usize>) -> Error {
+        let listed = listed(names);
+        let title = format!("the table has no column {wanted:?}; its header is {listed}");
+        // One column that holds another delimiter is a file written otherwise than said.
+        let text = self.source.slice(line.clone());
+        let other = [(';', "\";\""), ('\t', "\"\\t\""), ('|', "\"|\""), (',', "\",\"")]
+            .into_iter()
+            .find(|(sign, _)| names.len() == 1 && *sign != self.columns.delimiter && text.contains(*sign));
+        let note =
+            other.map(|(_, word)| format!("delimiter = {word} beside file reads columns with {word} between them"));
+        self.source.error_with_note(line, &title, &self.columns.expected(), note.as_deref())
+    }
+
+    fn number(&self, line: &Range<usize>, row: &csv::StringRecord, index: usize, name: &str) -> Result<f64> {
+        let field = row.get(index).unwrap_or_default();
+        let written = field.trim();
+        let comma = self.columns.decimal == ',';
+        // With a decimal comma a point would be one between thousands: it is refused rather than guessed at.
+        let x = match comma {
+            true if written.contains('.') => None,
+            true => written.replacen(',', ".", 1).parse::<f64>().ok(),
+            false => written.parse::<f64>().ok(),
+        };
+        match x.filter(|x| x.is_finite()) {
+            Some(x) => Ok(x),
+            None => {
+                let (sign, other) = if comma { ("comma", '.') } else { ("point", ',') };
+                let swapped = written.replacen(other, if comma { "," } else { "." }, 1);
+                let reads = swapped != written && swapped.replacen(',', ".", 1).parse::<f64>().is_ok();
+                let note = reads.then(|| format!("decimal = \"{other}\" beside file reads numbers written so"));
+                let title = format!("{name} is {field:?}");
+                let help = format!("expected a finite number with a decimal {sign}");
+                Err(self.source.error_with_note(self.field(line, index), &title, &help, note.as_deref()))
+            }
         }
     }
+
+    /// Where field `index` of the row on `line` stands; the whole line where quotes hide it.
+    fn field(&self, line: &Range<usize>, index: usize) -> Range<usize> {
+        let text = self.source.slice(line.clone());
+        let (mut start, mut quoted, mut at) = (0, false, 0);
+        for (i, c) in text.char_indices() {
+            match c {
+                '"' => quoted = !quoted,
+                c if c == self.columns.delimiter && !quoted => {
+                    if at == index {
+                        return line.start + start..line.start + i;
+                    }
+                    (at, start) = (at + 1, i + c.len_utf8());
+                }
+                _ => {}
+            }
+        }
+        if at == index { line.start + start..line.end } else { line.clone() }
+    }
+}
+
+/// Most columns of a header that are listed.
+const MOST_LISTED: usize = 24;
+
+/// The names of a header in quotes, the first of many.
+fn listed(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().take(MOST_LISTED).map(|name| format!("{name:?}")).collect();
+    let more = names.len().saturating_sub(MOST_LISTED);
+    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("{}{rest}", quoted.join(", "))
 }
 
 /// The one line within `span` that is not blank, without its end.
