@@ -15,12 +15,13 @@ pub enum Balance {
     /// M(v₊ − v₋) = h[f(t) + f_x − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + J + p with v₋ = (q − q⁻)/h, v₊ = (q⁺ − q)/h, and b this
     /// number: ¼ averages the stiffness, 0 takes it at t. To J belongs what falls in (t − h/2, t + h/2], after t = 0.
     Staggered(f64),
-    /// With ṽ and q̃ from [`Path::Corrected`], s = M a of an auxiliary acceleration a, and s⁺ at the step's end:
+    /// With s = M a of an auxiliary acceleration a, and s⁺ at the step's end:
     ///
-    /// M(ṽ − v) = h[(1−γ)s + γs⁺ + f_x] + J,   M(q̃ − q − hv) = h²[(½−β)s + βs⁺ + ½f_x] + ½hJ,   M(v⁺ − ṽ) = p,
+    /// M(v₊ − v₋) = h[(1−γ)s + γs⁺ + f_x] + J + p,   M(q⁺ − q − hv₋ − U) = h²[(½−β)s + βs⁺ + ½f_x] + Σ(t⁺ − t_b)J_b,
     ///
-    /// where (1−α_m)s⁺ + α_m s = (1−α_f)F̃⁺ + α_f F̃ with F̃ = F(t, q, v) and F̃⁺ = F(t⁺, q̃, ṽ), each with the elastic walls' forces
-    /// [`Step::force`] there; at the start s = F̃. p is that of the rigid walls. To J belongs what falls in (t, t⁺].
+    /// where (1−α_m)s⁺ + α_m s = (1−α_f)F⁺ + α_f F with F = F(t, q, v₋) and F⁺ = F(t⁺, q⁺, v₊), each with the elastic walls' forces
+    /// [`Step::force`] there; at the start s = F. p is that of the rigid walls, and U, by which they correct the displacement, is 0 unless
+    /// one is closed after the step. To J belong the blows J_b at t_b in (t, t⁺].
     GeneralizedAlpha {
         /// α_m.
         alpha_m: f64,
@@ -56,8 +57,7 @@ pub enum Promise {
     Velocity,
     /// Rigid: 0 ≤ gap(w⁺) ⟂ |p| ≥ 0, and for walls that are closed after it (gap within 1e-12 of the gap scale, or p not 0) 0 ≤ rebound ⟂
     /// |p| ≥ 0 with the rebound of
-    /// [`Promise::Velocity`]. Elastic: |r| = (k_a s̃⁺ + c_a(s̃⁺ − s₊)/h)₊ at the displacement before correction, and |p| the mean of |r| at
-    /// both ends, times h.
+    /// [`Promise::Velocity`]. Elastic: |r| = (k_a s⁺ + c_a(s⁺ − s₊)/h)₊, and |p| the mean of |r| at both ends, times h.
     Corrected,
     /// Every wall: |p|/h = ((1−θ)|r|(s) + θ|r|(s⁺) + c_a(s⁺₊ − s₊)/h)₊ with the wall's spring |r|(s) and the θ of the balance.
     LawAtEnds,
@@ -104,13 +104,6 @@ pub struct Contact {
 pub enum Path<'a> {
     /// Nothing is known between the grid's instants.
     Grid,
-    /// Nothing but what the step was before the walls corrected it.
-    Corrected {
-        /// Displacement, m; length n.
-        q: &'a [f64],
-        /// Velocity, m/s; length n.
-        v: &'a [f64],
-    },
     /// The exact motion and wall forces of one degree of freedom.
     Exact(&'a Arc),
     /// The same of several.
@@ -128,7 +121,7 @@ impl Path<'_> {
     /// Displacement (m) and velocity (m/s) at `t` within the step, into slices over degrees of freedom. Nothing is written for a step on a grid.
     pub(crate) fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
         match self {
-            Self::Grid | Self::Corrected { .. } | Self::Handed { .. } => {}
+            Self::Grid | Self::Handed { .. } => {}
             Self::Exact(arc) => {
                 if let (Some(q), Some(v)) = (q.first_mut(), v.first_mut()) {
                     (*q, *v) = arc.state(t);
@@ -141,7 +134,7 @@ impl Path<'_> {
     /// Force of wall `wall` at `t` within the step, N, signed; 0 on a grid.
     pub(crate) fn contact_force(&self, wall: usize, t: f64) -> f64 {
         match self {
-            Self::Grid | Self::Corrected { .. } | Self::Handed { .. } => 0.0,
+            Self::Grid | Self::Handed { .. } => 0.0,
             Self::Exact(arc) => arc.contact_force(wall, t),
             Self::Series(series) => series.contact_force(wall, t),
         }
@@ -150,7 +143,7 @@ impl Path<'_> {
     /// Impulse of wall `wall` over [from, to] within the step, N s, signed; 0 on a grid.
     pub(crate) fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
         match self {
-            Self::Grid | Self::Corrected { .. } | Self::Handed { .. } => 0.0,
+            Self::Grid | Self::Handed { .. } => 0.0,
             Self::Exact(arc) => arc.contact_impulse(wall, from, to),
             Self::Series(series) => series.contact_impulse(wall, from, to),
         }

@@ -5,7 +5,7 @@ mod random_structures;
 
 use common::{GAP, RIGID_E08, ball, driven, error, on_grid, slope, source};
 use signorini::residual::{Judge, Residuals};
-use signorini::{Load, Options, Path, Row, Scene, Scheme, Step, Stepper, Wall, run};
+use signorini::{Load, Options, Row, Scene, Scheme, Step, Stepper, Wall, run};
 
 const RHOS: [f64; 4] = [0.0, 0.5, 0.8, 1.0];
 
@@ -139,24 +139,76 @@ fn impacts_make_energy_of_the_order_of_the_step_where_moreau_jean_makes_none() {
     assert!(unaccounted(&Scheme::MoreauJean { theta: 0.5 }, 1e-3).abs() < 1e-12);
 }
 
+#[test]
+fn a_pressed_mass_rests_under_the_static_force_whatever_the_step() {
+    // 35 N against 1e4 N/m · 1 mm: the stop holds 25 N.
+    for rho in RHOS {
+        for (h, e) in [(1e-4, 0.5), (2e-3, 0.0), (2e-3, 0.8), (2e-2, 0.0), (2e-2, 1.0)] {
+            let scene = Scene::oscillator(1.0, 20.0, 1e4)
+                .with_wall(Wall::upper("stop", 1e-3).with_restitution(e))
+                .with_load(Load::constant(35.0))
+                .with_duration(10.0);
+            let run = run(&scene, &alpha(rho), &Options::with_step(h)).expect("a run");
+            let force = run.trajectory.contact_force("stop").expect("a wall").last().copied().expect("rows");
+            // Rounding of a few hundred steps of a force of 35 N.
+            assert!((force + 25.0).abs() < 1e-10, "ρ∞ {rho}, h {h}, e {e}: {force}");
+            assert!(run.residuals.force_balance < 1e-12, "{:?}", run.residuals);
+        }
+    }
+}
+
+#[test]
+fn a_damped_structure_rests_where_statics_puts_it_and_stays_there() {
+    // Two masses on springs to the ground and to one another, pressed on a stop at the second. Damping that couples them, light and
+    // heavy; steps that resolve the vibration and steps that do not.
+    for (k, damping) in [(1e4, 1e-3), (1e5, 1e-5), (1e5, 1e-2), (1e8, 1e-3)] {
+        let g = 20.0 / k;
+        let at_rest = [(15.0 + k * g) / (2.0 * k), g];
+        let held = 90.0 - k * (g - at_rest[0]);
+        for rho in RHOS {
+            for h in [1e-4, 1e-3, 1e-2] {
+                for start in [at_rest, [0.0, 0.0]] {
+                    let scene = random_structures::chain(2, k, damping)
+                        .with_wall(random_structures::at(Wall::upper("stop", g).with_restitution(0.0), Row::dof(1)))
+                        .with_load(random_structures::on(Load::constant(15.0), 0))
+                        .with_load(random_structures::on(Load::constant(90.0 + k * g), 1))
+                        .with_initial(&start, &[0.0; 2]);
+                    let mut stepper = Stepper::new(&scene, &alpha(rho), h).expect("a sound scene");
+                    let from_rest = start == at_rest;
+                    let mut force = 0.0;
+                    for i in 0..if from_rest { 500 } else { 20_000 } {
+                        force = stepper.step().expect("a step").force[0];
+                        // Rounding of a force of 110 N.
+                        assert!(!from_rest || (force + held).abs() < 1e-9, "step {i}: {force} for {held}");
+                    }
+                    let off = stepper.state().q[0] - at_rest[0];
+                    println!("k {k:e} d {damping:e} ρ∞ {rho} h {h:e}: {:e} {off:e}", force + held);
+                    // It lands and comes to rest there too, where the damper has the time: 1e-17 of the vibration is left.
+                    let slow = !from_rest && damping * k * h * 20_000.0 < 40.0;
+                    assert!(slow || off.abs() < 1e-9 * g, "{:?}", stepper.state());
+                    assert!(slow || (force + held).abs() < 1e-9, "{force} for {held}");
+                }
+            }
+        }
+    }
+}
+
 /// What a judge makes of a run whose step number `at` is altered.
-fn altered(scene: &Scene, at: u64, alter: impl Fn(&mut [f64; 6])) -> Residuals {
+fn altered(scene: &Scene, at: u64, alter: impl Fn(&mut [f64; 4])) -> Residuals {
     let scheme = alpha(0.8);
     let mut stepper = Stepper::new(scene, &scheme, 1e-3).expect("a sound scene");
     let start = stepper.state();
     let mut judge = Judge::new(scene, scheme.contract(), 1e-3, &start.q, &start.v);
     for _ in 0..400 {
         let step = stepper.step().expect("a step");
-        let Path::Corrected { q, v } = step.path else { panic!("a step that corrects says what it corrected") };
-        let mut numbers = [step.q[0], step.v[0], q[0], v[0], step.impulse[0], step.force[0]];
+        let mut numbers = [step.q[0], step.v[0], step.impulse[0], step.force[0]];
         if step.index == at {
             alter(&mut numbers);
         }
-        let [q, v, q_free, v_free, p, r] = numbers.map(|x| [x]);
+        let [q, v, p, r] = numbers.map(|x| [x]);
         let force = [r[0], step.force[1]];
         let impulse = [p[0], step.impulse[1]];
-        let path = Path::Corrected { q: &q_free, v: &v_free };
-        judge.see(&Step { q: &q, v: &v, velocity_after: &v, impulse: &impulse, force: &force, path, ..step });
+        judge.see(&Step { q: &q, v: &v, velocity_after: &v, impulse: &impulse, force: &force, ..step });
     }
     judge.residuals()
 }
@@ -176,16 +228,15 @@ fn the_judge_reports_each_broken_promise() {
     assert!(fine.complementarity < 1e-14 && fine.force_balance < 1e-14, "{fine:?}");
     // Wrong in the eighth digit of each: seen where it is promised.
     let balance = |at: u64, which: usize| altered(&rigid, at, |x| x[which] *= 1.0 + 1e-8).force_balance;
-    for (at, which) in [(free, 0), (free, 1), (free, 2), (free, 3), (impact, 1), (impact, 2), (impact, 3), (impact, 4)]
-    {
+    for (at, which) in [(free, 0), (free, 1), (impact, 1), (impact, 2)] {
         let found = balance(at, which);
         assert!(found > 1e-12, "step {at}, number {which}: {found:e}");
     }
     let gap = altered(&rigid, impact, |x| x[0] -= 1e-8);
     assert!(gap.complementarity > 1e-7, "a force away from the wall: {gap:?}");
-    let rebound = altered(&rigid, impact, |x| (x[1], x[4]) = (1.01 * x[1], 1.01 * x[4]));
+    let rebound = altered(&rigid, impact, |x| (x[1], x[2]) = (1.01 * x[1], 1.01 * x[2]));
     assert!(rebound.complementarity > 1e-3, "another restitution: {rebound:?}");
-    let pull = altered(&rigid, impact, |x| x[4] = -x[4]);
+    let pull = altered(&rigid, impact, |x| x[2] = -x[2]);
     assert!(pull.tension_n > 0.0 && pull.complementarity > 0.5, "{pull:?}");
     let through = altered(&rigid, free, |x| x[0] = 1.5 * GAP);
     assert!(through.penetration_m > 0.4 * GAP && through.complementarity > 0.1, "{through:?}");
@@ -194,7 +245,7 @@ fn the_judge_reports_each_broken_promise() {
     let mut stepper = Stepper::new(&elastic, &alpha(0.8), 1e-3).expect("a sound scene");
     let pressed = (0..400).find(|_| stepper.step().expect("a step").force[0] != 0.0).expect("a contact") + 3;
     assert!(altered(&elastic, pressed, |_| {}).complementarity < 1e-12);
-    for which in [4, 5] {
+    for which in [2, 3] {
         let law = altered(&elastic, pressed, |x| x[which] *= 1.0 + 1e-6).complementarity;
         assert!(law > 1e-9, "number {which}: {law:e}");
     }

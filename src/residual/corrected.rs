@@ -10,13 +10,13 @@ pub(super) struct Memory {
     s: Vec<f64>,
     force: Vec<f64>,
     held: Vec<f64>,
-    /// s⁺ and F̃⁺ of the step at hand.
+    /// s⁺ and F⁺ of the step at hand.
     s_end: Vec<f64>,
     force_end: Vec<f64>,
 }
 
 impl Memory {
-    /// At the start of a run under such a contract: there M a = F̃ is what acts, `load` (N) and the walls that are springs.
+    /// At the start of a run under such a contract: there M a = F is what acts, `load` (N) and the walls that are springs.
     pub fn new(scene: &Scene, contract: Contract, q: &[f64], v: &[f64], load: &[f64]) -> Option<Box<Self>> {
         if contract.promise != Promise::Corrected {
             return None;
@@ -40,64 +40,58 @@ fn smooth(scene: &Scene, q: &[f64], v: &[f64], walls: &[f64], out: &mut [f64]) {
 }
 
 impl Judge {
-    /// A step of a grid with the displacement and velocity that its walls corrected.
-    pub(super) fn see_corrected(&mut self, step: &Step<'_>, q: &[f64], v: &[f64]) {
+    /// A step of a grid whose displacement and velocity its walls corrected.
+    pub(super) fn see_corrected(&mut self, step: &Step<'_>) {
         let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = self.contract.balance else { return };
         let Some(mut memory) = self.memory.take() else { return };
         let h = self.h;
-        let closed = self.walls_corrected(step, q, &mut memory.held);
+        let closed = self.walls_corrected(step, &mut memory.held);
         let Memory { s, force, s_end, force_end, .. } = &mut *memory;
         let scratch = &mut self.scratch;
         force_end.copy_from_slice(&scratch.load_end);
-        smooth(&self.scene, q, v, step.force, force_end);
+        smooth(&self.scene, step.q, step.v, step.force, force_end);
+        // Where the blows take the body in the step, over h, N s.
+        self.loads.blow_moment(step.start, step.end, step.end, &mut scratch.mean_v);
         let (before, after) = (step.velocity_before, step.velocity_after);
         for i in 0..s.len() {
             s_end[i] = ((1.0 - alpha_f) * force_end[i] + alpha_f * force[i] - alpha_m * s[i]) / (1.0 - alpha_m);
-            let given = h * step.extra[i] + scratch.blow[i];
+            let pushed = h * step.extra[i];
             scratch.load[i] = 0.5 * (self.load[i] + scratch.load_end[i]) + step.extra[i];
-            // What M(ṽ − v), M(q̃ − q − hv)/h and M(v⁺ − ṽ) should be, N s, taken off what they are.
-            scratch.spring[i] = -h * ((1.0 - gamma) * s[i] + gamma * s_end[i]) - given;
-            scratch.inertia[i] = -h * ((0.5 - beta) * s[i] + beta * s_end[i]) - 0.5 * given;
-            scratch.damper[i] = 0.0;
-            scratch.mean_v[i] = v[i] - before[i];
-            scratch.mean_q[i] = q[i] - self.q[i] - h * before[i];
-            scratch.residual[i] = after[i] - v[i];
-            let terms = s_end[i].abs().max(force_end[i].abs()).max(given.abs() / h);
+            // What M(v₊ − v₋) and M(q⁺ − q − hv₋)/h should be, N s, taken off what they are.
+            scratch.spring[i] = -h * ((1.0 - gamma) * s[i] + gamma * s_end[i]) - pushed - scratch.blow[i];
+            scratch.inertia[i] = -h * ((0.5 - beta) * s[i] + beta * s_end[i]) - 0.5 * pushed - scratch.mean_v[i] / h;
+            scratch.mean_v[i] = after[i] - before[i];
+            scratch.mean_q[i] = step.q[i] - self.q[i] - h * before[i];
+            let given = pushed.abs().max(scratch.blow[i].abs());
+            let terms = s_end[i].abs().max(force_end[i].abs()).max(given / h);
             self.balance_scale = self.balance_scale.max(terms / self.scales.root_mass[i]);
         }
         let system = &self.scene.system;
         system.add_mass(1.0, &scratch.mean_v, &mut scratch.spring);
         system.add_mass(1.0 / h, &scratch.mean_q, &mut scratch.inertia);
-        system.add_mass(1.0, &scratch.residual, &mut scratch.damper);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse).filter(|(wall, _)| wall.law.is_rigid()) {
             for &(i, weight) in wall.at.entries() {
-                scratch.damper[i] -= weight * p;
+                scratch.spring[i] -= weight * p;
                 self.balance_scale = self.balance_scale.max((weight * p).abs() / (h * self.scales.root_mass[i]));
             }
         }
         for (i, weight) in self.scales.root_mass.iter().enumerate() {
-            let residual = scratch.spring[i].abs().max(scratch.damper[i].abs());
+            let residual = scratch.spring[i].abs();
             self.balance = self.balance.max(residual / h);
             self.normal_balance = self.normal_balance.max(residual / (h * weight));
             // The displacement's own balance is one of lengths: over h² it would be the rounding of q.
-            self.kinematics = self.kinematics.max(h * scratch.inertia[i].abs() / weight);
             if !closed {
-                self.kinematics = self.kinematics.max((step.q[i] - q[i]).abs() * weight);
+                self.kinematics = self.kinematics.max(h * scratch.inertia[i].abs() / weight);
             }
         }
         std::mem::swap(s, s_end);
-        if closed {
-            force.copy_from_slice(&scratch.load_end);
-            smooth(&self.scene, step.q, step.v, step.force, force);
-        } else {
-            std::mem::swap(force, force_end);
-        }
+        std::mem::swap(force, force_end);
         self.memory = Some(memory);
         self.energy.see_grid(&self.scene, h, &self.q, step, &self.scratch.load, &self.scratch.blow);
     }
 
     /// The walls of such a step; returns whether a rigid one is closed after it.
-    fn walls_corrected(&mut self, step: &Step<'_>, q: &[f64], held: &mut [f64]) -> bool {
+    fn walls_corrected(&mut self, step: &Step<'_>, held: &mut [f64]) -> bool {
         let (h, gap_scale) = (self.h, self.energy.gap_scale);
         let mut any = false;
         for (index, wall) in self.scene.walls.iter().enumerate() {
@@ -116,7 +110,7 @@ impl Judge {
                 }
                 continue;
             }
-            let (before, now) = (-wall.gap(wall.at.dot(&self.q)), -wall.gap(wall.at.dot(q)));
+            let (before, now) = (-wall.gap(wall.at.dot(&self.q)), -wall.gap(wall.at.dot(step.q)));
             let expected = match wall.law {
                 WallLaw::Elastic { stiffness, damping } => {
                     (stiffness * now + damping * (now - before.max(0.0)) / h).max(0.0)

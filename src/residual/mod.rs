@@ -171,7 +171,6 @@ impl Judge {
             return;
         }
         let fits = match step.path {
-            Path::Corrected { q, v } => q.len() == n && v.len() == n,
             Path::Series(series) => series.degrees_of_freedom() == n,
             Path::Exact(_) => n == 1,
             Path::Grid | Path::Handed { .. } => true,
@@ -193,8 +192,8 @@ impl Judge {
             self.scratch.struck.iter_mut().for_each(|v| *v /= o.mass);
         }
         match step.path {
+            Path::Grid if self.memory.is_some() => self.see_corrected(step),
             Path::Grid => self.see_grid(step),
-            Path::Corrected { q, v } => self.see_corrected(step, q, v),
             Path::Exact(arc) => self.see_arc(step, arc),
             Path::Series(series) => self.see_series(step, series),
             Path::Handed { contract, step: h } => {

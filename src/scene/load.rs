@@ -221,6 +221,13 @@ impl Forcing {
         self.impulses.iter().filter(|&&(t, _)| t > from && t <= to).map(|&(_, p)| p).sum()
     }
 
+    /// Moment of the impulses in (from, to] about `about` (s), Σ (about − t_b) J_b, N s²: over the mass, where they take a free body from
+    /// its place without them until then.
+    #[must_use]
+    pub fn impulse_moment(&self, from: f64, to: f64, about: f64) -> f64 {
+        self.impulses.iter().filter(|&&(t, _)| t > from && t <= to).map(|&(t, p)| (about - t) * p).sum()
+    }
+
     /// Sum of the impulses within half a step `h` (s) of the instant `step` · h, N s: each impulse after t = 0 in one step and no other.
     #[inline]
     #[must_use]

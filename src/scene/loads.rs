@@ -68,6 +68,12 @@ impl Loads {
         self.blow_by(|forcing| forcing.impulse(from, to), out)
     }
 
+    /// Writes the moment of the blows in (from, to] about `about` (s) to `out`, N s², as [`Forcing::impulse_moment`]. Returns whether it is
+    /// not zero.
+    pub fn blow_moment(&self, from: f64, to: f64, about: f64, out: &mut [f64]) -> bool {
+        self.blow_by(|forcing| forcing.impulse_moment(from, to, about), out)
+    }
+
     /// Writes the sum of the blows within half a step `h` (s) of the instant `step` · h to `out`, as [`Forcing::impulse_about`]. Returns whether there
     /// is one.
     pub fn blow_about(&self, step: u64, h: f64, out: &mut [f64]) -> bool {

@@ -24,6 +24,8 @@ pub(super) struct Body {
     /// M factored: what a blow changes of the velocity. None without blows.
     inertia: Option<Factor>,
     blow: Vec<f64>,
+    /// Where the blows of the step take the displacement beside its own rule, m.
+    pub shift: Vec<f64>,
     /// Force of each part of the loads at the end of the last step and of the present one, N.
     load: [Vec<f64>; 2],
 }
@@ -47,6 +49,7 @@ impl Body {
             // A mass that cannot be factored is refused by the scene.
             inertia: if loads.has_blows() { Factor::new(&matrices.mass).ok() } else { None },
             blow: vec![0.0; n],
+            shift: vec![0.0; n],
             load,
             loads,
             matrices,
@@ -88,6 +91,27 @@ impl Body {
             return false;
         }
         self.apply_blow(v, scale, b, struck);
+        true
+    }
+
+    /// The blows in (from, to]: writes the velocity they leave to `struck`, given `v`, and where they take the displacement until `lag` (s)
+    /// before `to`, to [`Body::shift`]. Returns whether there was one.
+    pub fn strike_free(&mut self, (from, to): (f64, f64), lag: f64, v: &[f64], struck: &mut [f64]) -> bool {
+        if !self.loads.has_blows() {
+            return false;
+        }
+        let struck_any = self.loads.blow(from, to, &mut self.blow);
+        let moved = self.loads.blow_moment(from, to, to - lag, &mut self.shift);
+        if !struck_any && !moved {
+            return false;
+        }
+        if let Some(inertia) = &mut self.inertia {
+            inertia.solve(&mut self.blow);
+            inertia.solve(&mut self.shift);
+        }
+        for ((struck, v), change) in struck.iter_mut().zip(v).zip(&self.blow) {
+            *struck = v + change;
+        }
         true
     }
 

@@ -30,15 +30,6 @@ pub(super) struct Frame {
     jump: Vec<f64>,
     /// Walls whose impulse is not zero; all others have an impulse and a force of zero.
     pub pushing: Vec<usize>,
-    /// Displacement and velocity before the walls corrected them, m and m/s, of a scheme that does so.
-    pub predicted: Option<Predicted>,
-}
-
-/// Displacement and velocity before the walls corrected them, n entries each.
-#[derive(Debug)]
-pub(super) struct Predicted {
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
 }
 
 impl Frame {
@@ -66,7 +57,6 @@ impl Frame {
             force: vec![0.0; walls],
             jump: vec![0.0; walls],
             pushing: Vec::with_capacity(walls),
-            predicted: None,
         })
     }
 
@@ -119,10 +109,7 @@ impl Frame {
             force: &self.force,
             extra: &self.extra,
             closed,
-            path: match &self.predicted {
-                Some(Predicted { q, v }) => Path::Corrected { q, v },
-                None => Path::Grid,
-            },
+            path: Path::Grid,
         }
     }
 }

@@ -1,26 +1,39 @@
 //! `generalized-alpha`: nonsmooth generalized-α, the walls on the displacement and on the velocity.
 //!
-//! Brüls, Acary & Cardona 2014, Comput. Methods Appl. Mech. Engrg. 281, doi:10.1016/j.cma.2014.07.025, decoupled. A step without walls, by
-//! Chung & Hulbert's rule with an auxiliary acceleration a,
+//! Chen, Acary, Virlez & Brüls 2013, Int. J. Numer. Methods Engrg. 96, doi:10.1002/nme.4563, and Brüls, Acary & Cardona 2014, Comput.
+//! Methods Appl. Mech. Engrg. 281, doi:10.1016/j.cma.2014.07.025. Chung & Hulbert's rule carries an auxiliary acceleration a of the
+//! smooth forces, which are those of the state that the walls leave,
 //!
-//! q̃ = q + hv + h²[(½−β)a + βa⁺],   ṽ = v + h[(1−γ)a + γa⁺],   M[(1−α_m)a⁺ + α_m a] = (1−α_f)F̃⁺ + α_f F,
+//! M[(1−α_m)a⁺ + α_m a] = (1−α_f)F⁺ + α_f F,   F = f − Cv − Kq + r_elastic at (t, q, v), F⁺ at (t⁺, q⁺, v⁺);
 //!
-//! with the smooth force F = f − Cv − Kq + r_elastic, at the end that of the uncorrected state; with Δ = h²βa⁺ it is the optimality
-//! condition A Δ = b + Gᵀr of a programme over the elastic walls, A = [M(1−α_m)/(1−α_f) + hγC + h²βK]/(h²β). The rigid walls then correct
-//! the displacement, and those that it leaves closed the velocity, both in the metric M:
+//! the rigid walls act beside it, on the displacement by a correction U and on the velocity by their impulses p:
 //!
-//! M(q⁺ − q̃) = Gᵀν,   0 ≤ gap(q⁺) ⟂ |ν| ≥ 0;   M(v⁺ − ṽ) = Gᵀp,   0 ≤ ±(ẇ⁺ + εẇ) ⟂ |p| ≥ 0,
+//! q⁺ = q + hv + h²[(½−β)a + βa⁺] + U,            0 ≤ gap(q⁺) ⟂ |ν| ≥ 0,
+//!
+//! v⁺ = v + h[(1−γ)a + γa⁺] + M⁻¹Gᵀp,             0 ≤ ±(ẇ⁺ + εẇ) ⟂ |p| ≥ 0 at the walls that are closed at q⁺,
 //!
 //! with ε = e where the body approaches or rests, 1 where it separates; ẇ is the velocity after the step's blows, so v⁺ = −v is among the
-//! motions allowed: there is always one. p is the impulse of a wall, ν no force. No rigid wall is ever passed, and no force of one enters
-//! the rule's memory a. In return nothing accounts for the work that the smooth force does on q⁺ − q̃: each impact makes or loses energy of
-//! order h.
+//! motions allowed: there is always one. A body at rest keeps v = 0, so that M a = F and p = −hF: the force at rest is the static
+//! one at every step. (With the smooth force at a state before the walls' correction it is too small, by a factor of
+//! 1 + (1−α_f)(hc/m + h²k/2m) for one degree of freedom.)
 //!
-//! What is given as an impulse (a blow, an extra force over the step) moves the velocity at once and the displacement by half a step of
-//! that, outside of a.
+//! The papers solve for U and p together; their problem is not symmetric. Here they follow one another, each a convex programme. With
+//! μ = (1−α_m)/(1−α_f) and q̂, v̂ what is known of q⁺, v⁺ without a⁺, Δ = q⁺ − q̂,
+//!
+//! S Δ = b + Gᵀν,   S = [μM + hγC + h²βK]/(h²β);     T(v⁺ − v_c) = μ Gᵀp,   T = μM + hγC,
+//!
+//! where v_c is the velocity that the rule gives at q⁺ without p. Without damping U is that of the papers, M U = Gᵀν/μ. With it, U
+//! differs by what p does through C in a step; and where a rigid wall is met the damper in b feels v̂ less h(1−γ/2β)a, so that a body at
+//! rest is not moved by an a that the walls annul (at ρ∞ = 1, where γ = 2β, that is nothing).
+//!
+//! No rigid wall is ever passed, and no force of one enters the rule's memory a. In return nothing accounts for the work that the smooth
+//! force does on U: each impact makes or loses energy of order h.
+//!
+//! An extra force over the step moves the velocity by hM⁻¹f_x and the displacement by half a step of that, a blow at t_b the velocity by
+//! M⁻¹J and the displacement by (t⁺ − t_b) of that, outside of a.
 
 use super::body::{Body, factor};
-use super::frame::{Frame, Predicted};
+use super::frame::Frame;
 use super::programme::{Programme, Seat};
 use super::start::StartForce;
 use crate::error::{Error, Result};
@@ -35,6 +48,10 @@ pub(super) struct GeneralizedAlpha {
     body: Body,
     /// α_m, α_f, β, γ.
     alpha: [f64; 4],
+    /// h(1−γ/2β), s: the share of a that the damper does not feel where a wall is met; 0 without damping.
+    unfelt: f64,
+    /// True if a rigid wall is closed at the step's start.
+    closed: bool,
     /// a, m/s².
     a: Vec<f64>,
     /// F at the step's start, N.
@@ -42,24 +59,29 @@ pub(super) struct GeneralizedAlpha {
     /// Force of each elastic wall at the step's start, N, and the walls where it is not zero.
     held: Vec<f64>,
     holding: Vec<usize>,
-    /// The elastic walls in Δ, m.
-    smooth: Programme,
-    /// The rigid walls, in q⁺ − q̃ and in h(v⁺ − ṽ), m.
-    rigid: Programme,
+    /// All walls, in Δ, m.
+    place: Programme,
+    /// The rigid walls, in v⁺ − v_c, m/s.
+    rate: Programme,
     mass: Factor,
+    /// T.
+    drag: Factor,
+    /// α_f F − α_m M a, over 1 − α_f; f⁺; and b, N.
+    past: Vec<f64>,
+    load: Vec<f64>,
     b: Vec<f64>,
-    /// Impulse given to the step, N s; then the velocity it makes, m/s.
+    /// q̂ and v̂, and the velocity change by the extra force, m/s.
+    q: Vec<f64>,
+    v: Vec<f64>,
     given: Vec<f64>,
     zero: Vec<f64>,
-    /// Multipliers of the rigid walls, and the walls where they are not zero.
+    /// Multipliers of the programmes, and the walls where they are not zero.
     multiplier: Vec<f64>,
     pushing: Vec<usize>,
-    /// f⁺, N.
-    load: Vec<f64>,
 }
 
 impl GeneralizedAlpha {
-    pub fn new(scene: &Scene, balance: Balance, h: f64, backend: Backend, frame: &mut Frame) -> Result<Self> {
+    pub fn new(scene: &Scene, balance: Balance, h: f64, backend: Backend, frame: &Frame) -> Result<Self> {
         let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = balance else {
             return Err(Error::invalid("scheme", "another balance", "generalized-alpha"));
         };
@@ -71,30 +93,39 @@ impl GeneralizedAlpha {
         let mut mass = factor(&m.mass)?;
         let mut a = force.clone();
         mass.solve(&mut a);
-        let scale = h * h * beta;
-        let inertia = (1.0 - alpha_m) / ((1.0 - alpha_f) * scale);
-        let matrix = Symmetric::sum(&[(inertia, &m.mass), (gamma / (h * beta), &m.damping), (1.0, &m.stiffness)]);
-        let elastic = |law: &WallLaw| !law.is_rigid();
+        let (mu, scale) = ((1.0 - alpha_m) / (1.0 - alpha_f), h * h * beta);
+        let matrix = Symmetric::sum(&[(mu / scale, &m.mass), (gamma / (h * beta), &m.damping), (1.0, &m.stiffness)]);
+        let drag = Symmetric::sum(&[(mu, &m.mass), (h * gamma, &m.damping)]);
         let gap = scene.gap_scale();
-        let smooth = Programme::over(scene, elastic, matrix, gap, |k, c| 1.0 / (k + c / h), backend)?;
-        let rigid = Programme::over(scene, WallLaw::is_rigid, m.mass.clone(), gap, |_, _| 0.0, backend)?;
+        let place = Programme::new(scene, matrix, gap, |k, c| 1.0 / (k + c / h), backend)?;
+        let rate = Programme::over(scene, WallLaw::is_rigid, drag.clone(), gap / h, |_, _| 0.0, backend)?;
         let zero = vec![0.0; body.n];
-        frame.predicted = Some(Predicted { q: zero.clone(), v: zero.clone() });
+        let damped = m.damping.diagonal_entries().iter().any(|&c| c != 0.0);
         Ok(Self {
             alpha: [alpha_m, alpha_f, beta, gamma],
+            unfelt: if damped { h * (1.0 - gamma / (2.0 * beta)) } else { 0.0 },
+            closed: body
+                .walls
+                .iter()
+                .enumerate()
+                .any(|(wall, stop)| stop.law.is_rigid() && stop.depth(body.rows.dot(wall, &frame.q)) >= -body.touch),
             a,
             force,
             held,
             holding,
-            smooth,
-            rigid,
+            place,
+            rate,
             mass,
+            drag: factor(&drag)?,
+            past: zero.clone(),
+            load: zero.clone(),
             b: zero.clone(),
+            q: zero.clone(),
+            v: zero.clone(),
             given: zero.clone(),
             zero,
             multiplier: vec![0.0; body.walls.len()],
             pushing: Vec::with_capacity(body.walls.len()),
-            load: vec![0.0; body.n],
             body,
         })
     }
@@ -102,74 +133,189 @@ impl GeneralizedAlpha {
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
         frame.begin(step, self.body.h);
         frame.before.copy_from_slice(&frame.v);
-        self.predict(step, frame)?;
-        let Some(predicted) = &frame.predicted else { return Ok(()) };
-        frame.q.copy_from_slice(&predicted.q);
-        frame.v.copy_from_slice(&predicted.v);
-        let moved = self.correct_displacement(frame, step)?;
-        if self.correct_velocity(frame, step)? || moved {
-            // F where the walls have put the body.
-            self.force.copy_from_slice(&self.load);
-            self.body.damping.add_product(-1.0, &frame.v, &mut self.force);
-            self.body.stiffness.add_product(-1.0, &frame.q, &mut self.force);
-            for &wall in &self.holding {
-                self.body.rows.add_transposed(wall, self.held[wall], &mut self.force);
-            }
+        self.predict(frame);
+        let met = self.displace(step, frame)?;
+        self.press(frame);
+        if met {
+            self.free_velocity(frame);
+        }
+        let pushed = self.correct_velocity(frame, step)?;
+        // F⁺, and with it a⁺ where the walls have changed it.
+        let Self { body, alpha: [alpha_m, alpha_f, ..], force, load, past, a, mass, .. } = self;
+        force.copy_from_slice(load);
+        body.damping.add_product(-1.0, &frame.v, force);
+        body.stiffness.add_product(-1.0, &frame.q, force);
+        for &wall in &self.holding {
+            body.rows.add_transposed(wall, self.held[wall], force);
+        }
+        if met || pushed {
+            let mu = (1.0 - *alpha_m) / (1.0 - *alpha_f);
+            a.iter_mut().zip(past.iter()).zip(force.iter()).for_each(|((a, past), force)| *a = (past + force) / mu);
+            mass.solve(a);
         }
         frame.after.copy_from_slice(&frame.v);
         Ok(())
     }
 
-    /// q⁺, and the multipliers ν of the walls. Returns whether a wall was met.
-    fn correct_displacement(&mut self, frame: &mut Frame, step: u64) -> Result<bool> {
-        let programme = &mut self.rigid;
-        let mut met = false;
-        for row in 0..programme.count_rows() {
-            let w = programme.seen(row, &frame.q);
-            programme.free(row);
-            for seat in programme.seats(row) {
-                let wall = programme.seat(seat).stop;
-                programme.bind(row, seat, wall.g - w);
-                met |= wall.depth(w) > 0.0;
+    /// q̂, v̂, f⁺ and what the last step leaves of the rule.
+    fn predict(&mut self, frame: &mut Frame) {
+        let Self { body, alpha: [alpha_m, alpha_f, beta, gamma], a, force, past, given, load, q, v, .. } = self;
+        let (h, alpha_m, alpha_f) = (body.h, *alpha_m, *alpha_f);
+        let (first, second) = (h * h * (0.5 - *beta), h * (1.0 - *gamma));
+        for i in 0..q.len() {
+            q[i] = frame.q[i] + h * frame.v[i] + first * a[i];
+            v[i] = frame.v[i] + second * a[i];
+            past[i] = alpha_f / (1.0 - alpha_f) * force[i];
+        }
+        body.mass.add_product(-alpha_m / (1.0 - alpha_f), a, past);
+        load.fill(0.0);
+        body.loads.add_force(frame.end, 1.0, load);
+        given.iter_mut().zip(&frame.extra).for_each(|(given, extra)| *given = h * extra);
+        if given.iter().any(|&p| p != 0.0) {
+            self.mass.solve(given);
+            for i in 0..q.len() {
+                q[i] += 0.5 * h * given[i];
+                v[i] += given[i];
             }
         }
-        self.forget();
-        if met {
-            self.rigid.solve(&self.zero, (frame.start, step), &mut self.multiplier, &mut self.pushing)?;
-            frame.q.iter_mut().zip(self.rigid.x()).for_each(|(q, d)| *q += d);
+        frame.blown = body.strike_free((frame.start, frame.end), 0.0, &frame.v, &mut frame.struck);
+        if frame.blown {
+            for i in 0..q.len() {
+                q[i] += body.shift[i];
+                v[i] += frame.struck[i] - frame.v[i];
+            }
+        }
+    }
+
+    /// q⁺, v⁺ without the rigid walls' impulses unless one was met, a⁺ likewise, and the elastic walls' forces. Returns whether a rigid
+    /// wall was met.
+    fn displace(&mut self, step: u64, frame: &mut Frame) -> Result<bool> {
+        let met = if self.unfelt == 0.0 {
+            self.place(step, frame, 0.0)?
+        } else if self.closed {
+            // A wall that holds the body is met, whichever way a heavy damper would throw it.
+            self.place(step, frame, self.unfelt)? || self.place(step, frame, 0.0)?
+        } else {
+            // The displacement of a met wall, unless by that none is.
+            self.place(step, frame, 0.0)? && (self.place(step, frame, self.unfelt)? || self.place(step, frame, 0.0)?)
+        };
+        let Self { body, alpha: [.., beta, gamma], place, a, q, v, .. } = self;
+        let h = body.h;
+        for (i, delta) in place.x().iter().enumerate() {
+            frame.q[i] = q[i] + delta;
+            if !met {
+                a[i] = delta / (h * h * *beta);
+                frame.v[i] = v[i] + h * *gamma * a[i];
+            }
         }
         Ok(met)
     }
 
-    /// v⁺ and the impulses, at the walls that are closed. Returns whether one pushes.
+    /// Solves for Δ, the damper not feeling a and the extra force over `unfelt` (s). Returns whether a rigid wall pushes.
+    fn place(&mut self, step: u64, frame: &Frame, unfelt: f64) -> Result<bool> {
+        let h = self.body.h;
+        for wall in self.pushing.drain(..) {
+            self.multiplier[wall] = 0.0;
+        }
+        let Self { body, place, past, load, b, q, v, .. } = self;
+        b.iter_mut().zip(past.iter()).zip(load.iter()).for_each(|((b, past), load)| *b = past + load);
+        body.damping.add_product(-1.0, v, b);
+        if unfelt != 0.0 {
+            body.damping.add_product(unfelt, &self.a, b);
+            body.damping.add_product(unfelt / h, &self.given, b);
+        }
+        body.stiffness.add_product(-1.0, q, b);
+        for row in 0..place.count_rows() {
+            let ahead = place.seen(row, q);
+            place.free(row);
+            for seat in place.seats(row) {
+                let wall = place.seat(seat).stop;
+                let bound = match wall.law {
+                    WallLaw::Elastic { stiffness, damping } => {
+                        // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
+                        let plate = wall.plate(place.seen(row, &frame.q));
+                        let offset = stiffness * (ahead - wall.g) + damping * (ahead - plate) / h;
+                        -offset / (stiffness + damping / h)
+                    }
+                    _ => wall.g - ahead,
+                };
+                place.bind(row, seat, bound);
+            }
+        }
+        place.solve(b, (frame.start, step), &mut self.multiplier, &mut self.pushing)?;
+        Ok(self.pushing.iter().any(|&wall| body.walls[wall].law.is_rigid()))
+    }
+
+    /// The elastic walls' forces, and their impulses ½h(r + r⁺), of those that push at either end.
+    fn press(&mut self, frame: &mut Frame) {
+        let h = self.body.h;
+        for wall in self.holding.drain(..) {
+            frame.impulse[wall] = 0.5 * h * self.held[wall];
+            self.held[wall] = 0.0;
+            frame.pushing.push(wall);
+        }
+        for &wall in self.pushing.iter().filter(|&&wall| !self.body.walls[wall].law.is_rigid()) {
+            let force = self.multiplier[wall];
+            if frame.impulse[wall] == 0.0 {
+                frame.pushing.push(wall);
+            }
+            frame.impulse[wall] += 0.5 * h * force;
+            frame.force[wall] = force;
+            self.held[wall] = force;
+            self.holding.push(wall);
+        }
+    }
+
+    /// v_c = v̂ + hγa⁺ at q⁺, with T a⁺ = past + f⁺ − K q⁺ + Gᵀr − C v̂.
+    fn free_velocity(&mut self, frame: &mut Frame) {
+        let Self { body, alpha: [.., gamma], past, load, b, v, drag, .. } = self;
+        b.iter_mut().zip(past.iter()).zip(load.iter()).for_each(|((b, past), load)| *b = past + load);
+        body.damping.add_product(-1.0, v, b);
+        body.stiffness.add_product(-1.0, &frame.q, b);
+        for &wall in &self.holding {
+            body.rows.add_transposed(wall, self.held[wall], b);
+        }
+        drag.solve(b);
+        for (i, a) in b.iter().enumerate() {
+            frame.v[i] = v[i] + body.h * *gamma * a;
+        }
+    }
+
+    /// v⁺ and the impulses, at the rigid walls that are closed. Returns whether one pushes.
     fn correct_velocity(&mut self, frame: &mut Frame, step: u64) -> Result<bool> {
-        let (h, programme) = (self.body.h, &mut self.rigid);
+        let (h, rate) = (self.body.h, &mut self.rate);
         let mut approaches = false;
-        for row in 0..programme.count_rows() {
-            let w = programme.seen(row, &frame.q);
-            programme.free(row);
-            if programme.is_clear(row, w) && self.pushing.is_empty() {
+        self.closed = false;
+        for row in 0..rate.count_rows() {
+            let w = rate.seen(row, &frame.q);
+            rate.free(row);
+            if rate.is_clear(row, w) && self.pushing.is_empty() {
                 continue;
             }
-            for seat in programme.seats(row) {
-                let Seat { wall: index, stop: wall } = programme.seat(seat);
+            for seat in rate.seats(row) {
+                let Seat { wall: index, stop: wall } = rate.seat(seat);
                 // A multiplier says so too: q⁺ is on the wall to rounding of q.
                 if self.multiplier[index] == 0.0 && wall.depth(w) < -self.body.touch {
                     continue;
                 }
-                let struck = programme.seen(row, frame.struck());
+                self.closed = true;
+                let struck = rate.seen(row, frame.struck());
                 let epsilon = if wall.sign * struck <= 0.0 { wall.law.restitution().unwrap_or(0.0) } else { 1.0 };
-                let bound = -epsilon * struck - programme.seen(row, &frame.v);
-                programme.bind(row, seat, h * bound);
+                let bound = -epsilon * struck - rate.seen(row, &frame.v);
+                rate.bind(row, seat, bound);
                 approaches |= wall.sign * bound > 0.0;
             }
         }
-        self.forget();
+        for wall in self.pushing.drain(..) {
+            self.multiplier[wall] = 0.0;
+        }
         if approaches {
-            self.rigid.solve(&self.zero, (frame.start, step), &mut self.multiplier, &mut self.pushing)?;
-            frame.v.iter_mut().zip(self.rigid.x()).for_each(|(v, d)| *v += d / h);
+            let [alpha_m, alpha_f, ..] = self.alpha;
+            let mu = (1.0 - alpha_m) / (1.0 - alpha_f);
+            self.rate.solve(&self.zero, (frame.start, step), &mut self.multiplier, &mut self.pushing)?;
+            frame.v.iter_mut().zip(self.rate.x()).for_each(|(v, d)| *v += d);
             for &wall in &self.pushing {
-                frame.impulse[wall] = self.multiplier[wall] / h;
+                frame.impulse[wall] = self.multiplier[wall] / mu;
                 frame.force[wall] = frame.impulse[wall] / h;
                 frame.pushing.push(wall);
             }
@@ -177,89 +323,12 @@ impl GeneralizedAlpha {
         Ok(approaches)
     }
 
-    /// Clears the multipliers.
-    fn forget(&mut self) {
-        for wall in self.pushing.drain(..) {
-            self.multiplier[wall] = 0.0;
-        }
-    }
-
-    /// q̃, ṽ, a and F̃⁺ of the step, and the elastic walls.
-    fn predict(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
-        let Self { body, alpha: [alpha_m, alpha_f, beta, gamma], a, force, smooth, b, given, load, .. } = self;
-        let (h, scale) = (body.h, body.h * body.h * *beta);
-        let (alpha_m, alpha_f, beta, gamma) = (*alpha_m, *alpha_f, *beta, *gamma);
-        given.iter_mut().zip(&frame.extra).for_each(|(given, extra)| *given = h * extra);
-        frame.blown = body.strike((frame.start, frame.end), &frame.v, 1.0, given, &mut frame.struck);
-        let Some(Predicted { q, v }) = &mut frame.predicted else { return Ok(()) };
-        let driven = given.iter().any(|&p| p != 0.0);
-        if driven {
-            self.mass.solve(given);
-        }
-        // All but what a⁺ adds.
-        for i in 0..q.len() {
-            q[i] = frame.q[i] + h * (frame.v[i] + h * (0.5 - beta) * a[i]);
-            v[i] = frame.v[i] + h * (1.0 - gamma) * a[i];
-            if driven {
-                q[i] += 0.5 * h * given[i];
-                v[i] += given[i];
-            }
-            b[i] = alpha_f / (1.0 - alpha_f) * force[i];
-        }
-        body.mass.add_product(-alpha_m / (1.0 - alpha_f), a, b);
-        load.fill(0.0);
-        body.loads.add_force(frame.end, 1.0, load);
-        force.copy_from_slice(load);
-        body.damping.add_product(-1.0, v, force);
-        body.stiffness.add_product(-1.0, q, force);
-        b.iter_mut().zip(force.iter()).for_each(|(b, f)| *b += f);
-        for row in 0..smooth.count_rows() {
-            let (w, ahead) = (smooth.seen(row, &frame.q), smooth.seen(row, q));
-            smooth.free(row);
-            for seat in smooth.seats(row) {
-                let wall = smooth.seat(seat).stop;
-                if let WallLaw::Elastic { stiffness, damping } = wall.law {
-                    // |r| = k_a s̃⁺ + c_a(s̃⁺ − s₊)/h, written in Δ.
-                    let offset = stiffness * (ahead - wall.g) + damping * (ahead - wall.plate(w)) / h;
-                    smooth.bind(row, seat, -offset / (stiffness + damping / h));
-                }
-            }
-        }
-        smooth.solve(b, (frame.start, step), &mut frame.force, &mut frame.pushing)?;
-        force.copy_from_slice(load);
-        for (i, delta) in smooth.x().iter().enumerate() {
-            a[i] = delta / scale;
-            q[i] += delta;
-            v[i] += h * gamma * a[i];
-        }
-        body.damping.add_product(-1.0, v, force);
-        body.stiffness.add_product(-1.0, q, force);
-        for &wall in &frame.pushing {
-            body.rows.add_transposed(wall, frame.force[wall], force);
-        }
-        // The elastic walls' impulses ½h(r + r⁺), of those that push at either end.
-        let now = frame.pushing.len();
-        for wall in self.holding.drain(..) {
-            frame.impulse[wall] = 0.5 * h * self.held[wall];
-            self.held[wall] = 0.0;
-            if frame.force[wall] == 0.0 {
-                frame.pushing.push(wall);
-            }
-        }
-        for &wall in &frame.pushing[..now] {
-            frame.impulse[wall] += 0.5 * h * frame.force[wall];
-            self.held[wall] = frame.force[wall];
-            self.holding.push(wall);
-        }
-        Ok(())
-    }
-
     pub fn backend(&self) -> Backend {
-        self.rigid.backend()
+        self.rate.backend()
     }
 
     pub fn count(&self, counters: &mut Counters) {
-        self.rigid.count(counters);
-        self.smooth.count(counters);
+        self.rate.count(counters);
+        self.place.count(counters);
     }
 }

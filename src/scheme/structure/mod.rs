@@ -47,7 +47,7 @@ enum Method {
     Position(Position),
     PaoliSchatzman(PaoliSchatzman),
     MoreauJean(MoreauJean),
-    GeneralizedAlpha(GeneralizedAlpha),
+    GeneralizedAlpha(Box<GeneralizedAlpha>),
     Penalty(Penalty),
     CentralDifference(CentralDifference),
 }
@@ -62,7 +62,7 @@ pub(super) struct Structure {
 impl Structure {
     /// `scene` by `scheme` with steps of `h` seconds; the walls are such that a quadratic programme can hold them, or springs for a penalty.
     pub fn new(scene: &Scene, scheme: &Scheme, h: f64, backend: Backend) -> Result<Self> {
-        let mut frame = Frame::new(scene)?;
+        let frame = Frame::new(scene)?;
         let method = match *scheme {
             Scheme::ImplicitEuler => Method::Position(Position::new(scene, 1.0, h, backend, &frame)?),
             Scheme::Newmark => Method::Position(Position::new(scene, 0.5, h, backend, &frame)?),
@@ -70,7 +70,7 @@ impl Structure {
             Scheme::MoreauJean { theta } => Method::MoreauJean(MoreauJean::new(scene, theta, h, backend)?),
             Scheme::GeneralizedAlpha { .. } => {
                 let balance = scheme.contract().balance;
-                Method::GeneralizedAlpha(GeneralizedAlpha::new(scene, balance, h, backend, &mut frame)?)
+                Method::GeneralizedAlpha(Box::new(GeneralizedAlpha::new(scene, balance, h, backend, &frame)?))
             }
             Scheme::Penalty { integrator, .. } => match integrator {
                 Integrator::Trapezoidal => Method::Penalty(Penalty::new(scene, 0.5, Mean::Ends, h)?),
