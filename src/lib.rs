@@ -32,8 +32,8 @@ mod trajectory;
 pub use error::{Error, Result};
 pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{
-    Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MOST_DENSE, MOST_ELEMENTS, MOST_MODES, MassMatrix, Modes, Reduction,
-    WallTruncation, matrices,
+    Bar, BarEnd, Beam, BeamEnd, Chain, Condensation, Damping, MOST_DENSE, MOST_ELEMENTS, MOST_MODES, MassMatrix,
+    ModalData, ModalPoint, Modes, Reduction, WallTruncation, matrices,
 };
 pub use scene::{
     Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, Row, Scene, Side, State, Structure, System, Table,

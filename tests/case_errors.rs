@@ -493,6 +493,61 @@ const WRONG_CHAINS: &[Wrong] = &[
     ("modes of an oscillator", "[system.chain]\nmasses = 4\nmass = 1.0\nsprings = 1e4\nleft = { stiffness = 1e4 }\n", "[system]\nmodes = 1\n[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 0.0\n", "10:1", &["`system.damping` beside an oscillator"]),
 ];
 
+/// Modes that are right.
+const MODES: &str = r#"title = "right"
+
+[system.modal]
+frequencies = [5.0, 20.0]
+masses = [1.0, 0.5]
+damping_ratios = [0.01, 0.02]
+shapes = { tip = [1.0, -1.0], base = [0.5, 0.5] }
+
+[[wall]]
+name = "stop"
+at = { point = "tip" }
+side = "upper"
+position = 1e-3
+
+[[load]]
+at = { points = [["tip", 1.0], ["base", -1.0]] }
+constant = { force = 1.0 }
+
+[time]
+end = 1.0
+step = 1e-3
+"#;
+
+#[rustfmt::skip]
+const WRONG_MODES: &[Wrong] = &[
+    ("no frequencies", "frequencies = [5.0, 20.0]\n", "", "3:1", &["`frequencies` is missing", "omega"]),
+    ("frequencies twice", "masses = [1.0, 0.5]", "omega = [1.0, 2.0]", "5:9", &["both frequencies and omega"]),
+    ("an empty list of modes", "[5.0, 20.0]", "[]", "4:15", &["system.modal.frequencies", "one for each mode"]),
+    ("a negative frequency of a mode", "20.0]", "-20.0]", "4:21", &["frequencies: value 2", "0 or more"]),
+    ("a frequency that overflows", "20.0]", "1e200]", "4:21", &["system.modal.omega: value 2", "finite"]),
+    ("one frequency by number", "[5.0, 20.0]", "5.0", "4:15", &["system.modal.frequencies", "a list"]),
+    ("a mass too few", "[1.0, 0.5]", "[1.0]", "5:10", &["system.modal.masses has 1 value", "expected 2"]),
+    ("a mode without mass", "0.5]\nd", "0.0]\nd", "5:16", &["system.modal.masses: value 2", "above 0"]),
+    ("masses by word", "[1.0, 0.5]", "\"one\"", "5:10", &["system.modal.masses", "one for each mode"]),
+    ("a negative ratio of a mode", "0.02]", "-0.02]", "6:25", &["system.modal.damping_ratios: value 2", "0 or more"]),
+    ("ratios too many", "0.02]", "0.02, 0.03]", "6:18", &["damping_ratios has 3 values", "expected 2"]),
+    ("a shape too short", "[1.0, -1.0]", "[1.0]", "7:18", &["system.modal.shapes.tip has 1 value", "expected 2"]),
+    ("a shape by number", "[1.0, -1.0]", "1.0", "7:18", &["system.modal.shapes.tip", "a list of 2 numbers"]),
+    ("a shape that is no number", "[1.0, -1.0]", "[1.0, nan]", "7:24", &["system.modal.shapes.tip", "finite"]),
+    ("a point of bad name", "tip = [", "\"the tip\" = [", "7:12", &["system.modal.shapes.the tip", "letters"]),
+    ("shapes by number", "{ tip = [1.0, -1.0], base = [0.5, 0.5] }", "3", "7:10", &["system.modal.shapes", "CSV"]),
+    ("shapes of no file", "{ tip = [1.0, -1.0], base = [0.5, 0.5] }", "\"no.csv\"", "7:10", &["no.csv", "no such file", "a row for each point"]),
+    ("an unknown key of modes", "masses =", "mass =", "5:1", &["unknown key `mass`", "masses"]),
+    ("damping twice", "[[wall]]", "[system.damping]\nratio = 0.1\n[[wall]]", "9:1", &["twice"]),
+    ("a point that is not there", "{ point = \"tip\" }", "{ point = \"top\" }", "11:16", &["at: point", "tip, base"]),
+    ("a point by number", "{ point = \"tip\" }", "{ point = 3 }", "11:16", &["at: point", "tip, base"]),
+    ("a position on modes", "{ point = \"tip\" }", "{ position = 1.0 }", "11:8", &["has no positions", "point = \"tip\""]),
+    ("no place on modes", "at = { point = \"tip\" }\n", "", "9:1", &["`at` is missing", "of tip, base"]),
+    ("a point twice", "[\"base\", -1.0]", "[\"tip\", -1.0]", "16:33", &["each point once"]),
+    ("a weight of a point", "[\"base\", -1.0]", "[\"base\", inf]", "16:41", &["weight", "finite"]),
+    ("points by number", "[[\"tip\", 1.0], [\"base\", -1.0]]", "[1.0]", "16:18", &["at: points", "pairs of a point"]),
+    ("a point where nothing moves", "tip = [1.0, -1.0]", "tip = [0.0, 0.0]", "11:6", &["nothing moves there"]),
+];
+
 /// Every wrong text that is not refused at its place and in its words.
 fn not_refused(right: &str, all: &[Wrong]) -> String {
     let mut failures = String::new();
@@ -518,14 +573,15 @@ fn not_refused(right: &str, all: &[Wrong]) -> String {
 
 #[test]
 fn the_structures_that_the_wrong_ones_start_from_are_right() {
-    for text in [TUBE, CHAIN] {
+    for text in [TUBE, CHAIN, MODES] {
         assert!(Case::parse(text, "right.toml", "").is_ok(), "{:?}", Case::parse(text, "right.toml", ""));
     }
 }
 
 #[test]
 fn every_wrong_structure_is_refused_at_its_place() {
-    let failures = not_refused(TUBE, WRONG_TUBES) + &not_refused(CHAIN, WRONG_CHAINS);
+    let failures =
+        not_refused(TUBE, WRONG_TUBES) + &not_refused(CHAIN, WRONG_CHAINS) + &not_refused(MODES, WRONG_MODES);
     assert!(failures.is_empty(), "{failures}");
 }
 
@@ -552,6 +608,31 @@ fn walls_without_number_are_refused() {
         said.contains("--> wrong.toml:7:6\n") && said.contains("makes 5000 walls") && said.contains("at most 4096"),
         "{said}"
     );
+}
+
+#[test]
+fn a_malformed_file_of_shapes_is_refused_at_its_own_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let (case, shapes) = (folder.path().join("case.toml"), folder.path().join("shapes.csv"));
+    fs::write(&case, MODES.replace("{ tip = [1.0, -1.0], base = [0.5, 0.5] }", "\"shapes.csv\"")).unwrap();
+    for (text, place, words) in [
+        ("", "1:1", "no points"),
+        ("tip,1\n", "1:1", "1 value at the point \"tip\""),
+        ("point,a,b\ntip,1,x\n", "2:1", "\"x\" is no finite number"),
+        ("tip,1,2\nbase,1,2\ntip,3,4\n", "3:1", "a second time"),
+        ("tip,1,2\nthe base,1,2\n", "2:1", "letters, digits"),
+    ] {
+        fs::write(&shapes, text).unwrap();
+        let said = match Case::read(&case) {
+            Ok(_) => "ACCEPTED".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        let at = format!("{}:{place}\n", shapes.display());
+        let fits = said.contains(&at) && said.contains("expected") && said.contains(words);
+        assert!(fits, "{text:?}: {place} {words}\n{said}");
+    }
+    fs::write(&shapes, "node,mode 1,mode 2\r\ntip,1,-1\r\nbase,0.5,0.5\r\n").unwrap();
+    assert!(Case::read(&case).is_ok(), "{:?}", Case::read(&case));
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! What each key takes, for messages.
 
-const SYSTEM: &str =
-    "one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], [system.matrices]";
+const SYSTEM: &str = "one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], [system.matrices], [system.modal]";
 const OSCILLATOR: &str = "the table [system.oscillator] with mass (kg), damping (N s/m) and stiffness (N/m)";
 const BAR_END: &str = "\"clamped\", \"free\" or { stiffness = N/m }, a spring to ground";
 const BEAM_END: &str =
@@ -57,6 +56,18 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("system.matrices.mass", PATH),
     ("system.matrices.damping", PATH),
     ("system.matrices.stiffness", PATH),
+    (
+        "system.modal",
+        "the table [system.modal] with frequencies (Hz) or omega (rad/s) and, where wanted, masses (kg), damping_ratios and shapes",
+    ),
+    ("system.modal.frequencies", "frequencies = a list of numbers, 0 or more, in Hz: one for each mode"),
+    ("system.modal.omega", "omega = a list of numbers, 0 or more, in rad/s: one for each mode"),
+    ("system.modal.masses", "masses = a number above 0, in kg, or a list of them, one for each mode"),
+    ("system.modal.damping_ratios", "damping_ratios = a number, 0 or more, or a list of them, one for each mode"),
+    (
+        "system.modal.shapes",
+        "shapes = { tip = [a number for each mode], .. } or the path of a CSV file in quotes, a row for each point",
+    ),
     ("system.damping", "the table [system.damping] with one of rayleigh, ratio, ratios, matrix"),
     ("system.damping.rayleigh", "rayleigh = { mass = 1/s, stiffness = s }: C = mass M + stiffness K"),
     ("system.damping.rayleigh.mass", "mass = a number, 0 or more, in 1/s"),

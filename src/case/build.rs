@@ -8,7 +8,7 @@ use super::system::MOST_MASSES;
 use super::value::{Number, Section};
 use super::{Case, PenaltyOptions, TimeOptions, Truncated};
 use crate::error::{Error, Result};
-use crate::scene::{Scene, State, Wall};
+use crate::scene::{Condensation, Damping, Scene, State, System, Wall};
 use crate::scheme::{Integrator, PenaltyLaw};
 use crate::study::truncation::Whole;
 use std::ops::Range;
@@ -81,6 +81,8 @@ impl Builder<'_> {
         }
         let penalty = file.penalty.map(|penalty| self.penalty(penalty.value)).transpose()?.unwrap_or_default();
         let stem = Path::new(self.source.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("case");
+        let (scene, condensation) = self
+            .condensed(scene, built.pending.as_ref().filter(|d| modes.is_none() || !matches!(d, Damping::Modal(_))))?;
         let mut case = Case {
             name: stem.to_owned(),
             title: file.title,
@@ -88,20 +90,43 @@ impl Builder<'_> {
             model: self.model.clone(),
             places,
             scene,
+            condensation,
             truncated: None,
             time,
             penalty,
         };
         case.validate().map_err(|error| self.locate(error, &case.scene))?;
         if let Some(modes) = modes {
-            let whole =
-                Whole { scene: case.scene.clone(), damping: built.ratios, static_correction: self.static_correction };
+            let ratios = built.pending.filter(|damping| matches!(damping, Damping::Modal(_)));
+            let whole = Whole { scene: case.scene.clone(), damping: ratios, static_correction: self.static_correction };
             let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
             case.scene = reduction.scene.clone();
             case.truncated = Some(Truncated { whole, reduction });
             case.validate().map_err(|error| self.locate(error, &case.scene))?;
         }
         Ok(case)
+    }
+
+    /// The scene without the degrees of freedom that have no mass, and with the damping that waited for that.
+    fn condensed(&mut self, scene: Scene, pending: Option<&Damping>) -> Result<(Scene, Option<Condensation>)> {
+        let System::Structure(structure) = &scene.system else { return Ok((scene, None)) };
+        if structure.massless().is_empty() {
+            return Ok((scene, None));
+        }
+        let (mut less, condensation) = scene.condensed().map_err(|error| self.locate(error, &scene))?;
+        let soft = less.walls.iter().zip(&condensation.compliance).filter(|(_, s)| **s > 0.0);
+        for (wall, _) in soft {
+            if let Some(span) = self.noted(&format!("wall {:?}: restitution", wall.name)) {
+                let title = format!("wall {:?} has restitution, and pushes degrees of freedom without mass", wall.name);
+                let help = "expected no restitution: what has no mass cannot rebound, and their stiffness makes the wall a spring; or mass there";
+                return Err(self.source.error(span, &title, help));
+            }
+        }
+        if let (System::Structure(structure), Some(damping)) = (&mut less.system, pending) {
+            **structure =
+                structure.as_ref().clone().with_damping(damping).map_err(|error| self.locate(error, &scene))?;
+        }
+        Ok((less, Some(condensation)))
     }
 
     /// `modes` and `static_correction`.

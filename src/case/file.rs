@@ -31,6 +31,7 @@ pub(super) struct System {
     pub bar: Option<Section<Bar>>,
     pub beam: Option<Section<Beam>>,
     pub matrices: Option<Section<Matrices>>,
+    pub modal: Option<Section<Modal>>,
     pub damping: Option<Section<Damping>>,
     pub modes: Option<Spanned<Number>>,
     pub static_correction: Option<Spanned<bool>>,
@@ -87,6 +88,17 @@ pub(super) struct Matrices {
     pub mass: Spanned<String>,
     pub damping: Option<Spanned<String>>,
     pub stiffness: Spanned<String>,
+}
+
+/// One of frequencies and omega is to be set.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Modal {
+    pub frequencies: Option<Spanned<Vec<Spanned<Number>>>>,
+    pub omega: Option<Spanned<Vec<Spanned<Number>>>>,
+    pub masses: Option<Spanned<Value>>,
+    pub damping_ratios: Option<Spanned<Value>>,
+    pub shapes: Option<Spanned<Value>>,
 }
 
 /// Exactly one of the ways is to be set.

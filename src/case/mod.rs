@@ -16,7 +16,9 @@ mod embedded;
 mod file;
 mod initial;
 mod loads;
+mod modal;
 mod model;
+mod notes;
 mod penalty;
 mod place;
 mod report;
@@ -33,7 +35,7 @@ pub use table::TableColumns;
 pub use truncated::Truncated;
 
 use crate::error::{Error, Result};
-use crate::scene::Scene;
+use crate::scene::{Condensation, Scene};
 use crate::time::TimeOptions;
 use std::fs;
 use std::io::Read;
@@ -54,6 +56,8 @@ pub struct Case {
     pub places: Vec<Place>,
     /// What is simulated, in modal coordinates where the case is cut to modes; its duration is `time.end`.
     pub scene: Scene,
+    /// What of the file's degrees of freedom has no mass and was condensed, before any cut; none where all have mass.
+    pub condensation: Option<Condensation>,
     /// What it was cut from, and what that cost; none for a case that runs in full.
     pub truncated: Option<Truncated>,
     /// Step, recording and statistics.

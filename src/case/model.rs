@@ -1,7 +1,7 @@
 //! What a case's system is, and what a place on it sees.
 
 use crate::error::Result;
-use crate::scene::{Bar, Beam, Chain, Row};
+use crate::scene::{Bar, Beam, Chain, ModalData, Row};
 use std::fmt;
 
 /// What the file says the system is.
@@ -18,6 +18,8 @@ pub enum Model {
     Beam(Beam),
     /// `[system.matrices]`, with this many degrees of freedom.
     Matrices(usize),
+    /// `[system.modal]`.
+    Modal(ModalData),
 }
 
 impl Model {
@@ -30,6 +32,7 @@ impl Model {
             Self::Bar(_) => "bar",
             Self::Beam(_) => "beam",
             Self::Matrices(_) => "matrices",
+            Self::Modal(_) => "modal",
         }
     }
 
@@ -42,7 +45,7 @@ impl Model {
         }
     }
 
-    /// What a place sees; errors are those of the bar or beam. Positions on other systems see nothing.
+    /// What a place sees; errors are those of the bar, beam or modes. Positions and points on other systems see nothing.
     pub(super) fn row(&self, place: &Place) -> Result<Row> {
         match (place, self) {
             (Place::Dof(i), _) => Ok(Row::dof(*i)),
@@ -51,19 +54,24 @@ impl Model {
             (Place::Position(x), Self::Beam(beam)) => beam.at(*x),
             (Place::Spread { from, to }, Self::Bar(bar)) => bar.spread(*from, *to),
             (Place::Spread { from, to }, Self::Beam(beam)) => beam.spread(*from, *to),
-            (Place::Position(_) | Place::Spread { .. }, _) => Ok(Row::new(Vec::new())),
+            (Place::Points(points), Self::Modal(modal)) => modal.at_sum(points),
+            (Place::Position(_) | Place::Spread { .. } | Place::Points(_), _) => Ok(Row::new(Vec::new())),
         }
     }
 
-    /// Every place of a system of `n` degrees of freedom that moves, with its number: each mass, each degree of freedom of matrices, each node of a bar or
-    /// beam.
-    pub(super) fn each(&self, n: usize) -> Vec<(usize, Place)> {
+    /// Every place of a system of `n` degrees of freedom that moves, with its number or name: each mass, each degree of freedom of matrices, each node
+    /// of a bar or beam, each point of modes.
+    pub(super) fn each(&self, n: usize) -> Vec<(String, Place)> {
+        if let Self::Modal(modal) = self {
+            let points = modal.points.iter().filter(|point| point.shape.iter().any(|x| *x != 0.0));
+            return points.map(|point| (point.name.clone(), Place::point(&point.name))).collect();
+        }
         let (elements, length) = match self {
             Self::Bar(bar) => (bar.elements, bar.length),
             Self::Beam(beam) => (beam.elements, beam.length),
-            _ => return (0..n).map(|i| (i, Place::Dof(i))).collect(),
+            _ => return (0..n).map(|i| (i.to_string(), Place::Dof(i))).collect(),
         };
-        let nodes = (0..=elements).map(|i| (i, Place::Position(length * (i as f64 / elements as f64))));
+        let nodes = (0..=elements).map(|i| (i.to_string(), Place::Position(length * (i as f64 / elements as f64))));
         nodes.filter(|(_, place)| self.row(place).is_ok_and(|row| !row.entries().is_empty())).collect()
     }
 }
@@ -85,6 +93,16 @@ pub enum Place {
         /// Where it ends.
         to: f64,
     },
+    /// Points of modes, with weights: one of weight 1, or a sum of several.
+    Points(Vec<(String, f64)>),
+}
+
+impl Place {
+    /// One point of modes.
+    #[must_use]
+    pub fn point(name: &str) -> Self {
+        Self::Points(vec![(name.to_owned(), 1.0)])
+    }
 }
 
 impl fmt::Display for Place {
@@ -96,6 +114,13 @@ impl fmt::Display for Place {
                 let term = |(i, weight): &(usize, f64)| format!("{weight} q{i}");
                 f.write_str(&entries.iter().map(term).collect::<Vec<_>>().join(" + "))
             }
+            Self::Points(points) => match points.as_slice() {
+                [(name, 1.0)] => write!(f, "the point {name:?}"),
+                _ => {
+                    let term = |(name, weight): &(String, f64)| format!("{weight} {name}");
+                    f.write_str(&points.iter().map(term).collect::<Vec<_>>().join(" + "))
+                }
+            },
             Self::Spread { from, to } => write!(f, "from {from} to {to} m along it"),
         }
     }

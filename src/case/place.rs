@@ -16,11 +16,22 @@ pub(super) struct Site {
     pub row: Row,
 }
 
+/// Most points of modes that a message lists.
+const MOST_POINTS: usize = 20;
+
 impl Builder<'_> {
     /// What `at` takes on this system.
     fn takes(&self, spread: bool) -> String {
         let each = if spread { "" } else { ", or \"each\"" };
         let last = self.n.saturating_sub(1);
+        if let Model::Modal(modal) = &self.model {
+            let names: Vec<&str> = modal.points.iter().map(|point| point.name.as_str()).take(MOST_POINTS).collect();
+            let first = names.first().copied().unwrap_or("tip");
+            let of = if names.is_empty() { "shapes names none".to_owned() } else { format!("of {}", names.join(", ")) };
+            return format!(
+                "at = {{ point = {first:?} }} ({of}), {{ points = [[{first:?}, 1.0], [.., -1.0]] }}, {{ dof = 0 to {last} }}, a mode{each}"
+            );
+        }
         let dof = format!("{{ dof = 0 to {last} }}, {{ row = [[0, 1.0], [1, -1.0]] }}");
         match self.model.length() {
             Some(length) if spread => {
@@ -52,7 +63,7 @@ impl Builder<'_> {
             && word == "each"
             && !load
         {
-            let site = |(i, place): (usize, Place)| {
+            let site = |(i, place): (String, Place)| {
                 let row = self.model.row(&place)?;
                 Ok(Site { suffix: format!("-{i}"), place, row })
             };
@@ -87,6 +98,9 @@ impl Builder<'_> {
         match kind.get_ref().as_str() {
             "dof" => Ok(Place::Dof(self.dof(&format!("{key}: dof"), value)?)),
             "row" => self.row(&format!("{key}: row"), value),
+            word @ ("point" | "points") if matches!(self.model, Model::Modal(_)) => {
+                self.points(&format!("{key}: {word}"), value)
+            }
             word @ ("position" | "spread") if !on_line => {
                 let title = format!("{key}: a {} has no positions", self.model.kind());
                 let hint = if word == "spread" { "one load for each place, or a row" } else { &self.takes(load) };
@@ -113,6 +127,38 @@ impl Builder<'_> {
                 Err(self.source.error(kind.span(), &title, &format!("expected {}", self.takes(load))))
             }
         }
+    }
+
+    /// One point of modes by its name, or pairs of a name and a weight.
+    fn points(&self, key: &str, value: &Spanned<Value>) -> Result<Place> {
+        let Model::Modal(modal) = &self.model else { return Ok(Place::Points(Vec::new())) };
+        let known = |word: &Spanned<Value>| match word.get_ref() {
+            Value::Word(name) if modal.points.iter().any(|point| point.name == *name) => Ok(name.clone()),
+            _ => {
+                let names: Vec<&str> = modal.points.iter().map(|point| point.name.as_str()).take(MOST_POINTS).collect();
+                let more = if modal.points.len() > MOST_POINTS { ", .." } else { "" };
+                let wanted = format!("a point of shapes: {}{more}", names.join(", "));
+                Err(self.refuse(
+                    word.span(),
+                    key,
+                    if names.is_empty() { "a point, which shapes has to name" } else { &wanted },
+                ))
+            }
+        };
+        if key.ends_with(": point") {
+            return Ok(Place::Points(vec![(known(value)?, 1.0)]));
+        }
+        let mut points: Vec<(String, f64)> = Vec::new();
+        for (name, weight) in
+            self.pairs(key, value, "pairs of a point and a weight, each once: [[\"tip\", 1.0], [\"base\", -1.0]]")?
+        {
+            let point = known(name)?;
+            if points.iter().any(|other| other.0 == point) {
+                return Err(self.refuse(name.span(), key, "each point once"));
+            }
+            points.push((point, self.finite(&format!("{key}: weight"), weight, "a finite number")?));
+        }
+        Ok(Place::Points(points))
     }
 
     /// A number that counts a degree of freedom.

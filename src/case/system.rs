@@ -17,8 +17,8 @@ pub const MOST_MASSES: usize = 1_000_000;
 pub(super) struct Built {
     pub model: Model,
     pub system: System,
-    /// Modal ratios that the system has yet to be given, once it is cut to modes.
-    pub ratios: Option<Damping>,
+    /// Damping that the system has yet to be given: modal ratios once it is cut to modes; all but a matrix once what has no mass is condensed.
+    pub pending: Option<Damping>,
 }
 
 /// What an end may be in the file; each system takes some of them.
@@ -39,11 +39,12 @@ impl Builder<'_> {
             ("bar", system.bar.as_ref().map(|s| s.span.clone())),
             ("beam", system.beam.as_ref().map(|s| s.span.clone())),
             ("matrices", system.matrices.as_ref().map(|s| s.span.clone())),
+            ("modal", system.modal.as_ref().map(|s| s.span.clone())),
         ]
         .into_iter()
         .filter_map(|(kind, span)| Some((kind, span?)))
         .collect();
-        let one = "expected one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], [system.matrices]";
+        let one = "expected one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], [system.matrices], [system.modal]";
         match given.as_slice() {
             [] => return Err(self.source.error(span, "`system` says nothing of what vibrates", one)),
             [_] => {}
@@ -73,9 +74,9 @@ impl Builder<'_> {
             let damping = self.number("system.oscillator.damping", &o.damping);
             let stiffness = self.number("system.oscillator.stiffness", &o.stiffness);
             let system = System::Oscillator(Oscillator { mass, damping, stiffness });
-            return Ok(Built { model: Model::Oscillator, system, ratios: None });
+            return Ok(Built { model: Model::Oscillator, system, pending: None });
         }
-        let (mut own_damping, mut kept) = (None, None);
+        let (mut own_damping, mut pending) = (None, None);
         let (model, structure) = if let Some(chain) = system.chain {
             let chain = self.chain(chain.value)?;
             let structure = chain.structure();
@@ -92,21 +93,28 @@ impl Builder<'_> {
             own_damping = matrices.value.damping.as_ref().map(Spanned::span);
             let structure = self.matrices(&matrices.value)?;
             (Model::Matrices(structure.mass.size()), Ok(structure))
+        } else if let Some(modal) = system.modal {
+            own_damping = modal.value.damping_ratios.as_ref().map(Spanned::span);
+            let modal = self.modal(&modal.value, modal.span)?;
+            let structure = modal.structure();
+            (Model::Modal(modal), structure)
         } else {
             return Err(self.source.error(span, "`system` says nothing of what vibrates", one));
         };
         let mut structure = structure.map_err(|error| self.at_key(error))?;
         if let Some(damping) = system.damping {
             if own_damping.is_some() {
-                let help = "expected the damping matrix among the matrices, or [system.damping]";
+                let help = "expected the damping beside the matrices or modes, or [system.damping]";
                 return Err(self.source.error(damping.span, "`system` says its damping twice", help));
             }
+            let massless = !structure.massless().is_empty();
             match self.damping(damping)? {
-                ratios @ Damping::Modal(_) if cut => kept = Some(ratios),
+                ratios @ Damping::Modal(_) if cut => pending = Some(ratios),
+                later @ (Damping::Modal(_) | Damping::Rayleigh { .. }) if massless => pending = Some(later),
                 damping => structure = structure.with_damping(&damping).map_err(|error| self.at_key(error))?,
             }
         }
-        Ok(Built { model, system: System::Structure(Box::new(structure)), ratios: kept })
+        Ok(Built { model, system: System::Structure(Box::new(structure)), pending })
     }
 
     fn chain(&mut self, chain: file::Chain) -> Result<Chain> {
@@ -240,7 +248,7 @@ impl Builder<'_> {
     }
 
     /// A list of numbers, the place of each noted.
-    fn list(&mut self, key: &str, items: &[Spanned<Value>]) -> Result<Vec<f64>> {
+    pub fn list(&mut self, key: &str, items: &[Spanned<Value>]) -> Result<Vec<f64>> {
         let mut list = Vec::with_capacity(items.len());
         for (i, item) in items.iter().enumerate() {
             let Value::Number(x) = item.get_ref() else { return Err(self.refuse_as(item.span(), key)) };

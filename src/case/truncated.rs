@@ -2,7 +2,7 @@
 
 use super::Case;
 use crate::error::{Error, Result};
-use crate::scene::{Reduction, Scene, System, WallTruncation};
+use crate::scene::{Reduction, Scene, System};
 use crate::study::truncation::Whole;
 
 /// What a case was cut from, and what is left.
@@ -57,48 +57,4 @@ impl Case {
         self.truncated = Some(Truncated { whole, reduction });
         Ok(())
     }
-
-    /// What a reader must know of the cut, in sentences; nothing for a case that runs in full.
-    #[must_use]
-    pub fn notes(&self) -> Vec<String> {
-        let Some(Truncated { whole, reduction }) = &self.truncated else { return Vec::new() };
-        let mut notes = Vec::new();
-        let (k, n) = (reduction.modes.count(), reduction.degrees_of_freedom);
-        if k == n {
-            return notes;
-        }
-        let rigid = whole.scene.walls.iter().zip(&reduction.walls).filter(|(wall, _)| wall.law.is_rigid());
-        if whole.static_correction {
-            if rigid.clone().count() > 0 {
-                notes.push(
-                    "static correction: rigid walls are springs of the compliance that the modes leave out, without restitution".into(),
-                );
-            }
-            if reduction.coupling_neglected > WORTH_SAYING {
-                notes.push(format!(
-                    "the residual compliance that couples walls at different places is neglected: up to {:.0} % of their own",
-                    100.0 * reduction.coupling_neglected
-                ));
-            }
-        } else if let Some((wall, left)) = rigid.max_by(|a, b| excess(a.1).total_cmp(&excess(b.1))) {
-            notes.push(format!(
-                "restitution holds with the mass that {k} of {n} modes have at a wall: {:.4} kg at {:?}, where all have {:.4} kg; it falls as modes are added, and impacts grow weaker and more",
-                left.mass_kept, wall.name, left.mass
-            ));
-        }
-        if reduction.start_energy_lost > WORTH_SAYING {
-            notes.push(format!(
-                "the modes leave out {:.1} % of the energy of the start",
-                100.0 * reduction.start_energy_lost
-            ));
-        }
-        notes
-    }
-}
-
-/// Shares below this are not worth a sentence.
-const WORTH_SAYING: f64 = 1e-2;
-
-fn excess(left: &WallTruncation) -> f64 {
-    left.mass_kept / left.mass
 }

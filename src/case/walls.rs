@@ -6,7 +6,7 @@ use super::model::{Model, Place};
 use super::place::Site;
 use super::value::Section;
 use crate::error::{Error, Result};
-use crate::scene::{Probe, Row, Side, Wall, WallLaw};
+use crate::scene::{ModalData, Probe, Row, Side, Wall, WallLaw};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -154,9 +154,12 @@ impl Builder<'_> {
                 }
             }
             if all.is_empty() {
-                let (name, place) = match self.model.length() {
-                    Some(length) => ("middle", Place::Position(0.5 * length)),
-                    None => ("dof-0", Place::Dof(0)),
+                let (name, place) = match (self.model.length(), &self.model) {
+                    (Some(length), _) => ("middle", Place::Position(0.5 * length)),
+                    (None, Model::Modal(ModalData { points, .. })) if !points.is_empty() => {
+                        (points[0].name.as_str(), Place::point(&points[0].name))
+                    }
+                    _ => ("dof-0", Place::Dof(0)),
                 };
                 let at = self.model.row(&place).map_err(|error| self.at_key(error))?;
                 all.push(Probe { name: name.to_owned(), at });
@@ -178,7 +181,7 @@ impl Builder<'_> {
     }
 
     /// A name that CSV headers can carry.
-    fn name(&self, key: &str, name: &Spanned<String>) -> Result<String> {
+    pub fn name(&self, key: &str, name: &Spanned<String>) -> Result<String> {
         let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         let word = name.get_ref();
         if word.is_empty() || !word.chars().all(fits) {

@@ -93,6 +93,7 @@ fn what(case: &Case) -> Vec<String> {
             beam.mass_per_metre()
         ),
         Model::Matrices(_) => "a structure by its matrices".to_owned(),
+        Model::Modal(_) => "a structure by its modes".to_owned(),
     };
     let mut lines = Vec::new();
     if let Some(truncated) = &case.truncated {

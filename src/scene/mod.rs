@@ -1,6 +1,7 @@
 //! What is simulated: a linear system, its walls, its loads, its start and how long.
 
 mod builders;
+mod condensation;
 mod damping;
 mod load;
 mod loads;
@@ -12,7 +13,8 @@ mod structure;
 mod system;
 mod wall;
 
-pub use builders::{Bar, BarEnd, Beam, BeamEnd, Chain, MOST_ELEMENTS, MassMatrix};
+pub use builders::{Bar, BarEnd, Beam, BeamEnd, Chain, MOST_ELEMENTS, MassMatrix, ModalData, ModalPoint};
+pub use condensation::Condensation;
 pub use damping::Damping;
 pub use load::{Forcing, Harmonic, Load, LoadKind, Table};
 pub use loads::Loads;

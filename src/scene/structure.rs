@@ -63,10 +63,11 @@ fn definite(mass: &Symmetric) -> Result<()> {
     let entry = |i: usize, j: usize| format!("system: mass matrix, row {}, column {}", i + 1, j + 1);
     let diagonal = mass.diagonal_entries();
     if let Some(i) = diagonal.iter().position(|m| *m <= 0.0) {
+        let massless = if diagonal[i] == 0.0 { "; Scene::condensed takes out what has no mass" } else { "" };
         return Err(Error::invalid(
             entry(i, i),
             format_args!("{:?}", diagonal[i]),
-            format!("more than 0, of {EXPECTED}"),
+            format!("more than 0, of {EXPECTED}{massless}"),
         ));
     }
     if let Some((i, j, value)) =

@@ -78,6 +78,13 @@ fn system(case: &Case) -> Value {
             "mass_kg_per_m": beam.mass_per_metre(),
             "ends": ([beam.left, beam.right].map(beam_end)),
         }),
+        (Model::Modal(modal), _) => json!({
+            "modes": modal.omega.len(),
+            "frequencies_hz": modal.omega.iter().map(|omega| omega / TAU).collect::<Vec<_>>(),
+            "generalised_masses_kg": modal.masses,
+            "damping_ratios": modal.ratios,
+            "points": modal.points.iter().map(|point| &point.name).collect::<Vec<_>>(),
+        }),
         _ => json!({}),
     }
 }
@@ -112,6 +119,9 @@ fn structure(case: &Case) -> Value {
         "damping": choice::body(&case.scene).pop(),
         "matrices": choice::path(&case.scene, case.time.step),
     });
+    if let (Some(condensation), Some(map)) = (&case.condensation, out.as_object_mut()) {
+        map.insert("massless_degrees_of_freedom".to_owned(), json!(condensation.massless.len()));
+    }
     if let (Some(truncated), Some(map)) = (&case.truncated, out.as_object_mut()) {
         let reduction = &truncated.reduction;
         let frequencies: Vec<f64> = reduction.modes.omega.iter().map(|omega| omega / TAU).collect();
@@ -134,6 +144,7 @@ fn at(place: &Place) -> Value {
         Place::Position(x) => json!({ "position_m": x }),
         Place::Row(entries) => json!({ "row": entries }),
         Place::Spread { from, to } => json!({ "spread_m": [from, to] }),
+        Place::Points(points) => json!({ "points": points }),
     }
 }
 

@@ -5,14 +5,17 @@
 //! | [`Chain`] | masses in a line, springs between them |
 //! | [`Bar`] | axial motion, linear elements |
 //! | [`Beam`] | bending of a tube, Hermite elements |
+//! | [`ModalData`] | modes and shapes from elsewhere |
 
 mod bar;
 mod beam;
 mod chain;
 mod mesh;
+mod modal;
 mod profile;
 
 pub use bar::{Bar, BarEnd, MassMatrix};
 pub use beam::{Beam, BeamEnd};
 pub use chain::Chain;
 pub use mesh::MOST_ELEMENTS;
+pub use modal::{ModalData, ModalPoint};

@@ -1,0 +1,178 @@
+//! The table `[system.modal]`: modes as finite-element programs export them.
+
+use super::build::Builder;
+use super::file;
+use super::report::Source;
+use super::value::{Number, Value};
+use crate::error::Result;
+use crate::scene::{ModalData, ModalPoint};
+use std::f64::consts::TAU;
+use std::ops::Range;
+use toml::Spanned;
+
+/// What the file of shapes looks like.
+const SHAPES: &str = "expected a row for each point: its name, then its displacement in each mode, with commas between them; a header above is passed over";
+
+impl Builder<'_> {
+    /// Modes, and the points whose shapes are known.
+    pub fn modal(&mut self, modal: &file::Modal, span: Range<usize>) -> Result<ModalData> {
+        let omega = match (&modal.frequencies, &modal.omega) {
+            (Some(_), Some(omega)) => {
+                let help = "expected frequencies (Hz) or omega (rad/s)";
+                return Err(self.source.error(omega.span(), "`system.modal` has both frequencies and omega", help));
+            }
+            (None, None) => {
+                let help = "expected frequencies = a list of numbers, 0 or more, in Hz, or omega = the same in rad/s";
+                return Err(self.source.error(span, "`frequencies` is missing in `system.modal`", help));
+            }
+            (Some(list), None) => self.each("frequencies", "omega", list, TAU)?,
+            (None, Some(list)) => self.each("omega", "omega", list, 1.0)?,
+        };
+        let k = omega.len();
+        let masses = self.of_modes("masses", modal.masses.as_ref(), 1.0, k)?;
+        let ratios = self.of_modes("damping_ratios", modal.damping_ratios.as_ref(), 0.0, k)?;
+        let points = match &modal.shapes {
+            None => Vec::new(),
+            Some(shapes) => self.shapes(shapes, k)?,
+        };
+        Ok(ModalData { omega, masses, ratios, points })
+    }
+
+    /// A list of numbers, each times `factor`; an error of the value is under `name`.
+    fn each(&mut self, key: &str, name: &str, list: &Spanned<Vec<Spanned<Number>>>, factor: f64) -> Result<Vec<f64>> {
+        let wanted = "a list of numbers, 0 or more: one for each mode";
+        if list.get_ref().is_empty() {
+            return Err(self.refuse(list.span(), &format!("system.modal.{key}"), wanted));
+        }
+        let mut values = Vec::with_capacity(list.get_ref().len());
+        for (i, item) in list.get_ref().iter().enumerate() {
+            let x = item.get_ref().0;
+            if !(x.is_finite() && x >= 0.0) {
+                return Err(self.refuse(item.span(), &format!("system.modal.{key}: value {}", i + 1), "0 or more"));
+            }
+            self.places.push((format!("system.modal.{name}: value {}", i + 1), item.span()));
+            values.push(factor * x);
+        }
+        Ok(values)
+    }
+
+    /// A number for all `k` modes, or a list of one for each.
+    fn of_modes(&mut self, key: &str, value: Option<&Spanned<Value>>, plain: f64, k: usize) -> Result<Vec<f64>> {
+        let Some(value) = value else { return Ok(vec![plain; k]) };
+        let key = format!("system.modal.{key}");
+        self.places.push((key.clone(), value.span()));
+        match value.get_ref() {
+            Value::Number(x) => {
+                self.places.push((format!("{key}: value 1"), value.span()));
+                Ok(vec![*x; k])
+            }
+            Value::List(items) if items.len() == k => self.list(&key, items),
+            Value::List(items) => {
+                let title = format!("{key} has {} value{}", items.len(), if items.len() == 1 { "" } else { "s" });
+                let help = format!("expected {k}, one for each mode, or one number for all");
+                Err(self.source.error(value.span(), &title, &help))
+            }
+            _ => Err(self.refuse_as(value.span(), &key)),
+        }
+    }
+
+    fn shapes(&mut self, shapes: &Spanned<Value>, k: usize) -> Result<Vec<ModalPoint>> {
+        let key = "system.modal.shapes";
+        self.places.push((key.to_owned(), shapes.span()));
+        match shapes.get_ref() {
+            Value::Word(file) => {
+                let (path, text) = (self.tables)(file).map_err(|reason| {
+                    let help = format!("{SHAPES}; its path is relative to the case file");
+                    self.source.error(shapes.span(), &format!("shapes {file:?}: {reason}"), &help)
+                })?;
+                points(&path, &text, k)
+            }
+            Value::Table(entries) => {
+                let mut points = Vec::with_capacity(entries.len());
+                for (name, shape) in entries {
+                    let key = format!("{key}.{}", name.get_ref());
+                    self.name(&key, name)?;
+                    self.places.push((key.clone(), shape.span()));
+                    let Value::List(items) = shape.get_ref() else {
+                        return Err(self.refuse(
+                            shape.span(),
+                            &key,
+                            &format!("a list of {k} numbers, one for each mode"),
+                        ));
+                    };
+                    if items.len() != k {
+                        let title =
+                            format!("{key} has {} value{}", items.len(), if items.len() == 1 { "" } else { "s" });
+                        return Err(self.source.error(
+                            shape.span(),
+                            &title,
+                            &format!("expected {k}, one for each mode"),
+                        ));
+                    }
+                    let wanted = "a finite number";
+                    let shape = items.iter().map(|item| self.finite(&key, item, wanted)).collect::<Result<_>>()?;
+                    points.push(ModalPoint { name: name.get_ref().clone(), shape });
+                }
+                // In the order of the file, whatever that of the table.
+                let at = |point: &ModalPoint| {
+                    entries.iter().find(|e| *e.0.get_ref() == point.name).map(|e| e.0.span().start)
+                };
+                points.sort_by_key(at);
+                Ok(points)
+            }
+            _ => Err(self.refuse_as(shapes.span(), key)),
+        }
+    }
+}
+
+/// The points of a file of shapes.
+fn points(name: &str, text: &str, k: usize) -> Result<Vec<ModalPoint>> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let source = Source { name, text };
+    let mut points: Vec<ModalPoint> = Vec::new();
+    let (mut start, mut first) = (0, true);
+    for raw in text.split_inclusive('\n') {
+        let line = start..start + raw.trim_end_matches(['\n', '\r']).len();
+        start += raw.len();
+        let written = source.slice(line.clone()).to_owned();
+        if written.trim().is_empty() {
+            continue;
+        }
+        let mut cells = written.split(',').map(|cell| cell.trim().trim_matches('"'));
+        let point = cells.next().unwrap_or_default().to_owned();
+        let cells: Vec<&str> = cells.collect();
+        let header = std::mem::replace(&mut first, false) && cells.iter().all(|cell| cell.parse::<f64>().is_err());
+        if header && !cells.is_empty() {
+            continue;
+        }
+        let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        if point.is_empty() || !point.chars().all(fits) {
+            let title = format!("the name of a point is {point:?}");
+            return Err(source.error(line, &title, "expected letters, digits, - and _"));
+        }
+        if points.iter().any(|other| other.name == point) {
+            return Err(source.error(
+                line,
+                &format!("the point {point:?} comes a second time"),
+                "expected each point once",
+            ));
+        }
+        if cells.len() != k {
+            let title =
+                format!("{} value{} at the point {point:?}", cells.len(), if cells.len() == 1 { "" } else { "s" });
+            return Err(source.error(line, &title, &format!("expected {k}, one for each mode")));
+        }
+        let mut shape = Vec::with_capacity(k);
+        for cell in cells {
+            match cell.parse::<f64>() {
+                Ok(x) if x.is_finite() => shape.push(x),
+                _ => return Err(source.error(line, &format!("{cell:?} is no finite number"), SHAPES)),
+            }
+        }
+        points.push(ModalPoint { name: point, shape });
+    }
+    match points.is_empty() {
+        true => Err(source.error(text.len()..text.len(), "no points", SHAPES)),
+        false => Ok(points),
+    }
+}

@@ -1,0 +1,79 @@
+//! What a reader must know of a case, whatever is run of it.
+
+use super::{Case, Truncated};
+use crate::scene::WallTruncation;
+
+/// Shares below this are not worth a sentence.
+const WORTH_SAYING: f64 = 1e-2;
+
+impl Case {
+    /// What a reader must know of the case, in sentences: what condensing and cutting it to modes changed.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = self.condensed();
+        notes.extend(self.cut_notes());
+        notes
+    }
+
+    /// What was condensed, and the walls that felt it.
+    fn condensed(&self) -> Vec<String> {
+        let Some(condensation) = &self.condensation else { return Vec::new() };
+        let (left, kept) = (condensation.massless.len(), condensation.kept.len());
+        let mut notes = vec![format!(
+            "{left} of {} degrees of freedom have no mass: condensed statically, which is exact",
+            left + kept
+        )];
+        let soft = self.whole().walls.iter().zip(&condensation.compliance).filter(|(_, s)| **s > 0.0);
+        let names: Vec<String> = soft.clone().map(|(wall, _)| format!("{:?}", wall.name)).collect();
+        if let Some(most) = soft.map(|(_, s)| *s).reduce(f64::max) {
+            let (walls, push, are) =
+                if names.len() == 1 { ("wall", "pushes", "is a spring") } else { ("walls", "push", "are springs") };
+            notes.push(format!(
+                "the {walls} {} {push} degrees of freedom without mass, which give up to {most:.3e} m/N: what is rigid there {are} of that \
+                 compliance, without restitution; displacements recorded there are those before it gives",
+                names.join(", ")
+            ));
+        }
+        notes
+    }
+
+    /// What the cut to modes cost.
+    fn cut_notes(&self) -> Vec<String> {
+        let Some(Truncated { whole, reduction }) = &self.truncated else { return Vec::new() };
+        let mut notes = Vec::new();
+        let (k, n) = (reduction.modes.count(), reduction.degrees_of_freedom);
+        if k == n {
+            return notes;
+        }
+        let rigid = whole.scene.walls.iter().zip(&reduction.walls).filter(|(wall, _)| wall.law.is_rigid());
+        if whole.static_correction {
+            if rigid.clone().count() > 0 {
+                notes.push(
+                    "static correction: rigid walls are springs of the compliance that the modes leave out, without restitution".into(),
+                );
+            }
+            if reduction.coupling_neglected > WORTH_SAYING {
+                notes.push(format!(
+                    "the residual compliance that couples walls at different places is neglected: up to {:.0} % of their own",
+                    100.0 * reduction.coupling_neglected
+                ));
+            }
+        } else if let Some((wall, left)) = rigid.max_by(|a, b| excess(a.1).total_cmp(&excess(b.1))) {
+            notes.push(format!(
+                "restitution holds with the mass that {k} of {n} modes have at a wall: {:.4} kg at {:?}, where all have {:.4} kg; it falls as modes are added, and impacts grow weaker and more",
+                left.mass_kept, wall.name, left.mass
+            ));
+        }
+        if reduction.start_energy_lost > WORTH_SAYING {
+            notes.push(format!(
+                "the modes leave out {:.1} % of the energy of the start",
+                100.0 * reduction.start_energy_lost
+            ));
+        }
+        notes
+    }
+}
+
+fn excess(left: &WallTruncation) -> f64 {
+    left.mass_kept / left.mass
+}

@@ -1,0 +1,98 @@
+//! A structure by its modes, as finite-element programs and modal tests give them.
+
+use crate::error::{Error, Result};
+use crate::linear::Symmetric;
+use crate::scene::system::{finite, nonnegative, positive};
+use crate::scene::{Row, Structure};
+
+/// Modes of a structure: what is left of it are k uncoupled oscillators mᵢ äᵢ + 2 ζᵢ ωᵢ mᵢ ȧᵢ + mᵢ ωᵢ² aᵢ = φᵢ · f, whose modal coordinates aᵢ are the
+/// degrees of freedom, and the displacement Σ φᵢ aᵢ at each point that walls, loads and probes need.
+///
+/// Shapes and generalised masses belong together: φᵢᵀ M φᵢ = mᵢ. Shapes that are normalised to the mass have mᵢ = 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalData {
+    /// ωᵢ, rad/s, 0 for a rigid-body motion; k entries.
+    pub omega: Vec<f64>,
+    /// Generalised masses mᵢ, kg for shapes without unit, 1 for shapes normalised to the mass; k entries.
+    pub masses: Vec<f64>,
+    /// Damping ratios ζᵢ, shares of critical damping; k entries.
+    pub ratios: Vec<f64>,
+    /// The points whose motion is known.
+    pub points: Vec<ModalPoint>,
+}
+
+/// One point of a structure, in one direction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalPoint {
+    /// Its name.
+    pub name: String,
+    /// φᵢ there, one value per mode.
+    pub shape: Vec<f64>,
+}
+
+impl ModalData {
+    /// M, C and K, all diagonal.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] under `system.modal` for values that make no sense.
+    pub fn structure(&self) -> Result<Structure> {
+        let k = self.omega.len();
+        if k == 0 {
+            return Err(Error::invalid("system.modal.omega", "an empty list", "one mode or more"));
+        }
+        let lists = [("masses", &self.masses), ("damping_ratios", &self.ratios)];
+        let shapes = self.points.iter().map(|point| (point.name.as_str(), &point.shape));
+        for (key, list) in lists.into_iter().chain(shapes) {
+            if list.len() != k {
+                let shape = lists.iter().all(|(name, _)| *name != key);
+                let key = if shape { format!("system.modal.shapes.{key}") } else { format!("system.modal.{key}") };
+                return Err(Error::invalid(key, format!("{} values", list.len()), format!("{k}, one per mode")));
+            }
+        }
+        for (i, point) in self.points.iter().enumerate() {
+            point.shape.iter().try_for_each(|&x| finite(&format!("system.modal.shapes.{}", point.name), x))?;
+            if self.points.iter().take(i).any(|other| other.name == point.name) {
+                let key = format!("system.modal.shapes.{}", point.name);
+                return Err(Error::invalid(key, "given twice", "a name of its own for each point"));
+            }
+        }
+        let mut structure = [const { Vec::new() }; 3];
+        for (i, ((&omega, &mass), &ratio)) in self.omega.iter().zip(&self.masses).zip(&self.ratios).enumerate() {
+            let key = |what: &str| format!("system.modal.{what}: value {}", i + 1);
+            nonnegative(&key("omega"), omega)?;
+            positive(&key("masses"), mass)?;
+            nonnegative(&key("damping_ratios"), ratio)?;
+            let stiffness = mass * omega * omega;
+            finite(&key("omega"), stiffness)?;
+            let entries = [mass, 2.0 * ratio * omega * mass, stiffness];
+            structure.iter_mut().zip(entries).for_each(|(diagonal, x)| diagonal.push(x));
+        }
+        let [mass, damping, stiffness] = structure.map(|diagonal| Symmetric::diagonal(&diagonal));
+        Ok(Structure { mass, damping, stiffness })
+    }
+
+    /// The row that sees the displacement of a point.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`], listing the points there are.
+    pub fn at(&self, point: &str) -> Result<Row> {
+        self.at_sum(&[(point.to_owned(), 1.0)])
+    }
+
+    /// The row that sees a sum of points with weights: the difference of two is their relative motion.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`], listing the points there are.
+    pub fn at_sum(&self, points: &[(String, f64)]) -> Result<Row> {
+        let mut sum = vec![0.0; self.omega.len()];
+        for (name, weight) in points {
+            let point = self.points.iter().find(|point| point.name == *name).ok_or_else(|| Error::Unknown {
+                kind: "point",
+                name: name.clone(),
+                known: self.points.iter().map(|point| point.name.clone()).collect(),
+            })?;
+            sum.iter_mut().zip(&point.shape).for_each(|(sum, x)| *sum += weight * x);
+        }
+        Ok(Row::new(sum.into_iter().enumerate().filter(|entry| entry.1 != 0.0).collect()))
+    }
+}

@@ -1,0 +1,162 @@
+//! Degrees of freedom without mass, as lumped finite-element matrices have them, condensed statically.
+
+mod statics;
+
+use super::row::distinct;
+use super::structure::Structure;
+use super::wall::{Side, Wall, WallLaw};
+use super::{Scene, System};
+use crate::error::{Error, Result};
+use statics::{Seen, Statics};
+
+/// What was condensed out of a scene, and what that leaves of its walls.
+///
+/// With q = (a, b), b without mass, M_bb = 0 and M_ab = 0, the rows of b are statics: K_ba a + K_bb b = f_b + G_bᵀ r. So b = T a + K_bb⁻¹ (f_b +
+/// G_bᵀ r) with T = −K_bb⁻¹ K_ba, and what is left is M_aa ä + C̄ ȧ + K̄ a = f_a + Tᵀf_b + Ḡᵀr with K̄ = K_aa + K_ab T, C̄ = C_aa + C_ab T and Ḡ = G_a +
+/// G_b T: the condensation of Guyan (1965, doi 10.2514/3.2874), which is exact where nothing is left out of the inertia.
+///
+/// A wall that sees b pushes on statics: w = ḡ a + s r with the compliance s = g_b K_bb⁻¹ g_bᵀ. A rigid wall there is exactly an elastic one of
+/// stiffness 1/s against ḡ a, and without restitution, for what has no mass cannot rebound; an elastic one of stiffness k has 1/(1/k + s).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Condensation {
+    /// The degrees of freedom that are kept, in the numbering of before; entry i is degree of freedom i of the condensed scene.
+    pub kept: Vec<usize>,
+    /// Those that were condensed, in the numbering of before.
+    pub massless: Vec<usize>,
+    /// Static compliance s of the massless part at each wall, m/N, in the scene's order; 0 where the wall sees degrees of freedom with mass only.
+    pub compliance: Vec<f64>,
+}
+
+impl Structure {
+    /// The degrees of freedom whose row of the mass matrix is 0.
+    #[must_use]
+    pub fn massless(&self) -> Vec<usize> {
+        let mut empty = vec![true; self.mass.size()];
+        for (i, j, value) in self.mass.entries() {
+            if value != 0.0 {
+                (empty[i], empty[j]) = (false, false);
+            }
+        }
+        (0..empty.len()).filter(|&i| empty[i]).collect()
+    }
+}
+
+impl Scene {
+    /// The scene without the degrees of freedom that have no mass, and what was condensed. Where all have mass it is the scene itself.
+    ///
+    /// Walls, loads, probes and start keep their meaning. What the condensed scene could not say exactly is refused.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] under `system` where a massless degree of freedom has no stiffness, or damping acts on it; under `wall "…"`, `load …` or
+    /// `probe "…"` where a wall sees massless degrees of freedom that another wall or a load pushes, or has a dashpot there, and where a probe sees
+    /// such as a load or another place's wall pushes; under `initial.…` for a start that statics do not allow; or what [`Scene::validate`] says.
+    pub fn condensed(&self) -> Result<(Self, Condensation)> {
+        let System::Structure(structure) = &self.system else { return self.uncondensed() };
+        let massless = structure.massless();
+        if massless.is_empty() {
+            return self.uncondensed();
+        }
+        let mut statics = Statics::new(structure, massless)?;
+        let kept: Vec<usize> = (0..statics.number.len()).filter(|&i| statics.number[i].is_ok()).collect();
+        if kept.is_empty() {
+            return Err(Error::invalid("system: mass matrix", "0 everywhere", "mass at one degree of freedom or more"));
+        }
+        let walls: Vec<Seen> = self.walls.iter().map(|wall| statics.seen(&wall.at)).collect();
+        let loads: Vec<Seen> = self.loads.iter().map(|load| statics.seen(&load.at)).collect();
+        let probes: Vec<Seen> = self.probes.iter().map(|probe| statics.seen(&probe.at)).collect();
+        let mut scene = Self {
+            system: System::Structure(Box::new(statics.reduced(&kept)?)),
+            walls: self.walls.iter().zip(&walls).map(|(w, seen)| Wall { at: seen.row.clone(), ..w.clone() }).collect(),
+            loads: self.loads.clone(),
+            probes: self.probes.clone(),
+            initial: self.initial.clone(),
+            duration: self.duration,
+        };
+        scene.loads.iter_mut().zip(&loads).for_each(|(load, seen)| load.at = seen.row.clone());
+        scene.probes.iter_mut().zip(&probes).for_each(|(probe, seen)| probe.at = seen.row.clone());
+        scene.initial.q = statics.start("initial.displacement", &self.initial.q, &kept)?;
+        scene.initial.v = statics.start("initial.velocity", &self.initial.v, &kept)?;
+        // Rigid walls are rigid still, so that a start behind one and walls that cross are refused as ever.
+        scene.validate()?;
+        self.check_apart(&walls, &loads, &probes)?;
+        let compliance: Vec<f64> = walls.iter().map(Seen::own).collect();
+        let damped = structure
+            .damping
+            .entries()
+            .any(|(i, j, c)| c != 0.0 && (statics.number[i].is_err() || statics.number[j].is_err()));
+        for (wall, &s) in scene.walls.iter_mut().zip(&compliance).filter(|(_, s)| **s > 0.0) {
+            if damped {
+                let expected = "a wall where degrees of freedom have mass: the damping matrix acts on the massless ones that it pushes";
+                return Err(Error::invalid(format!("wall {:?}: at", wall.name), "a place without mass", expected));
+            }
+            soften(wall, s)?;
+        }
+        Ok((scene, Condensation { kept, massless: statics.massless, compliance }))
+    }
+
+    fn uncondensed(&self) -> Result<(Self, Condensation)> {
+        self.validate()?;
+        let kept = (0..self.system.degrees_of_freedom()).collect();
+        let condensation = Condensation { kept, massless: Vec::new(), compliance: vec![0.0; self.walls.len()] };
+        Ok((self.clone(), condensation))
+    }
+
+    /// Refuses what pushes massless degrees of freedom that something else sees.
+    fn check_apart(&self, walls: &[Seen], loads: &[Seen], probes: &[Seen]) -> Result<()> {
+        const GIVE: &str = "give the degrees of freedom there mass, or sit it where they have some";
+        for (index, load) in loads.iter().enumerate() {
+            let key = format!("load {}: at", index + 1);
+            let what = "a place without mass, which it displaces at once";
+            if let Some((wall, _)) = self.walls.iter().zip(walls).find(|(_, seen)| seen.meets(load)) {
+                let expected = format!("a place that the wall {:?} does not see: {GIVE}", wall.name);
+                return Err(Error::invalid(key, what, expected));
+            }
+            if let Some((probe, _)) = self.probes.iter().zip(probes).find(|(_, seen)| seen.meets(load)) {
+                let expected = format!("a place that the probe {:?} does not see: {GIVE}", probe.name);
+                return Err(Error::invalid(key, what, expected));
+            }
+        }
+        let places = distinct(self.walls.iter().map(|wall| &wall.at));
+        for (i, (wall, seen)) in self.walls.iter().zip(walls).enumerate().filter(|(_, (_, seen))| seen.own() > 0.0) {
+            for (j, (other, beside)) in self.walls.iter().zip(walls).enumerate().take(i) {
+                // Of two walls that face one another at one place only one is touched at a time.
+                let facing = match (wall.side, other.side) {
+                    (Side::Upper, Side::Lower) => wall.position >= other.position,
+                    (Side::Lower, Side::Upper) => other.position >= wall.position,
+                    _ => false,
+                };
+                if seen.meets(beside) && !(facing && places.of.get(i) == places.of.get(j)) {
+                    let value = format!("a place without mass that the wall {:?} displaces at once", other.name);
+                    return Err(Error::invalid(format!("wall {:?}: at", wall.name), value, GIVE));
+                }
+            }
+        }
+        for (probe, seen) in self.probes.iter().zip(probes).filter(|(_, seen)| seen.own() > 0.0) {
+            let pushed =
+                self.walls.iter().zip(walls).find(|(wall, wall_seen)| wall.at != probe.at && seen.meets(wall_seen));
+            if let Some((wall, _)) = pushed {
+                let value = format!("a place without mass that the wall {:?} displaces at once", wall.name);
+                let expected = format!("the place of that wall itself; or {GIVE}");
+                return Err(Error::invalid(format!("probe {:?}: at", probe.name), value, expected));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Puts the compliance `s` (m/N) of the massless part between wall and structure.
+fn soften(wall: &mut Wall, s: f64) -> Result<()> {
+    match &mut wall.law {
+        WallLaw::Rigid { .. } => wall.law = WallLaw::Elastic { stiffness: 1.0 / s, damping: 0.0 },
+        WallLaw::Elastic { stiffness, damping: 0.0 } => *stiffness = 1.0 / (1.0 / *stiffness + s),
+        WallLaw::Elastic { damping, .. } => {
+            let expected = "0 where the wall pushes degrees of freedom without mass: in series with their spring a dashpot has a motion of its own";
+            return Err(Error::invalid(format!("wall {:?}: damping", wall.name), format!("{damping:?}"), expected));
+        }
+        WallLaw::Quartic { .. } => {
+            let expected = "a rigid or elastic wall where degrees of freedom have no mass";
+            return Err(Error::invalid(format!("wall {:?}", wall.name), "a φ² penalty", expected));
+        }
+    }
+    Ok(())
+}
