@@ -120,9 +120,15 @@ fn ticks_are_round_numbers_and_powers_of_ten() {
 
 #[test]
 fn one_label_has_one_legend_entry_and_the_same_data_the_same_bytes() {
-    let panel = || Panel::new("y").curve(Curve::new("event", [(0.0, 1.0), (1.0, 2.0)]));
+    let curve = |label: &str, height: f64| Curve::new(label, [(0.0, 1.0), (1.0, height)]);
+    let panel = || Panel::new("y").curve(curve("event", 2.0)).curve(curve("moreau-jean", 3.0));
     let figure = Figure::new("", "").panel(panel()).panel(panel());
-    assert_eq!(texts(&figure.to_svg()).iter().filter(|text| *text == "event").count(), 1);
+    for label in ["event", "moreau-jean"] {
+        assert_eq!(texts(&figure.to_svg()).iter().filter(|text| *text == label).count(), 1);
+    }
+    // What is alone needs no legend.
+    let alone = Figure::new("", "").panel(Panel::new("y").curve(curve("event", 2.0)));
+    assert!(!texts(&alone.to_svg()).contains(&"event".to_owned()));
     assert_eq!(figure.to_svg(), figure.clone().to_svg());
 }
 

@@ -1,7 +1,8 @@
 //! `signorini compare`: the main job.
 
+use super::drawing::Stretch;
 use super::request::Request;
-use super::run::write;
+use super::run::{Picture, write};
 use super::ui::Ui;
 use super::verdicts;
 use crate::case::Case;
@@ -37,6 +38,8 @@ pub struct Args {
     /// Do not repeat the methods with half the step
     #[arg(long)]
     no_verdict: bool,
+    #[command(flatten)]
+    stretch: Stretch,
 }
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
@@ -55,6 +58,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         }
     };
     args.request.check_use(&methods)?;
+    // A stretch that makes no sense is refused before anything runs.
+    args.stretch.span(&case, case.scene.duration)?;
     let folder = args.request.folder(&case, "compare");
     check_folder(&folder)?;
     let count = methods.len() as u64 + 1;
@@ -66,7 +71,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     }
     progress.finish();
     any_succeeded(&comparison)?;
-    files(&folder, &case, &comparison, &verdicts)?;
+    files(&folder, &case, &comparison, &verdicts, &args.stretch)?;
     table(&case, &comparison, ui);
     for row in &comparison.rows {
         if let Err(error) = &row.outcome {
@@ -112,13 +117,28 @@ pub(super) fn folder_name(method: &Method) -> String {
     method.to_string().replace([':', ',', '='], "-")
 }
 
-fn files(folder: &Path, case: &Case, comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Result<()> {
-    for (row, verdict) in comparison.rows.iter().zip(verdicts) {
+fn files(
+    folder: &Path,
+    case: &Case,
+    comparison: &Comparison,
+    verdicts: &[Option<Verdict>],
+    stretch: &Stretch,
+) -> Result<()> {
+    let span = stretch.span(case, case.scene.duration)?;
+    for (look, (row, verdict)) in comparison.rows.iter().zip(verdicts).enumerate() {
         if let Ok(run) = &row.outcome {
             let reasons =
                 Reasons { scheme: "part of a comparison".into(), qp: choice::qp_reason(&row.method, &case.scene) };
             let checks = Checks { refinement: verdict.as_ref(), ..Checks::default() };
-            write(&folder.join(folder_name(&row.method)), case, run, &row.method, &reasons, checks)?;
+            write(
+                &folder.join(folder_name(&row.method)),
+                case,
+                run,
+                &row.method,
+                &reasons,
+                checks,
+                Picture { span, look },
+            )?;
         }
     }
     let labels: Vec<String> = comparison.rows.iter().map(|row| row.method.to_string()).collect();
@@ -126,21 +146,22 @@ fn files(folder: &Path, case: &Case, comparison: &Comparison, verdicts: &[Option
         .rows
         .iter()
         .zip(&labels)
-        .filter_map(|(row, label)| {
+        .enumerate()
+        .filter_map(|(look, (row, label))| {
             let run = row.outcome.as_ref().ok()?;
-            Some(Labelled { label, run, reference: row.method.scheme == Scheme::Event })
+            Some(Labelled { label, run, reference: row.method.scheme == Scheme::Event, look })
         })
         .collect();
     let refined =
         comparison.refined.as_ref().map(|(method, run)| (format!("{method}, h = {:.1e} s", run.grid.step), run));
     let runs: Vec<Labelled<'_>> = match &refined {
-        Some((label, run)) => runs.into_iter().chain([Labelled { label, run, reference: true }]).collect(),
+        Some((label, run)) => runs.into_iter().chain([Labelled { label, run, reference: true, look: 0 }]).collect(),
         None => runs,
     };
     let title = case.title.as_deref().unwrap_or(&case.name);
-    let sheet = Sheet { title, scene: &case.scene, runs: &runs, until: comparison.horizon };
+    let sheet = Sheet { title, scene: &case.scene, runs: &runs, span: stretch.span(case, comparison.horizon)? };
     for (name, svg) in sheet.figures()? {
-        write_whole(&folder.join(name), svg.as_bytes())?;
+        write_whole(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
     }
     let (header, rows) = cells(case, comparison, |x| format!("{x:.16e}"));
     csv::table(&folder.join("compare.csv"), &header, rows.into_iter())

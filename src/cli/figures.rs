@@ -4,6 +4,7 @@ use super::run::perform;
 use super::ui::Ui;
 use crate::case::{Case, Embedded};
 use crate::error::{Error, Result};
+use crate::output::Span;
 use crate::output::atomic::{check_folder, write_whole};
 use crate::output::figure::{Curve, Figure, Mark, Panel};
 use crate::output::pictures::{Labelled, Sheet};
@@ -57,12 +58,14 @@ const SHOWN: f64 = 2.0;
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     check_folder(&args.out)?;
+    // One look a method in all figures: its place in the order in which methods first appear.
+    let mut known = Vec::new();
     for plate in &PLATES {
         let mut case = Case::embedded(plate.case)?;
         case.scene.duration = case.scene.duration.min(SHOWN);
         case.time.sample = Some(case.time.step.max(case.scene.duration / 4000.0));
-        for (name, svg) in plate.draw(&case, ui)? {
-            let path = args.out.join(format!("fig{}-{name}", plate.number));
+        for (name, svg) in plate.draw(&case, &mut known, ui)? {
+            let path = args.out.join(format!("fig{}-{name}.svg", plate.number));
             write_whole(&path, svg.as_bytes())?;
             ui.message(&format!("wrote {}", path.display()));
         }
@@ -71,7 +74,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 }
 
 impl Plate {
-    fn draw(&self, case: &Case, ui: &Ui) -> Result<Vec<(&'static str, String)>> {
+    fn draw(&self, case: &Case, known: &mut Vec<String>, ui: &Ui) -> Result<Vec<(&'static str, String)>> {
         let chosen = choice::choose(&case.scene).method;
         let integrator = case.penalty.integrator.unwrap_or_default();
         let mut methods = vec![chosen];
@@ -85,19 +88,36 @@ impl Plate {
         let title =
             format!("{} ({})", case.title.as_deref().unwrap_or(&case.name), case.source.as_deref().unwrap_or("source"));
         if self.content == Content::Independent {
-            return Ok(vec![("displacement.svg", independent(case, &title, &labels, &runs)?)]);
+            return Ok(vec![("displacement", independent(case, &title, &labels, &runs, known)?)]);
         }
         let labelled: Vec<Labelled<'_>> = methods
             .iter()
             .zip(&labels)
             .zip(&runs)
-            .map(|((m, label), run)| Labelled { label, run, reference: m.scheme == Scheme::Event })
+            .map(|((m, label), run)| {
+                let look = place(known, label);
+                Labelled { label, run, reference: m.scheme == Scheme::Event, look }
+            })
             .collect();
-        let sheet = Sheet { title: &title, scene: &case.scene, runs: &labelled, until: case.scene.duration };
+        let sheet = Sheet {
+            title: &title,
+            scene: &case.scene,
+            runs: &labelled,
+            span: Span { from: 0.0, to: case.scene.duration },
+        };
         let figures = sheet.figures()?.into_iter();
         let force = self.content == Content::Force;
-        Ok(figures.filter(|(name, _)| (*name == "contact-force.svg") == force).collect())
+        Ok(figures.filter(|(name, _)| (*name == "contact-force") == force).collect())
     }
+}
+
+/// Where a label stands among those `known`; a new one is added.
+fn place(known: &mut Vec<String>, label: &str) -> usize {
+    let found = known.iter().position(|other| other == label);
+    found.unwrap_or_else(|| {
+        known.push(label.to_owned());
+        known.len() - 1
+    })
 }
 
 /// The method without what all of a figure's penalties share.
@@ -107,18 +127,19 @@ fn label(method: &Method, integrator: crate::scheme::Integrator) -> String {
 }
 
 /// The 50-digit impacts and states over the computed displacement, mm.
-fn independent(case: &Case, title: &str, labels: &[String], runs: &[Run]) -> Result<String> {
+fn independent(case: &Case, title: &str, labels: &[String], runs: &[Run], known: &mut Vec<String>) -> Result<String> {
     let mut panel = Panel::new("Displacement (mm)");
     for (label, run) in labels.iter().zip(runs) {
         let rows = run.trajectory.time().iter().zip(run.trajectory.displacement());
-        panel = panel.curve(Curve::new(label.as_str(), rows.map(|(&t, &u)| (t, 1e3 * u))));
+        let curve = Curve::new(label.as_str(), rows.map(|(&t, &u)| (t, 1e3 * u))).look(place(known, label));
+        panel = panel.curve(if run.scheme == Scheme::Event { curve.backdrop() } else { curve });
     }
     let points = Embedded::reference_points()
         .ok_or_else(|| Error::Case("error: the built-in reference values cannot be read".into()))?;
     let shown = points.into_iter().filter(|p| p.0 <= case.scene.duration);
     // A point that cannot be drawn between two that can leaves markers without a line.
     let shown = shown.flat_map(|(t, u)| [(t, 1e3 * u), (t, f64::NAN)]);
-    panel = panel.curve(Curve::new("50-digit reference", shown).marked());
+    panel = panel.curve(Curve::new("50-digit reference", shown).marked().look(place(known, "50-digit reference")));
     for wall in &case.scene.walls {
         panel = panel.mark(Mark::wall(1e3 * wall.position, wall.name.as_str()));
     }

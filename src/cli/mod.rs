@@ -3,6 +3,7 @@
 mod chart;
 mod compare;
 mod completions;
+mod drawing;
 mod explain;
 mod figures;
 mod new;

@@ -1,13 +1,14 @@
 //! `signorini run`: one scene, one method.
 
+use super::drawing::Stretch;
 use super::request::Request;
 use super::ui::{Progress, Ui};
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::atomic::{check_folder, write_whole};
-use crate::output::csv;
 use crate::output::pictures::{Labelled, Sheet};
 use crate::output::summary::{self, Checks, Reasons};
+use crate::output::{Span, csv};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scheme::{Method, Scheme};
 use crate::statistics::WallStatistics;
@@ -26,6 +27,7 @@ Examples:
   signorini run elastic-wall --accuracy 1e-6
   signorini run rigid-walls-sine --restitution 0.8 --scheme moreau-jean --accuracy 1e-3
   signorini run tube-loose-supports --modes 40
+  signorini run rigid-walls-sine --from 4 --to 6   pictures of these two seconds
 
 Schemes: implicit-euler, paoli-schatzman, moreau-jean, generalized-alpha, newmark (an exhibit), penalty, event (exact).";
 
@@ -45,6 +47,8 @@ pub struct Args {
     /// Do not repeat the run with half the step, nor with more modes where the case is cut to modes
     #[arg(long)]
     no_verdict: bool,
+    #[command(flatten)]
+    stretch: Stretch,
 }
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
@@ -58,6 +62,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         None => (args.request.method(&choice.method.to_string(), &case)?, choice.reason),
     };
     args.request.check_use(&[method])?;
+    let span = args.stretch.span(&case, case.scene.duration)?;
     let folder = args.request.folder(&case, "run");
     check_folder(&folder)?;
     let truncated = case.truncated.is_some() && !args.no_verdict;
@@ -74,7 +79,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         truncation: truncation.as_ref().and_then(|t| t.as_ref().ok()),
         ..Checks::default()
     };
-    write(&folder, &case, &run, &method, &reasons, checks)?;
+    write(&folder, &case, &run, &method, &reasons, checks, Picture { span, look: 0 })?;
     report(&case, &run, &method, ui)?;
     ui.message(&format!("results in {}", folder.display()));
     match verdict {
@@ -99,6 +104,7 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     if let Some(method) = method {
         args.request.check_use(&[method])?;
     }
+    let span = args.stretch.span(case, case.scene.duration)?;
     let folder = args.request.folder(case, "run");
     check_folder(&folder)?;
     let target = Target { method, ..Target::new(tolerance, case.time) };
@@ -116,7 +122,7 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     ui.message(&format!("{method}: {reason}"));
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
     let checks = Checks { accuracy: Some(&accuracy), modes: modes.as_ref(), ..Checks::default() };
-    write(&folder, &case, &run, &method, &reasons, checks)?;
+    write(&folder, &case, &run, &method, &reasons, checks, Picture { span, look: 0 })?;
     report(&case, &run, &method, ui)?;
     if let Some(modes) = &modes {
         ui.message(&format!("modes: {modes}"));
@@ -195,6 +201,13 @@ impl Bar {
     }
 }
 
+/// What the pictures of one run show, and the number of its look among the runs of the command.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Picture {
+    pub span: Span,
+    pub look: usize,
+}
+
 /// Writes the files of one run into `folder`.
 pub(super) fn write(
     folder: &Path,
@@ -203,15 +216,16 @@ pub(super) fn write(
     method: &Method,
     reasons: &Reasons,
     checks: Checks<'_>,
+    picture: Picture,
 ) -> Result<()> {
     csv::trajectory(&folder.join("trajectory.csv"), &run.trajectory)?;
     csv::contacts(&folder.join("contacts.csv"), &run.trajectory)?;
     let label = method.to_string();
-    let runs = [Labelled { label: &label, run, reference: false }];
+    let runs = [Labelled { label: &label, run, reference: false, look: picture.look }];
     let title = case.title.as_deref().unwrap_or(&case.name);
-    let sheet = Sheet { title, scene: &case.scene, runs: &runs, until: case.scene.duration };
+    let sheet = Sheet { title, scene: &case.scene, runs: &runs, span: picture.span };
     for (name, svg) in sheet.figures()? {
-        write_whole(&folder.join(name), svg.as_bytes())?;
+        write_whole(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
     }
     summary::write(&folder.join("summary.json"), case, run, reasons, checks)
 }

@@ -13,8 +13,12 @@
 pub mod atomic;
 pub mod csv;
 pub mod figure;
+mod motion;
 pub mod pictures;
 mod places;
 pub mod stability;
 pub mod summary;
+mod window;
 pub mod work_precision;
+
+pub use window::Span;

@@ -4,7 +4,9 @@
 //! walls stand; where there are more than a page holds, those with the most contact are drawn, and the title says of how many.
 
 use super::figure::{Curve, Figure, Mark, Panel, Stems};
+use super::motion::{Instant, motion};
 use super::places::{Chosen, Place};
+use super::window::{Span, Window};
 use crate::error::Result;
 use crate::run::Run;
 use crate::scene::{Row, Scene, Side};
@@ -12,6 +14,8 @@ use crate::step::Contact;
 
 /// Rows of the CSV are SI; figures of vibrations read better in millimetres.
 const MM: f64 = 1e3;
+/// A probe that moves by less than this share of the largest motion is drawn as the flat line that it is.
+const STILL: f64 = 1e-9;
 
 /// A run with the label its curves carry.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +26,8 @@ pub struct Labelled<'a> {
     pub run: &'a Run,
     /// True for the reference, drawn wide and pale beneath the others.
     pub reference: bool,
+    /// Number of its colour and dashes, the same in all figures of one command.
+    pub look: usize,
 }
 
 /// What is drawn: a title, the walls, the runs and how much of their time.
@@ -33,25 +39,28 @@ pub struct Sheet<'a> {
     pub scene: &'a Scene,
     /// The runs, in the order of the legend.
     pub runs: &'a [Labelled<'a>],
-    /// Time up to which curves are drawn, s.
-    pub until: f64,
+    /// The stretch of time that is drawn.
+    pub span: Span,
 }
 
 impl Sheet<'_> {
-    /// The four figures by file name: displacement, velocity, phase plot, contact force (the last only where there are walls).
+    /// The four figures by file name without its ending: displacement, velocity, phase plot, contact force (the last
+    /// only where there are walls). Of a run of many periods the first two and the last show the whole and, beside it,
+    /// the last periods; the phase plot shows the last periods alone.
     ///
     /// # Errors
     /// None beyond those of a trajectory asked for its own walls.
     pub fn figures(&self) -> Result<Vec<(&'static str, String)>> {
         let mut figures = Vec::new();
         let probes = self.probes();
+        let window = Window::new(self.scene, self.leading(), probes.shown.first().copied(), self.span);
         if !probes.shown.is_empty() {
-            figures.push(("displacement.svg", self.displacement(&probes)));
-            figures.push(("velocity.svg", self.velocity(&probes)));
-            figures.push(("phase.svg", self.phase(&probes)));
+            figures.push(("displacement", self.displacement(&probes, &window)));
+            figures.push(("velocity", self.velocity(&probes, &window)));
+            figures.push(("phase", self.phase(&probes, &window)));
         }
         if !self.scene.walls.is_empty() {
-            figures.push(("contact-force.svg", self.contact_force()?));
+            figures.push(("contact-force", self.contact_force(&window)?));
         }
         Ok(figures)
     }
@@ -62,11 +71,17 @@ impl Sheet<'_> {
     }
 
     fn probes(&self) -> Chosen<usize> {
-        Chosen::probes(self.scene, self.leading().map(|run| &run.trajectory), self.until)
+        Chosen::probes(self.scene, self.leading().map(|run| &run.trajectory), self.span)
     }
 
-    fn title(&self, left_out: Option<String>) -> String {
-        left_out.map_or_else(|| self.title.to_owned(), |what| format!("{} ({what})", self.title))
+    /// The title, with the method where there is one alone, and what is left out.
+    fn title(&self, remarks: impl IntoIterator<Item = String>) -> String {
+        let mut title = self.title.to_owned();
+        if let [only] = self.runs {
+            title = format!("{title}: {}", only.label);
+        }
+        let remarks: Vec<String> = remarks.into_iter().collect();
+        if remarks.is_empty() { title } else { format!("{title} ({})", remarks.join("; ")) }
     }
 
     /// A panel for a probe: with its name, where there are several.
@@ -83,81 +98,74 @@ impl Sheet<'_> {
         seen.map(|wall| Mark::wall(MM * wall.position, wall.name.as_str()))
     }
 
-    fn curve(&self, labelled: &Labelled<'_>, points: impl Iterator<Item = (f64, f64)>) -> Curve {
-        let curve = Curve::new(labelled.label, points);
+    fn curve(&self, labelled: &Labelled<'_>, points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
+        let curve = Curve::new(labelled.label, points).look(labelled.look);
         if labelled.reference { curve.backdrop() } else { curve }
     }
 
-    fn rows<'b>(&self, run: &'b Run, probe: usize) -> impl Iterator<Item = (f64, f64, f64)> + 'b {
-        let t = &run.trajectory;
-        let until = self.until;
-        let displacement = t.displacements().get(probe).into_iter().flatten();
-        let velocity = t.velocities().get(probe).into_iter().flatten();
-        let rows = t.time().iter().zip(displacement).zip(velocity).map(|((&t, &q), &v)| (t, q, v));
-        rows.take_while(move |row| row.0 <= until * (1.0 + 1e-12))
+    fn stems(&self, labelled: &Labelled<'_>, points: Vec<(f64, f64)>) -> Stems {
+        let stems = Stems::new(labelled.label, points).look(labelled.look);
+        if labelled.reference { stems.backdrop() } else { stems }
     }
 
-    fn displacement(&self, probes: &Chosen<usize>) -> String {
-        let mut figure = Figure::new(self.title(probes.left_out("probes")), "Time (s)");
+    fn motion(&self, run: &Run, probe: usize, window: &Window) -> Vec<Instant> {
+        motion(self.scene, run, probe, window.whole, window.detail(), false)
+    }
+
+    /// The panel of a probe, told from which range on a motion counts: a share of the largest of any probe of the
+    /// leading run.
+    fn moving(&self, label: &str, probe: usize, columns: impl Fn(&Run) -> &[Vec<f64>]) -> Panel {
+        let largest = |run: &Run| columns(run).iter().flatten().fold(0.0_f64, |a, x| a.max(x.abs()));
+        let largest = MM * self.leading().map_or(0.0, largest);
+        self.panel(label, probe).still_below(STILL * largest, largest)
+    }
+
+    fn displacement(&self, probes: &Chosen<usize>, window: &Window) -> String {
+        let mut figure = window.over_time(Figure::new(self.title(probes.left_out("probes")), "Time (s)"));
         for &probe in &probes.shown {
-            let mut panel = self.panel("Displacement (mm)", probe);
+            let mut panel = self.moving("Displacement (mm)", probe, |run| run.trajectory.displacements());
             for labelled in self.runs {
-                let rows = self.rows(labelled.run, probe);
-                panel = panel.curve(self.curve(labelled, rows.map(|(t, q, _)| (t, MM * q))));
+                let points = self.motion(labelled.run, probe, window);
+                panel = panel.curve(self.curve(labelled, points.iter().map(|k| (k.t, MM * k.q))).oscillating());
             }
             figure = figure.panel(self.marks(probe).fold(panel, Panel::mark));
         }
         figure.to_svg()
     }
 
-    fn velocity(&self, probes: &Chosen<usize>) -> String {
-        let mut figure = Figure::new(self.title(probes.left_out("probes")), "Time (s)");
+    fn velocity(&self, probes: &Chosen<usize>, window: &Window) -> String {
+        let mut figure = window.over_time(Figure::new(self.title(probes.left_out("probes")), "Time (s)"));
         for &probe in &probes.shown {
-            let mut panel = self.panel("Velocity (mm/s)", probe);
+            let mut panel = self.moving("Velocity (mm/s)", probe, |run| run.trajectory.velocities());
             for labelled in self.runs {
-                let rows = self.rows(labelled.run, probe);
-                panel = panel.curve(self.curve(labelled, rows.map(|(t, _, v)| (t, MM * v))));
+                let points = self.motion(labelled.run, probe, window);
+                panel = panel.curve(self.curve(labelled, points.iter().map(|k| (k.t, MM * k.v))).oscillating());
             }
             figure = figure.panel(panel);
         }
         figure.to_svg()
     }
 
-    fn phase(&self, probes: &Chosen<usize>) -> String {
-        let mut figure = Figure::new(self.title(probes.left_out("probes")), "Displacement (mm)");
+    /// Orbits of the last periods, with the corners of rigid impacts at the wall and upright.
+    fn phase(&self, probes: &Chosen<usize>, window: &Window) -> String {
+        let remarks = probes.left_out("probes").into_iter().chain(window.words());
+        let mut figure = Figure::new(self.title(remarks), "Displacement (mm)");
         for &probe in &probes.shown {
-            let mut panel = self.panel("Velocity (mm/s)", probe);
+            let mut panel = self.moving("Velocity (mm/s)", probe, |run| run.trajectory.velocities());
             for labelled in self.runs {
-                panel = panel.curve(self.curve(labelled, self.orbit(labelled.run, probe).into_iter()));
+                let shown = window.detail();
+                let orbit = motion(self.scene, labelled.run, probe, shown, shown, true);
+                panel = panel.curve(self.curve(labelled, orbit.iter().map(|k| (MM * k.q, MM * k.v))));
             }
             figure = figure.panel(self.marks(probe).map(Mark::upright).fold(panel, Panel::mark));
         }
         figure.to_svg()
     }
 
-    /// The orbit with the corners of its rigid impacts put in, so that they are drawn at the wall and upright.
-    fn orbit(&self, run: &Run, probe: usize) -> Vec<(f64, f64)> {
-        let place = self.scene.probes.get(probe).map(|p| &p.at);
-        let seen = |c: &&Contact| self.scene.walls.get(c.wall).map(|w| &w.at) == place;
-        let mut impacts = run.trajectory.contacts().iter().filter(|c| is_impact(c)).filter(seen).peekable();
-        let mut points = Vec::new();
-        for (t, q, v) in self.rows(run, probe) {
-            while let Some(c) = impacts.next_if(|c| c.start <= t) {
-                if let (Some(wall), Some(departure)) = (self.scene.walls.get(c.wall), c.departure_speed) {
-                    let sign = wall.side.sign();
-                    points.push((MM * wall.position, -MM * sign * c.approach_speed));
-                    points.push((MM * wall.position, MM * sign * departure));
-                }
-            }
-            points.push((MM * q, MM * v));
-        }
-        points
-    }
-
     /// Of each place, finite forces as curves in N, impulses of impacts as stems in N s, each in a panel of its own where it occurs.
-    fn contact_force(&self) -> Result<String> {
-        let places = Chosen::places(self.scene, self.leading().map(|run| &run.trajectory), self.until);
-        let mut figure = Figure::new(self.title(places.left_out("places")), "Time (s)");
+    fn contact_force(&self, window: &Window) -> Result<String> {
+        let places = Chosen::places(self.scene, self.leading().map(|run| &run.trajectory), self.span);
+        let mut figure = window.over_time(Figure::new(self.title(places.left_out("places")), "Time (s)"));
         let headed = |label: &str, place: &Place| {
             let panel = Panel::new(label);
             if places.count > 1 { panel.heading(place.name(self.scene)) } else { panel }
@@ -170,14 +178,14 @@ impl Sheet<'_> {
                 let run = labelled.run;
                 let here = run.trajectory.contacts().iter().filter(|c| place.walls.contains(&c.wall));
                 let none = here.clone().next().is_none();
-                let seen = here.filter(|c| c.start <= self.until);
+                let seen = here.filter(|c| self.shows(c));
                 let impacts: Vec<_> = seen.clone().filter(|c| is_impact(c)).map(|c| (c.start, c.impulse)).collect();
                 if seen.clone().any(|c| !is_impact(c)) || none {
-                    force = force.curve(self.curve(labelled, self.force_points(run, place)?.into_iter()));
+                    force = force.curve(self.curve(labelled, self.force_points(run, place)));
                     forces = true;
                 }
                 if !impacts.is_empty() {
-                    impulse = impulse.stems(Stems::new(labelled.label, impacts));
+                    impulse = impulse.stems(self.stems(labelled, impacts));
                     impulses = true;
                 }
             }
@@ -191,26 +199,32 @@ impl Sheet<'_> {
         Ok(figure.to_svg())
     }
 
-    /// Sum of the forces of a place's walls at the rows, without rigid impacts, and with the peak of every contact too short for the rows to show.
-    fn force_points(&self, run: &Run, place: &Place) -> Result<Vec<(f64, f64)>> {
+    /// True for a contact of which some lies in the stretch drawn.
+    fn shows(&self, contact: &Contact) -> bool {
+        contact.start <= self.span.to && contact.end.is_none_or(|end| end >= self.span.from)
+    }
+
+    /// Sum of the forces of a place's walls at the rows, without rigid impacts, and with the peak of every contact too
+    /// short for the rows to show.
+    fn force_points(&self, run: &Run, place: &Place) -> Vec<(f64, f64)> {
         let t = &run.trajectory;
         let spacing = t.time().get(1).copied().unwrap_or(0.0);
-        let rows = t.time().iter().take_while(|time| **time <= self.until * (1.0 + 1e-12));
-        let mut points: Vec<(f64, f64)> = rows.map(|&time| (time, 0.0)).collect();
+        let mut points: Vec<(f64, f64)> = t.time().iter().map(|&time| (time, 0.0)).collect();
         for column in place.walls.iter().filter_map(|&wall| t.contact_forces().get(wall)) {
             for (point, f) in points.iter_mut().zip(column) {
                 point.1 += f;
             }
         }
+        points.retain(|point| self.span.holds(point.0));
         // An exact run knows its forces at every row; a step that met a rigid wall reports impulse/h, which is none.
         let exact = run.scheme == crate::scheme::Scheme::Event;
         let blur = if exact { 0.0 } else { 1.5 * spacing.max(2.0 * run.grid.step) };
         // A penalty's walls are springs, whatever the scene calls them.
         let springs = matches!(run.scheme, crate::scheme::Scheme::Penalty { .. });
         let rigid = |c: &Contact| !springs && self.scene.walls.get(c.wall).is_some_and(|w| w.law.is_rigid());
-        let here = |c: &&Contact| place.walls.contains(&c.wall) && c.start <= self.until;
+        let here = |c: &&Contact| place.walls.contains(&c.wall) && self.shows(c);
         for c in t.contacts().iter().filter(here) {
-            let end = c.end.unwrap_or(self.until);
+            let end = c.end.unwrap_or(self.span.to);
             let sign = self.scene.walls.get(c.wall).map_or(0.0, |w| if w.side == Side::Upper { -1.0 } else { 1.0 });
             let Some(peak) = c.peak_force else {
                 let near = |point: &&mut (f64, f64)| (point.0 - c.start).abs() <= blur;
@@ -225,7 +239,7 @@ impl Sheet<'_> {
             }
         }
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(points)
+        points
     }
 }
 

@@ -1,5 +1,6 @@
 //! Where walls stand and probes look, and which of them a page has room for.
 
+use super::window::Span;
 use crate::scene::Scene;
 use crate::trajectory::Trajectory;
 
@@ -35,12 +36,15 @@ impl Place {
         places
     }
 
-    /// Impulse of its walls up to a time of a run (s), as magnitudes, N s.
-    fn impulse(&self, motion: Option<&Trajectory>, until: f64) -> f64 {
+    /// Impulse of its walls over a stretch of a run, as magnitudes, N s.
+    fn impulse(&self, motion: Option<&Trajectory>, span: Span) -> f64 {
         let Some(motion) = motion else { return 0.0 };
-        let rows = motion.time().partition_point(|t| *t <= until);
         let columns = self.walls.iter().filter_map(|&wall| motion.contact_impulses().get(wall));
-        columns.flat_map(|column| column.iter().take(rows)).map(|p| p.abs()).sum()
+        columns
+            .flat_map(|column| motion.time().iter().zip(column))
+            .filter(|(t, _)| span.holds(**t))
+            .map(|(_, p)| p.abs())
+            .sum()
     }
 }
 
@@ -72,22 +76,22 @@ impl<T> Chosen<T> {
 }
 
 impl Chosen<Place> {
-    /// The places with the largest impulses in `motion` up to the time `until` (s).
-    pub fn places(scene: &Scene, motion: Option<&Trajectory>, until: f64) -> Self {
-        let weighted = Place::all(scene).into_iter().map(|place| (place.impulse(motion, until), place));
+    /// The places with the largest impulses in `motion` within `span`.
+    pub fn places(scene: &Scene, motion: Option<&Trajectory>, span: Span) -> Self {
+        let weighted = Place::all(scene).into_iter().map(|place| (place.impulse(motion, span), place));
         Self::heaviest(weighted.collect())
     }
 }
 
 impl Chosen<usize> {
     /// The probes that look at these places.
-    pub fn probes(scene: &Scene, motion: Option<&Trajectory>, until: f64) -> Self {
+    pub fn probes(scene: &Scene, motion: Option<&Trajectory>, span: Span) -> Self {
         let places = Place::all(scene);
         let weight = |index: usize| {
             let at = scene.probes.get(index).map(|p| &p.at);
             let seen =
                 |place: &&Place| place.walls.first().and_then(|&wall| scene.walls.get(wall)).map(|w| &w.at) == at;
-            places.iter().find(seen).map_or(0.0, |place| place.impulse(motion, until))
+            places.iter().find(seen).map_or(0.0, |place| place.impulse(motion, span))
         };
         Self::heaviest((0..scene.probes.len()).map(|index| (weight(index), index)).collect())
     }

@@ -1,5 +1,8 @@
 //! An axis: its range, its ticks, and where a value falls.
 
+use super::look::SMALL;
+use super::text;
+
 /// How values are spread along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Scale {
@@ -93,6 +96,31 @@ impl Axis {
             Scale::Log => axis.number_decades(wanted),
         }
         axis
+    }
+
+    /// Ticks for a horizontal axis of that length, as many as their numbers leave room for.
+    pub(super) fn across(scale: Scale, extent: Extent, length: f64) -> Self {
+        let mut wanted = (length / 50.0).max(2.0) as usize;
+        loop {
+            let axis = Self::new(scale, extent, wanted);
+            if wanted <= 1 || axis.numbers_apart(length) {
+                return axis;
+            }
+            wanted -= 1;
+        }
+    }
+
+    /// True if no number touches the next on an axis of that length.
+    fn numbers_apart(&self, length: f64) -> bool {
+        let half = |tick: &Tick| {
+            let raised = tick.exponent.map_or(0.0, |e| text::width(&e.to_string(), 0.75 * SMALL));
+            0.5 * (text::width(&tick.body, SMALL) + raised)
+        };
+        let numbered: Vec<&Tick> = self.ticks.iter().filter(|t| !t.body.is_empty()).collect();
+        numbered.windows(2).all(|pair| match pair {
+            [a, b] => (self.share_of_even(b.even) - self.share_of_even(a.even)) * length > half(a) + half(b) + 4.0,
+            _ => true,
+        })
     }
 
     /// Share of the length at which a value stands.

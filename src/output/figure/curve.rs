@@ -12,6 +12,7 @@ pub struct Curve {
     pub(super) points: Vec<(f64, f64)>,
     pub(super) role: Role,
     pub(super) marked: bool,
+    pub(super) oscillates: bool,
     pub(super) look: Option<usize>,
 }
 
@@ -19,13 +20,21 @@ impl Curve {
     /// A line through `points`, in their order.
     pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let points = points.into_iter().collect();
-        Self { label: label.into(), points, role: Role::Ordinary, marked: false, look: None }
+        Self { label: label.into(), points, role: Role::Ordinary, marked: false, oscillates: false, look: None }
     }
 
     /// Also draws a marker at every point (of very many, at some 200 evenly chosen ones).
     #[must_use]
     pub fn marked(mut self) -> Self {
         self.marked = true;
+        self
+    }
+
+    /// Says that it oscillates: where it does so too fast for the page, a filled envelope between its lowest and highest
+    /// values is drawn in its place.
+    #[must_use]
+    pub fn oscillating(mut self) -> Self {
+        self.oscillates = true;
         self
     }
 
@@ -58,13 +67,21 @@ pub struct Stems {
     pub(super) label: String,
     /// Pairs (x, y) in the units of the axes; whoever makes the figure writes them.
     pub(super) points: Vec<(f64, f64)>,
+    pub(super) role: Role,
     pub(super) look: Option<usize>,
 }
 
 impl Stems {
     /// One stroke for each of `points`. Forces and impulses have different units: give each its own panel.
     pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        Self { label: label.into(), points: points.into_iter().collect(), look: None }
+        Self { label: label.into(), points: points.into_iter().collect(), role: Role::Ordinary, look: None }
+    }
+
+    /// Draws them wide and pale beneath the others, as [`Curve::backdrop`] does.
+    #[must_use]
+    pub fn backdrop(mut self) -> Self {
+        self.role = Role::Backdrop;
+        self
     }
 
     /// Fixes the look by number, as [`Curve::look`] does.

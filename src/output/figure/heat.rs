@@ -1,10 +1,10 @@
 //! A heat map: classes or numbers over two axes, readable in grey.
 
 use super::axis::{Axis, Extent, Scale};
+use super::frame::{Frame, draw_axes};
 use super::look::{LABEL, SMALL, TITLE};
-use super::panel::Frame;
 use super::regions::letter_places;
-use super::sheet::{WIDTH, draw_axes};
+use super::sheet::WIDTH;
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 use super::tone::{TONES, draw_bar, draw_keys, ramp};
@@ -119,9 +119,10 @@ impl HeatMap {
             let y = 22.0 + 17.0 * i as f64;
             canvas.text(Text { bold: true, ..Text::new(left + width / 2.0, y, line, TITLE, Anchor::Middle) });
         }
-        let frame = Frame { x: left, y: top, width, height: HEIGHT, x_axis: &x_axis, y_axis: &y_axis };
+        let frame =
+            Frame { x: left, y: top, width, height: HEIGHT, x_axis: &x_axis, y_axis: &y_axis, envelopes: false };
         self.draw_cells(&mut canvas, &frame, &x_edges, &y_edges);
-        draw_axes(&mut canvas, &frame, true);
+        draw_axes(&mut canvas, &frame, true, true);
         let label = text::shorten(&x_side.label, LABEL, width - 150.0);
         canvas.text(Text::new(left + width / 2.0, top + HEIGHT + 33.0, &label, LABEL, Anchor::Middle));
         for (i, line) in text::wrap(&y_side.label, LABEL, HEIGHT, 2).iter().enumerate() {

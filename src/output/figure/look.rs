@@ -74,7 +74,7 @@ pub(super) fn look(number: usize, role: Role, marked: bool) -> Look {
     };
     let marker = match role {
         Role::Ordinary => MARKERS.get(number % MARKERS.len()).copied().filter(|_| marked),
-        Role::Backdrop => None,
+        Role::Backdrop => Some(Marker::Disc).filter(|_| marked),
         Role::Front => Some(Marker::Ring),
     };
     Look { stroke, marker, role }

@@ -34,7 +34,10 @@
 
 mod axis;
 mod curve;
+mod envelope;
+mod frame;
 mod heat;
+mod labels;
 mod legend;
 mod look;
 mod panel;

@@ -1,10 +1,9 @@
 //! One frame of a figure: its vertical axis and what it shows.
 
 use super::axis::{Axis, Extent, Scale};
-use super::curve::{Curve, Mark, MarkKind, Stems};
-use super::look::{Look, Role};
-use super::svg::{Canvas, Stroke};
-use super::thin::{Spot, never_goes_back, thin};
+use super::curve::{Curve, Mark, Stems};
+use super::look::Role;
+use super::thin::{Spot, never_goes_back};
 
 /// One frame: a vertical axis, curves, stems and marks.
 #[derive(Debug, Clone, Default)]
@@ -16,6 +15,8 @@ pub struct Panel {
     pub(super) curves: Vec<Curve>,
     pub(super) stems: Vec<Stems>,
     pub(super) marks: Vec<Mark>,
+    /// Smallest range that is shown as such, and what is shown of a smaller one.
+    pub(super) still: (f64, f64),
 }
 
 impl Panel {
@@ -45,6 +46,14 @@ impl Panel {
         self
     }
 
+    /// Draws what varies by less than `limit` on a linear vertical axis as the flat line that it is, on an axis of at
+    /// least `span`: a motion of 1e-81 m has not begun.
+    #[must_use]
+    pub fn still_below(mut self, limit: f64, span: f64) -> Self {
+        self.still = (limit, span);
+        self
+    }
+
     /// Adds a curve.
     #[must_use]
     pub fn curve(mut self, curve: Curve) -> Self {
@@ -70,7 +79,7 @@ impl Panel {
     pub(super) fn entries(&self) -> Vec<Entry<'_>> {
         let curve = |c: &Curve| (c.role, c.marked, c.look);
         let curves = self.curves.iter().map(|c| (c.label.as_str(), curve(c), true));
-        let stems = self.stems.iter().map(|s| (s.label.as_str(), (Role::Ordinary, true, s.look), false));
+        let stems = self.stems.iter().map(|s| (s.label.as_str(), (s.role, true, s.look), false));
         let entry = |(label, (role, marked, look), line)| Entry { label, role, marked, line, look };
         curves.chain(stems).map(entry).collect()
     }
@@ -105,7 +114,16 @@ impl Panel {
             Some((low, high)) => Extent { low, high },
             None => {
                 let marks = self.marks.iter().filter(|m| !m.upright).map(|m| m.value);
-                include_marks(self.extents(x_scale).1, marks, self.y_scale).padded(0.06, self.y_scale)
+                let mut data = self.extents(x_scale).1;
+                if self.y_scale == Scale::Linear && !data.is_empty() && data.span() < self.still.0 {
+                    let middle = 0.5 * (data.low + data.high);
+                    data = Extent { low: middle, high: middle };
+                    let grown = include_marks(data, marks, self.y_scale);
+                    let missing = 0.5 * (self.still.1 - grown.span()).max(0.0);
+                    Extent { low: grown.low - missing, high: grown.high + missing }.padded(0.06, self.y_scale)
+                } else {
+                    include_marks(data, marks, self.y_scale).padded(0.06, self.y_scale)
+                }
             }
         };
         Axis::new(self.y_scale, extent, wanted)
@@ -136,88 +154,4 @@ pub(super) fn include_marks(data: Extent, marks: impl Iterator<Item = f64>, scal
         }
     }
     grown
-}
-
-/// The rectangle of a panel on the page, with both axes.
-#[derive(Debug)]
-pub(super) struct Frame<'a> {
-    pub x: f64,
-    pub y: f64,
-    pub width: f64,
-    pub height: f64,
-    pub x_axis: &'a Axis,
-    pub y_axis: &'a Axis,
-}
-
-impl Frame<'_> {
-    pub(super) fn across(&self, share: f64) -> f64 {
-        self.x + share * self.width
-    }
-
-    pub(super) fn up(&self, share: f64) -> f64 {
-        self.y + (1.0 - share) * self.height
-    }
-
-    fn spot(&self, point: (f64, f64)) -> Spot {
-        Some((self.across(self.x_axis.share(point.0)?), self.up(self.y_axis.share(point.1)?)))
-    }
-
-    /// Lines of the marks that lie in the frame.
-    pub(super) fn draw_marks(&self, canvas: &mut Canvas, marks: &[Mark]) {
-        for mark in marks {
-            let stroke = match mark.kind {
-                MarkKind::Wall => Stroke::solid("#555", 1.8),
-                MarkKind::Floor => Stroke { colour: "#666", width: 1.0, dash: "5 3" },
-            };
-            let axis = if mark.upright { self.x_axis } else { self.y_axis };
-            let Some(share) = axis.share(mark.value).filter(|share| (0.0..=1.0).contains(share)) else { continue };
-            if mark.upright {
-                let x = self.across(share);
-                canvas.line((x, self.y), (x, self.y + self.height), stroke);
-            } else {
-                let y = self.up(share);
-                canvas.line((self.x, y), (self.x + self.width, y), stroke);
-            }
-        }
-    }
-
-    /// A curve of at most about `budget` points, and at most a hundredth as many markers.
-    pub(super) fn draw_curve(&self, canvas: &mut Canvas, curve: &Curve, look: Look, budget: usize) {
-        let spots: Vec<Spot> = curve.points.iter().map(|p| self.spot(*p)).collect();
-        canvas.path(&thin(&spots, budget), look.stroke);
-        if look.marker.is_some() {
-            let drawn = spots.iter().flatten().count();
-            for (x, y) in spots.iter().flatten().step_by(drawn.div_ceil((budget / 100).clamp(4, 200)).max(1)) {
-                look.mark(canvas, *x, *y);
-            }
-        }
-    }
-
-    /// Stems from zero; of those that share a column of the page the lowest and the highest.
-    pub(super) fn draw_stems(&self, canvas: &mut Canvas, stems: &Stems, look: Look, budget: usize) {
-        let columns = (budget as f64 / (4.0 * self.width)).min(2.0);
-        let foot = self.up(self.y_axis.share(0.0).unwrap_or(0.0).clamp(0.0, 1.0));
-        let spots: Vec<Spot> = stems.points.iter().map(|p| self.spot(*p)).collect();
-        let mut ends: Vec<(f64, f64)> = spots.into_iter().flatten().collect();
-        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut kept: Vec<(f64, f64)> = Vec::new();
-        for column in ends.chunk_by(|a, b| (columns * a.0).floor() == (columns * b.0).floor()) {
-            let lowest = column.iter().copied().reduce(|a, b| if b.1 > a.1 { b } else { a });
-            let highest = column.iter().copied().reduce(|a, b| if b.1 < a.1 { b } else { a });
-            kept.extend(lowest);
-            kept.extend(highest.filter(|_| lowest != highest));
-        }
-        let strokes: Vec<Vec<(f64, f64)>> = kept.iter().map(|&(x, y)| vec![(x, foot), (x, y)]).collect();
-        canvas.path(&strokes, Stroke::solid(look.stroke.colour, if kept.len() > 250 { 0.6 } else { 1.0 }));
-        let radius = match kept.len() {
-            0..=120 => 2.2,
-            121..=250 => 1.4,
-            _ => return,
-        };
-        for (x, y) in kept {
-            if let Some(marker) = look.marker {
-                marker.draw(canvas, x, y, radius, look.stroke.colour);
-            }
-        }
-    }
 }

@@ -118,6 +118,16 @@ impl Canvas {
             writeln!(self.out, "Z\" fill=\"{fill}\" stroke=\"{}\" stroke-width=\"{}\"/>", stroke.colour, stroke.width);
     }
 
+    /// A closed outline filled with a translucent colour, so that several show through one another.
+    pub(super) fn area(&mut self, corners: &[(f64, f64)], fill: &str, opacity: f64) {
+        self.out.push_str("<path d=\"");
+        for (i, &(x, y)) in corners.iter().enumerate() {
+            self.out.push(if i == 0 { 'M' } else { 'L' });
+            self.pair(x, y);
+        }
+        let _ = writeln!(self.out, "Z\" fill=\"{fill}\" fill-opacity=\"{opacity}\"/>");
+    }
+
     pub(super) fn circle(&mut self, x: f64, y: f64, radius: f64, fill: &str, stroke: Stroke) {
         self.out.push_str("<circle cx=\"");
         self.number(x);

@@ -1,0 +1,164 @@
+//! A recorded motion as a picture shows it: through the contact instants, and curved between the rows.
+//!
+//! Rows are spaced evenly and pass over the instants of impacts: drawn alone, they stop short of the wall.
+//! The contact episodes say when and how fast a body arrived at a wall and left it; with them and the velocity
+//! at every row, each piece between two of these points is the cubic through both displacements with both
+//! velocities.
+
+use super::window::Span;
+use crate::run::Run;
+use crate::scene::Scene;
+use crate::scheme::Scheme;
+use crate::step::Contact;
+
+/// Points over a stretch below which pieces are divided, and into how many at most.
+const ENOUGH: usize = 4000;
+const MOST_PARTS: usize = 16;
+/// A piece is curved where the mean of the velocities at its ends is that of its chord to this share of the two:
+/// elsewhere the rows do not resolve the motion, and a cubic would invent one.
+const RESOLVED: f64 = 0.15;
+
+/// An instant of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Instant {
+    /// s.
+    pub t: f64,
+    /// m.
+    pub q: f64,
+    /// m/s.
+    pub v: f64,
+}
+
+/// The motion of probe number `probe` within `whole`, divided within `fine`. With `corners` impacts on rigid walls
+/// are put in even where the rows are the steps themselves.
+pub(super) fn motion(scene: &Scene, run: &Run, probe: usize, whole: Span, fine: Span, corners: bool) -> Vec<Instant> {
+    let knots = knots(scene, run, probe, whole, corners);
+    let count = knots.iter().filter(|k| fine.holds(k.t)).count().max(1);
+    let parts = ENOUGH.div_ceil(count).min(MOST_PARTS);
+    let mut out = Vec::with_capacity(knots.len() + parts * count);
+    for (i, knot) in knots.iter().enumerate() {
+        if let Some(before) = i.checked_sub(1).and_then(|i| knots.get(i)) {
+            if parts > 1 && fine.holds(knot.t) && fine.holds(before.t) {
+                divide(before, knot, parts, &mut out);
+            }
+        }
+        out.push(*knot);
+    }
+    out
+}
+
+/// Rows and contact instants, in order of time.
+fn knots(scene: &Scene, run: &Run, probe: usize, span: Span, corners: bool) -> Vec<Instant> {
+    let t = &run.trajectory;
+    let displacement = t.displacements().get(probe).into_iter().flatten();
+    let velocity = t.velocities().get(probe).into_iter().flatten();
+    let rows = t.time().iter().zip(displacement).zip(velocity).map(|((&t, &q), &v)| Instant { t, q, v });
+    let spacing = t.time().get(1).copied().unwrap_or(0.0);
+    let sparse = run.scheme == Scheme::Event || spacing > 1.5 * run.grid.step;
+    let mut instants = contact_instants(scene, run, probe, |c| sparse || (corners && c.peak_force.is_none()));
+    instants.sort_by(|a, b| a.t.total_cmp(&b.t));
+    let mut instants = instants.into_iter().peekable();
+    let mut out = Vec::new();
+    // Rows are right-continuous: at one time the corners of an impact come before the row.
+    for row in rows {
+        while let Some(instant) = instants.next_if(|c| c.t <= row.t) {
+            out.push(instant);
+        }
+        out.push(row);
+    }
+    out.retain(|k| span.holds(k.t));
+    out
+}
+
+/// Arrival at and departure from the walls that stand where the probe looks, of the contacts asked for.
+fn contact_instants(scene: &Scene, run: &Run, probe: usize, wanted: impl Fn(&Contact) -> bool) -> Vec<Instant> {
+    let place = scene.probes.get(probe).map(|p| &p.at);
+    let springs = matches!(run.scheme, Scheme::Penalty { .. });
+    let mut out = Vec::new();
+    for c in run.trajectory.contacts().iter().filter(|c| wanted(c)) {
+        let Some(wall) = scene.walls.get(c.wall).filter(|w| Some(&w.at) == place) else { continue };
+        let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid() && !springs);
+        let at = |t: f64, v: f64| Instant { t, q: wall.position, v };
+        // A contact that the run began in has no arrival.
+        if c.start > 0.0 || c.approach_speed > 0.0 {
+            out.push(at(c.start, -sign * c.approach_speed));
+        }
+        match (c.end, c.departure_speed) {
+            (Some(end), Some(departure)) if rigid && end <= c.start => out.push(at(end, sign * departure)),
+            // The body stays at the wall; of a scheme that rests behind it the rows say where.
+            (end, departure) if rigid => {
+                out.push(at(c.start, 0.0));
+                let end = end.filter(|_| run.scheme == Scheme::Event);
+                out.extend(end.map(|end| at(end, sign * departure.unwrap_or(0.0))));
+            }
+            // A spring without damping lets go where it was met; a damped one earlier, at a place not recorded.
+            (Some(end), Some(departure)) if springs => out.push(at(end, sign * departure)),
+            _ => {}
+        }
+    }
+    out
+}
+
+/// Puts `parts − 1` instants between two, on the cubic through both.
+fn divide(a: &Instant, b: &Instant, parts: usize, out: &mut Vec<Instant>) {
+    let h = b.t - a.t;
+    let chord = (b.q - a.q) / h;
+    let resolved = (chord - 0.5 * (a.v + b.v)).abs() <= RESOLVED * (a.v.abs() + b.v.abs());
+    if h <= 0.0 || !resolved {
+        return;
+    }
+    for k in 1..parts {
+        let s = k as f64 / parts as f64;
+        let (r, d) = (1.0 - s, b.q - a.q);
+        // Hermite's cubic, and its derivative.
+        let q = a.q + s * s * (3.0 - 2.0 * s) * d + h * s * r * (r * a.v - s * b.v);
+        let v = 6.0 * s * r * chord + r * (1.0 - 3.0 * s) * a.v + s * (3.0 * s - 2.0) * b.v;
+        out.push(Instant { t: a.t + s * h, q, v });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::{Options, run};
+    use crate::scene::{Load, Wall};
+    use crate::time::TimeOptions;
+
+    /// A ball of 1 kg from 1 m onto a floor at 0, e = 0.5, recorded in rows of 0.1 s: its path is known in closed form.
+    #[test]
+    fn the_drawn_path_of_a_ball_is_its_parabolas_and_meets_the_floor() {
+        let scene = Scene::oscillator(1.0, 0.0, 0.0)
+            .with_wall(Wall::lower("floor", 0.0).with_restitution(0.5))
+            .with_load(Load::constant(-9.81))
+            .with_initial(&[1.0], &[0.0])
+            .with_duration(0.8);
+        let mut options = Options::with_step(1e-3);
+        options.time = TimeOptions { sample: Some(0.1), ..options.time };
+        let run = run(&scene, &Scheme::Event, &options).unwrap();
+        let whole = Span { from: 0.0, to: 0.8 };
+        let drawn = motion(&scene, &run, 0, whole, whole, false);
+        let lowest = run.trajectory.displacement().iter().fold(f64::INFINITY, |a, q| a.min(*q));
+        assert!(lowest > 0.1, "the rows alone stop {lowest} m above the floor");
+        let (g, fall) = (9.81, (2.0_f64 / 9.81).sqrt());
+        assert!(drawn.iter().any(|k| k.q == 0.0 && (k.t - fall).abs() < 1e-12));
+        for k in &drawn {
+            let (t, bounced) = (k.t, k.t - fall);
+            let before = 1.0 - 0.5 * g * t * t;
+            let after = 0.5 * g * fall * bounced - 0.5 * g * bounced * bounced;
+            let expected = if bounced <= 0.0 { before } else { after };
+            // A cubic through a parabola is that parabola: rounding only.
+            assert!((k.q - expected).abs() < 1e-12, "{k:?} is not {expected}");
+        }
+        assert!(drawn.len() > 100);
+    }
+
+    #[test]
+    fn where_rows_do_not_resolve_the_motion_no_curve_is_invented() {
+        let mut out = Vec::new();
+        let a = Instant { t: 0.0, q: 0.0, v: 10.0 };
+        divide(&a, &Instant { t: 1.0, q: 0.1, v: 10.0 }, 8, &mut out);
+        assert!(out.is_empty());
+        divide(&a, &Instant { t: 1.0, q: 10.0, v: 10.0 }, 8, &mut out);
+        assert_eq!(out.len(), 7);
+    }
+}

@@ -1,0 +1,104 @@
+//! Which stretch of a run a picture shows: the whole, and of a long run its last periods beside it.
+
+use super::figure::Figure;
+use crate::run::Run;
+use crate::scene::{LoadKind, Scene};
+
+/// Periods that one frame can show apart: of more, a second frame shows the last ones.
+const MOST_PERIODS: f64 = 40.0;
+/// Periods of that second frame.
+const LAST_PERIODS: f64 = 10.0;
+/// A response this many times faster than the load sets the period instead of the load.
+const FASTER: f64 = 4.0;
+
+/// A stretch of time, s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// Its beginning.
+    pub from: f64,
+    /// Its end.
+    pub to: f64,
+}
+
+impl Span {
+    /// True if it holds `time`; both ends belong to it, and so does what rounding puts beside them.
+    pub(super) fn holds(&self, time: f64) -> bool {
+        let slack = 1e-12 * self.to.abs();
+        (self.from - slack..=self.to + slack).contains(&time)
+    }
+}
+
+/// What is shown, and what of it a second time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Window {
+    pub whole: Span,
+    pub last: Option<Span>,
+    periods: Option<f64>,
+}
+
+impl Window {
+    /// The window over `whole` of a motion like that of `run`, as the probe number `probe` sees it.
+    pub fn new(scene: &Scene, run: Option<&Run>, probe: Option<usize>, whole: Span) -> Self {
+        let length = whole.to - whole.from;
+        let response = run.zip(probe).and_then(|(run, probe)| response_period(run, probe, whole));
+        let period = match (load_period(scene), response) {
+            (Some(load), Some(response)) if FASTER * response < load => Some(response),
+            (load, response) => load.or(response),
+        };
+        let long = period.filter(|period| length > MOST_PERIODS * period);
+        let last = long.map(|period| Span { from: whole.to - LAST_PERIODS * period, to: whole.to });
+        Self { whole, last, periods: long }
+    }
+
+    /// The stretch in which single oscillations can be told apart.
+    pub fn detail(&self) -> Span {
+        self.last.unwrap_or(self.whole)
+    }
+
+    /// `figure` over time, with the last periods beside the whole where there are many.
+    pub fn over_time(&self, figure: Figure) -> Figure {
+        match self.last {
+            Some(last) => {
+                let whole = format!("{} to {} s", short(self.whole.from), short(self.whole.to));
+                figure.detail(last.from, last.to, [&whole, &self.last_words()])
+            }
+            None => figure,
+        }
+    }
+
+    /// What a picture that shows the last periods alone says of them.
+    pub fn words(&self) -> Option<String> {
+        self.last.map(|last| {
+            format!("{}, {} to {} s", self.last_words().replace("Last", "last"), short(last.from), short(last.to))
+        })
+    }
+
+    fn last_words(&self) -> String {
+        let frequency = self.periods.map_or(0.0, |period| 1.0 / period);
+        format!("Last {LAST_PERIODS} periods of {} Hz", short(frequency))
+    }
+}
+
+/// The period of the slowest harmonic load, s.
+fn load_period(scene: &Scene) -> Option<f64> {
+    let periods = scene.loads.iter().filter_map(|load| match &load.kind {
+        LoadKind::Harmonic { frequency, .. } if *frequency > 0.0 => Some(1.0 / frequency),
+        _ => None,
+    });
+    periods.reduce(f64::max)
+}
+
+/// The mean time between upward passages of the displacement through its mean, s.
+fn response_period(run: &Run, probe: usize, span: Span) -> Option<f64> {
+    let column = run.trajectory.displacements().get(probe)?;
+    let rows = run.trajectory.time().iter().zip(column).filter(|(t, _)| span.holds(**t));
+    let values: Vec<f64> = rows.map(|(_, u)| *u).collect();
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let passages = values.windows(2).filter(|pair| matches!(pair, [a, b] if *a < mean && *b >= mean)).count();
+    (passages > 1).then(|| (span.to - span.from) / passages as f64)
+}
+
+/// Four digits, without zeros at the end.
+pub(super) fn short(x: f64) -> String {
+    format!("{x:.3e}").parse::<f64>().map_or_else(|_| x.to_string(), |x| x.to_string())
+}
