@@ -1,7 +1,9 @@
 //! Accuracy against speed: orders, front, floors and hard scenes from the chart's own data, and the command itself. Errors, files and counters
 //! only: no time is asserted.
 
-use signorini::study::work_precision::{Effort, Measured, Series, Steps, WorkPrecision, every_method, study};
+use signorini::study::work_precision::{
+    Effort, Kind, Measured, Quantity, Series, Steps, WorkPrecision, every_method, study,
+};
 use signorini::{Integrator, Load, Method, PenaltyLaw, Scene, Scheme, Wall};
 use std::process::{Command, Output};
 
@@ -112,11 +114,31 @@ fn the_front_on_the_source_scene_ends_at_the_exact_scheme_with_an_error_of_round
     let least = others.flat_map(Series::measured).map(|(_, m)| m.errors.displacement).fold(f64::INFINITY, f64::min);
     assert!(least > 1e4 * exact.errors.displacement);
     for tolerance in [1e-6, 1e-9] {
-        assert!(series(&chart, Scheme::Event).cheapest(tolerance).is_some());
-        assert!(series(&chart, MOREAU).cheapest(tolerance).is_none());
+        assert!(series(&chart, Scheme::Event).cheapest(Quantity::Displacement, tolerance).is_some());
+        assert!(series(&chart, MOREAU).cheapest(Quantity::Displacement, tolerance).is_none());
     }
     assert_eq!(exact.counters.events, 10);
     assert!(exact.counters.flow_evaluations > 0 && finest(&chart, MOREAU).counters.qp_solves > 0);
+}
+
+#[test]
+fn each_kind_of_method_has_its_cheapest_and_none_stands_for_another() {
+    let soft = penalty(PenaltyLaw::Quartic { epsilon: 1e-9 }, Integrator::DiscreteGradient);
+    let schemes = [Scheme::Event, MOREAU, Scheme::PaoliSchatzman, soft];
+    let chart = chart(&source(1.0, 1.0), &schemes, (1e-3, 1e-5), 4);
+    let kinds = Kind::ALL.map(|kind| chart.cheapest(kind, Quantity::Displacement, 1e-2));
+    assert_eq!(kinds[0].unwrap().0.method.scheme, Scheme::Event);
+    let (series, step, measured) = kinds[1].unwrap();
+    assert!([MOREAU, Scheme::PaoliSchatzman].contains(&series.method.scheme) && step.unwrap() < 1e-3);
+    assert!(measured.errors.displacement <= 1e-2);
+    // Springs of this softness stay 59 % of the gap away from rigid walls, whatever the step.
+    assert!(kinds[2].is_none());
+    // Impulses and contact times are errors of their own.
+    for quantity in [Quantity::Impulse, Quantity::ContactTime] {
+        let (_, _, measured) = chart.cheapest(Kind::Qp, quantity, 1e-2).unwrap();
+        assert!(quantity.of(&measured.errors).unwrap() <= 1e-2);
+        assert!(chart.cheapest(Kind::Qp, quantity, 1e-9).is_none());
+    }
 }
 
 #[test]
@@ -200,18 +222,41 @@ fn the_command_writes_table_and_picture_and_lays_other_programs_over() {
     ]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let table: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(table.as_array().unwrap().len(), 5);
-    assert_eq!(table[4]["cheapest method"], "event");
-    assert_eq!(table[3]["cheapest other"], "Other RK");
-    assert_eq!(table[4]["cheapest other"], "none");
+    let rows = table.as_array().unwrap();
+    // Three errors, three kinds and five tolerances; other programs tell the displacement's error only.
+    assert_eq!(rows.len(), 3 * 3 * 5 + 5);
+    let find = |error: &str, kind: &str, tolerance: f64| {
+        let this = |r: &&serde_json::Value| {
+            r["error"] == error && r["kind"] == kind && r["tolerance"].as_f64() == Some(tolerance)
+        };
+        rows.iter().find(this).unwrap_or_else(|| panic!("{error}, {kind}, {tolerance}: {rows:?}"))
+    };
+    for error in ["displacement", "impulse", "contact time"] {
+        assert_eq!(find(error, "exact", 1e-9)["method"], "event");
+        assert!(find(error, "QP", 1e-9)["method"].is_null());
+    }
+    assert_eq!(find("impulse", "QP", 0.1)["method"], "moreau-jean");
+    assert!(find("impulse", "QP", 0.1)["step_s"].as_f64().unwrap() <= 1e-2);
+    assert_eq!(find("displacement", "other program", 1e-6)["method"], "Other RK");
+    assert!(find("displacement", "other program", 1e-9)["method"].is_null());
     let csv = std::fs::read_to_string(out.join("work-precision.csv")).unwrap();
     // A run that fails is a row with the reason in it.
     assert!(csv.lines().any(|l| l.contains(explicit) && l.contains("failed: ") && l.contains("diverged")), "{csv}");
     assert_eq!(csv.lines().count(), 1 + 1 + 2 * 4);
     let svg = std::fs::read_to_string(out.join("work-precision.svg")).unwrap();
-    for text in ["Other RK", "Pareto front", "moreau-jean", "ε = 1e-12"] {
+    let texts = ["Other RK", "Pareto front", "moreau-jean", "ε = 1e-12", "Displacement:", "Impulse:", "Contact times:"];
+    for text in texts {
         assert!(svg.contains(text), "{text}");
     }
+    // The error of the exact scheme, some 1e-15, is told at the edge; the axis ends at 1e-8 at the latest.
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let texts = document.descendants().filter(|n| n.has_tag_name("text"));
+    let texts: Vec<String> = texts.map(|n| n.descendants().filter_map(|d| d.text()).collect()).collect();
+    assert!(texts.iter().any(|t| t.starts_with("event ") && t.contains("e-1")), "{texts:?}");
+    assert!(texts.iter().all(|t| !["10−9", "10−10", "10−12", "10−14"].contains(&t.as_str())), "{texts:?}");
+    // All integrators of a penalty are in a figure of their own.
+    let penalties = std::fs::read_to_string(out.join("work-precision-penalties.svg")).unwrap();
+    assert!(penalties.contains("against their own springs"));
 }
 
 #[test]

@@ -6,7 +6,9 @@ use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::atomic::{check_folder, write_whole};
 use crate::output::work_precision as output;
-use crate::study::work_precision::{Effort, Measured, Peer, Series, Steps, WorkPrecision, every_method, read, study};
+use crate::study::work_precision::{
+    Effort, Kind, Peer, Quantity, Series, Steps, WorkPrecision, every_method, read, study,
+};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -83,7 +85,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let chart = chart?;
     any_ran(&chart)?;
     write(&folder, &case, &chart, &peers)?;
-    cheapest(&chart, &peers, args.with.is_some(), ui);
+    cheapest(&chart, &peers, ui);
     report(&case, &chart, ui);
     ui.message(&format!("results in {}", folder.display()));
     Ok(())
@@ -143,50 +145,121 @@ fn write(folder: &Path, case: &Case, chart: &WorkPrecision, peers: &[Peer]) -> R
         Some(e) if asked.iter().all(|other| other == e) => format!("{title}, e = {e}"),
         _ => title.to_owned(),
     };
-    write_whole(&folder.join("work-precision.svg"), output::chart(&title, chart, peers).as_bytes())
+    for (name, svg) in output::charts(&title, chart, peers) {
+        write_whole(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
+    }
+    Ok(())
 }
 
-/// The table: for each tolerance the cheapest method, and what the cheapest of the other programs takes.
-fn cheapest(chart: &WorkPrecision, peers: &[Peer], with: bool, ui: &Ui) {
-    let mut header = vec!["error/gap", "cheapest method", "step (s)", "time (s)", "reached"];
-    if with {
-        header.extend(["cheapest other", "its time (s)", "times slower"]);
-    }
-    let rows: Vec<Vec<String>> = TOLERANCES
-        .iter()
-        .map(|&(tolerance, name)| {
-            let mut row = vec![name.to_owned()];
-            let best = best(chart, tolerance);
-            row.extend(match best {
-                Some((series, step, m)) => [
-                    series.method.to_string(),
-                    step.map_or_else(|| "exact".into(), |h| format!("{h:.2e}")),
-                    format!("{:.2e}", m.seconds),
-                    format!("{:.1e}", m.errors.displacement),
-                ],
-                None => ["none".into(), String::new(), String::new(), String::new()],
-            });
-            if with {
-                let within = peers.iter().filter(|p| p.error <= tolerance);
-                row.extend(match within.min_by(|a, b| a.seconds.total_cmp(&b.seconds)) {
-                    Some(peer) => [
-                        peer.label(),
-                        format!("{:.2e}", peer.seconds),
-                        best.map_or_else(String::new, |(_, _, m)| format!("{:.0}", peer.seconds / m.seconds)),
-                    ],
-                    None => ["none".into(), String::new(), String::new()],
+/// The table: for each error and tolerance the cheapest method of each kind, and of the other programs. A person is
+/// shown the exact scheme once, and of the other kinds the first tolerance that they do not reach; `--json` has all.
+fn cheapest(chart: &WorkPrecision, peers: &[Peer], ui: &Ui) {
+    let mut rows = Vec::new();
+    for quantity in Quantity::ALL {
+        for kind in Kind::ALL.into_iter().filter(|k| chart.series.iter().any(|s| Kind::of(&s.method.scheme) == *k)) {
+            for (tolerance, name) in TOLERANCES {
+                let best = chart.cheapest(kind, quantity, tolerance);
+                rows.push(Best {
+                    quantity,
+                    tolerance,
+                    within: name,
+                    kind: kind.name(),
+                    exact: kind == Kind::Exact,
+                    method: best.map(|(series, step, m)| Cheapest {
+                        name: series.method.to_string(),
+                        short: output::label(&series.method),
+                        step,
+                        seconds: m.seconds,
+                        reached: quantity.of(&m.errors).unwrap_or(f64::NAN),
+                    }),
                 });
             }
-            row
-        })
-        .collect();
-    ui.table(&header, &rows);
+        }
+    }
+    for (tolerance, within) in TOLERANCES.into_iter().filter(|_| !peers.is_empty()) {
+        let reached = peers.iter().filter(|p| p.error <= tolerance);
+        let best = reached.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        let method = best.map(|p| Cheapest {
+            name: p.label(),
+            short: p.label(),
+            step: None,
+            seconds: p.seconds,
+            reached: p.error,
+        });
+        let quantity = Quantity::Displacement;
+        rows.push(Best { quantity, tolerance, within, kind: "other program", exact: false, method });
+    }
+    if ui.json() {
+        let header = ["error", "tolerance", "kind", "method", "step_s", "seconds", "reached"];
+        ui.table(&header, &rows.iter().map(Best::cells).collect::<Vec<_>>());
+    } else {
+        ui.table(&["error within", "kind", "cheapest method", "step (s)", "time (s)"], &worth_reading(&rows));
+    }
 }
 
-/// The cheapest measurement whose error is, and with finer steps stays, at or below `tolerance`.
-fn best(chart: &WorkPrecision, tolerance: f64) -> Option<(&Series, Option<f64>, &Measured)> {
-    let all = chart.series.iter().filter_map(|s| s.cheapest(tolerance).map(|(step, m)| (s, step, m)));
-    all.min_by(|a, b| a.2.seconds.total_cmp(&b.2.seconds))
+/// A row of the table.
+struct Best {
+    quantity: Quantity,
+    tolerance: f64,
+    within: &'static str,
+    kind: &'static str,
+    exact: bool,
+    method: Option<Cheapest>,
+}
+
+/// What reaches a tolerance for the least time.
+struct Cheapest {
+    name: String,
+    short: String,
+    step: Option<f64>,
+    seconds: f64,
+    reached: f64,
+}
+
+impl Best {
+    fn cells(&self) -> Vec<String> {
+        let number = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:e}"));
+        let method = self.method.as_ref();
+        vec![
+            self.quantity.name().to_owned(),
+            format!("{:e}", self.tolerance),
+            self.kind.to_owned(),
+            method.map_or_else(String::new, |m| m.name.clone()),
+            number(method.and_then(|m| m.step)),
+            number(method.map(|m| m.seconds)),
+            number(method.map(|m| m.reached)),
+        ]
+    }
+
+    /// For a person; the exact scheme with the error that it has.
+    fn line(&self) -> Vec<String> {
+        let within = match &self.method {
+            Some(method) if self.exact => format!("{:.0e}", method.reached),
+            _ => self.within.to_owned(),
+        };
+        let mut line = vec![format!("{} {within}", self.quantity.name()), self.kind.to_owned()];
+        match &self.method {
+            Some(m) => line.extend([
+                m.short.clone(),
+                m.step.map_or_else(|| "-".into(), |h| format!("{h:.1e}")),
+                format!("{:.1e}", m.seconds),
+            ]),
+            None => line.extend(["none of the steps tried".into(), "-".into(), "-".into()]),
+        }
+        line
+    }
+}
+
+/// The lines a person reads: of each error and kind those that are reached, and the first that is not; of the exact
+/// scheme one.
+fn worth_reading(rows: &[Best]) -> Vec<Vec<String>> {
+    let mut lines: Vec<Vec<String>> = Vec::new();
+    for group in rows.chunk_by(|a, b| a.quantity == b.quantity && a.kind == b.kind) {
+        let reached = group.iter().take_while(|row| row.method.is_some()).count();
+        let most = if group.iter().any(|row| row.exact) { 1 } else { reached + 1 };
+        lines.extend(group.iter().take(most).map(Best::line));
+    }
+    lines
 }
 
 fn report(case: &Case, chart: &WorkPrecision, ui: &Ui) {

@@ -1,15 +1,15 @@
-//! `work-precision.csv` and `work-precision.svg`.
+//! `work-precision.csv` and the charts of accuracy against speed.
 
 use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::scheme::{Method, PenaltyLaw, Scheme};
-use crate::study::work_precision::{Errors, Measured, Outcome, Peer, Point, WorkPrecision, pareto};
+use crate::study::work_precision::{Errors, Measured, Outcome, Peer, Point, Quantity, Series, WorkPrecision, pareto};
 use std::path::Path;
 
-/// Errors above this are all the same: off the chart.
-const OFF_THE_CHART: f64 = 10.0;
+/// Errors below this ask nothing more of a method: off the chart.
+const NEGLIGIBLE: f64 = 1e-8;
 /// An error beyond the gap is no answer, however cheap: it is not on the front.
 const NO_ANSWER: f64 = 1.0;
 
@@ -106,61 +106,119 @@ fn front(chart: &WorkPrecision, peers: &[Peer]) -> Vec<(f64, f64)> {
     pareto(own.chain(peers.iter().map(|p| (p.error, p.seconds))).filter(|p| p.0 <= NO_ANSWER))
 }
 
-/// The chart: error across, time up, both logarithmic. One panel holds errors against the scene, with the floor of each penalty; a second, where
-/// there are penalties, their errors against their own springs. The first shows one integrator of each penalty: below the floor they all end
-/// alike.
+/// The figures by file name without its ending: error across, time up, both logarithmic. `work-precision` has a panel for
+/// each error against the scene, with the floor of each penalty and one integrator of it, since below the floor they all
+/// end alike; `work-precision-penalties` holds all of them against their own springs.
 #[must_use]
-pub fn chart(title: &str, chart: &WorkPrecision, peers: &[Peer]) -> String {
-    let mut first = Panel::new("Wall-clock time (s)").log();
-    let mut second = Panel::new("Wall-clock time (s)").log();
-    let penalties = !chart.floors.is_empty();
-    if penalties {
-        first = first.heading("Against the walls of the scene; of each penalty, one integrator");
-        second = second.heading("Penalties against their own springs");
-    }
-    first = first.curve(Curve::new("Pareto front", front(chart, peers)).front());
-    let mut laws = Vec::new();
-    for (number, series) in chart.series.iter().enumerate() {
-        let curve = |error: &dyn Fn(&Measured) -> Option<f64>| {
-            let points = series.measured().filter_map(|(_, m)| Some((error(m)?, m.seconds)));
-            let label = label(&series.method);
-            Curve::new(label, points.filter(|p| p.0 < OFF_THE_CHART)).marked().look(number)
-        };
-        let law = if let Scheme::Penalty { law, .. } = series.method.scheme { Some(law) } else { None };
-        if law.is_none_or(|law| !laws.contains(&law)) {
-            first = first.curve(curve(&|m| Some(m.errors.displacement)));
-        }
-        if law.is_some() {
-            // Below what its reference is known to, an error says nothing.
-            let known = chart.known(&series.method.scheme);
-            second = second.curve(curve(&|m| m.own.as_ref().map(|e| e.displacement).filter(|e| *e > known)));
-        }
-        laws.extend(law);
-    }
-    let mut labels: Vec<String> = Vec::new();
-    for peer in peers {
-        if !labels.contains(&peer.label()) {
-            labels.push(peer.label());
-        }
-    }
-    for (number, label) in labels.iter().enumerate() {
-        let mut points: Vec<_> = peers.iter().filter(|p| p.label() == *label).map(|p| (p.error, p.seconds)).collect();
-        points.retain(|p| p.0 < OFF_THE_CHART);
-        points.sort_by(|a, b| a.1.total_cmp(&b.1));
-        first = first.curve(Curve::new(label, points).marked().look(chart.series.len() + number));
-    }
-    for floor in &chart.floors {
-        if let Some(errors) = &floor.errors {
-            first = first.mark(Mark::floor(errors.displacement, law_label(floor.law)).upright());
-        }
-    }
+pub fn charts(title: &str, chart: &WorkPrecision, peers: &[Peer]) -> Vec<(&'static str, String)> {
     let title = format!("{title}, t ≤ {} s", significant(chart.horizon.end));
-    let figure = Figure::new(title, "Largest error of the displacement / gap (–)").log().panel(first);
-    if penalties { figure.panel(second).to_svg() } else { figure.to_svg() }
+    let mut charts = vec![("work-precision", against_the_scene(&title, chart, peers))];
+    if !chart.floors.is_empty() {
+        charts.push(("work-precision-penalties", against_their_springs(&title, chart)));
+    }
+    charts
+}
+
+fn against_the_scene(title: &str, chart: &WorkPrecision, peers: &[Peer]) -> String {
+    let mut figure = Figure::new(title, "Error (–)").log();
+    let mut all = Vec::new();
+    for quantity in Quantity::ALL {
+        let series = shown(chart).map(|(number, series)| (number, label(&series.method), points(series, quantity)));
+        let mut curves: Vec<(usize, String, Vec<(f64, f64)>)> = series.collect();
+        if quantity == Quantity::Displacement {
+            curves.extend(
+                programs(peers).into_iter().zip(chart.series.len()..).map(|((label, points), n)| (n, label, points)),
+            );
+        }
+        if curves.iter().all(|curve| curve.2.is_empty()) {
+            continue;
+        }
+        let mut panel = Panel::new("Wall-clock time (s)").log().heading(heading(quantity));
+        let best = pareto(curves.iter().flat_map(|curve| curve.2.iter().copied()).filter(|p| p.0 <= NO_ANSWER));
+        panel = panel.curve(Curve::new("Pareto front", best).front());
+        for (number, label, points) in curves {
+            all.extend(points.iter().map(|p| p.0));
+            panel = panel.curve(Curve::new(label, points).marked().look(number));
+        }
+        for floor in &chart.floors {
+            if let Some(error) = floor.errors.as_ref().and_then(|e| quantity.of(e)).filter(|e| e.is_finite()) {
+                panel = panel.mark(Mark::floor(error, law_label(floor.law)).upright());
+            }
+        }
+        figure = figure.panel(panel);
+    }
+    let (low, high) = range(&all);
+    figure.range(low, high).to_svg()
+}
+
+fn heading(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Displacement => "Displacement: largest difference / gap",
+        Quantity::Impulse => "Impulse: difference at the worst wall / all impulses",
+        Quantity::ContactTime => "Contact times: largest shift / duration, where no contact is missing",
+    }
+}
+
+/// The series of the first figure with their numbers: of each penalty the first integrator.
+fn shown(chart: &WorkPrecision) -> impl Iterator<Item = (usize, &Series)> {
+    let mut laws = Vec::new();
+    chart.series.iter().enumerate().filter(move |(_, series)| match series.method.scheme {
+        Scheme::Penalty { law, .. } if laws.contains(&law) => false,
+        Scheme::Penalty { law, .. } => {
+            laws.push(law);
+            true
+        }
+        _ => true,
+    })
+}
+
+/// Error and time of each run that has this error.
+fn points(series: &Series, quantity: Quantity) -> Vec<(f64, f64)> {
+    let point = |m: &Measured| Some((quantity.of(&m.errors)?, m.seconds));
+    series.measured().filter_map(|(_, m)| point(m)).filter(|p| p.0.is_finite()).collect()
+}
+
+/// The points of other programs by label, by rising time.
+fn programs(peers: &[Peer]) -> Vec<(String, Vec<(f64, f64)>)> {
+    let mut programs: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+    for peer in peers {
+        let point = (peer.error, peer.seconds);
+        match programs.iter_mut().find(|known| known.0 == peer.label()) {
+            Some(known) => known.1.push(point),
+            None => programs.push((peer.label(), vec![point])),
+        }
+    }
+    programs.iter_mut().for_each(|p| p.1.sort_by(|a, b| a.1.total_cmp(&b.1)));
+    programs
+}
+
+/// Whole decades that hold the errors between [`NEGLIGIBLE`] and [`NO_ANSWER`]; what lies beyond is told at the edge.
+fn range(errors: &[f64]) -> (f64, f64) {
+    let within = errors.iter().copied().filter(|e| (NEGLIGIBLE..=NO_ANSWER).contains(e));
+    let least = within.fold(0.1, f64::min);
+    (10_f64.powf((0.9 * least).log10().floor()), NO_ANSWER)
+}
+
+fn against_their_springs(title: &str, chart: &WorkPrecision) -> String {
+    let mut panel = Panel::new("Wall-clock time (s)").log().heading("Penalties against their own springs");
+    let penalties = chart.series.iter().filter(|s| matches!(s.method.scheme, Scheme::Penalty { .. }));
+    let mut all = Vec::new();
+    for (number, series) in penalties.enumerate() {
+        // Below what its reference is known to, an error says nothing.
+        let known = chart.known(&series.method.scheme);
+        let own = |m: &Measured| m.own.as_ref().map(|e| e.displacement).filter(|e| *e > known);
+        let points: Vec<_> = series.measured().filter_map(|(_, m)| Some((own(m)?, m.seconds))).collect();
+        all.extend(points.iter().map(|p| p.0));
+        panel = panel.curve(Curve::new(label(&series.method), points).marked().look(number));
+    }
+    let (low, high) = range(&all);
+    let figure = Figure::new(title, "Largest error of the displacement / gap (–)").log().panel(panel);
+    figure.range(low, high).to_svg()
 }
 
 /// A method in few characters: `ε = 1e-9, trapezoidal`.
-fn label(method: &Method) -> String {
+#[must_use]
+pub fn label(method: &Method) -> String {
     match method.scheme {
         Scheme::Penalty { law, integrator } => format!("{}, {integrator}", law_label(law)),
         _ => method.to_string(),

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `graph.rs` | the distance between motions with jumps |
 //! | `errors.rs` | the four errors of a run |
+//! | `kind.rs` | which of these errors is asked for, and of which kind of method |
 //! | `reference.rs` | what they are held against, and until when |
 //! | `ladder.rs` | the steps tried |
 //! | `timing.rs` | the clock |
@@ -14,6 +15,7 @@
 mod errors;
 mod front;
 mod graph;
+mod kind;
 mod ladder;
 mod measure;
 mod overlay;
@@ -23,6 +25,7 @@ mod timing;
 pub use errors::Errors;
 pub use front::{order, pareto, reached};
 pub use graph::{Graph, Scales};
+pub use kind::{Kind, Quantity};
 pub use ladder::Steps;
 pub use measure::study;
 pub use overlay::{Peer, read};
@@ -115,10 +118,12 @@ impl Series {
         order(points.filter(|p| p.1 < 0.1 && p.1 > 10.0 * known))
     }
 
-    /// The cheapest point from which on the displacement's error stays at or below `tolerance`.
+    /// The cheapest point from which on the error of `quantity` stays at or below `tolerance`.
     #[must_use]
-    pub fn cheapest(&self, tolerance: f64) -> Option<(Option<f64>, &Measured)> {
-        let errors: Vec<f64> = self.measured().map(|(_, m)| m.errors.displacement).collect();
+    pub fn cheapest(&self, quantity: Quantity, tolerance: f64) -> Option<(Option<f64>, &Measured)> {
+        // An error that a run does not have, such as that of impulses without contacts, misses every tolerance.
+        let error = |m: &Measured| quantity.of(&m.errors).unwrap_or(f64::NAN);
+        let errors: Vec<f64> = self.measured().map(|(_, m)| error(m)).collect();
         let first = reached(&errors, tolerance)?;
         self.measured().skip(first).min_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds))
     }
@@ -151,6 +156,20 @@ pub struct WorkPrecision {
 }
 
 impl WorkPrecision {
+    /// The cheapest method of a kind from whose step on the error of `quantity` stays at or below `tolerance`: its
+    /// series, step (s; none for the exact scheme) and measurement.
+    #[must_use]
+    pub fn cheapest(
+        &self,
+        kind: Kind,
+        quantity: Quantity,
+        tolerance: f64,
+    ) -> Option<(&Series, Option<f64>, &Measured)> {
+        let of_kind = self.series.iter().filter(|s| Kind::of(&s.method.scheme) == kind);
+        let reached = of_kind.filter_map(|s| s.cheapest(quantity, tolerance).map(|(step, m)| (s, step, m)));
+        reached.min_by(|a, b| a.2.seconds.total_cmp(&b.2.seconds))
+    }
+
     /// What the springs of a penalty cannot get below; none for the other schemes.
     #[must_use]
     pub fn floor(&self, scheme: &Scheme) -> Option<&Floor> {

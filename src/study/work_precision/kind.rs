@@ -1,0 +1,78 @@
+//! Which error is asked for, and of which kind of method.
+
+use super::errors::Errors;
+use crate::scheme::Scheme;
+
+/// One of the errors that charts and tables compare methods by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Largest difference of the displacement, over the gap.
+    Displacement,
+    /// Difference of the impulse at the worst wall, over the reference's total.
+    Impulse,
+    /// Largest shift of a contact's beginning, over the duration.
+    ContactTime,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Displacement, Self::Impulse, Self::ContactTime];
+
+    /// In a word or two.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Displacement => "displacement",
+            Self::Impulse => "impulse",
+            Self::ContactTime => "contact time",
+        }
+    }
+
+    /// This error of a run: none where there was no contact to compare, NaN for contact times where a contact is
+    /// missing or has no counterpart.
+    #[must_use]
+    pub fn of(self, errors: &Errors) -> Option<f64> {
+        match self {
+            Self::Displacement => Some(errors.displacement),
+            Self::Impulse => errors.worst_impulse(),
+            Self::ContactTime if errors.missing + errors.spurious > 0 => Some(f64::NAN),
+            Self::ContactTime => errors.contact_time,
+        }
+    }
+}
+
+/// What a method does about walls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Finds the instants of contact: nothing is discretised.
+    Exact,
+    /// Solves a quadratic programme in every step that meets a wall.
+    Qp,
+    /// Lets the walls give way.
+    Penalty,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Exact, Self::Qp, Self::Penalty];
+
+    /// The kind of a scheme.
+    #[must_use]
+    pub fn of(scheme: &Scheme) -> Self {
+        match scheme {
+            Scheme::Event => Self::Exact,
+            Scheme::Penalty { .. } => Self::Penalty,
+            _ => Self::Qp,
+        }
+    }
+
+    /// In a word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Qp => "QP",
+            Self::Penalty => "penalty",
+        }
+    }
+}
