@@ -1,11 +1,53 @@
 //! Contact episodes: consecutive steps in which a wall pushes, joined into one row of a table.
+//!
+//! Contact is where a force or an impulse acts. A body that stands at a wall without pressing is not in contact with it, whatever the
+//! scheme: what a scheme computes there is rounding, and counts as no force.
 
-use crate::scene::{Scene, Side};
-use crate::step::{Contact, Contract};
+use crate::scene::{LoadKind, Scene, Side, System, WallLaw};
+use crate::step::{Contact, Contract, Promise};
 
 /// An impact on a rigid wall takes one step on the velocity level and up to two on the position level. Longer episodes
 /// are lasting contact, whose force is finite after those first steps.
 const IMPACT_STEPS: u64 = 2;
+
+/// Sums of a few terms err by this share of the largest.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Impulses at one wall that are rounding: `force` · h + `inertia`/h, N s.
+#[derive(Debug, Clone, Copy)]
+struct Floor {
+    /// N: of the forces that balance where a body rests.
+    force: f64,
+    /// kg m: of the displacement, where a scheme gets its impulses from displacements.
+    inertia: f64,
+}
+
+impl Floor {
+    /// One a wall of `scene`.
+    fn all(scene: &Scene, contract: Contract) -> Vec<Self> {
+        let size = |kind: &LoadKind| match kind {
+            LoadKind::Constant { force } => force.abs(),
+            LoadKind::Harmonic { amplitude, .. } => amplitude.abs(),
+            LoadKind::Table(table) => table.force().iter().fold(0.0, |most: f64, f| most.max(f.abs())),
+            _ => 0.0,
+        };
+        let loads: f64 = scene.loads.iter().map(|load| size(&load.kind)).sum();
+        // Of a structure the loads alone tell: what its springs carry at rest is what they put on it.
+        let spring = if let System::Oscillator(o) = scene.system { o.stiffness } else { 0.0 };
+        let positions = matches!(contract.promise, Promise::EndPosition | Promise::MeanPosition | Promise::Corrected);
+        let floor = |(wall, mass): (&crate::scene::Wall, f64)| {
+            let place = wall.position.abs();
+            let own = if let WallLaw::Elastic { stiffness, .. } = wall.law { stiffness } else { 0.0 };
+            let inertia = if positions { mass * place } else { 0.0 };
+            Self { force: ROUNDING * (loads + (spring + own) * place), inertia: ROUNDING * inertia }
+        };
+        scene.walls.iter().zip(scene.wall_masses()).map(floor).collect()
+    }
+
+    fn holds(&self, p: f64, h: f64) -> bool {
+        p.abs() <= self.force * h + self.inertia / h
+    }
+}
 
 /// An episode under way at one wall.
 #[derive(Debug, Clone, Copy)]
@@ -37,6 +79,7 @@ pub(crate) struct Rates {
 pub(crate) struct Episodes {
     instant: f64,
     rigid: Vec<bool>,
+    floor: Vec<Floor>,
     side: Vec<Side>,
     open: Vec<Option<Open>>,
     any: bool,
@@ -51,6 +94,7 @@ impl Episodes {
         Self {
             instant: contract.instant,
             rigid: scene.walls.iter().map(|w| w.law.is_rigid()).collect(),
+            floor: Floor::all(scene, contract),
             side: scene.walls.iter().map(|w| w.side).collect(),
             open: vec![None; walls],
             any: false,
@@ -120,6 +164,10 @@ impl Episodes {
     }
 
     fn push(&mut self, wall: usize, instant: f64, h: f64, p: f64, rates: Rates) {
+        if self.floor[wall].holds(p, h) {
+            self.part(wall);
+            return;
+        }
         let sign = self.side[wall].sign();
         let Rates { before, struck, after } = rates;
         // A blow towards the wall ends a rest on it: what follows is an impact with a speed of its own.

@@ -30,7 +30,7 @@ impl Arc {
     #[must_use]
     pub fn contact_force(&self, wall: usize, t: f64) -> f64 {
         if let Some(support) = self.support.filter(|s| s.wall == wall) {
-            return support.side.sign() * self.pressing(support, t - self.start)[0].max(0.0);
+            return support.side.sign() * self.pressing(support, self.since(t))[0].max(0.0);
         }
         let Some(touch) = self.touching.iter().find(|a| a.wall == wall) else { return 0.0 };
         let (q, v) = self.state(t);
@@ -43,7 +43,7 @@ impl Arc {
     /// the touching walls; since k_a ≤ K nothing is amplified.
     #[must_use]
     pub fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
-        let (span, load) = (to - from, self.load_impulse(from, to));
+        let (span, load) = (self.since(to) - self.since(from), self.load_impulse(from, to));
         if let Some(support) = self.support {
             let others = self.elastic_at_rest();
             if support.wall == wall {

@@ -29,19 +29,20 @@ pub(super) struct LocalForce {
 }
 
 impl LocalForce {
-    /// Takes the loads as they are just after `start`, plus `extra` (N); valid up to the next row of a table.
-    pub fn set(&mut self, forcing: &Forcing, start: f64, extra: f64) {
+    /// Takes the loads as they are just after `start` + `late`, plus `extra` (N); valid up to the next row of a table. `late` is what
+    /// the time `start` has lost to rounding.
+    pub fn set(&mut self, forcing: &Forcing, [start, late]: [f64; 2], extra: f64) {
         self.constant = forcing.constant + extra;
         self.slope = 0.0;
         self.bounds = [0.0; 3];
         for table in &forcing.tables {
             let (value, slope) = table.piece(start);
-            self.constant += value;
+            self.constant += value + slope * late;
             self.slope += slope;
         }
         self.waves.clear();
         for h in &forcing.harmonics {
-            let (sin, cos) = (h.omega * start + h.phase).sin_cos();
+            let (sin, cos) = (h.omega * start + h.phase + h.omega * late).sin_cos();
             if h.omega == 0.0 {
                 self.constant += h.amplitude * sin;
                 continue;
@@ -66,6 +67,23 @@ impl LocalForce {
             f[3] -= w.omega * w.omega * w.omega * cos;
         }
         f
+    }
+
+    /// f, f′, f″ at the arc's start.
+    #[inline]
+    pub fn start(&self) -> [f64; 3] {
+        let mut f = [self.constant, self.slope, 0.0];
+        for w in &self.waves {
+            f[0] += w.amplitude * w.sin;
+            f[1] += w.amplitude * w.omega * w.cos;
+            f[2] -= w.amplitude * w.omega * w.omega * w.sin;
+        }
+        f
+    }
+
+    /// A bound on how far f strays from f(0) within `span` (s), N.
+    pub fn variation(&self, span: f64) -> f64 {
+        self.slope.abs() * span + 2.0 * self.waves.iter().map(|w| w.amplitude.abs()).sum::<f64>()
     }
 
     /// ∫ f over [from, to], N s: A Δ sin(ω mid + θ) sinc(ωΔ/2) for a sine, which knows no small ω.

@@ -29,7 +29,11 @@ use response::Response;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Arc {
     start: f64,
+    /// How much later than `start` it starts, s: what the sum of the times of many arcs loses to rounding.
+    late: f64,
     end: f64,
+    /// Its length, s, free of the rounding of both ends.
+    span: f64,
     body: Oscillator,
     /// 1/m, 1/kg.
     inverse: f64,
@@ -45,6 +49,8 @@ pub struct Arc {
 pub(crate) struct Start<'a> {
     /// When, s.
     pub time: f64,
+    /// What `time` has lost to rounding, s: the arc starts this much later.
+    pub late: f64,
     /// Displacement, m, and velocity, m/s.
     pub state: [f64; 2],
     /// The loads.
@@ -62,7 +68,9 @@ impl Arc {
     pub(crate) fn new(body: Oscillator, walls: usize, waves: usize) -> Self {
         Self {
             start: 0.0,
+            late: 0.0,
             end: 0.0,
+            span: 0.0,
             body,
             inverse: 1.0 / body.mass,
             force: LocalForce { waves: Vec::with_capacity(waves), ..LocalForce::default() },
@@ -75,10 +83,10 @@ impl Arc {
 
     /// Starts anew: in flight, or at rest against `support`.
     pub(crate) fn begin(&mut self, from: &Start, touching: impl Iterator<Item = Touch>, support: Option<Support>) {
-        self.start = from.time;
-        self.end = from.time + from.span;
+        (self.start, self.late) = (from.time, from.late);
+        (self.end, self.span) = (from.time + from.span, from.span);
         self.initial = from.state;
-        self.force.set(from.forcing, from.time, from.extra);
+        self.force.set(from.forcing, [from.time, from.late], from.extra);
         self.touching.clear();
         self.touching.extend(touching);
         self.support = support;
@@ -97,9 +105,20 @@ impl Arc {
         self.force.constant = outer;
     }
 
-    /// Cuts the arc off at `end` (s).
-    pub(crate) fn cut(&mut self, end: f64) {
-        self.end = end;
+    /// Cuts the arc off at `end` (s), `span` (s) after its start.
+    pub(crate) fn cut(&mut self, end: f64, span: f64) {
+        (self.end, self.span) = (end, span);
+    }
+
+    /// Time since the start, s: exactly 0 and the length at the ends, whatever these times have lost to rounding.
+    fn since(&self, t: f64) -> f64 {
+        if t == self.end {
+            self.span
+        } else if t == self.start {
+            0.0
+        } else {
+            (t - self.start) - self.late
+        }
     }
 
     /// Time at which it starts, s.
@@ -129,26 +148,26 @@ impl Arc {
     /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at the end.
     #[must_use]
     pub fn state(&self, t: f64) -> (f64, f64) {
-        let [q, v, ..] = self.jet(t - self.start);
+        let [q, v, ..] = self.jet(self.since(t));
         (q, v)
     }
 
     /// Acceleration (m/s²) at `t`.
     #[must_use]
     pub fn acceleration(&self, t: f64) -> f64 {
-        self.jet(t - self.start)[2]
+        self.jet(self.since(t))[2]
     }
 
     /// Load at `t`, N, with the extra force of the step.
     #[must_use]
     pub fn load(&self, t: f64) -> f64 {
-        self.force.jet(t - self.start)[0]
+        self.force.jet(self.since(t))[0]
     }
 
     /// Impulse of the load over [from, to] within the arc, N s.
     #[must_use]
     pub fn load_impulse(&self, from: f64, to: f64) -> f64 {
-        self.force.integral(from - self.start, to - self.start)
+        self.force.integral(self.since(from), self.since(to))
     }
 
     /// Mass of the body, kg.
@@ -173,7 +192,7 @@ impl Arc {
         let Oscillator { mass, stiffness, .. } = self.body;
         let damping = self.damping();
         let stiffness = stiffness + self.touching.iter().map(|w| w.stiffness).sum::<f64>();
-        let tau = self.end - self.start;
+        let tau = self.span;
         let free = |state| {
             let mut response = Response::default();
             response.set([mass, damping, stiffness], &LocalForce::default(), state, tau, 1.0);
@@ -190,6 +209,39 @@ impl Arc {
             return [self.initial[0], 0.0, 0.0, 0.0, 0.0];
         }
         self.response.jet(tau)
+    }
+
+    /// The same at the start, from the differential equation: free of the rounding of large terms that cancel, which the closed form
+    /// has near resonance, where the steady motion is far larger than the motion.
+    #[inline]
+    pub(crate) fn start_jet(&self) -> Jet {
+        let [q, v] = self.initial;
+        if self.support.is_some() {
+            return [q, 0.0, 0.0, 0.0, 0.0];
+        }
+        let ([mut f, rate, second], inverse) = (self.force.start(), self.inverse);
+        let (mut c, mut k) = (self.body.damping, self.body.stiffness);
+        f -= k * q;
+        for wall in &self.touching {
+            f -= wall.stiffness * (q - wall.position);
+            c += wall.damping;
+            k += wall.stiffness;
+        }
+        let a = (f - c * v) * inverse;
+        let jerk = (rate - c * a - k * v) * inverse;
+        [q, v, a, jerk, (second - c * jerk - k * a) * inverse]
+    }
+
+    /// A size of the acceleration whose rounding the closed form adds to that of the forces, m/s²: of steady motions, which
+    /// cancel against the free one near resonance.
+    pub(crate) fn steady_size(&self) -> f64 {
+        if self.is_rest() { 0.0 } else { self.response.steady }
+    }
+
+    /// True if the forces on a body at rest stay within `noise` (N) of one another: its wall does not push.
+    pub(crate) fn is_unpressed(&self, noise: f64) -> bool {
+        let Some(support) = self.support else { return false };
+        self.pressing(support, 0.0)[0].abs() <= noise && self.force.variation(self.span) <= noise
     }
 
     /// Bounds on the magnitudes of the fourth and fifth derivative of q over [τ, τ + `window`], given `jet` at τ.
@@ -231,7 +283,7 @@ impl Arc {
 
     /// Sizes whose rounding limits displacement (m), velocity (m/s), force (N) and its rate (N/s).
     pub(crate) fn sizes(&self) -> [f64; 4] {
-        let span = self.end - self.start;
+        let span = self.span;
         let elastic: f64 = self.touching.iter().map(|a| a.stiffness * (self.initial[0] - a.position).abs()).sum();
         let force = self.force.size(span) + self.body.stiffness * self.initial[0].abs() + elastic;
         let rate = self.force.slope.abs() + self.force.waves.iter().map(|w| w.amplitude.abs() * w.omega).sum::<f64>();

@@ -55,6 +55,8 @@ pub(super) struct Response {
     resonant: bool,
     /// Σ of the sizes of the terms at τ = 0: displacement (m) and velocity (m/s). Their rounding is the motion's.
     pub size: [f64; 2],
+    /// Σ (ω² + κ)|P| over the steady sines, m/s²: where it exceeds the force over the mass, its rounding is the acceleration's.
+    pub steady: f64,
     /// The largest |S|: min(1/√κ, 1/2δ), s; infinite for a free body.
     pub longest: f64,
     /// The motion never leaves this interval within the span, m; infinite where no bound is at hand.
@@ -79,6 +81,7 @@ impl Default for Response {
             parts: Vec::new(),
             resonant: false,
             size: [0.0; 2],
+            steady: 0.0,
             longest: f64::INFINITY,
             extent: [f64::NEG_INFINITY, f64::INFINITY],
         }
@@ -129,6 +132,7 @@ impl Response {
             self.rest = [phi, ramp];
         }
         self.parts.clear();
+        self.steady = 0.0;
         for w in &force.waves {
             let gain = Complex::new(w.cos, w.sin) * (w.amplitude / mass);
             let d = Complex::new(kappa - w.omega * w.omega, 2.0 * sigma * w.omega);
@@ -137,8 +141,10 @@ impl Response {
             if is_steady {
                 x -= gain.im;
                 dx -= w.omega * gain.re;
-                self.size[0] += size_of(gain);
-                self.size[1] += size_of(gain) * w.omega;
+                let size = size_of(gain);
+                self.size[0] += size;
+                self.size[1] += size * w.omega;
+                self.steady += size * (w.omega * w.omega + kappa);
             }
             self.parts.push(Part { omega: w.omega, gain, steady: is_steady });
         }

@@ -103,9 +103,9 @@ impl Barrier {
         }
     }
 
-    /// Ends the episode under way and hands it over.
+    /// Ends the episode under way and hands it over; nothing if no force has acted: a touch is no contact.
     pub fn close(&mut self, end: f64, departure_speed: f64) -> Option<Contact> {
-        let mut contact = self.open.take()?;
+        let mut contact = self.open.take().filter(|c| c.impulse != 0.0)?;
         (contact.end, contact.departure_speed) = (Some(end), Some(departure_speed.max(0.0)));
         Some(contact)
     }

@@ -162,9 +162,8 @@ impl Event {
             }
         }
         self.support = next;
-        let time = self.time;
-        if let Some((index, b)) = next.and_then(|i| self.barriers.get_mut(i).map(|b| (i, b))) {
-            b.open(index, time, 0.0);
+        if next.is_none() && self.v == 0.0 {
+            self.released = self.time;
         }
     }
 

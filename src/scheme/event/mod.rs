@@ -31,13 +31,16 @@ pub(crate) fn noise(size: f64) -> f64 {
 /// approached from one side by polynomials that lie below the function (bounds from [`Arc`]), so that no root is passed:
 /// neither a graze nor a wall is missed. Gaps are resolved to rounding; a miss by less counts as a touch.
 ///
+/// - A touch without an approach, such as the tangential return of an undamped motion, is put at the extremum of the gap: it has no
+///   speed, no impulse and is no contact.
 /// - An approach to a rigid wall is an impact, −m(1 + e)v. If the flight after it is unresolved in double precision, or
 ///   (e < 1) lower than 1e-12 of [`Scene::gap_scale`] while the pressing acceleration changes by less than 1e-6 until
 ///   t∞ = t + flight/(1 − e), the body sticks: the rest that follows carries the impulse of the tail.
 ///   So it does at any e below that height if drag c takes the flights, like exp(−ct/3m), below what is resolved before
 ///   the pressing can have lost half of itself: those impacts have no t∞.
 /// - A blow ends a rest: what it does at the wall is an impact of its own, at the speed the blow gives.
-/// - A body at rest leaves where the pressing force becomes tensile; a touch of zero does not release it.
+/// - A body at rest leaves where the pressing force becomes tensile; a touch of zero does not release it. Contact lasts while a
+///   force acts: a body that stands at a wall without pressing is not in contact with it.
 /// - A motion that has died down to ε² of the largest displacement and of the largest speed so far is rest at the origin.
 /// - More than [`EVENTS_PER_WINDOW`] events, or evaluations in search of one, in 1/[`WINDOWS`] of the duration are
 ///   [`Error::TooManyEvents`].
@@ -55,6 +58,8 @@ pub struct Event {
     length: f64,
     arc: Arc,
     time: f64,
+    /// What `time` has lost to rounding, s: the present is this much later.
+    late: f64,
     q: f64,
     v: f64,
     /// The largest displacement (m) and speed (m/s) so far.
@@ -65,6 +70,8 @@ pub struct Event {
     marks: u64,
     /// Index of the next impulsive load.
     blow: usize,
+    /// When a body without velocity was last found not to be held by the walls it touches, s.
+    released: f64,
     accumulation: Option<f64>,
     last_wall: Option<usize>,
     /// Sizes of acceleration (m/s²) and its rate (m/s³), whose rounding is no pressing.
@@ -128,12 +135,14 @@ impl Event {
             length: if walls > 0 { scene.gap_scale() } else { 0.0 },
             arc: Arc::new(body, walls, waves),
             time: 0.0,
+            late: 0.0,
             q,
             v,
             largest: [0.0; 2],
             support: None,
             marks: 0,
             blow: 0,
+            released: f64::NEG_INFINITY,
             accumulation: None,
             last_wall: None,
             force_size: [0.0; 2],
@@ -171,16 +180,17 @@ impl Event {
         self.steps += 1;
         for _ in 0..CHANGES_AT_ONCE {
             let limit = self.limit();
-            self.begin_arc(limit - self.time, extra);
-            let hit = self.search(limit - self.time)?;
+            let span = (limit - self.time) - self.late;
+            self.begin_arc(span, extra);
+            let hit = self.search(span)?;
             if !(hit.state[0].is_finite() && hit.state[1].is_finite()) {
                 return Err(Error::NotFinite { time: limit, step: self.steps, what: "state" });
             }
-            let end = if hit.tau >= limit - self.time { limit } else { (self.time + hit.tau).min(limit) };
-            self.time = end;
+            self.pass(hit.tau, span, limit);
+            let end = self.time;
             [self.q, self.v] = hit.state;
             self.velocity_left = self.v;
-            self.arc.cut(end);
+            self.arc.cut(end, hit.tau);
             self.gather_impulses();
             let changed = self.happen(hit.wall, extra);
             let jumped = self.jump.iter().any(|&p| p != 0.0);
@@ -196,6 +206,21 @@ impl Event {
         }
         self.set_forces(extra);
         self.check_guard(self.time)
+    }
+
+    /// Lets `tau` (s) pass, up to `limit` (s) which is `span` (s) away; what the sum of the times loses to rounding is kept, so that
+    /// many events err by no more than one.
+    fn pass(&mut self, tau: f64, span: f64, limit: f64) {
+        let step = tau + self.late;
+        let end = self.time + step;
+        if tau >= span || end >= limit {
+            (self.time, self.late) = (limit, 0.0);
+        } else {
+            // Knuth's sum of two numbers, whose rounding is a number too.
+            let back = end - self.time;
+            self.late = (self.time - (end - back)) + (step - back);
+            self.time = end;
+        }
     }
 
     fn counters_mut(&mut self) -> &mut Counters {

@@ -26,6 +26,7 @@ impl Event {
         self.fade();
         let from = Start {
             time: self.time,
+            late: self.late,
             state: [self.q, self.v],
             forcing: &self.forcing,
             extra,
@@ -42,14 +43,27 @@ impl Event {
         self.sizes = sizes;
         // The instant itself is known to an ulp of the time only.
         let (mass, fastest) = (self.body.mass, self.arc.fastest());
-        self.force_size = [(force + rate * self.time) / mass, rate * (1.0 + fastest * self.time) / mass];
+        let size = (force + rate * self.time) / mass;
+        self.force_size = [size, rate * (1.0 + fastest * self.time) / mass + self.body.damping / mass * size];
+        self.take_up(noise(size * mass));
+    }
+
+    /// Begins the episode of the wall that carries the body, or ends it where nothing presses: contact is where a force acts.
+    fn take_up(&mut self, least: f64) {
+        let Some((index, b)) = self.support.and_then(|i| self.barriers.get_mut(i).map(|b| (i, b))) else { return };
+        if self.arc.is_unpressed(least) {
+            self.closed.extend(b.close(self.time, 0.0));
+        } else {
+            b.open(index, self.time, 0.0);
+        }
     }
 
     /// Adds the impulses of the arc just run through to the step and to the episodes under way.
     pub(super) fn gather_impulses(&mut self) {
         let (from, to) = (self.arc.start(), self.arc.end());
         for (index, b) in self.barriers.iter_mut().enumerate() {
-            if self.support == Some(index) || b.phase == Phase::Touching {
+            // A wall that carries the body without an episode does not push.
+            if (self.support == Some(index) && b.open.is_some()) || b.phase == Phase::Touching {
                 let impulse = self.arc.contact_impulse(index, from, to);
                 if let Some(total) = self.impulse.get_mut(index) {
                     *total += impulse;
@@ -77,13 +91,13 @@ impl Event {
     fn load_now(&self) -> (f64, f64) {
         let (mut f, mut rate) = (self.forcing.constant, 0.0);
         for h in &self.forcing.harmonics {
-            let (s, c) = (h.omega * self.time + h.phase).sin_cos();
+            let (s, c) = (h.omega * self.time + h.phase + h.omega * self.late).sin_cos();
             f += h.amplitude * s;
             rate += h.amplitude * h.omega * c;
         }
         for table in &self.forcing.tables {
             let (value, slope) = table.piece(self.time);
-            f += value;
+            f += value + slope * self.late;
             rate += slope;
         }
         (f, rate)
@@ -100,7 +114,8 @@ impl Event {
     }
 
     pub(super) fn set_forces(&mut self, extra: f64) {
-        let push = if self.support.is_some() { -self.body.mass * self.acceleration(0.0, extra)[0] } else { 0.0 };
+        let push = if self.support.is_some() { -self.acceleration(0.0, extra)[0] } else { 0.0 };
+        let push = if push.abs() > noise(self.force_size[0]) { self.body.mass * push } else { 0.0 };
         for (index, b) in self.barriers.iter().enumerate() {
             let Some(force) = self.force.get_mut(index) else { continue };
             *force = if self.support == Some(index) {

@@ -11,7 +11,7 @@ pub(super) struct Below {
     pub bound: f64,
     /// The sizes below which the first four are rounding.
     pub noise: [f64; 4],
-    /// True if a touch without a change of sign is no event.
+    /// True if leaving 0 is no event, only going below it.
     pub passes_touch: bool,
 }
 
@@ -22,12 +22,20 @@ pub(super) enum Step {
     Now,
     /// g has its first root here, within rounding, and the polynomial is exact to rounding up to it.
     Root(f64),
+    /// g has a minimum here that is 0 within rounding.
+    Touch(f64),
     /// g has no root before this; it is the window where there is none in it.
     Free(f64),
 }
 
 /// Newton steps after which a safe step is taken as it is: each is one-sided, so stopping early costs time, not safety.
 const INNER_STEPS: usize = 16;
+
+/// A minimum within this many times the noise of 0 is a touch.
+const TOUCH: f64 = 4.0;
+
+/// A release is not taken back for an acceleration towards the wall of less than this many times its noise.
+const LET_GO: f64 = 16.0;
 
 /// A tenth of the 1/24 with which the bound enters.
 const BLUR: f64 = 0.1 / 24.0;
@@ -48,12 +56,55 @@ impl Below {
         self.depart(window)
     }
 
+    /// Makes of a start at 0 without velocity one that does not go below 0 by rounding alone: whoever asks has decided that g grows.
+    pub fn let_go(&mut self) {
+        let [c0, c1, c2, _] = &mut self.c;
+        if *c0 <= self.noise[0] && *c2 > -LET_GO * self.noise[2] {
+            (*c0, *c1, *c2) = (c0.max(0.0), c1.max(0.0), c2.max(0.0));
+        }
+    }
+
+    /// What comes of g, which falls towards its noise `s` from now, if its minimum is 0 to rounding: a touch. None if it goes on falling,
+    /// or if the minimum is not known from here.
+    ///
+    /// To take the place where g first comes within its noise for a root would be too early by the root of that noise.
+    #[inline(never)]
+    pub fn touch(&self, s: f64, window: f64) -> Option<Step> {
+        let [c0, c1, c2, c3] = self.c;
+        let b = self.bound;
+        let g = c0 + s * (c1 + s * (0.5 * c2 + s * (c3 * SIXTH - s * b * (0.25 * SIXTH))));
+        let rate = c1 + s * (c2 + s * (0.5 * c3 - s * b * SIXTH));
+        let curve = c2 + s * (c3 - 0.5 * s * b);
+        let noise = self.noise[0];
+        if !(rate < 0.0
+            && curve > self.noise[2]
+            && g <= TOUCH * noise
+            && g - 0.5 * rate * rate / curve >= -TOUCH * noise)
+        {
+            return None;
+        }
+        // Past the minimum by as much again, and by twice the distance at which a parabola is above the noise.
+        let past = 2.0 * (-rate / curve) + 4.0 * (noise / curve).sqrt();
+        let varies = past * (c3.abs() + b * (s + past));
+        if varies > 0.5 * curve {
+            return None;
+        }
+        let lowest = s - rate / curve;
+        Some(match self.passes_touch {
+            false if lowest < window => Step::Touch(lowest),
+            false => Step::Free(window),
+            true => Step::Free((s + past).min(window)),
+        })
+    }
+
     /// g is above 0 now.
     #[inline(never)]
     fn approach(&self, window: f64) -> Step {
         let (s, left) = first_root(self.c, self.bound, window, self.noise[0]);
         if s >= window {
             Step::Free(window)
+        } else if let Some(touch) = self.touch(s, window) {
+            touch
         } else if left <= self.noise[0] && self.bound * s.powi(4) <= 24.0 * self.noise[0] {
             Step::Root(s)
         } else {
@@ -65,16 +116,15 @@ impl Below {
     #[inline(never)]
     fn depart(&self, window: f64) -> Step {
         let [c0, c1, c2, c3] = self.c;
+        if let Some(touch) = self.touch(0.0, window) {
+            return touch;
+        }
         if c0 < -self.noise[0] && !self.passes_touch && c1 <= 0.0 {
             return Step::Now;
         }
         if self.passes_touch {
-            if c0 < -4.0 * self.noise[0] {
+            if c0 < -TOUCH * self.noise[0] {
                 return Step::Now;
-            }
-            if c1 < 0.0 && c2 > 0.0 && c0 - 0.5 * c1 * c1 / c2 >= -4.0 * self.noise[0] {
-                // A touch: pass the minimum by twice the distance at which g is above its noise again.
-                return Step::Free(window.min(2.0 * (-c1 / c2) + 4.0 * (self.noise[0] / c2).sqrt()));
             }
         }
         let tail = if c1.abs() > self.noise[1] {
@@ -197,7 +247,7 @@ mod tests {
             passes_touch: false,
         };
         for window in [1e-6, 1e-3, 0.15, 1e3] {
-            let (Step::Root(s) | Step::Free(s)) = below.step(window) else { panic!("{window}") };
+            let (Step::Root(s) | Step::Touch(s) | Step::Free(s)) = below.step(window) else { panic!("{window}") };
             assert!(s > 1e-7 && s < 3e-7, "{window}: {s:e}");
         }
     }

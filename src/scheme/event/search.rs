@@ -33,19 +33,18 @@ impl Event {
             let [q, v, ..] = self.arc.jet(span);
             return Ok(Hit { tau: span, state: [q, v], wall: None });
         }
-        let noise = self.flow_noise();
+        let mut noise = self.flow_noise();
         let fastest = self.arc.fastest_motion();
         let longest = if fastest > 0.0 { WINDOW_RADIANS / fastest } else { f64::INFINITY };
-        let (mut tau, mut jet) = (0.0, self.arc.jet(0.0));
-        // The start is known exactly, whatever the terms sum up to.
-        (jet[0], jet[1]) = (self.q, self.v);
+        let (mut tau, mut jet) = (0.0, self.arc.start_jet());
         self.note_pressures(&jet);
+        let let_go = self.v == 0.0 && self.released == self.time;
         let moves = [self.q, self.v] != [0.0; 2];
         loop {
             self.count_evaluation(tau)?;
             let window = longest.min(span - tau);
             let bounds = self.arc.bounds(&jet, window);
-            let (mut step, mut wall, mut is_root) = (window, None, false);
+            let (mut step, mut wall, mut is_root, mut touched) = (window, None, false, false);
             for index in 0..self.barriers.len() {
                 for which in 0..2 {
                     let Some(mut below) = self.watch(index, which, &jet, &bounds, &noise) else { break };
@@ -53,11 +52,15 @@ impl Event {
                         // It was at 0 to the rounding of the arc before, which may be coarser than that of this one.
                         below.c[0] = below.c[0].max(0.0);
                     }
+                    if let_go && tau == 0.0 {
+                        below.let_go();
+                    }
                     match below.step(step) {
                         Step::Now => return Ok(Hit { tau, state: [jet[0], jet[1]], wall: Some(index) }),
-                        Step::Root(s) if s < step => (step, wall, is_root) = (s, Some(index), true),
-                        Step::Free(s) if s < step => (step, wall, is_root) = (s, Some(index), false),
-                        Step::Root(_) | Step::Free(_) => {}
+                        Step::Root(s) if s < step => (step, wall, is_root, touched) = (s, Some(index), true, false),
+                        Step::Touch(s) if s < step => (step, wall, is_root, touched) = (s, Some(index), true, true),
+                        Step::Free(s) if s < step => (step, wall, is_root, touched) = (s, Some(index), false, false),
+                        Step::Root(_) | Step::Touch(_) | Step::Free(_) => {}
                     }
                 }
             }
@@ -71,10 +74,18 @@ impl Event {
                     let end = self.arc.jet(next);
                     self.note_between((tau, &jet), (next, &end));
                 }
-                return Ok(Hit { tau: next, state: [q, v], wall });
+                // In a touch the body is at the wall, without speed.
+                let state = if touched { [q, 0.0] } else { [q, v] };
+                return Ok(Hit { tau: next, state, wall });
             }
             let next = if wall.is_none() && step >= span - tau { span } else { next };
             let before = jet;
+            if tau == 0.0 {
+                // From here on the closed form gives the acceleration, with the rounding of its own terms.
+                let steady = self.arc.steady_size();
+                noise[2] += super::noise(steady);
+                noise[3] += super::noise(steady * fastest);
+            }
             jet = self.arc.jet(next);
             if self.arc.touches() {
                 self.note_between((tau, &before), (next, &jet));
@@ -108,7 +119,8 @@ impl Event {
     fn hit_at_end(&self, jet: &Jet, noise: &[f64; 4]) -> Option<usize> {
         (0..self.barriers.len()).find(|&index| {
             let watched = (0..2).map_while(|which| self.watch(index, which, jet, &[0.0; 2], noise));
-            { watched }.any(|b| b.c[0] <= b.noise[0] && b.c[1] < -b.noise[1])
+            let met = |b: &Below| b.c[0] <= b.noise[0] && b.c[1] < -b.noise[1];
+            { watched }.any(|b| met(&b) && b.touch(0.0, f64::INFINITY).is_none())
         })
     }
 
@@ -170,7 +182,7 @@ impl Event {
             let below = Below { c: pressing, fourth: 0.0, bound, noise, passes_touch: true };
             let (step, is_root) = match below.step(window) {
                 Step::Now => return Ok(Hit { tau, state, wall: Some(index) }),
-                Step::Root(s) => (s, true),
+                Step::Root(s) | Step::Touch(s) => (s, true),
                 Step::Free(s) => (s, false),
             };
             let next = if step >= span - tau { span } else { tau + step };

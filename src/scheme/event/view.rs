@@ -92,7 +92,7 @@ impl Event {
 
     /// Contact episodes under way.
     pub fn open_contacts(&self) -> impl Iterator<Item = &Contact> {
-        self.barriers.iter().filter_map(|b| b.open.as_ref())
+        self.barriers.iter().filter_map(|b| b.open.as_ref()).filter(|c| c.impulse != 0.0)
     }
 
     /// The motion of the last step.
