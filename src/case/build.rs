@@ -6,7 +6,7 @@ use super::model::{Model, Place};
 use super::report::Source;
 use super::system::MOST_MASSES;
 use super::value::{Number, Section};
-use super::{Case, PenaltyOptions, TimeOptions, Truncated};
+use super::{Case, FileRead, PenaltyOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result};
 use crate::scene::{Condensation, Damping, Scene, State, System, Wall};
 use crate::scheme::{Integrator, PenaltyLaw};
@@ -22,8 +22,15 @@ pub(super) type TableReader<'a> = &'a dyn Fn(&str) -> std::result::Result<(Strin
 pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>) -> Result<Case> {
     let source = Source { name, text };
     let file: File = toml::from_str(text).map_err(|error| source.toml(error))?;
-    let mut builder =
-        Builder { source, places: Vec::new(), tables, model: Model::Oscillator, n: 1, static_correction: false };
+    let mut builder = Builder {
+        source,
+        places: Vec::new(),
+        tables,
+        model: Model::Oscillator,
+        n: 1,
+        static_correction: false,
+        written: Written::default(),
+    };
     builder.case(file)
 }
 
@@ -37,6 +44,7 @@ pub(super) struct Builder<'a> {
     /// Degrees of freedom of the whole structure.
     pub n: usize,
     pub static_correction: bool,
+    pub written: Written,
 }
 
 impl Builder<'_> {
@@ -69,7 +77,7 @@ impl Builder<'_> {
         for (index, load) in file.load.into_iter().enumerate() {
             scene.loads.push(self.load(index, load)?);
         }
-        scene.probes = self.probes(file.probe, &scene.walls, &names)?;
+        scene.probes = self.probes(file.probe, &scene.walls, &names, &places)?;
         let time = TimeOptions {
             step: self.number("time.step", &time.step),
             sample: self.optional("time.sample", time.sample.as_ref()),
@@ -94,6 +102,7 @@ impl Builder<'_> {
             truncated: None,
             time,
             penalty,
+            written: std::mem::take(&mut self.written),
         };
         case.validate().map_err(|error| self.locate(error, &case.scene))?;
         if let Some(modes) = modes {
@@ -105,6 +114,15 @@ impl Builder<'_> {
             case.validate().map_err(|error| self.locate(error, &case.scene))?;
         }
         Ok(case)
+    }
+
+    /// Full name and text of the file that the case calls `name`, or why there is none.
+    pub fn open(&mut self, name: &str) -> std::result::Result<(String, String), String> {
+        let (path, text) = (self.tables)(name)?;
+        if self.written.files.iter().all(|known| known.file != name) {
+            self.written.files.push(FileRead::new(name, &path, &text));
+        }
+        Ok((path, text))
     }
 
     /// The scene without the degrees of freedom that have no mass, and with the damping that waited for that.

@@ -20,6 +20,13 @@ impl Builder<'_> {
             Some(file) => self.matrix("damping", file)?,
             None => Symmetric::zeros(mass.size()),
         };
+        let files = [
+            ("mass", Some(&matrices.mass)),
+            ("stiffness", Some(&matrices.stiffness)),
+            ("damping", matrices.damping.as_ref()),
+        ];
+        let named = files.into_iter().filter_map(|(key, file)| Some((key, file?.get_ref().clone())));
+        self.written.matrices.extend(named);
         Ok(Structure { mass, damping, stiffness })
     }
 
@@ -27,6 +34,7 @@ impl Builder<'_> {
         // By this key the structure would name what is wrong with it.
         self.places.push((format!("system: {what} matrix"), file.span()));
         let name = file.get_ref();
+        let opened = self.open(name);
         let refuse = |reason: &str| {
             let help = "expected a Matrix Market file (.mtx) or a CSV file of all rows (.csv); its path is relative to the case file";
             self.source.error(file.span(), &format!("{what} matrix {name:?}: {reason}"), help)
@@ -37,7 +45,7 @@ impl Builder<'_> {
             Some("csv") => read_csv,
             _ => return Err(refuse("neither .mtx nor .csv")),
         };
-        let (path, text) = (self.tables)(name).map_err(|reason| refuse(&reason))?;
+        let (path, text) = opened.map_err(|reason| refuse(&reason))?;
         read(&text).map_err(|error| {
             let source = Source { name: &path, text: &text };
             source.error(error.span.clone(), &error.message, &format!("expected {}", error.expected))
@@ -84,6 +92,7 @@ impl Builder<'_> {
         match &damping.matrix {
             Some(file) => {
                 self.places.push(("system.damping.matrix".to_owned(), file.span()));
+                self.written.matrices.push(("matrix", file.get_ref().clone()));
                 Ok(Damping::Matrix(self.matrix("damping", file)?))
             }
             None => Err(self.source.error(span, "`system.damping` says nothing", help)),

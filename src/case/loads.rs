@@ -33,6 +33,8 @@ impl Builder<'_> {
         let owner = format!("load {}", index + 1);
         let mut sites = self.sites(&owner, at.as_ref(), load.span.clone(), true)?;
         let site = sites.pop().ok_or_else(|| self.refuse(load.span.clone(), &owner, "a place"))?;
+        self.written.loads.push(site.place.clone());
+        self.written.tables.push(None);
         let on = |load: Load| Load { at: site.row.clone(), ..load };
         if let Some(Section { value: constant, .. }) = constant {
             return Ok(on(Load::constant(self.number(key("force"), &constant.force))));
@@ -55,12 +57,16 @@ impl Builder<'_> {
         };
         let columns = self.columns(&owner, &table)?;
         let file = table.file.get_ref();
-        let (path, text) = (self.tables)(file).map_err(|reason| {
+        let (path, text) = self.open(file).map_err(|reason| {
             let help = format!("{}; its path is relative to the case file", columns.expected());
             let help = help.replacen("expected ", "expected a CSV file: ", 1);
             self.source.error(table.file.span(), &format!("{owner}: table {file:?}: {reason}"), &help)
         })?;
-        Ok(on(Load::table(table::read(&path, &text, &columns)?)))
+        let read = table::read(&path, &text, &columns)?;
+        if let Some(table) = self.written.tables.last_mut() {
+            *table = Some((file.clone(), columns));
+        }
+        Ok(on(Load::table(read)))
     }
 
     /// Which columns of its file a table means, and how its numbers are written.

@@ -12,6 +12,7 @@
 mod accepted;
 mod build;
 mod damping;
+mod digest;
 mod embedded;
 mod file;
 mod initial;
@@ -22,17 +23,20 @@ mod notes;
 mod penalty;
 mod place;
 mod report;
+mod summary;
 mod system;
 mod table;
 mod truncated;
 mod value;
 mod walls;
+mod written;
 
 pub use embedded::Embedded;
 pub use model::{Model, Place};
 pub use penalty::PenaltyOptions;
 pub use table::TableColumns;
 pub use truncated::Truncated;
+pub use written::{FileRead, Written};
 
 use crate::error::{Error, Result};
 use crate::scene::{Condensation, Scene};
@@ -64,16 +68,20 @@ pub struct Case {
     pub time: TimeOptions,
     /// What penalty runs use.
     pub penalty: PenaltyOptions,
+    /// What the file said that the scene no longer shows.
+    pub written: Written,
 }
 
 impl Case {
-    /// Reads a case file; tables are looked for beside it.
+    /// Reads a case file; tables are looked for beside it. From the `summary.json` of a run it reads the case of that run again, provided that
+    /// the files which it read are the same still.
     ///
     /// # Errors
     /// [`Error::Io`] where the file cannot be read, [`Error::Case`] where it makes no sense.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
-        let text = read_text(path, MOST_CASE_BYTES).map_err(|reason| {
+        let json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+        let text = read_text(path, if json { MOST_TABLE_BYTES } else { MOST_CASE_BYTES }).map_err(|reason| {
             let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
             let hint = match Embedded::named(stem) {
                 Ok(embedded) => format!("`signorini new {}` writes the case of that name", embedded.name),
@@ -84,6 +92,9 @@ impl Case {
             let shown = if path.as_os_str().is_empty() { "\"\"".to_owned() } else { path.display().to_string() };
             Error::Io { path: shown, reason: format!("{reason}\nhelp: {hint}"), request: true }
         })?;
+        if json {
+            return summary::read(&text, path);
+        }
         Self::parse(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new("")))
     }
 

@@ -81,7 +81,7 @@ impl Builder<'_> {
         self.places.push((key.to_owned(), shapes.span()));
         match shapes.get_ref() {
             Value::Word(file) => {
-                let (path, text) = (self.tables)(file).map_err(|reason| {
+                let (path, text) = self.open(file).map_err(|reason| {
                     let help = format!("{SHAPES}; its path is relative to the case file");
                     self.source.error(shapes.span(), &format!("shapes {file:?}: {reason}"), &help)
                 })?;

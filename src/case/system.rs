@@ -108,7 +108,9 @@ impl Builder<'_> {
                 return Err(self.source.error(damping.span, "`system` says its damping twice", help));
             }
             let massless = !structure.massless().is_empty();
-            match self.damping(damping)? {
+            let damping = self.damping(damping)?;
+            self.written.damping = Some(damping.clone());
+            match damping {
                 ratios @ Damping::Modal(_) if cut => pending = Some(ratios),
                 later @ (Damping::Modal(_) | Damping::Rayleigh { .. }) if massless => pending = Some(later),
                 damping => structure = structure.with_damping(&damping).map_err(|error| self.at_key(error))?,

@@ -142,14 +142,16 @@ impl Builder<'_> {
         probes: Vec<Section<file::Probe>>,
         walls: &[Wall],
         sites: &[String],
+        places: &[Place],
     ) -> Result<Vec<Probe>> {
         let mut all: Vec<Probe> = Vec::new();
         if probes.is_empty() {
             if self.n == 1 {
                 return Ok(vec![Probe { name: String::new(), at: Row::dof(0) }]);
             }
-            for (wall, site) in walls.iter().zip(sites) {
+            for ((wall, site), place) in walls.iter().zip(sites).zip(places) {
                 if all.iter().all(|probe| probe.at != wall.at) {
+                    self.written.probes.push(place.clone());
                     all.push(Probe { name: site.clone(), at: wall.at.clone() });
                 }
             }
@@ -163,6 +165,7 @@ impl Builder<'_> {
                 };
                 let at = self.model.row(&place).map_err(|error| self.at_key(error))?;
                 all.push(Probe { name: name.to_owned(), at });
+                self.written.probes.push(place);
             }
             return Ok(all);
         }
@@ -174,6 +177,7 @@ impl Builder<'_> {
                 if all.iter().any(|other| other.name == name) {
                     return Err(self.refuse(probe.name.span(), &key, "a name of its own for each probe"));
                 }
+                self.written.probes.push(site.place);
                 all.push(Probe { name, at: site.row });
             }
         }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// What `run` and `compare` share.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Request {
-    /// Case file, or the name of a built-in case
+    /// Case file, the name of a built-in case, or the summary.json of a run
     pub case: String,
     /// Step of the stepping schemes, s
     #[arg(long, value_name = "H", allow_hyphen_values = true)]

@@ -13,6 +13,7 @@
 pub mod atomic;
 pub mod csv;
 pub mod figure;
+mod json;
 mod motion;
 pub mod pictures;
 mod places;

@@ -1,9 +1,11 @@
 //! `summary.json`: what a run was, what it cost and how far it is to be trusted.
 
+mod case_file;
 mod scene;
 
 use super::atomic::write_whole;
-use crate::case::Case;
+use super::json;
+use crate::case::{Case, FileRead};
 use crate::error::{Error, Result};
 use crate::residual::Residuals;
 use crate::run::Run;
@@ -24,6 +26,8 @@ struct Summary<'a> {
     case: &'a str,
     title: Option<&'a str>,
     source: Option<&'a str>,
+    case_file: Value,
+    files: &'a [FileRead],
     scene: Value,
     scheme: String,
     scheme_reason: &'a str,
@@ -80,6 +84,8 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
         case: &case.name,
         title: case.title.as_deref(),
         source: case.source.as_deref(),
+        case_file: case_file::case_file(case),
+        files: &case.written.files,
         scene: scene::scene(case),
         scheme: run.scheme.to_string(),
         scheme_reason: &reasons.scheme,
@@ -99,7 +105,6 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
     };
     let failed =
         |e: serde_json::Error| Error::Io { path: path.display().to_string(), reason: e.to_string(), request: false };
-    let mut text = serde_json::to_string_pretty(&summary).map_err(failed)?;
-    text.push('\n');
+    let text = json::text(&serde_json::to_value(&summary).map_err(failed)?);
     write_whole(path, text.as_bytes())
 }

@@ -1,17 +1,13 @@
-//! The scene of a case, as the summary tells it.
+//! What became of a case: its structure, and its walls with the mass that each feels.
 
 use crate::case::{Case, Model, Place};
-use crate::scene::{BarEnd, BeamEnd, Damping, Load, LoadKind, Side, System, Wall, WallLaw};
+use crate::scene::{BarEnd, BeamEnd, Damping, Side, System, Wall, WallLaw};
 use crate::study::choice;
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 
-/// More degrees of freedom than this, and the start is not listed.
-const MOST_LISTED: usize = 1000;
-
 pub(super) fn scene(case: &Case) -> Value {
     let whole = case.whole();
-    let n = whole.system.degrees_of_freedom();
     let mut out = Map::new();
     out.insert(case.model.kind().to_owned(), system(case));
     if !matches!(case.scene.system, System::Oscillator(_)) {
@@ -36,13 +32,6 @@ pub(super) fn scene(case: &Case) -> Value {
         value
     });
     out.insert("walls".to_owned(), walls.collect());
-    out.insert("loads".to_owned(), whole.loads.iter().map(load).collect());
-    if several {
-        out.insert("probes".to_owned(), whole.probes.iter().map(|probe| json!(probe.name)).collect());
-    }
-    let start =
-        (n <= MOST_LISTED).then(|| json!({ "displacement_m": whole.initial.q, "velocity_m_per_s": whole.initial.v }));
-    out.insert("initial".to_owned(), start.unwrap_or(Value::Null));
     out.insert("duration_s".to_owned(), json!(case.scene.duration));
     Value::Object(out)
 }
@@ -158,15 +147,4 @@ fn wall(wall: &Wall) -> Value {
         WallLaw::Quartic { epsilon, span } => json!({ "epsilon_m3_per_n": epsilon, "span_m": span }),
     };
     json!({ "name": wall.name, "side": side, "position_m": wall.position, "law": law })
-}
-
-fn load(load: &Load) -> Value {
-    match &load.kind {
-        LoadKind::Constant { force } => json!({ "constant": { "force_n": force } }),
-        LoadKind::Harmonic { amplitude, frequency, phase } => {
-            json!({ "harmonic": { "amplitude_n": amplitude, "frequency_hz": frequency, "phase_rad": phase } })
-        }
-        LoadKind::Impulse { impulse, time } => json!({ "impulse": { "impulse_ns": impulse, "time_s": time } }),
-        LoadKind::Table(table) => json!({ "table": { "rows": table.time().len() } }),
-    }
 }

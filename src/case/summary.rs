@@ -1,0 +1,37 @@
+//! A case from the `summary.json` of a run: the same scene again.
+
+use super::digest::sha256;
+use super::{Case, Embedded, MOST_TABLE_BYTES, build, read_text};
+use crate::error::{Error, Result};
+use serde_json::Value;
+use std::path::Path;
+
+/// Reads the case that `text`, a summary at `path`, is of. Files that it read must be as they were.
+pub(super) fn read(text: &str, path: &Path) -> Result<Case> {
+    let failed = |reason: String| Error::Io { path: path.display().to_string(), reason, request: true };
+    let summary: Value = serde_json::from_str(text).map_err(|error| failed(format!("no JSON: {error}")))?;
+    let written = summary.get("case_file").filter(|value| value.is_object()).ok_or_else(|| {
+        let help = "a case file is a TOML text; of JSON files the summary.json of a run is read, which has a `case_file` within";
+        failed(format!("no summary of a run\nhelp: {help}"))
+    })?;
+    let case = toml::to_string(written).map_err(|error| failed(format!("its `case_file` is no case file: {error}")))?;
+    let name = summary.get("case").and_then(Value::as_str).unwrap_or("case");
+    build::case(&case, &format!("{name}.toml"), &|file| {
+        let entry = summary["files"].as_array().and_then(|files| files.iter().find(|entry| entry["file"] == file));
+        let word = |key: &str| entry.and_then(|entry| entry[key].as_str());
+        let at = word("path").unwrap_or(file);
+        let text = match read_text(Path::new(at), MOST_TABLE_BYTES) {
+            Ok(text) => text,
+            Err(reason) => {
+                let tables = Embedded::all().iter().flat_map(|case| case.tables);
+                tables.clone().find(|(name, _)| *name == at).map(|(_, text)| (*text).to_owned()).ok_or(reason)?
+            }
+        };
+        match word("sha256") {
+            Some(digest) if digest != sha256(text.as_bytes()) => {
+                Err(format!("{at} is not what the run read: its SHA-256 was {digest}"))
+            }
+            _ => Ok((at.to_owned(), text)),
+        }
+    })
+}

@@ -1,0 +1,70 @@
+//! What a case file said that its scene no longer shows: places, and the files it read.
+
+use super::digest::sha256;
+use super::table::TableColumns;
+use super::{Case, Place};
+use crate::scene::{Damping, Row};
+use serde::Serialize;
+
+/// What the file said, in the order of the scene.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Written {
+    /// Where each load sits.
+    pub loads: Vec<Place>,
+    /// The file of each load that is a table, and which columns of it; none for other loads.
+    pub tables: Vec<Option<(String, TableColumns)>>,
+    /// Where each probe looks.
+    pub probes: Vec<Place>,
+    /// `[system.damping]`; none where the file has no such table.
+    pub damping: Option<Damping>,
+    /// Files of matrices by the key that names them: `mass`, `stiffness`, `damping`, and `matrix` of `[system.damping]`.
+    pub matrices: Vec<(&'static str, String)>,
+    /// Every file that was read.
+    pub files: Vec<FileRead>,
+}
+
+/// A file that a case read.
+#[derive(Debug, Clone, Serialize)]
+pub struct FileRead {
+    /// Its name in the case file.
+    pub file: String,
+    /// Where it was found; the name alone for a built-in case.
+    pub path: String,
+    /// Its length, bytes.
+    pub bytes: usize,
+    /// The SHA-256 of its bytes, as `sha256sum` prints it.
+    pub sha256: String,
+}
+
+/// By name and content, wherever they were found.
+impl PartialEq for FileRead {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.file, self.bytes, &self.sha256) == (&other.file, other.bytes, &other.sha256)
+    }
+}
+
+impl Case {
+    /// What the scene, condensed but not cut, sees through a place of the file; none where that touches what was condensed.
+    pub(crate) fn sees(&self, place: &Place) -> Option<Row> {
+        let row = self.model.row(place).ok()?;
+        let Some(condensation) = &self.condensation else { return Some(row) };
+        let kept = |&(i, weight): &(usize, f64)| Some((condensation.kept.binary_search(&i).ok()?, weight));
+        row.entries().iter().map(kept).collect::<Option<_>>().map(Row::new)
+    }
+
+    /// The number in the file of degree of freedom `i` of the scene before it was cut.
+    pub(crate) fn numbered(&self, i: usize) -> usize {
+        self.condensation.as_ref().and_then(|condensation| condensation.kept.get(i)).copied().unwrap_or(i)
+    }
+}
+
+impl FileRead {
+    /// The file of that name, found at `path`.
+    pub(super) fn new(file: &str, path: &str, text: &str) -> Self {
+        let path = match std::path::Path::new(path).exists() {
+            true => std::path::absolute(path).map_or_else(|_| path.to_owned(), |path| path.display().to_string()),
+            false => path.to_owned(),
+        };
+        Self { file: file.to_owned(), path, bytes: text.len(), sha256: sha256(text.as_bytes()) }
+    }
+}

@@ -1,0 +1,248 @@
+//! The case that was run, in the keys of a case file: what a summary needs to be run again.
+
+use crate::case::{Case, Model, Place};
+use crate::scene::{BarEnd, BeamEnd, Damping, Load, LoadKind, MassMatrix, Row, Side, System, Wall, WallLaw};
+use crate::scheme::PenaltyLaw;
+use serde_json::{Map, Value, json};
+
+/// The whole of it; null in place of what no case file can say, such as a load that is a function of a program.
+pub(super) fn case_file(case: &Case) -> Value {
+    let whole = case.whole();
+    let several = !matches!(case.model, Model::Oscillator);
+    let mut out = Map::new();
+    let text = |word: &Option<String>| word.as_ref().map(|word| json!(word));
+    put(&mut out, "title", text(&case.title));
+    put(&mut out, "source", text(&case.source));
+    out.insert("system".to_owned(), system(case));
+    let walls = whole.walls.iter().enumerate();
+    let walls: Vec<Value> =
+        walls.map(|(i, w)| wall(case, w, case.places.get(i).filter(|_| several), several)).collect();
+    put(&mut out, "wall", some(walls));
+    let loads: Vec<Value> = whole.loads.iter().enumerate().map(|(i, l)| load(case, i, l, several)).collect();
+    put(&mut out, "load", some(loads));
+    let mut initial = Map::new();
+    put(&mut initial, "displacement", field(case, &whole.initial.q));
+    put(&mut initial, "velocity", field(case, &whole.initial.v));
+    put(&mut out, "initial", Some(initial).filter(|initial| !initial.is_empty()).map(Value::Object));
+    let probes = whole.probes.iter().enumerate().filter(|(_, probe)| several || !probe.name.is_empty());
+    let probes: Vec<Value> = probes
+        .map(|(i, probe)| {
+            let at = at(case, case.written.probes.get(i), &probe.at);
+            if several { json!({ "name": probe.name, "at": at }) } else { json!({ "name": probe.name }) }
+        })
+        .collect();
+    put(&mut out, "probe", some(probes));
+    let mut time = Map::new();
+    time.insert("end".to_owned(), json!(case.scene.duration));
+    time.insert("step".to_owned(), json!(case.time.step));
+    put(&mut time, "sample", case.time.sample.map(|x| json!(x)));
+    put(&mut time, "statistics_from", Some(case.time.statistics_from).filter(|x| *x != 0.0).map(|x| json!(x)));
+    out.insert("time".to_owned(), Value::Object(time));
+    put(&mut out, "penalty", penalty(case));
+    Value::Object(out)
+}
+
+fn put(map: &mut Map<String, Value>, key: &str, value: Option<Value>) {
+    if let Some(value) = value {
+        map.insert(key.to_owned(), value);
+    }
+}
+
+fn some(list: Vec<Value>) -> Option<Value> {
+    (!list.is_empty()).then_some(Value::Array(list))
+}
+
+/// What vibrates.
+fn system(case: &Case) -> Value {
+    let mut out = Map::new();
+    let file = |key: &str| case.written.matrices.iter().find(|(name, _)| *name == key).map(|(_, file)| json!(file));
+    let inner = match (&case.model, &case.scene.system) {
+        (Model::Oscillator, System::Oscillator(o)) => {
+            json!({ "mass": o.mass, "damping": o.damping, "stiffness": o.stiffness })
+        }
+        (Model::Oscillator, _) => Value::Null,
+        (Model::Chain(chain), _) => {
+            let mut inner = Map::new();
+            // As many equal masses in a word.
+            match chain.masses.split_first() {
+                Some((first, rest)) if rest.iter().all(|mass| mass == first) => {
+                    inner.insert("masses".to_owned(), json!(chain.masses.len()));
+                    inner.insert("mass".to_owned(), json!(first));
+                }
+                _ => {
+                    inner.insert("masses".to_owned(), json!(chain.masses));
+                }
+            }
+            let springs = match chain.springs.split_first() {
+                Some((first, rest)) if rest.iter().all(|spring| spring == first) => json!(first),
+                _ => json!(chain.springs),
+            };
+            inner.insert("springs".to_owned(), springs);
+            for (side, stiffness) in ["left", "right"].into_iter().zip(chain.grounds) {
+                put(&mut inner, side, (stiffness != 0.0).then(|| json!({ "stiffness": stiffness })));
+            }
+            Value::Object(inner)
+        }
+        (Model::Bar(bar), _) => json!({
+            "length": bar.length,
+            "area": bar.area,
+            "youngs_modulus": bar.youngs_modulus,
+            "density": bar.density,
+            "elements": bar.elements,
+            "mass_matrix": if bar.mass == MassMatrix::Lumped { "lumped" } else { "consistent" },
+            "left": bar_end(bar.left),
+            "right": bar_end(bar.right),
+        }),
+        (Model::Beam(beam), _) => json!({
+            "length": beam.length,
+            "youngs_modulus": beam.youngs_modulus,
+            "density": beam.density,
+            "outer_diameter": beam.outer_diameter,
+            "inner_diameter": beam.inner_diameter,
+            "added_mass": beam.added_mass,
+            "elements": beam.elements,
+            "left": beam_end(beam.left),
+            "right": beam_end(beam.right),
+        }),
+        (Model::Matrices(_), _) => {
+            let mut inner = Map::new();
+            ["mass", "stiffness", "damping"].into_iter().for_each(|key| put(&mut inner, key, file(key)));
+            Value::Object(inner)
+        }
+        (Model::Modal(modal), _) => {
+            let shapes = modal.points.iter().map(|point| (point.name.clone(), json!(point.shape))).collect();
+            let mut inner = Map::new();
+            inner.insert("omega".to_owned(), json!(modal.omega));
+            inner.insert("masses".to_owned(), json!(modal.masses));
+            let damped = modal.ratios.iter().any(|ratio| *ratio != 0.0);
+            put(&mut inner, "damping_ratios", damped.then(|| json!(modal.ratios)));
+            put(&mut inner, "shapes", Some(Value::Object(shapes)));
+            Value::Object(inner)
+        }
+    };
+    if let Some(truncated) = &case.truncated {
+        out.insert("modes".to_owned(), json!(truncated.reduction.modes.count()));
+        let corrected = truncated.whole.static_correction;
+        put(&mut out, "static_correction", corrected.then_some(Value::Bool(true)));
+    }
+    out.insert(case.model.kind().to_owned(), inner);
+    let damping = case.written.damping.as_ref().and_then(|damping| match damping {
+        Damping::None => None,
+        Damping::Rayleigh { mass, stiffness } => Some(json!({ "rayleigh": { "mass": mass, "stiffness": stiffness } })),
+        Damping::Modal(ratios) => Some(json!({ "ratios": ratios })),
+        Damping::Matrix(_) => file("matrix").map(|file| json!({ "matrix": file })),
+    });
+    put(&mut out, "damping", damping);
+    Value::Object(out)
+}
+
+fn bar_end(end: BarEnd) -> Value {
+    match end {
+        BarEnd::Free => json!("free"),
+        BarEnd::Fixed => json!("clamped"),
+        BarEnd::Sprung { stiffness } => json!({ "stiffness": stiffness }),
+    }
+}
+
+fn beam_end(end: BeamEnd) -> Value {
+    match end {
+        BeamEnd::Free => json!("free"),
+        BeamEnd::Pinned => json!("pinned"),
+        BeamEnd::Clamped => json!("clamped"),
+        BeamEnd::Sprung { stiffness, rotational } => json!({ "stiffness": stiffness, "rotational": rotational }),
+    }
+}
+
+fn wall(case: &Case, wall: &Wall, place: Option<&Place>, several: bool) -> Value {
+    let mut out = Map::new();
+    out.insert("name".to_owned(), json!(wall.name));
+    put(&mut out, "at", several.then(|| at(case, place, &wall.at)));
+    out.insert("side".to_owned(), json!(if wall.side == Side::Upper { "upper" } else { "lower" }));
+    out.insert("position".to_owned(), json!(wall.position));
+    match wall.law {
+        // Where the modes' compliance takes the place of restitution the file may not name one.
+        WallLaw::Rigid { restitution } => {
+            put(&mut out, "restitution", (restitution != 1.0).then(|| json!(restitution)));
+        }
+        WallLaw::Elastic { stiffness, damping } => {
+            out.insert("stiffness".to_owned(), json!(stiffness));
+            put(&mut out, "damping", (damping != 0.0).then(|| json!(damping)));
+        }
+        WallLaw::Quartic { .. } => return Value::Null,
+    }
+    Value::Object(out)
+}
+
+fn load(case: &Case, index: usize, load: &Load, several: bool) -> Value {
+    let mut out = Map::new();
+    put(&mut out, "at", several.then(|| at(case, case.written.loads.get(index), &load.at)));
+    let (kind, value) = match &load.kind {
+        LoadKind::Constant { force } => ("constant", json!({ "force": force })),
+        LoadKind::Harmonic { amplitude, frequency, phase } => {
+            ("harmonic", json!({ "amplitude": amplitude, "frequency": frequency, "phase": phase }))
+        }
+        LoadKind::Impulse { impulse, time } => ("impulse", json!({ "impulse": impulse, "time": time })),
+        LoadKind::Table(_) => {
+            let Some(Some((file, columns))) = case.written.tables.get(index) else { return Value::Null };
+            let table = json!({
+                "file": file,
+                "time": columns.time,
+                "force": columns.force,
+                "delimiter": columns.delimiter,
+                "decimal": columns.decimal,
+                "scale": columns.scale,
+            });
+            ("table", table)
+        }
+    };
+    out.insert(kind.to_owned(), value);
+    Value::Object(out)
+}
+
+/// Where something sits that the scene sees through `row`: as the file said it, or by its row where that was changed or condensed.
+fn at(case: &Case, place: Option<&Place>, row: &Row) -> Value {
+    match place.filter(|place| case.sees(place).is_some_and(|seen| seen == *row)) {
+        Some(Place::Dof(i)) => json!({ "dof": i }),
+        Some(Place::Position(x)) => json!({ "position": x }),
+        Some(Place::Spread { from, to }) => json!({ "spread": [from, to] }),
+        Some(Place::Points(points)) => match points.as_slice() {
+            [(name, 1.0)] => json!({ "point": name }),
+            _ => json!({ "points": points }),
+        },
+        Some(Place::Row(_)) | None => {
+            let entries: Vec<(usize, f64)> =
+                row.entries().iter().map(|&(i, weight)| (case.numbered(i), weight)).collect();
+            json!({ "row": entries })
+        }
+    }
+}
+
+/// A start: a number for one degree of freedom, else pairs of those that are not 0; none at rest.
+fn field(case: &Case, values: &[f64]) -> Option<Value> {
+    let pairs: Vec<(usize, f64)> =
+        values.iter().enumerate().filter(|(_, x)| **x != 0.0).map(|(i, &x)| (case.numbered(i), x)).collect();
+    match (&case.model, pairs.first()) {
+        (_, None) => None,
+        (Model::Oscillator, Some((_, x))) => Some(json!(x)),
+        (_, Some(_)) => Some(json!({ "dofs": pairs })),
+    }
+}
+
+fn penalty(case: &Case) -> Option<Value> {
+    let mut out = Map::new();
+    let (mut epsilons, mut stiffnesses, mut dashpot) = (Vec::new(), Vec::new(), 0.0);
+    for law in &case.penalty.laws {
+        match *law {
+            PenaltyLaw::Quartic { epsilon } => epsilons.push(json!(epsilon)),
+            PenaltyLaw::Linear { stiffness, damping } => {
+                stiffnesses.push(json!(stiffness));
+                dashpot = damping;
+            }
+        }
+    }
+    put(&mut out, "epsilon", some(epsilons));
+    put(&mut out, "stiffness", some(stiffnesses));
+    put(&mut out, "damping", (dashpot != 0.0).then(|| json!(dashpot)));
+    put(&mut out, "integrator", case.penalty.integrator.map(|integrator| json!(integrator.to_string())));
+    (!case.penalty.laws.is_empty()).then_some(Value::Object(out))
+}
