@@ -1,5 +1,10 @@
 //! What a reader must know of a run: sentences, drawn from its residuals and counters.
 
+mod approach;
+mod setup;
+
+pub(crate) use setup::setup;
+
 use crate::residual::Energy;
 use crate::run::{Judging, Recording, Run};
 use crate::scene::Scene;
@@ -59,6 +64,8 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Scene, run: &Run<J, R>) ->
             run.counters.frozen_steps
         ));
     }
+    notes.extend(run.recorded().and_then(|trajectory| approach::untouched(scene, trajectory)));
+    notes.extend(setup(scene, &run.scheme, run.grid.step));
     notes
 }
 

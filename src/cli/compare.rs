@@ -1,6 +1,7 @@
 //! `signorini compare`: the main job.
 
 use super::drawing::Stretch;
+use super::noted;
 use super::request::Request;
 use super::run::{Picture, write};
 use super::ui::Ui;
@@ -84,7 +85,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     if case.penalty.laws.is_empty() && args.schemes.is_none() && case.scene.walls.iter().any(|w| w.law.is_rigid()) {
         ui.message("- the case has no [penalty] table: no penalty was compared");
     }
-    for note in case.notes() {
+    for note in noted::of_rows(&comparison).iter().chain(&case.notes()) {
         ui.message(&format!("- {note}"));
     }
     ui.message(&format!("results in {}", folder.display()));

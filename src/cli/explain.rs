@@ -4,6 +4,7 @@ use super::request::case;
 use super::ui::Ui;
 use crate::case::{Case, Model};
 use crate::error::Result;
+use crate::notes;
 use crate::scene::{Scene, System, WallLaw};
 use crate::study::choice;
 
@@ -59,6 +60,9 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         if let WallLaw::Elastic { stiffness, .. } = wall.law {
             ui.answer(&format!("  {:?}: h² k_a/m = {:.2e}", wall.name, h * h * stiffness / mass));
         }
+    }
+    for note in notes::setup(&case.scene, &choice.method.scheme, h) {
+        ui.answer(&format!("  note: {note}"));
     }
     if !case.penalty.laws.is_empty() {
         ui.answer("penalty, for comparison");

@@ -7,6 +7,7 @@ mod drawing;
 mod explain;
 mod figures;
 mod new;
+mod noted;
 pub mod request;
 mod run;
 mod stability;
