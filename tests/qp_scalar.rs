@@ -30,8 +30,10 @@ fn a_rigid_wall_holds_with_the_force_that_balances() {
 }
 
 #[test]
-fn the_first_of_the_walls_at_one_place_carries_the_force() {
-    assert_eq!(solve(2.0, 6.0, [rigid(-1.0, 2.0), rigid(-INF, 1.0), rigid(0.0, 1.0)]), (1.0, [0.0, -4.0, 0.0]));
+fn walls_at_one_place_share_the_force_equally() {
+    assert_eq!(solve(2.0, 6.0, [rigid(-1.0, 2.0), rigid(-INF, 1.0), rigid(0.0, 1.0)]), (1.0, [0.0, -2.0, -2.0]));
+    // A wall a tenth of a millimetre behind another of a metre carries nothing.
+    assert_eq!(solve(2.0, 6.0, [rigid(-INF, 1.0), rigid(-INF, 1.0001)]), (1.0, [-4.0, 0.0]));
 }
 
 #[test]

@@ -18,7 +18,7 @@ pub struct ScalarRow {
 
 /// Minimises ½ a x² − b x over `rows` and writes the signed force of each row to `r`, so that a x = b + Σ r.
 ///
-/// If several rigid rows bind at one place, the first of them carries the force. Rigid bounds that cross by rounding
+/// If several rigid rows bind at one place (bounds that differ by 1e-12 of their size at most), they share the force equally. Rigid bounds that cross by rounding
 /// only (1e-12 of the largest of |l|, |u| and |b/a|) count as one place, their midpoint.
 ///
 /// ```
@@ -99,8 +99,20 @@ fn contact(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> Result<f64, Fai
             rest -= *force;
         }
     }
-    if let Some(force) = r.get_mut(bearer) {
-        *force = rest;
+    let near = ROUNDING * x.abs();
+    let bears = |row: &ScalarRow| {
+        let bound = if rest < 0.0 { row.hi } else { row.lo };
+        row.compliance == 0.0 && (bound - x).abs() <= near
+    };
+    let bearers = rows.iter().filter(|row| bears(row)).count();
+    if bearers <= 1 {
+        if let Some(force) = r.get_mut(bearer) {
+            *force = rest;
+        }
+        return Ok(x);
+    }
+    for (force, _) in r.iter_mut().zip(rows).filter(|(_, row)| bears(row)) {
+        *force = rest / bearers as f64;
     }
     Ok(x)
 }
