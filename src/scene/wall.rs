@@ -28,6 +28,11 @@ impl Side {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum WallLaw {
     /// Signorini's condition 0 ≤ gap ⟂ |r| ≥ 0 with Newton's impact law ẇ⁺ = −e ẇ⁻.
+    ///
+    /// Where several walls are struck at once the law is Moreau's (1988, doi:10.1007/978-3-7091-2624-0_1): all of them answer in one
+    /// impact, 0 ≤ ẇ⁺ + e ẇ⁻ ⟂ |p| ≥ 0 at each. Three equal masses in a row that touch, the first with a speed of 1, leave with
+    /// (−⅓, ⅔, ⅔) at e = 1, not with the (0, 0, 1) of Newton's cradle, which is a sequence of impacts: leave gaps between the masses
+    /// where that is meant.
     Rigid {
         /// Restitution e, from 0 (stays) to 1 (rebounds at full speed).
         restitution: f64,
