@@ -49,6 +49,9 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Scene, run: &Run<J, R>) ->
     if let Some(residuals) = run.judged() {
         notes.extend(of_energy(&residuals.energy, run.recorded().map(|t| arrived(scene, t.contacts()))));
     }
+    if let (Scheme::MoreauJean { .. }, Some(trajectory)) = (run.scheme, run.recorded()) {
+        notes.extend(trajectory.contacts().iter().filter_map(|contact| standing(scene, contact, &run.state.q)));
+    }
     for handed in run.handed.iter().take(MOST_HANDED) {
         notes.push(format!(
             "from {:.6} s to {:.6} s impacts crowd closer than the exact scheme follows them: moreau-jean stepped through it, with steps of {:.1e} s",
@@ -67,6 +70,19 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Scene, run: &Run<J, R>) ->
     notes.extend(run.recorded().and_then(|trajectory| approach::untouched(scene, trajectory)));
     notes.extend(setup(scene, &run.scheme, run.grid.step));
     notes
+}
+
+/// What a lasting contact that is open at the end says of the depth at which the structure stands behind its wall, `q` being where it is.
+fn standing(scene: &Scene, contact: &Contact, q: &[f64]) -> Option<String> {
+    let wall = scene.walls.get(contact.wall).filter(|wall| wall.law.is_rigid())?;
+    let depth = -wall.gap(wall.at.dot(q));
+    let lasts = contact.end.is_none() && contact.peak_force.is_some();
+    (lasts && depth > WORTH_SAYING * scene.gap_scale()).then(|| {
+        format!(
+            "at the end the body rests {depth:.2e} m behind wall {:?}, where its last impact left it: moreau-jean does not lift it, and the              force is the one of that place, off by the stiffness times that depth; use a smaller step, or generalized-alpha, which rests on the face",
+            wall.name
+        )
+    })
 }
 
 /// What the ledger tells against a run; `arrived` is the energy (J) that arrived at its rigid walls, where it is known.
