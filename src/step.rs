@@ -7,13 +7,18 @@ use crate::flow::{Arc, Series};
 /// the loads' impulses that fall to the step, p the contact impulse of the step, and v₋, v₊ are [`Step::velocity_before`] and
 /// [`Step::velocity_after`].
 ///
-/// An impulse at t = 0 is part of the start and of no step.
+/// An impulse at t = 0 is part of the start and of no step. Between steps the displacement goes on by d from where the rule takes it: a
+/// blow J_b acts at its instant t_b, not where the rule counts it, so that it takes a free body to the very place. The smooth forces and
+/// the elastic walls of the step are those without d, so that a damper feels the blow from where the rule counts it. Where a rigid wall that pushes in the step is what its blows drive into, under the
+/// promises [`Promise::Velocity`] and [`Promise::MeanPosition`], blow and answer stay together and d is 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Balance {
-    /// M(v₊ − v₋) = h[(1−θ)F(t, q, v₋) + θF(t⁺, q⁺, v₊) + f_x] + J + p and q⁺ − q = h[(1−θ)v₋ + θv₊]; to J belongs what falls in (t, t⁺].
+    /// M(v₊ − v₋) = h[(1−θ)F(t, q, v₋) + θF(t⁺, q⁺, v₊) + f_x] + J + p and q⁺ − q = h[(1−θ)v₋ + θv₊] + d; to J belongs what falls in (t, t⁺],
+    /// and M d = Σ(t⁺ − θh − t_b)J_b over that.
     Theta(f64),
-    /// M(v₊ − v₋) = h[f(t) + f_x − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + J + p with v₋ = (q − q⁻)/h, v₊ = (q⁺ − q)/h, and b this
-    /// number: ¼ averages the stiffness, 0 takes it at t. To J belongs what falls in (t − h/2, t + h/2], after t = 0.
+    /// M(v₊ − v₋) = h[f(t) + f_x − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + J + p with v₋ = (q − q⁻)/h, v₊ = (q⁺ − d − q)/h, and b this
+    /// number: ¼ averages the stiffness, 0 takes it at t. To J belongs what falls in (t − h/2, t + h/2], after t = 0; M d sums
+    /// (t − t_b)J_b over (t, t + h/2] and (t⁺ − t_b)J_b over (t + h/2, t⁺].
     Staggered(f64),
     /// With s = M a of an auxiliary acceleration a, and s⁺ at the step's end:
     ///
@@ -47,7 +52,7 @@ pub enum Promise {
     /// Rigid: 0 ≤ gap(w⁺) ⟂ |r| ≥ 0, with r at t⁺. Elastic: |r| = (k_a s⁺ + c_a(s⁺ − s₊)/h)₊.
     EndPosition,
     /// Rigid: 0 ≤ slack of (1+e_l)g_l − e_l w⁻ ≤ w⁺ ≤ (1+e_u)g_u − e_u w⁻ ⟂ |r| ≥ 0, the smaller e in both where unequal ones would make
-    /// them cross, and w⁻ = w − hẇ with ẇ = v₋ after the step's load impulses, which come first. Elastic: |r| = (k_a s̄ + c_a(s⁺ −
+    /// them cross (or [`Path::OneRestitution`]), and w⁻ = w − hẇ with ẇ = v₋ after the step's load impulses, which come first. Elastic: |r| = (k_a s̄ + c_a(s⁺ −
     /// s⁻₊)/2h)₊ at the mean depth s̄ = ¼s⁻ + ½s + ¼s⁺.
     MeanPosition,
     /// With ẇ the velocity after the step's load impulses, which come first. Rigid, for walls that w + ½hẇ reaches to within 1e-12 of the
@@ -104,6 +109,9 @@ pub struct Contact {
 pub enum Path<'a> {
     /// Nothing is known between the grid's instants.
     Grid,
+    /// The same, of a step in which no displacement keeps all the bounds of [`Promise::MeanPosition`] with each wall's own e: all of
+    /// them take the smallest e of the scene's rigid walls.
+    OneRestitution,
     /// The exact motion and wall forces of one degree of freedom.
     Exact(&'a Arc),
     /// The same of several.
@@ -121,7 +129,7 @@ impl Path<'_> {
     /// Displacement (m) and velocity (m/s) at `t` within the step, into slices over degrees of freedom. Nothing is written for a step on a grid.
     pub(crate) fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
         match self {
-            Self::Grid | Self::Handed { .. } => {}
+            Self::Grid | Self::OneRestitution | Self::Handed { .. } => {}
             Self::Exact(arc) => {
                 if let (Some(q), Some(v)) = (q.first_mut(), v.first_mut()) {
                     (*q, *v) = arc.state(t);
@@ -134,7 +142,7 @@ impl Path<'_> {
     /// Force of wall `wall` at `t` within the step, N, signed; 0 on a grid.
     pub(crate) fn contact_force(&self, wall: usize, t: f64) -> f64 {
         match self {
-            Self::Grid | Self::Handed { .. } => 0.0,
+            Self::Grid | Self::OneRestitution | Self::Handed { .. } => 0.0,
             Self::Exact(arc) => arc.contact_force(wall, t),
             Self::Series(series) => series.contact_force(wall, t),
         }
@@ -143,7 +151,7 @@ impl Path<'_> {
     /// Impulse of wall `wall` over [from, to] within the step, N s, signed; 0 on a grid.
     pub(crate) fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
         match self {
-            Self::Grid | Self::Handed { .. } => 0.0,
+            Self::Grid | Self::OneRestitution | Self::Handed { .. } => 0.0,
             Self::Exact(arc) => arc.contact_impulse(wall, from, to),
             Self::Series(series) => series.contact_impulse(wall, from, to),
         }

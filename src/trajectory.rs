@@ -185,7 +185,7 @@ impl Recorder {
         }
         self.trajectory.contacts.extend_from_slice(step.closed);
         match step.path {
-            Path::Grid => {
+            Path::Grid | Path::OneRestitution => {
                 for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
                     *sum += p;
                 }

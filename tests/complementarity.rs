@@ -216,7 +216,13 @@ impl Oscillation {
     fn implicit_euler(&self, scene: &Scene, t: f64, q: f64, v: f64) -> Programme {
         let Self { m, c, k, h } = *self;
         let a = m / (h * h) + c / h + k;
-        let b = m * (q / h + v) / h + c * q / h + load(scene, t + h) + blow(scene, t, t + h) / h;
+        // The rule counts a blow from the step's start on, where it acts from its own instant.
+        let early =
+            match scene.loads.iter().map(|load| &load.kind).find(|kind| matches!(kind, LoadKind::Impulse { .. })) {
+                Some(LoadKind::Impulse { impulse, time }) if *time > t && *time <= t + h => (t - time) * impulse / m,
+                _ => 0.0,
+            };
+        let b = m * (q / h + v) / h + c * q / h + load(scene, t + h) + blow(scene, t, t + h) / h + a * early;
         Programme { a, b, rows: scene.walls.iter().map(|w| bound(w.side, w.position)).collect() }
     }
 }

@@ -1,7 +1,7 @@
 //! What a wall may do, read off the positions and velocities of a step.
 
 use crate::scene::{Scene, Side, Wall, WallLaw};
-use crate::step::{Balance, Contract, Promise};
+use crate::step::{Balance, Contract, Path, Promise};
 
 /// Pairs (γ, |r|) that should be complementary, kept so that the scales may come at the end of the run: of the
 /// positive pairs only those that no other exceeds in both.
@@ -50,7 +50,7 @@ impl Pairs {
 pub(super) fn slack(
     scene: &Scene,
     index: usize,
-    contract: Contract,
+    (contract, path): (Contract, Path<'_>),
     h: f64,
     (w0, w1): (f64, f64),
     (struck, after): (f64, f64),
@@ -62,7 +62,11 @@ pub(super) fn slack(
     match contract.promise {
         Promise::MeanPosition => {
             let back = w0 - h * struck;
-            let e = shared_restitution(scene, wall, back).unwrap_or(restitution);
+            let e = match path {
+                Path::OneRestitution => least_restitution(scene),
+                _ => shared_restitution(scene, wall, back),
+            };
+            let e = e.unwrap_or(restitution);
             Some(sign * ((w1 - wall.position) + e * (back - wall.position)))
         }
         Promise::Velocity => {
@@ -72,6 +76,11 @@ pub(super) fn slack(
         }
         _ => Some(wall.gap(w1)),
     }
+}
+
+/// The smallest restitution of all rigid walls.
+fn least_restitution(scene: &Scene) -> Option<f64> {
+    scene.walls.iter().filter_map(|wall| wall.law.restitution()).reduce(f64::min)
 }
 
 /// The smallest restitution of the rigid walls on the row of `wall`, if with each its own the bounds (1+e)g − e w⁻ would cross.

@@ -87,7 +87,7 @@ impl Judge {
         std::mem::swap(s, s_end);
         std::mem::swap(force, force_end);
         self.memory = Some(memory);
-        self.energy.see_grid(&self.scene, h, &self.q, step, &self.scratch.load, &self.scratch.blow);
+        self.energy.see_grid(&self.scene, h, (&self.q, step.q), step, &self.scratch.load, &self.scratch.blow);
     }
 
     /// The walls of such a step; returns whether a rigid one is closed after it.

@@ -1,18 +1,20 @@
 //! A step on a grid, held to its word.
 
-use super::Judge;
 use super::complementarity::{self, expected_pressure};
+use super::{Judge, divide};
+use crate::scene::Wall;
 use crate::step::{Balance, Promise, Step};
 
 impl Judge {
     /// A step between two instants of a grid.
     pub(super) fn see_grid(&mut self, step: &Step<'_>) {
+        let beyond = self.find_beyond(step);
         self.walls_on_grid(step);
         let h = self.h;
         let s = &mut self.scratch;
         let (before, after) = (step.velocity_before, step.velocity_after);
         for i in 0..s.residual.len() {
-            let (q0, q1) = (self.q[i], step.q[i]);
+            let (q0, q1) = (self.q[i], s.arrived[i]);
             match self.contract.balance {
                 Balance::Theta(theta) => {
                     let mean = |a: f64, b: f64| (1.0 - theta) * a + theta * b;
@@ -56,7 +58,50 @@ impl Judge {
             self.balance = self.balance.max(r.abs() / h);
             self.normal_balance = self.normal_balance.max(r.abs() / (h * weight));
         }
-        self.energy.see_grid(&self.scene, h, &self.q, step, &s.load, &s.blow);
+        self.energy.see_grid(&self.scene, h, (&self.q, &s.arrived), step, &s.load, &s.blow);
+        if beyond {
+            self.energy.displace(&self.scene, h, step);
+        }
+    }
+
+    /// What the blows of the step add to the displacement, and the displacement without; returns whether they add anything.
+    fn find_beyond(&mut self, step: &Step<'_>) -> bool {
+        let s = &mut self.scratch;
+        s.arrived.copy_from_slice(step.q);
+        if !self.loads.has_blows() {
+            return false;
+        }
+        let (start, end, h) = (step.start, step.end, self.h);
+        let spans = match self.contract.balance {
+            Balance::Theta(theta) => [(start, end, end - theta * h), (end, end, end)],
+            _ => {
+                let middle = (step.index as f64 + 0.5) * h;
+                [(start, middle, start), (middle, end, end)]
+            }
+        };
+        // The velocity that the blows give, for a while.
+        let given = &mut s.mean_v;
+        s.beyond.fill(0.0);
+        let mut any = false;
+        for (from, to, about) in spans {
+            any |= self.loads.blow_moment(from, to, about, given);
+            s.beyond.iter_mut().zip(given.iter()).for_each(|(sum, moment)| *sum += moment);
+        }
+        if !any {
+            return false;
+        }
+        self.loads.blow(start, end, given);
+        divide(&self.scene, self.mass.as_mut(), &mut s.beyond);
+        divide(&self.scene, self.mass.as_mut(), given);
+        let answered = matches!(self.contract.promise, Promise::Velocity | Promise::MeanPosition);
+        let drives =
+            |(wall, &p): (&Wall, &f64)| wall.law.is_rigid() && p != 0.0 && wall.side.sign() * wall.at.dot(given) < 0.0;
+        if answered && self.scene.walls.iter().zip(step.impulse).any(drives) {
+            s.beyond.fill(0.0);
+            return false;
+        }
+        s.arrived.iter_mut().zip(&s.beyond).for_each(|(q, beyond)| *q -= beyond);
+        true
     }
 
     fn walls_on_grid(&mut self, step: &Step<'_>) {
@@ -71,13 +116,23 @@ impl Judge {
             let pressure = sign * force;
             self.force_scale = self.force_scale.max(pressure.abs()).max(step.impulse[index].abs() / self.h);
             self.tension = self.tension.max(-pressure);
-            let (w0, w1) = (wall.at.dot(&self.q), wall.at.dot(step.q));
+            // A bound on the displacement at the end holds where the blows leave it, all else without.
+            let held = self.contract.promise == Promise::EndPosition && wall.law.is_rigid();
+            let (w0, w1) = (wall.at.dot(&self.q), wall.at.dot(if held { step.q } else { &self.scratch.arrived }));
             let rates = (wall.at.dot(step.velocity_before), wall.at.dot(step.velocity_after));
             if wall.law.is_rigid() {
                 let gap_scale = self.energy.gap_scale;
                 let struck = rates.0 + wall.at.dot(&self.scratch.struck);
                 let (ends, rates) = ((w0, w1), (struck, rates.1));
-                match complementarity::slack(&self.scene, index, self.contract, self.h, ends, rates, gap_scale) {
+                match complementarity::slack(
+                    &self.scene,
+                    index,
+                    (self.contract, step.path),
+                    self.h,
+                    ends,
+                    rates,
+                    gap_scale,
+                ) {
                     Some(slack) if self.contract.promise == Promise::Velocity => self.rebounds.add(slack, pressure),
                     Some(slack) => self.pairs.add(slack, pressure),
                     None => self.law_error = self.law_error.max(pressure.abs()),

@@ -5,10 +5,12 @@ mod corrected;
 mod energy;
 mod grid;
 mod quadrature;
+mod recorded;
 mod scales;
 mod series;
 
 pub use energy::Energy;
+pub use recorded::{Momentum, momentum};
 
 use crate::linear::Factor;
 use crate::scene::{Loads, Scene, System};
@@ -95,6 +97,10 @@ struct Scratch {
     blow: Vec<f64>,
     /// Change of velocity by the blows, m/s.
     struck: Vec<f64>,
+    /// Where the blows take the displacement beside the rule of the step, m, and where that rule itself takes it; the first is all zero
+    /// but for steps with a blow.
+    beyond: Vec<f64>,
+    arrived: Vec<f64>,
     mean_q: Vec<f64>,
     mean_v: Vec<f64>,
     residual: Vec<f64>,
@@ -125,6 +131,8 @@ impl Judge {
             load: zero(),
             blow: zero(),
             struck: zero(),
+            beyond: zero(),
+            arrived: zero(),
             mean_q: zero(),
             mean_v: zero(),
             residual: zero(),
@@ -173,7 +181,7 @@ impl Judge {
         let fits = match step.path {
             Path::Series(series) => series.degrees_of_freedom() == n,
             Path::Exact(_) => n == 1,
-            Path::Grid | Path::Handed { .. } => true,
+            Path::Grid | Path::OneRestitution | Path::Handed { .. } => true,
         };
         if !fits {
             return;
@@ -185,15 +193,12 @@ impl Judge {
             _ => self.loads.blow(step.start, step.end, &mut self.scratch.blow),
         };
         self.scratch.struck.copy_from_slice(&self.scratch.blow);
-        if let (true, Some(mass)) = (struck, &mut self.mass) {
-            mass.solve(&mut self.scratch.struck);
-        }
-        if let System::Oscillator(o) = &self.scene.system {
-            self.scratch.struck.iter_mut().for_each(|v| *v /= o.mass);
+        if struck {
+            divide(&self.scene, self.mass.as_mut(), &mut self.scratch.struck);
         }
         match step.path {
             Path::Grid if self.memory.is_some() => self.see_corrected(step),
-            Path::Grid => self.see_grid(step),
+            Path::Grid | Path::OneRestitution => self.see_grid(step),
             Path::Exact(arc) => self.see_arc(step, arc),
             Path::Series(series) => self.see_series(step, series),
             Path::Handed { contract, step: h } => {
@@ -279,5 +284,15 @@ impl Judge {
             gap_scale,
             force_scale_n: self.force_scale,
         }
+    }
+}
+
+/// M⁻¹x in place: what impulses (N s) make of velocities, m/s.
+fn divide(scene: &Scene, mass: Option<&mut Factor>, x: &mut [f64]) {
+    if let Some(mass) = mass {
+        mass.solve(x);
+    }
+    if let System::Oscillator(o) = &scene.system {
+        x.iter_mut().for_each(|x| *x /= o.mass);
     }
 }

@@ -4,7 +4,7 @@
 //! velocity, so they cost no stability.
 
 use super::grid::{Frame, Scalar};
-use super::paoli_schatzman::{arrival, back, centred};
+use super::paoli_schatzman::{arrival, back, blow_spans, centred};
 use crate::error::Result;
 use crate::scene::{Scene, WallLaw};
 
@@ -43,7 +43,7 @@ impl CentralDifference {
         if s.walls.iter().any(|wall| wall.depth(q) > 0.0) {
             v_end = self.touch(q, v, smooth, frame);
         }
-        let q_end = q + h * v_end;
+        let q_end = q + h * v_end + s.land(&blow_spans(step, h), frame);
         let load_end = s.forcing.force(end);
         let v_reported =
             arrival(s, q_end, v_end, load_end + extra) + s.forcing.impulse((step as f64 + 0.5) * h, end) / s.m;

@@ -49,6 +49,37 @@ impl Scalar {
         if blow == 0.0 { v } else { v + blow / self.m }
     }
 
+    /// Where the blows in each (from, to] take the displacement by `about` beside what a step makes of their sum, and the sum of the
+    /// velocities they give: m and m/s. `None` without blows, which costs a step a look at an empty list.
+    #[inline]
+    pub fn blows(&self, spans: &[(f64, f64, f64)]) -> Option<(f64, f64)> {
+        if self.forcing.impulses.is_empty() { None } else { self.sum_blows(spans) }
+    }
+
+    #[inline(never)]
+    fn sum_blows(&self, spans: &[(f64, f64, f64)]) -> Option<(f64, f64)> {
+        let of = |(shift, jump), &(from, to, about): &(f64, f64, f64)| {
+            (shift + self.forcing.impulse_moment(from, to, about), jump + self.forcing.impulse(from, to))
+        };
+        let (shift, jump) = spans.iter().fold((0.0, 0.0), of);
+        (shift != 0.0).then_some((shift / self.m, jump / self.m))
+    }
+
+    /// Takes a body to where the blows of the step leave it, but for one that a rigid wall answered: m from the end of the step.
+    #[inline]
+    pub fn land(&self, spans: &[(f64, f64, f64)], frame: &Frame) -> f64 {
+        match self.blows(spans) {
+            Some((shift, jump)) if !self.answers(jump, frame) => shift,
+            _ => 0.0,
+        }
+    }
+
+    /// True if a rigid wall that pushed in the step was what the blows, which give the velocity `jump` (m/s), drove into.
+    fn answers(&self, jump: f64, frame: &Frame) -> bool {
+        let mut walls = self.walls.iter().zip(&frame.impulse);
+        frame.touched && walls.any(|(wall, &p)| wall.law.is_rigid() && p != 0.0 && wall.sign * jump < 0.0)
+    }
+
     /// Displacement and velocity after any impulse at t = 0.
     pub fn start(&self, scene: &Scene) -> (f64, f64) {
         let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);

@@ -12,6 +12,10 @@
 //! over the walls that q + ½h v reaches, with ε = e where the body approaches or rests, 1 where it separates; in both the velocity ẇ is that
 //! after the blow J/M of the step, so that a body struck at rest on a wall rebounds like one that arrives.
 //! With θ = ½, e = 1, no damping and no load the energy is conserved exactly.
+//!
+//! No wall acts on the displacement: a body that comes to rest on one stays as deep behind it as its last impact left it, by up to
+//! ½h times the speed of arrival, and while it stays the force is that of its place: smaller by k times that depth than at the face, for a
+//! spring k that the body hangs on. To lift it to the face takes work, which would be energy from nowhere to this rule.
 
 use super::grid::{Counters, Frame, Scalar};
 use super::programme::{FREE, Programme, compliances, elastic_row};
@@ -70,6 +74,7 @@ impl MoreauJean {
             self.meet(step, b, struck, frame)?
         };
         let q_end = q + h * (v + theta * delta);
+        let q_end = q_end + self.s.land(&[(start, end, end - h * theta)], frame);
         let v_end = v + delta;
         (self.q, self.v, self.load) = (q_end, v_end, load_end);
         frame.arrive(start, end, v, q_end, v_end);

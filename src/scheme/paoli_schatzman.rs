@@ -86,7 +86,7 @@ impl PaoliSchatzman {
             }
             frame.touched = true;
         }
-        let q_end = q + delta;
+        let q_end = q + delta + s.land(&blow_spans(step, h), frame);
         let v_half = delta / h;
         let load_end = s.forcing.force(end);
         let v_end = arrival(s, q_end, v_half, load_end + extra) + s.forcing.impulse((step as f64 + 0.5) * h, end) / s.m;
@@ -100,6 +100,14 @@ impl PaoliSchatzman {
     pub fn count(&self, counters: &mut Counters) {
         self.programme.count(counters);
     }
+}
+
+/// The blows of the step from t on, which come half a step about its ends in the momentum balance, and the instant from which the balance
+/// counts each: (from, to, counted), s.
+#[inline]
+pub(super) fn blow_spans(step: u64, h: f64) -> [(f64, f64, f64); 2] {
+    let (start, middle, end) = (step as f64 * h, (step as f64 + 0.5) * h, (step + 1) as f64 * h);
+    [(start, middle, start), (middle, end, end)]
 }
 
 /// Velocity at t⁺ from v₊ at t⁺ − ½h: half a step under the smooth force, (1 + hC/2M)v⁺ = v₊ + (h/2M)(f⁺ − K q⁺ + r⁺).

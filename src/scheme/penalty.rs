@@ -72,7 +72,7 @@ impl Penalty {
             }
             frame.touched = true;
         }
-        let q_end = q + h * mean;
+        let q_end = q + h * mean + self.s.land(&[(start, end, end - ht)], frame);
         (self.q, self.v, self.load) = (q_end, v_end, load_end);
         frame.arrive(start, end, v, q_end, v_end);
         frame.check(step)

@@ -56,6 +56,9 @@ impl Position {
         // The extra force is constant over the step: it enters F as well as F⁺.
         let before = self.force + extra;
         let b = s.m * v / (ht * theta) + rest * (before + s.c * v) + f - s.k * q + blow / ht;
+        // The walls hold the body where the blows leave it.
+        let shift = s.blows(&[(start, end, end - ht)]).map_or(0.0, |(shift, _)| shift);
+        let ahead = q + shift;
         for (row, wall) in self.programme.rows.iter_mut().zip(&s.walls) {
             *row = match wall.law {
                 // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
@@ -63,19 +66,19 @@ impl Position {
                     let offset = stiffness * (q - wall.g) + damping * (q - wall.plate(q)) / h;
                     elastic_row(wall.upper, stiffness + damping / h, offset)
                 }
-                _ if wall.upper => ScalarRow { hi: wall.g - q, lo: f64::NEG_INFINITY, compliance: 0.0 },
-                _ => ScalarRow { lo: wall.g - q, hi: f64::INFINITY, compliance: 0.0 },
+                _ if wall.upper => ScalarRow { hi: wall.g - ahead, lo: f64::NEG_INFINITY, compliance: 0.0 },
+                _ => ScalarRow { lo: wall.g - ahead, hi: f64::INFINITY, compliance: 0.0 },
             };
         }
         frame.clear();
         let mut delta = self.programme.free(b);
         let mut reaction = 0.0;
-        let mut q_end = q + delta;
+        let mut q_end = ahead + delta;
         let meets = !self.programme.admits(delta);
         if meets {
             delta = self.programme.solve(b, start, step)?;
             frame.force.copy_from_slice(&self.programme.multiplier);
-            q_end = q + delta;
+            q_end = ahead + delta;
             for (wall, &r) in s.walls.iter().zip(&frame.force) {
                 reaction += r;
                 // On a rigid wall means on it: q + (g − q) may miss g by the last bit.

@@ -92,8 +92,16 @@ impl Ledger {
         }
     }
 
-    /// One step on a grid from `q0`, with the mean load (N) and the blows (N s) that acted.
-    pub fn see_grid(&mut self, scene: &Scene, h: f64, q0: &[f64], step: &Step<'_>, load: &[f64], blow: &[f64]) {
+    /// One step on a grid from `q0` to `q1`, with the mean load (N) and the blows (N s) that acted.
+    pub fn see_grid(
+        &mut self,
+        scene: &Scene,
+        h: f64,
+        (q0, q1): (&[f64], &[f64]),
+        step: &Step<'_>,
+        load: &[f64],
+        blow: &[f64],
+    ) {
         let (before, after) = (step.velocity_before, step.velocity_after);
         let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
         if let (Some(b), false) = (staggered, self.started) {
@@ -108,7 +116,7 @@ impl Ledger {
         let mut flows = Flows::default();
         for i in 0..load.len() {
             let mean = 0.5 * (before[i] + after[i]);
-            self.shift[i] = if staggered.is_some() { h * mean } else { step.q[i] - q0[i] };
+            self.shift[i] = if staggered.is_some() { h * mean } else { q1[i] - q0[i] };
             let (pushed, struck) = (load[i] * self.shift[i], blow[i] * mean);
             flows.work += pushed + struck;
             flows.passed += pushed.abs() + struck.abs();
@@ -117,7 +125,7 @@ impl Ledger {
         let mut walls = 0.0;
         for (index, (wall, &p)) in scene.walls.iter().zip(step.impulse).enumerate() {
             let rate = 0.5 * (wall.at.dot(before) + wall.at.dot(after));
-            let (w0, w1) = (wall.at.dot(q0), wall.at.dot(step.q));
+            let (w0, w1) = (wall.at.dot(q0), wall.at.dot(q1));
             if wall.law.is_rigid() {
                 flows.impact -= p * rate;
                 continue;
@@ -146,9 +154,30 @@ impl Ledger {
         }
         let energy = match staggered {
             Some(b) => self.half_step(scene, h, b, q0, after),
-            None => 0.5 * (scene.system.mass_form(step.v, step.v) + scene.system.stiffness_form(step.q, step.q)),
+            None => 0.5 * (scene.system.mass_form(step.v, step.v) + scene.system.stiffness_form(q1, q1)),
         };
         self.book(energy + walls, flows);
+    }
+
+    /// Books what the blows of the step just seen did beside its rule: their work is that at their own instants, where the velocity is not
+    /// the mean of the step's ends, and the difference is what the forces at rest with the displacement take from it on the way.
+    pub fn displace(&mut self, scene: &Scene, h: f64, step: &Step<'_>) {
+        let after = step.velocity_after;
+        let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
+        let mut energy = match staggered {
+            Some(b) => self.half_step(scene, -h, b, step.q, after),
+            None => 0.5 * (scene.system.mass_form(step.v, step.v) + scene.system.stiffness_form(step.q, step.q)),
+        };
+        for (wall, held) in scene.walls.iter().zip(&mut self.held) {
+            let (w, touching) = (wall.at.dot(step.q), *held != 0.0);
+            *held = match staggered {
+                Some(_) => half(wall, w, -h * wall.at.dot(after), touching),
+                None => stored(wall, w, touching),
+            };
+            energy += *held;
+        }
+        let work = energy - self.energy;
+        self.book(energy, Flows { work, passed: work.abs(), ..Flows::default() });
     }
 
     /// Energy half a step from `q`, on the way to q + h v: ½vᵀMv + ½[x̄ᵀKx̄ − (1−4b)(½hv)ᵀK(½hv)] with x̄ = q + ½hv, conserved by the

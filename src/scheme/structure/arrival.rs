@@ -14,6 +14,7 @@ use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::qp::Backend;
 use crate::scene::Scene;
+use crate::scheme::paoli_schatzman::blow_spans;
 
 #[derive(Debug)]
 pub(super) struct Arrival {
@@ -51,6 +52,7 @@ impl Arrival {
         frame: &mut Frame,
     ) -> Result<()> {
         frame.after.copy_from_slice(v);
+        body.land(&blow_spans(step, body.h), frame);
         load.fill(0.0);
         body.loads.add_force(frame.end, 1.0, load);
         let felt = load.iter().zip(extra).map(|(load, extra)| load + extra);

@@ -24,8 +24,9 @@ pub(super) struct Body {
     /// M factored: what a blow changes of the velocity. None without blows.
     inertia: Option<Factor>,
     blow: Vec<f64>,
-    /// Where the blows of the step take the displacement beside its own rule, m.
+    /// Where the blows of the step take the displacement beside its own rule, m, and what they make of the velocity, m/s.
     pub shift: Vec<f64>,
+    pub given: Vec<f64>,
     /// Force of each part of the loads at the end of the last step and of the present one, N.
     load: [Vec<f64>; 2],
 }
@@ -50,6 +51,7 @@ impl Body {
             inertia: if loads.has_blows() { Factor::new(&matrices.mass).ok() } else { None },
             blow: vec![0.0; n],
             shift: vec![0.0; n],
+            given: vec![0.0; n],
             load,
             loads,
             matrices,
@@ -94,27 +96,6 @@ impl Body {
         true
     }
 
-    /// The blows in (from, to]: writes the velocity they leave to `struck`, given `v`, and where they take the displacement until `lag` (s)
-    /// before `to`, to [`Body::shift`]. Returns whether there was one.
-    pub fn strike_free(&mut self, (from, to): (f64, f64), lag: f64, v: &[f64], struck: &mut [f64]) -> bool {
-        if !self.loads.has_blows() {
-            return false;
-        }
-        let struck_any = self.loads.blow(from, to, &mut self.blow);
-        let moved = self.loads.blow_moment(from, to, to - lag, &mut self.shift);
-        if !struck_any && !moved {
-            return false;
-        }
-        if let Some(inertia) = &mut self.inertia {
-            inertia.solve(&mut self.blow);
-            inertia.solve(&mut self.shift);
-        }
-        for ((struck, v), change) in struck.iter_mut().zip(v).zip(&self.blow) {
-            *struck = v + change;
-        }
-        true
-    }
-
     /// The same for the blows within half a step of the instant step · h.
     pub fn strike_about(&mut self, step: u64, v: &[f64], scale: f64, b: &mut [f64], struck: &mut [f64]) -> bool {
         if !self.loads.has_blows() || !self.loads.blow_about(step, self.h, &mut self.blow) {
@@ -131,6 +112,46 @@ impl Body {
         }
         for ((struck, v), change) in struck.iter_mut().zip(v).zip(&self.blow) {
             *struck = v + change;
+        }
+    }
+
+    /// Writes where the blows in each (from, to] take the displacement by `about` (s) beside what a step makes of their sum to
+    /// [`Body::shift`], and the velocity that they give to [`Body::given`]. Returns whether there was one.
+    #[inline]
+    pub fn find_blows(&mut self, spans: &[(f64, f64, f64)]) -> bool {
+        self.loads.has_blows() && self.sum_blows(spans)
+    }
+
+    fn sum_blows(&mut self, spans: &[(f64, f64, f64)]) -> bool {
+        let Self { loads, inertia, blow, shift, given, .. } = self;
+        let mut any = false;
+        shift.fill(0.0);
+        given.fill(0.0);
+        for &(from, to, about) in spans {
+            any |= loads.blow(from, to, blow);
+            given.iter_mut().zip(blow.iter()).for_each(|(sum, blow)| *sum += blow);
+            any |= loads.blow_moment(from, to, about, blow);
+            shift.iter_mut().zip(blow.iter()).for_each(|(sum, blow)| *sum += blow);
+        }
+        if let (true, Some(inertia)) = (any, inertia) {
+            inertia.solve(shift);
+            inertia.solve(given);
+        }
+        any
+    }
+
+    /// Takes the structure to where the blows of the step leave it, unless a rigid wall that pushes was what they drove into.
+    #[inline]
+    pub fn land(&mut self, spans: &[(f64, f64, f64)], frame: &mut Frame) {
+        if !self.find_blows(spans) {
+            return;
+        }
+        let answers = |&wall: &usize| {
+            let stop = self.walls[wall];
+            stop.law.is_rigid() && stop.sign * self.rows.dot(wall, &self.given) < 0.0
+        };
+        if !frame.pushing.iter().any(answers) {
+            frame.q.iter_mut().zip(&self.shift).for_each(|(q, shift)| *q += shift);
         }
     }
 

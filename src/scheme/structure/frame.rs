@@ -28,6 +28,8 @@ pub(super) struct Frame {
     pub impulse: Vec<f64>,
     pub force: Vec<f64>,
     jump: Vec<f64>,
+    /// True if all walls took one restitution in the step, because with their own no displacement keeps all bounds.
+    pub one_restitution: bool,
     /// Walls whose impulse is not zero; all others have an impulse and a force of zero.
     pub pushing: Vec<usize>,
 }
@@ -56,6 +58,7 @@ impl Frame {
             impulse: vec![0.0; walls],
             force: vec![0.0; walls],
             jump: vec![0.0; walls],
+            one_restitution: false,
             pushing: Vec::with_capacity(walls),
         })
     }
@@ -109,7 +112,7 @@ impl Frame {
             force: &self.force,
             extra: &self.extra,
             closed,
-            path: Path::Grid,
+            path: if self.one_restitution { Path::OneRestitution } else { Path::Grid },
         }
     }
 }

@@ -178,11 +178,12 @@ impl GeneralizedAlpha {
                 v[i] += given[i];
             }
         }
-        frame.blown = body.strike_free((frame.start, frame.end), 0.0, &frame.v, &mut frame.struck);
+        frame.blown = body.find_blows(&[(frame.start, frame.end, frame.end)]);
         if frame.blown {
             for i in 0..q.len() {
                 q[i] += body.shift[i];
-                v[i] += frame.struck[i] - frame.v[i];
+                v[i] += body.given[i];
+                frame.struck[i] = frame.v[i] + body.given[i];
             }
         }
     }

@@ -62,6 +62,7 @@ impl MoreauJean {
             *v += d;
         }
         frame.after.copy_from_slice(&frame.v);
+        self.body.land(&[(frame.start, frame.end, frame.end - h * theta)], frame);
         for &wall in &frame.pushing {
             frame.force[wall] = frame.impulse[wall] / h;
         }

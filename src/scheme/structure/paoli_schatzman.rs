@@ -4,14 +4,15 @@
 //! (1+e_l)g_l − e_l w⁻ ≤ w⁺ ≤ (1+e_u)g_u − e_u w⁻ with w = G q.
 //!
 //! Where e differs between walls on rows that depend on one another (two masses and their distance), and one of them is penetrated, these
-//! bounds may contradict: then the step is refused and the wall named. With one e they never do.
+//! bounds may contradict. With one e they never do, since q⁺ = (1+e)q_a − e q⁻ keeps them for every admissible q_a: such a step is made
+//! with the smallest e for all walls.
 
 use super::arrival::{Arrival, back};
 use super::body::Body;
 use super::frame::Frame;
 use super::programme::Programme;
 use super::start::StartForce;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::linear::Symmetric;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
@@ -28,6 +29,8 @@ pub(super) struct PaoliSchatzman {
     extra: Vec<f64>,
     /// Of each row: true if its rigid walls differ in e, so that their bounds could cross.
     unequal: Vec<bool>,
+    /// The smallest e of all rigid walls, if they differ.
+    least: Option<f64>,
     programme: Programme,
     arrival: Arrival,
     b: Vec<f64>,
@@ -50,11 +53,14 @@ impl PaoliSchatzman {
             rigid.next().is_some_and(|first| rigid.any(|e| e != first))
         };
         let unequal = (0..programme.count_rows()).map(differ).collect();
+        let rigid = || body.walls.iter().filter_map(|wall| wall.law.restitution());
+        let (least, most) = (rigid().reduce(f64::min), rigid().reduce(f64::max));
+        let least = if least == most { None } else { least };
         let arrival = Arrival::new(scene, &body)?;
         let zero = vec![0.0; body.n];
         let mut load = zero.clone();
         body.loads.add_force(0.0, 1.0, &mut load);
-        Ok(Self { body, v, load, extra: zero.clone(), unequal, programme, arrival, b: zero.clone(), mean: zero })
+        Ok(Self { body, v, load, extra: zero.clone(), unequal, least, programme, arrival, b: zero.clone(), mean: zero })
     }
 
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
@@ -72,9 +78,18 @@ impl PaoliSchatzman {
         // A blow comes first, and the wall answers the velocity it leaves: q⁻ in the bound is where that would have come from.
         frame.blown = body.strike_about(step, v, 1.0 / h, b, &mut frame.struck);
         frame.before.copy_from_slice(v);
-        self.bind(frame);
-        let Self { body, v, load, extra, programme, arrival, b, .. } = self;
-        programme.solve(b, (frame.start, step), &mut frame.force, &mut frame.pushing)?;
+        self.bind(frame, None);
+        frame.one_restitution = false;
+        let at = (frame.start, step);
+        let solved = self.programme.solve(&self.b, at, &mut frame.force, &mut frame.pushing);
+        if let (Err(Error::Qp { .. }), Some(least)) = (&solved, self.least) {
+            self.bind(frame, Some(least));
+            frame.one_restitution = true;
+            self.programme.solve(&self.b, at, &mut frame.force, &mut frame.pushing)?;
+        } else {
+            solved?;
+        }
+        let Self { body, v, load, extra, programme, arrival, .. } = self;
         for &wall in &frame.pushing {
             frame.impulse[wall] = h * frame.force[wall];
         }
@@ -85,8 +100,8 @@ impl PaoliSchatzman {
         arrival.finish(body, step, v, (load, extra), frame)
     }
 
-    /// The bounds of the rows, in Δ.
-    fn bind(&mut self, frame: &Frame) {
+    /// The bounds of the rows, in Δ, with the restitution `one` for all rigid walls or the own of each.
+    fn bind(&mut self, frame: &Frame, one: Option<f64>) {
         let h = self.body.h;
         for row in 0..self.programme.count_rows() {
             let (w, before) = (self.programme.seen(row, &frame.q), self.programme.seen(row, &frame.before));
@@ -103,7 +118,7 @@ impl PaoliSchatzman {
                         -offset / (0.25 * stiffness + 0.5 * damping / h)
                     }
                     _ => {
-                        let e = shared.or(wall.law.restitution()).unwrap_or(0.0);
+                        let e = one.or(shared).or(wall.law.restitution()).unwrap_or(0.0);
                         (1.0 + e) * (wall.g - w) + e * h * struck
                     }
                 };

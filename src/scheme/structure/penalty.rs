@@ -81,6 +81,7 @@ impl Penalty {
             *v += d;
         }
         frame.after.copy_from_slice(&frame.v);
+        self.body.land(&[(frame.start, frame.end, frame.end - h * theta)], frame);
         Ok(())
     }
 

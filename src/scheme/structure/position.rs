@@ -59,11 +59,16 @@ impl Position {
         body.stiffness.add_product(-1.0, &frame.q, b);
         frame.before.copy_from_slice(&frame.v);
         body.strike((frame.start, frame.end), &frame.v, 1.0 / ht, b, &mut frame.struck);
-        self.bind(frame);
+        // The rigid walls hold the structure where the blows leave it.
+        let blown = body.find_blows(&[(frame.start, frame.end, frame.end - ht)]);
+        self.bind(frame, blown);
         self.programme.solve(&self.b, (frame.start, step), &mut frame.force, &mut frame.pushing)?;
         for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(self.programme.x()) {
             *q += d;
             *v = (d / h - (1.0 - theta) * *v) / theta;
+        }
+        if blown {
+            frame.q.iter_mut().zip(&self.body.shift).for_each(|(q, shift)| *q += shift);
         }
         frame.after.copy_from_slice(&frame.v);
         if !frame.pushing.is_empty() || !self.holding.is_empty() {
@@ -100,10 +105,11 @@ impl Position {
     }
 
     /// The bounds of the rows, in Δ.
-    fn bind(&mut self, frame: &Frame) {
+    fn bind(&mut self, frame: &Frame, blown: bool) {
         let (h, programme) = (self.body.h, &mut self.programme);
         for row in 0..programme.count_rows() {
             let w = programme.seen(row, &frame.q);
+            let shift = if blown { programme.seen(row, &self.body.shift) } else { 0.0 };
             programme.free(row);
             for seat in programme.seats(row) {
                 let wall = programme.seat(seat).stop;
@@ -113,7 +119,7 @@ impl Position {
                         let offset = stiffness * (w - wall.g) + damping * (w - wall.plate(w)) / h;
                         -offset / (stiffness + damping / h)
                     }
-                    _ => wall.g - w,
+                    _ => wall.g - w - shift,
                 };
                 programme.bind(row, seat, bound);
             }

@@ -1,0 +1,79 @@
+//! The momentum of a whole run, from what was recorded of it.
+
+use crate::scene::{Loads, Row, Scene};
+use crate::trajectory::Trajectory;
+
+/// What the recorded impulses of the walls leave open of a run's momentum balance,
+///
+/// M(v_end − v_start) + C(q_end − q_start) = ∫(f − K q) dt + Σ J + Gᵀ Σ p,
+///
+/// with the integral taken by the trapezoid rule over the rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Momentum {
+    /// The largest difference of the two sides over the degrees of freedom, N s.
+    pub residual_ns: f64,
+    /// What a step between two rows moves at most: the largest force of the right-hand side, walls included, times the rows' spacing, N s.
+    pub step_ns: f64,
+    /// The largest momentum handed to and fro on a degree of freedom: Σ|p| and ∫|f − K q| dt, N s.
+    pub exchanged_ns: f64,
+}
+
+/// The momentum balance of a whole run, from the rows of `trajectory` alone: whatever a scheme's own balance says of its steps, the
+/// impulses in the table must carry the structure from its first row to its last. `scene` is the one that the scheme saw (a penalty's
+/// walls are springs, whose impulses are in the table all the same).
+///
+/// Every step must be recorded, for the trapezoid rule to count what a scheme counts: sums of one rule's weights and those of another differ
+/// at the two ends only, by a step or so, however long the run. `None` unless every degree of freedom has a probe of its own.
+#[must_use]
+pub fn momentum(scene: &Scene, trajectory: &Trajectory) -> Option<Momentum> {
+    let n = scene.system.degrees_of_freedom();
+    let column = |i: usize| {
+        let probe = scene.probes.iter().position(|probe| probe.at == Row::dof(i))?;
+        Some((trajectory.displacements().get(probe)?, trajectory.velocities().get(probe)?))
+    };
+    let columns: Vec<(&Vec<f64>, &Vec<f64>)> = (0..n).map(column).collect::<Option<_>>()?;
+    let time = trajectory.time();
+    let (first, last) = (*time.first()?, *time.last()?);
+    let loads = Loads::new(&scene.loads);
+    // What is left of each balance; the blows, and what they make of the velocity at the start, are in the states.
+    let (mut open, mut exchanged) = (vec![0.0; n], vec![0.0_f64; n]);
+    let (mut q, mut force, mut before) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+    let (mut largest, mut spacing) = (0.0_f64, 0.0_f64);
+    for (row, &t) in time.iter().enumerate() {
+        q.iter_mut().zip(&columns).for_each(|(q, column)| *q = column.0.get(row).copied().unwrap_or(f64::NAN));
+        force.fill(0.0);
+        loads.add_force(t, 1.0, &mut force);
+        scene.system.add_stiffness(-1.0, &q, &mut force);
+        if row > 0 {
+            let h = t - time[row - 1];
+            spacing = spacing.max(h);
+            for i in 0..n {
+                open[i] -= 0.5 * h * (before[i] + force[i]);
+                exchanged[i] += 0.5 * h * (before[i].abs() + force[i].abs());
+            }
+        }
+        largest = force.iter().fold(largest, |largest, f| largest.max(f.abs()));
+        before.copy_from_slice(&force);
+    }
+    let change = |column: &[f64]| column.last().zip(column.first()).map_or(f64::NAN, |(last, first)| last - first);
+    let [moved, sped]: [Vec<f64>; 2] =
+        [columns.iter().map(|(q, _)| change(q)).collect(), columns.iter().map(|(_, v)| change(v)).collect()];
+    scene.system.add_mass(1.0, &sped, &mut open);
+    scene.system.add_damping(1.0, &moved, &mut open);
+    loads.blow(first, last, &mut force);
+    open.iter_mut().zip(&force).for_each(|(open, blow)| *open -= blow);
+    for (wall, impulses) in scene.walls.iter().zip(trajectory.contact_impulses()) {
+        let (sum, sizes) = impulses.iter().fold((0.0, 0.0), |(sum, sizes), p| (sum + p, sizes + f64::abs(*p)));
+        let most = impulses.iter().fold(0.0, |most, p| f64::max(most, p.abs()));
+        for &(i, weight) in wall.at.entries() {
+            if let (Some(open), Some(exchanged)) = (open.get_mut(i), exchanged.get_mut(i)) {
+                *open -= weight * sum;
+                *exchanged += weight.abs() * sizes;
+            }
+        }
+        // The impulse of a row is the force over it times the spacing.
+        largest = largest.max(if spacing > 0.0 { most / spacing } else { 0.0 });
+    }
+    let worst = |x: &[f64]| x.iter().fold(0.0, |worst, x| f64::max(worst, x.abs()));
+    Some(Momentum { residual_ns: worst(&open), step_ns: largest * spacing, exchanged_ns: worst(&exchanged) })
+}
