@@ -110,7 +110,7 @@ fn bare(text: &str) -> String {
 }
 
 /// What the cases of the crate leave unsaid.
-const MORE: [&str; 4] = [
+const MORE: [&str; 7] = [
     "[system]\nmodes = 4\nstatic_correction = true\n[system.bar]\nlength = 2.0\nyoungs_modulus = 1e9\ndensity = 1e3\narea = 1e-4\n\
      elements = 8\nmass_matrix = \"lumped\"\nleft = { stiffness = 1e5 }\nright = \"free\"\n[system.damping]\nratios = [0.01, 0.02]\n\
      [[wall]]\nname = \"stop\"\nat = { position = 2.0 }\nside = \"both\"\nposition = 1e-3\ngap = 1e-2\n\
@@ -125,14 +125,29 @@ const MORE: [&str; 4] = [
      [time]\nend = 1.0\nstep = 1e-3\n",
     "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.mtx\"\n[system.damping]\nmatrix = \"M.csv\"\n[[wall]]\nname = \"s\"\n\
      at = { dof = 1 }\nside = \"upper\"\nposition = 1.0\n[time]\nend = 1.0\nstep = 1e-3\n",
+    "[system.matrices]\nmass = \"L.csv\"\nstiffness = \"S.csv\"\n[system.damping]\nrayleigh = { mass = 0.1, stiffness = 1e-3 }\n\
+     [[wall]]\nname = \"s\"\nat = { dof = 1 }\nside = \"both\"\ngap = 1e-3\n[[wall]]\nname = \"t\"\nat = { dof = 2 }\n\
+     side = \"upper\"\nposition = 1e-3\nrestitution = 0.5\n[[load]]\nat = { row = [[0, 1.0], [2, -1.0]] }\nconstant = { force = 1.0 }\n\
+     [initial]\nvelocity = { dofs = [[2, 0.1]] }\n[time]\nend = 1.0\nstep = 1e-3\n",
+    "[system.modal]\nfrequencies = [5.0, 20.0]\nmasses = [1.0, 0.5]\ndamping_ratios = 0.01\n\
+     shapes = { tip = [1.0, -1.0], base = [0.5, 0.5] }\n[[wall]]\nname = \"s\"\nat = { point = \"tip\" }\nside = \"both\"\ngap = 1e-3\n\
+     [[load]]\nat = { points = [[\"tip\", 1.0], [\"base\", -1.0]] }\nconstant = { force = 1.0 }\n\
+     [[load]]\nat = { point = \"base\" }\ntable = { file = \"F.csv\", time = \"t\", force = \"F\", delimiter = \";\", decimal = \",\", scale = 2.0 }\n\
+     [time]\nend = 1.0\nstep = 1e-3\n",
+    "[system]\nmodes = 1\n[system.modal]\nomega = [5.0, 20.0]\nshapes = \"P.csv\"\n[[wall]]\nname = \"s\"\nat = \"each\"\nside = \"upper\"\n\
+     position = 1e-3\n[time]\nend = 1.0\nstep = 1e-3\n",
 ];
 
-/// Where the matrices of the last of them lie.
+/// Where the files of the last of them lie.
 static FOLDER: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("M.csv"), "1.0,0.0\n0.0,2.0\n").unwrap();
     let matrix = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n";
     fs::write(folder.path().join("K.mtx"), matrix).unwrap();
+    fs::write(folder.path().join("L.csv"), "1,0,0\n0,0,0\n0,0,2\n").unwrap();
+    fs::write(folder.path().join("S.csv"), "150,-100,0\n-100,400,-300\n0,-300,300\n").unwrap();
+    fs::write(folder.path().join("F.csv"), "t;F\n0,0;1,5\n0,5;2\n").unwrap();
+    fs::write(folder.path().join("P.csv"), "tip,1.0,-1.0\nbase,0.5,0.5\n").unwrap();
     folder
 });
 
@@ -174,7 +189,9 @@ proptest! {
                 prop_assert!(matches!(error, Error::Case(_)), "{error:?}");
                 let said = error.to_string();
                 prop_assert!(said.starts_with("error: "), "{}", said);
-                prop_assert!(said.contains("--> mutated.toml:") || said.contains("tabulated-pulse.csv:") || said.contains("M.csv:") || said.contains("K.mtx:"), "{}", said);
+                let files = ["tabulated-pulse.csv:", "M.csv:", "K.mtx:", "L.csv:", "S.csv:", "F.csv:", "P.csv:"];
+                let placed = said.contains("--> mutated.toml:") || files.iter().any(|file| said.contains(file));
+                prop_assert!(placed, "{}", said);
                 prop_assert!(said.contains("help: expected "), "{}", said);
             }
         }
