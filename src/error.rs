@@ -135,6 +135,17 @@ impl Error {
     }
 }
 
+/// The one of `known` that `word` was probably meant to be: one letter in three may be wrong, left out, added, or swapped with the next; or
+/// `word` is how it begins.
+pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
+    let word = word.to_lowercase();
+    let letters = word.chars().count();
+    let close = known.clone().map(|name| (strsim::osa_distance(&word, &name.to_lowercase()), name));
+    let best = close.min_by_key(|(distance, _)| *distance).filter(|(distance, _)| 3 * distance <= letters + 1);
+    let mut begun = known.filter(|name| letters >= 3 && name.starts_with(&word));
+    best.map(|(_, name)| name).or_else(|| begun.next())
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -143,7 +154,11 @@ impl fmt::Display for Error {
                 write!(f, "no {kind} is named {name:?}: there is none")
             }
             Self::Unknown { kind, name, known } => {
-                write!(f, "no {kind} is named {name:?}; there is {}", known.join(", "))
+                write!(f, "no {kind} is named {name:?}; ")?;
+                if let Some(near) = nearest(name, known.iter().map(String::as_str)) {
+                    write!(f, "did you mean {near}? ")?;
+                }
+                write!(f, "there is {}", known.join(", "))
             }
             Self::Case(text) => f.write_str(text),
             Self::Io { path, reason, .. } => write!(f, "{path}: {reason}"),
@@ -190,3 +205,22 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_word_is_taken_for_the_one_it_resembles() {
+        let known = ["moreau-jean", "newmark", "event", "theta"];
+        let near = |word| nearest(word, known.into_iter());
+        for (word, meant) in
+            [("moreau-jaen", "moreau-jean"), ("Newmark", "newmark"), ("tetha", "theta"), ("moreau", "moreau-jean")]
+        {
+            assert_eq!(near(word), Some(meant));
+        }
+        for word in ["runge-kutta", "x", ""] {
+            assert_eq!(near(word), None, "{word}");
+        }
+    }
+}

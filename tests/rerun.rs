@@ -15,7 +15,7 @@ fn signorini(folder: &Path, args: &[&str]) -> (i32, String) {
 fn same_again(folder: &Path, case: &str, options: &[&str]) -> serde_json::Value {
     let run = |case: &str, options: &[&str], out: &str| {
         let args: Vec<&str> =
-            ["run", case, "--no-verdict", "--out", out].into_iter().chain(options.iter().copied()).collect();
+            ["run", case, "--no-verdict", "--force", "--out", out].into_iter().chain(options.iter().copied()).collect();
         let (code, said) = signorini(folder, &args);
         assert!(code <= 1, "{args:?}: {said}");
         fs::read_to_string(folder.join(out).join("summary.json")).unwrap()

@@ -38,7 +38,7 @@ pub use table::TableColumns;
 pub use truncated::Truncated;
 pub use written::{FileRead, Written};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, nearest};
 use crate::scene::{Condensation, Scene};
 use crate::time::TimeOptions;
 use std::fs;
@@ -86,7 +86,14 @@ impl Case {
             let hint = match Embedded::named(stem) {
                 Ok(embedded) => format!("`signorini new {}` writes the case of that name", embedded.name),
                 Err(_) => {
-                    "a case file is a TOML text; `signorini new rigid-walls-sine` writes one to start from".into()
+                    let known = Embedded::all().iter().map(|case| case.name);
+                    nearest(stem, known).map_or_else(
+                        || {
+                            "a case file is a TOML text; `signorini new rigid-walls-sine` writes one to start from"
+                                .into()
+                        },
+                        |near| format!("did you mean {near}? It is a built-in case; `signorini new` lists them all"),
+                    )
                 }
             };
             let shown = if path.as_os_str().is_empty() { "\"\"".to_owned() } else { path.display().to_string() };

@@ -1,8 +1,9 @@
 //! Errors that show the place in the file: what is wrong, file, line and column, the line itself, what would do.
 
 use super::accepted::accepted;
-use crate::error::Error;
+use crate::error::{Error, nearest};
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A text that was read, and the name it goes by in messages.
@@ -10,6 +11,23 @@ use std::ops::Range;
 pub(super) struct Source<'a> {
     pub name: &'a str,
     pub text: &'a str,
+}
+
+/// Bytes of a line that are marked, at most.
+const MOST_MARKED: usize = 80;
+
+/// Letters of a title, at most: it may quote the file.
+const MOST_QUOTED: usize = 160;
+
+/// `title` without its middle, where it is long.
+fn shortened(title: &str) -> Cow<'_, str> {
+    let count = title.chars().count();
+    if count <= MOST_QUOTED {
+        return Cow::Borrowed(title);
+    }
+    let head: String = title.chars().take(MOST_QUOTED * 3 / 4).collect();
+    let tail: String = title.chars().skip(count - MOST_QUOTED / 4).collect();
+    Cow::Owned(format!("{head} … {tail}"))
 }
 
 impl Source<'_> {
@@ -22,7 +40,7 @@ impl Source<'_> {
     pub fn error_with_note(&self, span: Range<usize>, title: &str, help: &str, note: Option<&str>) -> Error {
         let place = AnnotationKind::Primary.span(self.within(span));
         let mut report = Level::ERROR
-            .primary_title(title)
+            .primary_title(shortened(title))
             .element(Snippet::source(self.text).path(self.name).annotation(place))
             .element(Level::HELP.message(help));
         if let Some(note) = note {
@@ -36,7 +54,8 @@ impl Source<'_> {
         self.text.get(self.within(span)).unwrap_or_default()
     }
 
-    /// `span` on its first line only, within the text, on the borders of characters.
+    /// `span` on its first line only, within the text, on the borders of characters, and no longer than is shown of a line: the renderer
+    /// cuts the rest of the line off.
     fn within(&self, span: Range<usize>) -> Range<usize> {
         let floor = |mut at: usize| {
             at = at.min(self.text.len());
@@ -48,7 +67,7 @@ impl Source<'_> {
         let start = floor(span.start);
         let end = floor(span.end).max(start);
         let line = self.text.get(start..end).and_then(|s| s.lines().next()).map_or(0, str::len);
-        start..start + line
+        start..floor(start + line.min(MOST_MARKED))
     }
 
     /// What the TOML reader said, in the words of a case file.
@@ -71,7 +90,11 @@ impl Source<'_> {
             let key = quoted(message);
             let known = message.split_once(", ").map_or("", |(_, known)| known).replace('`', "");
             let known = known.trim_start_matches("expected ").trim_start_matches("one of ");
-            return self.error(span, &format!("unknown key `{key}` in {place}"), &format!("expected {known}"));
+            let meant = match nearest(&key, known.split(", ").flat_map(|known| known.split(" or "))) {
+                Some(near) => format!("; did you mean `{near}`?"),
+                None => String::new(),
+            };
+            return self.error(span, &format!("unknown key `{key}` in {place}{meant}"), &format!("expected {known}"));
         }
         if let Some((found, wanted)) = message.strip_prefix("invalid type: ").and_then(|m| m.split_once(", expected "))
         {
@@ -82,10 +105,21 @@ impl Source<'_> {
         }
         let (title, wanted) = message.split_once(", expected ").unwrap_or((message, "TOML"));
         if title == "duplicate key" {
-            let title = format!("duplicate key `{}`", self.slice(span.clone()));
-            return self.error(span, &title, "expected each key once in a table");
+            let key = self.slice(span.clone());
+            let title = format!("duplicate key `{key}`");
+            let help = match key {
+                "wall" | "load" | "probe" => accepted(key).unwrap_or_default(),
+                _ => "each key once in a table",
+            };
+            return self.error(span, &title, &format!("expected {help}"));
         }
         let path = if path.is_empty() { self.key_at(span.start) } else { path.to_owned() };
+        if let Some((comma, number)) = self.decimal_comma(span.start) {
+            let key = if path.is_empty() { String::new() } else { format!("`{path}`: ") };
+            let takes = accepted(&path).map_or_else(String::new, |takes| format!("; {takes}"));
+            let help = format!("expected a decimal point, {}{takes}", number.replace(',', "."));
+            return self.error(comma, &format!("{key}{number} has a decimal comma"), &help);
+        }
         match accepted(&path) {
             Some(wanted) => self.error(span, &format!("`{path}`: {title}"), &format!("expected {wanted}")),
             None => {
@@ -94,6 +128,22 @@ impl Source<'_> {
                 self.error(span, title, &help)
             }
         }
+    }
+
+    /// The number with a decimal comma that is the value on the line of the byte `at`, `0,5` in `gap = 0,5`, and where its comma stands.
+    fn decimal_comma(&self, at: usize) -> Option<(Range<usize>, &str)> {
+        let before = self.text.get(..at)?;
+        let start = before.rfind('\n').map_or(0, |end| end + 1);
+        let line = self.text.get(start..)?.lines().next()?;
+        let value = line.split_once('=')?.1.split('#').next()?.trim();
+        let (whole, part) = value.split_once(',')?;
+        let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        let (fraction, exponent) = part.split_once(['e', 'E']).unwrap_or((part, "0"));
+        let number = digits(whole.trim_start_matches(['+', '-']))
+            && digits(fraction)
+            && digits(exponent.trim_start_matches(['+', '-']));
+        let comma = start + line.find(value).filter(|_| number)? + whole.len();
+        Some((comma..comma + 1, value))
     }
 
     /// Path of the key that is written on the line of the byte `at`, as far as lines alone can tell.

@@ -1,15 +1,20 @@
 //! `signorini chart`: accuracy against speed.
 
-use super::request;
 use super::ui::Ui;
+use super::{request, values};
 use crate::case::Case;
 use crate::error::{Error, Result};
-use crate::output::atomic::{check_folder, write_whole};
+use crate::output::asked::{asked, with};
+use crate::output::atomic::write_whole;
+use crate::output::document;
+use crate::output::results::Results;
+use crate::output::table::Table;
 use crate::output::work_precision as output;
 use crate::study::work_precision::{
     Effort, Kind, Peer, Quantity, Series, Steps, WorkPrecision, every_method, read, study,
 };
-use std::path::{Path, PathBuf};
+use serde_json::{Value, json};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -33,7 +38,8 @@ const TOLERANCES: [(f64, &str); 5] = [(0.1, "10 %"), (1e-2, "1 %"), (1e-3, "0.1 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    /// Case file, or the name of a built-in case
+    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in case
+    #[arg(value_hint = clap::ValueHint::FilePath)]
     case: String,
     /// End of the run, s; the comparison ends earlier where the motion is too sensitive
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
@@ -48,7 +54,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 8)]
     levels: u32,
     /// Methods to chart [default: all of them, every penalty of the case with every integrator]
-    #[arg(long, value_name = "A,B,…", alias = "scheme")]
+    #[arg(long, value_name = "A,B,…", alias = "scheme", value_parser = values::schemes(), hide_possible_values = true)]
     schemes: Option<String>,
     /// Timed runs of each point; the fastest counts
     #[arg(long, value_name = "N", default_value_t = 5)]
@@ -59,14 +65,13 @@ pub struct Args {
     /// Points of other programs to lay over the chart
     #[arg(long, value_name = "FILE")]
     with: Option<PathBuf>,
-    /// Folder for the results [default: out/<case>/chart]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    place: request::Place,
 }
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let request = args.request();
-    let case = request.case()?;
+    let case = request.case(ui)?;
     let methods = match &args.schemes {
         Some(list) => {
             super::compare::split(list).map(|name| request.method(name, &case)).collect::<Result<Vec<_>>>()?
@@ -77,17 +82,35 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let peers = args.with.as_deref().map(read).transpose()?.unwrap_or_default();
     /// Resolution of the bar.
     const UNITS: f64 = 1000.0;
-    let folder = request.folder(&case, "chart");
-    check_folder(&folder)?;
+    let asked = with(
+        asked("chart", &case, &methods),
+        json!({
+            "step_s": null,
+            "sample_s": null,
+            "steps": args.steps,
+            "levels": args.levels,
+            "repeats": args.repeats,
+            "longest_s": args.longest,
+            "with": args.with,
+        }),
+    );
+    let mut results = request.results(&case, "chart", asked)?;
     let progress = ui.progress("charting", UNITS as u64);
     let chart = study(&case.scene, &methods, &effort, &|share| progress.set((UNITS * share) as u64));
     progress.finish();
     let chart = chart?;
     any_ran(&chart)?;
-    write(&folder, &case, &chart, &peers)?;
-    cheapest(&chart, &peers, ui);
+    write(&mut results, &case, &chart, &peers)?;
+    super::run::finish(&results, "", ui)?;
+    if ui.json() {
+        let mut document = document::chart(&case, &chart);
+        document["cheapest"] = cheapest(&chart, &peers).iter().map(Best::document).collect();
+        ui.document(&super::run::with_folder(document, &results))?;
+    } else {
+        let header = ["error within", "kind", "cheapest method", "step (s)", "time (s)"];
+        ui.table(&Table::new(&header, worth_reading(&cheapest(&chart, &peers))), "work-precision.csv")?;
+    }
     report(&case, &chart, ui);
-    ui.message(&format!("results in {}", folder.display()));
     Ok(())
 }
 
@@ -105,7 +128,7 @@ impl Args {
             theta: None,
             rho: None,
             integrator: None,
-            out: self.out.clone(),
+            place: self.place.clone(),
         }
     }
 
@@ -136,8 +159,8 @@ fn any_ran(chart: &WorkPrecision) -> Result<()> {
     }
 }
 
-fn write(folder: &Path, case: &Case, chart: &WorkPrecision, peers: &[Peer]) -> Result<()> {
-    output::table(&folder.join("work-precision.csv"), &case.scene, chart)?;
+fn write(results: &mut Results, case: &Case, chart: &WorkPrecision, peers: &[Peer]) -> Result<()> {
+    output::table(&results.place("work-precision.csv")?, &case.scene, chart)?;
     let title = case.title.as_deref().unwrap_or(&case.name);
     let walls = case.scene.walls.iter();
     let asked: Vec<f64> = walls.filter_map(|w| w.law.restitution()).collect();
@@ -146,14 +169,14 @@ fn write(folder: &Path, case: &Case, chart: &WorkPrecision, peers: &[Peer]) -> R
         _ => title.to_owned(),
     };
     for (name, svg) in output::charts(&title, chart, peers) {
-        write_whole(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
+        write_whole(&results.place(&format!("{name}.svg"))?, svg.as_bytes())?;
     }
     Ok(())
 }
 
 /// The table: for each error and tolerance the cheapest method of each kind, and of the other programs. A person is
 /// shown the exact scheme once, and of the other kinds the first tolerance that they do not reach; `--json` has all.
-fn cheapest(chart: &WorkPrecision, peers: &[Peer], ui: &Ui) {
+fn cheapest(chart: &WorkPrecision, peers: &[Peer]) -> Vec<Best> {
     let mut rows = Vec::new();
     for quantity in Quantity::ALL {
         for kind in Kind::ALL.into_iter().filter(|k| chart.series.iter().any(|s| Kind::of(&s.method.scheme) == *k)) {
@@ -189,12 +212,7 @@ fn cheapest(chart: &WorkPrecision, peers: &[Peer], ui: &Ui) {
         let quantity = Quantity::Displacement;
         rows.push(Best { quantity, tolerance, within, kind: "other program", exact: false, method });
     }
-    if ui.json() {
-        let header = ["error", "tolerance", "kind", "method", "step_s", "seconds", "reached"];
-        ui.table(&header, &rows.iter().map(Best::cells).collect::<Vec<_>>());
-    } else {
-        ui.table(&["error within", "kind", "cheapest method", "step (s)", "time (s)"], &worth_reading(&rows));
-    }
+    rows
 }
 
 /// A row of the table.
@@ -217,18 +235,17 @@ struct Cheapest {
 }
 
 impl Best {
-    fn cells(&self) -> Vec<String> {
-        let number = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:e}"));
+    fn document(&self) -> Value {
         let method = self.method.as_ref();
-        vec![
-            self.quantity.name().to_owned(),
-            format!("{:e}", self.tolerance),
-            self.kind.to_owned(),
-            method.map_or_else(String::new, |m| m.name.clone()),
-            number(method.and_then(|m| m.step)),
-            number(method.map(|m| m.seconds)),
-            number(method.map(|m| m.reached)),
-        ]
+        json!({
+            "error": self.quantity.name(),
+            "tolerance": self.tolerance,
+            "kind": self.kind,
+            "method": method.map(|m| &m.name),
+            "step_s": method.and_then(|m| m.step),
+            "seconds": method.map(|m| m.seconds),
+            "reached": method.map(|m| m.reached),
+        })
     }
 
     /// For a person; the exact scheme with the error that it has.

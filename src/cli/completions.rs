@@ -15,6 +15,9 @@ pub struct Args {
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut super::command(), "signorini", &mut text);
-    ui.answer(&String::from_utf8_lossy(&text));
-    Ok(())
+    let script = String::from_utf8_lossy(&text);
+    if ui.json() {
+        return ui.document(&serde_json::json!({ "shell": args.shell.to_string(), "script": script }));
+    }
+    ui.answer(&script)
 }

@@ -1,83 +1,216 @@
 //! `signorini explain`: what would be chosen, and why, without running.
 
+use super::pace::{Estimate, estimate, words};
 use super::request::case;
 use super::ui::Ui;
 use crate::case::{Case, Model};
 use crate::error::Result;
 use crate::notes;
+use crate::output::summary;
 use crate::scene::{Scene, System, WallLaw};
-use crate::study::choice;
+use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
+use crate::study::choice::{self, Choice};
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+use std::time::Duration;
 
 /// Say which model, scheme and solver a case would get, and why, without running it
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  signorini explain cases/rigid-walls-sine.toml")]
 pub struct Args {
-    /// Case file, or the name of a built-in case
+    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in case
+    #[arg(value_hint = clap::ValueHint::FilePath)]
     case: String,
     /// Modes to keep, in place of the case's
     #[arg(long, value_name = "K")]
     modes: Option<usize>,
 }
 
+/// A moment of a run is enough to tell how long all of it takes.
+const MOMENT: Duration = Duration::from_millis(50);
+
+/// What is explained under one heading.
+struct Section {
+    heading: &'static str,
+    lines: Vec<String>,
+}
+
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let case = case(&args.case)?;
+    let case = case(&args.case, ui)?;
     let case = match args.modes {
         Some(modes) => case.with_modes(modes)?,
         None => case,
     };
     let choice = choice::choose(&case.scene);
-    let [_, omega] = case.scene.system.frequencies();
-    let masses = case.scene.wall_masses();
-    let least = masses.iter().copied().fold(f64::INFINITY, f64::min);
-    let h = case.time.step;
-    ui.answer(&format!("{}: {}", case.name, case.title.as_deref().unwrap_or("no title")));
-    ui.answer("model");
-    let mut lines = what(&case);
-    lines.extend(choice::body(&case.scene));
-    lines.extend(walls(&case));
-    lines.push(choice::loads(&case.scene));
-    lines.extend(case.notes().iter().map(|note| format!("note: {note}")));
-    for line in lines {
-        ui.answer(&format!("  {line}"));
+    let exact = Method::new(Scheme::Event);
+    let [own, event] = [choice.method, exact].map(|method| estimate(&case.scene, &method, case.time.step, MOMENT));
+    if ui.json() {
+        return ui.document(&document(&case, &choice, own.as_ref(), event.as_ref())?);
     }
-    ui.answer("scheme");
-    ui.answer(&format!("  {}: {}", choice.method, choice.reason));
-    ui.answer("  event: exact, from impact to impact without a step; the reference of `compare`");
-    if let Some(path) = choice::path(&case.scene, h) {
-        ui.answer("matrices");
-        ui.answer(&format!("  {path}"));
+    let mut text = vec![format!("{}: {}", case.name, case.title.as_deref().unwrap_or("no title"))];
+    for Section { heading, lines } in sections(&case, &choice, own.as_ref(), event.as_ref())? {
+        text.push(heading.to_owned());
+        text.extend(lines.iter().map(|line| format!("  {line}")));
     }
-    ui.answer("solver of the quadratic programmes");
-    let solver = if matches!(case.scene.system, System::Oscillator(_)) { "clamp" } else { "condensed" };
-    ui.answer(&format!("  {solver}: {}", choice::qp_reason(&choice.method, &case.scene)));
-    ui.answer("step");
-    let steps = case.scene.duration / h;
-    ui.answer(&format!(
-        "  {h:e} s, {steps:.0} steps{}",
-        if omega > 0.0 { format!(", h ω = {:.2e}", h * omega) } else { String::new() }
-    ));
-    for (wall, mass) in case.scene.walls.iter().zip(&masses).take(MOST_WALLS) {
-        if let WallLaw::Elastic { stiffness, .. } = wall.law {
-            ui.answer(&format!("  {:?}: h² k_a/m = {:.2e}", wall.name, h * h * stiffness / mass));
+    ui.answer(&text.join("\n"))
+}
+
+fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<&Estimate>) -> Result<Vec<Section>> {
+    let mut sections = Vec::new();
+    let mut tell = |heading, lines: Vec<String>| {
+        if !lines.is_empty() {
+            sections.push(Section { heading, lines });
         }
-    }
-    for note in notes::setup(&case.scene, &choice.method.scheme, h) {
-        ui.answer(&format!("  note: {note}"));
-    }
-    if !case.penalty.laws.is_empty() {
-        ui.answer("penalty, for comparison");
-        let integrator = case.penalty.integrator.unwrap_or_default();
-        for law in &case.penalty.laws {
-            let kappa = stiffest(&case.scene, *law).map(|k| h * h * k / least)?;
-            let verdict = if kappa < 0.1 { "the step resolves the wall" } else { "the step does not resolve the wall" };
-            ui.answer(&format!("  {law}, {integrator}: h² k_w/m = {kappa:.2e}, {verdict}"));
-        }
-    }
+    };
+    let mut model = what(case);
+    model.extend(choice::body(&case.scene));
+    model.extend(walls(case));
+    model.push(choice::loads(&case.scene));
+    model.extend(case.notes().iter().map(|note| format!("note: {note}")));
+    tell("model", model);
+    tell(
+        "scheme",
+        vec![
+            format!("{}: {}", choice.method, choice.reason),
+            "event: exact, from impact to impact without a step; the reference of `compare`".to_owned(),
+        ],
+    );
+    tell("matrices", choice::path(&case.scene, case.time.step).into_iter().collect());
+    tell(
+        "solver of the quadratic programmes",
+        vec![format!("{}: {}", solver(case), choice::qp_reason(&choice.method, &case.scene))],
+    );
+    let mut steps = step(case);
+    steps.extend(setup(case, choice).iter().map(|note| format!("note: {note}")));
+    tell("step", steps);
+    let time = |name: String, estimate: &Estimate| format!("{name}: {}; {}", duration(estimate), estimate.cause);
+    let times = [(choice.method.to_string(), own), ("event".to_owned(), event)];
+    tell("time of a run", times.into_iter().filter_map(|(name, one)| Some(time(name, one?))).collect());
+    let mut penalties: Vec<String> = penalties(case)?.iter().map(Penalty::line).collect();
     let rigid: Vec<f64> = case.scene.walls.iter().filter_map(|w| w.law.restitution()).collect();
-    if !case.penalty.laws.is_empty() && rigid.iter().any(|&e| e < 1.0) {
-        ui.answer("  note: a lossless penalty tends to e = 1, not to the walls' restitution");
+    if !penalties.is_empty() && rigid.iter().any(|&e| e < 1.0) {
+        penalties.push("note: a lossless penalty tends to e = 1, not to the walls' restitution".to_owned());
     }
-    Ok(())
+    tell("penalty, for comparison", penalties);
+    Ok(sections)
+}
+
+/// What is explained, as one document.
+fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<&Estimate>) -> Result<Value> {
+    let h = case.time.step;
+    let [slowest, fastest] = case.scene.system.frequencies().map(|omega| omega / TAU);
+    let estimate = |of: Option<&Estimate>| of.map(|e| json!({ "seconds": e.seconds, "set_by": e.cause }));
+    let seen = |index: usize, words: &String| {
+        let wall = case.scene.walls.get(index);
+        let stiffness = wall.and_then(|wall| match wall.law {
+            WallLaw::Elastic { stiffness, .. } => Some(stiffness),
+            _ => None,
+        });
+        let mass = masses(case).get(index).copied();
+        json!({
+            "name": wall.map(|wall| &wall.name),
+            "mass_kg": mass,
+            "kappa": stiffness.zip(mass).map(|(k, m)| h * h * k / m),
+            "in_words": words,
+        })
+    };
+    let walls: Vec<Value> = choice::walls(&case.scene).iter().enumerate().map(|(i, words)| seen(i, words)).collect();
+    let mut model = what(case);
+    model.extend(choice::body(&case.scene));
+    model.push(choice::loads(&case.scene));
+    Ok(json!({
+        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+        "case": case.name,
+        "title": case.title,
+        "source": case.source,
+        "scene": summary::scene(case),
+        "model": model,
+        "slowest_frequency_hz": slowest,
+        "fastest_frequency_hz": fastest,
+        "walls": walls,
+        "scheme": choice.method.to_string(),
+        "scheme_reason": choice.reason,
+        "qp_solver": solver(case),
+        "qp_reason": choice::qp_reason(&choice.method, &case.scene),
+        "matrices": choice::path(&case.scene, h),
+        "step_s": h,
+        "steps": (case.scene.duration / h).round() as u64,
+        "step_times_omega": h * fastest * TAU,
+        "estimated_time": { "scheme": estimate(own), "event": estimate(event) },
+        "penalties": penalties(case)?.iter().map(Penalty::document).collect::<Vec<_>>(),
+        "notes": case.notes().into_iter().chain(setup(case, choice)).collect::<Vec<_>>(),
+    }))
+}
+
+/// What is worth saying of the step and the scene before anything runs.
+fn setup(case: &Case, choice: &Choice) -> Vec<String> {
+    notes::setup(&case.scene, &choice.method.scheme, case.time.step)
+}
+
+/// About so long, by a moment of it.
+fn duration(estimate: &Estimate) -> String {
+    match estimate.seconds.is_finite() {
+        true => format!("about {} of stepping", words(estimate.seconds)),
+        false => "no end in sight".to_owned(),
+    }
+}
+
+fn solver(case: &Case) -> &'static str {
+    if matches!(case.scene.system, System::Oscillator(_)) { "clamp" } else { "condensed" }
+}
+
+fn masses(case: &Case) -> Vec<f64> {
+    case.scene.wall_masses()
+}
+
+/// The step against the fastest motion, and against each elastic wall.
+fn step(case: &Case) -> Vec<String> {
+    let [_, omega] = case.scene.system.frequencies();
+    let h = case.time.step;
+    let resolved = if omega > 0.0 { format!(", h ω = {:.2e}", h * omega) } else { String::new() };
+    let mut lines = vec![format!("{h:e} s, {:.0} steps{resolved}", case.scene.duration / h)];
+    for (wall, mass) in case.scene.walls.iter().zip(masses(case)).take(MOST_WALLS) {
+        if let WallLaw::Elastic { stiffness, .. } = wall.law {
+            lines.push(format!("{:?}: h² k_a/m = {:.2e}", wall.name, h * h * stiffness / mass));
+        }
+    }
+    lines
+}
+
+/// A penalty of the case and how well its step resolves it.
+struct Penalty {
+    law: PenaltyLaw,
+    integrator: Integrator,
+    kappa: f64,
+}
+
+fn penalties(case: &Case) -> Result<Vec<Penalty>> {
+    let integrator = case.penalty.integrator.unwrap_or_default();
+    let least = masses(case).into_iter().fold(f64::INFINITY, f64::min);
+    let h = case.time.step;
+    let one =
+        |&law: &PenaltyLaw| stiffest(&case.scene, law).map(|k| Penalty { law, integrator, kappa: h * h * k / least });
+    case.penalty.laws.iter().map(one).collect()
+}
+
+impl Penalty {
+    fn resolved(&self) -> bool {
+        self.kappa < 0.1
+    }
+
+    fn line(&self) -> String {
+        let verdict = if self.resolved() { "the step resolves the wall" } else { "the step does not resolve the wall" };
+        format!("{}, {}: h² k_w/m = {:.2e}, {verdict}", self.law, self.integrator, self.kappa)
+    }
+
+    fn document(&self) -> Value {
+        json!({
+            "law": self.law.to_string(),
+            "integrator": self.integrator.to_string(),
+            "kappa": self.kappa,
+            "resolved": self.resolved(),
+        })
+    }
 }
 
 /// Most walls that are told one by one.
@@ -139,7 +272,7 @@ fn walls(case: &Case) -> Vec<String> {
 }
 
 /// Stiffness at the wall of the stiffest wall of the penalised scene, N/m.
-fn stiffest(scene: &Scene, law: crate::scheme::PenaltyLaw) -> Result<f64> {
+fn stiffest(scene: &Scene, law: PenaltyLaw) -> Result<f64> {
     let scene = scene.penalised(law)?;
     let stiffness = |w: &crate::scene::Wall| match w.law {
         WallLaw::Rigid { .. } => 0.0,

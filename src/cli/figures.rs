@@ -5,12 +5,14 @@ use super::ui::Ui;
 use crate::case::{Case, Embedded};
 use crate::error::{Error, Result};
 use crate::output::Span;
-use crate::output::atomic::{check_folder, write_whole};
+use crate::output::atomic::write_whole;
 use crate::output::figure::{Curve, Figure, Mark, Panel};
 use crate::output::pictures::{Labelled, Sheet};
+use crate::output::results::Results;
 use crate::run::Run;
 use crate::scheme::{Method, Scheme};
 use crate::study::choice;
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Draw all figures of the source (2 to 9) from the built-in cases
@@ -18,8 +20,11 @@ use std::path::PathBuf;
 #[command(after_help = "Example:\n  signorini figures --out figures")]
 pub struct Args {
     /// Folder for the figures
-    #[arg(long, value_name = "DIR", default_value = "out/figures")]
+    #[arg(long, value_name = "DIR", default_value = "out/figures", value_hint = clap::ValueHint::DirPath)]
     out: PathBuf,
+    /// Replace other results in that folder
+    #[arg(long)]
+    force: bool,
 }
 
 /// What stands in one figure of the source: its number, the case, and whether it is the contact force alone.
@@ -57,7 +62,8 @@ const PLATES: [Plate; 8] = [
 const SHOWN: f64 = 2.0;
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    check_folder(&args.out)?;
+    let request = json!({ "command": "figures" }).as_object().cloned().unwrap_or_default();
+    let mut results = Results::open(&args.out, request, args.force)?;
     // One look a method in all figures: its place in the order in which methods first appear.
     let mut known = Vec::new();
     for plate in &PLATES {
@@ -65,10 +71,14 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         case.scene.duration = case.scene.duration.min(SHOWN);
         case.time.sample = Some(case.time.step.max(case.scene.duration / 4000.0));
         for (name, svg) in plate.draw(&case, &mut known, ui)? {
-            let path = args.out.join(format!("fig{}-{name}.svg", plate.number));
+            let path = results.place(&format!("fig{}-{name}.svg", plate.number))?;
             write_whole(&path, svg.as_bytes())?;
             ui.message(&format!("wrote {}", path.display()));
         }
+    }
+    super::run::finish(&results, "", ui)?;
+    if ui.json() {
+        ui.document(&super::run::with_folder(json!({ "command": "figures" }), &results))?;
     }
     Ok(())
 }

@@ -8,10 +8,12 @@ mod explain;
 mod figures;
 mod new;
 mod noted;
+mod pace;
 pub mod request;
 mod run;
 mod stability;
 pub mod ui;
+mod values;
 mod verdicts;
 
 use crate::error::Result;
@@ -29,7 +31,10 @@ Examples:
   signorini explain elastic-wall                     what would be chosen, and why
   signorini new bouncing-ball                        a case file to start from
 
-Exit codes: 0 done, 1 the run failed, 2 the request was wrong.";
+Results go to out/CASE/COMMAND or --out DIR; those of another request are replaced with --force only.
+A name stands for the file of that name, then for NAME.toml, then for the built-in case.
+
+Exit codes: 0 done, 1 the run failed or its answer could not be written, 2 the request was wrong.";
 
 /// Vibrating structures between walls: contact forces by one convex QP per time step, by penalty, and exactly.
 #[derive(Debug, Parser)]
@@ -38,7 +43,7 @@ struct Cli {
     /// Say nothing but errors and results
     #[arg(long, short, global = true)]
     quiet: bool,
-    /// Print tables as JSON
+    /// Print one JSON document instead of tables and text
     #[arg(long, global = true)]
     json: bool,
     #[command(subcommand)]
@@ -60,8 +65,10 @@ enum Command {
 /// Runs the tool on the process's arguments: data to stdout, messages to stderr.
 #[must_use]
 pub fn main() -> ExitCode {
-    // Clap answers --help and --version with 0 and a wrong request with 2, as this tool does.
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(text) => return answer(&text),
+    };
     let ui = Ui::new(cli.quiet, cli.json);
     match execute(&cli.command, &ui) {
         Ok(()) => ExitCode::SUCCESS,
@@ -69,6 +76,18 @@ pub fn main() -> ExitCode {
             ui.error(&error);
             ExitCode::from(if error.is_request() { 2 } else { 1 })
         }
+    }
+}
+
+/// Prints what clap has to say, and exits as the tool does: 0 after --help and --version, 2 after a wrong request, 1 where it cannot be
+/// written. A reader of a pipe who has read enough is no failure.
+fn answer(text: &clap::Error) -> ExitCode {
+    match text.print() {
+        Err(error) if !text.use_stderr() && error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Ui::new(false, false).error(&ui::unwritable(&error));
+            ExitCode::FAILURE
+        }
+        _ => ExitCode::from(u8::try_from(text.exit_code()).unwrap_or(2)),
     }
 }
 

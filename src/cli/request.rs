@@ -1,16 +1,21 @@
 //! The case a command is about, and what the command line changes of it.
 
+use super::ui::Ui;
+use super::values;
 use crate::case::{Case, Embedded};
 use crate::error::{Error, Result};
+use crate::output::results::Results;
 use crate::qp::Backend;
 use crate::scene::{System, WallLaw};
 use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
+use serde_json::{Map, Value};
 use std::path::{Path, PathBuf};
 
 /// What `run` and `compare` share.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Request {
-    /// Case file, the name of a built-in case, or the summary.json of a run
+    /// Case file, summary.json of a run, or the name of a built-in case; a file is taken before a built-in case
+    #[arg(value_hint = clap::ValueHint::FilePath)]
     pub case: String,
     /// Step of the stepping schemes, s
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
@@ -31,7 +36,7 @@ pub struct Request {
     #[arg(long, value_name = "EPS", allow_hyphen_values = true)]
     pub epsilon: Option<f64>,
     /// Solver of the quadratic programmes: auto, clamp, condensed, clarabel
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = values::solvers(), hide_possible_values = true)]
     pub qp: Option<Backend>,
     /// θ of moreau-jean, 0.5 to 1
     #[arg(long, value_name = "θ", allow_hyphen_values = true)]
@@ -40,30 +45,69 @@ pub struct Request {
     #[arg(long, value_name = "ρ", allow_hyphen_values = true)]
     pub rho: Option<f64>,
     /// Integrator of the penalty: trapezoidal, implicit-euler, central-difference, discrete-gradient
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = values::integrators(), hide_possible_values = true)]
     pub integrator: Option<Integrator>,
-    /// Folder for the results [default: out/CASE/COMMAND]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Where the results go
+    #[command(flatten)]
+    pub place: Place,
 }
 
-/// Reads the case file at `path`; a bare name that is no file is looked for among the built-in cases.
+/// Where results go.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Place {
+    /// Folder for the results [default: out/CASE/COMMAND]
+    #[arg(long, value_name = "DIR", value_hint = clap::ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+    /// Replace the results of another request
+    #[arg(long)]
+    pub force: bool,
+}
+
+impl Place {
+    /// The folder of what `command` makes of `case`: `--out`, or `out/CASE/COMMAND`. It is checked that it can be written and holds no
+    /// results of another request than `request`.
+    ///
+    /// # Errors
+    /// As [`Results::open`].
+    pub fn results(&self, case: &str, command: &str, request: Map<String, Value>) -> Result<Results> {
+        let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(case).join(command));
+        Results::open(&folder, request, self.force)
+    }
+}
+
+/// Reads the case that `name` asks for: the file of that name; else, for a name without an extension, the file NAME.toml here; else the
+/// built-in case of that name. Says which it took wherever a built-in case bears the name, too.
 ///
 /// # Errors
 /// As [`Case::read`].
-pub fn case(path: &str) -> Result<Case> {
-    match Embedded::named(path) {
-        Ok(embedded) if !Path::new(path).exists() => embedded.case(),
-        _ => Case::read(path),
+pub fn case(name: &str, ui: &Ui) -> Result<Case> {
+    let file = Path::new(name);
+    let beside = PathBuf::from(format!("{name}.toml"));
+    // `..` and `.toml` have an extension of their own or none to add.
+    let bare = !name.is_empty() && file.extension().is_none() && file.file_name().is_some();
+    let built_in = Embedded::named(name);
+    let taken = match &built_in {
+        _ if file.is_file() => file,
+        _ if bare && beside.is_file() => &beside,
+        Ok(embedded) => {
+            ui.message(&format!("{name}: the built-in case"));
+            return embedded.case();
+        }
+        Err(_) => file,
+    };
+    if built_in.is_ok() || taken != file {
+        let other = if built_in.is_ok() { ", not the built-in case of that name" } else { "" };
+        ui.message(&format!("{name}: the file {}{other}", taken.display()));
     }
+    Case::read(taken)
 }
 
 /// The same, with another restitution at every rigid wall, checked.
 ///
 /// # Errors
 /// As [`case`], and [`Error::Invalid`] for a restitution that makes no sense.
-pub fn case_with_restitution(path: &str, restitution: Option<f64>) -> Result<Case> {
-    let mut case = case(path)?;
+pub fn case_with_restitution(name: &str, restitution: Option<f64>, ui: &Ui) -> Result<Case> {
+    let mut case = case(name, ui)?;
     set_restitution(&mut case, restitution)?;
     case.validate()?;
     Ok(case)
@@ -90,8 +134,8 @@ impl Request {
     ///
     /// # Errors
     /// As [`case`], and [`Error::Invalid`] for a change that makes no sense.
-    pub fn case(&self) -> Result<Case> {
-        let mut case = case(&self.case)?;
+    pub fn case(&self, ui: &Ui) -> Result<Case> {
+        let mut case = case(&self.case, ui)?;
         if let Some(modes) = self.modes {
             case = case.with_modes(modes)?;
         }
@@ -210,9 +254,11 @@ impl Request {
         }
     }
 
-    /// Where results go: `--out`, or `out/<case>/<command>`.
-    #[must_use]
-    pub fn folder(&self, case: &Case, command: &str) -> PathBuf {
-        self.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join(command))
+    /// The folder for what `command` makes of the case, asked for by `request`.
+    ///
+    /// # Errors
+    /// As [`Results::open`].
+    pub fn results(&self, case: &Case, command: &str, request: Map<String, Value>) -> Result<Results> {
+        self.place.results(&case.name, command, request)
     }
 }

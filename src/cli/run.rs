@@ -1,22 +1,23 @@
 //! `signorini run`: one scene, one method.
 
 use super::drawing::Stretch;
+use super::pace::Pace;
 use super::request::Request;
 use super::ui::{Progress, Ui};
+use super::values;
 use crate::case::Case;
 use crate::error::{Error, Result};
-use crate::output::atomic::{check_folder, write_whole};
-use crate::output::pictures::{Labelled, Sheet};
-use crate::output::summary::{self, Checks, Reasons};
-use crate::output::{Span, csv};
+use crate::output::asked::{asked, with};
+use crate::output::results::Results;
+use crate::output::run::{self as output, Picture};
+use crate::output::summary::{Checks, Reasons};
 use crate::run::{Options, Run, run_with_progress};
-use crate::scheme::{Method, Scheme};
-use crate::statistics::WallStatistics;
+use crate::scheme::Method;
 use crate::study::accuracy::{Outcome, Target, reach};
 use crate::study::choice;
 use crate::study::truncation::{ChosenModes, Truncation, choose_modes};
 use crate::study::verdict::{self, Verdict};
-use std::path::Path;
+use serde_json::{Value, json};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -38,7 +39,7 @@ pub struct Args {
     #[command(flatten)]
     request: Request,
     /// Scheme [default: chosen from the scene; see `signorini explain`]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
     scheme: Option<String>,
     /// Find scheme and step for this error, as a share of the gap and of each wall's impulse and contact statistics; exit code 1 if it is
     /// not kept to the end; where the case is cut to modes, as many of them as that takes
@@ -52,7 +53,7 @@ pub struct Args {
 }
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let case = args.request.case()?;
+    let case = args.request.case(ui)?;
     if let Some(tolerance) = args.accuracy {
         return accurate(args, &case, tolerance, ui);
     }
@@ -63,8 +64,9 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     };
     args.request.check_use(&[method])?;
     let span = args.stretch.span(&case, case.scene.duration)?;
-    let folder = args.request.folder(&case, "run");
-    check_folder(&folder)?;
+    let request = asked("run", &case, &[method]);
+    let request = with(request, json!({ "verdict": !args.no_verdict }));
+    let mut results = args.request.results(&case, "run", request)?;
     let truncated = case.truncated.is_some() && !args.no_verdict;
     let checks = if args.no_verdict { 0.0 } else { verdict::COST } + if truncated { 1.0 } else { 0.0 };
     let bar = Bar::new(&method, &case, 1.0 + checks, ui);
@@ -79,9 +81,9 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         truncation: truncation.as_ref().and_then(|t| t.as_ref().ok()),
         ..Checks::default()
     };
-    write(&folder, &case, &run, &method, &reasons, checks, Picture { span, look: 0 })?;
-    report(&case, &run, &method, ui)?;
-    ui.message(&format!("results in {}", folder.display()));
+    let document = output::write(&mut results, "", &case, &run, &method, &reasons, checks, Picture { span, look: 0 })?;
+    finish(&results, "", ui)?;
+    report(&case, &run, &method, document, &results, ui)?;
     match verdict {
         Some(Ok(verdict)) => ui.message(&format!("refinement: {verdict}")),
         Some(Err(error)) => ui.message(&format!("refinement: the check of this run failed: {error}")),
@@ -105,8 +107,9 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
         args.request.check_use(&[method])?;
     }
     let span = args.stretch.span(case, case.scene.duration)?;
-    let folder = args.request.folder(case, "run");
-    check_folder(&folder)?;
+    let methods: Vec<Method> = method.into_iter().collect();
+    let request = with(asked("run", case, &methods), json!({ "step_s": null, "accuracy": tolerance }));
+    let mut results = args.request.results(case, "run", request)?;
     let target = Target { method, ..Target::new(tolerance, case.time) };
     target.validate()?;
     let (case, modes) = enough_modes(case, &target, ui)?;
@@ -122,14 +125,18 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     ui.message(&format!("{method}: {reason}"));
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
     let checks = Checks { accuracy: Some(&accuracy), modes: modes.as_ref(), ..Checks::default() };
-    write(&folder, &case, &run, &method, &reasons, checks, Picture { span, look: 0 })?;
-    report(&case, &run, &method, ui)?;
-    if let Some(modes) = &modes {
-        ui.message(&format!("modes: {modes}"));
-        shortfall = shortfall.or(modes.shortfall());
+    let mut document =
+        output::write(&mut results, "", &case, &run, &method, &reasons, checks, Picture { span, look: 0 })?;
+    shortfall = shortfall.or(modes.as_ref().and_then(ChosenModes::shortfall));
+    if let (Some(error), Some(map)) = (&shortfall, document.as_object_mut()) {
+        map.insert("error".to_owned(), json!(error.to_string()));
     }
     let kept = if shortfall.is_some() { ", kept in spite of what follows" } else { "" };
-    ui.message(&format!("results in {}{kept}", folder.display()));
+    finish(&results, kept, ui)?;
+    report(&case, &run, &method, document, &results, ui)?;
+    if let Some(modes) = &modes {
+        ui.message(&format!("modes: {modes}"));
+    }
     ui.message(&format!("accuracy: {accuracy}"));
     shortfall.map_or(Ok(()), Err)
 }
@@ -168,12 +175,14 @@ pub(super) fn perform(case: &Case, method: &Method, ui: &Ui) -> Result<Run> {
 struct Bar {
     progress: Progress,
     end: f64,
+    runs: f64,
 }
 
 impl Bar {
     /// A bar for a work of `runs` times that of the run.
     fn new(method: &Method, case: &Case, runs: f64, ui: &Ui) -> Self {
-        Self { progress: ui.progress(&method.to_string(), (UNITS * runs) as u64), end: case.scene.duration }
+        let pace = Pace::of(&case.scene, method, case.time.step);
+        Self { progress: ui.paced(&method.to_string(), UNITS as u64, pace), end: case.scene.duration, runs }
     }
 
     fn run(&self, case: &Case, method: &Method) -> Result<Run> {
@@ -193,7 +202,7 @@ impl Bar {
     }
 
     fn set(&self, runs: f64) {
-        self.progress.set((UNITS * runs) as u64);
+        self.progress.share(runs / self.runs);
     }
 
     fn finish(&self) {
@@ -201,132 +210,35 @@ impl Bar {
     }
 }
 
-/// What the pictures of one run show, and the number of its look among the runs of the command.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Picture {
-    pub span: Span,
-    pub look: usize,
-}
-
-/// Writes the files of one run into `folder`.
-pub(super) fn write(
-    folder: &Path,
-    case: &Case,
-    run: &Run,
-    method: &Method,
-    reasons: &Reasons,
-    checks: Checks<'_>,
-    picture: Picture,
-) -> Result<()> {
-    csv::trajectory(&folder.join("trajectory.csv"), &run.trajectory)?;
-    csv::contacts(&folder.join("contacts.csv"), &run.trajectory)?;
-    let label = method.to_string();
-    let runs = [Labelled { label: &label, run, reference: false, look: picture.look }];
-    let title = case.title.as_deref().unwrap_or(&case.name);
-    let sheet = Sheet { title, scene: &case.scene, runs: &runs, span: picture.span };
-    for (name, svg) in sheet.figures()? {
-        write_whole(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
+/// Tells of a run: its table, what must be said beside it, and its notes; with `--json` its summary.
+fn report(case: &Case, run: &Run, method: &Method, document: Value, results: &Results, ui: &Ui) -> Result<()> {
+    if ui.json() {
+        ui.document(&with_folder(document, results))?;
+    } else if let Some(table) = output::table(run)? {
+        ui.table(&table, "summary.json")?;
+        output::remarks(run).iter().for_each(|remark| ui.message(remark));
     }
-    summary::write(&folder.join("summary.json"), case, run, reasons, checks)
-}
-
-fn report(case: &Case, run: &Run, method: &Method, ui: &Ui) -> Result<()> {
-    let headers = [
-        "wall",
-        "contacts",
-        "impulse (N s)",
-        "largest force (N)",
-        "contact time (%)",
-        "impact power (W)",
-        "not returned (W)",
-    ];
-    // A person reads a few digits, a program all of them.
-    let show =
-        |x: f64, digits: usize| if ui.json() { format!("{x:?}") } else { format!("{:.digits$}", settled(x, digits)) };
-    let mut rows = Vec::new();
-    let shown = if ui.json() { run.statistics.walls.iter().enumerate().collect() } else { busiest(run) };
-    for (index, wall) in &shown {
-        let none = if wall.contacts == 0 { "-" } else { "impacts" };
-        rows.push(vec![
-            wall.wall.clone(),
-            wall.contacts.to_string(),
-            show(run.trajectory.impulse(&wall.wall)?, 6),
-            largest_force(run, *index).map_or_else(|| none.into(), |f| show(f, 4)),
-            show(100.0 * wall.contact_time_ratio, 3),
-            show(wall.impact_power_w, 6),
-            show(wall.unreturned_power_w, 6),
-        ]);
-    }
-    if !rows.is_empty() {
-        ui.table(&headers, &rows);
-        let all = run.statistics.walls.len();
-        if rows.len() < all {
-            ui.message(&format!(
-                "{} of {all} walls, those of the largest impulses; the summary has them all",
-                rows.len()
-            ));
-        }
-        if run.statistics.from_s > 0.0 {
-            ui.message(&format!(
-                "contacts, times and powers from t = {} s on, contacts that begin in it; impulses of the whole run",
-                run.statistics.from_s
-            ));
-        }
-        ui.message("impact power is normal impact only: frictionless contact has no sliding wear in it");
-    }
-    let r = &run.residuals;
-    ui.message(&format!(
-        "{method} on {}: {} steps, {}, complementarity {:.1e}, penetration {:.1e} m, energy ledger {:.1e}, {:.3} s",
-        case.name,
-        run.counters.steps,
-        solved(run),
-        r.complementarity,
-        r.penetration_m,
-        r.energy.residual,
-        run.seconds
-    ));
+    ui.message(&output::line(case, run, method));
     for note in run.notes.iter().chain(&case.notes()) {
         ui.message(&format!("note: {note}"));
     }
     Ok(())
 }
 
-/// 0 instead of what would be shown as −0.
-fn settled(x: f64, digits: usize) -> f64 {
-    if x.abs() < 0.5 * 10f64.powi(-(digits as i32)) { 0.0 } else { x }
-}
-
-/// The largest force of the contacts at a wall that reach into the window of the statistics, N: also of one that began before it and lasts.
-fn largest_force(run: &Run, index: usize) -> Option<f64> {
-    let from = run.statistics.from_s;
-    let here = run.trajectory.contacts().iter().filter(|c| c.wall == index && c.end.is_none_or(|end| end >= from));
-    here.filter_map(|c| c.peak_force).map(f64::abs).reduce(f64::max)
-}
-
-/// Most walls of a table that a person reads.
-const MOST_ROWS: usize = 24;
-
-/// The walls of the largest impulses, in the scene's order.
-fn busiest(run: &Run) -> Vec<(usize, &WallStatistics)> {
-    let walls = &run.statistics.walls;
-    let impulse = |wall: &str| run.trajectory.impulse(wall).map_or(0.0, f64::abs);
-    let mut order: Vec<(usize, f64)> = walls.iter().map(|wall| impulse(&wall.wall)).enumerate().collect();
-    order.sort_by(|a, b| b.1.total_cmp(&a.1));
-    order.truncate(MOST_ROWS);
-    order.sort_by_key(|entry| entry.0);
-    order.into_iter().filter_map(|(i, _)| walls.get(i).map(|wall| (i, wall))).collect()
-}
-
-/// What solved the steps that met a wall, and how often.
-fn solved(run: &Run) -> String {
-    let counters = &run.counters;
-    match run.scheme {
-        Scheme::Event => format!("{} contact events", counters.events),
-        Scheme::Penalty { .. } => format!("{} Newton iterations", counters.newton_iterations),
-        _ if counters.qp_fallbacks > 0 => {
-            let (all, left) = (counters.qp_solves, counters.qp_fallbacks);
-            format!("{all} QPs by {}, {left} of them left to Clarabel", run.backend)
-        }
-        _ => format!("{} QPs by {}", counters.qp_solves, run.backend),
+/// `document` with where the results are.
+pub(super) fn with_folder(mut document: Value, results: &Results) -> Value {
+    if let Some(map) = document.as_object_mut() {
+        map.insert("results".to_owned(), json!(results.folder()));
+        map.insert("files_written".to_owned(), json!(results.files()));
     }
+    document
+}
+
+/// Closes the folder of the results, and says what it replaced and where it is.
+pub(super) fn finish(results: &Results, remark: &str, ui: &Ui) -> Result<()> {
+    if let Some(replaced) = results.finish()? {
+        ui.message(&replaced);
+    }
+    ui.message(&format!("results in {}{remark}", results.folder().display()));
+    Ok(())
 }

@@ -4,14 +4,16 @@ use super::request;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
-use crate::output::atomic::{check_folder, write_whole};
+use crate::output::asked::asked;
+use crate::output::atomic::write_whole;
+use crate::output::document;
 use crate::output::stability as output;
+use crate::output::table::Table;
 use crate::scheme::{PenaltyLaw, Scheme};
 use crate::study::stability::family::{Family, Question};
 use crate::study::stability::impact::{self, ImpactMap};
 use crate::study::stability::lasting::{Line, Quality};
 use crate::study::stability::plan::{Grid, Maps, Plan, Row};
-use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -40,14 +42,14 @@ const KAPPA: f64 = 0.1;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    /// Case file, or the name of a built-in case
+    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in case
+    #[arg(value_hint = clap::ValueHint::FilePath)]
     case: String,
     /// Restitution of every rigid wall, 0 to 1
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     restitution: Option<f64>,
-    /// Folder for the results [default: out/CASE/stability]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    place: request::Place,
 }
 
 /// Runs the command.
@@ -55,29 +57,31 @@ pub struct Args {
 /// # Errors
 /// A case that makes no sense or has no wall, a folder that cannot be written, a reference run that fails.
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let case = request::case_with_restitution(&args.case, args.restitution)?;
-    let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join("stability"));
-    check_folder(&folder)?;
+    let case = request::case_with_restitution(&args.case, args.restitution, ui)?;
+    let mut results = args.place.results(&case.name, "stability", asked("stability", &case, &[]))?;
     let question = Question { scene: &case.scene, laws: &case.penalty.laws };
     let plan = Plan::new(question, &Grid::of(&case.scene))?;
     let e = impact::wall_restitution(&case.scene);
     let impacts = impact::maps(plan.scale.mass, case.time.step, e);
-    output::impacts(&folder.join("impact-map.csv"), &impacts)?;
-    write_whole(&folder.join("impact-map.svg"), output::impact_figure(&impacts, e).as_bytes())?;
+    output::impacts(&results.place("impact-map.csv")?, &impacts)?;
+    write_whole(&results.place("impact-map.svg")?, output::impact_figure(&impacts, e).as_bytes())?;
     let bar = ui.progress("stability", plan.work());
     let maps = plan.run(&|done| bar.set(done));
     bar.finish();
     let maps = maps?;
-    output::cells(&folder.join("stability.csv"), &maps)?;
+    output::cells(&results.place("stability.csv")?, &maps)?;
     for (name, svg) in output::maps_figures(&maps, case.title.as_deref().unwrap_or(&case.name)) {
-        write_whole(&folder.join(name), svg.as_bytes())?;
+        write_whole(&results.place(&name)?, svg.as_bytes())?;
     }
     let quality = Quality::of(&case.scene, &schemes(&case), &case.time, &maps.scale)?;
-    output::quality(&folder.join("lasting-contact.csv"), &quality)?;
-    report(&maps, &impacts, ui);
-    contacts(&quality, ui);
-    ui.message(&format!("results in {}", folder.display()));
-    Ok(())
+    output::quality(&results.place("lasting-contact.csv")?, &quality)?;
+    super::run::finish(&results, "", ui)?;
+    if ui.json() {
+        let document = document::stability(&case, &maps, &quality, &|scheme| range(scheme, &impacts));
+        return ui.document(&super::run::with_folder(document, &results));
+    }
+    report(&maps, &impacts, ui)?;
+    contacts(&quality, ui)
 }
 
 /// The schemes of the maps on the case's own penalties, or on a spring of `KAPPA` at its step.
@@ -94,7 +98,7 @@ fn schemes(case: &Case) -> Vec<Scheme> {
 }
 
 /// What each scheme does to energy and to the force of a lasting contact.
-fn contacts(quality: &Quality, ui: &Ui) {
+fn contacts(quality: &Quality, ui: &Ui) -> Result<()> {
     let lasts = |line: &Line| line.outcome.as_ref().is_ok_and(|seen| seen.contact.is_some());
     let what = if quality.lines.iter().any(lasts) {
         "and the force of the largest lasting contact"
@@ -109,19 +113,19 @@ fn contacts(quality: &Quality, ui: &Ui) {
         "at the end",
         "lost at walls",
         "unexplained",
-        "contact (s)",
-        "impulse (N s)",
         "ripple",
+        "impulse (N s)",
+        "contact (s)",
     ];
     let rows: Vec<Vec<String>> = quality.lines.iter().map(contact_line).collect();
-    ui.table(&headers, &rows);
+    ui.table(&Table::new(&headers, rows), "lasting-contact.csv")
 }
 
 fn contact_line(line: &Line) -> Vec<String> {
     let mut row = vec![line.scheme.to_string(), format!("{:.2e}", line.step)];
     match &line.outcome {
         Err(error) => {
-            row.resize(8, String::new());
+            row.resize(8, "-".to_owned());
             row.push(format!("failed: {error}"));
         }
         Ok(seen) => {
@@ -129,9 +133,9 @@ fn contact_line(line: &Line) -> Vec<String> {
             row.push(format!("{:.1e}", seen.unexplained));
             row.extend(match &seen.contact {
                 Some((wall, c)) => [
-                    format!("{wall} {:.4} to {:.4}", c.start, c.end),
-                    if c.impulse.abs() < 1e4 { format!("{:.4}", c.impulse) } else { format!("{:.2e}", c.impulse) },
                     format!("{:.3}", c.ripple),
+                    if c.impulse.abs() < 1e4 { format!("{:.4}", c.impulse) } else { format!("{:.2e}", c.impulse) },
+                    format!("{wall} {:.4} to {:.4}", c.start, c.end),
                 ],
                 None => ["-".to_owned(), "-".to_owned(), "-".to_owned()],
             });
@@ -145,7 +149,7 @@ fn share(x: f64) -> String {
     if x.abs() < 1e4 { format!("{x:.3}") } else { format!("{x:.2e}") }
 }
 
-fn report(maps: &Maps, impacts: &[ImpactMap], ui: &Ui) {
+fn report(maps: &Maps, impacts: &[ImpactMap], ui: &Ui) -> Result<()> {
     let (first, last) = (maps.steps.first().copied().unwrap_or(0.0), maps.steps.last().copied().unwrap_or(0.0));
     ui.message(&format!(
         "{} steps from {first:.2e} to {last:.2e} s, runs of {:.4} s, {} ({:.4} rad/s)",
@@ -154,9 +158,9 @@ fn report(maps: &Maps, impacts: &[ImpactMap], ui: &Ui) {
         maps.scale.origin.describe(),
         maps.scale.omega
     ));
-    let headers = ["scheme", "largest safe step (s)", "hω", "h²k_w/m", "beyond it", "restitution of one free impact"];
+    let headers = ["scheme", "largest safe step (s)", "hω", "h²k_w/m", "restitution of one free impact", "beyond it"];
     let rows: Vec<Vec<String>> = maps.own().map(|row| line(row, maps, impacts)).collect();
-    ui.table(&headers, &rows);
+    ui.table(&Table::new(&headers, rows), "stability.csv")
 }
 
 fn line(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> Vec<String> {
@@ -169,23 +173,24 @@ fn line(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> Vec<String> {
         step.map_or_else(|| "none".to_owned(), |h| format!("{h:.2e}")),
         step.map_or_else(String::new, |h| format!("{:.2e}", h * maps.scale.omega)),
         kappa.map_or_else(String::new, |k| format!("{k:.2e}")),
+        range(&subject.scheme, impacts).map_or_else(String::new, |(low, high)| {
+            let at = if matches!(subject.scheme, Scheme::Penalty { .. }) { " at h²k_w/m = 1" } else { "" };
+            if high - low < 1e-9 { format!("{low:.4}{at}") } else { format!("{low:.4} to {high:.4}{at}") }
+        }),
         beyond.map_or_else(
             || "stable on the whole grid".to_owned(),
             |cell| format!("{:.2e} s {}: {}", cell.step, cell.class, cell.reason),
         ),
-        range(&subject.scheme, impacts),
     ]
 }
 
 /// The restitution over all phases; of a penalty at h²k_w/m = 1.
-fn range(scheme: &Scheme, impacts: &[ImpactMap]) -> String {
+fn range(scheme: &Scheme, impacts: &[ImpactMap]) -> Option<(f64, f64)> {
     let same = |map: &&ImpactMap| match (map.scheme, *scheme) {
         (Scheme::Penalty { integrator: a, .. }, Scheme::Penalty { integrator: b, .. }) => {
             a == b && map.kappa == Some(1.0)
         }
         (a, b) => a == b,
     };
-    let Some((low, high)) = impacts.iter().find(same).and_then(ImpactMap::range) else { return String::new() };
-    let at = if matches!(scheme, Scheme::Penalty { .. }) { " at h²k_w/m = 1" } else { "" };
-    if high - low < 1e-9 { format!("{low:.4}{at}") } else { format!("{low:.4} to {high:.4}{at}") }
+    impacts.iter().find(same).and_then(ImpactMap::range)
 }

@@ -1,29 +1,38 @@
 //! What the tool says and where: data on stdout, messages and progress on stderr.
 
-use crate::error::Error;
-use comfy_table::{ContentArrangement, Table, presets};
+use super::pace::Pace;
+use crate::error::{Error, Result};
+use crate::output::json;
+use crate::output::table::Table;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{IsTerminal, Write};
+use serde_json::Value;
+use std::cell::Cell;
+use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// A run that takes longer than this shows a bar.
+/// After this long a bar appears, and a line says how long the work will take.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// How the tool was asked to speak.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub struct Ui {
     quiet: bool,
     json: bool,
+    /// True once the one document of `--json` was printed.
+    printed: Cell<bool>,
+    /// True once the reader of stdout has gone, as `head` does.
+    deserted: Cell<bool>,
 }
 
 impl Ui {
     /// Quiet, or in JSON, or neither.
     #[must_use]
     pub fn new(quiet: bool, json: bool) -> Self {
-        Self { quiet, json }
+        Self { quiet, json, printed: Cell::new(false), deserted: Cell::new(false) }
     }
 
-    /// True if tables are to be JSON.
+    /// True if the answer is to be a JSON document.
     #[must_use]
     pub fn json(&self) -> bool {
         self.json
@@ -33,81 +42,130 @@ impl Ui {
     pub fn message(&self, text: &str) {
         if !self.quiet {
             // A closed stderr leaves nobody to tell.
-            let _ = writeln!(std::io::stderr(), "{text}");
+            let _ = writeln!(io::stderr(), "{text}");
         }
     }
 
-    /// Text on stdout: the answer itself.
-    pub fn answer(&self, text: &str) {
-        let _ = writeln!(std::io::stdout(), "{text}");
+    /// Text on stdout: the answer itself. A reader that closed its end of a pipe wants no more, and gets no more: that
+    /// is no error.
+    ///
+    /// # Errors
+    /// [`Error::Io`] where stdout cannot be written: a full disk, a descriptor that is closed.
+    pub fn answer(&self, text: &str) -> Result<()> {
+        if self.deserted.get() {
+            return Ok(());
+        }
+        let mut stdout = io::stdout();
+        match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.deserted.set(true);
+                Ok(())
+            }
+            Err(error) => Err(unwritable(&error)),
+            Ok(()) => Ok(()),
+        }
     }
 
-    /// An error on stderr, quiet or not.
+    /// The answer of `--json`: one document, printed once.
+    ///
+    /// # Errors
+    /// As [`answer`](Self::answer).
+    pub fn document(&self, document: &Value) -> Result<()> {
+        self.printed.set(true);
+        self.answer(json::text(document).trim_end())
+    }
+
+    /// A table as wide as the terminal; says which columns had no room, and that `file` has them.
+    ///
+    /// # Errors
+    /// As [`answer`](Self::answer).
+    pub fn table(&self, table: &Table, file: &str) -> Result<()> {
+        let shown = table.fit(width());
+        self.answer(&shown.text)?;
+        if !shown.left_out.is_empty() {
+            self.message(&format!("no room for {}: {file} has them", shown.left_out.join(", ")));
+        }
+        Ok(())
+    }
+
+    /// An error on stderr, quiet or not; with `--json` also the document, where none was printed.
     pub fn error(&self, error: &Error) {
         let text = error.to_string();
+        if self.json && !self.printed.get() {
+            let code = if error.is_request() { 2 } else { 1 };
+            // The error that follows is the one to tell, whether or not this can be written.
+            let _ = self.document(&serde_json::json!({ "error": text, "exit_code": code }));
+        }
         // A case file's error comes rendered, with its place.
         let head = if text.starts_with("error: ") { "" } else { "error: " };
-        let _ = writeln!(std::io::stderr(), "{head}{text}");
-    }
-
-    /// A table on stdout, or an array of objects keyed by the headers with `--json`. The first column holds names.
-    pub fn table(&self, headers: &[&str], rows: &[Vec<String>]) {
-        if self.json {
-            let object = |row: &Vec<String>| {
-                // The first column names things, and a name such as `1e5` stays one.
-                let cell = |(column, text): (usize, &String)| match text.parse::<f64>() {
-                    Ok(_) if column > 0 && text.parse::<u64>().is_ok() => {
-                        serde_json::json!(text.parse::<u64>().unwrap_or(0))
-                    }
-                    Ok(number) if number.is_finite() && column > 0 => serde_json::json!(number),
-                    _ if text.is_empty() => serde_json::Value::Null,
-                    _ => serde_json::json!(text),
-                };
-                let cells = row.iter().enumerate().map(cell);
-                headers.iter().zip(cells).map(|(h, c)| ((*h).to_owned(), c)).collect::<serde_json::Map<_, _>>()
-            };
-            let rows: Vec<_> = rows.iter().map(object).collect();
-            self.answer(&serde_json::to_string_pretty(&rows).unwrap_or_default());
-            return;
-        }
-        let mut table = Table::new();
-        table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
-        table.set_header(headers.iter().copied());
-        for row in rows {
-            table.add_row(row);
-        }
-        self.answer(&table.trim_fmt());
+        let _ = writeln!(io::stderr(), "{head}{text}");
     }
 
     /// A bar of `total` units that appears on stderr after a second, if that is a terminal and nobody asked for quiet.
     #[must_use]
     pub fn progress(&self, label: &str, total: u64) -> Progress {
-        let bar = (!self.quiet && std::io::stderr().is_terminal()).then(|| {
+        let bar = (!self.quiet && io::stderr().is_terminal()).then(|| {
             let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
             let style = ProgressStyle::with_template("{msg:20} {wide_bar} {percent:>3} % {eta}");
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar.set_message(label.to_owned());
             bar
         });
-        Progress { bar, started: Instant::now() }
+        Progress { bar, total, forecast: None, told: AtomicBool::new(self.quiet), started: Instant::now() }
+    }
+
+    /// The same, for work whose pace is known to follow from something: after a second a line says how long all of it
+    /// will take, and why.
+    #[must_use]
+    pub fn paced(&self, label: &str, total: u64, pace: Pace) -> Progress {
+        Progress { forecast: Some(pace), ..self.progress(label, total) }
     }
 }
 
-/// A bar under way; shared between threads by reference.
+/// What is said where stdout cannot be written.
+pub(super) fn unwritable(error: &io::Error) -> Error {
+    Error::Io { path: "standard output".to_owned(), reason: error.to_string(), request: false }
+}
+
+/// Columns of text that stdout has room for: `COLUMNS`, else those of the terminal; none for a file or a pipe, which
+/// take any width.
+fn width() -> Option<usize> {
+    let asked = std::env::var("COLUMNS").ok().and_then(|text| text.trim().parse::<usize>().ok()).filter(|&n| n > 0);
+    asked.or_else(|| terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0)))
+}
+
+/// Work under way; shared between threads by reference.
 #[derive(Debug)]
 pub struct Progress {
     bar: Option<ProgressBar>,
+    total: u64,
+    forecast: Option<Pace>,
+    /// True once the line that says how long it takes was said, or is not wanted.
+    told: AtomicBool,
     started: Instant,
 }
 
 impl Progress {
     /// Tells how much is done.
     pub fn set(&self, done: u64) {
+        self.share(done as f64 / self.total.max(1) as f64);
+    }
+
+    /// Tells which share of all is done.
+    pub fn share(&self, share: f64) {
+        let elapsed = self.started.elapsed();
+        if elapsed > PATIENCE
+            && let Some(forecast) = &self.forecast
+            && !self.told.swap(true, Ordering::Relaxed)
+            && let Some(line) = forecast.line(elapsed, share)
+        {
+            let _ = writeln!(io::stderr(), "{line}");
+        }
         let Some(bar) = &self.bar else { return };
-        if bar.is_hidden() && self.started.elapsed() > PATIENCE {
+        if bar.is_hidden() && elapsed > PATIENCE {
             bar.set_draw_target(ProgressDrawTarget::stderr());
         }
-        bar.set_position(done);
+        bar.set_position((share * self.total as f64) as u64);
     }
 
     /// Takes the bar away.

@@ -3,24 +3,26 @@
 use super::atomic::WholeFile;
 use crate::error::{Error, Result};
 use crate::trajectory::Trajectory;
+use std::collections::HashSet;
 use std::path::Path;
 
 /// Writes the rows of `trajectory`: time, displacement and velocity of each probe, force and impulse of each wall. Forces are signed (lower
-/// ≥ 0, upper ≤ 0); an impulse is all of it since the previous row, so that the column sums to the run's.
+/// ≥ 0, upper ≤ 0); an impulse is all of it since the previous row, so that the column sums to the run's. Columns carry the
+/// names of probes and walls as [`words`] writes them.
 ///
 /// # Errors
 /// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
     let mut header = vec!["time_s".to_owned()];
     let mut columns: Vec<&[f64]> = vec![trajectory.time()];
-    for probe in trajectory.probes() {
-        let suffix = if probe.is_empty() { String::new() } else { format!("_{probe}") };
+    for (probe, word) in trajectory.probes().iter().zip(words(trajectory.probes())) {
+        let suffix = if probe.is_empty() { String::new() } else { format!("_{word}") };
         let (displacement, velocity) = trajectory.probe(probe)?;
         header.extend([format!("displacement{suffix}_m"), format!("velocity{suffix}_m_per_s")]);
         columns.extend([displacement, velocity]);
     }
-    for wall in trajectory.walls() {
-        header.extend([format!("contact_force_{wall}_N"), format!("contact_impulse_{wall}_Ns")]);
+    for (wall, word) in trajectory.walls().iter().zip(words(trajectory.walls())) {
+        header.extend([format!("contact_force_{word}_N"), format!("contact_impulse_{word}_Ns")]);
         columns.extend([trajectory.contact_force(wall)?, trajectory.contact_impulse(wall)?]);
     }
     let rows = (0..trajectory.time().len()).map(|i| columns.iter().map(move |c| digits(c.get(i).copied())).collect());
@@ -49,6 +51,25 @@ pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
     table(path, &header.map(str::to_owned), rows)
 }
 
+/// Names as parts of column names: `_` for every `-`, so that a column is a word in the languages that read it (`support-upper`
+/// gives `contact_force_support_upper_N`). Names that this makes equal are told apart by a number: `_2`, `_3`.
+#[must_use]
+pub fn words<S: AsRef<str>>(names: &[S]) -> Vec<String> {
+    let mut taken = HashSet::new();
+    let mut words = Vec::with_capacity(names.len());
+    for name in names {
+        let plain = name.as_ref().replace('-', "_");
+        let mut word = plain.clone();
+        let mut number = 2;
+        while !taken.insert(word.clone()) {
+            word = format!("{plain}_{number}");
+            number += 1;
+        }
+        words.push(word);
+    }
+    words
+}
+
 /// Writes a table of text cells under a header.
 ///
 /// # Errors
@@ -69,6 +90,16 @@ pub fn table(path: &Path, header: &[String], rows: impl Iterator<Item = Vec<Stri
 }
 
 /// 17 significant digits; an empty cell where there is no value.
-fn digits(value: Option<f64>) -> String {
+pub(super) fn digits(value: Option<f64>) -> String {
     value.map_or_else(String::new, |x| format!("{x:.16e}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::words;
+
+    #[test]
+    fn columns_have_no_hyphens_and_stay_apart() {
+        assert_eq!(words(&["a-b", "a_b", "c", "a-b_2"]), ["a_b", "a_b_2", "c", "a_b_2_2"]);
+    }
 }

@@ -3,22 +3,34 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`atomic`] | files that appear complete or not at all |
+//! | [`results`] | the folder of a request's results, and what it may replace |
+//! | [`asked`] | what a request asked for, as its results remember it |
 //! | [`csv`] | `trajectory.csv` and `contacts.csv` |
 //! | [`summary`] | `summary.json` |
+//! | [`run`] | all files of one run, and its table |
+//! | [`compare`] | all files of a comparison, its table and its JSON |
+//! | [`document`] | a chart and a stability study as JSON |
+//! | [`table`] | tables for people, as wide as the terminal |
 //! | [`pictures`] | the figures of one or several runs |
 //! | [`stability`] | tables and maps of a stability study |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
 
+pub mod asked;
 pub mod atomic;
+pub mod compare;
 pub mod csv;
+pub mod document;
 pub mod figure;
-mod json;
+pub(crate) mod json;
 mod motion;
 pub mod pictures;
 mod places;
+pub mod results;
+pub mod run;
 pub mod stability;
 pub mod summary;
+pub mod table;
 mod window;
 pub mod work_precision;
 

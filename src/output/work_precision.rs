@@ -25,10 +25,11 @@ pub fn table(path: &Path, scene: &Scene, chart: &WorkPrecision) -> Result<()> {
 }
 
 fn header(walls: &[&str]) -> Vec<String> {
+    let words = csv::words(walls);
     let errors = |prefix: &str| {
         let named = |name: &str| format!("{prefix}{name}");
         let mut columns = vec![named("displacement_error_over_gap"), named("velocity_graph_error")];
-        columns.extend(walls.iter().map(|wall| named(&format!("impulse_{wall}_error"))));
+        columns.extend(words.iter().map(|wall| named(&format!("impulse_{wall}_error"))));
         columns.extend(["contact_time_error", "contacts_missing", "contacts_spurious"].map(named));
         columns
     };

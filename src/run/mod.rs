@@ -13,8 +13,11 @@ use crate::time::TimeGrid;
 use crate::trajectory::Trajectory;
 use std::time::Instant;
 
-/// Steps between two reports of progress.
+/// Most steps between two reports of progress.
 const PROGRESS_STRIDE: u64 = 1 << 14;
+
+/// The first reports come more often, this share of the steps so far apart: a step may take a nanosecond or a second.
+const PROGRESS_SHARE: u64 = 8;
 
 /// A finished run: judged and recorded, unless the [`Options`] left one of them out.
 #[derive(Debug, Clone)]
@@ -83,14 +86,15 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let start = stepper.state();
     let mut judge = J::begin(&stepper, grid.step, &start);
     let mut recorder = R::begin(&stepper, grid.rows, &start);
-    let mut count = 0;
+    let (mut count, mut report) = (0, 1);
     loop {
         let step = stepper.step()?;
         J::see(&mut judge, &step);
         R::see(&mut recorder, &step);
         let time = step.end;
         count += 1;
-        if count % PROGRESS_STRIDE == 0 {
+        if count == report {
+            report += (count / PROGRESS_SHARE).clamp(1, PROGRESS_STRIDE);
             progress(time);
         }
         if if exact { time >= scene.duration } else { count == grid.steps } {

@@ -20,6 +20,7 @@ mod structure_event;
 
 pub use grid::{Counters, Handed};
 pub use method::Method;
+pub use name::NAMES;
 pub use penalty_law::{Integrator, PenaltyLaw};
 pub use stepper::Stepper;
 

@@ -6,7 +6,7 @@ use super::exact::affordable;
 use super::horizon::{Growth, LARGEST_GROWTH, Source};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::run::{Options, Run, run};
+use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
@@ -83,22 +83,28 @@ pub fn default_methods(chosen: Method, penalties: impl Iterator<Item = Method>) 
     methods
 }
 
-/// Runs every method on `scene`; `progress` hears how many are done. A method that fails is a row with the reason in it.
+/// Runs every method on `scene`, the reference first; `progress` hears how many runs are done, in parts of a run. A method that fails is a row with the reason in it.
 ///
 /// # Errors
 /// [`Error::Invalid`] for times that make no sense. What a method refuses or fails at is in its row.
-pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: &dyn Fn(u64)) -> Result<Comparison> {
+pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: &dyn Fn(f64)) -> Result<Comparison> {
     // One set of rows for all, the exact run's too, so that they can be subtracted.
     let grid = TimeGrid::stepping(scene.duration, time)?;
     let time = TimeOptions { sample: Some(grid.end / grid.rows as f64), ..*time };
     let structure = matches!(scene.system, System::Structure(_));
     let possible = if structure { affordable(scene) } else { Ok(()) };
-    let reference = possible.and_then(|()| run(scene, &Scheme::Event, &Options::new(time, Backend::Auto)));
+    let done = |before: usize, reached: f64| progress(before as f64 + reached / scene.duration);
+    let timed = |before: usize, method: &Method, time| {
+        let options = Options::new(time, method.backend);
+        run_with_progress(scene, &method.scheme, &options, &mut |reached| done(before, reached))
+    };
+    let exact = Method::new(Scheme::Event);
+    let reference = possible.and_then(|()| timed(0, &exact, time));
     // Several degrees of freedom: where the exact scheme cannot go, a stepping scheme is refined, and shows what grows.
     let stand_in = choose(scene).method;
     let finer = TimeOptions { step: grid.step / FINER, ..time };
     let refined = match &reference {
-        Err(_) if structure => run(scene, &stand_in.scheme, &Options::new(finer, stand_in.backend)).ok(),
+        Err(_) if structure => timed(0, &stand_in, finer).ok(),
         _ => None,
     };
     let growth = match &refined {
@@ -107,15 +113,15 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
     };
     let horizon = growth.as_ref().map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH));
     let mut rows = Vec::new();
-    let exact = Method::new(Scheme::Event);
+    progress(1.0);
     let others = methods.iter().filter(|m| m.scheme != Scheme::Event);
     for (index, method) in others.chain(std::iter::once(&exact)).enumerate() {
         let outcome = match method.scheme {
             Scheme::Event => reference.clone(),
-            _ => run(scene, &method.scheme, &Options::new(time, method.backend)),
+            _ => timed(index + 1, method, time),
         };
         rows.push(row(scene, *method, outcome, reference.as_ref().ok().or(refined.as_ref()), horizon, &time));
-        progress(index as u64 + 1);
+        progress(index as f64 + 2.0);
     }
     let growth_by = growth.as_ref().map(|g| g.source);
     let growth = growth.map(|g| g.until(scene.duration));

@@ -69,11 +69,26 @@ pub struct Reasons {
     pub qp: String,
 }
 
+/// The scene of `case` as JSON, as the summary tells it.
+#[must_use]
+pub fn scene(case: &Case) -> Value {
+    scene::scene(case)
+}
+
 /// Writes the summary of `run` on `case`, and of the `checks` made of it, to `path`.
 ///
 /// # Errors
 /// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -> Result<()> {
+    let document = document(case, run, reasons, checks)?;
+    write_whole(path, json::text(&document).as_bytes())
+}
+
+/// The summary as JSON: what the file holds, and what `run --json` prints. A number that is not finite is null.
+///
+/// # Errors
+/// None beyond those of a trajectory asked for its own walls.
+pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -> Result<Value> {
     let exact = run.scheme == crate::scheme::Scheme::Event;
     let mut impulse_ns = BTreeMap::new();
     for wall in run.trajectory.walls() {
@@ -103,8 +118,9 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
         checks,
         notes: run.notes.iter().cloned().chain(case.notes()).collect(),
     };
-    let failed =
-        |e: serde_json::Error| Error::Io { path: path.display().to_string(), reason: e.to_string(), request: false };
-    let text = json::text(&serde_json::to_value(&summary).map_err(failed)?);
-    write_whole(path, text.as_bytes())
+    serde_json::to_value(&summary).map_err(|error| Error::Io {
+        path: "the summary".to_owned(),
+        reason: error.to_string(),
+        request: false,
+    })
 }

@@ -1,0 +1,46 @@
+//! The words that options take, so that the shell can complete them.
+
+use crate::case::Embedded;
+use crate::qp::Backend;
+use crate::scheme::{Integrator, NAMES};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::ffi::OsStr;
+
+/// Text with words that a shell may offer for it; it may be another text.
+#[derive(Debug, Clone)]
+pub struct Offered(Vec<&'static str>);
+
+impl TypedValueParser for Offered {
+    type Value = String;
+
+    fn parse_ref(&self, _: &clap::Command, _: Option<&clap::Arg>, value: &OsStr) -> Result<String, clap::Error> {
+        // What is no Unicode names nothing here, and the message that says so shows it.
+        Ok(value.to_string_lossy().into_owned())
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(self.0.iter().map(PossibleValue::new)))
+    }
+}
+
+/// A scheme, or a method with its settings: `moreau-jean:theta=0.75`. It is read with the case at hand.
+#[must_use]
+pub fn schemes() -> Offered {
+    Offered(NAMES.to_vec())
+}
+
+/// The name of a built-in case.
+#[must_use]
+pub fn built_in() -> Offered {
+    Offered(Embedded::all().iter().map(|case| case.name).collect())
+}
+
+/// A solver of the quadratic programmes.
+pub fn solvers() -> impl TypedValueParser<Value = Backend> {
+    PossibleValuesParser::new(Backend::ALL.map(Backend::name)).try_map(|name| name.parse::<Backend>())
+}
+
+/// An integrator of the penalty.
+pub fn integrators() -> impl TypedValueParser<Value = Integrator> {
+    PossibleValuesParser::new(Integrator::ALL.map(Integrator::name)).try_map(|name| name.parse::<Integrator>())
+}

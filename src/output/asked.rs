@@ -1,0 +1,102 @@
+//! What a request asked for, as its results remember it: by it the folder of another request is told from one of the same.
+
+use super::results::FINGERPRINT;
+use crate::case::Case;
+use crate::scheme::{Method, Scheme};
+use serde_json::{Map, Value, json};
+use std::fmt::{self, Write};
+
+/// The request of `command` for `methods` on `case`: times and settings as they are, what is too long to tell as
+/// fingerprints. Titles and comments of a case file are not in it.
+#[must_use]
+pub fn asked(command: &str, case: &Case, methods: &[Method]) -> Map<String, Value> {
+    let whole = case.whole();
+    let integrator = |method: &Method| matches!(method.scheme, Scheme::Penalty { .. });
+    let mut request = object(json!({
+        "command": command,
+        "case": case.name,
+        "end_s": case.scene.duration,
+        "step_s": case.time.step,
+        "sample_s": case.time.sample,
+        "statistics_from_s": case.time.statistics_from,
+        "modes": case.truncated.as_ref().map(|truncated| truncated.reduction.modes.count()),
+        "methods": methods.iter().map(ToString::to_string).collect::<Vec<_>>(),
+    }));
+    if methods.is_empty() || methods.iter().any(integrator) {
+        request.insert(format!("penalty{FINGERPRINT}"), fingerprint(&case.penalty));
+    }
+    let truncated =
+        case.truncated.as_ref().map(|truncated| (&truncated.whole.damping, truncated.whole.static_correction));
+    for (part, digest) in [
+        ("system", fingerprint(&(&whole.system, truncated))),
+        ("walls", fingerprint(&whole.walls)),
+        ("loads", fingerprint(&whole.loads)),
+        ("initial", fingerprint(&whole.initial)),
+        ("probes", fingerprint(&whole.probes)),
+    ] {
+        request.insert(format!("{part}{FINGERPRINT}"), digest);
+    }
+    request
+}
+
+/// A request with further settings: keys of `more` beside its own.
+#[must_use]
+pub fn with(mut request: Map<String, Value>, more: Value) -> Map<String, Value> {
+    request.extend(object(more));
+    request
+}
+
+fn object(value: Value) -> Map<String, Value> {
+    match value {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    }
+}
+
+/// 64 bits of a value: of its Debug form, in which floats have all their digits.
+fn fingerprint(value: &dyn fmt::Debug) -> Value {
+    let mut digest = Fnv(0xcbf2_9ce4_8422_2325);
+    // Writing into a number cannot fail.
+    let _ = write!(digest, "{value:?}");
+    json!(format!("{:016x}", digest.0))
+}
+
+/// FNV-1a (Fowler, Noll, Vo; RFC 9923): the same in every version of the compiler, as the standard library's hashes are not.
+struct Fnv(u64);
+
+impl Write for Fnv {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        for byte in text.bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn requests_differ_where_their_numbers_do_and_not_in_their_titles() {
+        let case = Case::embedded("rigid-walls-sine").unwrap();
+        let method = [Method::new(Scheme::Event)];
+        let own = asked("run", &case, &method);
+        let renamed = Case { title: Some("another title".to_owned()), ..case.clone() };
+        assert_eq!(own, asked("run", &renamed, &method));
+        let mut moved = case.clone();
+        moved.scene.walls[0].position *= 1.0 + f64::EPSILON;
+        let other = asked("run", &moved, &method);
+        let differing: Vec<_> = own.keys().filter(|key| own[*key] != other[*key]).collect();
+        assert_eq!(differing, ["walls_fingerprint"]);
+        assert_ne!(own, asked("compare", &case, &method));
+    }
+
+    #[test]
+    fn the_digest_is_fnv_1a() {
+        // Test vector of the authors: "foobar".
+        let mut digest = Fnv(0xcbf2_9ce4_8422_2325);
+        digest.write_str("foobar").unwrap();
+        assert_eq!(digest.0, 0x8594_4171_f739_67e8);
+    }
+}

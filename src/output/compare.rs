@@ -1,0 +1,267 @@
+//! What a comparison leaves behind: the files of every run, figures of all, `compare.csv` and `compare-walls.csv`, a table, JSON.
+
+use super::Span;
+use super::atomic::write_whole;
+use super::csv::{self, digits};
+use super::pictures::{Labelled, Sheet};
+use super::results::Results;
+use super::run::{self, Picture};
+use super::summary::{Checks, Reasons};
+use super::table::Table;
+use crate::case::Case;
+use crate::error::Result;
+use crate::run::Run;
+use crate::scheme::{Method, Scheme};
+use crate::study::choice;
+use crate::study::compare::{Comparison, Row};
+use crate::study::verdict::Verdict;
+use serde_json::{Value, json};
+
+/// Walls that a person reads one by one, at most: beyond, the table shows sums over all.
+const MOST_WALLS: usize = 4;
+
+/// A method's name as a folder: `penalty-epsilon-1e-9-integrator-trapezoidal`.
+#[must_use]
+pub fn folder_name(method: &Method) -> String {
+    method.to_string().replace([':', ',', '='], "-")
+}
+
+/// Writes all files of a comparison: pictures of each run show the first of the two stretches, those of all together the second. Gives its rows as JSON: the summary of each run without the scene, which all share, and beside it what
+/// the comparison found; of a method that failed why.
+///
+/// # Errors
+/// [`crate::Error::Io`] where a file cannot be written.
+pub fn write(
+    results: &mut Results,
+    case: &Case,
+    comparison: &Comparison,
+    verdicts: &[Option<Verdict>],
+    [span, common]: [Span; 2],
+) -> Result<Vec<Value>> {
+    let mut documents = Vec::new();
+    for (look, (row, verdict)) in comparison.rows.iter().zip(verdicts).enumerate() {
+        let mut document = json!({});
+        if let Ok(done) = &row.outcome {
+            let reasons =
+                Reasons { scheme: "part of a comparison".into(), qp: choice::qp_reason(&row.method, &case.scene) };
+            let checks = Checks { refinement: verdict.as_ref(), ..Checks::default() };
+            let picture = Picture { span, look };
+            let folder = folder_name(&row.method);
+            document = run::write(results, &folder, case, done, &row.method, &reasons, checks, picture)?;
+        }
+        documents.push(with_findings(document, case, comparison, row));
+    }
+    figures(results, case, comparison, common)?;
+    methods(results, case, comparison)?;
+    walls(results, case, comparison)?;
+    Ok(documents)
+}
+
+fn with_findings(mut document: Value, case: &Case, comparison: &Comparison, row: &Row) -> Value {
+    let run = row.outcome.as_ref().ok();
+    let found = json!({
+        "method": row.method.to_string(),
+        "restitution": row.restitution.map(|e| json!({ "median": e.median, "least": e.least, "largest": e.largest })),
+        "error_over_gap": row.error,
+        "horizon_s": row.error.map(|_| comparison.horizon),
+        "agrees_until_s": row.agrees_until,
+        "largest_displacement_m": run.map(|run| largest(run.trajectory.displacements())),
+        "penetration_m": run.map(|run| penetration(case, run)),
+        "peak_force_n": run.and_then(|run| peak(run, None)),
+        "seconds_per_step": row.step_ns.map(|ns| 1e-9 * ns),
+        "failure": row.outcome.as_ref().err().map(ToString::to_string),
+    });
+    if let (Some(document), Value::Object(found)) = (document.as_object_mut(), found) {
+        for shared in ["program", "case", "title", "source", "case_file", "files", "scene"] {
+            document.remove(shared);
+        }
+        document.extend(found);
+    }
+    document
+}
+
+fn figures(results: &mut Results, case: &Case, comparison: &Comparison, span: Span) -> Result<()> {
+    let labels: Vec<String> = comparison.rows.iter().map(|row| row.method.to_string()).collect();
+    let runs: Vec<Labelled<'_>> = comparison
+        .rows
+        .iter()
+        .zip(&labels)
+        .enumerate()
+        .filter_map(|(look, (row, label))| {
+            let run = row.outcome.as_ref().ok()?;
+            Some(Labelled { label, run, reference: row.method.scheme == Scheme::Event, look })
+        })
+        .collect();
+    let refined =
+        comparison.refined.as_ref().map(|(method, run)| (format!("{method}, h = {:.1e} s", run.grid.step), run));
+    let runs: Vec<Labelled<'_>> = match &refined {
+        Some((label, run)) => runs.into_iter().chain([Labelled { label, run, reference: true, look: 0 }]).collect(),
+        None => runs,
+    };
+    let title = case.title.as_deref().unwrap_or(&case.name);
+    let sheet = Sheet { title, scene: &case.scene, runs: &runs, span };
+    for (name, svg) in sheet.figures()? {
+        write_whole(&results.place(&format!("{name}.svg"))?, svg.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// `compare.csv`: a row a method.
+fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
+    let header = [
+        "method",
+        "step_s",
+        "restitution",
+        "restitution_least",
+        "restitution_largest",
+        "error_over_gap",
+        "horizon_s",
+        "agrees_until_s",
+        "largest_displacement_m",
+        "penetration_m",
+        "peak_force_N",
+        "energy_residual",
+        "complementarity_residual",
+        "step_ns",
+        "failure",
+    ];
+    let line = |row: &Row| {
+        let mut line = vec![row.method.to_string()];
+        let run = match &row.outcome {
+            Ok(run) => run,
+            Err(error) => {
+                line.resize(header.len() - 1, String::new());
+                line.push(error.to_string());
+                return line;
+            }
+        };
+        let exact = row.method.scheme == Scheme::Event;
+        let e = row.restitution;
+        line.push(digits((!exact).then_some(run.grid.step)));
+        line.extend([e.map(|e| e.median), e.map(|e| e.least), e.map(|e| e.largest)].map(digits));
+        line.push(digits(row.error));
+        line.push(digits(row.error.map(|_| comparison.horizon)));
+        line.push(digits(row.agrees_until));
+        line.push(digits(Some(largest(run.trajectory.displacements()))));
+        line.push(digits(Some(penetration(case, run))));
+        line.push(digits(peak(run, None)));
+        line.extend([run.residuals.energy.residual, run.residuals.complementarity].map(|x| digits(Some(x))));
+        line.push(digits(row.step_ns));
+        line.push(String::new());
+        line
+    };
+    csv::table(&results.place("compare.csv")?, &header.map(str::to_owned), comparison.rows.iter().map(line))
+}
+
+/// `compare-walls.csv`: a row for each method and wall, however many walls there are.
+fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
+    let header = ["method", "wall", "impulse_N_s", "contacts", "peak_force_N"];
+    let runs = comparison.rows.iter().filter_map(|row| Some((row.method.to_string(), row.outcome.as_ref().ok()?)));
+    let rows = runs.flat_map(|(method, run)| {
+        let counts = counts(case, run);
+        let line = move |(index, wall): (usize, &crate::scene::Wall)| {
+            vec![
+                method.clone(),
+                wall.name.clone(),
+                digits(run.trajectory.impulse(&wall.name).ok()),
+                counts.get(index).map_or_else(String::new, ToString::to_string),
+                digits(peak(run, Some(index))),
+            ]
+        };
+        case.scene.walls.iter().enumerate().map(line)
+    });
+    csv::table(&results.place("compare-walls.csv")?, &header.map(str::to_owned), rows)
+}
+
+/// Contacts of each wall.
+fn counts(case: &Case, run: &Run) -> Vec<usize> {
+    let mut counts = vec![0; case.scene.walls.len()];
+    for contact in run.trajectory.contacts() {
+        if let Some(count) = counts.get_mut(contact.wall) {
+            *count += 1;
+        }
+    }
+    counts
+}
+
+fn largest(columns: &[Vec<f64>]) -> f64 {
+    columns.iter().flatten().fold(0.0, |a, x| a.max(x.abs()))
+}
+
+/// Deepest position behind a wall that the scene calls rigid, m.
+fn penetration(case: &Case, run: &Run) -> f64 {
+    let walls = case.scene.walls.iter().zip(&run.residuals.depth_m);
+    walls.filter(|(wall, _)| wall.law.is_rigid()).fold(0.0, |a, (_, depth)| a.max(*depth))
+}
+
+/// Largest force of the contacts whose force is finite, N: of one wall, or of all.
+fn peak(run: &Run, wall: Option<usize>) -> Option<f64> {
+    let here = run.trajectory.contacts().iter().filter(|c| wall.is_none_or(|wall| c.wall == wall));
+    here.filter_map(|c| c.peak_force).reduce(f64::max)
+}
+
+/// The comparison for people: a column a method, since there are more quantities than methods.
+#[must_use]
+pub fn table(case: &Case, comparison: &Comparison) -> Table {
+    let methods: Vec<String> = comparison.rows.iter().map(|row| row.method.to_string()).collect();
+    let header: Vec<&str> = std::iter::once("").chain(methods.iter().map(String::as_str)).collect();
+    let mut rows = Vec::new();
+    let mut quantity = |name: &str, of: &dyn Fn(&Row, &Run) -> String| {
+        let cell = |row: &Row| row.outcome.as_ref().map_or_else(|_| "failed".to_owned(), |run| of(row, run));
+        rows.push(std::iter::once(name.to_owned()).chain(comparison.rows.iter().map(cell)).collect());
+    };
+    let short = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") };
+    let dash = || "-".to_owned();
+    let exact = |row: &Row| row.method.scheme == Scheme::Event;
+    quantity("step (s)", &|row, run| if exact(row) { "exact".into() } else { format!("{:.3e}", run.grid.step) });
+    quantity("restitution", &|row, _| row.restitution.map_or_else(dash, |e| format!("{:.3}", e.median)));
+    let spread = |row: &Row| row.restitution.filter(|e| e.largest - e.least >= 5e-4);
+    if comparison.rows.iter().any(|row| spread(row).is_some()) {
+        quantity("  from", &|row, _| spread(row).map_or_else(dash, |e| format!("{:.2}", e.least)));
+        quantity("  to", &|row, _| spread(row).map_or_else(dash, |e| format!("{:.2}", e.largest)));
+    }
+    quantity("error / gap", &|row, _| {
+        row.error.map_or_else(|| if exact(row) { "reference".into() } else { dash() }, short)
+    });
+    quantity("agrees until (s)", &|row, _| {
+        row.agrees_until.map_or_else(dash, |t| {
+            if t >= comparison.horizon.max(case.scene.duration) { "end".into() } else { format!("{t:.3}") }
+        })
+    });
+    quantity("max |u| (mm)", &|_, run| format!("{:.4}", 1e3 * largest(run.trajectory.displacements())));
+    quantity("penetration (mm)", &|_, run| short(1e3 * penetration(case, run)));
+    quantity("peak force (N)", &|_, run| {
+        let none = || if run.trajectory.contacts().is_empty() { dash() } else { "impacts".into() };
+        peak(run, None).map_or_else(none, |f| format!("{f:.2}"))
+    });
+    let walls = &case.scene.walls;
+    if walls.len() > MOST_WALLS {
+        let impulse = |run: &Run, name: &str| run.trajectory.impulse(name).map_or(f64::NAN, f64::abs);
+        quantity("Σ|impulse| (N s)", &|_, run| {
+            format!("{:.3}", walls.iter().map(|wall| impulse(run, &wall.name)).sum::<f64>())
+        });
+        quantity("contacts", &|_, run| run.trajectory.contacts().len().to_string());
+    } else {
+        for wall in walls {
+            quantity(&format!("impulse {} (N s)", wall.name), &|_, run| {
+                format!("{:+.3}", run.trajectory.impulse(&wall.name).unwrap_or(f64::NAN))
+            });
+        }
+        for (index, wall) in walls.iter().enumerate() {
+            quantity(&format!("contacts {}", wall.name), &|_, run| {
+                counts(case, run).get(index).map_or_else(dash, ToString::to_string)
+            });
+        }
+    }
+    quantity("energy residual", &|_, run| short(run.residuals.energy.residual));
+    quantity("compl. residual", &|_, run| short(run.residuals.complementarity));
+    quantity("ns / step", &|row, _| row.step_ns.map_or_else(dash, |ns| format!("{ns:.0}")));
+    Table::new(&header, rows).in_blocks()
+}
+
+/// What must be said beside the table.
+#[must_use]
+pub fn remark(case: &Case) -> Option<String> {
+    let count = case.scene.walls.len();
+    (count > MOST_WALLS).then(|| format!("impulses and contacts of all {count} walls; compare-walls.csv has each"))
+}

@@ -1,0 +1,141 @@
+//! A chart and a stability study as JSON documents: what `--json` prints. A number that is not there, or not finite, is null.
+
+use crate::case::Case;
+use crate::scheme::Scheme;
+use crate::study::stability::lasting::{Line, Quality};
+use crate::study::stability::plan::{Maps, Row};
+use crate::study::work_precision::{Errors, Measured, Outcome, Point, Series, WorkPrecision};
+use serde_json::{Value, json};
+
+fn head(case: &Case) -> Value {
+    json!({
+        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+        "case": case.name,
+        "title": case.title,
+        "source": case.source,
+    })
+}
+
+/// `value` with the keys that every document has, before its own.
+fn under_head(case: &Case, value: Value) -> Value {
+    let mut document = head(case);
+    if let (Some(document), Value::Object(own)) = (document.as_object_mut(), value) {
+        document.extend(own);
+    }
+    document
+}
+
+/// Accuracy against speed: every point of every method.
+#[must_use]
+pub fn chart(case: &Case, chart: &WorkPrecision) -> Value {
+    let walls: Vec<&str> = case.scene.walls.iter().map(|wall| wall.name.as_str()).collect();
+    let floors = chart.floors.iter().map(|floor| {
+        json!({
+            "penalty": floor.law.to_string(),
+            "errors": floor.errors.as_ref().map(|errors| self::errors(errors, &walls)),
+            "compared_until_s": floor.end,
+            "failure": floor.reference.as_ref().err().map(ToString::to_string),
+        })
+    });
+    let value = json!({
+        "compared_until_s": chart.horizon.end,
+        "growth": chart.horizon.growth,
+        "growth_of_all": chart.horizon.growth_of_all,
+        "reference": { "how": chart.reference.how, "uncertainty": errors(&chart.reference.uncertainty, &walls) },
+        "series": chart.series.iter().map(|one| series(chart, one, &walls)).collect::<Vec<_>>(),
+        "floors": floors.collect::<Vec<_>>(),
+        "notes": case.notes(),
+    });
+    under_head(case, value)
+}
+
+fn series(chart: &WorkPrecision, series: &Series, walls: &[&str]) -> Value {
+    json!({
+        "method": series.method.to_string(),
+        "order": series.order(chart.known(&series.method.scheme)),
+        "points": series.points.iter().map(|one| point(one, walls)).collect::<Vec<_>>(),
+    })
+}
+
+fn point(point: &Point, walls: &[&str]) -> Value {
+    let measured = point.measured();
+    let number = |of: fn(&Measured) -> f64| measured.map(of);
+    json!({
+        "step_s": point.step,
+        "seconds": number(|m| m.seconds),
+        "errors": measured.map(|m| errors(&m.errors, walls)),
+        "errors_against_own_springs": measured.and_then(|m| m.own.as_ref()).map(|own| errors(own, walls)),
+        "counters": measured.map(|m| m.counters),
+        "notes": measured.map(|m| &m.notes),
+        "failure": match &point.outcome {
+            Outcome::Failed(error) => Some(error.to_string()),
+            Outcome::LeftOut(seconds) => Some(format!("left out: it would take about {seconds:.1} s")),
+            Outcome::Ran(_) => None,
+        },
+    })
+}
+
+fn errors(errors: &Errors, walls: &[&str]) -> Value {
+    let impulse = walls.iter().zip(&errors.impulse).map(|(wall, error)| ((*wall).to_owned(), json!(error)));
+    json!({
+        "displacement": errors.displacement,
+        "velocity": errors.velocity,
+        "impulse": impulse.collect::<serde_json::Map<_, _>>(),
+        "contact_time": errors.contact_time,
+        "contacts_missing": errors.missing,
+        "contacts_spurious": errors.spurious,
+    })
+}
+
+/// Where each scheme fails: its largest safe step, the first failure beyond, the restitution of one free impact over all phases (as `range`
+/// gives it), and what it does to energy and to a lasting contact. All cells of the maps are in the CSV.
+#[must_use]
+pub fn stability(case: &Case, maps: &Maps, quality: &Quality, range: &dyn Fn(&Scheme) -> Option<(f64, f64)>) -> Value {
+    let row = |row: &Row| {
+        let safe = row.safe.as_ref();
+        let step = safe.and_then(|safe| safe.step);
+        json!({
+            "scheme": row.subject.scheme.to_string(),
+            "largest_safe_step_s": step,
+            "largest_safe_step_times_omega": step.map(|h| h * maps.scale.omega),
+            "kappa": step.and_then(|h| row.subject.kappa(&maps.scale, h)),
+            "restitution": range(&row.subject.scheme).map(|(least, largest)| json!({ "least": least, "largest": largest })),
+            "beyond": safe.and_then(|safe| safe.beyond.as_ref()).map(|cell| json!({
+                "step_s": cell.step,
+                "class": cell.class.to_string(),
+                "reason": cell.reason,
+            })),
+        })
+    };
+    let value = json!({
+        "steps_s": maps.steps,
+        "duration_s": maps.horizon,
+        "omega_rad_per_s": maps.scale.omega,
+        "omega_is": maps.scale.origin.describe(),
+        "schemes": maps.own().map(row).collect::<Vec<_>>(),
+        "energy_j": quality.energy,
+        "lasting_contacts": quality.lines.iter().map(lasting).collect::<Vec<_>>(),
+        "notes": case.notes(),
+    });
+    under_head(case, value)
+}
+
+fn lasting(line: &Line) -> Value {
+    let seen = line.outcome.as_ref().ok();
+    json!({
+        "scheme": line.scheme.to_string(),
+        "step_s": line.step,
+        "largest_energy": seen.map(|s| s.largest),
+        "last_energy": seen.map(|s| s.last),
+        "lost_at_walls": seen.map(|s| s.lost_at_walls),
+        "unexplained_energy": seen.map(|s| s.unexplained),
+        "contact": seen.and_then(|s| s.contact.as_ref()).map(|(wall, c)| json!({
+            "wall": wall,
+            "start_s": c.start,
+            "end_s": c.end,
+            "impulse_n_s": c.impulse,
+            "ripple": c.ripple,
+        })),
+        "failure": line.outcome.as_ref().err().map(ToString::to_string),
+    })
+}

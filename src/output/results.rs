@@ -1,0 +1,241 @@
+//! The folder of a request's results. It is never filled over the results of another request, unless that is asked for.
+//!
+//! `request.json` in the folder says what was asked, when it was done, and which files belong to it.
+
+use super::atomic::{check_folder, write_whole};
+use crate::error::{Error, Result};
+use serde_json::{Map, Value, json};
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+use std::time::SystemTime;
+
+/// The file that says what a folder holds.
+const MANIFEST: &str = "request.json";
+
+/// Largest such file that is read, bytes.
+const MOST_BYTES: u64 = 1 << 24;
+
+/// Files that results consist of: a folder with one of them, and without a manifest, holds results of an unknown request.
+const RESULTS: [&str; 6] =
+    ["summary.json", "trajectory.csv", "compare.csv", "work-precision.csv", "stability.csv", "impact-map.csv"];
+
+/// A folder under way.
+#[derive(Debug)]
+pub struct Results {
+    folder: PathBuf,
+    request: Map<String, Value>,
+    /// When what stands in the folder was made, and its files.
+    before: Option<Before>,
+    files: Vec<String>,
+}
+
+#[derive(Debug, Default)]
+struct Before {
+    made: Option<String>,
+    files: Vec<String>,
+}
+
+impl Results {
+    /// Makes sure that `folder` can be written and holds no results of another request than `request`: asked before a
+    /// long run rather than after. With `force` it may hold anything.
+    ///
+    /// # Errors
+    /// [`Error::Io`], a wrong request, which says when the other results were made and what differs.
+    pub fn open(folder: &Path, request: Map<String, Value>, force: bool) -> Result<Self> {
+        let manifest = read(folder);
+        if !force {
+            let refused = match &manifest {
+                Some(other) => differences(other.get("request"), &request).map(|what| {
+                    format!("holds results of another request, made {}:{what}", made(other).unwrap_or("at some time"))
+                }),
+                None => RESULTS
+                    .iter()
+                    .find(|name| folder.join(name).exists())
+                    .map(|name| format!("holds results ({name}) and no {MANIFEST} that says of which request")),
+            };
+            if let Some(reason) = refused {
+                let reason = format!("{reason}\nhelp: --force replaces them, --out DIR writes elsewhere");
+                return Err(Error::Io { path: folder.display().to_string(), reason, request: true });
+            }
+        }
+        check_folder(folder)?;
+        let unknown = || RESULTS.iter().any(|name| folder.join(name).exists()).then(Before::default);
+        let before = manifest.as_ref().map_or_else(unknown, |manifest| {
+            let listed = manifest.get("files").and_then(Value::as_array).into_iter().flatten();
+            let files = listed.filter_map(|name| name.as_str().map(str::to_owned)).collect();
+            Some(Before { made: made(manifest).map(str::to_owned), files })
+        });
+        Ok(Self { folder: folder.to_owned(), request, before, files: Vec::new() })
+    }
+
+    /// The folder.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Names of the files so far, relative to the folder.
+    #[must_use]
+    pub fn files(&self) -> &[String] {
+        &self.files
+    }
+
+    /// The place of a file that belongs to the results; `name` may have folders before it.
+    ///
+    /// # Errors
+    /// [`Error::Io`] where the older manifest cannot be taken away: once a file is replaced it would no longer be true.
+    pub fn place(&mut self, name: &str) -> Result<PathBuf> {
+        if self.files.is_empty() {
+            let manifest = self.folder.join(MANIFEST);
+            match fs::remove_file(&manifest) {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(failure(&manifest, &error)),
+                _ => {}
+            }
+        }
+        self.files.push(name.to_owned());
+        Ok(self.folder.join(name))
+    }
+
+    /// Says what the folder now holds, and takes away what is left there of the results before. Gives the sentence that
+    /// tells what was replaced, if something was.
+    ///
+    /// # Errors
+    /// [`Error::Io`] where the manifest cannot be written.
+    pub fn finish(&self) -> Result<Option<String>> {
+        if let Some(before) = &self.before {
+            before.files.iter().filter(|name| !self.files.contains(name)).for_each(|name| self.take_away(name));
+        }
+        let manifest = json!({
+            "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+            "made": humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+            "request": self.request,
+            "files": self.files,
+        });
+        write_whole(&self.folder.join(MANIFEST), format!("{manifest:#}\n").as_bytes())?;
+        let replaced = |before: &Before| {
+            let made = before.made.as_deref().map_or_else(String::new, |time| format!(", made {time}"));
+            format!("replaced the results in {}{made}", self.folder.display())
+        };
+        Ok(self.before.as_ref().map(replaced))
+    }
+
+    /// Removes a file of the results before, and the folder that it leaves empty. A manifest is only text: nothing outside
+    /// the folder is touched, whatever it names. What cannot be removed stays.
+    fn take_away(&self, name: &str) {
+        let path = Path::new(name);
+        if name.is_empty() || !path.components().all(|part| matches!(part, Component::Normal(_))) {
+            return;
+        }
+        let linked = |path: &Path| fs::symlink_metadata(self.folder.join(path)).is_ok_and(|meta| meta.is_symlink());
+        if path.ancestors().skip(1).any(|folder| !folder.as_os_str().is_empty() && linked(folder)) {
+            return;
+        }
+        let _ = fs::remove_file(self.folder.join(path));
+        for folder in path.ancestors().skip(1).filter(|folder| !folder.as_os_str().is_empty()) {
+            // Only empty folders go.
+            let _ = fs::remove_dir(self.folder.join(folder));
+        }
+    }
+}
+
+/// The manifest in `folder`, if there is one that can be read.
+fn read(folder: &Path) -> Option<Value> {
+    let path = folder.join(MANIFEST);
+    let meta = fs::metadata(&path).ok().filter(|meta| meta.is_file() && meta.len() <= MOST_BYTES)?;
+    let text = fs::read_to_string(&path).ok().filter(|_| meta.len() > 0)?;
+    serde_json::from_str(&text).ok()
+}
+
+fn made(manifest: &Value) -> Option<&str> {
+    manifest.get("made").and_then(Value::as_str)
+}
+
+/// What `request` asks otherwise than `other`, one line each; none where it asks the same.
+fn differences(other: Option<&Value>, request: &Map<String, Value>) -> Option<String> {
+    let empty = Map::new();
+    let other = other.and_then(Value::as_object).unwrap_or(&empty);
+    let keys = other.keys().chain(request.keys().filter(|key| !other.contains_key(*key)));
+    let shown = |value: Option<&Value>| match value {
+        None | Some(Value::Null) => "none".to_owned(),
+        Some(Value::String(text)) => text.clone(),
+        Some(value) => value.to_string(),
+    };
+    let mut text = String::new();
+    for key in keys.filter(|key| other.get(*key).unwrap_or(&Value::Null) != request.get(*key).unwrap_or(&Value::Null)) {
+        // A fingerprint says that something differs; its digits say nothing.
+        match key.strip_suffix(FINGERPRINT) {
+            Some(what) => text.push_str(&format!("\n  another {what}")),
+            None => {
+                text.push_str(&format!("\n  {key}: {} there, {} now", shown(other.get(key)), shown(request.get(key))))
+            }
+        }
+    }
+    if text.is_empty() { None } else { Some(text) }
+}
+
+/// How the keys of fingerprints end.
+pub const FINGERPRINT: &str = "_fingerprint";
+
+fn failure(path: &Path, error: &std::io::Error) -> Error {
+    Error::Io { path: path.display().to_string(), reason: error.to_string(), request: false }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn request(end: f64) -> Map<String, Value> {
+        let value = json!({ "command": "run", "end_s": end, "walls_fingerprint": format!("{end}") });
+        value.as_object().cloned().unwrap_or_default()
+    }
+
+    fn fill(folder: &Path, end: f64, force: bool, name: &str) -> Result<Option<String>> {
+        let mut results = Results::open(folder, request(end), force)?;
+        let path = results.place(name)?;
+        write_whole(&path, b"1")?;
+        results.finish()
+    }
+
+    #[test]
+    fn results_of_another_request_stay_unless_forced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path();
+        assert_eq!(fill(path, 10.0, false, "method/summary.json").unwrap(), None);
+        let refused = fill(path, 1.0, false, "other.csv").unwrap_err();
+        assert!(refused.is_request());
+        let text = refused.to_string();
+        for words in ["made 20", "end_s: 10.0 there, 1.0 now", "another walls", "--force", "--out"] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
+        assert!(path.join("method/summary.json").exists());
+        // The same request replaces, and says what.
+        let replaced = fill(path, 10.0, false, "method/summary.json").unwrap();
+        assert!(replaced.is_some_and(|text| text.contains("made 20")));
+        // Forced, nothing of the other request is left beside the new files.
+        fill(path, 1.0, true, "other.csv").unwrap();
+        assert!(path.join("other.csv").exists() && !path.join("method").exists());
+    }
+
+    #[test]
+    fn results_without_a_manifest_are_those_of_an_unknown_request() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("summary.json"), "{}").unwrap();
+        assert!(fill(folder.path(), 1.0, false, "a.csv").unwrap_err().to_string().contains("summary.json"));
+        fs::write(folder.path().join(MANIFEST), "no JSON").unwrap();
+        assert!(fill(folder.path(), 1.0, false, "a.csv").is_err());
+        assert!(fill(folder.path(), 1.0, true, "a.csv").unwrap().is_some());
+    }
+
+    #[test]
+    fn a_manifest_takes_nothing_away_outside_its_folder() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("results");
+        let precious = root.path().join("precious");
+        fs::create_dir(&folder).unwrap();
+        fs::write(&precious, "1").unwrap();
+        let files = json!({ "files": ["../precious", precious.display().to_string(), "", "."] });
+        fs::write(folder.join(MANIFEST), files.to_string()).unwrap();
+        fill(&folder, 1.0, true, "a.csv").unwrap();
+        assert!(precious.exists() && folder.join("a.csv").exists());
+    }
+}

@@ -1,0 +1,160 @@
+//! What one run leaves behind: its files, and the table of its walls. `run`, `compare` and any other caller share them.
+
+use super::pictures::{Labelled, Sheet};
+use super::results::Results;
+use super::summary::{self, Checks, Reasons};
+use super::table::Table;
+use super::{Span, csv};
+use crate::case::Case;
+use crate::error::Result;
+use crate::output::atomic::write_whole;
+use crate::run::Run;
+use crate::scheme::{Method, Scheme};
+use crate::statistics::WallStatistics;
+use serde_json::Value;
+
+/// Most walls of a table that a person reads.
+const MOST_ROWS: usize = 24;
+
+/// What the pictures of one run show, and the number of its look among the runs of the command.
+#[derive(Debug, Clone, Copy)]
+pub struct Picture {
+    /// The stretch of time that is drawn.
+    pub span: Span,
+    /// The number of the look.
+    pub look: usize,
+}
+
+/// Writes the files of one run: `trajectory.csv`, `contacts.csv`, the figures and `summary.json`, into the folder of `results`
+/// or, where `prefix` is not empty, a folder of that name in it. Gives the summary.
+///
+/// # Errors
+/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
+pub fn write(
+    results: &mut Results,
+    prefix: &str,
+    case: &Case,
+    run: &Run,
+    method: &Method,
+    reasons: &Reasons,
+    checks: Checks<'_>,
+    picture: Picture,
+) -> Result<Value> {
+    let named = |name: &str| if prefix.is_empty() { name.to_owned() } else { format!("{prefix}/{name}") };
+    csv::trajectory(&results.place(&named("trajectory.csv"))?, &run.trajectory)?;
+    csv::contacts(&results.place(&named("contacts.csv"))?, &run.trajectory)?;
+    let label = method.to_string();
+    let runs = [Labelled { label: &label, run, reference: false, look: picture.look }];
+    let title = case.title.as_deref().unwrap_or(&case.name);
+    let sheet = Sheet { title, scene: &case.scene, runs: &runs, span: picture.span };
+    for (name, svg) in sheet.figures()? {
+        write_whole(&results.place(&named(&format!("{name}.svg")))?, svg.as_bytes())?;
+    }
+    summary::write(&results.place(&named("summary.json"))?, case, run, reasons, checks)?;
+    summary::document(case, run, reasons, checks)
+}
+
+/// The walls of a run, for people: those of the largest impulses where there are many. None without walls.
+///
+/// # Errors
+/// None beyond those of a trajectory asked for its own walls.
+pub fn table(run: &Run) -> Result<Option<Table>> {
+    let headers = [
+        "wall",
+        "contacts",
+        "impulse (N s)",
+        "largest force (N)",
+        "contact time (%)",
+        "impact power (W)",
+        "not returned (W)",
+    ];
+    let mut rows = Vec::new();
+    for (index, wall) in busiest(run) {
+        let none = if wall.contacts == 0 { "-" } else { "impacts" };
+        rows.push(vec![
+            wall.wall.clone(),
+            wall.contacts.to_string(),
+            fixed(run.trajectory.impulse(&wall.wall)?, 6),
+            largest_force(run, index).map_or_else(|| none.into(), |f| fixed(f, 4)),
+            fixed(100.0 * wall.contact_time_ratio, 3),
+            fixed(wall.impact_power_w, 6),
+            fixed(wall.unreturned_power_w, 6),
+        ]);
+    }
+    Ok((!rows.is_empty()).then(|| Table::new(&headers, rows)))
+}
+
+/// What must be said beside the table of the walls.
+#[must_use]
+pub fn remarks(run: &Run) -> Vec<String> {
+    let all = run.statistics.walls.len();
+    if all == 0 {
+        return Vec::new();
+    }
+    let mut remarks = Vec::new();
+    if all > MOST_ROWS {
+        remarks.push(format!("{MOST_ROWS} of {all} walls, those of the largest impulses; the summary has them all"));
+    }
+    if run.statistics.from_s > 0.0 {
+        remarks.push(format!(
+            "contacts, times and powers from t = {} s on, contacts that begin in it; impulses of the whole run",
+            run.statistics.from_s
+        ));
+    }
+    remarks.push("impact power is normal impact only: frictionless contact has no sliding wear in it".to_owned());
+    remarks
+}
+
+/// What a run cost and how well it kept its promises, in a line.
+#[must_use]
+pub fn line(case: &Case, run: &Run, method: &Method) -> String {
+    let r = &run.residuals;
+    format!(
+        "{method} on {}: {} steps, {}, complementarity {:.1e}, penetration {:.1e} m, energy ledger {:.1e}, {:.3} s",
+        case.name,
+        run.counters.steps,
+        solved(run),
+        r.complementarity,
+        r.penetration_m,
+        r.energy.residual,
+        run.seconds
+    )
+}
+
+/// `x` with so many decimals, and 0 instead of what would be shown as −0.
+fn fixed(x: f64, digits: usize) -> String {
+    let x = if x.abs() < 0.5 * 10f64.powi(-(digits as i32)) { 0.0 } else { x };
+    format!("{x:.digits$}")
+}
+
+/// The largest force of the contacts at a wall that reach into the window of the statistics, N: also of one that began before it and lasts.
+fn largest_force(run: &Run, index: usize) -> Option<f64> {
+    let from = run.statistics.from_s;
+    let here = run.trajectory.contacts().iter().filter(|c| c.wall == index && c.end.is_none_or(|end| end >= from));
+    here.filter_map(|c| c.peak_force).map(f64::abs).reduce(f64::max)
+}
+
+/// The walls of the largest impulses, in the scene's order.
+fn busiest(run: &Run) -> Vec<(usize, &WallStatistics)> {
+    let walls = &run.statistics.walls;
+    let impulse = |wall: &str| run.trajectory.impulse(wall).map_or(0.0, f64::abs);
+    let mut order: Vec<(usize, f64)> = walls.iter().map(|wall| impulse(&wall.wall)).enumerate().collect();
+    order.sort_by(|a, b| b.1.total_cmp(&a.1));
+    order.truncate(MOST_ROWS);
+    order.sort_by_key(|entry| entry.0);
+    order.into_iter().filter_map(|(i, _)| walls.get(i).map(|wall| (i, wall))).collect()
+}
+
+/// What solved the steps that met a wall, and how often.
+fn solved(run: &Run) -> String {
+    let counters = &run.counters;
+    match run.scheme {
+        Scheme::Event => format!("{} contact events", counters.events),
+        Scheme::Penalty { .. } => format!("{} Newton iterations", counters.newton_iterations),
+        _ if counters.qp_fallbacks > 0 => {
+            let (all, left) = (counters.qp_solves, counters.qp_fallbacks);
+            format!("{all} QPs by {}, {left} of them left to Clarabel", run.backend)
+        }
+        _ => format!("{} QPs by {}", counters.qp_solves, run.backend),
+    }
+}

@@ -1,0 +1,196 @@
+//! Tables for people: as wide as the terminal has room, no number broken over two lines.
+
+use comfy_table::{CellAlignment, ContentArrangement, Table as Grid, presets};
+
+/// Space between two columns.
+const BETWEEN: usize = 2;
+
+/// Text shorter than this is not broken, where there is little room.
+const TEXT: usize = 16;
+
+/// Headings, and rows of cells; the first column names what a row is about.
+#[derive(Debug, Clone, Default)]
+pub struct Table {
+    header: Vec<String>,
+    rows: Vec<Vec<String>>,
+    whole: bool,
+}
+
+/// A table as it fits.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fitted {
+    /// Its lines.
+    pub text: String,
+    /// Headings of the columns that had no room.
+    pub left_out: Vec<String>,
+}
+
+impl Table {
+    /// A table under `header`. Where it is too wide its last columns are left out.
+    #[must_use]
+    pub fn new(header: &[&str], rows: Vec<Vec<String>>) -> Self {
+        Self { header: header.iter().map(|&text| text.to_owned()).collect(), rows, whole: false }
+    }
+
+    /// The same, of which nothing is left out: columns that have no room stand in a second block below the first, again
+    /// behind the column of names.
+    #[must_use]
+    pub fn in_blocks(mut self) -> Self {
+        self.whole = true;
+        self
+    }
+
+    /// The table in at most `width` columns of text (as wide as it is, where there is none). Where that is too narrow, text is broken
+    /// between its words; numbers never are. Two columns stand even where they are wider than that.
+    #[must_use]
+    pub fn fit(&self, width: Option<usize>) -> Fitted {
+        let room = width.unwrap_or(usize::MAX);
+        let whole: Vec<usize> = (0..self.header.len()).map(|column| self.widest(column, false)).collect();
+        let fits = whole.iter().map(|w| w + BETWEEN).sum::<usize>() <= room.saturating_add(BETWEEN);
+        let narrow = |(column, &whole): (usize, &usize)| self.widest(column, true).max(whole.min(TEXT));
+        let widths = if fits { whole } else { whole.iter().enumerate().map(narrow).collect() };
+        let mut text = Vec::new();
+        let mut next = 1;
+        loop {
+            let start = next;
+            let mut used = widths.first().copied().unwrap_or(0);
+            while let Some(wide) = widths.get(next)
+                && (next == start || used + BETWEEN + wide <= room)
+            {
+                used += BETWEEN + wide;
+                next += 1;
+            }
+            let shown: Vec<usize> = std::iter::once(0).chain(start..next).collect();
+            text.push(self.block(&shown, &widths));
+            if !self.whole || next >= self.header.len() {
+                break;
+            }
+        }
+        let left_out = self.header.get(next.min(self.header.len())..).unwrap_or_default().to_vec();
+        Fitted { text: text.join("\n\n"), left_out }
+    }
+
+    /// Width of a column: of its heading broken wherever it may be, and of its cells; of text that is broken, too, where `broken` is true.
+    fn widest(&self, column: usize, broken: bool) -> usize {
+        let parts = |text: &str| pieces(text).map(wide).max().unwrap_or(0);
+        let cell = |text: &String| if broken && !is_number(text) { parts(text) } else { wide(text) };
+        let cells = self.rows.iter().filter_map(|row| row.get(column)).map(cell).max().unwrap_or(0);
+        cells.max(self.header.get(column).map_or(0, |text| parts(text)))
+    }
+
+    fn block(&self, columns: &[usize], widths: &[usize]) -> String {
+        let mut grid = Grid::new();
+        grid.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+        let fitted = |column: usize, text: Option<&String>| {
+            let width = widths.get(column).copied().unwrap_or(usize::MAX);
+            text.map_or_else(String::new, |text| if wide(text) > width { broken(text, width) } else { text.clone() })
+        };
+        grid.set_header(columns.iter().map(|&column| fitted(column, self.header.get(column))));
+        for row in &self.rows {
+            grid.add_row(columns.iter().map(|&column| fitted(column, row.get(column))));
+        }
+        for (place, &column) in columns.iter().enumerate() {
+            if let Some(shown) = grid.column_mut(place) {
+                shown.set_padding((0, if place + 1 < columns.len() { BETWEEN as u16 } else { 0 }));
+                if column > 0 && self.is_numeric(column) {
+                    shown.set_cell_alignment(CellAlignment::Right);
+                }
+            }
+        }
+        grid.trim_fmt()
+    }
+
+    /// True for a column of numbers, which are read along their last digit.
+    fn is_numeric(&self, column: usize) -> bool {
+        let cells = self.rows.iter().filter_map(|row| row.get(column)).filter(|cell| !cell.is_empty());
+        let numbers = cells.clone().filter(|cell| is_number(cell)).count();
+        2 * numbers > cells.count()
+    }
+}
+
+/// True for a number, and for the dash that stands where there is none.
+fn is_number(text: &str) -> bool {
+    text == "-" || text.parse::<f64>().is_ok()
+}
+
+fn wide(text: &str) -> usize {
+    text.chars().count()
+}
+
+/// The parts of a heading that stay together: `largest force (N)` is `largest`, `force`, `(N)`, and
+/// `penalty:epsilon=1e-9,integrator=trapezoidal` breaks behind `:` and `,`. A unit in brackets stays whole.
+fn pieces(text: &str) -> impl Iterator<Item = &str> {
+    let mut depth = 0_usize;
+    let breaks = move |c: char| {
+        match c {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        depth == 0 && matches!(c, ' ' | ':' | ',')
+    };
+    text.split_inclusive(breaks).map(str::trim_end)
+}
+
+/// `text` in lines of at most `width`, broken between its pieces.
+fn broken(text: &str, width: usize) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for piece in pieces(text) {
+        match lines.last_mut() {
+            Some(line) => {
+                let gap = if line.ends_with([':', ',']) { "" } else { " " };
+                if wide(line) + gap.len() + wide(piece) <= width {
+                    line.push_str(gap);
+                    line.push_str(piece);
+                } else {
+                    lines.push(piece.to_owned());
+                }
+            }
+            None => lines.push(piece.to_owned()),
+        }
+    }
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        let row = |name: &str| vec![name.to_owned(), "12".to_owned(), "+0.123456".to_owned(), "1.5e-12".to_owned()];
+        Table::new(&["wall", "contacts", "impulse (N s)", "complementarity residual"], vec![row("upper"), row("lower")])
+    }
+
+    #[test]
+    fn what_has_no_room_is_left_out_whole_and_named() {
+        let wide_enough = table().fit(None);
+        assert_eq!(wide_enough.left_out, Vec::<String>::new());
+        let narrow = table().fit(Some(30));
+        assert_eq!(narrow.left_out, ["complementarity residual"]);
+        for line in narrow.text.lines() {
+            assert!(line.chars().count() <= 30, "{line:?}");
+        }
+        for line in narrow.text.lines().filter(|line| line.contains("er ")) {
+            assert!(line.ends_with("+0.123456"), "{line:?}");
+        }
+    }
+
+    #[test]
+    fn blocks_leave_nothing_out() {
+        let narrow = table().in_blocks().fit(Some(30));
+        assert!(narrow.left_out.is_empty());
+        assert_eq!(narrow.text.matches("upper").count(), 2);
+        assert_eq!(narrow.text.matches("1.5e-12").count(), 2);
+        assert!(narrow.text.lines().all(|line| line.chars().count() <= 30));
+    }
+
+    #[test]
+    fn headings_break_between_their_words_only() {
+        assert_eq!(
+            broken("penalty:epsilon=1e-9,integrator=trapezoidal", 23),
+            "penalty:epsilon=1e-9,\nintegrator=trapezoidal"
+        );
+        assert_eq!(broken("impulse (N s)", 8), "impulse\n(N s)");
+        assert_eq!(broken("impulse (N s)", 13), "impulse (N s)");
+    }
+}
