@@ -125,7 +125,7 @@ fn against_the_scene(title: &str, chart: &WorkPrecision, peers: &[Peer]) -> Stri
     let mut all = Vec::new();
     for quantity in Quantity::ALL {
         let series = shown(chart).map(|(number, series)| (number, label(&series.method), points(series, quantity)));
-        let mut curves: Vec<(usize, String, Vec<(f64, f64)>)> = series.collect();
+        let mut curves: Vec<_> = series.collect();
         if quantity == Quantity::Displacement {
             curves.extend(
                 programs(peers).into_iter().zip(chart.series.len()..).map(|((label, points), n)| (n, label, points)),

@@ -94,8 +94,8 @@ impl Frame<'_> {
             let beyond = shares.filter(move |(share, _)| side(*share));
             beyond.filter_map(|(share, p)| Some((share, p.0, self.up(self.y_axis.share(p.1)?)))).collect::<Vec<_>>()
         };
-        let sides: [(f64, f64, fn(f64) -> bool); 2] =
-            [(self.x, 1.0, |s| s < 0.0), (self.x + self.width, -1.0, |s| s > 1.0)];
+        type Side = (f64, f64, fn(f64) -> bool);
+        let sides: [Side; 2] = [(self.x, 1.0, |s| s < 0.0), (self.x + self.width, -1.0, |s| s > 1.0)];
         for (edge, inwards, side) in sides {
             let points = outside(side);
             for (_, _, y) in &points {
