@@ -2,14 +2,18 @@
 
 use crate::linear::{Factor, Operator, Rows, Symmetric};
 use crate::scene::{Forcing, Loads, Row, Scene, Structure, distinct};
+use std::cell::{OnceCell, RefCell};
 
 /// M, C and K as operators, the loads by row, and what a force behind each wall's row does.
 #[derive(Debug)]
 pub(crate) struct Body {
     /// n.
     pub n: usize,
-    mass: Factor,
+    /// Shared, for columns are made where they are first asked for.
+    mass: RefCell<Factor>,
     inertia: Operator,
+    /// √Mᵢᵢ, n entries.
+    root_mass: Vec<f64>,
     /// C; none where it is zero.
     pub(super) damping: Option<Operator>,
     /// K.
@@ -22,16 +26,32 @@ pub(crate) struct Body {
     pub rows: Rows,
     /// Which of them each wall has, in the scene's order.
     pub row_of: Vec<usize>,
-    /// yᵣ = M⁻¹ gᵣᵀ, one after the other, n entries each.
-    columns: Vec<f64>,
-    /// W = G M⁻¹ Gᵀ over those rows, by rows.
-    delassus: Vec<f64>,
+    /// yᵣ = M⁻¹ gᵣᵀ of the rows that have come into play.
+    columns: Vec<OnceCell<Column>>,
     /// Bounds on the free motion: ω² (1/s²), the rate of its damping (1/s) and the fastest load (rad/s).
     rates: [f64; 3],
 }
 
+/// What a unit force behind a row does, as far as it is anything: entries `first` and those after it.
+#[derive(Debug)]
+struct Column {
+    first: usize,
+    values: Vec<f64>,
+    /// Wᵣᵣ, 1/kg.
+    own: f64,
+}
+
+/// Entries of all columns up to which they are made at once, so that steps need no memory (512 kB).
+const AT_ONCE: usize = 1 << 16;
+
+/// Share of a force's own motion below which its motion elsewhere is nothing, in the metric of the mass (as in the programmes of impacts).
+const NOTHING: f64 = 1e-17;
+
 /// The power method finds the largest ratio from within; this share covers what it may miss, and each series looks at its last terms besides.
 const MARGIN: f64 = 1.05;
+
+/// A force of this share of the largest is nothing: rounding of rounding.
+const FLOOR: f64 = f64::EPSILON;
 
 /// Iterations of it for the damping.
 const ITERATIONS: usize = 40;
@@ -45,18 +65,6 @@ impl Body {
         let places = distinct(scene.walls.iter().map(|wall| &wall.at));
         let (count, row_of) = (places.rows.len(), places.of);
         let rows = Rows::new(n, places.rows.iter().map(|row| row.entries()));
-        let mut columns = vec![0.0; n * count];
-        for (row, column) in columns.chunks_exact_mut(n).enumerate() {
-            rows.add_transposed(row, 1.0, column);
-            factor.solve(column);
-        }
-        let mut delassus = vec![0.0; count * count];
-        for i in 0..count {
-            for j in 0..=i {
-                let w = rows.dot(i, &columns[j * n..(j + 1) * n]);
-                (delassus[i * count + j], delassus[j * count + i]) = (w, w);
-            }
-        }
         let loads = Loads::new(&scene.loads).parts().to_vec();
         let waves = loads.iter().flat_map(|(_, forcing)| &forcing.harmonics);
         let load = waves.map(|wave| wave.omega).fold(0.0, f64::max);
@@ -64,52 +72,83 @@ impl Body {
         let rub = if damped { largest_ratio(&mass, &mut factor, &damping) } else { 0.0 };
         let omega = largest_ratio(&mass, &mut factor, &stiffness).max(scene.system.frequencies()[1].powi(2));
         let absolute = |m: &Symmetric| Symmetric::from_entries(n, m.entries().map(|(i, j, x)| (i, j, x.abs())));
-        Some(Self {
+        let body = Self {
             n,
-            mass: factor,
+            mass: RefCell::new(factor),
             inertia: Operator::new(&mass),
+            root_mass: mass.diagonal_entries().into_iter().map(f64::sqrt).collect(),
             sizes: [Operator::new(&absolute(&damping)), Operator::new(&absolute(&stiffness))],
             damping: damped.then(|| Operator::new(&damping)),
             stiffness: Operator::new(&stiffness),
             loads,
             rows,
             row_of,
-            columns,
-            delassus,
+            columns: (0..count).map(|_| OnceCell::new()).collect(),
             rates: [MARGIN * omega, MARGIN * rub, load],
-        })
+        };
+        if body.is_small() {
+            (0..count).for_each(|row| _ = body.column(row));
+        }
+        Some(body)
+    }
+
+    /// True if all that its rows may need is made at once.
+    pub fn is_small(&self) -> bool {
+        self.n * self.rows.count() <= AT_ONCE
     }
 
     /// yᵣ = M⁻¹ gᵣᵀ.
-    #[inline]
-    pub fn column(&self, row: usize) -> &[f64] {
-        &self.columns[row * self.n..(row + 1) * self.n]
+    fn column(&self, row: usize) -> &Column {
+        self.columns[row].get_or_init(|| {
+            let mut y = vec![0.0; self.n];
+            self.rows.add_transposed(row, 1.0, &mut y);
+            self.mass.borrow_mut().solve(&mut y);
+            let own = self.rows.dot(row, &y);
+            let least = NOTHING * own.max(0.0).sqrt();
+            let counts = |&i: &usize| y[i].abs() * self.root_mass[i] > least;
+            let first = (0..self.n).find(counts).unwrap_or(0);
+            let end = (first..self.n).rev().find(counts).map_or(first, |last| last + 1);
+            Column { first, values: y[first..end].to_vec(), own }
+        })
     }
 
     /// yᵣ · x: what a force x does at row r.
     #[inline]
     pub fn answer(&self, row: usize, x: &[f64]) -> f64 {
-        self.column(row).iter().zip(x).map(|(y, x)| y * x).sum()
+        let Column { first, values, .. } = self.column(row);
+        values.iter().zip(&x[*first..]).map(|(y, x)| y * x).sum()
+    }
+
+    /// Σ |yᵣ| |x|: the size of that.
+    #[inline]
+    pub fn answer_size(&self, row: usize, x: &[f64]) -> f64 {
+        let Column { first, values, .. } = self.column(row);
+        values.iter().zip(&x[*first..]).map(|(y, x)| (y * x).abs()).sum()
     }
 
     /// Adds `force` · yᵣ to `out`.
     #[inline]
     pub fn add_column(&self, row: usize, force: f64, out: &mut [f64]) {
-        for (out, y) in out.iter_mut().zip(self.column(row)) {
+        let Column { first, values, .. } = self.column(row);
+        for (out, y) in out[*first..].iter_mut().zip(values) {
             *out += force * y;
         }
     }
 
-    /// Entry (i, j) of the Delassus operator, 1/kg.
-    #[inline]
+    /// Entry (i, j) of the Delassus operator W = G M⁻¹ Gᵀ, 1/kg.
     pub fn delassus(&self, i: usize, j: usize) -> f64 {
-        self.delassus[i * self.rows.count() + j]
+        let (row, column) = (i.max(j), self.column(i.min(j)));
+        if i == j {
+            return column.own;
+        }
+        let entry = |k: usize| k.checked_sub(column.first).and_then(|k| column.values.get(k)).copied().unwrap_or(0.0);
+        self.rows.row(row).iter().map(|&(k, g)| g * entry(k)).sum()
     }
 
     /// M⁻¹ x in place.
     #[inline]
     pub fn solve(&mut self, x: &mut [f64]) {
-        self.mass.solve(x);
+        self.mass.get_mut().solve(x);
     }
 
     /// Adds M x to `out`.
@@ -132,12 +171,19 @@ impl Body {
         own.max(load)
     }
 
-    /// Adds |C| |v| + |K| |q| to `out`, N: sizes of the terms whose sum is the force.
-    pub fn add_sizes(&self, q: &[f64], v: &[f64], work: &mut [f64], out: &mut [f64]) {
+    /// Adds |C| v + |K| q to `out`, N: with the sizes of displacement and velocity those of the terms whose sum is the force.
+    pub fn add_sizes(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
         for (operator, x) in self.sizes.iter().zip([v, q]) {
-            work.iter_mut().zip(x).for_each(|(w, x)| *w = x.abs());
-            operator.add_product(1.0, work, out);
+            operator.add_product(1.0, x, out);
         }
+    }
+
+    /// Raises sizes of forces that are nothing beside the largest in the metric of the mass: what reaches a degree of freedom from others is
+    /// no better known than they are.
+    pub fn level_sizes(&self, sizes: &mut [f64]) {
+        let largest = sizes.iter().zip(&self.root_mass).fold(0.0, |most, (f, m)| f64::max(most, f / m));
+        let floor = FLOOR * largest;
+        sizes.iter_mut().zip(&self.root_mass).for_each(|(f, m)| *f = f.max(floor * m));
     }
 
     /// Adds −C v − K q to `out`, N.

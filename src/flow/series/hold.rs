@@ -24,34 +24,48 @@ pub(crate) struct Hold {
     independent: usize,
     /// S in λ = −S b_I, by rows of as many entries as there are independent rows.
     inverse: Vec<f64>,
-    /// Work space: a Cholesky factor, C, and a vector.
+    /// Work space: a Cholesky factor by rows without gaps, C, and a vector.
     factor: Vec<f64>,
     relations: Vec<f64>,
     work: Vec<f64>,
-    stride: usize,
+    /// How often forces are found: each time but the first for what rounding has left of the last.
+    passes: usize,
 }
 
 /// A pivot below this share of Wᵢᵢ is none: the row sees what those before it see.
 const DEPENDENT: f64 = 1e-10;
 
+/// Rows for which there is room from the start.
+const ROOM: usize = 64;
+
+/// Below this share of Wᵢᵢ a pivot has lost digits that the forces must not lose: a light mass that is held, for one, and that a wall
+/// between it and a heavy one presses on.
+const COARSE: f64 = 1e-3;
+
+/// Passes where there is such a pivot: the first leaves 1e-16/1e-10 at most, the others as much of that.
+const PASSES: usize = 3;
+
 impl Hold {
-    /// Room for `rows` rows.
+    /// Room for `rows` rows, up to [`ROOM`]: more is made when so many are held.
     pub fn with_room(rows: usize) -> Self {
-        let square = || vec![0.0; rows * rows];
+        let rows = rows.min(ROOM);
+        let square = || Vec::with_capacity(rows * rows);
         Self {
             rows: Vec::with_capacity(rows),
             independent: 0,
             inverse: square(),
             factor: square(),
             relations: square(),
-            work: vec![0.0; rows],
-            stride: rows,
+            work: Vec::with_capacity(rows),
+            passes: 1,
         }
     }
 
     /// Holds `rows`, and those of `idle` that are independent of them and of one another: the others carry nothing.
     pub fn set(&mut self, body: &Body, rows: impl Iterator<Item = Held> + Clone, idle: impl Iterator<Item = Held>) {
         self.rows.clear();
+        self.factor.clear();
+        self.passes = 1;
         for held in rows.clone().chain(idle) {
             self.extend(body, held);
         }
@@ -69,30 +83,37 @@ impl Hold {
 
     /// One more row of the Cholesky factor of W, if it is independent of those before.
     fn extend(&mut self, body: &Body, held: Held) {
-        let (k, stride) = (self.rows.len(), self.stride);
-        let (done, line) = self.factor.split_at_mut(k * stride);
-        let whole = body.delassus(held.row, held.row);
-        let mut pivot = whole;
+        let (k, whole) = (self.rows.len(), body.delassus(held.row, held.row));
+        let (mut pivot, start) = (whole, self.factor.len());
         for (j, other) in self.rows.iter().enumerate() {
-            let above = &done[j * stride..=j * stride + j];
-            let dot: f64 = above[..j].iter().zip(&line[..j]).map(|(a, b)| a * b).sum();
-            line[j] = (body.delassus(held.row, other.row) - dot) / above[j];
-            pivot -= line[j] * line[j];
+            let above = &self.factor[line(j)..=line(j) + j];
+            let dot: f64 = above[..j].iter().zip(&self.factor[start..]).map(|(a, b)| a * b).sum();
+            let entry = (body.delassus(held.row, other.row) - dot) / above[j];
+            self.factor.push(entry);
+            pivot -= entry * entry;
         }
         if pivot > DEPENDENT * whole {
-            line[k] = pivot.sqrt();
+            if pivot < COARSE * whole {
+                self.passes = PASSES;
+            }
+            self.factor.push(pivot.sqrt());
             self.rows.push(held);
+        } else {
+            self.factor.truncate(line(k));
         }
     }
 
     /// W_II⁻¹ from its factor.
     fn invert(&mut self) {
         let k = self.independent;
+        self.inverse.clear();
+        self.inverse.resize(k * k, 0.0);
         for column in 0..k {
-            let work = &mut self.work[..k];
-            work.fill(0.0);
+            let work = &mut self.work;
+            work.clear();
+            work.resize(k, 0.0);
             work[column] = 1.0;
-            solve(&self.factor, self.stride, work);
+            solve(&self.factor, work);
             for (i, &value) in work.iter().enumerate() {
                 self.inverse[i * k + column] = value;
             }
@@ -101,9 +122,15 @@ impl Hold {
 
     /// The share of the rows that depend on others.
     fn share(&mut self, body: &Body) {
-        let Self { rows, independent, inverse, factor, relations, work, stride } = self;
-        let (k, stride) = (*independent, *stride);
+        let Self { rows, independent, inverse, factor, relations, work, .. } = self;
+        let k = *independent;
         let (first, rest) = rows.split_at(k);
+        inverse.resize(rows.len() * k, 0.0);
+        relations.clear();
+        relations.resize(rest.len() * k, 0.0);
+        factor.clear();
+        work.clear();
+        work.resize(rest.len(), 0.0);
         let size = |held: &Held| body.delassus(held.row, held.row);
         for (j, held) in rest.iter().enumerate() {
             for i in 0..k {
@@ -117,9 +144,9 @@ impl Hold {
                 let (a, b) = (&relations[j * k..(j + 1) * k], &relations[l * k..(l + 1) * k]);
                 let product: f64 = a.iter().zip(b).zip(first).map(|((a, b), held)| a * b * size(held)).sum();
                 let whole = product + if j == l { size(&rest[j]) } else { 0.0 };
-                let dot: f64 = (0..l).map(|m| factor[j * stride + m] * factor[l * stride + m]).sum();
+                let dot: f64 = (0..l).map(|m| factor[line(j) + m] * factor[line(l) + m]).sum();
                 let left = whole - dot;
-                factor[j * stride + l] = if j == l { left.sqrt() } else { left / factor[l * stride + l] };
+                factor.push(if j == l { left.sqrt() } else { left / factor[line(l) + l] });
             }
         }
         for column in 0..k {
@@ -130,7 +157,7 @@ impl Hold {
                     .map(|(i, held)| relations[j * k + i] * size(held) * inverse[i * k + column]);
                 *work = terms.sum();
             }
-            solve(factor, stride, &mut work[..rest.len()]);
+            solve(factor, &mut work[..rest.len()]);
             for (j, &value) in work.iter().enumerate().take(rest.len()) {
                 inverse[(k + j) * k + column] = value;
                 for i in 0..k {
@@ -159,41 +186,59 @@ impl Hold {
         &self.inverse[i * k..(i + 1) * k]
     }
 
+    /// Adds to `force` (N, n entries; or a derivative of it) what holds the rows, and tells it row by row, once a pass.
+    pub fn balance(&self, body: &Body, force: &mut [f64], scratch: &mut [f64], mut tell: impl FnMut(usize, f64)) {
+        for _ in 0..self.passes {
+            for (b, held) in scratch.iter_mut().zip(self.independent()) {
+                *b = body.answer(held.row, force);
+            }
+            for (i, held) in self.rows.iter().enumerate() {
+                let push = -self.inverse(i).iter().zip(&*scratch).map(|(w, b)| w * b).sum::<f64>();
+                body.rows.add_transposed(held.row, push, force);
+                tell(i, push);
+            }
+        }
+    }
+
     /// Puts displacements that are there to rounding exactly where the rows are held, by the nearest change in the metric of M.
     pub fn place(&self, body: &Body, q: &mut [f64], scratch: &mut [f64]) {
-        for (b, held) in scratch.iter_mut().zip(self.independent()) {
-            *b = held.position - body.rows.dot(held.row, q);
-        }
-        self.change(body, q, scratch);
+        self.change(body, q, scratch, |held| held.position);
     }
 
     /// Takes from velocities what the rows still see of them, in the same way.
     pub fn stop(&self, body: &Body, v: &mut [f64], scratch: &mut [f64]) {
-        for (b, held) in scratch.iter_mut().zip(self.independent()) {
-            *b = -body.rows.dot(held.row, v);
-        }
-        self.change(body, v, scratch);
+        self.change(body, v, scratch, |_| 0.0);
     }
 
-    fn change(&self, body: &Body, x: &mut [f64], wanted: &[f64]) {
-        for (i, held) in self.rows.iter().enumerate() {
-            let push: f64 = self.inverse(i).iter().zip(wanted).map(|(w, b)| w * b).sum();
-            body.add_column(held.row, push, x);
+    fn change(&self, body: &Body, x: &mut [f64], scratch: &mut [f64], wanted: impl Fn(&Held) -> f64) {
+        for _ in 0..self.passes {
+            for (b, held) in scratch.iter_mut().zip(self.independent()) {
+                *b = wanted(held) - body.rows.dot(held.row, x);
+            }
+            for (i, held) in self.rows.iter().enumerate() {
+                let push: f64 = self.inverse(i).iter().zip(&*scratch).map(|(w, b)| w * b).sum();
+                body.add_column(held.row, push, x);
+            }
         }
     }
 }
 
-/// Solves L Lᵀ x = x in place, with L by rows of `stride`.
-fn solve(factor: &[f64], stride: usize, x: &mut [f64]) {
+/// Where row k of a factor begins.
+const fn line(k: usize) -> usize {
+    k * (k + 1) / 2
+}
+
+/// Solves L Lᵀ x = x in place.
+fn solve(factor: &[f64], x: &mut [f64]) {
     for i in 0..x.len() {
-        let line = &factor[i * stride..=i * stride + i];
-        let dot: f64 = line[..i].iter().zip(&x[..i]).map(|(l, x)| l * x).sum();
-        x[i] = (x[i] - dot) / line[i];
+        let row = &factor[line(i)..=line(i) + i];
+        let dot: f64 = row[..i].iter().zip(&x[..i]).map(|(l, x)| l * x).sum();
+        x[i] = (x[i] - dot) / row[i];
     }
     for i in (0..x.len()).rev() {
-        x[i] /= factor[i * stride + i];
+        x[i] /= factor[line(i) + i];
         for j in 0..i {
-            x[j] -= factor[i * stride + j] * x[i];
+            x[j] -= factor[line(i) + j] * x[i];
         }
     }
 }

@@ -124,16 +124,9 @@ impl Series {
                 self.forces[slot * TERMS + k] = push;
                 body.rows.add_transposed(t.row, push, force);
             }
-            let rows = hold.rows();
-            if !rows.is_empty() {
-                for (work, held) in work.iter_mut().zip(hold.independent()) {
-                    *work = body.answer(held.row, force);
-                }
-                for (i, held) in rows.iter().enumerate() {
-                    let push = -hold.inverse(i).iter().zip(&*work).map(|(w, b)| w * b).sum::<f64>();
-                    self.forces[(touching.len() + i) * TERMS + k] = push;
-                    body.rows.add_transposed(held.row, push, force);
-                }
+            if !hold.rows().is_empty() {
+                let forces = &mut self.forces;
+                hold.balance(body, force, work, |i, push| forces[(touching.len() + i) * TERMS + k] += push);
             }
             body.solve(force);
             let factor = self.unit * self.unit / ((k + 1) * (k + 2)) as f64;

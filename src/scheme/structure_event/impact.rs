@@ -21,7 +21,7 @@ const PASSES: usize = 20;
 /// Programmes with e = 0 after which an instant that they do not end is an error.
 const TURNS: usize = 2000;
 
-/// A flight after an impact is the tail of an accumulation if it is lower than this share of the scene's length …
+/// A flight after an impact is the tail of an accumulation if it is lower than this share of the scene's length and of the row's motion …
 const TAIL_HEIGHT: f64 = 1e-12;
 
 /// … and if the pressing acceleration will change by less than this share until the impacts have accumulated.
@@ -30,20 +30,21 @@ const TAIL_CHANGE: f64 = 1e-6;
 /// A flight of fewer units in the last place of the time than this is not resolved.
 const TIME_UNITS: f64 = 8.0;
 
-/// Signs in a programme are told down to this share of the largest speed of any row.
+/// Signs in a programme are told down to this share of the largest speed of the rows that touch.
 const TOLD: f64 = 4e-12;
 
 impl StructureEvent {
     /// Rates away from the walls that are below this are none, m/s.
     pub(super) fn quiet(&self, row: usize) -> f64 {
-        let column = self.body.column(row).iter().zip(&self.sizes.instant);
-        let pull: f64 = column.map(|(y, f)| (y * f).abs()).sum();
+        let pull = self.body.answer_size(row, &self.sizes.instant);
         // What forces in balance leave of a velocity is the rounding of their terms over the last stretch.
         let own = noise(size(&self.body, row, &self.v) + pull * self.series.unit());
         if self.seats.len() < 2 {
             return own;
         }
-        own.max(TOLD * self.fastest_row)
+        // A programme knows rows by what a force of one makes of the other: heavy ones are told more finely, light ones no more coarsely.
+        let weighed = self.fastest_weighed * self.body.delassus(row, row).sqrt();
+        own.max(TOLD * self.fastest_row.min(weighed))
     }
 
     /// True if a seat's wall is approached.
@@ -158,6 +159,9 @@ impl StructureEvent {
     /// Solves the programme of `rhs`, `lo` and `hi`. False if no motion is found that keeps the bounds.
     pub(super) fn solve(&mut self) -> Result<bool> {
         let (time, step) = (self.time, self.steps);
+        if self.solver.is_none() {
+            self.make_solver()?;
+        }
         let Some(solver) = &mut self.solver else { return Ok(true) };
         match solver.solve(&Rhs { b: &self.rhs, lo: &self.lo, hi: &self.hi }) {
             Ok(_) => Ok(true),
@@ -182,9 +186,9 @@ impl StructureEvent {
         for seat in 0..self.seats.len() {
             let s = self.seats[seat];
             let (rate, position) = (self.rate_of(seat), self.places[s.row].bound[side_of(s.sign)]);
-            let most: f64 = self.body.column(s.row).iter().zip(&self.rhs_size).map(|(y, f)| (y * f).abs()).sum();
+            let most = self.body.answer_size(s.row, &self.rhs_size);
             let resolved = self.resolution(s.row, position);
-            let low = TAIL_HEIGHT * self.length + resolved;
+            let low = self.low(s.row) + TAIL_HEIGHT * self.places[s.row].travel + resolved;
             let wanted = s.push[side_of(s.sign)] > 0.0 && s.restitution > 0.0 && rate > 0.0;
             // Others that are held press by their reactions too, which are of the size of what they react to.
             let most = if self.seats.len() > 1 { f64::INFINITY } else { most };
@@ -223,17 +227,17 @@ impl StructureEvent {
         let (c, unit) = (self.series.seen(s.row), self.series.unit());
         let rate = s.sign * c[1] / unit;
         let press = -2.0 * s.sign * c[2] / (unit * unit);
-        let column = self.body.column(s.row);
-        let large: f64 = column.iter().zip(&self.sizes.force[0]).map(|(y, f)| (y * f).abs()).sum();
+        let large = self.body.answer_size(s.row, &self.sizes.force[0]);
         if press <= noise(large) || rate <= 0.0 {
             return false;
         }
         let (height, flight) = (0.5 * rate * rate / press, 2.0 * rate / press);
         let position = self.places[s.row].bound[side_of(s.sign)];
-        if height <= self.resolution(s.row, position) || flight <= short {
+        // What the search takes for 0 on this stretch is no flight.
+        if height <= self.rounding(s.row, position).below() || flight <= short {
             return true;
         }
-        if height >= TAIL_HEIGHT * self.length || s.restitution >= 1.0 {
+        if height >= self.low(s.row) || s.restitution >= 1.0 {
             return false;
         }
         let remaining = flight / (1.0 - s.restitution) / unit;
@@ -243,6 +247,11 @@ impl StructureEvent {
             power *= remaining;
         }
         change / (unit * unit) <= TAIL_CHANGE * press
+    }
+
+    /// Below this a flight may be a tail, m.
+    fn low(&self, row: usize) -> f64 {
+        TAIL_HEIGHT * self.length.min(self.places[row].travel)
     }
 
     /// What the displacement of a row may err by here, m.

@@ -132,14 +132,13 @@ impl StructureEvent {
     /// Finds the closed rows, and puts the structure onto their surfaces.
     fn seat(&mut self, hit: Option<Cause>) {
         self.seats.clear();
-        self.fastest_row = 0.0;
+        (self.fastest_row, self.fastest_weighed) = (0.0, 0.0);
         for row in 0..self.places.len() {
             let place = self.places[row];
             if place.carriers == [0, 0] {
                 continue;
             }
             let (w, rate) = (self.body.rows.dot(row, &self.q), self.body.rows.dot(row, &self.v));
-            self.fastest_row = self.fastest_row.max(rate.abs());
             let mut closed = [false; 2];
             for (side, closed) in closed.iter_mut().enumerate().filter(|(side, _)| place.carriers[*side] > 0) {
                 // The instant is known to an ulp of the time only.
@@ -151,6 +150,8 @@ impl StructureEvent {
             if closed == [false, false] {
                 continue;
             }
+            self.fastest_row = self.fastest_row.max(rate.abs());
+            self.fastest_weighed = self.fastest_weighed.max(rate.abs() / self.body.delassus(row, row).sqrt());
             let both = closed == [true, true];
             let sign = match closed {
                 [true, true] if place.held != 0.0 => place.held,
@@ -186,7 +187,12 @@ impl StructureEvent {
         }
         let Self { surface, body, seats, places, q, scratch, .. } = self;
         let held = |s: &Seat| Held { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
-        surface.set(body, std::iter::empty(), seats.iter().map(held));
+        // A row that is just leaving would be put back for ever.
+        let leaves = |s: &Seat| {
+            let gap = places[s.row].gap(side_of(s.sign), body.rows.dot(s.row, q));
+            gap >= 0.0 && s.arrived > 0.0 && s.was == 0.0 && !s.both
+        };
+        surface.set(body, std::iter::empty(), seats.iter().filter(|s| !leaves(s)).map(held));
         surface.place(body, q, scratch);
         self.derivatives[0].copy_from_slice(&self.q);
         self.derivatives[1].copy_from_slice(&self.v);

@@ -30,7 +30,7 @@ use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Contract};
 use hand::{Crowd, Stretch};
 use instant::Seat;
-use rows::{Place, Sizes};
+use rows::{DERIVATIVES, Place, Sizes};
 use search::Cause;
 
 /// A structure between walls, from event to event:
@@ -65,8 +65,9 @@ pub(super) struct StructureEvent {
     carriers: Vec<(usize, usize, f64)>,
     touching: Vec<Touching>,
     seats: Vec<Seat>,
-    /// The largest speed of any row at the present instant, m/s.
+    /// The largest speed of a row that touches at the present instant, m/s, and in the metric of the mass, √J.
     fastest_row: f64,
+    fastest_weighed: f64,
     sizes: Sizes,
     /// The guard's window, s.
     duration: f64,
@@ -78,6 +79,9 @@ pub(super) struct StructureEvent {
     q: Vec<f64>,
     v: Vec<f64>,
     extra: Vec<f64>,
+    /// By how much more than its rounding a coefficient must differ from 0 to be told from it: above 1 while events follow one another in
+    /// which nothing moves, for only rounding can make the search contradict what has just been decided.
+    doubt: f64,
     /// The instant at which places were last decided, s.
     decided: f64,
     marks: u64,
@@ -92,13 +96,14 @@ pub(super) struct StructureEvent {
     last_wall: Option<usize>,
     steps: u64,
     // Vectors of length n.
-    derivatives: [Vec<f64>; 5],
+    derivatives: [Vec<f64>; DERIVATIVES],
     rhs: Vec<f64>,
     rhs_size: Vec<f64>,
     arriving: Vec<f64>,
     departing: Vec<f64>,
     // Vectors over rows.
     scratch: Vec<f64>,
+    pushes: Vec<f64>,
     lo: Vec<f64>,
     hi: Vec<f64>,
     // The last step, as `Step` wants it.
@@ -112,6 +117,10 @@ pub(super) struct StructureEvent {
 
 /// Changes that take no time, within one advance: beyond them the step is handed over with no length, and the guard counts.
 const CHANGES_AT_ONCE: usize = 16;
+
+/// Factor by which doubt grows with each such event, and where it ends.
+const DOUBT: f64 = 4.0;
+const MOST_DOUBT: f64 = 1e4;
 
 /// The programme's signs are tested relative to the motion at hand, so any positive length will do.
 const SCALE: f64 = 1e-200;
@@ -136,14 +145,6 @@ impl StructureEvent {
         let mut walls_of = vec![Vec::new(); rows];
         body.row_of.iter().enumerate().for_each(|(wall, &row)| walls_of[row].push(wall));
         let places = walls_of.iter().map(|walls| Place::new(scene, walls)).collect();
-        let solver = if rows > 1 {
-            let problem =
-                qp::Problem { a: scene.system.structure().mass, g: body.rows.clone(), compliance: vec![0.0; rows] };
-            let refused = |f: qp::Failure| Error::Qp { time: 0.0, step: 0, wall: None, reason: f.to_string() };
-            Some(qp::Solver::new(problem, Backend::Condensed, SCALE).map_err(refused)?)
-        } else {
-            None
-        };
         let loads = Loads::new(&scene.loads);
         let (mut v, mut blow) = (scene.initial.v.clone(), vec![0.0; n]);
         if loads.initial_blow(&mut blow) {
@@ -158,7 +159,7 @@ impl StructureEvent {
             barriers,
             places,
             walls_of,
-            solver,
+            solver: None,
             series: Series::new(&body),
             flight: Series::new(&body),
             hold: Hold::with_room(rows),
@@ -167,6 +168,7 @@ impl StructureEvent {
             touching: Vec::with_capacity(walls),
             seats: Vec::with_capacity(rows),
             fastest_row: 0.0,
+            fastest_weighed: 0.0,
             sizes: Sizes::new(n),
             duration: scene.duration,
             window: scene.duration / WINDOWS,
@@ -177,6 +179,7 @@ impl StructureEvent {
             velocity_before: v.clone(),
             v,
             extra: zero(),
+            doubt: 1.0,
             decided: f64::NEG_INFINITY,
             marks: 0,
             blows,
@@ -194,6 +197,7 @@ impl StructureEvent {
             arriving: zero(),
             departing: zero(),
             scratch: vec![0.0; rows],
+            pushes: Vec::with_capacity(rows),
             lo: vec![f64::NEG_INFINITY; rows],
             hi: vec![f64::INFINITY; rows],
             start: 0.0,
@@ -203,9 +207,22 @@ impl StructureEvent {
             closed: Vec::with_capacity(3 * walls + 2),
             body,
         };
+        if rows > 1 && event.body.is_small() {
+            event.make_solver()?;
+        }
         event.reclassify();
         event.set_forces();
         Ok(event)
+    }
+
+    /// The solver of impacts and of lasting contact at several walls, made when it is first needed: of many walls it is large.
+    fn make_solver(&mut self) -> Result<()> {
+        let (mass, rows) = (self.scene.system.structure().mass, &self.body.rows);
+        let problem = qp::Problem { a: mass, g: rows.clone(), compliance: vec![0.0; rows.count()] };
+        let (time, step) = (self.time, self.steps);
+        let refused = |f: qp::Failure| Error::Qp { time, step, wall: None, reason: f.to_string() };
+        self.solver = Some(qp::Solver::new(problem, Backend::Condensed, SCALE).map_err(refused)?);
+        Ok(())
     }
 
     /// Moves on to the next event, end of a series, multiple of the stride, or the end of the scene, whichever is first, under a constant
@@ -245,6 +262,7 @@ impl StructureEvent {
             return self.check_guard();
         }
         for _ in 0..CHANGES_AT_ONCE {
+            let before = self.time;
             let limit = self.limit();
             self.begin_series(limit);
             self.guard.total.evaluations += 1;
@@ -263,6 +281,7 @@ impl StructureEvent {
             self.gather_impulses();
             let changed = self.happen(hit.map(|hit| hit.cause))?;
             let jumped = self.jump.iter().any(|&p| p != 0.0);
+            self.doubt = if end > before || jumped { 1.0 } else { (DOUBT * self.doubt).min(MOST_DOUBT) };
             if end > self.start || jumped || !changed {
                 break;
             }

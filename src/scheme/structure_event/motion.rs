@@ -1,7 +1,7 @@
 //! What drives the structure: the series it follows, the forces on it, and the impulses of the walls.
 
 use super::StructureEvent;
-use super::rows::Place;
+use super::rows::{Place, Sizes, size};
 use crate::flow::{SeriesStart, Touching};
 use crate::scheme::event::Phase;
 
@@ -55,27 +55,47 @@ impl StructureEvent {
     }
 
     /// The derivative of `order` of the force on the structure, free of rigid walls, at the present instant from the right, and the sizes
-    /// of its terms: into `rhs` (N/sᵏ) and `rhs_size`. Reads the derivatives of q from `order` to `order` + 1.
+    /// of its terms: into `rhs` (N/sᵏ) and `rhs_size`. Reads the derivatives of q from `order` to `order` + 1, and from order 1 on their
+    /// sizes too.
     pub(super) fn forces(&mut self, order: usize) {
         let Self { body, derivatives, rhs, rhs_size, sizes, barriers, .. } = self;
         rhs.fill(0.0);
         rhs_size.fill(0.0);
+        let Sizes { derivative: size_of, .. } = sizes;
         if order == 0 {
             rhs.copy_from_slice(&self.extra);
             rhs_size.iter_mut().zip(&self.extra).for_each(|(size, f)| *size = f.abs());
+            for (sizes, x) in size_of.iter_mut().zip(&*derivatives).take(2) {
+                sizes.iter_mut().zip(x).for_each(|(size, x)| *size = x.abs());
+            }
         }
         let (x, rate) = (&derivatives[order], &derivatives[order + 1]);
+        let (x_size, rate_size) = (&size_of[order], &size_of[order + 1]);
         body.add_load(order as u32, self.time, rhs, rhs_size);
         body.add_force(x, rate, rhs);
-        body.add_sizes(x, rate, &mut sizes.work, rhs_size);
+        body.add_sizes(x_size, rate_size, rhs_size);
         for (wall, b) in barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching) {
             let row = body.row_of[wall];
-            let depth = body.rows.dot(row, x) - if order == 0 { b.position } else { 0.0 };
-            let (spring, dashpot) = (-b.stiffness * depth, -b.damping * body.rows.dot(row, rate));
+            let position = if order == 0 { b.position } else { 0.0 };
+            let spring = -b.stiffness * (body.rows.dot(row, x) - position);
+            let dashpot = -b.damping * body.rows.dot(row, rate);
             body.rows.add_transposed(row, spring + dashpot, rhs);
+            let large =
+                b.stiffness * (size(body, row, x_size) + position.abs()) + b.damping * size(body, row, rate_size);
             for &(i, g) in body.rows.row(row) {
-                rhs_size[i] += g.abs() * (spring.abs() + dashpot.abs());
+                rhs_size[i] += g.abs() * large;
             }
+        }
+        body.level_sizes(rhs_size);
+    }
+
+    /// The size of derivative `order` + 2 of q, which follows from the force of that order in `rhs_size`.
+    pub(super) fn enlarge(&mut self, order: usize) {
+        let Self { body, derivatives, rhs_size, sizes: Sizes { derivative, work, .. }, .. } = self;
+        work.copy_from_slice(rhs_size);
+        body.solve(work);
+        for ((size, x), terms) in derivative[order + 2].iter_mut().zip(&derivatives[order + 2]).zip(&*work) {
+            *size = x.abs().max(terms.abs());
         }
     }
 
@@ -93,7 +113,14 @@ impl StructureEvent {
         }
         for order in 0..2 {
             self.forces(order);
+            for (k, held) in self.hold.rows().iter().enumerate() {
+                let push = self.series.held_force(k)[order] * if order == 0 { 1.0 } else { 1.0 / self.series.unit() };
+                self.body.rows.row(held.row).iter().for_each(|&(i, g)| self.rhs_size[i] += (g * push).abs());
+            }
             self.sizes.force[order].copy_from_slice(&self.rhs_size);
+            if order == 0 {
+                self.enlarge(0);
+            }
         }
     }
 
@@ -104,13 +131,13 @@ impl StructureEvent {
             self.derivatives[0].copy_from_slice(&self.q);
             self.derivatives[1].copy_from_slice(&self.v);
             self.forces(0);
-            for (b, held) in self.scratch.iter_mut().zip(self.hold.independent()) {
-                *b = self.body.answer(held.row, &self.rhs);
-            }
+            let Self { hold, body, rhs, scratch, pushes, .. } = self;
+            pushes.clear();
+            pushes.resize(hold.rows().len(), 0.0);
+            hold.balance(body, rhs, scratch, |k, push| pushes[k] += push);
             for &(wall, k, share) in &self.carriers {
                 let (Some(force), Some(held)) = (self.force.get_mut(wall), self.hold.rows().get(k)) else { continue };
-                let push = -self.hold.inverse(k).iter().zip(&self.scratch).map(|(w, b)| w * b).sum::<f64>();
-                *force = share * held.sign * (held.sign * push).max(0.0);
+                *force = share * held.sign * (held.sign * self.pushes[k]).max(0.0);
             }
         }
         for (wall, b) in self.barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching) {

@@ -2,13 +2,14 @@
 //!
 //! Over the closed rows without speed, 0 ≤ ẅ ⟂ λ ≥ 0: the accelerations minimise ½ (q̈ − M⁻¹F)ᵀ M (q̈ − M⁻¹F) over G q̈ ≥ 0, Gauss's
 //! principle. Rows with λ > 0 are held, rows with ẅ > 0 leave. Where both vanish to rounding the next derivative decides in the same way,
-//! with the rows that are held held in it too; a row on which no derivative has a say is held, and carries nothing.
+//! with the rows that are held held in it too. A row on which no derivative has a say is stopped and left free: nothing presses on it,
+//! so it is not in contact, and the search for events sees which way it goes.
 
 use super::StructureEvent;
 use super::instant::{Seat, side_of};
-use super::rows::SIGNS;
+use super::rows::{SIGNS, Zeros};
 use crate::error::Result;
-use crate::flow::{Held, TERMS};
+use crate::flow::Held;
 use crate::scheme::event::noise;
 
 /// Derivatives of the acceleration that are asked, with itself.
@@ -19,6 +20,7 @@ const LEVELS: usize = 3;
 pub(super) enum Fate {
     /// It has speed, or is not closed.
     None,
+    /// No derivative has decided.
     Open,
     /// Held, by the derivative of this order of its force.
     Held(usize),
@@ -48,14 +50,9 @@ impl StructureEvent {
             }
             self.forces(level);
             self.decide(level, released)?;
+            self.enlarge(level);
         }
-        // What no derivative decides is held, and carries nothing.
-        for s in &mut self.seats {
-            if s.fate == Fate::Open {
-                s.fate = Fate::Held(TERMS);
-            }
-        }
-        self.hold_seats();
+        self.hold_seats(released);
         Ok(())
     }
 
@@ -83,6 +80,10 @@ impl StructureEvent {
         let Some(solver) = &self.solver else { return Ok(()) };
         let solution = solver.solution();
         self.derivatives[level + 2].copy_from_slice(&solution.x);
+        // What the walls push with are terms of the acceleration too.
+        for (&r, row) in solution.multiplier.iter().zip(0..).filter(|(r, _)| **r != 0.0) {
+            self.body.rows.row(row).iter().for_each(|&(i, g)| self.rhs_size[i] += (g * r).abs());
+        }
         for at in 0..self.seats.len() {
             let s = self.seats[at];
             if s.fate != Fate::Open {
@@ -107,6 +108,7 @@ impl StructureEvent {
         self.body.solve(next);
         if held {
             self.body.add_column(s.row, -s.sign * away / w, &mut self.derivatives[level + 2]);
+            self.body.rows.row(s.row).iter().for_each(|&(i, g)| self.rhs_size[i] += (g * away / w).abs());
         }
         self.seats[at] = judged;
         Ok(())
@@ -114,8 +116,7 @@ impl StructureEvent {
 
     /// A seat after the verdict of one level: `push` is its force's share of the acceleration, `away` the acceleration that is left.
     fn judged(&self, mut s: Seat, level: usize, push: f64, away: f64, released: Option<usize>) -> Seat {
-        let column = self.body.column(s.row);
-        let large: f64 = column.iter().zip(&self.rhs_size).map(|(y, f)| (y * f).abs()).sum();
+        let large = self.body.answer_size(s.row, &self.rhs_size);
         let vanished = level == 0 && released == Some(s.row) && push.abs() <= VANISHED * large;
         let little = if vanished { VANISHED * large } else { noise(large) };
         if s.both && push.abs() > little {
@@ -130,7 +131,7 @@ impl StructureEvent {
     }
 
     /// Holds the seats that are to be held, and notes what has been decided.
-    fn hold_seats(&mut self) {
+    fn hold_seats(&mut self, released: Option<usize>) {
         let Self { hold, body, seats, places, carriers, walls_of, barriers, v, scratch, .. } = self;
         for place in places.iter_mut() {
             place.held = 0.0;
@@ -140,27 +141,44 @@ impl StructureEvent {
             let position = places.get(s.row).map_or(0.0, |place| place.bound[side_of(s.sign)]);
             matches!(s.fate, Fate::Held(_)).then_some(Held { row: s.row, sign: s.sign, position })
         };
-        // Those that are pressed share what presses; of the others a row that follows from those before it carries nothing.
         let of = |level: usize| seats.iter().filter(move |s| s.fate == Fate::Held(level)).filter_map(&held);
-        hold.set(body, of(0), (1..LEVELS).chain(std::iter::once(TERMS)).flat_map(of));
+        // The speed that rounding has left of a stop belongs to this instant, not to the motion that follows.
+        if seats.iter().any(|s| s.fate == Fate::Open) {
+            let stopped = seats.iter().filter(|s| matches!(s.fate, Fate::Open | Fate::Held(_))).map(|s| Held {
+                row: s.row,
+                sign: s.sign,
+                position: places[s.row].bound[side_of(s.sign)],
+            });
+            hold.set(body, std::iter::empty(), stopped);
+            hold.stop(body, v, scratch);
+        }
+        // Those that are pressed share what presses; of the others a row that follows from those before it carries nothing, above all the
+        // one among its equals that has just been found to pull.
+        let pulled = |held: &Held| released == Some(held.row);
+        let idle = |level: usize| of(level).filter(move |held| !pulled(held)).chain(of(level).filter(pulled));
+        hold.set(body, of(0), (1..LEVELS).flat_map(idle));
+        hold.stop(body, v, scratch);
         for s in seats.iter() {
-            let (side, place) = (side_of(s.sign), &mut places[s.row]);
             let in_hold = hold.rows().iter().any(|held| held.row == s.row);
+            let (side, place) = (side_of(s.sign), &mut places[s.row]);
             match s.fate {
                 Fate::Held(level) if in_hold => {
                     place.held = s.sign;
-                    place.force_zeros = Some(level);
+                    place.force_zeros = Some(Zeros::Then(level));
                     if s.both {
-                        place.gap_zeros = [Some(TERMS); 2];
+                        place.gap_zeros = [Some(Zeros::All); 2];
                     }
                 }
-                Fate::Held(_) | Fate::Open => place.gap_zeros[side] = Some(TERMS),
-                Fate::Gone(level) => place.gap_zeros[side] = Some(level + 2),
-                Fate::None => place.gap_zeros[side] = Some(1),
+                Fate::Held(_) | Fate::Open => {
+                    place.gap_zeros[side] = Some(Zeros::Unknown(LEVELS + 2));
+                    if s.both {
+                        place.gap_zeros = [Some(Zeros::Unknown(LEVELS + 2)); 2];
+                    }
+                }
+                Fate::Gone(level) => place.gap_zeros[side] = Some(Zeros::Then(level + 2)),
+                Fate::None => place.gap_zeros[side] = Some(Zeros::Then(1)),
             }
         }
-        // The speed that rounding has left of a stop belongs to this instant, not to the motion that follows.
-        hold.stop(body, v, scratch);
         carriers.clear();
         for (k, held) in hold.rows().iter().enumerate() {
             let side = side_of(held.sign);

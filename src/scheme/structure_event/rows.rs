@@ -2,6 +2,7 @@
 
 use crate::flow::{Body, TERMS};
 use crate::scene::{Scene, Side};
+use crate::scheme::event::noise;
 
 /// The side of the structure on which a wall stands: the sign of its force.
 pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
@@ -18,10 +19,12 @@ pub(super) struct Place {
     pub strikers: [usize; 2],
     /// The sign of the walls that hold the row at present; 0 if none does.
     pub held: f64,
-    /// Leading coefficients of each side's gap that are zero by what has been decided at this instant.
-    pub gap_zeros: [Option<usize>; 2],
+    /// The furthest that it has moved on a stretch so far, m: what a low flight is low against.
+    pub travel: f64,
+    /// What has been decided at this instant about the coefficients of each side's gap.
+    pub gap_zeros: [Option<Zeros>; 2],
     /// The same of the force that holds the row.
-    pub force_zeros: Option<usize>,
+    pub force_zeros: Option<Zeros>,
 }
 
 impl Place {
@@ -33,6 +36,7 @@ impl Place {
             carriers: [0; 2],
             strikers: [0; 2],
             held: 0.0,
+            travel: 0.0,
             gap_zeros: [None; 2],
             force_zeros: None,
         };
@@ -67,20 +71,34 @@ impl Place {
     }
 }
 
-/// Sizes whose rounding limits what a row shows, computed at most once for an instant.
+/// Derivatives of the displacement whose sizes are kept: with the acceleration those that are asked about a row at rest.
+pub(super) const DERIVATIVES: usize = 5;
+
+/// Sizes of the terms of forces and derivatives, whose rounding limits what a row shows.
 #[derive(Debug)]
 pub(super) struct Sizes {
-    /// Sizes of the terms of the force (N) and of its rate (N/s), n entries each.
+    /// Of the derivatives of q (m/sᵏ), n entries each. What a derivative is a sum of may be far larger than the derivative, and
+    /// what follows from it errs by the rounding of those terms.
+    pub derivative: [Vec<f64>; DERIVATIVES],
+    /// Of the force (N) and of its rate (N/s) at the start of the series, n entries each.
     pub force: [Vec<f64>; 2],
+    /// True once the sizes of `force` are those of the present series.
     pub known: bool,
-    /// Sizes of the terms of the force at the last event, N.
+    /// Of the force at the last event, N.
     pub instant: Vec<f64>,
     pub work: Vec<f64>,
 }
 
 impl Sizes {
     pub fn new(n: usize) -> Self {
-        Self { force: [vec![0.0; n], vec![0.0; n]], known: false, instant: vec![0.0; n], work: vec![0.0; n] }
+        let zero = || vec![0.0; n];
+        Self {
+            derivative: std::array::from_fn(|_| zero()),
+            force: [zero(), zero()],
+            known: false,
+            instant: zero(),
+            work: zero(),
+        }
     }
 }
 
@@ -96,6 +114,33 @@ pub(super) struct Watched {
     pub terms: usize,
 }
 
+/// What the coefficients of a polynomial err by at its start.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rounding {
+    /// The first ones, each by itself.
+    pub of: [f64; NOISES],
+    /// How far below 0 its value may be for rounding, anywhere on the stretch.
+    depth: f64,
+}
+
+impl Rounding {
+    /// `terms` is the sum of the sizes of all further terms on the stretch.
+    pub fn new(of: [f64; NOISES], terms: f64) -> Self {
+        Self { of, depth: BELOW * (of.iter().sum::<f64>() + noise(terms)) }
+    }
+
+    /// The same with coefficients that must differ from 0 by `doubt` times as much.
+    pub fn doubted(mut self, doubt: f64) -> Self {
+        self.of.iter_mut().for_each(|noise| *noise *= doubt);
+        self
+    }
+
+    /// The value below 0 at which a polynomial at 0 is found to be below it.
+    pub fn below(&self) -> f64 {
+        BELOW * self.depth
+    }
+}
+
 /// What watching says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Seen {
@@ -106,37 +151,65 @@ pub(super) enum Seen {
     Nothing,
 }
 
+/// What an event decides about a row that touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Zeros {
+    /// That many leading coefficients are zero, and the next one is positive.
+    Then(usize),
+    /// That many are zero; which way the row goes is not known.
+    Unknown(usize),
+    /// All are: the row cannot move.
+    All,
+}
+
 impl Watched {
-    /// The first root up to `end`. Coefficients below their `noise` at the start are none; `zeros` says how many are none whatever they
-    /// show. A `force` below 0 is an event whatever follows, a gap only if it goes on falling.
+    /// The first root up to `end`. Coefficients below their rounding at the start are taken for 0; `zeros` says which are 0 by what
+    /// has been decided at this instant. A `force` below 0 is an event whatever follows, a gap only if it goes on falling.
+    ///
+    /// Where no known coefficient tells which way a polynomial at 0 goes — a push may have to come through many masses first — it is
+    /// watched until it is below 0 by more than rounding.
     pub fn first(
         &self,
-        zeros: Option<usize>,
-        noise: impl FnOnce() -> [f64; 4],
+        zeros: Option<Zeros>,
+        rounding: impl FnOnce() -> Rounding,
         near: bool,
         force: bool,
         end: f64,
     ) -> Seen {
         let c = &self.c[..self.terms];
-        let known = NOISES.min(self.terms);
-        let from = match zeros {
-            // What has been decided at this instant is not decided again by rounding.
-            Some(zeros) if zeros >= NOISES => (zeros..self.terms).find(|&k| c[k] > 0.0),
-            None if !near && c[0] > 0.0 => Some(0),
-            _ => {
-                let (noise, slack) = (noise(), if zeros.is_some() { DECIDED } else { 1.0 });
-                let falls = |k: usize| c[k] < -slack * noise[k] && (k > 0 || force);
-                let rises = |k: usize| c[k] > if zeros == Some(k) { 0.0 } else { noise[k] };
-                match (zeros.unwrap_or(0)..known).find(|&k| rises(k) || falls(k)) {
-                    Some(k) if falls(k) => return Seen::Now,
-                    None if zeros.is_none() && c[0] < -2.0 * noise[0] => return Seen::Now,
-                    found => found,
-                }
-            }
+        if zeros.is_none() && !near && c[0] > 0.0 {
+            return root(c, end);
+        }
+        let (skip, rises_at) = match zeros {
+            Some(Zeros::All) => return Seen::Nothing,
+            Some(Zeros::Then(k)) if k >= NOISES && c.get(k).is_some_and(|c| *c > 0.0) => return root(&c[k..], end),
+            Some(Zeros::Then(k)) => (k.min(self.terms), k),
+            Some(Zeros::Unknown(k)) => (k.min(self.terms), usize::MAX),
+            None => (0, usize::MAX),
         };
-        let Some(from) = from else { return Seen::Nothing };
-        super::root::first_root(&c[from..], end).map_or(Seen::Nothing, Seen::Root)
+        let (rounding, slack) = (rounding(), if zeros.is_some() { DECIDED } else { 1.0 });
+        for (k, (&c, &noise)) in c.iter().zip(&rounding.of).enumerate().skip(skip) {
+            if c > if rises_at == k { 0.0 } else { noise } {
+                return root(&self.c[k..self.terms], end);
+            }
+            if c < -slack * noise && (k > 0 || force) {
+                return Seen::Now;
+            }
+        }
+        if zeros.is_none() && c[0] < -rounding.depth {
+            return Seen::Now;
+        }
+        let mut below = [0.0; TERMS];
+        for (below, c) in below[skip..self.terms].iter_mut().zip(&c[skip..]) {
+            *below = *c;
+        }
+        below[0] += rounding.below();
+        if below[0] > 0.0 { root(&below[..self.terms], end) } else { Seen::Nothing }
     }
+}
+
+fn root(c: &[f64], end: f64) -> Seen {
+    super::root::first_root(c, end).map_or(Seen::Nothing, Seen::Root)
 }
 
 /// Coefficients whose noise is known.
@@ -144,3 +217,6 @@ const NOISES: usize = 4;
 
 /// How far beyond its rounding a coefficient may contradict what a programme has decided, whose signs are told more coarsely.
 const DECIDED: f64 = 1e3;
+
+/// A value below 0 by this many times its rounding is not 0; watching starts from as far above that.
+const BELOW: f64 = 2.0;

@@ -2,7 +2,7 @@
 
 use super::StructureEvent;
 use super::root::highest;
-use super::rows::{SIGNS, Seen, Watched, size};
+use super::rows::{Rounding, SIGNS, Seen, Watched, Zeros, size};
 use crate::flow::TERMS;
 use crate::scheme::event::{Phase, noise};
 
@@ -36,6 +36,7 @@ impl StructureEvent {
             let place = self.places[row];
             let seen = self.series.seen(row);
             let (w, reach) = (seen[0], seen[1..].iter().map(|c| c.abs()).sum::<f64>());
+            self.places[row].travel = place.travel.max(reach);
             if place.held != 0.0 {
                 self.watch_hold(row, &mut end, &mut hit);
             }
@@ -71,14 +72,15 @@ impl StructureEvent {
         if near || place.gap_zeros[side].is_some() {
             self.measure();
         }
-        let found = watched.first(place.gap_zeros[side], || self.noises(row, place.bound[side]), near, false, *end);
+        let rounding = || self.rounding(row, place.bound[side]).doubted(self.doubt);
+        let found = watched.first(place.gap_zeros[side], rounding, near, false, *end);
         note(found, Cause::Gap(row, side), end, hit);
     }
 
     fn watch_hold(&mut self, row: usize, end: &mut f64, hit: &mut Option<Hit>) {
         let Some(k) = self.hold.rows().iter().position(|held| held.row == row) else { return };
         let place = self.places[row];
-        if place.bound[0] == place.bound[1] && place.force_zeros.is_some_and(|zeros| zeros >= TERMS) {
+        if place.force_zeros == Some(Zeros::All) {
             return;
         }
         let mut watched = Watched { c: [0.0; TERMS], terms: 0 };
@@ -89,7 +91,9 @@ impl StructureEvent {
             *c = place.held * f;
         }
         self.measure();
-        let found = watched.first(place.force_zeros, || self.force_noises(k), true, true, *end);
+        let terms = watched.c[1..watched.terms].iter().map(|c| c.abs()).sum();
+        let rounding = || Rounding::new(self.force_noises(k), terms).doubted(self.doubt);
+        let found = watched.first(place.force_zeros, rounding, true, true, *end);
         note(found, Cause::Release(row), end, hit);
     }
 
@@ -121,26 +125,29 @@ impl StructureEvent {
             let next = noises.get(k + 1).copied().unwrap_or(noises[3]);
             stiffness * noises[k] + damping * (k + 1) as f64 * next / unit
         });
-        let looks: [Option<(Watched, f64, [f64; 4])>; 2] = match phase {
+        let travel = self.travel(row);
+        let of_sum = Rounding::new(of_sum, (stiffness + damping / unit) * travel);
+        let noises = Rounding::new(noises, travel);
+        let looks: [Option<(Watched, f64, Rounding)>; 2] = match phase {
             Phase::Rigid(_) => [None, None],
             Phase::Outside => [Some((gap, 1.0, noises)), None],
             Phase::Touching => [Some((sum, 1.0, of_sum)), None],
             Phase::Detached => [Some((sum, -1.0, of_sum)), Some((gap, -1.0, noises))],
         };
-        for (mut watched, sign, noise) in looks.into_iter().flatten() {
+        for (mut watched, sign, rounding) in looks.into_iter().flatten() {
             watched.c.iter_mut().for_each(|c| *c *= sign);
             if changed {
                 // It was at 0 to the rounding of the stretch before, which may be coarser than that of this one.
                 watched.c[0] = watched.c[0].max(0.0);
             }
-            note(watched.first(None, || noise, true, false, *end), Cause::Elastic(wall), end, hit);
+            note(watched.first(None, || rounding, true, false, *end), Cause::Elastic(wall), end, hit);
         }
     }
 
     /// What the coefficients of a row's displacement may err by at the start, m: of displacement, velocity, acceleration and its rate.
     pub(super) fn noises(&self, row: usize, position: f64) -> [f64; 4] {
         let unit = self.series.unit();
-        let answer = |x: &[f64]| self.body.column(row).iter().zip(x).map(|(y, x)| (y * x).abs()).sum::<f64>();
+        let answer = |x: &[f64]| self.body.answer_size(row, x);
         let second = noise(answer(&self.sizes.force[0])) * unit * unit / 2.0;
         [
             self.resolution(row, position),
@@ -151,15 +158,23 @@ impl StructureEvent {
         ]
     }
 
+    /// What the gap of a row at a wall errs by, m. The sizes must be measured.
+    pub(super) fn rounding(&self, row: usize, position: f64) -> Rounding {
+        Rounding::new(self.noises(row, position), self.travel(row))
+    }
+
+    /// Sizes of all that the displacement of a row is a sum of beyond its place at the start, m.
+    fn travel(&self, row: usize) -> f64 {
+        (1..self.series.seen(row).len()).map(|k| size(&self.body, row, self.series.term(k))).sum()
+    }
+
     /// The same of the force on held row number `k`, N.
     fn force_noises(&self, k: usize) -> [f64; 4] {
         let unit = self.series.unit();
         let mut out = [0.0; 4];
         for (held, w) in self.hold.independent().iter().zip(self.hold.inverse(k)) {
-            let column = self.body.column(held.row);
             for (order, out) in out.iter_mut().take(2).enumerate() {
-                let terms = column.iter().zip(&self.sizes.force[order]).map(|(y, x)| (y * x).abs()).sum::<f64>();
-                *out += noise(w.abs() * terms);
+                *out += noise(w.abs() * self.body.answer_size(held.row, &self.sizes.force[order]));
             }
         }
         // Of the higher ones what the fastest rate makes of the second.
