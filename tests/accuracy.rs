@@ -2,7 +2,7 @@
 #![cfg(feature = "cli")]
 
 use signorini::qp::Backend;
-use signorini::study::accuracy::{Against, JudgedBy, Target, reach};
+use signorini::study::accuracy::{Against, JudgedBy, Target, foresee, reach};
 use signorini::study::change::Change;
 use signorini::study::verdict::Verdict;
 use signorini::{
@@ -377,4 +377,59 @@ fn a_verdict_tells_the_change_that_half_the_step_makes() {
     assert_eq!(verdict.walls[0].impulse_ns[1], fine.trajectory.impulse("upper").unwrap());
     assert_eq!(verdict.walls[0].contacts, [coarse.statistics.walls[0].contacts, fine.statistics.walls[0].contacts]);
     assert_eq!(verdict.horizon_s, 1.0);
+}
+
+#[test]
+fn a_wall_that_is_hardly_touched_does_not_decide() {
+    // Driven against its upper wall all the time, and against the lower one now and then.
+    let scene =
+        driven(3.0, 5.0, 1.5).with_wall(upper(1e-3, 0.5)).with_wall(lower(-6.5e-3, 0.5)).with_load(Load::constant(2.0));
+    let coarse = at_step(&scene, &MOREAU, 1e-3, 1e-3);
+    let exact = run(&scene, &Scheme::Event, &Options::new(time(), Backend::Auto)).unwrap();
+    let change = Change::of_runs(&scene, &coarse, &exact, 1.5, 0.0).unwrap();
+    let impulses = |name: &str| [&coarse, &exact].map(|r| r.trajectory.impulse(name).unwrap());
+    let largest = impulses("upper")[1].abs();
+    assert!(impulses("lower")[1].abs() < 0.8 * largest, "{:?}", impulses("lower"));
+    for (wall, name) in change.walls.iter().zip(["upper", "lower"]) {
+        let [a, b] = impulses(name);
+        // The largest impulse of a wall, which is far above that of one impact.
+        assert!((wall.impulse - (a - b).abs() / largest).abs() < 1e-12, "{wall:?}: {a} {b}");
+    }
+}
+
+#[test]
+fn the_number_of_impacts_that_accumulate_is_not_asked_for() {
+    for (e, duration) in [(0.5, 2.0), (0.8, 6.0)] {
+        // Rests after √(2h/g)(1 + e)/(1 − e): 1.35 and 4.06 s.
+        let scene = ball(e, duration);
+        let exact = run(&scene, &Scheme::Event, &Options::new(time(), Backend::Auto)).unwrap();
+        for h in [1e-2, 1e-3, 1e-4] {
+            let found = at_step(&scene, &MOREAU, h, 1e-2);
+            let wall = &Change::of_runs(&scene, &found, &exact, duration, 0.0).unwrap().walls[0];
+            assert_eq!(wall.contacts, None, "e = {e}, h = {h}");
+            // What is asked for instead has a limit: the impulse is the weight's, whatever the impacts.
+            assert!(wall.impulse < 20.0 * h && wall.contact_time < 60.0 * h, "e = {e}, h = {h}: {wall:?}");
+        }
+    }
+    let separate = driven(3.0, 5.0, 1.0).with_wall(upper(5e-3, 0.8));
+    let exact = run(&separate, &Scheme::Event, &Options::new(time(), Backend::Auto)).unwrap();
+    let found = at_step(&separate, &MOREAU, 1e-4, 1e-3);
+    assert!(Change::of_runs(&separate, &found, &exact, 1.0, 0.0).unwrap().walls[0].contacts.is_some());
+}
+
+#[test]
+fn a_search_that_leads_nowhere_ends_early_and_the_stretch_is_foreseen() {
+    // Chaotic at e = 1: every halving keeps the displacement for a little longer, and 2²⁴ steps do not reach the end.
+    let scene = driven(3.0, 5.0, 10.0).with_wall(upper(5e-3, 1.0)).with_wall(lower(-5e-3, 1.0));
+    let patient = Target { most_steps: 1 << 24, ..target(MOREAU, Against::Exact, 1e-3) };
+    let outcome = reach(&scene, &patient, &mut |_| {}).unwrap();
+    let Some(Error::Inaccurate { until, .. }) = outcome.shortfall else { panic!("{:?}", outcome.accuracy) };
+    assert!(until > 0.05 && until < 10.0, "{until}");
+    // A hundredth of what was allowed.
+    assert!(outcome.accuracy.total_steps < 1 << 20, "{}", outcome.accuracy.total_steps);
+    // Rounding alone ends what any step can keep; nothing does in the settled motion.
+    let until = foresee(&scene, &patient).unwrap().unwrap();
+    assert!(until > 1.0 && until < 10.0, "{until}");
+    let settled = driven(3.0, 5.0, 10.0).with_wall(upper(5e-3, 0.8)).with_wall(lower(-5e-3, 0.8));
+    assert_eq!(foresee(&settled, &patient).unwrap(), None);
 }

@@ -13,7 +13,7 @@ use crate::output::run::{self as output, Picture};
 use crate::output::summary::{Checks, Reasons};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scheme::Method;
-use crate::study::accuracy::{Outcome, Target, reach};
+use crate::study::accuracy::{Outcome, Target, foresee, reach};
 use crate::study::choice;
 use crate::study::truncation::{ChosenModes, Truncation, choose_modes};
 use crate::study::verdict::{self, Verdict};
@@ -112,6 +112,12 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let mut results = args.request.results(case, "run", request)?;
     let target = Target { method, ..Target::new(tolerance, case.time) };
     target.validate()?;
+    // Said before the search, which may take minutes.
+    if let Ok(Some(until)) = foresee(&case.scene, &target) {
+        ui.message(&format!(
+            "beyond about t = {until:.4} s no step keeps an error of {tolerance:e}: rounding alone grows to it; what follows is found up to there at most"
+        ));
+    }
     let (case, modes) = enough_modes(case, &target, ui)?;
     // A step costs what its unknowns cost: patience for a structure is some times that for one degree of freedom, and no more.
     let unknowns = case.scene.system.degrees_of_freedom() as u64;

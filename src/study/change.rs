@@ -9,7 +9,7 @@ use crate::step::Contact;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
 
-/// Contacts slower than this share of the fastest at their wall count in proportion to their speed.
+/// Contacts slower than this share of the fastest at their wall are grazes, or the end of an accumulation.
 const SLOW: f64 = 1e-2;
 
 /// How far two runs lie apart. Every number is dimensionless; zero where nothing differs.
@@ -21,17 +21,19 @@ pub struct Change {
     pub walls: Vec<WallChange>,
 }
 
-/// The part of one wall, over the whole run. Each is relative to the wall's own value, or to what one impact at the largest speed v
-/// there would give where that is more, with the mass m that the wall feels ([`Scene::wall_masses`]): a wall that is hardly touched does not decide.
+/// The part of one wall, over the whole run. Each is relative to the largest value that a wall of the scene has, or to what one impact
+/// at the largest speed v at this wall would give where that is more, with the mass m that it feels ([`Scene::wall_masses`]): a wall that
+/// is hardly touched does not decide.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WallChange {
     /// The wall's name.
     pub wall: String,
     /// Of its impulse; at least m v.
     pub impulse: f64,
-    /// Of its number of contacts; at least 1. A contact slower than 1 % of the wall's fastest counts in proportion to its speed, so that an
-    /// accumulation of impacts, infinitely many in the limit, has a finite number.
-    pub contacts: f64,
+    /// Of its number of contacts; at least 1. None at a rigid wall where impacts accumulate (0 < e < 1, and contact lasts or some
+    /// impacts are slower than 1 % of the fastest): of infinitely many a stepping scheme makes as many as its step resolves, and their number has no limit to
+    /// converge to. Impulse, energy and time of contact have one.
+    pub contacts: Option<f64>,
     /// Of the kinetic energy that arrived at it; at least ½ m v².
     pub impact_energy: f64,
     /// Of its time in contact, as a share of the window.
@@ -41,14 +43,15 @@ pub struct WallChange {
 }
 
 impl WallChange {
-    fn parts(&self) -> [(f64, &'static str); 5] {
-        [
+    fn parts(&self) -> impl Iterator<Item = (f64, &'static str)> {
+        let parts = [
             (self.impulse, "impulse"),
-            (self.contacts, "number of contacts"),
+            (self.contacts.unwrap_or(0.0), "number of contacts"),
             (self.impact_energy, "impact energy"),
             (self.contact_time, "contact time"),
             (self.peak_force, "peak force"),
-        ]
+        ];
+        parts.into_iter()
     }
 }
 
@@ -66,26 +69,42 @@ impl Change {
         let masses = scene.wall_masses();
         let statistics = [run, against].map(|t| Statistics::new(scene, t.contacts(), from));
         let window = scene.duration - from;
+        let numbers = |index: usize| [run, against].map(|t| number(scene, t.contacts(), index, from));
+        let part = |s: &Statistics, index: usize, of: fn(&WallStatistics) -> f64| s.walls.get(index).map_or(0.0, of);
+        let [_, own] = &statistics;
+        // The largest of any wall, in the motion that is the measure.
+        let mut most = Largest::default();
+        for (index, wall) in scene.walls.iter().enumerate() {
+            most.impulse = most.impulse.max(against.impulse(&wall.name)?.abs());
+            most.number = most.number.max(numbers(index)[1].unwrap_or(0.0));
+            most.power = most.power.max(part(own, index, |w| w.impact_power_w));
+            if !wall.law.is_rigid() {
+                most.force = most.force.max(part(own, index, |w| w.peak_force_n.max.unwrap_or(0.0)));
+            }
+        }
         let mut walls = Vec::new();
         for (index, wall) in scene.walls.iter().enumerate() {
             let mass = masses.get(index).copied().unwrap_or(0.0);
             let speed = speeds.get(index).copied().unwrap_or(0.0);
             let impulses = [run.impulse(&wall.name)?, against.impulse(&wall.name)?];
-            let numbers = [run, against].map(|t| soft_number(t.contacts(), index, from));
-            let of =
-                |part: fn(&WallStatistics) -> f64| statistics.each_ref().map(|s| s.walls.get(index).map_or(0.0, part));
+            let contacts = match numbers(index) {
+                [Some(a), Some(b)] => Some(relative([a, b], most.number.max(1.0))),
+                _ => None,
+            };
+            let of = |what: fn(&WallStatistics) -> f64| statistics.each_ref().map(|s| part(s, index, what));
             let [time, time_against] = of(|w| w.contact_time_ratio);
             let peak_force = match wall.law {
                 WallLaw::Elastic { stiffness, .. } => {
-                    relative(of(|w| w.peak_force_n.max.unwrap_or(0.0)), speed * (stiffness * mass).sqrt())
+                    let least = most.force.max(speed * (stiffness * mass).sqrt());
+                    relative(of(|w| w.peak_force_n.max.unwrap_or(0.0)), least)
                 }
                 _ => 0.0,
             };
             walls.push(WallChange {
                 wall: wall.name.clone(),
-                impulse: relative(impulses, mass * speed),
-                contacts: relative(numbers, 1.0),
-                impact_energy: relative(of(|w| w.impact_power_w), 0.5 * mass * speed * speed / window),
+                impulse: relative(impulses, most.impulse.max(mass * speed)),
+                contacts,
+                impact_energy: relative(of(|w| w.impact_power_w), most.power.max(0.5 * mass * speed * speed / window)),
                 contact_time: (time - time_against).abs(),
                 peak_force,
             });
@@ -121,10 +140,31 @@ pub(super) fn relative([a, b]: [f64; 2], least: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / b.abs().max(least) }
 }
 
-fn soft_number(contacts: &[Contact], wall: usize, from: f64) -> f64 {
-    let speeds = contacts.iter().filter(|c| c.wall == wall && c.start >= from).map(|c| c.approach_speed);
+/// Largest values of any wall.
+#[derive(Debug, Default)]
+struct Largest {
+    /// N s.
+    impulse: f64,
+    number: f64,
+    /// W.
+    power: f64,
+    /// N, of elastic walls.
+    force: f64,
+}
+
+/// Contacts of a wall from the time `from` (s); none where impacts accumulate. Slow ones count in proportion to their speed: a graze
+/// that one of two runs has, and the other has not, changes little.
+fn number(scene: &Scene, contacts: &[Contact], wall: usize, from: f64) -> Option<f64> {
+    let here = contacts.iter().filter(|c| c.wall == wall && c.start >= from);
+    let speeds = here.clone().map(|c| c.approach_speed);
     let slow = SLOW * speeds.clone().fold(0.0, f64::max);
-    speeds.map(|v| if v >= slow { 1.0 } else { v / slow }).sum()
+    let bounces =
+        |law: WallLaw| matches!(law, WallLaw::Rigid { restitution } if restitution > 0.0 && restitution < 1.0);
+    // Where the step is too long for slow impacts, they have become the lasting contact that ends them.
+    let lasts = here.clone().any(|c| c.end != Some(c.start));
+    let settles = lasts || speeds.clone().filter(|v| *v < slow).count() > 1;
+    let accumulates = scene.walls.get(wall).is_some_and(|w| bounces(w.law)) && settles;
+    (!accumulates).then(|| speeds.map(|v| if v >= slow { 1.0 } else { v / slow }).sum())
 }
 
 /// The time (s) up to which the displacements of two runs with the same rows agree at every probe to within `tolerance` of the gap scale.

@@ -1,11 +1,12 @@
 //! How far an error can be promised.
 
-use super::{Judged, JudgedBy, Outcome, Target, exact};
+use super::{CoarseGrid, Judged, JudgedBy, Outcome, Target, exact};
 use crate::error::Result;
 use crate::run::{Options, Run, run};
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme};
 use crate::study::change::Change;
+use crate::study::exact::affordable;
 use crate::study::horizon::{Growth, LARGEST_GROWTH};
 use crate::time::TimeOptions;
 
@@ -20,6 +21,32 @@ const PERTURBATION: f64 = 1e-10;
 
 /// A perturbation that has grown to this, over the gap, has stopped growing: the gap is full.
 const SATURATED: f64 = 0.1;
+
+/// The time (s) beyond which no step keeps the error asked for, since rounding alone grows to it; none if it never does, or if that is
+/// not known. A matter of a few short runs, to be asked before [`reach`](super::reach): for one degree of freedom exact, for a structure at
+/// most this time, by runs of the method with the coarsest step that could see the motion.
+///
+/// # Errors
+/// [`crate::Error::Invalid`] for a request that makes no sense, and what the runs report.
+pub fn foresee(scene: &Scene, target: &Target) -> Result<Option<f64>> {
+    target.validate()?;
+    scene.validate()?;
+    let most = SHARE * target.tolerance / ROUNDING;
+    let growth = match scene.system {
+        System::Oscillator(_) => {
+            affordable(scene)?;
+            Growth::of(scene)?
+        }
+        System::Structure(_) => {
+            let method = target.method.filter(|m| m.scheme != Scheme::Event);
+            let method = method.unwrap_or_else(|| crate::study::choice::choose(scene).method);
+            let coarse = CoarseGrid::of(scene, &target.time)?;
+            Growth::of_rounding(scene, &method, coarse.options(0, &target.time).step)?
+        }
+    };
+    let until = growth.horizon(most);
+    Ok((until < scene.duration * (1.0 - 1e-9)).then_some(until))
+}
 
 /// The row (s) before which rounding has not grown beyond its share of `tolerance`; none if it never does. Between two events, so that no
 /// impact stands at the edge of what is counted.

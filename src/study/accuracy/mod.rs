@@ -5,6 +5,7 @@ mod horizon;
 mod refine;
 
 pub use coarse::CoarseGrid;
+pub use horizon::foresee;
 
 use super::change::Change;
 use super::choice::{self, Choice};

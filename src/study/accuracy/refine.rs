@@ -12,6 +12,15 @@ use crate::time::TimeOptions;
 const QUIET: f64 = 0.25;
 const QUIET_HALVINGS: usize = 2;
 
+/// Levels before which no trend is read: coarser steps may not see the motion at all.
+const FEWEST_LEVELS: usize = 8;
+
+/// Halvings from which the trend is read.
+const TREND: usize = 3;
+
+/// An error above this is of the size of what is compared.
+const LOST: f64 = 0.1;
+
 /// A step found is called sufficient if its run lies within this share of the tolerance from the finest.
 const SUFFICIENT: f64 = 0.5;
 
@@ -35,7 +44,16 @@ pub(super) struct Refined {
     pub judged_by: JudgedBy,
 }
 
-/// Halves the step of `method` until the tolerance is kept, or the next run would take too many steps.
+/// True if the errors of the runs so far are of the size of the motion and do not fall: where a small change grows apart exponentially, halving
+/// the step keeps the motion for a little longer, and no more.
+fn leads_nowhere(levels: &[Level]) -> bool {
+    let errors: Vec<f64> = levels.iter().rev().map_while(|level| level.error).collect();
+    let (Some(&last), Some(&before)) = (errors.first(), errors.get(TREND)) else { return false };
+    errors.len() >= FEWEST_LEVELS && last > LOST && last > 0.5 * before
+}
+
+/// Halves the step of `method` until the tolerance is kept, the next run would take too many steps, or the runs so far show that it would
+/// not be kept by then.
 pub(super) fn refine(
     judged: &Judged,
     method: &Method,
@@ -86,7 +104,7 @@ pub(super) fn refine(
             done.remove(0);
         }
         kept = quiet >= if reference.is_some() { 1 } else { QUIET_HALVINGS };
-        if kept {
+        if kept || leads_nowhere(&levels) {
             break;
         }
     }

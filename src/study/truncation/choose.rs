@@ -19,6 +19,11 @@ const QUIET: f64 = 0.25;
 /// How many increases running must change less than that: one that changes nothing may have added modes with a node at the walls.
 const QUIET_INCREASES: usize = 2;
 
+/// Where this many increases running have each changed more than [`IDLE`], and more than half as much as the first of them, more modes lead
+/// nowhere: peaks of impacts grow with every mode, and impulses of a chaotic motion differ by chance.
+const IDLE_INCREASES: usize = 3;
+const IDLE: f64 = 0.1;
+
 /// One number of modes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModesLevel {
@@ -61,7 +66,8 @@ impl ChosenModes {
 }
 
 /// Increases the modes by half, from `start` on, until two increases running change no wall's impulse and peak by more than a quarter of
-/// `tolerance`: runs of `method` with the step and window of `time`. `progress` hears the time (s) that the run under way has reached.
+/// `tolerance`: runs of `method` with the step and window of `time`. Where the changes do not fall, it gives up and keeps `start`, the
+/// cheapest number, since no other tried is nearer to anything. `progress` hears the time (s) that the run under way has reached.
 ///
 /// # Errors
 /// What a cut or a run reports.
@@ -92,6 +98,11 @@ pub fn choose_modes(
         quiet = if change <= QUIET * tolerance { quiet + 1 } else { 0 };
         levels.push(ModesLevel { modes, change: Some(change), quantity: Some(quantity) });
         last = next;
+        let changes: Vec<f64> = levels.iter().filter_map(|l| l.change).collect();
+        let idle = |c: &[f64; IDLE_INCREASES]| c.iter().all(|x| *x > IDLE.max(0.5 * c[0]) && *x > tolerance);
+        if changes.last_chunk().is_some_and(idle) {
+            return Ok(ChosenModes { tolerance, modes: start, degrees_of_freedom: n, kept: start == n, levels });
+        }
     }
     let kept = quiet >= QUIET_INCREASES || modes == n;
     Ok(ChosenModes { tolerance, modes, degrees_of_freedom: n, kept, levels })

@@ -14,6 +14,7 @@ use crate::error::Result;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Damping, Reduction, Scene};
 use crate::scheme::Method;
+use crate::statistics::WallStatistics;
 use crate::time::TimeOptions;
 use serde::Serialize;
 use std::fmt;
@@ -56,7 +57,8 @@ pub struct WallTruncated {
     pub peak_force_n: [Option<f64>; 2],
     /// Largest impulse of one contact in that window, N s; none without contact.
     pub largest_impulse_ns: [Option<f64>; 2],
-    /// Change of the peak force where both are finite, else of the largest impulse of one contact; relative to the value with more modes.
+    /// Change of the peak force where both are finite, else of the largest impulse of one contact; as a share
+    /// of the largest that a wall has.
     pub peak_change: f64,
     /// Mass that the wall feels, kg.
     pub effective_mass_kg: [f64; 2],
@@ -110,13 +112,19 @@ impl Truncation {
         let [run, against] = runs;
         let change = Change::of_runs(&cuts[1].scene, run, against, against.grid.end, from)?;
         let mut walls = Vec::new();
+        // A wall that is hardly touched, or in one of the runs only, does not decide: changes are shares of the largest wall's value.
+        let most = |part: fn(&WallStatistics) -> f64| {
+            runs.iter().flat_map(|run| run.statistics.walls.iter().map(part)).fold(0.0, f64::max)
+        };
+        let (most_force, most_impulse) =
+            (most(|w| w.peak_force_n.max.unwrap_or(0.0)), most(|w| w.impulse_ns.max.unwrap_or(0.0)));
         for (index, wall) in change.walls.iter().enumerate() {
             let of = |run: &Run| run.statistics.walls.get(index).map(|w| (w.peak_force_n.max, w.impulse_ns.max));
             let peaks = runs.map(|run| of(run).and_then(|w| w.0));
             let largest = runs.map(|run| of(run).and_then(|w| w.1));
             let peak_change = match peaks {
-                [Some(a), Some(b)] => relative([a, b], 0.0),
-                _ => relative(largest.map(|x| x.unwrap_or(0.0)), 0.0),
+                [Some(a), Some(b)] => relative([a, b], most_force),
+                _ => relative(largest.map(|x| x.unwrap_or(0.0)), most_impulse),
             };
             let kept = cuts.map(|cut| cut.walls.get(index).copied());
             walls.push(WallTruncated {
