@@ -39,7 +39,7 @@ pub struct WallStatistics {
     /// Largest |force| of each episode whose force is finite, N.
     pub peak_force_n: Summary,
     /// |impulse| of each episode, N s.
-    pub impulse_ns: Summary,
+    pub impulse_n_s: Summary,
     /// Time in contact over the window's length.
     pub contact_time_ratio: f64,
     /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W, with m the mass that the wall feels ([`Scene::wall_masses`]).
@@ -91,7 +91,7 @@ impl Statistics {
                 wall: wall.name.clone(),
                 contacts: here.clone().count(),
                 peak_force_n: Summary::of(here.clone().filter_map(|c| c.peak_force)),
-                impulse_ns: Summary::of(here.clone().map(|c| c.impulse.abs())),
+                impulse_n_s: Summary::of(here.clone().map(|c| c.impulse.abs())),
                 contact_time_ratio: per_time(time),
                 impact_power_w: per_time(arrived),
                 unreturned_power_w: per_time(total(&mut here.map(lost))),

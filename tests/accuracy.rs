@@ -374,7 +374,7 @@ fn a_verdict_tells_the_change_that_half_the_step_makes() {
     let pairs = coarse.trajectory.displacement().iter().zip(fine.trajectory.displacement());
     let change = pairs.map(|(x, y)| (x - y).abs() / 5e-3).fold(0.0, f64::max);
     assert_eq!(verdict.displacement, change);
-    assert_eq!(verdict.walls[0].impulse_ns[1], fine.trajectory.impulse("upper").unwrap());
+    assert_eq!(verdict.walls[0].impulse_n_s[1], fine.trajectory.impulse("upper").unwrap());
     assert_eq!(verdict.walls[0].contacts, [coarse.statistics.walls[0].contacts, fine.statistics.walls[0].contacts]);
     assert_eq!(verdict.horizon_s, 1.0);
 }

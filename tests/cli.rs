@@ -61,7 +61,7 @@ fn a_run_writes_everything_it_promises() {
     done(dir.path(), &["run", "rigid-walls-sine", "--end", "1", "--restitution", "0.8"]);
     let out = dir.path().join("out/rigid-walls-sine/run");
     let (header, rows) = csv(&out.join("trajectory.csv"));
-    let expected = "time_s,displacement_m,velocity_m_per_s,contact_force_upper_N,contact_impulse_upper_Ns,contact_force_lower_N,contact_impulse_lower_Ns";
+    let expected = "time_s,displacement_m,velocity_m_per_s,contact_force_upper_N,contact_impulse_upper_N_s,contact_force_lower_N,contact_impulse_lower_N_s";
     assert_eq!(header.join(","), expected);
     assert_eq!(rows.len(), 1001);
     assert_eq!(rows[0][0].parse::<f64>().unwrap(), 0.0);
@@ -73,14 +73,14 @@ fn a_run_writes_everything_it_promises() {
         let impulses: Vec<f64> = rows.iter().map(|r| r[column].parse().unwrap()).collect();
         assert!(impulses.iter().all(|p| p * sign >= 0.0));
         // A sum of a thousand terms in another order: rounding.
-        let total = summary["impulse_ns"][wall].as_f64().unwrap();
+        let total = summary["impulse_n_s"][wall].as_f64().unwrap();
         assert!((impulses.iter().sum::<f64>() - total).abs() < 1e-12);
         assert!(total * sign > 0.1);
     }
     let (header, contacts) = csv(&out.join("contacts.csv"));
     assert_eq!(
         header.join(","),
-        "wall,start_s,end_s,impulse_Ns,peak_force_N,approach_speed_m_per_s,departure_speed_m_per_s"
+        "wall,start_s,end_s,impulse_N_s,peak_force_N,approach_speed_m_per_s,departure_speed_m_per_s"
     );
     for contact in &contacts {
         assert_eq!(contact[1], contact[2], "an impact is an instant");
@@ -338,8 +338,8 @@ fn a_run_of_a_structure_names_its_probes_and_walls_and_tells_its_truncation() {
     for (index, wall) in ["support-upper", "support-lower"].into_iter().enumerate() {
         let check = &summary["truncation"]["walls"][index];
         assert_eq!(
-            (&check["impulse_ns"][0], &check["impulse_ns"][1]),
-            (&summary["impulse_ns"][wall], &more["impulse_ns"][wall])
+            (&check["impulse_n_s"][0], &check["impulse_n_s"][1]),
+            (&summary["impulse_n_s"][wall], &more["impulse_n_s"][wall])
         );
     }
     assert!(more["truncation"].is_null() && more["refinement"].is_null());

@@ -46,9 +46,9 @@ fn impacts_are_counted_and_their_impulses_and_energies_summed() {
     let statistics = Statistics::new(&scene(), &contacts, 0.0);
     let [upper, lower] = &statistics.walls[..] else { panic!("{statistics:?}") };
     assert_eq!((upper.wall.as_str(), upper.contacts, lower.contacts), ("upper", 3, 0));
-    close(upper.impulse_ns.mean, 19.0 / 3.0);
-    close(upper.impulse_ns.max, 12.0);
-    close(upper.impulse_ns.rms, (169.0_f64 / 3.0).sqrt());
+    close(upper.impulse_n_s.mean, 19.0 / 3.0);
+    close(upper.impulse_n_s.max, 12.0);
+    close(upper.impulse_n_s.rms, (169.0_f64 / 3.0).sqrt());
     // No force of an impact is finite, and none lasts.
     assert_eq!((upper.peak_force_n.mean, upper.peak_force_n.max, upper.peak_force_n.rms), (None, None, None));
     assert_eq!(upper.contact_time_ratio, 0.0);
@@ -56,7 +56,7 @@ fn impacts_are_counted_and_their_impulses_and_energies_summed() {
     close(Some(upper.impact_power_w), 1.925);
     close(Some(upper.unreturned_power_w), 1.475);
     // A wall without contacts has no means, and no power.
-    assert_eq!((lower.impulse_ns.mean, lower.impact_power_w, lower.unreturned_power_w), (None, 0.0, 0.0));
+    assert_eq!((lower.impulse_n_s.mean, lower.impact_power_w, lower.unreturned_power_w), (None, 0.0, 0.0));
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn forces_and_times_of_lasting_contacts_are_those_of_the_window() {
     close(wall.peak_force_n.mean, 35.0);
     close(wall.peak_force_n.max, 40.0);
     close(wall.peak_force_n.rms, 1250.0_f64.sqrt());
-    close(wall.impulse_ns.mean, 3.5);
+    close(wall.impulse_n_s.mean, 3.5);
     // 4 + 9 J arrive over 8 s. What is still in the wall is not lost: only the closed episode's 4 − 1.
     close(Some(wall.impact_power_w), 13.0 / 8.0);
     close(Some(wall.unreturned_power_w), 3.0 / 8.0);
@@ -108,8 +108,8 @@ fn a_bouncing_ball_arrives_with_the_energy_it_fell_by() {
             |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-3, "{scheme}: {found}, {expected}");
         near(floor.impact_power_w, (50.0 + 12.5) / 2.2);
         near(floor.unreturned_power_w, 0.75 * (50.0 + 12.5) / 2.2);
-        near(floor.impulse_ns.max.expect("two"), 15.0);
-        near(floor.impulse_ns.mean.expect("two"), 11.25);
+        near(floor.impulse_n_s.max.expect("two"), 15.0);
+        near(floor.impulse_n_s.mean.expect("two"), 11.25);
     }
 }
 

@@ -49,8 +49,8 @@ fn a_truncation_is_held_against_twice_its_modes() {
     assert_eq!((truncation.modes, truncation.degrees_of_freedom), ([3, 6], 32));
     let runs = [made(&case), made(&case.clone().with_modes(6).unwrap())];
     let wall = &truncation.walls[0];
-    assert_eq!(wall.impulse_ns, [0, 1].map(|i| runs[i].trajectory.impulse("support").unwrap()));
-    let change = (wall.impulse_ns[0] - wall.impulse_ns[1]).abs() / wall.impulse_ns[1].abs();
+    assert_eq!(wall.impulse_n_s, [0, 1].map(|i| runs[i].trajectory.impulse("support").unwrap()));
+    let change = (wall.impulse_n_s[0] - wall.impulse_n_s[1]).abs() / wall.impulse_n_s[1].abs();
     // The impulse is far above that of one impact, so the change is relative to it alone.
     assert!((wall.impulse_change - change).abs() < 1e-15 && change > 1e-4, "{wall:?}");
     let whole = tube("[system]\nmodes = 32\n", "restitution = 0.0\n", 0.5);

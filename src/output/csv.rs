@@ -35,8 +35,15 @@ pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
 /// # Errors
 /// As [`trajectory`].
 pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
-    let header =
-        ["wall", "start_s", "end_s", "impulse_Ns", "peak_force_N", "approach_speed_m_per_s", "departure_speed_m_per_s"];
+    let header = [
+        "wall",
+        "start_s",
+        "end_s",
+        "impulse_N_s",
+        "peak_force_N",
+        "approach_speed_m_per_s",
+        "departure_speed_m_per_s",
+    ];
     let rows = trajectory.contacts().iter().map(|c| {
         vec![
             trajectory.walls().get(c.wall).cloned().unwrap_or_default(),

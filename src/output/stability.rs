@@ -135,7 +135,7 @@ pub fn quality(path: &Path, quality: &Quality) -> Result<()> {
         "wall",
         "contact_start_s",
         "contact_end_s",
-        "contact_impulse_Ns",
+        "contact_impulse_N_s",
         "ripple",
         "failure",
     ];

@@ -41,7 +41,7 @@ pub struct WallVerdict {
     /// The wall's name.
     pub wall: String,
     /// Impulse of the run and of its check over the whole run, N s, signed.
-    pub impulse_ns: [f64; 2],
+    pub impulse_n_s: [f64; 2],
     /// Contacts of the run and of its check in the window for statistics.
     pub contacts: [usize; 2],
     /// Largest force of the run and of its check in that window, N; none where there is no finite one.
@@ -99,7 +99,7 @@ impl Verdict {
         for (before, after) in run.statistics.walls.iter().zip(&again.walls) {
             walls.push(WallVerdict {
                 wall: before.wall.clone(),
-                impulse_ns: [run.trajectory.impulse(&before.wall)?, trajectory.impulse(&before.wall)?],
+                impulse_n_s: [run.trajectory.impulse(&before.wall)?, trajectory.impulse(&before.wall)?],
                 contacts: [before.contacts, after.contacts],
                 peak_force_n: [before.peak_force_n.max, after.peak_force_n.max],
             });
@@ -112,15 +112,15 @@ impl Verdict {
     #[must_use]
     pub fn impulse_change(&self) -> f64 {
         let largest = |of: fn(&WallVerdict) -> f64| self.walls.iter().map(of).fold(0.0, f64::max);
-        let change = largest(|w| (w.impulse_ns[1] - w.impulse_ns[0]).abs());
-        if change == 0.0 { 0.0 } else { change / largest(|w| w.impulse_ns[0].abs().max(w.impulse_ns[1].abs())) }
+        let change = largest(|w| (w.impulse_n_s[1] - w.impulse_n_s[0]).abs());
+        if change == 0.0 { 0.0 } else { change / largest(|w| w.impulse_n_s[0].abs().max(w.impulse_n_s[1].abs())) }
     }
 
     /// The walls a line has room for: all of a few, else those with the largest impulses.
     fn foremost(&self) -> Vec<&WallVerdict> {
         let mut walls: Vec<&WallVerdict> = self.walls.iter().collect();
         if walls.len() > MOST_NAMED {
-            walls.sort_by(|a, b| b.impulse_ns[0].abs().total_cmp(&a.impulse_ns[0].abs()));
+            walls.sort_by(|a, b| b.impulse_n_s[0].abs().total_cmp(&a.impulse_n_s[0].abs()));
             walls.truncate(MOST_NAMED);
         }
         walls
@@ -145,7 +145,7 @@ impl fmt::Display for Verdict {
             self.displacement, self.horizon_s
         )?;
         for wall in self.foremost() {
-            write!(f, "; wall {:?}: impulse {}", wall.wall, relative(wall.impulse_ns))?;
+            write!(f, "; wall {:?}: impulse {}", wall.wall, relative(wall.impulse_n_s))?;
             let [before, after] = wall.contacts;
             match before == after {
                 true => write!(f, ", {before} contacts as before")?,
@@ -185,9 +185,9 @@ mod tests {
     use super::*;
 
     fn verdict(impulses: &[[f64; 2]]) -> Verdict {
-        let wall = |(i, &impulse_ns): (usize, &[f64; 2])| WallVerdict {
+        let wall = |(i, &impulse_n_s): (usize, &[f64; 2])| WallVerdict {
             wall: format!("wall-{i}"),
-            impulse_ns,
+            impulse_n_s,
             contacts: [1, 1],
             peak_force_n: [None, None],
         };

@@ -39,7 +39,7 @@ struct Summary<'a> {
     counters: Counters,
     wall_clock_s: f64,
     residuals: &'a Residuals,
-    impulse_ns: BTreeMap<&'a str, f64>,
+    impulse_n_s: BTreeMap<&'a str, f64>,
     statistics: &'a Statistics,
     wear: &'static str,
     #[serde(flatten)]
@@ -90,9 +90,9 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
 /// None beyond those of a trajectory asked for its own walls.
 pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -> Result<Value> {
     let exact = run.scheme == crate::scheme::Scheme::Event;
-    let mut impulse_ns = BTreeMap::new();
+    let mut impulse_n_s = BTreeMap::new();
     for wall in run.trajectory.walls() {
-        impulse_ns.insert(wall.as_str(), run.trajectory.impulse(wall)?);
+        impulse_n_s.insert(wall.as_str(), run.trajectory.impulse(wall)?);
     }
     let summary = Summary {
         program: format!("signorini {}", env!("CARGO_PKG_VERSION")),
@@ -112,7 +112,7 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         counters: run.counters,
         wall_clock_s: run.seconds,
         residuals: &run.residuals,
-        impulse_ns,
+        impulse_n_s,
         statistics: &run.statistics,
         wear: "impact power only: contact is frictionless and the motion normal to the wall, so there is no sliding wear here",
         checks,

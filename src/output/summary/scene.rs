@@ -40,7 +40,7 @@ pub(super) fn scene(case: &Case) -> Value {
 fn system(case: &Case) -> Value {
     match (&case.model, &case.scene.system) {
         (_, System::Oscillator(o)) => {
-            json!({ "mass_kg": o.mass, "damping_ns_per_m": o.damping, "stiffness_n_per_m": o.stiffness })
+            json!({ "mass_kg": o.mass, "damping_n_s_per_m": o.damping, "stiffness_n_per_m": o.stiffness })
         }
         (Model::Chain(chain), _) => json!({
             "masses": chain.masses.len(),
@@ -142,7 +142,7 @@ fn wall(wall: &Wall) -> Value {
     let law = match wall.law {
         WallLaw::Rigid { restitution } => json!({ "restitution": restitution }),
         WallLaw::Elastic { stiffness, damping } => {
-            json!({ "stiffness_n_per_m": stiffness, "damping_ns_per_m": damping })
+            json!({ "stiffness_n_per_m": stiffness, "damping_n_s_per_m": damping })
         }
         WallLaw::Quartic { epsilon, span } => json!({ "epsilon_m3_per_n": epsilon, "span_m": span }),
     };

@@ -50,13 +50,13 @@ pub struct WallTruncated {
     /// The wall's name.
     pub wall: String,
     /// Impulse over the whole run, N s, signed: of the run, and with more modes.
-    pub impulse_ns: [f64; 2],
+    pub impulse_n_s: [f64; 2],
     /// Change of it, as [`WallChange::impulse`](super::change::WallChange::impulse).
     pub impulse_change: f64,
     /// Largest finite force in the window for statistics, N; none where contacts are impacts.
     pub peak_force_n: [Option<f64>; 2],
     /// Largest impulse of one contact in that window, N s; none without contact.
-    pub largest_impulse_ns: [Option<f64>; 2],
+    pub largest_impulse_n_s: [Option<f64>; 2],
     /// Change of the peak force where both are finite, else of the largest impulse of one contact; as a share
     /// of the largest that a wall has.
     pub peak_change: f64,
@@ -117,9 +117,9 @@ impl Truncation {
             runs.iter().flat_map(|run| run.statistics.walls.iter().map(part)).fold(0.0, f64::max)
         };
         let (most_force, most_impulse) =
-            (most(|w| w.peak_force_n.max.unwrap_or(0.0)), most(|w| w.impulse_ns.max.unwrap_or(0.0)));
+            (most(|w| w.peak_force_n.max.unwrap_or(0.0)), most(|w| w.impulse_n_s.max.unwrap_or(0.0)));
         for (index, wall) in change.walls.iter().enumerate() {
-            let of = |run: &Run| run.statistics.walls.get(index).map(|w| (w.peak_force_n.max, w.impulse_ns.max));
+            let of = |run: &Run| run.statistics.walls.get(index).map(|w| (w.peak_force_n.max, w.impulse_n_s.max));
             let peaks = runs.map(|run| of(run).and_then(|w| w.0));
             let largest = runs.map(|run| of(run).and_then(|w| w.1));
             let peak_change = match peaks {
@@ -129,10 +129,10 @@ impl Truncation {
             let kept = cuts.map(|cut| cut.walls.get(index).copied());
             walls.push(WallTruncated {
                 wall: wall.wall.clone(),
-                impulse_ns: [run.trajectory.impulse(&wall.wall)?, against.trajectory.impulse(&wall.wall)?],
+                impulse_n_s: [run.trajectory.impulse(&wall.wall)?, against.trajectory.impulse(&wall.wall)?],
                 impulse_change: wall.impulse,
                 peak_force_n: peaks,
-                largest_impulse_ns: largest,
+                largest_impulse_n_s: largest,
                 peak_change,
                 effective_mass_kg: kept.map(|w| w.map_or(f64::NAN, |w| w.mass_kept)),
                 compliance_share: kept.map(|w| w.map_or(f64::NAN, |w| w.share())),
@@ -189,11 +189,11 @@ impl fmt::Display for Truncation {
                 " the impulse changes by up to {:.2} % (wall {:?}: {:+.4} to {:+.4} N s)",
                 100.0 * impulse,
                 at.wall,
-                at.impulse_ns[0],
-                at.impulse_ns[1]
+                at.impulse_n_s[0],
+                at.impulse_n_s[1]
             )?;
             write!(f, ", the peak by up to {:.2} % (wall {:?}: ", 100.0 * peak, peak_at.wall)?;
-            match (peak_at.peak_force_n, peak_at.largest_impulse_ns) {
+            match (peak_at.peak_force_n, peak_at.largest_impulse_n_s) {
                 ([Some(a), Some(b)], _) => write!(f, "{a:.4} to {b:.4} N)")?,
                 (_, [a, b]) => {
                     write!(
