@@ -102,6 +102,11 @@ pub enum Error {
         /// The most modes that were tried.
         modes: usize,
     },
+    /// Runs that broke what their schemes promise: the judge's findings, in words.
+    Refuted {
+        /// The runs, each with what it broke.
+        runs: Vec<String>,
+    },
     /// The motion is predictable for a shorter time than the run lasts.
     Unpredictable {
         /// The error asked for.
@@ -191,6 +196,7 @@ impl fmt::Display for Error {
                 "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
                  the displacement keeps it until t = {until:.6} s"
             ),
+            Self::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),
             Self::Truncated { tolerance, reached, quantity, modes } => write!(
                 f,
                 "a truncation within {tolerance:e} was not reached: going to {modes} modes still changed {reached:.1e} ({quantity})"

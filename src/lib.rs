@@ -30,6 +30,7 @@ mod time;
 mod trajectory;
 
 pub use error::{Error, Result};
+pub use residual::{Finding, Refuted};
 pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{
     Bar, BarEnd, Beam, BeamEnd, Chain, Condensation, Damping, MOST_DENSE, MOST_ELEMENTS, MOST_MODES, MassMatrix,
@@ -41,6 +42,6 @@ pub use scene::{
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper};
 pub use statistics::{Statistics, Summary, WallStatistics};
-pub use step::{Balance, Contact, Contract, Path, Promise, Step};
+pub use step::{Balance, Conserves, Contact, Contract, Path, Promise, Step, Tolerance, Tolerances};
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
 pub use trajectory::{Recorder, Trajectory};

@@ -74,6 +74,55 @@ pub enum Promise {
     Exact,
 }
 
+/// How far a run may stray from a promise, beyond rounding, before it is refuted, and why.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Largest residual, dimensionless.
+    pub limit: f64,
+    /// Why as much as this and no more.
+    pub reason: &'static str,
+}
+
+/// The scenes on which a scheme keeps the energy ledger closed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Conserves {
+    /// None: what it makes or loses is the scheme's known error, which the ledger tells and a note says.
+    Nothing,
+    /// Those whose walls are all rigid.
+    RigidWalls,
+    /// Those whose walls have no dashpot.
+    UndampedWalls,
+    /// All.
+    Everything,
+}
+
+/// What a run may stray by and still keep its scheme's word. What a scheme does not promise (the depth behind the walls of moreau-jean, the
+/// energy of newmark) is not here.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerances {
+    /// Of the conditions at the walls ([`Promise`]), over the scales of gap, speed and contact force.
+    pub walls: Tolerance,
+    /// Of the momentum balance over the largest force in it, and of the displacement from what the velocities make of it.
+    pub balance: Tolerance,
+    /// Of the energy ledger over the energy exchanged.
+    pub energy: Tolerance,
+    /// Where that ledger is promised to close.
+    pub conserves: Conserves,
+}
+
+impl Tolerances {
+    /// Those of every scheme of the crate, with the scenes on which it conserves energy.
+    #[must_use]
+    pub const fn of(conserves: Conserves) -> Self {
+        Self {
+            walls: Tolerance { limit: 1e-6, reason: "solvers meet a bound to 1e-9 of its scale; the rest is rounding" },
+            balance: Tolerance { limit: 1e-6, reason: "a step's equations are solved to rounding" },
+            energy: Tolerance { limit: 1e-6, reason: "the scheme conserves energy to rounding" },
+            conserves,
+        }
+    }
+}
+
 /// A scheme's word: constant over a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contract {
@@ -83,6 +132,8 @@ pub struct Contract {
     pub promise: Promise,
     /// Where in the step a contact impulse belongs, as a fraction of it (0: its start, 1: its end).
     pub instant: f64,
+    /// How far a run may stray from all that.
+    pub tolerances: Tolerances,
 }
 
 /// One episode of contact at one wall.

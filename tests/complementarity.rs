@@ -47,8 +47,9 @@ fn complementarity_holds_to_1e_12_with_the_clamp_at_every_step_of_every_scheme()
     for (name, scene) in scenes() {
         for scheme in CONSTRAINED {
             for step in [1e-2, 1e-3, 1e-4] {
-                let r = run(&scene, &scheme, &options(step, Backend::Clamp)).expect("a run").residuals;
-                let what = format!("{scheme}, {name}, h = {step}");
+                let run = run(&scene, &scheme, &options(step, Backend::Clamp)).expect("a run");
+                let (what, r) = (format!("{scheme}, {name}, h = {step}"), run.residuals);
+                assert_eq!(run.findings, [], "{what}");
                 // Rounding of positions leaves some 1e-15 of the scales.
                 assert!(r.complementarity <= 1e-12, "{what}: {r:?}");
                 assert!(r.tension_n <= 1e-12 * r.force_scale_n, "{what}: {r:?}");
@@ -87,6 +88,7 @@ fn clarabel_keeps_it_to_1e_9_and_agrees_with_the_clamp_over_whole_runs() {
                 let by_clamp = run(&scene, &scheme, &options(step, Backend::Clamp)).expect("a run");
                 let by_clarabel = run(&scene, &scheme, &options(step, Backend::Clarabel)).expect("a run");
                 assert!(by_clarabel.residuals.complementarity <= 1e-9, "{what}: {:?}", by_clarabel.residuals);
+                assert_eq!(by_clarabel.findings, [], "{what}");
                 // A run is chaotic for this purpose if a load changed by rounding (1e-15) moves it by more than a hundredth of the
                 // tolerance.
                 let mut nudged = scene.clone();

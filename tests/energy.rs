@@ -8,7 +8,9 @@ use signorini::{Integrator, Options, Run, Scene, Scheme, Stepper, TimeOptions, W
 
 fn go(scene: &Scene, scheme: &Scheme, step: f64) -> Run {
     let time = TimeOptions { step, sample: Some(scene.duration / 10.0), statistics_from: 0.0 };
-    run(scene, scheme, &Options { time, ..Options::with_step(step) }).expect("a run")
+    let run = run(scene, scheme, &Options { time, ..Options::with_step(step) }).expect("a run");
+    assert_eq!(run.findings, [], "{scheme}, h = {step}");
+    run
 }
 
 /// No damping, no load, e = 1, 0.1 m/s at the start: 5 mJ for ever.

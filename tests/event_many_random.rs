@@ -81,6 +81,7 @@ fn follow(scene: &Scene, most: u64) -> Result<Residuals, Error> {
         }
         judge.see(&step);
     }
+    assert_eq!(judge.findings(), []);
     Ok(judge.residuals())
 }
 

@@ -138,6 +138,7 @@ fn survives(extreme: &Extreme, scheme: &Scheme) {
         // On its way to the infinity that it reports: stiffer than the explicit rule is stable for.
         return;
     }
+    assert_eq!(judge.findings(), [], "{what}");
     let r = judge.residuals();
     let System::Oscillator(o) = &scene.system else { panic!("one degree of freedom") };
     let wall = if matches!(scheme, Scheme::Penalty { .. }) { 1e4 * extreme.spring() } else { 0.0 };

@@ -37,6 +37,7 @@ fn judged(scene: &Scene, scheme: &Scheme, backend: Backend, steps: u32, push: f6
         extra[0] = push * f64::from(i % 3);
         judge.see(&stepper.step_with(&extra)?);
     }
+    assert_eq!(judge.findings(), [], "{scheme}");
     Ok(judge.residuals())
 }
 

@@ -1,6 +1,7 @@
 //! A step that predicts and then corrects, held to its word: [`Balance::GeneralizedAlpha`] and [`Promise::Corrected`].
 
 use super::Judge;
+use super::complementarity::damping_of;
 use crate::scene::{Scene, WallLaw};
 use crate::step::{Balance, Contract, Promise, Step};
 
@@ -75,26 +76,34 @@ impl Judge {
                 self.balance_scale = self.balance_scale.max((weight * p).abs() / (h * self.scales.root_mass[i]));
             }
         }
+        let (mut worst, mut path) = (0.0_f64, 0.0_f64);
         for (i, weight) in self.scales.root_mass.iter().enumerate() {
             let residual = scratch.spring[i].abs();
             self.balance = self.balance.max(residual / h);
-            self.normal_balance = self.normal_balance.max(residual / (h * weight));
+            worst = worst.max(residual / (h * weight));
             // The displacement's own balance is one of lengths: over h² it would be the rounding of q.
             if !closed {
-                self.kinematics = self.kinematics.max(h * scratch.inertia[i].abs() / weight);
+                path = path.max(h * scratch.inertia[i].abs() / weight);
             }
+            self.rounding.load(i, s_end[i].abs().max(force_end[i].abs()));
         }
+        self.normal_balance = self.normal_balance.max(worst);
+        self.kinematics = self.kinematics.max(path);
+        self.rounding.state(step.q, step.v, h);
         std::mem::swap(s, s_end);
         std::mem::swap(force, force_end);
         self.memory = Some(memory);
         self.energy.see_grid(&self.scene, h, (&self.q, step.q), step, &self.scratch.load, &self.scratch.blow);
+        self.doubt_balance(worst);
+        self.doubt_path(path);
     }
 
     /// The walls of such a step; returns whether a rigid one is closed after it.
     fn walls_corrected(&mut self, step: &Step<'_>, held: &mut [f64]) -> bool {
         let (h, gap_scale) = (self.h, self.energy.gap_scale);
         let mut any = false;
-        for (index, wall) in self.scene.walls.iter().enumerate() {
+        for index in 0..self.scene.walls.len() {
+            let wall = &self.scene.walls[index];
             let (sign, p) = (wall.side.sign(), step.impulse[index]);
             let pressure = sign * p / h;
             self.force_scale = self.force_scale.max(pressure.abs());
@@ -102,11 +111,19 @@ impl Judge {
             if let Some(restitution) = wall.law.restitution() {
                 let gap = wall.gap(wall.at.dot(step.q));
                 self.pairs.add(gap, pressure);
+                let size = wall.position.abs() + wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs()).sum::<f64>();
+                self.doubt_gap(index, gap, size, pressure);
                 if gap <= 1e-12 * gap_scale || p != 0.0 {
                     any = true;
+                    let wall = &self.scene.walls[index];
                     let struck = wall.at.dot(step.velocity_before) + wall.at.dot(&self.scratch.struck);
                     let epsilon = if sign * struck <= 0.0 { restitution } else { 1.0 };
-                    self.rebounds.add(sign * (wall.at.dot(step.velocity_after) + epsilon * struck), pressure);
+                    let slack = sign * (wall.at.dot(step.velocity_after) + epsilon * struck);
+                    self.rebounds.add(slack, pressure);
+                    // A wall that the gap's rounding alone calls closed promises nothing.
+                    if p != 0.0 || gap <= 0.0 {
+                        self.doubt_rebound(index, slack, step, pressure);
+                    }
                 }
                 continue;
             }
@@ -119,8 +136,12 @@ impl Judge {
             };
             let force = step.force[index];
             self.force_scale = self.force_scale.max(force.abs());
-            self.law_error = self.law_error.max((sign * force - expected).abs());
-            self.law_error = self.law_error.max((p / h - 0.5 * (held[index] + force)).abs());
+            let error = (sign * force - expected).abs().max((p / h - 0.5 * (held[index] + force)).abs());
+            self.law_error = self.law_error.max(error);
+            let size = (now.abs().max(before.abs()) + wall.position.abs()).max(self.reach);
+            let softest = wall.law.tangent(now.max(before).max(f64::MIN_POSITIVE)) + damping_of(wall) / h;
+            self.rounding.push(index, force, false);
+            self.doubt_law(index, error, softest * self.rounding.met(size, gap_scale));
             held[index] = force;
         }
         any

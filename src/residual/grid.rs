@@ -1,6 +1,6 @@
 //! A step on a grid, held to its word.
 
-use super::complementarity::{self, expected_pressure};
+use super::complementarity::{self, damping_of, expected_pressure};
 use super::{Judge, divide};
 use crate::scene::Wall;
 use crate::step::{Balance, Promise, Step};
@@ -11,6 +11,7 @@ impl Judge {
         let beyond = self.find_beyond(step);
         self.walls_on_grid(step);
         let h = self.h;
+        let (mut worst, mut path) = (0.0_f64, 0.0_f64);
         let s = &mut self.scratch;
         let (before, after) = (step.velocity_before, step.velocity_after);
         for i in 0..s.residual.len() {
@@ -21,20 +22,21 @@ impl Judge {
                     s.load[i] = mean(self.load[i], s.load_end[i]);
                     s.mean_q[i] = mean(q0, q1);
                     s.mean_v[i] = mean(before[i], after[i]);
-                    self.kinematics = self.kinematics.max((q1 - q0 - h * s.mean_v[i]).abs() * self.scales.root_mass[i]);
+                    path = path.max((q1 - q0 - h * s.mean_v[i]).abs() * self.scales.root_mass[i]);
                 }
                 Balance::Staggered(b) => {
                     let back = q0 - h * before[i];
                     s.load[i] = self.load[i];
                     s.mean_q[i] = b * back + (1.0 - 2.0 * b) * q0 + b * q1;
                     s.mean_v[i] = 0.5 * (before[i] + after[i]);
-                    self.kinematics = self.kinematics.max((q1 - q0 - h * after[i]).abs() * self.scales.root_mass[i]);
+                    path = path.max((q1 - q0 - h * after[i]).abs() * self.scales.root_mass[i]);
                 }
                 Balance::GeneralizedAlpha { .. } | Balance::Exact => {}
             }
             s.load[i] += step.extra[i];
             s.residual[i] = -h * s.load[i] - s.blow[i];
             let largest = s.load[i].abs().max(s.blow[i].abs() / h);
+            self.rounding.load(i, largest);
             self.balance_scale = self.balance_scale.max(largest / self.scales.root_mass[i]);
             (s.inertia[i], s.damper[i], s.spring[i]) = (0.0, 0.0, 0.0);
         }
@@ -56,12 +58,16 @@ impl Judge {
         }
         for (r, weight) in s.residual.iter().zip(&self.scales.root_mass) {
             self.balance = self.balance.max(r.abs() / h);
-            self.normal_balance = self.normal_balance.max(r.abs() / (h * weight));
+            worst = worst.max(r.abs() / (h * weight));
         }
+        self.normal_balance = self.normal_balance.max(worst);
+        self.kinematics = self.kinematics.max(path);
         self.energy.see_grid(&self.scene, h, (&self.q, &s.arrived), step, &s.load, &s.blow);
         if beyond {
             self.energy.displace(&self.scene, h, step);
         }
+        self.doubt_balance(worst);
+        self.doubt_path(path);
     }
 
     /// What the blows of the step add to the displacement, and the displacement without; returns whether they add anything.
@@ -105,41 +111,59 @@ impl Judge {
     }
 
     fn walls_on_grid(&mut self, step: &Step<'_>) {
-        for (index, wall) in self.scene.walls.iter().enumerate() {
+        let (h, gap_scale) = (self.h, self.energy.gap_scale);
+        for index in 0..self.scene.walls.len() {
+            let wall = &self.scene.walls[index];
             let sign = wall.side.sign();
             // The multiplier where the promise is made on it, else the mean force of the step.
-            let force = if self.contract.promise == Promise::EndPosition {
-                step.force[index]
-            } else {
-                step.impulse[index] / self.h
+            let force = match self.contract.promise {
+                Promise::EndPosition => step.force[index],
+                _ => step.impulse[index] / h,
             };
             let pressure = sign * force;
-            self.force_scale = self.force_scale.max(pressure.abs()).max(step.impulse[index].abs() / self.h);
+            let largest = pressure.abs().max(step.impulse[index].abs() / h);
+            self.force_scale = self.force_scale.max(largest);
             self.tension = self.tension.max(-pressure);
             // A bound on the displacement at the end holds where the blows leave it, all else without.
             let held = self.contract.promise == Promise::EndPosition && wall.law.is_rigid();
             let (w0, w1) = (wall.at.dot(&self.q), wall.at.dot(if held { step.q } else { &self.scratch.arrived }));
             let rates = (wall.at.dot(step.velocity_before), wall.at.dot(step.velocity_after));
-            if wall.law.is_rigid() {
-                let gap_scale = self.energy.gap_scale;
-                let struck = rates.0 + wall.at.dot(&self.scratch.struck);
-                let (ends, rates) = ((w0, w1), (struck, rates.1));
-                match complementarity::slack(
-                    &self.scene,
-                    index,
-                    (self.contract, step.path),
-                    self.h,
-                    ends,
-                    rates,
-                    gap_scale,
-                ) {
-                    Some(slack) if self.contract.promise == Promise::Velocity => self.rebounds.add(slack, pressure),
-                    Some(slack) => self.pairs.add(slack, pressure),
-                    None => self.law_error = self.law_error.max(pressure.abs()),
+            // What rounding makes of the place of the body: of the terms that are summed, and of the way of a step.
+            let terms = wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * self.q[i]).abs());
+            let size = terms.sum::<f64>() + wall.position.abs() + h * (rates.0.abs() + rates.1.abs());
+            self.rounding.push(index, largest, wall.law.is_rigid());
+            if !wall.law.is_rigid() {
+                let expected = expected_pressure(wall, self.contract, h, (w0, w1), rates);
+                let error = (pressure - expected).abs();
+                self.law_error = self.law_error.max(error);
+                let depth = (-wall.gap(w0)).max(-wall.gap(w1)).max(f64::MIN_POSITIVE);
+                let slope = wall.law.tangent(depth) + 2.0 * damping_of(wall) / h;
+                self.doubt_law(index, error, slope * self.rounding.met(size, gap_scale));
+                continue;
+            }
+            let struck = rates.0 + wall.at.dot(&self.scratch.struck);
+            let (ends, after) = ((w0, w1), (struck, rates.1));
+            let slack = complementarity::slack(
+&self.scene, index, (self.contract, step.path), h, ends, after, gap_scale);
+            // Whether the body reaches the wall within the step is a question that rounding may answer either way.
+            let edge = (wall.gap(w0 + 0.5 * h * struck) - 1e-12 * gap_scale).abs() <= self.rounding.of(size);
+            match slack {
+                Some(slack) if self.contract.promise == Promise::Velocity => {
+                    self.rebounds.add(slack, pressure);
+                    if !edge {
+                        self.doubt_rebound(index, slack, step, pressure);
+                    }
                 }
-            } else {
-                let expected = expected_pressure(wall, self.contract, self.h, (w0, w1), rates);
-                self.law_error = self.law_error.max((pressure - expected).abs());
+                Some(slack) => {
+                    self.pairs.add(slack, pressure);
+                    self.doubt_gap(index, slack, size, pressure);
+                }
+                None => {
+                    self.law_error = self.law_error.max(pressure.abs());
+                    if !edge {
+                        self.doubt_law(index, pressure.abs(), 0.0);
+                    }
+                }
             }
         }
     }

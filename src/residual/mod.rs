@@ -1,20 +1,25 @@
 //! The judge: sees every step as it is made, and knows the scene and the step only — no scheme and no QP.
 
+mod beyond;
 mod complementarity;
 mod corrected;
 mod energy;
+mod finding;
 mod grid;
 mod quadrature;
 mod recorded;
 mod scales;
 mod series;
+mod verdict;
 
 pub use energy::Energy;
+pub use finding::{Finding, Refuted};
 pub use recorded::{Momentum, momentum};
 
 use crate::linear::Factor;
 use crate::scene::{Loads, Scene, System};
 use crate::step::{Balance, Contract, Path, Promise, Step};
+use beyond::{Doubts, Rounding, Worst};
 use complementarity::Pairs;
 use corrected::Memory;
 use scales::Scales;
@@ -45,7 +50,8 @@ pub struct Residuals {
     /// its speed is a sum of), or a gap in the run's duration if that is more (a body held fast has a speed of rounding), m/s. A promise on
     /// both levels measures its gaps by the first and its speeds by the second; the first is given.
     pub gap_scale: f64,
-    /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid). Where there is none, an elastic wall that should
+    /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid). Contact forces below 1e-6 of the largest force in the
+    /// momentum balance, which may be rounding, are measured by that share of it. Where there is none, an elastic wall that should
     /// have pushed is held against what the stiffest would make of the gap scale.
     pub force_scale_n: f64,
 }
@@ -87,6 +93,26 @@ pub struct Judge {
     /// What a generalized-α run remembers from step to step.
     memory: Option<Box<Memory>>,
     energy: energy::Ledger,
+    /// The step at hand: the time at its end and its length, s, and 1 + t ε over that length for exact motion, whose ends are known to an ulp.
+    now: f64,
+    span: f64,
+    clock: f64,
+    rounding: Rounding,
+    /// The residuals beyond rounding.
+    doubts: Residue,
+}
+
+/// What is left of the residuals beyond what rounding explains, each with its place.
+#[derive(Debug, Default)]
+struct Residue {
+    gaps: Doubts,
+    rebounds: Doubts,
+    law: Worst,
+    /// N/√kg and m√kg.
+    balance: Worst,
+    path: Worst,
+    /// True once a step was handed to another scheme, which may not conserve energy.
+    handed: bool,
 }
 
 /// Vectors of length n that a step needs.
@@ -165,6 +191,11 @@ impl Judge {
             force_scale: 0.0,
             speed_scale: 0.0,
             normal_speed: 0.0,
+            now: 0.0,
+            span: h,
+            clock: 1.0,
+            rounding: Rounding::new(scene),
+            doubts: Residue::default(),
             scene: scene.clone(),
         }
     }
@@ -196,12 +227,14 @@ impl Judge {
         if struck {
             divide(&self.scene, self.mass.as_mut(), &mut self.scratch.struck);
         }
+        self.prepare(step);
         match step.path {
             Path::Grid if self.memory.is_some() => self.see_corrected(step),
             Path::Grid | Path::OneRestitution => self.see_grid(step),
             Path::Exact(arc) => self.see_arc(step, arc),
             Path::Series(series) => self.see_series(step, series),
             Path::Handed { contract, step: h } => {
+                self.doubts.handed = true;
                 let own = (self.contract, self.h);
                 (self.contract, self.h) = (contract, h);
                 self.see_grid(step);
@@ -233,42 +266,59 @@ impl Judge {
             return;
         }
         let weight = self.scales.root_mass.first().copied().unwrap_or(1.0);
-        self.balance = self.balance.max(ends.balance / (step.end - step.start));
+        let balance = ends.balance / (step.end - step.start);
+        self.balance = self.balance.max(balance);
         self.normal_balance = self.balance / weight;
         self.balance_scale = self.balance_scale.max(ends.largest_force / weight);
-        for (index, wall) in self.scene.walls.iter().enumerate() {
-            let sign = wall.side.sign();
+        self.rounding.load(0, ends.largest_force);
+        for index in 0..self.scene.walls.len() {
+            let wall = &self.scene.walls[index];
+            let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid());
             for t in quadrature::nodes(step.start, step.end) {
+                let wall = &self.scene.walls[index];
                 let (q, v) = arc.state(t);
                 let (w, wdot) = (wall.at.dot(&[q]), wall.at.dot(&[v]));
                 let pressure = sign * arc.contact_force(index, t);
                 self.force_scale = self.force_scale.max(pressure.abs());
                 self.tension = self.tension.max(-pressure);
                 self.depth[index] = self.depth[index].max(-wall.gap(w));
-                if wall.law.is_rigid() {
-                    self.pairs.add(wall.gap(w), pressure);
+                self.rounding.state(&[q], &[v], 0.0);
+                self.rounding.push(index, pressure, rigid);
+                let size = self.reach.max(w.abs()) + wall.position.abs() + wdot.abs() * t;
+                if rigid {
+                    let gap = wall.gap(w);
+                    self.pairs.add(gap, pressure);
+                    self.doubt_gap(index, gap, size, pressure);
                 } else {
-                    let rounding =
-                        PLACE_UNITS * f64::EPSILON * (self.reach.max(w.abs()) + wall.position.abs() + wdot.abs() * t);
+                    let rounding = PLACE_UNITS * f64::EPSILON * size;
                     let law = |s: f64| wall.law.pressure(s, -sign * wdot);
                     let (low, high) = (law(-wall.gap(w) - rounding), law(-wall.gap(w) + rounding));
                     // Between the two, which differ by the wall's stiffness times the rounding, but at a damped wall's face.
-                    self.law_error = self.law_error.max(low - pressure).max(pressure - high);
+                    let error = (low - pressure).max(pressure - high);
+                    self.law_error = self.law_error.max(error);
+                    self.doubt_law(index, error, 0.0);
                 }
             }
         }
+        self.doubt_balance(balance / weight);
+    }
+
+    /// By which speeds of rebound are measured, m/s.
+    fn rebound_scale(&self) -> f64 {
+        self.speed_scale.max(self.energy.gap_scale / self.scene.duration)
     }
 
     /// The verdict so far.
     #[must_use]
     pub fn residuals(&self) -> Residuals {
-        let speed_scale = self.speed_scale.max(self.energy.gap_scale / self.scene.duration);
+        let speed_scale = self.rebound_scale();
+        let force_scale = self.contact_scale();
         let gap_scale = if self.contract.promise == Promise::Velocity { speed_scale } else { self.energy.gap_scale };
         let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
         // Where no wall ever pushed, an elastic one is measured by what it would make of a gap.
-        let law = over(self.law_error, if self.force_scale > 0.0 { self.force_scale } else { self.scales.wall });
-        let walls = self.pairs.worst(self.energy.gap_scale, self.force_scale);
-        let rebounds = self.rebounds.worst(speed_scale, self.force_scale);
+        let law = over(self.law_error, if force_scale > 0.0 { force_scale } else { self.scales.wall });
+        let walls = self.pairs.worst(self.energy.gap_scale, force_scale);
+        let rebounds = self.rebounds.worst(speed_scale, force_scale);
         let force = self.scales.normal_force(self.force_scale).max(self.scales.spring);
         let balance = over(self.normal_balance, self.balance_scale.max(force));
         let path = over(self.kinematics, self.normal_reach.max(self.scales.gap));

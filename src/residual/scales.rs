@@ -34,6 +34,11 @@ impl Scales {
         Self { root_mass, root_wall_mass, gap, spring: fastest * gap, wall: stiffest * scene.gap_scale() }
     }
 
+    /// The inverse of [`normal_force`](Self::normal_force), N.
+    pub fn wall_force(&self, force: f64) -> f64 {
+        force * self.root_wall_mass
+    }
+
     /// A wall's force (N) as what it makes of the mass it feels, N/√kg.
     pub fn normal_force(&self, force: f64) -> f64 {
         force / self.root_wall_mass

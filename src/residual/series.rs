@@ -69,6 +69,7 @@ impl Judge {
                 self.balance_scale = self.balance_scale.max(s.load[i].abs() / weight);
                 self.normal_speed = self.normal_speed.max(s.mean_v[i].abs() * weight);
             }
+            self.rounding.state(&s.mean_q, &s.mean_v, 0.0);
             let force = |wall: usize| series.contact_force(wall, t);
             moved.largest = moved.largest.max(Ledger::energy_at(&self.scene, &s.mean_q, &s.mean_v, force));
             for (index, wall) in self.scene.walls.iter().enumerate() {
@@ -81,18 +82,30 @@ impl Judge {
                 for &(i, g) in wall.at.entries() {
                     s.residual[i] += weight * g * r;
                 }
-                if wall.law.is_rigid() {
-                    self.pairs.add(wall.gap(w), pressure);
+                let rigid = wall.law.is_rigid();
+                self.rounding.push(index, pressure, rigid);
+                let terms: f64 = wall.at.entries().iter().map(|&(i, g)| (g * s.mean_q[i]).abs()).sum();
+                let size = terms + wall.position.abs() + rate.abs() * t;
+                if rigid {
+                    let gap = wall.gap(w);
+                    self.pairs.add(gap, pressure);
+                    if gap < 0.0 || pressure != 0.0 {
+                        let noise = self.rounding.met(size, self.energy.gap_scale);
+                        let force = self.rounding.wall_force(index, self.span, self.clock);
+                        self.doubts.gaps.add((gap, noise), (pressure, force), self.now, index);
+                    }
                     continue;
                 }
                 if matches!(wall.law, WallLaw::Elastic { damping, .. } if damping > 0.0) {
                     moved.push -= weight * r * rate;
                 }
-                let terms: f64 = wall.at.entries().iter().map(|&(i, g)| (g * s.mean_q[i]).abs()).sum();
-                let rounding = PLACE_UNITS * f64::EPSILON * (terms + wall.position.abs() + rate.abs() * t);
+                let rounding = PLACE_UNITS * f64::EPSILON * size;
                 let law = |depth: f64| wall.law.pressure(depth, -sign * rate);
                 let (low, high) = (law(-wall.gap(w) - rounding), law(-wall.gap(w) + rounding));
-                self.law_error = self.law_error.max(low - pressure).max(pressure - high);
+                let error = (low - pressure).max(pressure - high);
+                self.law_error = self.law_error.max(error);
+                let noise = self.rounding.wall_force(index, self.span, self.clock);
+                self.doubts.law.see(error - noise, self.now, Some(index));
             }
         }
         system.add_damping(-1.0, &s.spring, &mut s.residual);
@@ -101,6 +114,7 @@ impl Judge {
 
     /// The momentum balance over the stretch: M(v₁ − v₀) less the impulse of the net force.
     fn weigh(&mut self, step: &Step<'_>) {
+        let mut worst = 0.0_f64;
         let s = &mut self.scratch;
         let span = step.end - step.start;
         for ((v, end), start) in s.mean_v.iter_mut().zip(&s.damper).zip(step.velocity_before) {
@@ -113,7 +127,9 @@ impl Judge {
         for (i, weight) in self.scales.root_mass.iter().enumerate() {
             let open = ((s.inertia[i] - s.residual[i]).abs() - rounding * weight).max(0.0);
             self.balance = self.balance.max(open / span);
-            self.normal_balance = self.normal_balance.max(open / (span * weight));
+            worst = worst.max(open / (span * weight));
         }
+        self.normal_balance = self.normal_balance.max(worst);
+        self.doubt_balance(worst);
     }
 }

@@ -4,9 +4,9 @@ mod options;
 
 pub use options::{Judged, Judging, Options, Recorded, Recording, Unjudged, Unrecorded};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::residual::Residuals;
+use crate::residual::{Finding, Residuals};
 use crate::scene::{Scene, State};
 use crate::scheme::{Counters, Handed, Scheme, Stepper};
 use crate::time::TimeGrid;
@@ -34,6 +34,9 @@ pub struct Run<J: Judging = Judged, R: Recording = Recorded> {
     pub trajectory: R::Motion,
     /// The judge's verdict, [`Residuals`]; `()` if the run was not judged.
     pub residuals: J::Verdict,
+    /// Where that refutes the run, a list of [`Finding`]s: promises of the scheme that its steps broke beyond what the contract allows.
+    /// With any of them the run's numbers are wrong. `()` if the run was not judged.
+    pub findings: J::Findings,
     /// Contact [`Statistics`](crate::Statistics) over the window asked for; `()` if the run was not recorded.
     pub statistics: R::Statistics,
     /// What it cost, machine-independent.
@@ -51,6 +54,22 @@ impl<J: Judging, R: Recording> Run<J, R> {
     #[must_use]
     pub fn judged(&self) -> Option<&Residuals> {
         J::residuals(&self.residuals)
+    }
+
+    /// [`Error::Refuted`] where the judge has refuted the run; none for a run that kept its word, or was not judged.
+    #[must_use]
+    pub fn refuted(&self) -> Option<Error> {
+        let findings = J::findings(&self.findings);
+        let text = findings.iter().map(Finding::to_string).collect::<Vec<_>>().join("; ");
+        (!findings.is_empty()).then(|| Error::Refuted { runs: vec![format!("{}: {text}", self.scheme)] })
+    }
+
+    /// The run, unless the judge has refuted it: for whoever measures others by it.
+    ///
+    /// # Errors
+    /// [`Error::Refuted`].
+    pub fn unrefuted(self) -> Result<Self> {
+        self.refuted().map_or(Ok(self), Err)
     }
 
     /// The recorded motion, if the run was recorded: for code that takes runs of any kind.
@@ -102,6 +121,7 @@ pub fn run_with_progress<J: Judging, R: Recording>(
         }
     }
     let from = options.time.statistics_from;
+    let (residuals, findings) = J::verdict(judge);
     let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), scene, from);
     let mut run = Run {
         scheme: *scheme,
@@ -110,7 +130,8 @@ pub fn run_with_progress<J: Judging, R: Recording>(
         state: stepper.state(),
         statistics,
         trajectory,
-        residuals: J::verdict(judge),
+        residuals,
+        findings,
         counters: stepper.counters(),
         seconds: started.elapsed().as_secs_f64(),
         handed: stepper.handed().to_vec(),

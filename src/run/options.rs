@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::qp::Backend;
-use crate::residual::{Judge, Residuals};
+use crate::residual::{Finding, Judge, Residuals};
 use crate::scene::{Scene, State};
 use crate::scheme::Stepper;
 use crate::statistics::Statistics;
@@ -113,6 +113,8 @@ mod sealed {
 pub trait Judging: sealed::Sealed + Debug + Copy {
     /// What the judge hands over: [`Residuals`], or nothing.
     type Verdict: Debug + Clone;
+    /// What it refutes: [`Finding`]s, or nothing.
+    type Findings: Debug + Clone;
     #[doc(hidden)]
     type Judge;
     #[doc(hidden)]
@@ -120,9 +122,11 @@ pub trait Judging: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     fn see(judge: &mut Self::Judge, step: &Step<'_>);
     #[doc(hidden)]
-    fn verdict(judge: Self::Judge) -> Self::Verdict;
+    fn verdict(judge: Self::Judge) -> (Self::Verdict, Self::Findings);
     #[doc(hidden)]
     fn residuals(verdict: &Self::Verdict) -> Option<&Residuals>;
+    #[doc(hidden)]
+    fn findings(findings: &Self::Findings) -> &[Finding];
 }
 
 /// The run is judged step by step.
@@ -135,6 +139,7 @@ pub struct Unjudged;
 
 impl Judging for Judged {
     type Verdict = Residuals;
+    type Findings = Vec<Finding>;
     type Judge = Judge;
 
     fn begin(stepper: &Stepper, step: f64, start: &State) -> Judge {
@@ -145,27 +150,38 @@ impl Judging for Judged {
         judge.see(step);
     }
 
-    fn verdict(judge: Judge) -> Residuals {
-        judge.residuals()
+    fn verdict(judge: Judge) -> (Residuals, Vec<Finding>) {
+        (judge.residuals(), judge.findings())
     }
 
     fn residuals(verdict: &Residuals) -> Option<&Residuals> {
         Some(verdict)
     }
+
+    fn findings(findings: &Vec<Finding>) -> &[Finding] {
+        findings
+    }
 }
 
 impl Judging for Unjudged {
     type Verdict = ();
+    type Findings = ();
     type Judge = ();
 
     fn begin(_: &Stepper, _: f64, _: &State) {}
 
     fn see((): &mut (), _: &Step<'_>) {}
 
-    fn verdict((): ()) {}
+    fn verdict((): ()) -> ((), ()) {
+        ((), ())
+    }
 
     fn residuals((): &()) -> Option<&Residuals> {
         None
+    }
+
+    fn findings((): &()) -> &[Finding] {
+        &[]
     }
 }
 

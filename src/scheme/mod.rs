@@ -24,7 +24,7 @@ pub use name::NAMES;
 pub use penalty_law::{Integrator, PenaltyLaw};
 pub use stepper::Stepper;
 
-use crate::step::{Balance, Contract, Promise};
+use crate::step::{Balance, Conserves, Contract, Promise, Tolerances};
 
 /// A way to advance time. What each realises and where it fails stands in the README's table of schemes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,7 +81,13 @@ impl Scheme {
             },
             Self::Event => (Balance::Exact, Promise::Exact, 1.0),
         };
-        Contract { balance, promise, instant }
+        let conserves = match *self {
+            Self::MoreauJean { theta: 0.5 } => Conserves::RigidWalls,
+            Self::Penalty { integrator: Integrator::DiscreteGradient, .. } => Conserves::UndampedWalls,
+            Self::Event => Conserves::Everything,
+            _ => Conserves::Nothing,
+        };
+        Contract { balance, promise, instant, tolerances: Tolerances::of(conserves) }
     }
 }
 

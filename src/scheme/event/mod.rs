@@ -13,7 +13,7 @@ pub use guard::{Counters, EVENTS_PER_WINDOW, WINDOWS};
 use crate::error::{Error, Result};
 use crate::flow::Arc;
 use crate::scene::{Forcing, Oscillator, Scene, System};
-use crate::step::{Balance, Contact, Contract, Promise};
+use crate::step::{Balance, Conserves, Contact, Contract, Promise, Tolerances};
 pub(in crate::scheme) use barrier::{Barrier, Phase};
 pub(in crate::scheme) use guard::Guard;
 
@@ -98,7 +98,12 @@ const CHANGES_AT_ONCE: usize = 16;
 
 impl Event {
     /// The promise of the scheme.
-    pub const CONTRACT: Contract = Contract { balance: Balance::Exact, promise: Promise::Exact, instant: 1.0 };
+    pub const CONTRACT: Contract = Contract {
+        balance: Balance::Exact,
+        promise: Promise::Exact,
+        instant: 1.0,
+        tolerances: Tolerances::of(Conserves::Everything),
+    };
 
     /// The scene at its start, after the impulses at t = 0. Steps end at events and at multiples of `stride` (s).
     ///

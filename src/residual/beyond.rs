@@ -1,0 +1,173 @@
+//! Residuals less what rounding may leave of them, with the place where each was worst.
+
+use crate::scene::Scene;
+
+/// Units in the last place that a sum of a step may be off by, times √n for sums over n degrees of freedom (tests of extreme scenes
+/// hold every scheme of one degree of freedom to 32).
+const UNITS: f64 = 64.0;
+
+/// A solver on several unknowns takes a bound for met that is missed by this share of the gap scale, or of a gap a step; twice that,
+/// since the judge computes it again.
+const MET: f64 = 2e-12;
+
+/// The worst seen so far: how much, at which time (s), at which wall. What is not a number is worse than anything.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Worst {
+    pub value: f64,
+    pub time: f64,
+    pub wall: Option<usize>,
+}
+
+impl Worst {
+    pub fn see(&mut self, value: f64, time: f64, wall: Option<usize>) {
+        if !self.value.is_nan() && (value > self.value || value.is_nan()) {
+            *self = Self { value, time, wall };
+        }
+    }
+
+    pub fn over(self, scale: f64) -> Self {
+        Self { value: if self.value == 0.0 { 0.0 } else { self.value / scale }, ..self }
+    }
+}
+
+/// Pairs (γ, |r|) beyond rounding; see [`Pairs`](super::complementarity::Pairs).
+#[derive(Debug, Clone, Default)]
+pub(super) struct Doubts {
+    pub outside: Worst,
+    pub pull: Worst,
+    /// Pairs positive in both that no other exceeds in both, with their places.
+    stairs: Vec<(f64, f64, Worst)>,
+}
+
+/// Stairs that are kept; a run with more violates complementarity in any case, and the rest would tell no more.
+const STAIRS: usize = 64;
+
+impl Doubts {
+    /// `slack` and `pressure` with what rounding may leave of either.
+    pub fn add(&mut self, (slack, gap_noise): (f64, f64), (pressure, force_noise): (f64, f64), time: f64, wall: usize) {
+        self.outside.see(-slack - gap_noise, time, Some(wall));
+        self.pull.see(-pressure - force_noise, time, Some(wall));
+        let (slack, pressure) = (slack - gap_noise, pressure - force_noise);
+        if slack <= 0.0 || pressure <= 0.0 || self.stairs.iter().any(|s| s.0 >= slack && s.1 >= pressure) {
+            return;
+        }
+        self.stairs.retain(|s| s.0 > slack || s.1 > pressure);
+        if self.stairs.len() < STAIRS {
+            self.stairs.push((slack, pressure, Worst { value: 0.0, time, wall: Some(wall) }));
+        }
+    }
+
+    /// The largest min(γ/γ₀, r/r₀), in its place.
+    pub fn both(&self, gap_scale: f64, force_scale: f64) -> Worst {
+        let mut worst = Worst::default();
+        for (slack, pressure, at) in &self.stairs {
+            worst.see((slack / gap_scale).min(pressure / force_scale), at.time, at.wall);
+        }
+        worst
+    }
+}
+
+/// The largest terms of the balances so far, in the metric of the mass, and what rounding makes of them.
+#[derive(Debug)]
+pub(super) struct Rounding {
+    /// UNITS · ε · √n.
+    unit: f64,
+    /// √Mᵢᵢ, √Kᵢᵢ and √Cᵢᵢ.
+    root: Vec<[f64; 3]>,
+    /// Largest √(Kᵢᵢ/Mᵢᵢ) and √(Cᵢᵢ/Mᵢᵢ).
+    rates: [f64; 2],
+    /// √m that each wall feels.
+    wall: Vec<f64>,
+    /// Largest |vᵢ|√Mᵢᵢ, |qᵢ|√Mᵢᵢ, |qᵢ|√Kᵢᵢ, |vᵢ|√Cᵢᵢ.
+    speed: f64,
+    reach: f64,
+    strain: f64,
+    rub: f64,
+    /// Largest force of loads and of walls that are not rigid, N/√kg, and of all walls.
+    load: f64,
+    push: f64,
+    /// What the ledger may have lost to rounding, J.
+    pub energy: f64,
+}
+
+impl Rounding {
+    pub fn new(scene: &Scene) -> Self {
+        let structure = scene.system.structure();
+        let diagonals = [&structure.mass, &structure.stiffness, &structure.damping].map(|m| m.diagonal_entries());
+        let n = diagonals[0].len();
+        let root = |i: usize| [0, 1, 2].map(|j: usize| diagonals[j].get(i).map_or(0.0, |x: &f64| x.abs().sqrt()));
+        let root: Vec<[f64; 3]> = (0..n).map(root).collect();
+        let largest = |j: usize| root.iter().map(|r| if r[j] > 0.0 { r[j] / r[0] } else { 0.0 }).fold(0.0, f64::max);
+        Self {
+            unit: UNITS * f64::EPSILON * (n.max(1) as f64).sqrt(),
+            rates: [largest(1), largest(2)],
+            wall: scene.wall_masses().into_iter().map(f64::sqrt).collect(),
+            root,
+            speed: 0.0,
+            reach: 0.0,
+            strain: 0.0,
+            rub: 0.0,
+            load: 0.0,
+            push: 0.0,
+            energy: 0.0,
+        }
+    }
+
+    /// Takes in a state on the way: displacement (m) and velocity (m/s), and a stretch of time (s) over which that velocity moves it.
+    pub fn state(&mut self, q: &[f64], v: &[f64], span: f64) {
+        for ((q, v), [mass, spring, dashpot]) in q.iter().zip(v).zip(&self.root) {
+            let (q, v) = (q.abs() + span * v.abs(), v.abs());
+            self.speed = self.speed.max(v * mass);
+            self.reach = self.reach.max(q * mass);
+            self.strain = self.strain.max(q * spring);
+            self.rub = self.rub.max(v * dashpot);
+        }
+    }
+
+    /// Takes in a load on a degree of freedom, N.
+    pub fn load(&mut self, i: usize, force: f64) {
+        let mass = self.root.get(i).map_or(1.0, |r| r[0]);
+        self.load = self.load.max(force.abs() / mass);
+    }
+
+    /// Takes in a wall's force, N.
+    pub fn push(&mut self, wall: usize, force: f64, rigid: bool) {
+        let force = force.abs() / self.wall.get(wall).copied().unwrap_or(1.0);
+        self.push = self.push.max(force);
+        if !rigid {
+            self.load = self.load.max(force);
+        }
+    }
+
+    /// What a balance over `span` seconds may be off by, N/√kg; `clock` is 1 plus what the ends of the span are off by over it, in ulps.
+    pub fn force(&self, span: f64, clock: f64) -> f64 {
+        let [spring, dashpot] = self.rates;
+        self.unit * (self.speed / span + clock * (spring * self.strain + dashpot * self.rub + self.load + self.push))
+    }
+
+    /// The same of a wall's force, N.
+    pub fn wall_force(&self, wall: usize, span: f64, clock: f64) -> f64 {
+        self.force(span, clock) * self.wall.get(wall).copied().unwrap_or(1.0)
+    }
+
+    /// What a length made of these sizes may be off by, in their unit.
+    pub fn of(&self, size: f64) -> f64 {
+        self.unit * size
+    }
+
+    /// The same with the gap scale by which solvers measure.
+    pub fn met(&self, size: f64, gap_scale: f64) -> f64 {
+        self.unit * size + MET * gap_scale
+    }
+
+    /// What the path may be off by, m√kg.
+    pub fn path(&self) -> f64 {
+        self.unit * self.reach
+    }
+
+    /// Books what one step may add to the ledger's rounding.
+    pub fn book(&mut self) {
+        let bodies = self.root.len() as f64;
+        self.energy += self.unit * (bodies * (self.speed.powi(2) + self.strain.powi(2)) + self.load * self.reach);
+    }
+}

@@ -1,0 +1,140 @@
+//! From residuals beyond rounding to findings.
+
+use super::beyond::Worst;
+use super::{Finding, Judge, Refuted};
+use crate::scene::WallLaw;
+use crate::step::{Conserves, Path, Promise, Step, Tolerance};
+
+/// A contact force below this share of the largest force in the balance is measured by that share of it: what is left where forces
+/// cancel is rounding, and a share of rounding says nothing.
+const LEAST_FORCE: f64 = 1e-6;
+
+impl Judge {
+    /// Notes the sizes of a step before it is held to anything.
+    pub(super) fn prepare(&mut self, step: &Step<'_>) {
+        self.now = step.end;
+        (self.span, self.clock) = match step.path {
+            Path::Exact(_) | Path::Series(_) => {
+                let span = (step.end - step.start).max(f64::EPSILON * step.end).max(f64::MIN_POSITIVE);
+                (span, 1.0 + step.end / span)
+            }
+            Path::Handed { step: h, .. } => (h, 1.0),
+            Path::Grid | Path::OneRestitution => (self.h, 1.0),
+        };
+        let way = if matches!(step.path, Path::Exact(_) | Path::Series(_)) { 0.0 } else { self.span };
+        for v in [step.velocity_before, step.velocity_after] {
+            self.rounding.state(step.q, v, way);
+        }
+        for (i, (extra, load)) in step.extra.iter().zip(&self.scratch.load_end).enumerate() {
+            self.rounding.load(i, extra.abs() + load.abs());
+        }
+        self.rounding.book();
+    }
+
+    /// A gap (or a slack of one) whose terms are of this `size`, m.
+    pub(super) fn doubt_gap(&mut self, wall: usize, gap: f64, size: f64, pressure: f64) {
+        if gap < 0.0 || pressure != 0.0 {
+            let noise = self.rounding.met(size, self.energy.gap_scale);
+            let force = self.rounding.wall_force(wall, self.span, self.clock);
+            self.doubts.gaps.add((gap, noise), (pressure, force), self.now, wall);
+        }
+    }
+
+    /// A speed of rebound.
+    pub(super) fn doubt_rebound(&mut self, index: usize, slack: f64, step: &Step<'_>, pressure: f64) {
+        if slack < 0.0 || pressure != 0.0 {
+            let Some(wall) = self.scene.walls.get(index) else { return };
+            let speeds = |v: &[f64]| wall.at.entries().iter().map(|&(i, g)| (g * v[i]).abs()).sum::<f64>();
+            let size = speeds(step.velocity_before) + speeds(step.velocity_after) + speeds(&self.scratch.struck);
+            let noise = self.rounding.met(size, self.energy.gap_scale / self.span);
+            let force = self.rounding.wall_force(index, self.span, self.clock);
+            self.doubts.rebounds.add((slack, noise), (pressure, force), self.now, index);
+        }
+    }
+
+    /// A force of a wall off its law by `error`, of which the place of the body explains `place`, N.
+    pub(super) fn doubt_law(&mut self, wall: usize, error: f64, place: f64) {
+        if error > 0.0 || error.is_nan() {
+            let force = self.rounding.wall_force(wall, self.span, self.clock);
+            self.doubts.law.see(error - place - force, self.now, Some(wall));
+        }
+    }
+
+    /// The step's balance, N/√kg.
+    pub(super) fn doubt_balance(&mut self, residual: f64) {
+        self.doubts.balance.see(residual - self.rounding.force(self.span, self.clock), self.now, None);
+    }
+
+    /// What the displacement misses, m√kg.
+    pub(super) fn doubt_path(&mut self, residual: f64) {
+        self.doubts.path.see(residual - self.rounding.path(), self.now, None);
+    }
+
+    /// r₀, with a floor where forces are rounding; 0 where no wall pushed.
+    pub(super) fn contact_scale(&self) -> f64 {
+        if self.force_scale == 0.0 {
+            return 0.0;
+        }
+        let largest = self.balance_scale.max(self.scales.spring);
+        self.force_scale.max(LEAST_FORCE * self.scales.wall_force(largest))
+    }
+
+    /// The scheme's promises that the run so far has broken, the worst first; none of a run that kept its word. What rounding explains is
+    /// taken off first: of terms as large as the run's, over steps as short as its own.
+    #[must_use]
+    pub fn findings(&self) -> Vec<Finding> {
+        let (gap, speed) = (self.energy.gap_scale, self.rebound_scale());
+        let force = self.contact_scale();
+        let law = if force > 0.0 { force } else { self.scales.wall };
+        let balance = self.balance_scale.max(self.scales.normal_force(self.force_scale)).max(self.scales.spring);
+        let (doubts, allowed) = (&self.doubts, &self.contract.tolerances);
+        let stands = matches!(self.contract.promise, Promise::EndPosition | Promise::Corrected | Promise::Exact);
+        let behind = if stands { Refuted::Penetration } else { Refuted::Complementarity };
+        let energy = self.energy.report();
+        let open = energy.residual_j.abs() - self.rounding.energy;
+        let ledger = Worst { value: if self.keeps_ledger() { open } else { 0.0 }, time: self.now, wall: None };
+        let mut findings: Vec<Finding> = [
+            (behind, doubts.gaps.outside.over(gap), allowed.walls),
+            (Refuted::Complementarity, doubts.gaps.both(gap, force), allowed.walls),
+            (Refuted::Complementarity, doubts.rebounds.outside.over(speed), allowed.walls),
+            (Refuted::Complementarity, doubts.rebounds.both(speed, force), allowed.walls),
+            (Refuted::Tension, doubts.gaps.pull.over(force), allowed.walls),
+            (Refuted::Tension, doubts.rebounds.pull.over(force), allowed.walls),
+            (Refuted::WallLaw, doubts.law.over(law), allowed.walls),
+            (Refuted::MomentumBalance, doubts.balance.over(balance), allowed.balance),
+            (Refuted::Kinematics, doubts.path.over(self.normal_reach.max(self.scales.gap)), allowed.balance),
+            (Refuted::Energy, ledger.over(energy.exchanged_j), allowed.energy),
+        ]
+        .into_iter()
+        .filter(|(_, worst, allowed)| worst.value > allowed.limit || worst.value.is_nan())
+        .map(|(refuted, worst, allowed)| self.finding(refuted, worst, allowed))
+        .collect();
+        findings.sort_by(|a, b| (b.residual / b.tolerance).total_cmp(&(a.residual / a.tolerance)));
+        findings
+    }
+
+    fn finding(&self, refuted: Refuted, worst: Worst, allowed: Tolerance) -> Finding {
+        Finding {
+            refuted,
+            residual: worst.value,
+            tolerance: allowed.limit,
+            reason: allowed.reason,
+            time_s: worst.time,
+            wall: worst.wall.and_then(|wall| self.scene.walls.get(wall)).map(|wall| wall.name.clone()),
+        }
+    }
+
+    /// True where the scheme promises a closed energy ledger on this scene.
+    fn keeps_ledger(&self) -> bool {
+        let mut walls = self.scene.walls.iter();
+        match self.contract.tolerances.conserves {
+            _ if self.doubts.handed => false,
+            Conserves::Nothing => false,
+            Conserves::RigidWalls => walls.all(|wall| wall.law.is_rigid()),
+            Conserves::UndampedWalls => {
+                !walls.any(|wall| matches!(wall.law, WallLaw::Elastic { damping, .. } if damping > 0.0))
+            }
+            Conserves::Everything => true,
+        }
+    }
+}
