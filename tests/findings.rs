@@ -251,3 +251,68 @@ fn a_body_held_fast_or_far_from_the_origin_is_not_accused() {
         assert_eq!(exact.findings, []);
     }
 }
+
+/// Every built-in case by every scheme that the tool offers for it, at the case's own step: the first tenth of a second, which holds the
+/// first impacts of all of them but the ball's, and at most 20 000 steps.
+#[cfg(feature = "cli")]
+#[test]
+fn no_built_in_case_is_accused() {
+    use signorini::case::Embedded;
+    use signorini::study::work_precision::every_method;
+    use signorini::{Options, run};
+    let mut judged_runs = 0;
+    for embedded in Embedded::all() {
+        let case = embedded.case().expect("a built-in case");
+        let end = if embedded.name == "bouncing-ball" { 2.0 } else { 0.1 };
+        let mut scene = case.scene.clone();
+        scene.duration = scene.duration.min(end).min(2e4 * case.time.step);
+        for method in every_method(&case.penalty.laws) {
+            for coarser in [1.0, 8.0] {
+                let step = (coarser * case.time.step).min(scene.duration / 10.0);
+                match run(&scene, &method.scheme, &Options::with_step(step).with_sample(scene.duration)) {
+                    Ok(run) => assert_eq!(run.findings, [], "{}, {method}, h = {step}", embedded.name),
+                    Err(Error::NotFinite { .. } | Error::Newton { .. } | Error::Qp { .. }) => continue,
+                    Err(error) => panic!("{}, {method}: {error}", embedded.name),
+                }
+                judged_runs += 1;
+            }
+        }
+    }
+    assert!(judged_runs > 200, "{judged_runs}");
+}
+
+#[test]
+fn a_refuted_run_is_an_error_for_whoever_measures_others_by_it() {
+    let scene = source(0.8, 0.8).with_duration(0.2);
+    let mut run = signorini::run(&scene, &MOREAU_JEAN, &signorini::Options::with_step(STEP)).expect("a run");
+    assert!(run.refuted().is_none());
+    run.findings =
+        judged(&scene, &MOREAU_JEAN, STEP, 200, |_, a| a.impulse.iter_mut().for_each(|p| *p *= 1.01)).expect("a run");
+    let error = run.unrefuted().expect_err("refuted");
+    assert!(!error.is_request() && error.to_string().contains("momentum balance"), "{error}");
+}
+
+#[cfg(feature = "cli")]
+#[test]
+fn the_summary_says_that_a_run_was_refuted_and_by_what() {
+    use signorini::case::Embedded;
+    use signorini::output::summary::{Checks, Reasons, write};
+    let mut case = Embedded::named("rigid-walls-sine").and_then(Embedded::case).expect("a case");
+    case.scene.duration = 0.2;
+    let mut run = signorini::run(&case.scene, &MOREAU_JEAN, &signorini::Options::with_step(STEP)).expect("a run");
+    let path = std::env::temp_dir().join(format!("signorini-findings-{}.json", std::process::id()));
+    let reasons = Reasons { scheme: String::new(), qp: String::new() };
+    let read = |run: &signorini::Run| -> serde_json::Value {
+        write(&path, &case, run, &reasons, Checks::default()).expect("written");
+        serde_json::from_str(&std::fs::read_to_string(&path).expect("readable")).expect("JSON")
+    };
+    let kept = read(&run);
+    assert_eq!((&kept["refuted"], kept["findings"].as_array().map(Vec::len)), (&serde_json::json!(false), Some(0)));
+    run.findings = judged(&case.scene, &MOREAU_JEAN, STEP, 200, |_, a| a.impulse.iter_mut().for_each(|p| *p *= 1.01))
+        .expect("a run");
+    let broken = read(&run);
+    assert_eq!(broken["refuted"], serde_json::json!(true));
+    assert_eq!(broken["findings"][0]["refuted"], serde_json::json!("momentum_balance"));
+    assert!(broken["findings"][0]["residual"].as_f64().expect("a number") > 1e-3);
+    std::fs::remove_file(&path).expect("its own");
+}

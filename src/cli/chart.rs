@@ -11,7 +11,7 @@ use crate::output::results::Results;
 use crate::output::table::Table;
 use crate::output::work_precision as output;
 use crate::study::work_precision::{
-    Effort, Kind, Peer, Quantity, Series, Steps, WorkPrecision, every_method, read, study,
+    Effort, Kind, Outcome, Peer, Quantity, Series, Steps, WorkPrecision, every_method, read, study,
 };
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -99,6 +99,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let chart = study(&case.scene, &methods, &effort, &|share| progress.set((UNITS * share) as u64));
     progress.finish();
     let chart = chart?;
+    let refuted = refutations(&chart);
+    refuted.announce(ui);
     any_ran(&chart)?;
     write(&mut results, &case, &chart, &peers)?;
     super::run::finish(&results, "", ui)?;
@@ -150,7 +152,6 @@ impl Args {
 
 /// The first failure, if nothing ran.
 fn any_ran(chart: &WorkPrecision) -> Result<()> {
-    use crate::study::work_precision::Outcome;
     let mut outcomes = chart.series.iter().flat_map(|s| s.points.iter().map(|p| &p.outcome));
     let failure = outcomes.clone().find_map(|o| if let Outcome::Failed(error) = o { Some(error) } else { None });
     match failure {

@@ -75,6 +75,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         verdicts = verdicts::check(&case, &comparison, &|rows| done(count + rows as f64 * verdict::COST));
     }
     progress.finish();
+    let refuted = refutations(&comparison, &verdicts);
+    refuted.announce(ui);
     any_succeeded(&comparison)?;
     let common = args.stretch.span(&case, comparison.horizon)?;
     let rows = output::write(&mut results, &case, &comparison, &verdicts, [span, common])?;
@@ -102,7 +104,30 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     if !args.no_verdict {
         ui.message(&format!("refinement: {}", verdicts::line(&comparison, &verdicts)));
     }
-    Ok(())
+    refuted.verdict()
+}
+
+/// The rows that the judge has refuted, and the runs that checked them.
+fn refutations(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Refutations {
+    let mut refuted = Refutations::default();
+    for (row, verdict) in comparison.rows.iter().zip(verdicts) {
+        match &row.outcome {
+            Ok(run) => refuted.see(&row.method.to_string(), &run.findings),
+            Err(error) => refuted.see_error(&row.method.to_string(), error),
+        }
+        if let Some(verdict) = verdict {
+            refuted.see(&format!("the check of {}", row.method), &verdict.findings);
+        }
+    }
+    if let Some((method, run)) = &comparison.refined {
+        refuted.see(&format!("{method} as reference"), &run.findings);
+    }
+    refuted
+}
+
+/// What stands in a row beside the numbers: nothing, or why they are not to be used.
+fn findings(run: &crate::run::Run) -> String {
+    run.findings.iter().map(Finding::to_string).collect::<Vec<_>>().join("; ")
 }
 
 /// The comparison as one document: what all methods share, then a row a method.

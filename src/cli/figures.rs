@@ -1,5 +1,6 @@
 //! `signorini figures`: the figures of the source, from the built-in cases.
 
+use super::refuted::Refutations;
 use super::run::perform;
 use super::ui::Ui;
 use crate::case::{Case, Embedded};
@@ -66,6 +67,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let mut results = Results::open(&args.out, request, args.force)?;
     // One look a method in all figures: its place in the order in which methods first appear.
     let mut known = Vec::new();
+    let mut refuted = Refutations::default();
     for plate in &PLATES {
         let mut case = Case::embedded(plate.case)?;
         case.scene.duration = case.scene.duration.min(SHOWN);
@@ -84,7 +86,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 }
 
 impl Plate {
-    fn draw(&self, case: &Case, known: &mut Vec<String>, ui: &Ui) -> Result<Vec<(&'static str, String)>> {
+    fn draw(&self, case: &Case, known: &mut Vec<String>, ui: &Ui, refuted: &mut Refutations) -> Result<Vec<(&'static str, String)>> {
         let chosen = choice::choose(&case.scene).method;
         let integrator = case.penalty.integrator.unwrap_or_default();
         let mut methods = vec![chosen];
@@ -94,6 +96,12 @@ impl Plate {
             methods.push(Method::new(Scheme::Event));
         }
         let runs = methods.iter().map(|m| perform(case, m, ui)).collect::<Result<Vec<Run>>>()?;
+        for (method, run) in methods.iter().zip(&runs) {
+            let mut here = Refutations::default();
+            here.see(&format!("figure {}, {method}", self.number), &run.findings);
+            here.announce(ui);
+            refuted.join(here);
+        }
         let labels: Vec<String> = methods.iter().map(|m| label(m, integrator)).collect();
         let title =
             format!("{} ({})", case.title.as_deref().unwrap_or(&case.name), case.source.as_deref().unwrap_or("source"));

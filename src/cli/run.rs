@@ -74,6 +74,15 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let verdict = if args.no_verdict { None } else { Some(bar.verdict(&case, &method, &run)) };
     let truncation = if truncated { bar.truncation(&case, &method, &run).transpose() } else { None };
     bar.finish();
+    let mut refuted = Refutations::default();
+    refuted.see(&method.to_string(), &run.findings);
+    if let Some(Ok(verdict)) = &verdict {
+        refuted.see("the check of its step", &verdict.findings);
+    }
+    if let Some(Ok(truncation)) = &truncation {
+        refuted.see("the check with more modes", &truncation.findings);
+    }
+    refuted.announce(ui);
     ui.message(&format!("{method}: {reason}"));
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
     let checks = Checks {
@@ -94,7 +103,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         Some(Err(error)) => ui.message(&format!("truncation: the check of this run failed: {error}")),
         None => {}
     }
-    Ok(())
+    refuted.verdict()
 }
 
 /// The run that keeps an error; a shortfall is reported after its results are written.
@@ -128,6 +137,9 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let outcome = reach(&case.scene, &target, &mut |time| bar.set((UNITS * time / end) as u64));
     bar.finish();
     let Outcome { method, reason, run, accuracy, mut shortfall } = outcome?;
+    let mut refuted = Refutations::default();
+    refuted.see(&method.to_string(), &run.findings);
+    refuted.announce(ui);
     ui.message(&format!("{method}: {reason}"));
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
     let checks = Checks { accuracy: Some(&accuracy), modes: modes.as_ref(), ..Checks::default() };
@@ -144,6 +156,7 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
         ui.message(&format!("modes: {modes}"));
     }
     ui.message(&format!("accuracy: {accuracy}"));
+    refuted.verdict()?;
     shortfall.map_or(Ok(()), Err)
 }
 

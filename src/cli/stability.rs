@@ -1,5 +1,6 @@
 //! `signorini stability`: where each scheme fails on a case.
 
+use super::refuted::Refutations;
 use super::request;
 use super::ui::Ui;
 use crate::case::Case;

@@ -58,7 +58,7 @@ pub struct Row {
 pub struct Comparison {
     /// The methods in the order asked for, the exact one last.
     pub rows: Vec<Row>,
-    /// The exact run, or why there is none.
+    /// The exact run, or why there is none; one that the judge has refuted is none.
     pub reference: Result<Run>,
     /// What the methods are held against where there is no exact run: the chosen stepping scheme, [`FINER`] times finer.
     pub refined: Option<(Method, Run)>,

@@ -1,6 +1,7 @@
 //! The exact motion as a reference: whether it can be afforded, and once more with another rounding.
 
 use crate::error::{Error, Result};
+use crate::residual::{Finding, Judge};
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
@@ -41,16 +42,19 @@ pub fn stride(scene: &Scene) -> f64 {
     scene.duration / STRETCHES
 }
 
-/// The exact motion of `scene` at the rows of `run`, with stops at every multiple of [`stride`].
+/// The exact motion of `scene` at the rows of `run`, with stops at every multiple of [`stride`], and what the judge refutes of it.
 ///
 /// # Errors
 /// What the exact scheme reports.
-pub fn replay(scene: &Scene, run: &Run) -> Result<Trajectory> {
+pub fn replay(scene: &Scene, run: &Run) -> Result<(Trajectory, Vec<Finding>)> {
     let mut stepper = Stepper::new(scene, &Scheme::Event, stride(scene))?;
     let state = stepper.state();
+    let mut judge = Judge::new(scene, stepper.contract(), stride(scene), &state.q, &state.v);
     let mut recorder = Recorder::new(scene, run.grid.rows, &state.q, &state.v);
     while stepper.time() < scene.duration {
-        recorder.see(&stepper.step()?);
+        let step = stepper.step()?;
+        judge.see(&step);
+        recorder.see(&step);
     }
-    Ok(recorder.finish(&stepper.open_contacts()))
+    Ok((recorder.finish(&stepper.open_contacts()), judge.findings()))
 }

@@ -5,6 +5,7 @@ use super::exact::{affordable, replay, stride};
 use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::Result;
 use crate::qp::Backend;
+use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
@@ -60,6 +61,8 @@ pub struct Verdict {
     pub horizon_s: f64,
     /// One entry a wall, in the scene's order; none of them stops at the horizon.
     pub walls: Vec<WallVerdict>,
+    /// What the judge refutes of the check's own run: with any of these the verdict says nothing.
+    pub findings: Vec<Finding>,
 }
 
 impl Verdict {
@@ -75,13 +78,13 @@ impl Verdict {
         progress: &mut dyn FnMut(f64),
     ) -> Result<Self> {
         let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
-        let (check, trajectory, backend) = if method.scheme == Scheme::Event {
+        let (check, (trajectory, findings), backend) = if method.scheme == Scheme::Event {
             (Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run)?, Backend::Auto)
         } else {
             let step_s = 0.5 * run.grid.step;
             let options = Options::new(TimeOptions { step: step_s, ..rows }, method.backend);
             let half = run_with_progress(scene, &method.scheme, &options, progress)?;
-            (Check::HalfStep { step_s }, half.trajectory, method.backend)
+            (Check::HalfStep { step_s }, (half.trajectory, half.findings), method.backend)
         };
         // A penalty moves between springs: what grows there is not what grows between rigid walls.
         let model = Stepper::with_backend(scene, &method.scheme, run.grid.step, backend)?.scene().clone();
@@ -104,7 +107,7 @@ impl Verdict {
                 peak_force_n: [before.peak_force_n.max, after.peak_force_n.max],
             });
         }
-        Ok(Self { check, displacement: change.displacement, horizon_s, walls })
+        Ok(Self { check, displacement: change.displacement, horizon_s, walls, findings })
     }
 
     /// Largest change of a wall's impulse, as a share of the largest impulse that a wall has in either run: a wall that is hardly touched,
@@ -192,7 +195,13 @@ mod tests {
             peak_force_n: [None, None],
         };
         let walls = impulses.iter().enumerate().map(wall).collect();
-        Verdict { check: Check::HalfStep { step_s: 1e-3 }, displacement: 0.0, horizon_s: 1.0, walls }
+        Verdict {
+            check: Check::HalfStep { step_s: 1e-3 },
+            displacement: 0.0,
+            horizon_s: 1.0,
+            walls,
+            findings: Vec::new(),
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::atomic::write_whole;
 use super::json;
 use crate::case::{Case, FileRead};
 use crate::error::{Error, Result};
-use crate::residual::Residuals;
+use crate::residual::{Finding, Residuals};
 use crate::run::Run;
 use crate::scheme::Counters;
 use crate::statistics::Statistics;
@@ -24,6 +24,8 @@ use std::path::Path;
 struct Summary<'a> {
     program: String,
     case: &'a str,
+    refuted: bool,
+    findings: &'a [Finding],
     title: Option<&'a str>,
     source: Option<&'a str>,
     case_file: Value,
@@ -97,6 +99,8 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
     let summary = Summary {
         program: format!("signorini {}", env!("CARGO_PKG_VERSION")),
         case: &case.name,
+        refuted: !run.findings.is_empty(),
+        findings: &run.findings,
         title: case.title.as_deref(),
         source: case.source.as_deref(),
         case_file: case_file::case_file(case),

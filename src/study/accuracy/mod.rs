@@ -171,9 +171,14 @@ pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> R
     Ok(outcome)
 }
 
-/// The exact motion of `scene`, at the rows of `time`, where it can be afforded.
+/// The exact motion of `scene`, at the rows of `time`, where it can be afforded and the judge has not refuted it.
 fn exact(scene: &Scene, time: TimeOptions) -> Result<Run> {
     affordable(scene)?;
+    unchecked(scene, time)?.unrefuted()
+}
+
+/// The same, whatever the judge says of it.
+fn unchecked(scene: &Scene, time: TimeOptions) -> Result<Run> {
     run(scene, &Scheme::Event, &Options::new(time, Backend::Auto))
 }
 
@@ -201,8 +206,8 @@ impl Judged {
 /// The exact motion, held against itself with other roundings.
 fn other_rounding(judged: &Judged, target: &Target) -> Result<Refined> {
     let time = judged.time(&TimeOptions { sample: Some(judged.coarse.sample), ..target.time });
-    let run = exact(&judged.scene, time)?;
-    let again = replay(&judged.scene, &run)?;
+    let run = unchecked(&judged.scene, time)?;
+    let (again, _) = replay(&judged.scene, &run)?;
     let change = Change::between(&judged.model, &run.trajectory, &again, judged.scene.duration, judged.from)?;
     let worst = change.worst();
     let steps = run.counters.steps;

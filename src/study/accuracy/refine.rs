@@ -78,7 +78,8 @@ pub(super) fn refine(
         }
         let time = judged.time(&judged.coarse.options(level, &target.time));
         let options = Options::new(time, method.backend);
-        let run = match run_with_progress(&judged.scene, &method.scheme, &options, progress) {
+        let made = run_with_progress(&judged.scene, &method.scheme, &options, progress);
+        let run = match made.and_then(Run::unrefuted) {
             Ok(run) => run,
             Err(error) if error.is_request() => return Err(error),
             // A step too large for its scheme is no reason not to try a smaller one.

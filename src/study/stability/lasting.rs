@@ -122,7 +122,7 @@ impl Quality {
         let joined = scale.joined();
         let go = |scheme: Scheme, step: f64| {
             let time = TimeOptions { step, sample: Some(step), statistics_from: 0.0 };
-            run(scene, &scheme, &Options::new(time, Backend::Auto))
+            run(scene, &scheme, &Options::new(time, Backend::Auto)).and_then(Run::unrefuted)
         };
         let finest = MULTIPLES.iter().copied().fold(1.0, f64::min) * time.step;
         let exact = crate::study::exact::affordable(scene).and_then(|()| go(Scheme::Event, finest));

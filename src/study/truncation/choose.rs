@@ -82,7 +82,7 @@ pub fn choose_modes(
     let options = Options::new(*time, method.backend);
     let mut make = |modes: usize| -> Result<(Reduction, Run)> {
         let cut = whole.cut(modes)?;
-        let run = run_with_progress(&cut.scene, &method.scheme, &options, progress)?;
+        let run = run_with_progress(&cut.scene, &method.scheme, &options, progress)?.unrefuted()?;
         Ok((cut, run))
     };
     let mut last = make(start)?;

@@ -11,6 +11,7 @@ pub use choose::{ChosenModes, MOST_CHOSEN, ModesLevel, choose_modes};
 
 use super::change::{Change, relative};
 use crate::error::Result;
+use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Damping, Reduction, Scene};
 use crate::scheme::Method;
@@ -79,6 +80,8 @@ pub struct Truncation {
     pub displacement: f64,
     /// One entry a wall, in the scene's order.
     pub walls: Vec<WallTruncated>,
+    /// What the judge refutes of the run with more modes: with any of these nothing of this holds.
+    pub findings: Vec<Finding>,
 }
 
 impl Truncation {
@@ -104,7 +107,8 @@ impl Truncation {
         let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
         let options = Options::new(rows, method.backend);
         let against = run_with_progress(&more.scene, &method.scheme, &options, progress)?;
-        Self::between(whole, [reduction, &more], [run, &against], time.statistics_from).map(Some)
+        let between = Self::between(whole, [reduction, &more], [run, &against], time.statistics_from)?;
+        Ok(Some(Self { findings: against.findings, ..between }))
     }
 
     /// What changes from one cut and its run to the other.
@@ -144,6 +148,7 @@ impl Truncation {
             static_correction: whole.static_correction,
             displacement: change.displacement,
             walls,
+            findings: Vec::new(),
         })
     }
 

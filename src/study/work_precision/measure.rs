@@ -8,7 +8,7 @@ use super::{Effort, Floor, Measured, Outcome, Point, Series, WorkPrecision};
 use crate::error::{Error, Result};
 use crate::run::{Options, Run, run};
 use crate::scene::Scene;
-use crate::scheme::{Counters, Integrator, Method, Scheme, Stepper};
+use crate::scheme::{Counters, Integrator, Method, Scheme};
 use crate::study::choice::choose;
 
 /// Measures `methods` on `scene`; `progress` hears the share done, from 0 to 1.
@@ -94,7 +94,7 @@ fn errors_of(
         let outcome = if expected > effort.most_seconds {
             Outcome::LeftOut(expected)
         } else {
-            match run(scene, &method.scheme, &Options::new(time, method.backend)) {
+            match run(scene, &method.scheme, &Options::new(time, method.backend)).and_then(Run::unrefuted) {
                 Ok(run) => {
                     pace = run.seconds / count as f64;
                     ran(measure(run, reference, own))
@@ -117,13 +117,10 @@ fn measure(run: Run, reference: &Reference, own: Option<&Reference>) -> Measured
     }
 }
 
-/// Counters of the exact scheme, left alone.
+/// Counters of the exact scheme, unless the judge refutes it.
 fn exact(scene: &Scene) -> Result<Counters> {
-    let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
-    while stepper.time() < scene.duration {
-        stepper.step()?;
-    }
-    Ok(stepper.counters())
+    let options = Options::with_step(scene.duration).unrecorded();
+    Ok(run(scene, &Scheme::Event, &options)?.unrefuted()?.counters)
 }
 
 fn time_all(scene: &Scene, series: &mut [Series], ladder: &Ladder, effort: &Effort, progress: &mut dyn FnMut()) {

@@ -2,7 +2,8 @@
 
 use super::errors::{Errors, Yardstick};
 use super::ladder::Ladder;
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::residual::Judge;
 use crate::run::{Options, Run, run};
 use crate::scene::Scene;
 use crate::scheme::{Method, Scheme, Stepper};
@@ -119,7 +120,7 @@ impl Reference {
     ) -> Result<Self> {
         let go = |count| {
             let time = ladder.time(count);
-            run(scene, &method.scheme, &Options::new(time, method.backend))
+            run(scene, &method.scheme, &Options::new(time, method.backend)).and_then(Run::unrefuted)
         };
         let finest = ladder.counts.last().copied().unwrap_or(ladder.rows).max(ladder.rows);
         let mut count = ladder.rows;
@@ -157,8 +158,14 @@ fn cut(scene: &Scene, stride: f64, rows: u64) -> Result<Trajectory> {
     let mut stepper = Stepper::new(scene, &Scheme::Event, stride)?;
     let state = stepper.state();
     let mut recorder = Recorder::new(scene, rows, &state.q, &state.v);
+    let mut judge = Judge::new(scene, stepper.contract(), stride, &state.q, &state.v);
     while stepper.time() < scene.duration {
-        recorder.see(&stepper.step()?);
+        let step = stepper.step()?;
+        judge.see(&step);
+        recorder.see(&step);
+    }
+    if let Some(finding) = judge.findings().first() {
+        return Err(Error::Refuted { runs: vec![format!("{}: {finding}", Scheme::Event)] });
     }
     Ok(recorder.finish(&stepper.open_contacts()))
 }
