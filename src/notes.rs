@@ -15,6 +15,9 @@ use crate::step::Contact;
 /// arrived at them. (Of Paoli & Schatzman's that is 0.1 % in the source scene at h = 1 ms, of Newmark's a multiple.)
 const WORTH_SAYING: f64 = 1e-2;
 
+/// Energy made at walls below this share of what was exchanged is rounding, whatever arrived there.
+const ROUNDING: f64 = 1e-9;
+
 /// So is this share of the largest energy: once a body crosses the gap in a step, newmark throws it back and forth without
 /// further gain, and little of all that arrives is new. More than start and loads ever gave is worth a sentence in any case.
 const SHARE_OF_LARGEST: f64 = 0.1;
@@ -90,7 +93,8 @@ fn of_energy(energy: &Energy, arrived: Option<f64>) -> Option<String> {
     let created = -energy.impact_loss_j;
     let given = energy.initial_j + energy.load_work_j.abs();
     let beyond = arrived.is_some_and(|arrived| created > WORTH_SAYING * arrived);
-    if beyond || created > SHARE_OF_LARGEST * energy.largest_j || created > given {
+    let much = beyond || created > SHARE_OF_LARGEST * energy.largest_j || created > given;
+    if much && created > ROUNDING * energy.exchanged_j {
         let arrived = arrived.map_or_else(String::new, |a| format!(", beyond the {a:.3e} J that arrived there"));
         return Some(format!(
             "the scheme created {created:.3e} J at the rigid walls{arrived} (largest energy of the run {:.3e} J): do not \
