@@ -111,7 +111,8 @@ impl Judge {
             if let Some(restitution) = wall.law.restitution() {
                 let gap = wall.gap(wall.at.dot(step.q));
                 self.pairs.add(gap, pressure);
-                let size = wall.position.abs() + wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs()).sum::<f64>();
+                let size =
+                    wall.position.abs() + wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs()).sum::<f64>();
                 self.doubt_gap(index, gap, size, pressure);
                 if gap <= 1e-12 * gap_scale || p != 0.0 {
                     any = true;
