@@ -86,7 +86,13 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 }
 
 impl Plate {
-    fn draw(&self, case: &Case, known: &mut Vec<String>, ui: &Ui, refuted: &mut Refutations) -> Result<Vec<(&'static str, String)>> {
+    fn draw(
+        &self,
+        case: &Case,
+        known: &mut Vec<String>,
+        ui: &Ui,
+        refuted: &mut Refutations,
+    ) -> Result<Vec<(&'static str, String)>> {
         let chosen = choice::choose(&case.scene).method;
         let integrator = case.penalty.integrator.unwrap_or_default();
         let mut methods = vec![chosen];
