@@ -314,8 +314,8 @@ fn a_run_of_a_structure_names_its_probes_and_walls_and_tells_its_truncation() {
     assert!(output.status.success(), "{said}");
     assert!(said.contains("truncation: with 4 of 8 modes in place of 2 the impulse changes by up to"), "{said}");
     let (header, rows) = csv(&dir.path().join("o/trajectory.csv"));
-    let expected = "time_s,displacement_middle_m,velocity_middle_m_per_s,contact_force_support_upper_N,contact_impulse_support_upper_Ns,\
-                    contact_force_support_lower_N,contact_impulse_support_lower_Ns";
+    let expected = "time_s,displacement_middle_m,velocity_middle_m_per_s,contact_force_support_upper_N,contact_impulse_support_upper_N_s,\
+                    contact_force_support_lower_N,contact_impulse_support_lower_N_s";
     assert_eq!(header.join(","), expected);
     assert_eq!(rows.len(), 501);
     let summary = json(&dir.path().join("o/summary.json"));

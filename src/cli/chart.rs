@@ -1,5 +1,6 @@
 //! `signorini chart`: accuracy against speed.
 
+use super::refuted::Refutations;
 use super::ui::Ui;
 use super::{request, values};
 use crate::case::Case;
@@ -113,7 +114,19 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         ui.table(&Table::new(&header, worth_reading(&cheapest(&chart, &peers))), "work-precision.csv")?;
     }
     report(&case, &chart, ui);
-    Ok(())
+    refuted.verdict()
+}
+
+/// The points that the judge has refuted: rows of the CSV that say so, and no points of the picture.
+fn refutations(chart: &WorkPrecision) -> Refutations {
+    let mut refuted = Refutations::default();
+    for (series, point) in chart.series.iter().flat_map(|s| s.points.iter().map(move |p| (s, p))) {
+        if let Outcome::Failed(error) = &point.outcome {
+            let step = point.step.map_or_else(String::new, |h| format!(", h = {h:.2e} s"));
+            refuted.see_error(&format!("{}{step}", series.method), error);
+        }
+    }
+    refuted
 }
 
 impl Args {

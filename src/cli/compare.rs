@@ -3,6 +3,7 @@
 use super::drawing::Stretch;
 use super::noted;
 use super::pace::Pace;
+use super::refuted::Refutations;
 use super::request::Request;
 use super::ui::Ui;
 use super::{values, verdicts};
@@ -15,7 +16,7 @@ use crate::output::summary;
 use crate::scheme::{Method, Scheme};
 use crate::study::choice;
 use crate::study::compare::{Comparison, any_succeeded, compare, default_methods};
-use crate::study::verdict;
+use crate::study::verdict::{self, Verdict};
 use serde_json::{Value, json};
 
 const EXAMPLES: &str = "\
@@ -123,11 +124,6 @@ fn refutations(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Refutat
         refuted.see(&format!("{method} as reference"), &run.findings);
     }
     refuted
-}
-
-/// What stands in a row beside the numbers: nothing, or why they are not to be used.
-fn findings(run: &crate::run::Run) -> String {
-    run.findings.iter().map(Finding::to_string).collect::<Vec<_>>().join("; ")
 }
 
 /// The comparison as one document: what all methods share, then a row a method.

@@ -72,7 +72,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         let mut case = Case::embedded(plate.case)?;
         case.scene.duration = case.scene.duration.min(SHOWN);
         case.time.sample = Some(case.time.step.max(case.scene.duration / 4000.0));
-        for (name, svg) in plate.draw(&case, &mut known, ui)? {
+        for (name, svg) in plate.draw(&case, &mut known, ui, &mut refuted)? {
             let path = results.place(&format!("fig{}-{name}.svg", plate.number))?;
             write_whole(&path, svg.as_bytes())?;
             ui.message(&format!("wrote {}", path.display()));
@@ -82,7 +82,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     if ui.json() {
         ui.document(&super::run::with_folder(json!({ "command": "figures" }), &results))?;
     }
-    Ok(())
+    refuted.verdict()
 }
 
 impl Plate {

@@ -9,6 +9,7 @@ mod figures;
 mod new;
 mod noted;
 mod pace;
+mod refuted;
 pub mod request;
 mod run;
 mod stability;

@@ -2,6 +2,7 @@
 
 use super::drawing::Stretch;
 use super::pace::Pace;
+use super::refuted::Refutations;
 use super::request::Request;
 use super::ui::{Progress, Ui};
 use super::values;

@@ -76,13 +76,22 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     }
     let quality = Quality::of(&case.scene, &schemes(&case), &case.time, &maps.scale)?;
     output::quality(&results.place("lasting-contact.csv")?, &quality)?;
+    let mut refuted = Refutations::default();
+    for line in &quality.lines {
+        if let Err(error) = &line.outcome {
+            refuted.see_error(&format!("{}, h = {:.2e} s", line.scheme, line.step), error);
+        }
+    }
+    refuted.announce(ui);
     super::run::finish(&results, "", ui)?;
     if ui.json() {
         let document = document::stability(&case, &maps, &quality, &|scheme| range(scheme, &impacts));
-        return ui.document(&super::run::with_folder(document, &results));
+        ui.document(&super::run::with_folder(document, &results))?;
+        return refuted.verdict();
     }
     report(&maps, &impacts, ui)?;
-    contacts(&quality, ui)
+    contacts(&quality, ui)?;
+    refuted.verdict()
 }
 
 /// The schemes of the maps on the case's own penalties, or on a spring of `KAPPA` at its step.

@@ -88,6 +88,11 @@ impl Ui {
         Ok(())
     }
 
+    /// A line on stderr that nobody may miss, quiet or not.
+    pub fn alarm(&self, text: &str) {
+        let _ = writeln!(std::io::stderr(), "{text}");
+    }
+
     /// An error on stderr, quiet or not; with `--json` also the document, where none was printed.
     pub fn error(&self, error: &Error) {
         let text = error.to_string();

@@ -123,6 +123,7 @@ fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Resul
         "energy_residual",
         "complementarity_residual",
         "step_ns",
+        "refuted",
         "failure",
     ];
     let line = |row: &Row| {
@@ -147,6 +148,7 @@ fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Resul
         line.push(digits(peak(run, None)));
         line.extend([run.residuals.energy.residual, run.residuals.complementarity].map(|x| digits(Some(x))));
         line.push(digits(row.step_ns));
+        line.push(run.findings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "));
         line.push(String::new());
         line
     };
@@ -213,6 +215,9 @@ pub fn table(case: &Case, comparison: &Comparison) -> Table {
     let short = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") };
     let dash = || "-".to_owned();
     let exact = |row: &Row| row.method.scheme == Scheme::Event;
+    if comparison.rows.iter().any(|row| row.outcome.as_ref().is_ok_and(|run| !run.findings.is_empty())) {
+        quantity("judge", &|_, run| if run.findings.is_empty() { "kept".into() } else { "REFUTED".to_owned() });
+    }
     quantity("step (s)", &|row, run| if exact(row) { "exact".into() } else { format!("{:.3e}", run.grid.step) });
     quantity("restitution", &|row, _| row.restitution.map_or_else(dash, |e| format!("{:.3}", e.median)));
     let spread = |row: &Row| row.restitution.filter(|e| e.largest - e.least >= 5e-4);

@@ -22,7 +22,7 @@ pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
         columns.extend([displacement, velocity]);
     }
     for (wall, word) in trajectory.walls().iter().zip(words(trajectory.walls())) {
-        header.extend([format!("contact_force_{word}_N"), format!("contact_impulse_{word}_Ns")]);
+        header.extend([format!("contact_force_{word}_N"), format!("contact_impulse_{word}_N_s")]);
         columns.extend([trajectory.contact_force(wall)?, trajectory.contact_impulse(wall)?]);
     }
     let rows = (0..trajectory.time().len()).map(|i| columns.iter().map(move |c| digits(c.get(i).copied())).collect());

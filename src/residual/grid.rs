@@ -143,8 +143,8 @@ impl Judge {
             }
             let struck = rates.0 + wall.at.dot(&self.scratch.struck);
             let (ends, after) = ((w0, w1), (struck, rates.1));
-            let slack = complementarity::slack(
-&self.scene, index, (self.contract, step.path), h, ends, after, gap_scale);
+            let slack =
+                complementarity::slack(&self.scene, index, (self.contract, step.path), h, ends, after, gap_scale);
             // Whether the body reaches the wall within the step is a question that rounding may answer either way.
             let edge = (wall.gap(w0 + 0.5 * h * struck) - 1e-12 * gap_scale).abs() <= self.rounding.of(size);
             match slack {
