@@ -91,7 +91,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         truncation: truncation.as_ref().and_then(|t| t.as_ref().ok()),
         ..Checks::default()
     };
-    let document = output::write(&mut results, "", &case, &run, &method, &reasons, checks, Picture { span, look: 0 })?;
+    let document =
+        output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
     finish(&results, "", ui)?;
     report(&case, &run, &method, document, &results, ui)?;
     match verdict {
@@ -145,7 +146,7 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
     let checks = Checks { accuracy: Some(&accuracy), modes: modes.as_ref(), ..Checks::default() };
     let mut document =
-        output::write(&mut results, "", &case, &run, &method, &reasons, checks, Picture { span, look: 0 })?;
+        output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
     shortfall = shortfall.or(modes.as_ref().and_then(ChosenModes::shortfall));
     if let (Some(error), Some(map)) = (&shortfall, document.as_object_mut()) {
         map.insert("error".to_owned(), json!(error.to_string()));

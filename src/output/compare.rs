@@ -47,7 +47,7 @@ pub fn write(
             let checks = Checks { refinement: verdict.as_ref(), ..Checks::default() };
             let picture = Picture { span, look };
             let folder = folder_name(&row.method);
-            document = run::write(results, &folder, case, done, &row.method, &reasons, checks, picture)?;
+            document = run::write(results, &folder, case, done, &row.method, (&reasons, checks), picture)?;
         }
         documents.push(with_findings(document, case, comparison, row));
     }

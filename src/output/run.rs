@@ -36,8 +36,7 @@ pub fn write(
     case: &Case,
     run: &Run,
     method: &Method,
-    reasons: &Reasons,
-    checks: Checks<'_>,
+    (reasons, checks): (&Reasons, Checks<'_>),
     picture: Picture,
 ) -> Result<Value> {
     let named = |name: &str| if prefix.is_empty() { name.to_owned() } else { format!("{prefix}/{name}") };
