@@ -122,10 +122,8 @@ impl Below {
         if c0 < -self.noise[0] && !self.passes_touch && c1 <= 0.0 {
             return Step::Now;
         }
-        if self.passes_touch {
-            if c0 < -TOUCH * self.noise[0] {
-                return Step::Now;
-            }
+        if self.passes_touch && c0 < -TOUCH * self.noise[0] {
+            return Step::Now;
         }
         let tail = if c1.abs() > self.noise[1] {
             (c1, [c1, c2 / 2.0, c3 / 3.0, -self.bound / 4.0])
