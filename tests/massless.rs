@@ -286,7 +286,9 @@ fn modal_data_make_the_scene_that_its_own_modes_make() {
     let case = Case::read(folder.path().join("case.toml")).unwrap_or_else(|error| panic!("{error}"));
     let inline = format!("{{ first = {:?}, second = {:?}, load = {:?} }}", shapes[0], shapes[1], shapes[2]);
     let same = Case::parse(&text(&inline), "case.toml", "").unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(case, same);
+    // But for the file that was read, the cases are one.
+    assert_eq!((&case.model, &case.places, &case.scene), (&same.model, &same.places, &same.scene));
+    assert_eq!((case.written.files.len(), same.written.files.len()), (1, 0));
     let mut scene = Scene::structure(tube.structure().unwrap()).with_duration(0.2);
     for (name, position) in [("first", first), ("second", second)] {
         let at = tube.at(position).unwrap();
