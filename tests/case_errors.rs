@@ -293,6 +293,15 @@ fn a_measured_table_is_refused_at_its_own_place_with_what_would_read_it() {
         let fits = said.contains(&at) && said.contains("expected") && words.iter().all(|word| said.contains(word));
         assert!(fits, "{keys} {csv:?} {place} {words:?}\n{said}");
     }
+    // A value far to the right is marked where it stands.
+    let load = "[[load]]\ntable = { file = \"force.csv\" }\n\n[initial]";
+    fs::write(&case, RIGHT.replace("[initial]", load)).unwrap();
+    let row = |t: &str, f: &str| format!("{t},{}{f}\n", "0.5,".repeat(40));
+    let names = (0..40).map(|i| format!("c{i:02},")).collect::<String>();
+    let wide = format!("time_s,{names}force_N\n") + &row("0", "1") + &row("1", "x");
+    fs::write(&path, &wide).unwrap();
+    let said = Case::read(&case).map(|_| "ACCEPTED").unwrap_err().to_string();
+    assert!(said.contains(&format!("--> {}:3:163\n", path.display())) && said.contains("force_N is \"x\""), "{said}");
     // A header of 2000 columns is not shown whole.
     let wide: Vec<String> = (0..2000).map(|i| format!("channel_{i}")).collect();
     fs::write(&case, RIGHT.replace("[initial]", "[[load]]\ntable = { file = \"force.csv\" }\n\n[initial]")).unwrap();

@@ -38,7 +38,7 @@ impl Source<'_> {
 
     /// The same, with a remark below.
     pub fn error_with_note(&self, span: Range<usize>, title: &str, help: &str, note: Option<&str>) -> Error {
-        let place = AnnotationKind::Primary.span(self.within(span));
+        let place = AnnotationKind::Primary.span(self.marked(span));
         let mut report = Level::ERROR
             .primary_title(shortened(title))
             .element(Snippet::source(self.text).path(self.name).annotation(place))
@@ -54,8 +54,17 @@ impl Source<'_> {
         self.text.get(self.within(span)).unwrap_or_default()
     }
 
-    /// `span` on its first line only, within the text, on the borders of characters, and no longer than is shown of a line: the renderer
-    /// cuts the rest of the line off.
+    /// `span` as far as it is marked: no longer than is shown of a line, for the renderer cuts the rest of the line off.
+    fn marked(&self, span: Range<usize>) -> Range<usize> {
+        let Range { start, end } = self.within(span);
+        let mut most = end.min(start + MOST_MARKED);
+        while !self.text.is_char_boundary(most) {
+            most -= 1;
+        }
+        start..most
+    }
+
+    /// `span` on its first line only, within the text, on the borders of characters.
     fn within(&self, span: Range<usize>) -> Range<usize> {
         let floor = |mut at: usize| {
             at = at.min(self.text.len());
@@ -67,7 +76,7 @@ impl Source<'_> {
         let start = floor(span.start);
         let end = floor(span.end).max(start);
         let line = self.text.get(start..end).and_then(|s| s.lines().next()).map_or(0, str::len);
-        start..floor(start + line.min(MOST_MARKED))
+        start..start + line
     }
 
     /// What the TOML reader said, in the words of a case file.
