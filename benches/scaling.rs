@@ -1,14 +1,17 @@
 //! What a step costs against the number of degrees of freedom, and against the number of walls: moreau-jean, e = 0, h = 1e-3, on chains
-//! like those of the built-in cases (1 kg, 1e4 N/m, stops at ±1 mm, 50 sin(10πt) N on the first mass). Prints two tables, writes a chart of
+//! like those of the built-in cases (1 kg, 1e4 N/m, stops at ±1 mm, 50 sin(10πt) N on the first mass). Prints three tables, writes a chart of
 //! each, and asserts nothing about time. `cargo bench --bench scaling -- FOLDER` says where to; otherwise it is `target/scaling`.
 //!
 //! With walls at the first few masses only, n grows from 1 to 1e5: the step of a banded system is linear in n. With stops on every mass,
 //! driven at every tenth so that many of them touch, walls grow to 1000 (of both sides together).
+//!
+//! And what the exact motion of the source scene (e = 0.8) costs a period of its load against the length of the run, from 100 to 1e5
+//! periods: the bare stepper, a run that is judged, one that is recorded (a row every ten periods), and both.
 
 use signorini::linear::{Factor, Symmetric};
 use signorini::output::atomic::write_whole;
 use signorini::output::figure::{Curve, Figure, Panel};
-use signorini::{Chain, Load, Probe, Row, Scene, Scheme, State, Stepper, System, Wall};
+use signorini::{Chain, Load, Options, Probe, Row, Scene, Scheme, State, Stepper, System, Wall, run};
 use std::hint::black_box;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -135,6 +138,76 @@ fn picture(title: &str, x_label: &str, points: Vec<(f64, f64)>) -> String {
     Figure::new(title, x_label).log().panel(panel).to_svg()
 }
 
+/// 1 kg, 0.2 N s/m, 100 N/m between walls at ±5 mm with e = 0.8, 3 sin(10πt) N.
+fn source(periods: f64) -> Scene {
+    Scene::oscillator(1.0, 0.2, 100.0)
+        .with_wall(Wall::upper("upper", 5e-3).with_restitution(0.8))
+        .with_wall(Wall::lower("lower", -5e-3).with_restitution(0.8))
+        .with_load(Load::harmonic(3.0, 5.0, 0.0))
+        .with_duration(0.2 * periods)
+}
+
+/// ns a period of what `go` does in a run of so many periods: the best of a few turns, or the only one of a long run.
+fn per_period(periods: f64, mut go: impl FnMut()) -> f64 {
+    let mut best = f64::INFINITY;
+    let begun = Instant::now();
+    for _ in 0..TURNS {
+        let started = Instant::now();
+        go();
+        best = best.min(started.elapsed().as_secs_f64() * 1e9 / periods);
+        if begun.elapsed() > 2 * TURN {
+            break;
+        }
+    }
+    best
+}
+
+/// The cost of exact motion, and of judging and recording it, against the length of the run.
+fn by_length() -> Vec<(f64, [f64; 4])> {
+    println!("exact motion of the source scene, e = 0.8");
+    println!(
+        "{:>9} {:>12} {:>12} {:>12} {:>12}  judged/stepper (ns a period)",
+        "periods", "stepper", "judged", "recorded", "both"
+    );
+    let mut rows = Vec::new();
+    for periods in [100.0, 1e3, 1e4, 1e5] {
+        let scene = source(periods);
+        let options = Options::with_step(0.1).with_sample(2.0);
+        let exact = Scheme::Event;
+        let stepper = per_period(periods, || {
+            let mut stepper = Stepper::new(&scene, &exact, scene.duration).expect("a scene");
+            while stepper.time() < scene.duration {
+                black_box(stepper.step().expect("a step").q);
+            }
+        });
+        let judged = per_period(periods, || {
+            black_box(run(&scene, &exact, &options.unrecorded()).expect("a run"));
+        });
+        let recorded = per_period(periods, || {
+            black_box(run(&scene, &exact, &options.unjudged()).expect("a run"));
+        });
+        let both = per_period(periods, || {
+            black_box(run(&scene, &exact, &options).expect("a run"));
+        });
+        let ratio = judged / stepper;
+        println!("{periods:>9} {stepper:>12.0} {judged:>12.0} {recorded:>12.0} {both:>12.0}  {ratio:.2}");
+        rows.push((periods, [stepper, judged, recorded, both]));
+    }
+    println!();
+    rows
+}
+
+/// The same as a chart: flat lines are what is wanted.
+fn length_picture(rows: &[(f64, [f64; 4])]) -> String {
+    let names = ["bare stepper", "judged", "recorded", "judged and recorded"];
+    let mut panel = Panel::new("Time of a period of the load (ns)").log();
+    for (index, name) in names.into_iter().enumerate() {
+        let points: Vec<_> = rows.iter().map(|(x, costs)| (*x, costs[index])).collect();
+        panel = panel.curve(Curve::new(name, points).marked());
+    }
+    Figure::new("Cost of exact motion against the length of the run", "Periods (–)").log().panel(panel).to_svg()
+}
+
 fn main() {
     // Cargo passes `--bench`; a folder is what is no option.
     let folder = std::env::args().skip(1).find(|a| !a.starts_with('-'));
@@ -157,4 +230,7 @@ fn main() {
         write_whole(&path, svg.as_bytes()).expect("a file");
         println!("wrote {}", path.display());
     }
+    let path = folder.join("cost-by-length.svg");
+    write_whole(&path, length_picture(&by_length()).as_bytes()).expect("a file");
+    println!("wrote {}", path.display());
 }

@@ -4,7 +4,13 @@
 //!
 //! [`Scene`] says what is simulated, [`Scheme`] how time advances, [`Stepper`] does it a step at a time, [`run()`] from start to end under the eyes of
 //! [`residual::Judge`], and [`Trajectory`] is what was recorded. [`qp`] is the convex programme of a step, [`flow`] the exact motion between events.
-//! Case files, output and the tool itself come with the default feature `cli`.
+//! Case files, output and the tool itself come with the default feature `cli`; the format of a case file is documented in [`case`].
+//!
+//! # Examples
+//!
+//! In the folder `examples/`, each run by `cargo run --release --example NAME`: `tube_contact_force` (the contact force of a tube in loose
+//! supports), `co_simulation` (a controller in another program, with repeated steps), `work_precision` (what an error costs, scheme by
+//! scheme), `poincare` (Poincaré points of an impact oscillator).
 #![forbid(unsafe_code)]
 
 #[cfg(feature = "cli")]
@@ -38,7 +44,7 @@ pub use scene::{
 };
 pub use scene::{
     Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, Row, Scene, Side, State, Structure, System, Table,
-    Wall, WallLaw,
+    TimeFunction, Wall, WallLaw,
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper};
 pub use statistics::{Statistics, Summary, WallStatistics};

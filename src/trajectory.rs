@@ -8,6 +8,25 @@ use crate::step::{Contact, Path, Step};
 ///
 /// Row 0 is the start, after any impulse at t = 0; the last row is exactly the end. States are right-continuous. For a
 /// scheme on a grid a force is that of the step which ends at the row; for the exact scheme it is the force at that instant.
+///
+/// ```
+/// use signorini::{Load, Options, Scene, Scheme, Wall, run};
+///
+/// let scene = Scene::oscillator(1.0, 0.2, 100.0)
+///     .with_wall(Wall::upper("stop", 5e-3).with_restitution(0.5))
+///     .with_load(Load::harmonic(3.0, 5.0, 0.0));
+/// let options = Options::with_step(1e-4).with_sample(1e-2); // a row every 10 ms
+/// let trajectory = run(&scene, &Scheme::MoreauJean { theta: 0.5 }, &options)?.trajectory;
+///
+/// assert_eq!(trajectory.time().len(), 101); // s, from 0 to 1
+/// let highest = trajectory.displacement().iter().fold(0.0, |a: f64, &b| a.max(b)); // m
+/// assert!(highest < 5.1e-3);
+/// // Nothing that happens between two rows is lost: impulses (N s) are those since the row before.
+/// let impulses: f64 = trajectory.contact_impulse("stop")?.iter().sum();
+/// let contacts: f64 = trajectory.contacts().iter().map(|contact| contact.impulse).sum();
+/// assert!((impulses - contacts).abs() < 1e-12 && impulses < 0.0);
+/// # Ok::<(), signorini::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     walls: Vec<String>,

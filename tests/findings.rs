@@ -222,7 +222,7 @@ fn scaled(mut load: Load, unit: f64) -> Load {
         LoadKind::Constant { force } => *force *= unit,
         LoadKind::Harmonic { amplitude, .. } => *amplitude *= unit,
         LoadKind::Impulse { impulse, .. } => *impulse *= unit,
-        LoadKind::Table(_) => {}
+        LoadKind::Table(_) | LoadKind::Function(_) => {}
     }
     load
 }

@@ -8,6 +8,8 @@
 //! assert_eq!(case.time.step, 1e-4);
 //! # Ok::<(), signorini::Error>(())
 //! ```
+//!
+#![doc = include_str!("../../cases/README.md")]
 
 mod accepted;
 mod build;

@@ -29,11 +29,15 @@ impl Arc {
     /// Force of wall `wall` on the body at `t`, N, signed: 0 if it does not touch.
     #[must_use]
     pub fn contact_force(&self, wall: usize, t: f64) -> f64 {
+        self.force_at(wall, t, self.state(t))
+    }
+
+    /// The same where the state (m, m/s) at `t` is at hand.
+    pub(crate) fn force_at(&self, wall: usize, t: f64, (q, v): (f64, f64)) -> f64 {
         if let Some(support) = self.support.filter(|s| s.wall == wall) {
             return support.side.sign() * self.pressing(support, self.since(t))[0].max(0.0);
         }
         let Some(touch) = self.touching.iter().find(|a| a.wall == wall) else { return 0.0 };
-        let (q, v) = self.state(t);
         -touch.stiffness * (q - touch.position) - touch.damping * v
     }
 

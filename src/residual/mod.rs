@@ -274,7 +274,7 @@ impl Judge {
         for index in 0..self.scene.walls.len() {
             let wall = &self.scene.walls[index];
             let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid());
-            for t in quadrature::nodes(step.start, step.end) {
+            for (t, _) in quadrature::nodes(step.start, step.end) {
                 let wall = &self.scene.walls[index];
                 let (q, v) = arc.state(t);
                 let (w, wdot) = (wall.at.dot(&[q]), wall.at.dot(&[v]));

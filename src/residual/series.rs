@@ -4,19 +4,11 @@
 //! rate, to 1e-20 of their size; were a stretch longer than it says, the ledger would not close.
 
 use super::energy::{Ledger, Moved};
+use super::quadrature::nodes;
 use super::{Judge, PLACE_UNITS};
 use crate::flow::Series;
 use crate::scene::WallLaw;
 use crate::step::Step;
-
-/// Nodes and weights of the ten-point Gauss–Legendre rule on [−1, 1], the positive half.
-const GAUSS: [(f64, f64); 5] = [
-    (0.148_874_338_981_631_21, 0.295_524_224_714_752_87),
-    (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
-    (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
-    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-    (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
-];
 
 /// Units in the last place of the largest momentum by which those at the ends of a stretch are not known.
 const MOMENTUM_UNITS: f64 = 4.0;
@@ -46,13 +38,11 @@ impl Judge {
     /// Integrates over the stretch, and holds the walls to their laws on the way. Leaves ∫ of the net force in `residual`, N s.
     fn follow(&mut self, step: &Step<'_>, series: &Series, moved: &mut Moved) {
         let s = &mut self.scratch;
-        let (half, middle) = (0.5 * (step.end - step.start), 0.5 * (step.start + step.end));
         s.residual.fill(0.0);
         s.inertia.fill(0.0);
         s.spring.fill(0.0);
         let system = &self.scene.system;
-        for (node, weight) in GAUSS.iter().flat_map(|&(x, w)| [(-x, w), (x, w)]) {
-            let (t, weight) = (middle + half * node, half * weight);
+        for (t, weight) in nodes(step.start, step.end) {
             series.state(t, &mut s.mean_q, &mut s.mean_v);
             s.load.copy_from_slice(step.extra);
             self.loads.add_force(t, 1.0, &mut s.load);

@@ -81,6 +81,27 @@ impl<J: Judging, R: Recording> Run<J, R> {
 
 /// Runs `scene` by `scheme` to its end.
 ///
+/// ```
+/// use signorini::{Load, Options, Scene, Scheme, Wall, run};
+///
+/// let scene = Scene::oscillator(1.0, 0.2, 100.0)
+///     .with_wall(Wall::upper("upper", 5e-3).with_restitution(0.8))
+///     .with_wall(Wall::lower("lower", -5e-3).with_restitution(0.8))
+///     .with_load(Load::harmonic(3.0, 5.0, 0.0));
+///
+/// let stepped = run(&scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(1e-5))?;
+/// let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-5))?;
+/// // What the upper wall gave in a second, N s.
+/// let (a, b) = (stepped.trajectory.impulse("upper")?, exact.trajectory.impulse("upper")?);
+/// assert!((a / b - 1.0).abs() < 1e-3);
+/// // Both were judged, step by step, by code that knows no scheme.
+/// assert!(stepped.residuals.complementarity < 1e-12 && exact.residuals.energy.residual < 1e-12);
+/// for note in &stepped.notes {
+///     println!("{note}"); // what a reader of the results must know
+/// }
+/// # Ok::<(), signorini::Error>(())
+/// ```
+///
 /// # Errors
 /// [`crate::Error::Invalid`] for a request that makes no sense, and what [`Stepper::step`] reports.
 pub fn run<J: Judging, R: Recording>(scene: &Scene, scheme: &Scheme, options: &Options<J, R>) -> Result<Run<J, R>> {

@@ -1,9 +1,13 @@
 //! Loads: forces that are given functions of time.
 
+use super::function::TimeFunction;
 use super::row::Row;
-use super::system::{finite, nonnegative};
+use super::system::{finite, nonnegative, positive};
 use crate::error::{Error, Result};
 use std::f64::consts::TAU;
+
+/// Rows that a sampled function may take.
+const MOST_SAMPLES: f64 = 1e7;
 
 /// A force of time, piecewise linear between rows and zero outside them.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,6 +51,50 @@ impl Table {
         &self.force
     }
 
+    /// A table of the function `f` (N, of a time in s) over [`from`, `to`] that is nowhere further than `error` (N) from it, given a bound
+    /// `curvature` on |f″| there (N/s²). The rows are as far apart as that allows: a line between two of them errs by h²/8 · |f″| at
+    /// most. With it the exact scheme follows a function that it does not know in closed form, but for an error that is stated.
+    ///
+    /// ```
+    /// use signorini::Table;
+    ///
+    /// let pulse = |t: f64| 10.0 * (-(t - 0.5).powi(2) / 0.02).exp(); // |f″| ≤ 2 · 10/0.02 N/s²
+    /// let table = Table::sampled(pulse, [0.0, 1.0], 1000.0, 1e-4)?;
+    /// let worst = (0..10_000).map(|i| 1e-4 * f64::from(i)).map(|t| (table.piece(t).0 - pulse(t)).abs()).fold(0.0, f64::max);
+    /// assert!(worst <= 1e-4);
+    /// # Ok::<(), signorini::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for an interval without length, a bound or an error that makes no sense, more than 1e7 rows, or a value that is
+    /// not finite.
+    pub fn sampled(f: impl Fn(f64) -> f64, [from, to]: [f64; 2], curvature: f64, error: f64) -> Result<Self> {
+        if !(from.is_finite() && to.is_finite() && to > from) {
+            return Err(Error::invalid(
+                "sampled load: interval",
+                format!("{from:?} to {to:?}"),
+                "from < to, both finite",
+            ));
+        }
+        nonnegative("sampled load: curvature", curvature)?;
+        positive("sampled load: error", error)?;
+        let intervals = ((to - from) * (curvature / (8.0 * error)).sqrt()).ceil().max(1.0);
+        if intervals > MOST_SAMPLES {
+            let least = curvature / 8.0 * ((to - from) / MOST_SAMPLES).powi(2);
+            let expected = format!("{least:e} N or more: a table of 1e7 rows is the largest");
+            return Err(Error::invalid("sampled load: error", format_args!("{error:e}"), expected));
+        }
+        let at = |i: u64| if i as f64 == intervals { to } else { from + (to - from) * (i as f64 / intervals) };
+        let time: Vec<f64> = (0..=intervals as u64).map(at).collect();
+        let force = time.iter().map(|&t| f(t)).collect();
+        Self::new(time, force)
+    }
+
+    /// The same forces times `weight`.
+    pub(super) fn scaled(&self, weight: f64) -> Self {
+        Self { time: self.time.clone(), force: self.force.iter().map(|f| weight * f).collect() }
+    }
+
     /// Value and slope (N, N/s) at `t`, from the right: the piece that starts at or before `t`; zero outside the rows.
     #[must_use]
     pub fn piece(&self, t: f64) -> (f64, f64) {
@@ -86,9 +134,32 @@ pub enum LoadKind {
     },
     /// Tabulated, linear between rows, zero outside.
     Table(Table),
+    /// Any function of time: for the stepping schemes, which ask for it at the ends of their steps. The exact scheme has to know
+    /// the motion in closed form and refuses it; [`Table::sampled`] makes a table of it with a stated error.
+    Function(TimeFunction),
 }
 
 /// One load and the row it acts through. Loads add up.
+///
+/// ```
+/// use signorini::{Load, Options, Row, Scene, Scheme, Table, Wall, run};
+///
+/// // A sine of 3 N at 5 Hz; half a newton second at 0.2 s; a ramp from a table; a chirp of 10 to 20 Hz as a Rust closure.
+/// let sine = Load::harmonic(3.0, 5.0, 0.0);
+/// let blow = Load::impulse(0.5, 0.2);
+/// let ramp = Load::table(Table::new(vec![0.0, 1.0], vec![0.0, 2.0])?);
+/// let chirp = Load::function(|t| (std::f64::consts::TAU * (10.0 + 5.0 * t) * t).sin());
+///
+/// let scene = Scene::oscillator(1.0, 0.2, 100.0).with_wall(Wall::upper("stop", 5e-3).with_restitution(0.5));
+/// let scene = [sine, blow, ramp, chirp].into_iter().fold(scene, Scene::with_load);
+/// let run = run(&scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(1e-4))?;
+/// assert!(run.trajectory.impulse("stop")? < 0.0);
+///
+/// // On a structure a load acts through a row: here on the relative motion of two of its degrees of freedom.
+/// let between = Load { at: Row::new(vec![(0, 1.0), (1, -1.0)]), ..Load::constant(1.0) };
+/// assert_eq!(between.at.dot(&[0.3, 0.1]), 0.3 - 0.1);
+/// # Ok::<(), signorini::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Load {
     /// What it does in time.
@@ -122,6 +193,13 @@ impl Load {
         Self::on_first(LoadKind::Table(table))
     }
 
+    /// The force `f`(t) (N, with t in s) on the first degree of freedom: see [`LoadKind::Function`]. It has to be a function of
+    /// the time alone: a scheme may ask for one instant more than once, and the judge asks again.
+    #[must_use]
+    pub fn function(f: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
+        Self::on_first(LoadKind::Function(TimeFunction::new(f)))
+    }
+
     fn on_first(kind: LoadKind) -> Self {
         Self { kind, at: Row::dof(0) }
     }
@@ -141,105 +219,7 @@ impl Load {
                 nonnegative(&key("time"), *time)
             }
             LoadKind::Table(_) => Ok(()),
+            LoadKind::Function(function) => finite(&key("f(0)"), function.at(0.0)),
         }
-    }
-}
-
-/// One sine of a [`Forcing`]: amplitude · sin(ω t + phase).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Harmonic {
-    /// N.
-    pub amplitude: f64,
-    /// Circular frequency ω, rad/s.
-    pub omega: f64,
-    /// rad.
-    pub phase: f64,
-}
-
-/// All loads on one degree of freedom, sorted by what they are, so that a step sums without branching on kinds.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Forcing {
-    /// Sum of the constant forces, N.
-    pub constant: f64,
-    /// The sines.
-    pub harmonics: Vec<Harmonic>,
-    /// The tables.
-    pub tables: Vec<Table>,
-    /// The blows (time s, impulse N s), in time order.
-    pub impulses: Vec<(f64, f64)>,
-}
-
-impl Forcing {
-    /// The loads that act on degree of freedom `dof`, weighted by their rows.
-    #[must_use]
-    pub fn on(dof: usize, loads: &[Load]) -> Self {
-        let mut forcing = Self::default();
-        for load in loads {
-            let weight: f64 = load.at.entries().iter().filter(|&&(i, _)| i == dof).map(|&(_, w)| w).sum();
-            if weight == 0.0 {
-                continue;
-            }
-            match &load.kind {
-                LoadKind::Constant { force } => forcing.constant += weight * force,
-                LoadKind::Harmonic { amplitude, frequency, phase } => forcing.harmonics.push(Harmonic {
-                    amplitude: weight * amplitude,
-                    omega: TAU * frequency,
-                    phase: *phase,
-                }),
-                LoadKind::Impulse { impulse, time } => forcing.impulses.push((*time, weight * impulse)),
-                LoadKind::Table(table) => {
-                    let force = table.force.iter().map(|f| weight * f).collect();
-                    forcing.tables.push(Table { time: table.time.clone(), force });
-                }
-            }
-        }
-        forcing.impulses.sort_by(|a, b| a.0.total_cmp(&b.0));
-        forcing
-    }
-
-    /// Force at `t`, N, without the impulses; right-continuous where a table begins or ends.
-    #[inline]
-    #[must_use]
-    pub fn force(&self, t: f64) -> f64 {
-        let mut f = self.constant;
-        for h in &self.harmonics {
-            f += h.amplitude * (h.omega * t + h.phase).sin();
-        }
-        for table in &self.tables {
-            f += table.piece(t).0;
-        }
-        f
-    }
-
-    /// Sum of the impulses in the half-open interval (from, to], N s.
-    #[inline]
-    #[must_use]
-    pub fn impulse(&self, from: f64, to: f64) -> f64 {
-        if self.impulses.is_empty() {
-            return 0.0;
-        }
-        self.impulses.iter().filter(|&&(t, _)| t > from && t <= to).map(|&(_, p)| p).sum()
-    }
-
-    /// Moment of the impulses in (from, to] about `about` (s), Σ (about − t_b) J_b, N s²: over the mass, where they take a free body from
-    /// its place without them until then.
-    #[must_use]
-    pub fn impulse_moment(&self, from: f64, to: f64, about: f64) -> f64 {
-        self.impulses.iter().filter(|&&(t, _)| t > from && t <= to).map(|&(t, p)| (about - t) * p).sum()
-    }
-
-    /// Sum of the impulses within half a step `h` (s) of the instant `step` · h, N s: each impulse after t = 0 in one step and no other.
-    #[inline]
-    #[must_use]
-    pub fn impulse_about(&self, step: u64, h: f64) -> f64 {
-        // Neighbours meet at one product: t − h/2 of one and t + h/2 of the other would differ in the last place.
-        let edge = |half_steps: f64| (half_steps * h).max(0.0);
-        self.impulse(edge(step as f64 - 0.5), edge(step as f64 + 0.5))
-    }
-
-    /// Sum of the impulses at t = 0, N s: the start is the state after them.
-    #[must_use]
-    pub fn initial_impulse(&self) -> f64 {
-        self.impulses.iter().filter(|&&(t, _)| t == 0.0).map(|&(_, p)| p).sum()
     }
 }

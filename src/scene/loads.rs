@@ -1,6 +1,7 @@
 //! The loads of a scene as vectors over its degrees of freedom.
 
-use super::load::{Forcing, Load};
+use super::forcing::Forcing;
+use super::load::Load;
 use super::row::{Row, distinct};
 
 /// All loads, sorted by where they act: one sum over time for each row, however many degrees of freedom it reaches.
@@ -78,6 +79,11 @@ impl Loads {
     /// is one.
     pub fn blow_about(&self, step: u64, h: f64, out: &mut [f64]) -> bool {
         self.blow_by(|forcing| forcing.impulse_about(step, h), out)
+    }
+
+    /// The same of the blows after the time `since` (s) alone, as [`Forcing::impulse_about_since`].
+    pub fn blow_about_since(&self, since: f64, step: u64, h: f64, out: &mut [f64]) -> bool {
+        self.blow_by(|forcing| forcing.impulse_about_since(since, step, h), out)
     }
 
     /// Writes the blows at t = 0 to `out`, N s: the start is the state after them. Returns whether there is one.

@@ -3,6 +3,8 @@
 mod builders;
 mod condensation;
 mod damping;
+mod forcing;
+mod function;
 mod load;
 mod loads;
 pub mod matrices;
@@ -16,7 +18,9 @@ mod wall;
 pub use builders::{Bar, BarEnd, Beam, BeamEnd, Chain, MOST_ELEMENTS, MassMatrix, ModalData, ModalPoint};
 pub use condensation::Condensation;
 pub use damping::Damping;
-pub use load::{Forcing, Harmonic, Load, LoadKind, Table};
+pub use forcing::{Forcing, Harmonic};
+pub use function::TimeFunction;
+pub use load::{Load, LoadKind, Table};
 pub use loads::Loads;
 pub use modal::{MOST_DENSE, MOST_MODES, Modes, Reduction, WallTruncation};
 pub(crate) use row::distinct;
@@ -39,6 +43,25 @@ pub struct State {
 }
 
 /// M q̈ + C q̇ + K q = f(t) + Gᵀ r(t), held by walls, from a start state over a duration.
+///
+/// ```
+/// use signorini::{Load, Scene, Wall};
+///
+/// // 1 kg, 0.2 N s/m, 100 N/m between rigid walls at ±5 mm, driven by 3 sin(2π 5 t) N, started at −1 mm with 0.1 m/s.
+/// let scene = Scene::oscillator(1.0, 0.2, 100.0)
+///     .with_wall(Wall::upper("upper", 5e-3).with_restitution(0.8))
+///     .with_wall(Wall::lower("lower", -5e-3).with_restitution(0.8))
+///     .with_load(Load::harmonic(3.0, 5.0, 0.0))
+///     .with_initial(&[-1e-3], &[0.1])
+///     .with_duration(2.0);
+/// scene.validate()?; // every run does this first
+/// assert_eq!(scene.gap_scale(), 5e-3);
+///
+/// // What makes no sense is refused, with what would be accepted: here a start behind a wall.
+/// let refused = scene.with_initial(&[6e-3], &[0.0]).validate().unwrap_err();
+/// assert!(refused.to_string().contains("at most 0.005"));
+/// # Ok::<(), signorini::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// M, C, K.

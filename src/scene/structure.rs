@@ -6,6 +6,28 @@ use crate::linear::{Factor, Symmetric};
 
 /// M q̈ + C q̇ + K q = f by matrices, all n × n: M symmetric positive definite (kg), C (N s/m) and K (N/m) symmetric positive semidefinite. In modal
 /// coordinates all three may be diagonal, and in coordinates that are rotations the units are those of the conjugate quantities.
+///
+/// ```
+/// use signorini::linear::Symmetric;
+/// use signorini::{Damping, Load, Options, Probe, Row, Scene, Scheme, Structure, Wall, run};
+///
+/// // Two masses of 2 kg, ground – 3e4 N/m – mass – 1e4 N/m – mass; entries of a lower or an upper triangle.
+/// let structure = Structure {
+///     mass: Symmetric::diagonal(&[2.0, 2.0]),
+///     damping: Symmetric::zeros(2),
+///     stiffness: Symmetric::from_entries(2, [(0, 0, 4e4), (1, 0, -1e4), (1, 1, 1e4)]),
+/// };
+/// let mut scene = Scene::structure(structure)
+///     .with_damping(&Damping::Rayleigh { mass: 0.0, stiffness: 1e-4 })?
+///     .with_wall(Wall { at: Row::dof(1), ..Wall::upper("stop", 1e-3).with_restitution(0.5) })
+///     .with_load(Load { at: Row::dof(0), ..Load::harmonic(50.0, 8.0, 0.0) });
+/// scene.probes.push(Probe { name: "tip".to_owned(), at: Row::dof(1) });
+///
+/// let run = run(&scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(1e-4))?;
+/// let (displacement, _) = run.trajectory.probe("tip")?;
+/// assert!(displacement.iter().any(|&q| q > 0.99e-3)); // it has met its stop
+/// # Ok::<(), signorini::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Structure {
     /// M.

@@ -109,6 +109,20 @@ impl WallLaw {
 }
 
 /// One wall, on one side of the place it watches.
+///
+/// ```
+/// use signorini::{Row, Wall};
+///
+/// // A rigid stop above, from which a body rebounds with half its speed; below, a pad of 1e4 N/m and 20 N s/m.
+/// let stop = Wall::upper("stop", 5e-3).with_restitution(0.5);
+/// let pad = Wall::lower("pad", -5e-3).with_elasticity(1e4, 20.0);
+/// assert_eq!(stop.gap(4e-3), 5e-3 - 4e-3); // m, before it
+/// assert_eq!(pad.law_force(-6e-3, 0.0).round(), 10.0); // N, 1 mm inside: a lower wall pushes up
+///
+/// // On a structure a wall watches a row: here the distance between two masses, which may shrink by 1 mm.
+/// let between = Wall { at: Row::new(vec![(1, 1.0), (0, -1.0)]), ..Wall::lower("bumper", -1e-3) };
+/// assert!(between.gap(between.at.dot(&[0.0, -2e-3])) < 0.0); // they would overlap
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wall {
     /// Name: letters, digits, `-` and `_`; results are asked for by it.

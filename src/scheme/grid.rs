@@ -15,6 +15,8 @@ pub(super) struct Scalar {
     pub walls: Vec<Stop>,
     /// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
     pub touch: f64,
+    /// When the motion began or was taken up anew, s.
+    pub since: f64,
 }
 
 impl Scalar {
@@ -27,6 +29,7 @@ impl Scalar {
             forcing: Forcing::on(0, &scene.loads),
             walls: scene.walls.iter().map(Stop::new).collect(),
             touch: touching_distance(scene),
+            since: 0.0,
         }
     }
 
@@ -86,10 +89,10 @@ impl Scalar {
         (first(&scene.initial.q), first(&scene.initial.v) + self.forcing.initial_impulse() / self.m)
     }
 
-    /// Smooth force at t = 0 plus what the walls answer there: elastic walls by their law, a rigid wall that is touched
+    /// Smooth force at the start plus what the walls answer there: elastic walls by their law, a rigid wall that is touched
     /// at rest by whatever keeps the body from accelerating through it.
     pub fn start_force(&self, q: f64, v: f64) -> StartForce {
-        let smooth = self.forcing.force(0.0) - self.c * v - self.k * q;
+        let smooth = self.forcing.force(self.since) - self.c * v - self.k * q;
         let mut wall = vec![0.0; self.walls.len()];
         for (r, w) in wall.iter_mut().zip(&self.walls) {
             *r = w.sign * w.law.pressure(w.depth(q), -w.sign * v);
@@ -106,7 +109,7 @@ impl Scalar {
     }
 }
 
-/// Forces at t = 0, N.
+/// Forces at the start, N.
 pub(super) struct StartForce {
     /// Smooth force and wall forces together.
     pub total: f64,
@@ -149,6 +152,11 @@ impl Frame {
             jump: vec![0.0; walls],
             touched: false,
         }
+    }
+
+    /// The frame of a motion taken up anew at `time` (s) from `q` (m) and `v` (m/s).
+    pub fn restart(&mut self, time: f64, q: f64, v: f64) {
+        *self = Self { start: time, end: time, ..Self::new(q, v, self.impulse.len()) };
     }
 
     /// Clears the walls of the last step, if they were touched.

@@ -49,6 +49,23 @@ impl Kernel {
         })
     }
 
+    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each.
+    pub fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+        let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);
+        let (single, rate) = (first(q), first(v));
+        match self {
+            Self::Position(kernel) => kernel.restart(time, single, rate),
+            Self::PaoliSchatzman(kernel) => kernel.restart(time, single, rate),
+            Self::MoreauJean(kernel) => kernel.restart(time, single, rate),
+            Self::Penalty(kernel) => kernel.restart(time, single, rate),
+            Self::CentralDifference(kernel) => kernel.restart(time, single, rate),
+            Self::Event(event) => event.restart(scene, time, single, rate)?,
+            Self::Structure(kernel) => kernel.restart(scene, time, q, v)?,
+            Self::StructureEvent(event) => event.restart(time, q, v)?,
+        }
+        Ok(())
+    }
+
     /// Adds what the scheme has cost so far.
     pub fn count(&self, counters: &mut Counters) {
         match self {

@@ -53,6 +53,12 @@ impl MoreauJean {
         Ok(Self { s, theta, q, v, load, programme, clear, last_side: 0.0, frozen: 0 })
     }
 
+    /// Takes the motion up anew at `time` (s).
+    pub fn restart(&mut self, time: f64, q: f64, v: f64) {
+        (self.q, self.v, self.load) = (q, v, self.s.forcing.force(time));
+        self.last_side = 0.0;
+    }
+
     pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
         let s = &self.s;
         let (h, theta) = (s.h, self.theta);

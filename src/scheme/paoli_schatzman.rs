@@ -47,6 +47,14 @@ impl PaoliSchatzman {
         Ok(Self { s, q, v, load, extra: 0.0, unequal, programme })
     }
 
+    /// Takes the motion up anew at `time` (s), as from a start there.
+    pub fn restart(&mut self, time: f64, q: f64, v: f64) {
+        self.s.since = time;
+        let s = &self.s;
+        let v = back(s, v, s.start_force(q, v).total);
+        (self.q, self.v, self.load, self.extra) = (q, v, s.forcing.force(time), 0.0);
+    }
+
     #[inline]
     pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
         let s = &self.s;
@@ -54,7 +62,7 @@ impl PaoliSchatzman {
         let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
         let (q, v) = (self.q, self.v);
         let back = q - h * v;
-        let blow = s.forcing.impulse_about(step, h);
+        let blow = s.forcing.impulse_about_since(s.since, step, h);
         // A blow comes first, and the wall answers the velocity it leaves: q⁻ in the bound is where that would have come from.
         let struck = s.struck(v, blow);
         let felt = centred(&mut self.extra, extra);

@@ -47,6 +47,11 @@ impl Penalty {
         Self { s, theta, mean, q, v, load, newton: 0 }
     }
 
+    /// Takes the motion up anew at `time` (s).
+    pub fn restart(&mut self, time: f64, q: f64, v: f64) {
+        (self.q, self.v, self.load) = (q, v, self.s.forcing.force(time));
+    }
+
     #[inline]
     pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
         let s = &self.s;

@@ -44,6 +44,15 @@ impl Position {
         Ok(Self { s, theta, q, v, force, held, holds, programme })
     }
 
+    /// Takes the motion up anew at `time` (s).
+    pub fn restart(&mut self, time: f64, q: f64, v: f64) {
+        self.s.since = time;
+        let StartForce { total, wall } = self.s.start_force(q, v);
+        (self.q, self.v, self.force) = (q, v, total);
+        self.holds = wall.iter().any(|&r| r != 0.0);
+        self.held = wall;
+    }
+
     #[inline]
     pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
         let s = &self.s;

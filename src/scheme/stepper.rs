@@ -3,12 +3,14 @@
 use super::Scheme;
 use super::grid::{Frame, Handed, Scalar};
 use super::kernel::Kernel;
+use super::stop::touching_distance;
 use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::{Row, Scene, State, System, WallLaw};
+use crate::scene::{Row, Scene, State, System, Wall, WallLaw};
 use crate::scheme::Counters;
 use crate::step::{Contact, Contract, Path, Step};
+use crate::time::MOST_STEPS;
 
 /// Advances a scene step by step.
 ///
@@ -25,6 +27,10 @@ use crate::step::{Contact, Contract, Path, Step};
 /// # Ok::<(), signorini::Error>(())
 /// ```
 ///
+/// A stepper goes on for as long as it is asked to, whatever the scheme: the duration of the scene is where [`run()`](crate::run()) ends,
+/// and no limit here. The exact scheme, whose steps end at events, ends one there too. Loads go on past it: constant and harmonic
+/// ones as before, blows at their times, tables by their rows and as zero after the last.
+///
 /// A step allocates nothing, apart from Clarabel's own single allocation where that solver was asked for.
 #[derive(Debug)]
 pub struct Stepper {
@@ -34,6 +40,8 @@ pub struct Stepper {
     step: f64,
     backend: Backend,
     index: u64,
+    /// Steps made before the state was last set, and the index they led to then.
+    before: (u64, u64),
     kernel: Kernel,
     frame: Frame,
     episodes: Episodes,
@@ -76,7 +84,7 @@ impl Stepper {
         let frame = Frame::new(q, v, scene.walls.len());
         let contract = scheme.contract();
         let episodes = Episodes::new(&scene, contract);
-        Ok(Self { scene, scheme: *scheme, contract, step, backend, index: 0, kernel, frame, episodes })
+        Ok(Self { scene, scheme: *scheme, contract, step, backend, index: 0, before: (0, 0), kernel, frame, episodes })
     }
 
     /// Advances by one step.
@@ -117,6 +125,87 @@ impl Stepper {
             }
         }
         Ok(self.last())
+    }
+
+    /// Puts the scene into `state` at `time` (s), forwards or backwards: so a co-simulation repeats a step, or restarts from
+    /// what it has saved of [`Stepper::time`] and [`Stepper::state`]. The state is that after whatever happened at that instant: a
+    /// load's impulse at `time` is in it.
+    ///
+    /// A scheme on a grid goes on from a multiple of its step; the exact scheme from any time. `moreau-jean`, `implicit-euler`
+    /// and the penalty's other one-step rules then make the same steps as if they had come there by themselves. `paoli-schatzman`,
+    /// `generalized-alpha`, `newmark` and the penalty's `central-difference` carry more than the state from step to step (accelerations, a
+    /// velocity half a step back) and begin anew as at a start; so does a contact of the exact scheme that has lasted. Contact episodes
+    /// under way are forgotten. A [`Recorder`](crate::Recorder) or [`Judge`](crate::residual::Judge) that has watched so far cannot go on
+    /// watching.
+    ///
+    /// The work counters go on. An extra force ([`Stepper::step_with`]) is not part of the state. The exact scheme sets itself up
+    /// anew, which for a large structure costs more than a step.
+    ///
+    /// ```
+    /// use signorini::{Scene, Scheme, Stepper, Wall};
+    ///
+    /// let scene = Scene::oscillator(1.0, 0.0, 100.0).with_wall(Wall::upper("stop", 0.01)).with_initial(&[0.0], &[1.0]);
+    /// let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3)?;
+    /// for _ in 0..5 {
+    ///     stepper.step()?;
+    /// }
+    /// let (time, saved) = (stepper.time(), stepper.state());
+    /// // A first guess of the force that the other program gives, and the step again with a better one.
+    /// let guess = stepper.step_with(&[0.5])?.q[0];
+    /// stepper.set_state(time, &saved)?;
+    /// let better = stepper.step_with(&[0.2])?.q[0];
+    /// assert!(better < guess);
+    /// # Ok::<(), signorini::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a time that is negative, not finite or no multiple of the step of a scheme on a grid, a state of the wrong
+    /// length or not finite, or for the exact scheme one behind a rigid wall. The stepper is then as it was.
+    pub fn set_state(&mut self, time: f64, state: &State) -> Result<()> {
+        let exact = self.scheme == Scheme::Event;
+        let index = self.index_at(time, exact)?;
+        let n = self.scene.system.degrees_of_freedom();
+        for (key, values) in [("state: displacement", &state.q), ("state: velocity", &state.v)] {
+            if values.len() != n {
+                let expected = format!("{n}, one per degree of freedom");
+                return Err(Error::invalid(key, format!("{} values", values.len()), expected));
+            }
+            if let Some(x) = values.iter().find(|x| !x.is_finite()) {
+                return Err(Error::invalid(key, x, "finite numbers"));
+            }
+        }
+        let touch = touching_distance(&self.scene);
+        let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.at.dot(&state.q)) < -touch;
+        if let (true, Some(wall)) = (exact, self.scene.walls.iter().find(behind)) {
+            let found = format!("{:?} at the rigid wall {:?}", wall.at.dot(&state.q), wall.name);
+            let expected = format!("a place before it, which stands at {:?}", wall.position);
+            return Err(Error::invalid("state: displacement", found, expected));
+        }
+        self.kernel.restart(&self.scene, time, &state.q, &state.v)?;
+        let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);
+        self.frame.restart(time, first(&state.q), first(&state.v));
+        self.episodes = Episodes::new(&self.scene, self.contract);
+        let (made, from) = self.before;
+        self.before = (made + (self.index - from), index);
+        self.index = index;
+        Ok(())
+    }
+
+    /// The number of the step that starts at `time`.
+    fn index_at(&self, time: f64, exact: bool) -> Result<u64> {
+        if !(time.is_finite() && time >= 0.0) {
+            return Err(Error::invalid("time", format_args!("{time:?}"), "a finite number, 0 or more"));
+        }
+        if exact {
+            return Ok(self.index);
+        }
+        let steps = time / self.step;
+        // Times of steps are products, to the rounding of 1e10 of them.
+        if (steps - steps.round()).abs() > 1e-6 || steps > MOST_STEPS {
+            let expected = format!("a multiple of the step, {:?} s, at most 1e10 of them", self.step);
+            return Err(Error::invalid("time", format_args!("{time:?}"), expected));
+        }
+        Ok(steps.round() as u64)
     }
 
     /// A step of several degrees of freedom.
@@ -267,7 +356,8 @@ impl Stepper {
     /// What the run has cost so far.
     #[must_use]
     pub fn counters(&self) -> Counters {
-        let mut counters = Counters { steps: self.index, ..Counters::default() };
+        let (made, index) = self.before;
+        let mut counters = Counters { steps: made + (self.index - index), ..Counters::default() };
         self.kernel.count(&mut counters);
         counters
     }

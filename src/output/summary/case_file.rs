@@ -194,6 +194,7 @@ fn load(case: &Case, index: usize, load: &Load, several: bool) -> Value {
             });
             ("table", table)
         }
+        LoadKind::Function(_) => return Value::Null,
     };
     out.insert(kind.to_owned(), value);
     Value::Object(out)

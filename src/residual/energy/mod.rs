@@ -5,7 +5,7 @@ mod series;
 
 pub(super) use series::Moved;
 
-use crate::scene::{Scene, Wall, WallLaw};
+use crate::scene::{Forcing, Scene, Wall, WallLaw};
 use crate::step::{Balance, Contract, Step};
 use serde::Serialize;
 
@@ -52,6 +52,8 @@ pub(super) struct Ledger {
     /// Σ of the steps' residuals, and what that sum has lost to rounding (Kahan): 1e7 steps are judged at rounding.
     residual: f64,
     lost: f64,
+    /// The largest rate of the load on the first degree of freedom, N/s.
+    steepest: f64,
     /// Two vectors of length n.
     shift: Vec<f64>,
     middle: Vec<f64>,
@@ -87,6 +89,7 @@ impl Ledger {
             held,
             residual: 0.0,
             lost: 0.0,
+            steepest: Forcing::on(0, &scene.loads).steepest(),
             shift: vec![0.0; q.len()],
             middle: vec![0.0; q.len()],
         }

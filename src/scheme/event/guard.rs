@@ -26,6 +26,11 @@ pub(in crate::scheme) struct Guard {
 }
 
 impl Guard {
+    /// Starts a window at `time` (s).
+    pub fn restart(&mut self, time: f64) {
+        (self.since, self.at_since) = (time, self.total);
+    }
+
     /// Count of events or evaluations in the window if it is above the bound. `window` in s.
     #[inline]
     pub fn exceeded(&mut self, time: f64, window: f64) -> Option<u64> {

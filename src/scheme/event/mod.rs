@@ -12,7 +12,7 @@ pub use guard::{Counters, EVENTS_PER_WINDOW, WINDOWS};
 
 use crate::error::{Error, Result};
 use crate::flow::Arc;
-use crate::scene::{Forcing, Oscillator, Scene, System};
+use crate::scene::{Forcing, LoadKind, Oscillator, Scene, System};
 use crate::step::{Balance, Conserves, Contact, Contract, Promise, Tolerances};
 pub(in crate::scheme) use barrier::{Barrier, Phase};
 pub(in crate::scheme) use guard::Guard;
@@ -20,6 +20,24 @@ pub(in crate::scheme) use guard::Guard;
 /// What a sum of terms of this size may err by: four units in the last place.
 pub(crate) fn noise(size: f64) -> f64 {
     4.0 * f64::EPSILON * size
+}
+
+/// Multiples of `stride` passed at `time` (s); one that only rounding puts ahead counts.
+pub(in crate::scheme) fn marks(time: f64, stride: f64) -> u64 {
+    (time / stride + 1e-9).floor() as u64
+}
+
+/// Refuses a load under which the exact motion is not known.
+pub(in crate::scheme) fn known_loads(scene: &Scene) -> Result<()> {
+    match scene.loads.iter().position(|load| matches!(load.kind, LoadKind::Function(_))) {
+        Some(index) => Err(Error::invalid(
+            format!("load {}", index + 1),
+            "a function of time",
+            "for the exact scheme, which has to know the motion in closed form: a constant, a sine, an impulse or a table (one of the \
+             function, with a stated error, is Table::sampled); or a stepping scheme",
+        )),
+        None => Ok(()),
+    }
 }
 
 /// One degree of freedom between walls, from event to event:
@@ -109,9 +127,10 @@ impl Event {
     ///
     /// # Errors
     /// [`Error::Invalid`] for a scene that does not validate, a stride that is not a finite number above 0, or a wall of
-    /// the φ² penalty, which has no closed-form motion.
+    /// the φ² penalty or a function of time as load, which have no closed-form motion.
     pub fn new(scene: &Scene, stride: f64) -> Result<Self> {
         scene.validate()?;
+        known_loads(scene)?;
         if !(stride.is_finite() && stride > 0.0) {
             return Err(Error::invalid("stride", stride, "a finite number above 0"));
         }
@@ -168,9 +187,25 @@ impl Event {
         Ok(event)
     }
 
+    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), the state after whatever happened at that instant.
+    pub(in crate::scheme) fn restart(&mut self, scene: &Scene, time: f64, q: f64, v: f64) -> Result<()> {
+        let mut event = Self::new(scene, self.stride)?;
+        (event.time, event.start, event.q, event.v) = (time, time, q, v);
+        (event.velocity_before, event.velocity_left) = (v, v);
+        event.marks = marks(time, self.stride);
+        event.blow = event.forcing.impulses.iter().filter(|blow| blow.0 <= time).count();
+        (event.guard, event.steps) = (self.guard, self.steps);
+        event.guard.restart(time);
+        event.reclassify();
+        event.closed.clear();
+        event.set_forces(0.0);
+        *self = event;
+        Ok(())
+    }
+
     /// Moves on to the next event, multiple of the stride, or the end of the scene, whichever is first, under a constant
-    /// extra force (N). A step of no length happens where the body starts on a wall and moves into it. At the end of the
-    /// scene nothing moves any more.
+    /// extra force (N). A step of no length happens where the body starts on a wall and moves into it. Past the end of the
+    /// scene the motion goes on.
     ///
     /// # Errors
     /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow.
@@ -179,9 +214,6 @@ impl Event {
         self.impulse.fill(0.0);
         self.jump.fill(0.0);
         (self.start, self.velocity_before, self.velocity_left) = (self.time, self.v, self.v);
-        if self.is_done() {
-            return Ok(());
-        }
         self.steps += 1;
         for _ in 0..CHANGES_AT_ONCE {
             let limit = self.limit();
@@ -235,12 +267,13 @@ impl Event {
     /// The next multiple of the stride, s; the end of the scene where only rounding would separate the two.
     fn next_mark(&self) -> f64 {
         let mark = (self.marks + 1) as f64 * self.stride;
-        if self.duration - mark < 1e-9 * self.stride { self.duration } else { mark }
+        if (self.duration - mark).abs() < 1e-9 * self.stride { self.duration } else { mark }
     }
 
-    /// How far the next arc can reach: a mark, a row of a table, a blow, the end; s.
+    /// How far the next arc can reach: a mark, a row of a table, a blow, the end if it is still ahead; s.
     fn limit(&self) -> f64 {
-        let mut limit = self.next_mark().min(self.duration);
+        let mark = self.next_mark();
+        let mut limit = if self.time < self.duration { mark.min(self.duration) } else { mark };
         if let Some(&(time, _)) = self.forcing.impulses.get(self.blow).filter(|b| b.0 > self.time) {
             limit = limit.min(time);
         }

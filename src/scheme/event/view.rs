@@ -24,7 +24,7 @@ impl Event {
         }
     }
 
-    /// True once the end of the scene is reached.
+    /// True once the end of the scene is reached; the motion goes on beyond it all the same.
     #[must_use]
     pub fn is_done(&self) -> bool {
         self.time >= self.duration

@@ -21,6 +21,8 @@ pub(super) struct Body {
     pub rows: Rows,
     /// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
     pub touch: f64,
+    /// When the motion began or was taken up anew, s.
+    since: f64,
     /// M factored: what a blow changes of the velocity. None without blows.
     inertia: Option<Factor>,
     blow: Vec<f64>,
@@ -47,6 +49,7 @@ impl Body {
             walls: scene.walls.iter().map(Stop::new).collect(),
             rows: Rows::new(n, scene.walls.iter().map(|wall| wall.at.entries())),
             touch: touching_distance(scene),
+            since: 0.0,
             // A mass that cannot be factored is refused by the scene.
             inertia: if loads.has_blows() { Factor::new(&matrices.mass).ok() } else { None },
             blow: vec![0.0; n],
@@ -56,6 +59,17 @@ impl Body {
             loads,
             matrices,
         }
+    }
+
+    /// Takes the motion up anew at `time` (s).
+    pub fn restart(&mut self, time: f64) {
+        self.since = time;
+        self.loads.forces(time, &mut self.load[0]);
+    }
+
+    /// When the motion began or was taken up anew, s.
+    pub fn since(&self) -> f64 {
+        self.since
     }
 
     /// The θ-method's A = M + hθC + h²θ²K, and C + hθK.
@@ -98,7 +112,7 @@ impl Body {
 
     /// The same for the blows within half a step of the instant step · h.
     pub fn strike_about(&mut self, step: u64, v: &[f64], scale: f64, b: &mut [f64], struck: &mut [f64]) -> bool {
-        if !self.loads.has_blows() || !self.loads.blow_about(step, self.h, &mut self.blow) {
+        if !self.loads.has_blows() || !self.loads.blow_about_since(self.since, step, self.h, &mut self.blow) {
             return false;
         }
         self.apply_blow(v, scale, b, struck);

@@ -46,6 +46,17 @@ impl CentralDifference {
         Ok(Self { body, v, load, extra: zero.clone(), factor, dashpots, arrival, b: zero.clone(), change: zero })
     }
 
+    /// Takes the motion up anew at `time` (s), as from a start in the frame's state.
+    pub fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame) -> Result<()> {
+        self.body.restart(time);
+        let start = StartForce::new(scene, &self.body, &frame.q, &frame.v)?;
+        self.v = back(&self.body, &frame.v, &start.total)?;
+        self.load.fill(0.0);
+        self.body.loads.add_force(time, 1.0, &mut self.load);
+        self.extra.fill(0.0);
+        Ok(())
+    }
+
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
         let Self { body, v, load, extra, factor, dashpots, arrival, b, change } = self;
         let h = body.h;

@@ -63,6 +63,20 @@ impl Frame {
         })
     }
 
+    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each.
+    pub fn restart(&mut self, time: f64, q: &[f64], v: &[f64]) {
+        (self.start, self.end, self.blown) = (time, time, false);
+        self.q.copy_from_slice(q);
+        for kept in [&mut self.v, &mut self.before, &mut self.after, &mut self.struck] {
+            kept.copy_from_slice(v);
+        }
+        self.extra.fill(0.0);
+        for wall in self.pushing.drain(..) {
+            self.impulse[wall] = 0.0;
+            self.force[wall] = 0.0;
+        }
+    }
+
     /// Begins a step of `h` seconds, number `step`: its times, and no wall touched yet.
     #[inline]
     pub fn begin(&mut self, step: u64, h: f64) {

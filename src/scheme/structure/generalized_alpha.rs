@@ -41,6 +41,7 @@ use crate::linear::{Factor, Symmetric};
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
 use crate::scheme::Counters;
+use crate::scheme::stop::Stop;
 use crate::step::Balance;
 
 #[derive(Debug)]
@@ -104,11 +105,7 @@ impl GeneralizedAlpha {
         Ok(Self {
             alpha: [alpha_m, alpha_f, beta, gamma],
             unfelt: if damped { h * (1.0 - gamma / (2.0 * beta)) } else { 0.0 },
-            closed: body
-                .walls
-                .iter()
-                .enumerate()
-                .any(|(wall, stop)| stop.law.is_rigid() && stop.depth(body.rows.dot(wall, &frame.q)) >= -body.touch),
+            closed: closed(&body, &frame.q),
             a,
             force,
             held,
@@ -128,6 +125,21 @@ impl GeneralizedAlpha {
             pushing: Vec::with_capacity(body.walls.len()),
             body,
         })
+    }
+
+    /// Takes the motion up anew at `time` (s), as from a start in the frame's state.
+    pub fn restart(&mut self, time: f64, frame: &Frame) {
+        self.body.restart(time);
+        let StartForce { total, wall } = StartForce::smooth(&self.body, &frame.q, &frame.v);
+        self.holding.clear();
+        self.holding.extend((0..wall.len()).filter(|&index| wall[index] != 0.0));
+        self.a.copy_from_slice(&total);
+        self.mass.solve(&mut self.a);
+        (self.force, self.held) = (total, wall);
+        self.closed = closed(&self.body, &frame.q);
+        for wall in self.pushing.drain(..) {
+            self.multiplier[wall] = 0.0;
+        }
     }
 
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
@@ -332,4 +344,10 @@ impl GeneralizedAlpha {
         self.rate.count(counters);
         self.place.count(counters);
     }
+}
+
+/// True if a rigid wall is closed at `q` (m).
+fn closed(body: &Body, q: &[f64]) -> bool {
+    let rests = |(wall, stop): (usize, &Stop)| stop.law.is_rigid() && stop.depth(body.rows.dot(wall, q)) >= -body.touch;
+    body.walls.iter().enumerate().any(rests)
 }

@@ -83,6 +83,21 @@ impl Structure {
         Ok(Self { method, frame })
     }
 
+    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each.
+    pub fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+        let Self { method, frame } = self;
+        frame.restart(time, q, v);
+        match method {
+            Method::Position(kernel) => kernel.restart(scene, time, frame)?,
+            Method::PaoliSchatzman(kernel) => kernel.restart(scene, time, frame)?,
+            Method::MoreauJean(kernel) => kernel.restart(time),
+            Method::GeneralizedAlpha(kernel) => kernel.restart(time, frame),
+            Method::Penalty(kernel) => kernel.restart(time),
+            Method::CentralDifference(kernel) => kernel.restart(scene, time, frame)?,
+        }
+        Ok(())
+    }
+
     /// One step, number `step`, under the extra force (N, n entries); none is none.
     pub fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
         match extra {

@@ -48,6 +48,14 @@ impl MoreauJean {
         })
     }
 
+    /// Takes the motion up anew at `time` (s), from the frame's state.
+    pub fn restart(&mut self, time: f64) {
+        self.body.restart(time);
+        for row in self.pushed.drain(..) {
+            self.last[row] = 0.0;
+        }
+    }
+
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
         let Self { body, theta, drag, b, .. } = self;
         let (h, theta) = (body.h, *theta);

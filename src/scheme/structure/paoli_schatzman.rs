@@ -63,6 +63,17 @@ impl PaoliSchatzman {
         Ok(Self { body, v, load, extra: zero.clone(), unequal, least, programme, arrival, b: zero.clone(), mean: zero })
     }
 
+    /// Takes the motion up anew at `time` (s), as from a start in the frame's state.
+    pub fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame) -> Result<()> {
+        self.body.restart(time);
+        let start = StartForce::new(scene, &self.body, &frame.q, &frame.v)?;
+        self.v = back(&self.body, &frame.v, &start.total)?;
+        self.load.fill(0.0);
+        self.body.loads.add_force(time, 1.0, &mut self.load);
+        self.extra.fill(0.0);
+        Ok(())
+    }
+
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
         let h = self.body.h;
         frame.begin(step, h);

@@ -58,6 +58,11 @@ impl Penalty {
         })
     }
 
+    /// Takes the motion up anew at `time` (s), from the frame's state.
+    pub fn restart(&mut self, time: f64) {
+        self.body.restart(time);
+    }
+
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
         let Self { body, theta, drag, factor, b, delta, place, .. } = self;
         let (h, theta) = (body.h, *theta);

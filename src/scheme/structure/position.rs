@@ -41,6 +41,16 @@ impl Position {
         Ok(Self { body, theta, force, held, holding, programme, load: zero.clone(), b: zero })
     }
 
+    /// Takes the motion up anew at `time` (s), from the frame's state.
+    pub fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame) -> Result<()> {
+        self.body.restart(time);
+        let StartForce { total, wall } = StartForce::new(scene, &self.body, &frame.q, &frame.v)?;
+        self.holding.clear();
+        self.holding.extend((0..wall.len()).filter(|&index| wall[index] != 0.0));
+        (self.force, self.held) = (total, wall);
+        Ok(())
+    }
+
     pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
         let Self { body, theta, force, load, b, .. } = self;
         let (h, theta) = (body.h, *theta);

@@ -1,4 +1,4 @@
-//! What acts at t = 0.
+//! What acts at the start.
 //!
 //! A rigid wall that the structure touches at rest answers with whatever keeps it from accelerating through: with ẅ = G M⁻¹(F + Gᵀ r),
 //!
@@ -15,7 +15,7 @@ use crate::scene::{Scene, WallLaw};
 /// Units in the last place of the terms of ẇ by which it is not known: a velocity below is rest.
 const REST_UNITS: f64 = 4.0;
 
-/// Forces at t = 0, N.
+/// Forces at the start, N.
 #[derive(Debug)]
 pub(super) struct StartForce {
     /// Smooth force and wall forces together, n entries.
@@ -25,10 +25,10 @@ pub(super) struct StartForce {
 }
 
 impl StartForce {
-    /// Without the rigid walls, at displacement `q` and velocity `v`, those after any blow at t = 0.
+    /// Without the rigid walls, at displacement `q` and velocity `v`, those after any blow at that instant.
     pub fn smooth(body: &Body, q: &[f64], v: &[f64]) -> Self {
         let mut total = vec![0.0; body.n];
-        body.loads.add_force(0.0, 1.0, &mut total);
+        body.loads.add_force(body.since(), 1.0, &mut total);
         body.damping.add_product(-1.0, v, &mut total);
         body.stiffness.add_product(-1.0, q, &mut total);
         let mut wall = vec![0.0; body.walls.len()];

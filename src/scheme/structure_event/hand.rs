@@ -55,6 +55,13 @@ pub(super) struct Crowd {
     pub steps: u64,
 }
 
+impl Crowd {
+    /// Counts anew from `time` (s) on, when so many `events` have been.
+    pub fn restart(&mut self, time: f64, events: u64) {
+        (self.since, self.at_since) = (time, events);
+    }
+}
+
 impl StructureEvent {
     /// The length of a stretch in which events are counted, s.
     fn crowd_window(&self) -> f64 {
@@ -105,8 +112,8 @@ impl StructureEvent {
                     frequency: *frequency,
                     phase: phase + std::f64::consts::TAU * frequency * now,
                 },
-                // A stretch ends before the next blow.
-                LoadKind::Impulse { .. } => return None,
+                // A stretch ends before the next blow. Functions are refused at the start.
+                LoadKind::Impulse { .. } | LoadKind::Function(_) => return None,
                 LoadKind::Table(table) => {
                     let (at, slope) = table.piece(now);
                     let line = Table::new(vec![0.0, 2.0 * duration], vec![at, at + 2.0 * slope * duration]).ok()?;

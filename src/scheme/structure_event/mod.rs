@@ -21,7 +21,7 @@ mod rows;
 mod search;
 mod view;
 
-use super::event::{Barrier, Counters, Guard, WINDOWS};
+use super::event::{Barrier, Counters, Guard, WINDOWS, known_loads, marks};
 use super::grid::all_finite;
 use crate::error::{Error, Result};
 use crate::flow::{Body, Hold, Series, Touching};
@@ -129,8 +129,9 @@ impl StructureEvent {
     /// The scene at its start, after the blows at t = 0. Steps end at events, with a series, and at multiples of `stride` (s).
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a wall of the φ² penalty, which has no linear law.
+    /// [`Error::Invalid`] for a wall of the φ² penalty, which has no linear law, and for a function of time as load.
     pub fn new(scene: &Scene, stride: f64) -> Result<Self> {
+        known_loads(scene)?;
         let mut barriers = Vec::with_capacity(scene.walls.len());
         for wall in &scene.walls {
             let barrier = Barrier::new(wall).ok_or_else(|| {
@@ -225,9 +226,30 @@ impl StructureEvent {
         Ok(())
     }
 
+    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each: the state after whatever happened at that instant.
+    pub fn restart(&mut self, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+        let mut event = Self::new(&self.scene, self.stride)?;
+        (event.time, event.start) = (time, time);
+        event.q.copy_from_slice(q);
+        event.v.copy_from_slice(v);
+        event.velocity_before.copy_from_slice(v);
+        event.marks = marks(time, self.stride);
+        event.blow = event.blows.iter().filter(|&&blow| blow <= time).count();
+        (event.guard, event.steps) = (self.guard, self.steps);
+        event.guard.restart(time);
+        event.crowd = std::mem::take(&mut self.crowd);
+        event.crowd.restart(time, event.guard.total.events);
+        event.reclassify();
+        event.closed.clear();
+        event.set_forces();
+        event.solver = self.solver.take();
+        *self = event;
+        Ok(())
+    }
+
     /// Moves on to the next event, end of a series, multiple of the stride, or the end of the scene, whichever is first, under a constant
     /// extra force (N, n entries; none is none).
-    /// A step of no length happens where the structure starts on a wall and moves into it. At the end of the scene nothing moves any more.
+    /// A step of no length happens where the structure starts on a wall and moves into it. Past the end of the scene the motion goes on.
     ///
     /// # Errors
     /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow; [`Error::Qp`] if a programme is not solved.
@@ -247,9 +269,6 @@ impl StructureEvent {
                 None => self.extra.fill(0.0),
             }
             self.decided = f64::NEG_INFINITY;
-        }
-        if self.is_done() {
-            return Ok(());
         }
         self.steps += 1;
         self.handed = None;

@@ -9,12 +9,13 @@ impl StructureEvent {
     /// The next multiple of the stride, s; the end of the scene where only rounding would separate the two.
     pub(super) fn next_mark(&self) -> f64 {
         let mark = (self.marks + 1) as f64 * self.stride;
-        if self.duration - mark < 1e-9 * self.stride { self.duration } else { mark }
+        if (self.duration - mark).abs() < 1e-9 * self.stride { self.duration } else { mark }
     }
 
-    /// How far the next series can reach: a mark, a row of a table, a blow, the end; s.
+    /// How far the next series can reach: a mark, a row of a table, a blow, the end if it is still ahead; s.
     pub(super) fn limit(&self) -> f64 {
-        let mut limit = self.next_mark().min(self.duration);
+        let mark = self.next_mark();
+        let mut limit = if self.time < self.duration { mark.min(self.duration) } else { mark };
         if let Some(&time) = self.blows.get(self.blow) {
             limit = limit.min(time);
         }

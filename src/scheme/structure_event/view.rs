@@ -28,11 +28,6 @@ impl StructureEvent {
         }
     }
 
-    /// True once the end of the scene is reached.
-    pub fn is_done(&self) -> bool {
-        self.time >= self.duration
-    }
-
     /// Time reached, s.
     pub fn end(&self) -> f64 {
         self.time

@@ -1,0 +1,128 @@
+//! All loads on one degree of freedom, sorted by what they are.
+
+use super::function::TimeFunction;
+use super::load::{Load, LoadKind, Table};
+use std::f64::consts::TAU;
+
+/// One sine of a [`Forcing`]: amplitude · sin(ω t + phase).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Harmonic {
+    /// N.
+    pub amplitude: f64,
+    /// Circular frequency ω, rad/s.
+    pub omega: f64,
+    /// rad.
+    pub phase: f64,
+}
+
+/// All loads on one degree of freedom, sorted by what they are, so that a step sums without branching on kinds.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Forcing {
+    /// Sum of the constant forces, N.
+    pub constant: f64,
+    /// The sines.
+    pub harmonics: Vec<Harmonic>,
+    /// The tables.
+    pub tables: Vec<Table>,
+    /// The functions and their weights.
+    pub functions: Vec<(f64, TimeFunction)>,
+    /// The blows (time s, impulse N s), in time order.
+    pub impulses: Vec<(f64, f64)>,
+}
+
+impl Forcing {
+    /// The loads that act on degree of freedom `dof`, weighted by their rows.
+    #[must_use]
+    pub fn on(dof: usize, loads: &[Load]) -> Self {
+        let mut forcing = Self::default();
+        for load in loads {
+            let weight: f64 = load.at.entries().iter().filter(|&&(i, _)| i == dof).map(|&(_, w)| w).sum();
+            if weight == 0.0 {
+                continue;
+            }
+            match &load.kind {
+                LoadKind::Constant { force } => forcing.constant += weight * force,
+                LoadKind::Harmonic { amplitude, frequency, phase } => forcing.harmonics.push(Harmonic {
+                    amplitude: weight * amplitude,
+                    omega: TAU * frequency,
+                    phase: *phase,
+                }),
+                LoadKind::Impulse { impulse, time } => forcing.impulses.push((*time, weight * impulse)),
+                LoadKind::Table(table) => {
+                    forcing.tables.push(table.scaled(weight));
+                }
+                LoadKind::Function(function) => forcing.functions.push((weight, function.clone())),
+            }
+        }
+        forcing.impulses.sort_by(|a, b| a.0.total_cmp(&b.0));
+        forcing
+    }
+
+    /// Force at `t`, N, without the impulses; right-continuous where a table begins or ends.
+    #[inline]
+    #[must_use]
+    pub fn force(&self, t: f64) -> f64 {
+        let mut f = self.constant;
+        for h in &self.harmonics {
+            f += h.amplitude * (h.omega * t + h.phase).sin();
+        }
+        for table in &self.tables {
+            f += table.piece(t).0;
+        }
+        for (weight, function) in &self.functions {
+            f += weight * function.at(t);
+        }
+        f
+    }
+
+    /// A bound on the rate at which the force changes between the jumps of tables, N/s, without the functions.
+    #[must_use]
+    pub fn steepest(&self) -> f64 {
+        let waves: f64 = self.harmonics.iter().map(|h| h.amplitude.abs() * h.omega).sum();
+        let rise = |t: &[f64], f: &[f64]| ((f[1] - f[0]) / (t[1] - t[0])).abs();
+        let pieces = |table: &Table| {
+            let pairs = table.time().windows(2).zip(table.force().windows(2));
+            pairs.map(|(t, f)| rise(t, f)).fold(0.0, f64::max)
+        };
+        waves + self.tables.iter().map(pieces).sum::<f64>()
+    }
+
+    /// Sum of the impulses in the half-open interval (from, to], N s.
+    #[inline]
+    #[must_use]
+    pub fn impulse(&self, from: f64, to: f64) -> f64 {
+        if self.impulses.is_empty() {
+            return 0.0;
+        }
+        self.impulses.iter().filter(|&&(t, _)| t > from && t <= to).map(|&(_, p)| p).sum()
+    }
+
+    /// Moment of the impulses in (from, to] about `about` (s), Σ (about − t_b) J_b, N s²: over the mass, where they take a free body from
+    /// its place without them until then.
+    #[must_use]
+    pub fn impulse_moment(&self, from: f64, to: f64, about: f64) -> f64 {
+        self.impulses.iter().filter(|&&(t, _)| t > from && t <= to).map(|&(t, p)| (about - t) * p).sum()
+    }
+
+    /// Sum of the impulses within half a step `h` (s) of the instant `step` · h, N s: each impulse after t = 0 in one step and no other.
+    #[inline]
+    #[must_use]
+    pub fn impulse_about(&self, step: u64, h: f64) -> f64 {
+        self.impulse_about_since(0.0, step, h)
+    }
+
+    /// The same of those after the time `since` (s) alone: where a motion was taken up anew, the state has those before it.
+    #[inline]
+    #[must_use]
+    pub fn impulse_about_since(&self, since: f64, step: u64, h: f64) -> f64 {
+        // Neighbours meet at one product: t − h/2 of one and t + h/2 of the other would differ in the last place.
+        let edge = |half_steps: f64| (half_steps * h).max(since);
+        self.impulse(edge(step as f64 - 0.5), edge(step as f64 + 0.5))
+    }
+
+    /// Sum of the impulses at t = 0, N s: the start is the state after them.
+    #[must_use]
+    pub fn initial_impulse(&self) -> f64 {
+        self.impulses.iter().filter(|&&(t, _)| t == 0.0).map(|&(_, p)| p).sum()
+    }
+}
