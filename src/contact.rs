@@ -49,6 +49,10 @@ impl Floor {
     }
 }
 
+/// A step in which a rigid wall turns a speed whose momentum is more than this share of the step's impulse holds a blow: impulse/h is no
+/// force there. The last bounces of an accumulation come in steps next to one another and end in a force that lasts.
+const BLOW: f64 = 1e-2;
+
 /// An episode under way at one wall.
 #[derive(Debug, Clone, Copy)]
 struct Open {
@@ -58,7 +62,8 @@ struct Open {
     impulse: f64,
     /// ∫ t dp, for the instant of an impact spread over two steps.
     moment: f64,
-    peak: f64,
+    /// Largest finite force, N; none while every step had a blow in it.
+    peak: Option<f64>,
     approach: f64,
     departure: f64,
 }
@@ -80,6 +85,8 @@ pub(crate) struct Episodes {
     instant: f64,
     rigid: Vec<bool>,
     floor: Vec<Floor>,
+    /// The mass that each wall feels, kg.
+    mass: Vec<f64>,
     side: Vec<Side>,
     open: Vec<Option<Open>>,
     any: bool,
@@ -95,6 +102,7 @@ impl Episodes {
             instant: contract.instant,
             rigid: scene.walls.iter().map(|w| w.law.is_rigid()).collect(),
             floor: Floor::all(scene, contract),
+            mass: scene.wall_masses(),
             side: scene.walls.iter().map(|w| w.side).collect(),
             open: vec![None; walls],
             any: false,
@@ -180,7 +188,7 @@ impl Episodes {
             steps: 0,
             impulse: 0.0,
             moment: 0.0,
-            peak: 0.0,
+            peak: None,
             approach: (-sign * struck).max(0.0),
             departure: 0.0,
         };
@@ -190,8 +198,9 @@ impl Episodes {
         episode.impulse += p.abs();
         episode.moment += p.abs() * instant;
         episode.departure = (sign * after).max(0.0);
-        if !self.rigid[wall] || episode.steps > IMPACT_STEPS {
-            episode.peak = episode.peak.max(p.abs() / h);
+        let blow = episode.steps <= IMPACT_STEPS || self.mass[wall] * struck.abs() > BLOW * p.abs();
+        if !self.rigid[wall] || !blow {
+            episode.peak = Some(episode.peak.unwrap_or(0.0).max(p.abs() / h));
         }
         self.any = true;
     }
@@ -216,7 +225,7 @@ fn contact(wall: usize, sign: f64, rigid: bool, episode: &Open, ended: bool) -> 
         start,
         end: ended.then_some(end),
         impulse: sign * episode.impulse,
-        peak_force: (!impact).then_some(episode.peak),
+        peak_force: if impact { None } else { episode.peak },
         approach_speed: episode.approach,
         departure_speed: ended.then_some(episode.departure),
     }

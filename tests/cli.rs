@@ -73,7 +73,7 @@ fn a_run_writes_everything_it_promises() {
         let impulses: Vec<f64> = rows.iter().map(|r| r[column].parse().unwrap()).collect();
         assert!(impulses.iter().all(|p| p * sign >= 0.0));
         // A sum of a thousand terms in another order: rounding.
-        let total = summary["impulse_n_s"][wall].as_f64().unwrap();
+        let total = summary["impulse_whole_run_n_s"][wall].as_f64().unwrap();
         assert!((impulses.iter().sum::<f64>() - total).abs() < 1e-12);
         assert!(total * sign > 0.1);
     }
@@ -339,7 +339,7 @@ fn a_run_of_a_structure_names_its_probes_and_walls_and_tells_its_truncation() {
         let check = &summary["truncation"]["walls"][index];
         assert_eq!(
             (&check["impulse_n_s"][0], &check["impulse_n_s"][1]),
-            (&summary["impulse_n_s"][wall], &more["impulse_n_s"][wall])
+            (&summary["impulse_whole_run_n_s"][wall], &more["impulse_whole_run_n_s"][wall])
         );
     }
     assert!(more["truncation"].is_null() && more["refinement"].is_null());

@@ -162,7 +162,7 @@ fn statistics_take_the_mass_that_each_wall_feels() {
         departure_speed: Some(1.0),
     };
     let statistics = Statistics::new(&scene, &[contact(0), contact(1)], 0.0);
-    let powers: Vec<_> = statistics.walls.iter().map(|w| (w.impact_power_w, w.unreturned_power_w)).collect();
+    let powers: Vec<_> = statistics.walls.iter().map(|w| (w.impact_power_w, w.arrived_less_departed_power_w)).collect();
     // ½ m (4, 4 − 1) over 10 s; a few roundings of numbers of order 1.
     for ((power, kept), mass) in powers.into_iter().zip([2.0, 1.2]) {
         assert!((power - 0.2 * mass).abs() < 1e-15 && (kept - 0.15 * mass).abs() < 1e-15, "{power} {kept} {mass}");

@@ -165,7 +165,7 @@ fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<
             vec![
                 method.clone(),
                 wall.name.clone(),
-                digits(run.trajectory.impulse(&wall.name).ok()),
+                digits(impulse(run, index)),
                 counts.get(index).map_or_else(String::new, ToString::to_string),
                 digits(peak(run, Some(index))),
             ]
@@ -175,15 +175,14 @@ fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<
     csv::table(&results.place("compare-walls.csv")?, &header.map(str::to_owned), rows)
 }
 
-/// Contacts of each wall.
+/// Contacts of each wall that began in the window of the statistics.
 fn counts(case: &Case, run: &Run) -> Vec<usize> {
-    let mut counts = vec![0; case.scene.walls.len()];
-    for contact in run.trajectory.contacts() {
-        if let Some(count) = counts.get_mut(contact.wall) {
-            *count += 1;
-        }
-    }
-    counts
+    run.statistics.walls.iter().map(|wall| wall.contacts).take(case.scene.walls.len()).collect()
+}
+
+/// Impulse of a wall over the window, N s.
+fn impulse(run: &Run, wall: usize) -> Option<f64> {
+    run.statistics.walls.get(wall)?.force.map(|force| force.impulse_n_s)
 }
 
 fn largest(columns: &[Vec<f64>]) -> f64 {
@@ -196,10 +195,10 @@ fn penetration(case: &Case, run: &Run) -> f64 {
     walls.filter(|(wall, _)| wall.law.is_rigid()).fold(0.0, |a, (_, depth)| a.max(*depth))
 }
 
-/// Largest force of the contacts whose force is finite, N: of one wall, or of all.
+/// Largest force of the contacts in the window whose force is finite, N: of one wall, or of all.
 fn peak(run: &Run, wall: Option<usize>) -> Option<f64> {
-    let here = run.trajectory.contacts().iter().filter(|c| wall.is_none_or(|wall| c.wall == wall));
-    here.filter_map(|c| c.peak_force).reduce(f64::max)
+    let here = run.statistics.walls.iter().enumerate().filter(|(index, _)| wall.is_none_or(|wall| *index == wall));
+    here.filter_map(|(_, wall)| wall.episode_peak_force_n.max).reduce(f64::max)
 }
 
 /// The comparison for people: a column a method, since there are more quantities than methods.
@@ -236,20 +235,19 @@ pub fn table(case: &Case, comparison: &Comparison) -> Table {
     quantity("max |u| (mm)", &|_, run| format!("{:.4}", 1e3 * largest(run.trajectory.displacements())));
     quantity("penetration (mm)", &|_, run| short(1e3 * penetration(case, run)));
     quantity("peak force (N)", &|_, run| {
-        let none = || if run.trajectory.contacts().is_empty() { dash() } else { "impacts".into() };
+        let none = || if counts(case, run).iter().all(|&count| count == 0) { dash() } else { "impacts".into() };
         peak(run, None).map_or_else(none, |f| format!("{f:.2}"))
     });
     let walls = &case.scene.walls;
     if walls.len() > MOST_WALLS {
-        let impulse = |run: &Run, name: &str| run.trajectory.impulse(name).map_or(f64::NAN, f64::abs);
         quantity("Σ|impulse| (N s)", &|_, run| {
-            format!("{:.3}", walls.iter().map(|wall| impulse(run, &wall.name)).sum::<f64>())
+            format!("{:.3}", (0..walls.len()).filter_map(|wall| impulse(run, wall)).map(f64::abs).sum::<f64>())
         });
-        quantity("contacts", &|_, run| run.trajectory.contacts().len().to_string());
+        quantity("contacts", &|_, run| counts(case, run).iter().sum::<usize>().to_string());
     } else {
-        for wall in walls {
+        for (index, wall) in walls.iter().enumerate() {
             quantity(&format!("impulse {} (N s)", wall.name), &|_, run| {
-                format!("{:+.3}", run.trajectory.impulse(&wall.name).unwrap_or(f64::NAN))
+                impulse(run, index).map_or_else(dash, |p| format!("{p:+.3}"))
             });
         }
         for (index, wall) in walls.iter().enumerate() {

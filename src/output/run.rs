@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::output::atomic::write_whole;
 use crate::run::Run;
 use crate::scheme::{Method, Scheme};
-use crate::statistics::WallStatistics;
+use crate::statistics::{ForceStatistics, WallStatistics};
 use serde_json::Value;
 
 /// Most walls of a table that a person reads.
@@ -62,22 +62,29 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
         "wall",
         "contacts",
         "impulse (N s)",
+        "mean force (N)",
+        "RMS force (N)",
         "largest force (N)",
         "contact time (%)",
         "impact power (W)",
-        "not returned (W)",
+        "arrived - left (W)",
     ];
     let mut rows = Vec::new();
-    for (index, wall) in busiest(run) {
+    for wall in busiest(run) {
+        let force = |part: fn(&ForceStatistics) -> f64, digits| {
+            wall.force.as_ref().map_or_else(|| "-".to_owned(), |force| fixed(part(force), digits))
+        };
         let none = if wall.contacts == 0 { "-" } else { "impacts" };
         rows.push(vec![
             wall.wall.clone(),
             wall.contacts.to_string(),
-            fixed(run.trajectory.impulse(&wall.wall)?, 6),
-            largest_force(run, index).map_or_else(|| none.into(), |f| fixed(f, 4)),
+            force(|f| f.impulse_n_s, 6),
+            force(|f| f.mean_n, 4),
+            force(|f| f.rms_n, 4),
+            wall.episode_peak_force_n.max.map_or_else(|| none.into(), |f| fixed(f, 4)),
             fixed(100.0 * wall.contact_time_ratio, 3),
             fixed(wall.impact_power_w, 6),
-            fixed(wall.unreturned_power_w, 6),
+            fixed(wall.arrived_less_departed_power_w, 6),
         ]);
     }
     Ok((!rows.is_empty()).then(|| Table::new(&headers, rows)))
@@ -96,9 +103,21 @@ pub fn remarks(run: &Run) -> Vec<String> {
     }
     if run.statistics.from_s > 0.0 {
         remarks.push(format!(
-            "contacts, times and powers from t = {} s on, contacts that begin in it; impulses of the whole run",
+            "all columns from t = {} s on: a contact counts where it begins, a force where it reaches into that",
             run.statistics.from_s
         ));
+    }
+    if let Some(stretch) = run.statistics.walls.iter().find_map(|wall| wall.force?.rms_averaged_over_s) {
+        remarks.push(format!(
+            "mean of |force| over time; RMS at rigid walls of the mean over stretches of {stretch:.3e} s, since that of impulse/h has no limit \
+             as h → 0; 95 % intervals of both are in the summary"
+        ));
+    }
+    if run.statistics.walls.iter().any(|wall| wall.arrived_less_departed_power_w < 0.0) {
+        remarks.push(
+            "arrived - left below 0: load and structure worked on the body while it touched, and it left with more than it brought"
+                .to_owned(),
+        );
     }
     remarks.push("impact power is normal impact only: frictionless contact has no sliding wear in it".to_owned());
     remarks
@@ -126,22 +145,15 @@ fn fixed(x: f64, digits: usize) -> String {
     format!("{x:.digits$}")
 }
 
-/// The largest force of the contacts at a wall that reach into the window of the statistics, N: also of one that began before it and lasts.
-fn largest_force(run: &Run, index: usize) -> Option<f64> {
-    let from = run.statistics.from_s;
-    let here = run.trajectory.contacts().iter().filter(|c| c.wall == index && c.end.is_none_or(|end| end >= from));
-    here.filter_map(|c| c.peak_force).map(f64::abs).reduce(f64::max)
-}
-
 /// The walls of the largest impulses, in the scene's order.
-fn busiest(run: &Run) -> Vec<(usize, &WallStatistics)> {
+fn busiest(run: &Run) -> Vec<&WallStatistics> {
     let walls = &run.statistics.walls;
-    let impulse = |wall: &str| run.trajectory.impulse(wall).map_or(0.0, f64::abs);
-    let mut order: Vec<(usize, f64)> = walls.iter().map(|wall| impulse(&wall.wall)).enumerate().collect();
+    let impulse = |wall: &WallStatistics| wall.force.map_or(0.0, |force| force.impulse_n_s.abs());
+    let mut order: Vec<(usize, f64)> = walls.iter().map(impulse).enumerate().collect();
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
     order.truncate(MOST_ROWS);
     order.sort_by_key(|entry| entry.0);
-    order.into_iter().filter_map(|(i, _)| walls.get(i).map(|wall| (i, wall))).collect()
+    order.into_iter().filter_map(|(i, _)| walls.get(i)).collect()
 }
 
 /// What solved the steps that met a wall, and how often.

@@ -5,7 +5,7 @@ use crate::qp::Backend;
 use crate::residual::{Finding, Judge, Residuals};
 use crate::scene::{Scene, State};
 use crate::scheme::Stepper;
-use crate::statistics::Statistics;
+use crate::statistics::{Forces, Statistics};
 use crate::step::{Contact, Step};
 use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
@@ -196,7 +196,7 @@ pub trait Recording: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     const ROWLESS: bool;
     #[doc(hidden)]
-    fn begin(stepper: &Stepper, rows: u64, start: &State) -> Self::Recorder;
+    fn begin(stepper: &Stepper, rows: u64, start: &State, statistics_from: f64) -> Self::Recorder;
     #[doc(hidden)]
     fn see(recorder: &mut Self::Recorder, step: &Step<'_>);
     #[doc(hidden)]
@@ -221,20 +221,26 @@ pub struct Unrecorded;
 impl Recording for Recorded {
     type Motion = Trajectory;
     type Statistics = Statistics;
-    type Recorder = Recorder;
+    type Recorder = (Recorder, Forces);
     const ROWLESS: bool = false;
 
-    fn begin(stepper: &Stepper, rows: u64, start: &State) -> Recorder {
-        Recorder::new(stepper.scene(), rows, &start.q, &start.v)
+    fn begin(stepper: &Stepper, rows: u64, start: &State, from: f64) -> (Recorder, Forces) {
+        (Recorder::new(stepper.scene(), rows, &start.q, &start.v), Forces::new(stepper.scene(), from))
     }
 
-    fn see(recorder: &mut Recorder, step: &Step<'_>) {
+    fn see((recorder, forces): &mut (Recorder, Forces), step: &Step<'_>) {
         recorder.see(step);
+        forces.see(step);
     }
 
-    fn finish(recorder: Recorder, open: &[Contact], scene: &Scene, from: f64) -> (Trajectory, Statistics) {
+    fn finish(
+        (recorder, forces): (Recorder, Forces),
+        open: &[Contact],
+        scene: &Scene,
+        from: f64,
+    ) -> (Trajectory, Statistics) {
         let trajectory = recorder.finish(open);
-        let statistics = Statistics::new(scene, trajectory.contacts(), from);
+        let statistics = Statistics::new(scene, trajectory.contacts(), from).with_forces(&forces);
         (trajectory, statistics)
     }
 
@@ -249,7 +255,7 @@ impl Recording for Unrecorded {
     type Recorder = ();
     const ROWLESS: bool = true;
 
-    fn begin(_: &Stepper, _: u64, _: &State) {}
+    fn begin(_: &Stepper, _: u64, _: &State, _: f64) {}
 
     fn see((): &mut (), _: &Step<'_>) {}
 

@@ -79,7 +79,7 @@ impl Change {
             most.number = most.number.max(numbers(index)[1].unwrap_or(0.0));
             most.power = most.power.max(part(own, index, |w| w.impact_power_w));
             if !wall.law.is_rigid() {
-                most.force = most.force.max(part(own, index, |w| w.peak_force_n.max.unwrap_or(0.0)));
+                most.force = most.force.max(part(own, index, |w| w.episode_peak_force_n.max.unwrap_or(0.0)));
             }
         }
         let mut walls = Vec::new();
@@ -96,7 +96,7 @@ impl Change {
             let peak_force = match wall.law {
                 WallLaw::Elastic { stiffness, .. } => {
                     let least = most.force.max(speed * (stiffness * mass).sqrt());
-                    relative(of(|w| w.peak_force_n.max.unwrap_or(0.0)), least)
+                    relative(of(|w| w.episode_peak_force_n.max.unwrap_or(0.0)), least)
                 }
                 _ => 0.0,
             };

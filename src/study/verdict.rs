@@ -104,7 +104,7 @@ impl Verdict {
                 wall: before.wall.clone(),
                 impulse_n_s: [run.trajectory.impulse(&before.wall)?, trajectory.impulse(&before.wall)?],
                 contacts: [before.contacts, after.contacts],
-                peak_force_n: [before.peak_force_n.max, after.peak_force_n.max],
+                peak_force_n: [before.episode_peak_force_n.max, after.episode_peak_force_n.max],
             });
         }
         Ok(Self { check, displacement: change.displacement, horizon_s, walls, findings })

@@ -41,7 +41,7 @@ struct Summary<'a> {
     counters: Counters,
     wall_clock_s: f64,
     residuals: &'a Residuals,
-    impulse_n_s: BTreeMap<&'a str, f64>,
+    impulse_whole_run_n_s: BTreeMap<&'a str, f64>,
     statistics: &'a Statistics,
     wear: &'static str,
     #[serde(flatten)]
@@ -92,9 +92,9 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
 /// None beyond those of a trajectory asked for its own walls.
 pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -> Result<Value> {
     let exact = run.scheme == crate::scheme::Scheme::Event;
-    let mut impulse_n_s = BTreeMap::new();
+    let mut impulse_whole_run_n_s = BTreeMap::new();
     for wall in run.trajectory.walls() {
-        impulse_n_s.insert(wall.as_str(), run.trajectory.impulse(wall)?);
+        impulse_whole_run_n_s.insert(wall.as_str(), run.trajectory.impulse(wall)?);
     }
     let summary = Summary {
         program: format!("signorini {}", env!("CARGO_PKG_VERSION")),
@@ -116,7 +116,7 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         counters: run.counters,
         wall_clock_s: run.seconds,
         residuals: &run.residuals,
-        impulse_n_s,
+        impulse_whole_run_n_s,
         statistics: &run.statistics,
         wear: "impact power only: contact is frictionless and the motion normal to the wall, so there is no sliding wear here",
         checks,

@@ -121,9 +121,11 @@ impl Truncation {
             runs.iter().flat_map(|run| run.statistics.walls.iter().map(part)).fold(0.0, f64::max)
         };
         let (most_force, most_impulse) =
-            (most(|w| w.peak_force_n.max.unwrap_or(0.0)), most(|w| w.impulse_n_s.max.unwrap_or(0.0)));
+            (most(|w| w.episode_peak_force_n.max.unwrap_or(0.0)), most(|w| w.episode_impulse_n_s.max.unwrap_or(0.0)));
         for (index, wall) in change.walls.iter().enumerate() {
-            let of = |run: &Run| run.statistics.walls.get(index).map(|w| (w.peak_force_n.max, w.impulse_n_s.max));
+            let of = |run: &Run| {
+                run.statistics.walls.get(index).map(|w| (w.episode_peak_force_n.max, w.episode_impulse_n_s.max))
+            };
             let peaks = runs.map(|run| of(run).and_then(|w| w.0));
             let largest = runs.map(|run| of(run).and_then(|w| w.1));
             let peak_change = match peaks {

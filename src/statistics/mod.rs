@@ -1,0 +1,174 @@
+//! Contact statistics: what wear models ask of a run.
+//!
+//! Everything here is of one window, from `statistics_from` to the end. How far a number scatters from one stretch of the window to
+//! the next is told by batch means: ten equal batches, the half width of the 95 % interval of their mean (Student's t with nine degrees of
+//! freedom; Law & Kelton, Simulation Modeling and Analysis, on batch means). It is the sampling error of a motion that does not repeat
+//! itself, not the error of the step.
+
+mod force;
+
+pub use force::{AVERAGED_OVER, ForceStatistics, Forces};
+
+use crate::scene::{Scene, Wall};
+use crate::step::Contact;
+use serde::Serialize;
+
+/// Batches of the window.
+const BATCHES: usize = 10;
+
+/// Student's t for 95 %, two-sided, with nine degrees of freedom.
+const STUDENT: f64 = 2.262_157_162_740_992;
+
+/// Half width of the 95 % interval of the mean of ten batch means.
+fn half_width(batches: &[f64; BATCHES]) -> f64 {
+    let count = BATCHES as f64;
+    let mean = batches.iter().sum::<f64>() / count;
+    let square = batches.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0);
+    STUDENT * (square / count).sqrt()
+}
+
+/// Mean and largest of a set of magnitudes, one of each episode; both `None` if the set is empty.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Summary {
+    /// Arithmetic mean over the episodes: not over time.
+    pub mean: Option<f64>,
+    /// Largest.
+    pub max: Option<f64>,
+}
+
+impl Summary {
+    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let count = values.clone().count();
+        if count == 0 {
+            return Self::default();
+        }
+        let max = values.clone().fold(0.0, f64::max);
+        Self { mean: Some(values.sum::<f64>() / count as f64), max: Some(max) }
+    }
+}
+
+/// Half widths of the 95 % intervals of a wall's rates, by batch means; none of them where the window holds fewer contacts than batches.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct HalfWidths {
+    /// Of the rate of contacts, 1/s.
+    pub contact_rate_per_s: f64,
+    /// Of the share of time in contact.
+    pub contact_time_ratio: f64,
+    /// Of the impact power, W.
+    pub impact_power_w: f64,
+}
+
+/// Contacts at one wall within the window. An episode counts where it begins; its time counts where it passes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WallStatistics {
+    /// The wall's name.
+    pub wall: String,
+    /// Number of contact episodes that began in the window.
+    pub contacts: usize,
+    /// The same per second.
+    pub contact_rate_per_s: f64,
+    /// Time in contact over the window's length.
+    pub contact_time_ratio: f64,
+    /// The wall's force over time; none where only the contacts are known.
+    pub force: Option<ForceStatistics>,
+    /// Largest |force| of each episode that reaches into the window and whose force is finite, N: of an elastic wall, or of a contact that
+    /// lasts on a rigid one. The mean is over episodes.
+    pub episode_peak_force_n: Summary,
+    /// |impulse| of each episode that began in the window, N s.
+    pub episode_impulse_n_s: Summary,
+    /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W, with m the mass that the wall feels ([`Scene::wall_masses`]).
+    /// The motion is normal to the wall and frictionless: this is impact power, there is no sliding wear in it.
+    pub impact_power_w: f64,
+    /// The same less the kinetic energy with which the body left, Σ ½m(approach² − departure²)/T, W; of closed episodes. At impacts this is
+    /// what restitution takes. Where a contact lasts (elastic walls, penalties, rest), the loads and the structure work on the body
+    /// meanwhile, and that work is in it: negative where the body leaves with more than it brought. What dashpots of walls dissipate is
+    /// [`Energy::wall_damping_j`](crate::residual::Energy::wall_damping_j).
+    pub arrived_less_departed_power_w: f64,
+    /// How far the rates above scatter.
+    pub half_width_95: Option<HalfWidths>,
+}
+
+/// Contact statistics of a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Start of the window, s.
+    pub from_s: f64,
+    /// End of the window, s.
+    pub to_s: f64,
+    /// One entry a wall, in the scene's order.
+    pub walls: Vec<WallStatistics>,
+}
+
+impl Statistics {
+    /// Statistics of `contacts` from the time `from` (s) to the scene's end, without the force over time. A window of no length, if `from`
+    /// is the end or later (or no number), has times and powers of 0.
+    #[must_use]
+    pub fn new(scene: &Scene, contacts: &[Contact], from: f64) -> Self {
+        let to = scene.duration;
+        let from = from.min(to);
+        let masses = scene.wall_masses();
+        let mut by_wall = vec![Vec::new(); scene.walls.len()];
+        for contact in contacts {
+            if let Some(list) = by_wall.get_mut(contact.wall) {
+                list.push(contact);
+            }
+        }
+        let wall = |(index, (wall, all)): (usize, (&Wall, &Vec<&Contact>))| {
+            of_wall(wall, all, masses.get(index).copied().unwrap_or(0.0), [from, to])
+        };
+        Self { from_s: from, to_s: to, walls: scene.walls.iter().zip(&by_wall).enumerate().map(wall).collect() }
+    }
+
+    /// The same with the force over time, as it was seen step by step.
+    #[must_use]
+    pub fn with_forces(mut self, forces: &Forces) -> Self {
+        for (wall, force) in self.walls.iter_mut().zip(forces.statistics()) {
+            wall.force = force;
+        }
+        self
+    }
+}
+
+fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> WallStatistics {
+    let length = to - from;
+    let per_time = |x: f64| if length > 0.0 { x / length } else { 0.0 };
+    let here = all.iter().copied().filter(|c| c.start >= from);
+    let energy = |speed: f64| 0.5 * mass * speed * speed;
+    // An empty sum of floats is −0, which nobody wants to read.
+    let total = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |sum, x| sum + x);
+    let end = |c: &Contact| c.end.unwrap_or(to).min(to);
+    let lost = |c: &Contact| c.departure_speed.map_or(0.0, |d| energy(c.approach_speed) - energy(d));
+    let touching = |[a, b]: [f64; 2]| total(&mut all.iter().map(|c| (end(c).min(b) - c.start.max(a)).max(0.0)));
+    let contacts = here.clone().count();
+    let reaching = all.iter().filter(|c| c.end.is_none_or(|end| end >= from));
+    let arrived = total(&mut here.clone().map(|c| energy(c.approach_speed)));
+    let half_width_95 = (contacts >= BATCHES && length > 0.0).then(|| {
+        let [mut counts, mut times, mut powers] = [[0.0; BATCHES]; 3];
+        let batch = length / BATCHES as f64;
+        for c in here.clone() {
+            let k = (((c.start - from) / batch) as usize).min(BATCHES - 1);
+            counts[k] += 1.0 / batch;
+            powers[k] += energy(c.approach_speed) / batch;
+        }
+        for (k, time) in times.iter_mut().enumerate() {
+            *time = touching([0, 1].map(|j| from + batch * (k + j) as f64)) / batch;
+        }
+        HalfWidths {
+            contact_rate_per_s: half_width(&counts),
+            contact_time_ratio: half_width(&times),
+            impact_power_w: half_width(&powers),
+        }
+    });
+    WallStatistics {
+        wall: wall.name.clone(),
+        contacts,
+        contact_rate_per_s: per_time(contacts as f64),
+        contact_time_ratio: per_time(touching([from, to])),
+        force: None,
+        episode_peak_force_n: Summary::of(reaching.filter_map(|c| c.peak_force)),
+        episode_impulse_n_s: Summary::of(here.clone().map(|c| c.impulse.abs())),
+        impact_power_w: per_time(arrived),
+        arrived_less_departed_power_w: per_time(total(&mut here.map(lost))),
+        half_width_95,
+    }
+}
