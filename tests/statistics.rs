@@ -226,7 +226,7 @@ fn the_rms_of_a_rigid_wall_does_not_depend_on_the_step_and_that_of_a_spring_is_t
 
 #[test]
 fn batch_means_tell_how_far_a_rate_scatters() {
-    // Contacts at the middle of the ten seconds' batches, one in each; then with one batch holding eleven more.
+    // Contacts at the middle of the ten seconds' batches, one in each; then with ten more in one of them.
     let each: Vec<Contact> = (0..10).map(|k| impact(f64::from(k) + 0.5, -1.0, 1.0, 1.0)).collect();
     let even = Statistics::new(&scene(), &each, 0.0).walls[0].half_width_95.expect("ten contacts");
     assert_eq!((even.contact_rate_per_s, even.impact_power_w), (0.0, 0.0));

@@ -78,7 +78,9 @@ impl Forces {
         if step.impulse.iter().all(|&p| p == 0.0) {
             return;
         }
-        let mut from = step.start.max(self.from);
+        // Where nothing but blows in the instant of its end push, there is no way to look along.
+        let along = step.impulse.iter().zip(step.jump).any(|(p, jump)| p != jump);
+        let mut from = if along { step.start.max(self.from) } else { end };
         while from < end {
             let edge = self.move_to(from);
             let to = edge.min(end);
