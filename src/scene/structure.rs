@@ -16,9 +16,9 @@ use crate::linear::{Factor, Symmetric};
 ///     mass: Symmetric::diagonal(&[2.0, 2.0]),
 ///     damping: Symmetric::zeros(2),
 ///     stiffness: Symmetric::from_entries(2, [(0, 0, 4e4), (1, 0, -1e4), (1, 1, 1e4)]),
-/// };
+/// }
+/// .with_damping(&Damping::Rayleigh { mass: 0.0, stiffness: 1e-4 })?;
 /// let mut scene = Scene::structure(structure)
-///     .with_damping(&Damping::Rayleigh { mass: 0.0, stiffness: 1e-4 })?
 ///     .with_wall(Wall { at: Row::dof(1), ..Wall::upper("stop", 1e-3).with_restitution(0.5) })
 ///     .with_load(Load { at: Row::dof(0), ..Load::harmonic(50.0, 8.0, 0.0) });
 /// scene.probes.push(Probe { name: "tip".to_owned(), at: Row::dof(1) });
