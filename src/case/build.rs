@@ -1,10 +1,10 @@
 //! From a case file to a case. What a value may be is checked by the scene and the options themselves; this room knows
 //! where each value stands, and what can be written but not be meant.
 
+use super::builder::{Builder, MOST_MASSES, TableReader};
 use super::file::{self, File};
 use super::model::{Model, Place};
 use super::report::Source;
-use super::system::MOST_MASSES;
 use super::value::{Number, Section};
 use super::{Case, FileRead, PenaltyOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result};
@@ -14,9 +14,6 @@ use crate::study::truncation::Whole;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
-
-/// How the text of a file that a case names is found: its full name and its text, or why there is none.
-pub(super) type TableReader<'a> = &'a dyn Fn(&str) -> std::result::Result<(String, String), String>;
 
 /// Builds the case that `text` holds.
 pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>) -> Result<Case> {
@@ -32,19 +29,6 @@ pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>) -> Result<Ca
         written: Written::default(),
     };
     builder.case(file)
-}
-
-/// Reads a case, table by table.
-pub(super) struct Builder<'a> {
-    pub source: Source<'a>,
-    /// The key that an error names, and where its value stands.
-    pub places: Vec<(String, Range<usize>)>,
-    pub tables: TableReader<'a>,
-    pub model: Model,
-    /// Degrees of freedom of the whole structure.
-    pub n: usize,
-    pub static_correction: bool,
-    pub written: Written,
 }
 
 impl Builder<'_> {

@@ -1,6 +1,6 @@
 //! Matrices from files, and the table `[system.damping]`.
 
-use super::build::Builder;
+use super::builder::Builder;
 use super::file;
 use super::report::Source;
 use super::value::Section;

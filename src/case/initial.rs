@@ -1,6 +1,6 @@
 //! The table `[initial]`: fields over the structure.
 
-use super::build::Builder;
+use super::builder::Builder;
 use super::model::Model;
 use super::value::Value;
 use crate::error::Result;

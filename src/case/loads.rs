@@ -1,6 +1,6 @@
 //! The tables `[[load]]`.
 
-use super::build::Builder;
+use super::builder::Builder;
 use super::file;
 use super::table::{self, TableColumns};
 use super::value::Section;

@@ -1,6 +1,6 @@
 //! The table `[system.modal]`: modes as finite-element programs export them.
 
-use super::build::Builder;
+use super::builder::Builder;
 use super::file;
 use super::report::Source;
 use super::value::{Number, Value};

@@ -1,6 +1,6 @@
 //! The key `at`: where walls, loads and probes sit.
 
-use super::build::Builder;
+use super::builder::Builder;
 use super::model::{Model, Place};
 use super::value::Value;
 use crate::error::{Error, Result};

@@ -1,7 +1,8 @@
 //! A case from the `summary.json` of a run: the same scene again.
 
 use super::digest::sha256;
-use super::{Case, Embedded, MOST_TABLE_BYTES, build, read_text};
+use super::text::{MOST_TABLE_BYTES, read_text};
+use super::{Case, Embedded, build};
 use crate::error::{Error, Result};
 use serde_json::Value;
 use std::path::Path;

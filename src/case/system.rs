@@ -1,7 +1,7 @@
 //! The table `[system]`: from what an engineer measures to M, C and K.
 
 use super::accepted::accepted;
-use super::build::Builder;
+use super::builder::{Builder, MOST_MASSES};
 use super::file;
 use super::model::Model;
 use super::value::{Number, Section, Value};
@@ -9,9 +9,6 @@ use crate::error::{Error, Result};
 use crate::scene::{Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MOST_ELEMENTS, MassMatrix, Oscillator, System};
 use std::ops::Range;
 use toml::Spanned;
-
-/// Most masses of a chain.
-pub const MOST_MASSES: usize = 1_000_000;
 
 /// A system and what it was made from.
 pub(super) struct Built {

@@ -1,6 +1,6 @@
 //! The tables `[[wall]]`, and the probes that stand for them.
 
-use super::build::Builder;
+use super::builder::Builder;
 use super::file;
 use super::model::{Model, Place};
 use super::place::Site;

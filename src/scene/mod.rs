@@ -92,6 +92,20 @@ impl Scene {
         }
     }
 
+    /// A structure at rest at 0, without walls, loads or probes, for one second.
+    #[must_use]
+    pub fn structure(structure: Structure) -> Self {
+        let rest = vec![0.0; structure.mass.size()];
+        Self {
+            system: System::Structure(Box::new(structure)),
+            walls: Vec::new(),
+            loads: Vec::new(),
+            probes: Vec::new(),
+            initial: State { q: rest.clone(), v: rest },
+            duration: 1.0,
+        }
+    }
+
     /// The scene with one more wall.
     #[must_use]
     pub fn with_wall(mut self, wall: Wall) -> Self {

@@ -1,6 +1,5 @@
 //! A structure by its matrices.
 
-use super::{Scene, State, System};
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Symmetric};
 
@@ -58,22 +57,6 @@ impl Structure {
         definite(&self.mass)?;
         semidefinite("damping", &self.damping)?;
         semidefinite("stiffness", &self.stiffness)
-    }
-}
-
-impl Scene {
-    /// A structure at rest at 0, without walls, loads or probes, for one second.
-    #[must_use]
-    pub fn structure(structure: Structure) -> Self {
-        let rest = vec![0.0; structure.mass.size()];
-        Self {
-            system: System::Structure(Box::new(structure)),
-            walls: Vec::new(),
-            loads: Vec::new(),
-            probes: Vec::new(),
-            initial: State { q: rest.clone(), v: rest },
-            duration: 1.0,
-        }
     }
 }
 
