@@ -135,6 +135,44 @@ fn an_answer_that_cannot_be_written_is_a_failure() {
     }
 }
 
+/// Where stdout is closed the runtime opens /dev/null in its place, so that every write succeeds.
+#[cfg(unix)]
+#[test]
+fn a_closed_stdout_is_a_failure_and_one_that_is_thrown_away_is_none() {
+    let dir = tempfile::tempdir().unwrap();
+    let shell = |request: &[&str], redirection: &str| {
+        let script = format!("exec \"$0\" \"$@\" {redirection}");
+        let tool = env!("CARGO_BIN_EXE_signorini");
+        Command::new("sh").args(["-c", &script, tool]).args(request).current_dir(dir.path()).output().unwrap()
+    };
+    let requests: [&[&str]; 7] = [
+        &["new"],
+        &["--help"],
+        &["run", "--help"],
+        &["explain", CASE],
+        &["completions", "bash"],
+        &["run", CASE, "--end", "0.1", "--no-verdict"],
+        &["run", CASE, "--end", "0.1", "--no-verdict", "--json"],
+    ];
+    for request in requests {
+        let closed = shell(request, ">&-");
+        let message = text(&closed.stderr);
+        assert_eq!(closed.status.code(), Some(1), "{request:?}: {message}");
+        assert!(message.contains("error: standard output: it is closed"), "{request:?}: {message}");
+        for thrown_away in [">/dev/null", ">/dev/null 2>&-", "2>&-"] {
+            let output = shell(request, thrown_away);
+            assert_eq!(output.status.code(), Some(0), "{request:?} {thrown_away}: {}", text(&output.stderr));
+        }
+        // As a program does that wants no answer, such as one with subprocess.DEVNULL.
+        let output = command(dir.path(), request).stdout(Stdio::null()).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{request:?}: {}", text(&output.stderr));
+    }
+    // What a wrong request is told goes to stderr, and needs no stdout.
+    assert_eq!(shell(&["run", CASE, "--no-such-option"], ">&-").status.code(), Some(2));
+    // Files are no answer: all of them are written before it.
+    assert!(dir.path().join("out/rigid-walls-sine/run/request.json").exists());
+}
+
 #[cfg(unix)]
 #[test]
 fn a_reader_that_has_seen_enough_is_no_failure() {

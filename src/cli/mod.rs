@@ -22,6 +22,8 @@ use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 use ui::Ui;
 
+pub use ui::Stdout;
+
 const EXAMPLES: &str = "\
 Examples:
   signorini compare cases/rigid-walls-sine.toml      the constrained QP against the penalty, side by side
@@ -63,14 +65,15 @@ enum Command {
     Completions(completions::Args),
 }
 
-/// Runs the tool on the process's arguments: data to stdout, messages to stderr.
+/// Runs the tool on the process's arguments: data to stdout, messages to stderr. A stderr that is closed leaves nobody
+/// to tell, and changes nothing else; an answer without a stdout is a failure.
 #[must_use]
-pub fn main() -> ExitCode {
+pub fn main(stdout: Stdout) -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(text) => return answer(&text),
+        Err(text) => return answer(&text, stdout),
     };
-    let ui = Ui::new(cli.quiet, cli.json);
+    let ui = Ui::new(cli.quiet, cli.json, stdout);
     match execute(&cli.command, &ui) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -82,10 +85,11 @@ pub fn main() -> ExitCode {
 
 /// Prints what clap has to say, and exits as the tool does: 0 after --help and --version, 2 after a wrong request, 1 where it cannot be
 /// written. A reader of a pipe who has read enough is no failure.
-fn answer(text: &clap::Error) -> ExitCode {
-    match text.print() {
+fn answer(text: &clap::Error, stdout: Stdout) -> ExitCode {
+    let printed = if text.use_stderr() { text.print() } else { stdout.check().and_then(|()| text.print()) };
+    match printed {
         Err(error) if !text.use_stderr() && error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Ui::new(false, false).error(&ui::unwritable(&error));
+            Ui::new(false, false, stdout).error(&ui::unwritable(&error));
             ExitCode::FAILURE
         }
         _ => ExitCode::from(u8::try_from(text.exit_code()).unwrap_or(2)),

@@ -14,11 +14,31 @@ use std::time::{Duration, Instant};
 /// After this long a bar appears, and a line says how long the work will take.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// Whether the process began with a stdout.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stdout {
+    /// A terminal, a pipe, a file, /dev/null.
+    Open,
+    /// None, as after `>&-`: what is printed goes nowhere.
+    Closed,
+}
+
+impl Stdout {
+    /// An error where there is none: the one that a write would give, had the runtime put nothing in its place.
+    pub(super) fn check(self) -> io::Result<()> {
+        match self {
+            Self::Open => Ok(()),
+            Self::Closed => Err(io::Error::new(io::ErrorKind::NotConnected, "it is closed")),
+        }
+    }
+}
+
 /// How the tool was asked to speak.
 #[derive(Debug)]
 pub struct Ui {
     quiet: bool,
     json: bool,
+    stdout: Stdout,
     /// True once the one document of `--json` was printed.
     printed: Cell<bool>,
     /// True once the reader of stdout has gone, as `head` does.
@@ -28,8 +48,8 @@ pub struct Ui {
 impl Ui {
     /// Quiet, or in JSON, or neither.
     #[must_use]
-    pub fn new(quiet: bool, json: bool) -> Self {
-        Self { quiet, json, printed: Cell::new(false), deserted: Cell::new(false) }
+    pub fn new(quiet: bool, json: bool, stdout: Stdout) -> Self {
+        Self { quiet, json, stdout, printed: Cell::new(false), deserted: Cell::new(false) }
     }
 
     /// True if the answer is to be a JSON document.
@@ -56,7 +76,8 @@ impl Ui {
             return Ok(());
         }
         let mut stdout = io::stdout();
-        match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+        let written = self.stdout.check().and_then(|()| writeln!(stdout, "{text}"));
+        match written.and_then(|()| stdout.flush()) {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
                 self.deserted.set(true);
                 Ok(())
