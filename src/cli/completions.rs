@@ -12,9 +12,10 @@ pub struct Args {
     shell: Shell,
 }
 
-pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+/// Completions for `command`, the whole tool.
+pub fn execute(args: &Args, mut command: clap::Command, ui: &Ui) -> Result<()> {
     let mut text = Vec::new();
-    clap_complete::generate(args.shell, &mut super::command(), "signorini", &mut text);
+    clap_complete::generate(args.shell, &mut command, "signorini", &mut text);
     let script = String::from_utf8_lossy(&text);
     if ui.json() {
         return ui.document(&serde_json::json!({ "shell": args.shell.to_string(), "script": script }));
