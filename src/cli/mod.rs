@@ -105,7 +105,7 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
         Command::Figures(args) => figures::execute(args, ui),
         Command::New(args) => new::execute(args, ui),
         Command::Stability(args) => stability::execute(args, ui),
-        Command::Completions(args) => completions::execute(args, command(), ui),
+        Command::Completions(args) => completions::execute(args, self::command(), ui),
     }
 }
 
