@@ -9,24 +9,27 @@ use crate::flow::{Arc, Series};
 ///
 /// An impulse at t = 0 is part of the start and of no step. Between steps the displacement goes on by d from where the rule takes it: a
 /// blow J_b acts at its instant t_b, not where the rule counts it, so that it takes a free body to the very place. The smooth forces and
-/// the elastic walls of the step are those without d, so that a damper feels the blow from where the rule counts it. Where a rigid wall that pushes in the step is what its blows drive into, under the
-/// promises [`Promise::Velocity`] and [`Promise::MeanPosition`], blow and answer stay together and d is 0.
+/// the elastic walls of the step are those without d, but for a damper: it takes −C d of the momentum, so that over any time it feels the
+/// whole way. Where a rigid wall that pushes in the step is what its blows drive into, under the promises [`Promise::Velocity`] and
+/// [`Promise::MeanPosition`], blow and answer stay together and d is 0 (unless the wall pushes for −C d alone); under
+/// [`Promise::Corrected`] −C d is left out where such a wall is closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Balance {
-    /// M(v₊ − v₋) = h[(1−θ)F(t, q, v₋) + θF(t⁺, q⁺, v₊) + f_x] + J + p and q⁺ − q = h[(1−θ)v₋ + θv₊] + d; to J belongs what falls in (t, t⁺],
+    /// M(v₊ − v₋) = h[(1−θ)F(t, q, v₋) + θF(t⁺, q⁺, v₊) + f_x] + J − C d + p and q⁺ − q = h[(1−θ)v₋ + θv₊] + d; to J belongs what falls in (t, t⁺],
     /// and M d = Σ(t⁺ − θh − t_b)J_b over that.
     Theta(f64),
-    /// M(v₊ − v₋) = h[f(t) + f_x − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + J + p with v₋ = (q − q⁻)/h, v₊ = (q⁺ − d − q)/h, and b this
+    /// M(v₊ − v₋) = h[f(t) + f_x − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + J − C d_J + p with v₋ = (q − q⁻)/h, v₊ = (q⁺ − d − q)/h, and b this
     /// number: ¼ averages the stiffness, 0 takes it at t. To J belongs what falls in (t − h/2, t + h/2], after t = 0; M d sums
-    /// (t − t_b)J_b over (t, t + h/2] and (t⁺ − t_b)J_b over (t + h/2, t⁺].
+    /// (t − t_b)J_b over (t, t + h/2] and (t⁺ − t_b)J_b over (t + h/2, t⁺], and M d_J the (t − t_b)J_b of J.
     Staggered(f64),
     /// With s = M a of an auxiliary acceleration a, and s⁺ at the step's end:
     ///
-    /// M(v₊ − v₋) = h[(1−γ)s + γs⁺ + f_x] + J + p,   M(q⁺ − q − hv₋ − U) = h²[(½−β)s + βs⁺ + ½f_x] + Σ(t⁺ − t_b)J_b,
+    /// M(v₊ − v₋) = h[(1−γ)s + γs⁺ + f_x] + J − C d + p,   M(q⁺ − q − hv₋ − U) = h²[(½−β)s + βs⁺ + ½f_x] + Σ(t⁺ − t_b)J_b,
     ///
     /// where (1−α_m)s⁺ + α_m s = (1−α_f)F⁺ + α_f F with F = F(t, q, v₋) and F⁺ = F(t⁺, q⁺, v₊), each with the elastic walls' forces
     /// [`Step::force`] there; at the start s = F. p is that of the rigid walls, and U, by which they correct the displacement, is 0 unless
-    /// one is closed after the step. To J belong the blows J_b at t_b in (t, t⁺].
+    /// one is closed after the step. To J belong the blows J_b at t_b in (t, t⁺], and M d = Σ(t⁺ − h/2 − t_b)J_b: from the middle of the step on
+    /// the rule has the damper feel J.
     GeneralizedAlpha {
         /// α_m.
         alpha_m: f64,

@@ -149,6 +149,15 @@ fn blow(scene: &Scene, from: f64, to: f64) -> f64 {
     scene.loads.iter().map(|load| of(&load.kind)).sum()
 }
 
+/// Σ (about − t_b) J_b of the blows in (from, to], N s².
+fn shift(scene: &Scene, from: f64, to: f64, about: f64) -> f64 {
+    let of = |kind: &LoadKind| match *kind {
+        LoadKind::Impulse { impulse, time } if time > from && time <= to => (about - time) * impulse,
+        _ => 0.0,
+    };
+    scene.loads.iter().map(|load| of(&load.kind)).sum()
+}
+
 fn bound(side: Side, at: f64) -> ScalarRow {
     match side {
         Side::Upper => ScalarRow { lo: f64::NEG_INFINITY, hi: at, compliance: 0.0 },
@@ -185,10 +194,15 @@ impl Oscillation {
             + blow(scene, t, t + h);
         // The wall answers the velocity that a blow of the step leaves.
         let v = v + blow(scene, t, t + h) / m;
+        // The damper feels the blow from its instant on, and not from where the rule counts it; one that a wall answers stays there.
+        let reached = |w: &Wall| w.side.sign() * (q + 0.5 * h * v - w.position) <= 1e-12 * scene.gap_scale();
+        let answers = |w: &Wall| reached(w) && w.side.sign() * blow(scene, t, t + h) < 0.0;
+        let felt = if scene.walls.iter().any(answers) { 0.0 } else { shift(scene, t, t + h, t + h - theta * h) / m };
+        let b = b - c * felt;
         let row = |w: &Wall| {
             let WallLaw::Rigid { restitution } = w.law else { panic!("rigid walls only") };
             let sign = w.side.sign();
-            if sign * (q + 0.5 * h * v - w.position) > 1e-12 * scene.gap_scale() {
+            if !reached(w) {
                 return ScalarRow { lo: f64::NEG_INFINITY, hi: f64::INFINITY, compliance: 0.0 };
             }
             let e = if sign * v <= 0.0 { restitution } else { 1.0 };
@@ -218,13 +232,10 @@ impl Oscillation {
     fn implicit_euler(&self, scene: &Scene, t: f64, q: f64, v: f64) -> Programme {
         let Self { m, c, k, h } = *self;
         let a = m / (h * h) + c / h + k;
-        // The rule counts a blow from the step's start on, where it acts from its own instant.
-        let early =
-            match scene.loads.iter().map(|load| &load.kind).find(|kind| matches!(kind, LoadKind::Impulse { .. })) {
-                Some(LoadKind::Impulse { impulse, time }) if *time > t && *time <= t + h => (t - time) * impulse / m,
-                _ => 0.0,
-            };
-        let b = m * (q / h + v) / h + c * q / h + load(scene, t + h) + blow(scene, t, t + h) / h + a * early;
+        // The rule counts a blow from the step's start on, where it acts from its own instant, for the damper too.
+        let early = shift(scene, t, t + h, t) / m;
+        let b = m * (q / h + v) / h + c * q / h + load(scene, t + h) + blow(scene, t, t + h) / h + a * early
+            - c * early / h;
         Programme { a, b, rows: scene.walls.iter().map(|w| bound(w.side, w.position)).collect() }
     }
 }

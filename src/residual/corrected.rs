@@ -1,8 +1,8 @@
 //! A step that predicts and then corrects, held to its word: [`Balance::GeneralizedAlpha`] and [`Promise::Corrected`].
 
-use super::Judge;
 use super::complementarity::damping_of;
-use crate::scene::{Scene, WallLaw};
+use super::{Judge, divide};
+use crate::scene::{Scene, Wall, WallLaw};
 use crate::step::{Balance, Contract, Promise, Step};
 
 /// What the rule remembers from step to step: M a and F at the step's start, N, n entries each, and the elastic walls' forces, N.
@@ -59,7 +59,7 @@ impl Judge {
             let pushed = h * step.extra[i];
             scratch.load[i] = 0.5 * (self.load[i] + scratch.load_end[i]) + step.extra[i];
             // What M(v₊ − v₋) and M(q⁺ − q − hv₋)/h should be, N s, taken off what they are.
-            scratch.spring[i] = -h * ((1.0 - gamma) * s[i] + gamma * s_end[i]) - pushed - scratch.blow[i];
+            scratch.residual[i] = -h * ((1.0 - gamma) * s[i] + gamma * s_end[i]) - pushed - scratch.blow[i];
             scratch.inertia[i] = -h * ((0.5 - beta) * s[i] + beta * s_end[i]) - 0.5 * pushed - scratch.mean_v[i] / h;
             scratch.mean_v[i] = after[i] - before[i];
             scratch.mean_q[i] = step.q[i] - self.q[i] - h * before[i];
@@ -68,17 +68,26 @@ impl Judge {
             self.balance_scale = self.balance_scale.max(terms / self.scales.root_mass[i]);
         }
         let system = &self.scene.system;
-        system.add_mass(1.0, &scratch.mean_v, &mut scratch.spring);
+        system.add_mass(1.0, &scratch.mean_v, &mut scratch.residual);
         system.add_mass(1.0 / h, &scratch.mean_q, &mut scratch.inertia);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse).filter(|(wall, _)| wall.law.is_rigid()) {
             for &(i, weight) in wall.at.entries() {
-                scratch.spring[i] -= weight * p;
+                scratch.residual[i] -= weight * p;
                 self.balance_scale = self.balance_scale.max((weight * p).abs() / (h * self.scales.root_mass[i]));
             }
         }
+        // The rule has the damper feel a blow from the middle of the step on.
+        let (from, to) = (step.start, step.end);
+        if self.loads.has_blows() && self.loads.blow_moment(from, to, to - 0.5 * h, &mut scratch.felt) {
+            divide(&self.scene, self.mass.as_mut(), &mut scratch.felt);
+            let drives = |wall: &Wall| wall.law.is_rigid() && wall.side.sign() * wall.at.dot(&scratch.struck) < 0.0;
+            let either = closed && self.scene.walls.iter().any(drives);
+            self.take_felt(either, step);
+        }
+        let scratch = &self.scratch;
         let (mut worst, mut path) = (0.0_f64, 0.0_f64);
         for (i, weight) in self.scales.root_mass.iter().enumerate() {
-            let residual = scratch.spring[i].abs();
+            let residual = scratch.residual[i].abs();
             self.balance = self.balance.max(residual / h);
             worst = worst.max(residual / (h * weight));
             // The displacement's own balance is one of lengths: over h² it would be the rounding of q.

@@ -2,8 +2,15 @@
 
 use super::complementarity::{self, damping_of, expected_pressure};
 use super::{Judge, divide};
-use crate::scene::Wall;
+use crate::scene::{Scene, Wall};
 use crate::step::{Balance, Promise, Step};
+
+/// True if a rigid wall that pushes is what the blows, which give the velocity `given`, drive into, where a promise keeps the two together.
+fn answered(scene: &Scene, promise: Promise, impulse: &[f64], given: &[f64]) -> bool {
+    let drives =
+        |(wall, &p): (&Wall, &f64)| wall.law.is_rigid() && p != 0.0 && wall.side.sign() * wall.at.dot(given) < 0.0;
+    matches!(promise, Promise::Velocity | Promise::MeanPosition) && scene.walls.iter().zip(impulse).any(drives)
+}
 
 impl Judge {
     /// A step between two instants of a grid.
@@ -56,6 +63,8 @@ impl Judge {
                 s.residual[i] -= weight * p;
             }
         }
+        self.feel_blows(step, beyond);
+        let s = &mut self.scratch;
         for (r, weight) in s.residual.iter().zip(&self.scales.root_mass) {
             self.balance = self.balance.max(r.abs() / h);
             worst = worst.max(r.abs() / (h * weight));
@@ -99,15 +108,71 @@ impl Judge {
         self.loads.blow(start, end, given);
         divide(&self.scene, self.mass.as_mut(), &mut s.beyond);
         divide(&self.scene, self.mass.as_mut(), given);
-        let answered = matches!(self.contract.promise, Promise::Velocity | Promise::MeanPosition);
-        let drives =
-            |(wall, &p): (&Wall, &f64)| wall.law.is_rigid() && p != 0.0 && wall.side.sign() * wall.at.dot(given) < 0.0;
-        if answered && self.scene.walls.iter().zip(step.impulse).any(drives) {
-            s.beyond.fill(0.0);
-            return false;
+        if answered(&self.scene, self.contract.promise, step.impulse, given) {
+            // The wall may push because the damper felt the blow, and only then: which of the two it is shows in the displacement.
+            let mut apart = [0.0, 0.0];
+            for i in 0..s.beyond.len() {
+                let mean = match self.contract.balance {
+                    Balance::Theta(theta) => (1.0 - theta) * step.velocity_before[i] + theta * step.velocity_after[i],
+                    _ => step.velocity_after[i],
+                };
+                let moved = step.q[i] - self.q[i] - h * mean;
+                for (apart, by) in apart.iter_mut().zip([0.0, s.beyond[i]]) {
+                    *apart += ((moved - by) * self.scales.root_mass[i]).powi(2);
+                }
+            }
+            if apart[0] <= apart[1] {
+                s.beyond.fill(0.0);
+                return false;
+            }
         }
         s.arrived.iter_mut().zip(&s.beyond).for_each(|(q, beyond)| *q -= beyond);
         true
+    }
+
+    /// Takes −C d into the balance: what the damper feels of the way on which the blows take the body beside the rule's.
+    fn feel_blows(&mut self, step: &Step<'_>, beyond: bool) {
+        if !self.loads.has_blows() {
+            return;
+        }
+        let s = &mut self.scratch;
+        match self.contract.balance {
+            Balance::Theta(_) if beyond => s.felt.copy_from_slice(&s.beyond),
+            Balance::Staggered(_) => {
+                let about = |half_steps: f64| (half_steps * self.h).max(0.0);
+                let (from, to) = (about(step.index as f64 - 0.5), about(step.index as f64 + 0.5));
+                if !self.loads.blow_moment(from, to, step.start, &mut s.felt) {
+                    return;
+                }
+                divide(&self.scene, self.mass.as_mut(), &mut s.felt);
+            }
+            _ => return,
+        }
+        let either = matches!(self.contract.balance, Balance::Staggered(_))
+            && answered(&self.scene, self.contract.promise, step.impulse, &s.struck);
+        self.take_felt(either, step);
+    }
+
+    /// Adds C times what the damper felt of blows to the residual, unless a wall answered these (`either`) and without it less is left.
+    pub(super) fn take_felt(&mut self, either: bool, step: &Step<'_>) {
+        let s = &mut self.scratch;
+        s.damper.fill(0.0);
+        self.scene.system.add_damping(1.0, &s.felt, &mut s.damper);
+        let left = |share: f64| -> f64 {
+            let terms = s.residual.iter().zip(&s.damper).zip(&self.scales.root_mass);
+            terms.map(|((r, felt), weight)| ((r + share * felt) / weight).powi(2)).sum()
+        };
+        if either && left(0.0) <= left(1.0) {
+            return;
+        }
+        let mut lost = 0.0;
+        for i in 0..s.residual.len() {
+            s.residual[i] += s.damper[i];
+            s.blow[i] -= s.damper[i];
+            lost += 0.5 * s.damper[i] * (step.velocity_before[i] + step.velocity_after[i]);
+            self.balance_scale = self.balance_scale.max(s.damper[i].abs() / (self.h * self.scales.root_mass[i]));
+        }
+        self.energy.damp(lost);
     }
 
     fn walls_on_grid(&mut self, step: &Step<'_>) {

@@ -127,6 +127,8 @@ struct Scratch {
     /// but for steps with a blow.
     beyond: Vec<f64>,
     arrived: Vec<f64>,
+    /// The part of that, or of what a staggered balance makes of it, that the damper feels, m.
+    felt: Vec<f64>,
     mean_q: Vec<f64>,
     mean_v: Vec<f64>,
     residual: Vec<f64>,
@@ -159,6 +161,7 @@ impl Judge {
             struck: zero(),
             beyond: zero(),
             arrived: zero(),
+            felt: zero(),
             mean_q: zero(),
             mean_v: zero(),
             residual: zero(),

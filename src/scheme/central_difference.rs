@@ -4,7 +4,7 @@
 //! velocity, so they cost no stability.
 
 use super::grid::{Frame, Scalar};
-use super::paoli_schatzman::{arrival, back, blow_spans, centred};
+use super::paoli_schatzman::{arrival, back, blow_spans, centred, count_span};
 use crate::error::Result;
 use crate::scene::{Scene, WallLaw};
 
@@ -45,7 +45,8 @@ impl CentralDifference {
         let blow = s.forcing.impulse_about_since(s.since, step, h);
         let felt = centred(&mut self.extra, extra);
         frame.extra[0] = felt;
-        let smooth = self.load + felt + blow / h - s.k * q;
+        let carried = s.blows(&[count_span(step, h)]).map_or(0.0, |(shift, _)| shift);
+        let smooth = self.load + felt + (blow - s.c * carried) / h - s.k * q;
         frame.clear();
         let mut v_end = velocity(s.m / h, s.c, v, smooth);
         if s.walls.iter().any(|wall| wall.depth(q) > 0.0) {

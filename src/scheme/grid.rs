@@ -71,10 +71,13 @@ impl Scalar {
     /// Takes a body to where the blows of the step leave it, but for one that a rigid wall answered: m from the end of the step.
     #[inline]
     pub fn land(&self, spans: &[(f64, f64, f64)], frame: &Frame) -> f64 {
-        match self.blows(spans) {
-            Some((shift, jump)) if !self.answers(jump, frame) => shift,
-            _ => 0.0,
-        }
+        self.carried(self.blows(spans), frame).unwrap_or(0.0)
+    }
+
+    /// The displacement of [`Scalar::blows`], unless a rigid wall of the step answered them.
+    #[inline]
+    pub fn carried(&self, blows: Option<(f64, f64)>, frame: &Frame) -> Option<f64> {
+        blows.and_then(|(shift, jump)| (!self.answers(jump, frame)).then_some(shift))
     }
 
     /// True if a rigid wall that pushed in the step was what the blows, which give the velocity `jump` (m/s), drove into.

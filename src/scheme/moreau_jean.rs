@@ -3,12 +3,13 @@
 //! Jean 1999, Comput. Methods Appl. Mech. Engrg. 177, doi:10.1016/S0045-7825(98)00383-1; Acary & Brogliato 2008, doi:10.1007/978-3-540-75392-6,
 //! ch. 10. With v⁺ = v + δ, v_θ = v + θδ, q⁺ = q + h v_θ,
 //!
-//! M δ = h[f_θ − C v_θ − K(q + hθ v_θ)] + J + p        (J: load impulses in the step)
+//! M δ = h[f_θ − C v_θ − K(q + hθ v_θ)] + J − C d + p
 //!
 //! is the optimality condition A δ = b + p of
 //!
 //! minimise ½ A δ² − b δ   subject to   ẇ⁺ + ε ẇ ≤ 0 (upper), ≥ 0 (lower),    A = M + hθC + h²θ²K,
 //!
+//! with J the load impulses in the step and d what they add to the displacement beside the rule for it (see [`crate::step::Balance`]),
 //! over the walls that q + ½h v reaches, with ε = e where the body approaches or rests, 1 where it separates; in both the velocity ẇ is that
 //! after the blow J/M of the step, so that a body struck at rest on a wall rebounds like one that arrives.
 //! With θ = ½, e = 1, no damping and no load the energy is conserved exactly.
@@ -73,19 +74,42 @@ impl MoreauJean {
         let struck = s.struck(v, blows);
         let reach = q + 0.5 * h * struck;
         frame.clear();
-        let delta = if reach > self.clear.0 && reach < self.clear.1 {
+        let mut delta = if reach > self.clear.0 && reach < self.clear.1 {
             self.last_side = 0.0;
             self.programme.free(b)
         } else {
             self.meet(step, b, struck, frame)?
         };
-        let q_end = q + h * (v + theta * delta);
-        let q_end = q_end + self.s.land(&[(start, end, end - h * theta)], frame);
+        let mut q_end = q + h * (v + theta * delta);
+        if let Some(blows) = self.s.blows(&[(start, end, end - h * theta)]) {
+            let shift;
+            (delta, shift) = self.carry(step, (b, delta), struck, blows, frame)?;
+            q_end = q + h * (v + theta * delta) + shift;
+        }
         let v_end = v + delta;
         (self.q, self.v, self.load) = (q_end, v_end, load_end);
         frame.arrive(start, end, v, q_end, v_end);
         frame.struck[0] = struck;
         frame.check(step)
+    }
+
+    /// The same step where its `blows` take the body beside the rule, and so do what the damper feels: δ, and how far (m). What a rigid wall
+    /// answers stays as it is, which is known only when the walls have been asked without.
+    #[inline(never)]
+    fn carry(
+        &mut self,
+        step: u64,
+        (b, delta): (f64, f64),
+        struck: f64,
+        blows: (f64, f64),
+        frame: &mut Frame,
+    ) -> Result<(f64, f64)> {
+        let Some(shift) = self.s.carried(Some(blows), frame) else { return Ok((delta, 0.0)) };
+        if self.s.c == 0.0 {
+            return Ok((delta, shift));
+        }
+        frame.clear();
+        Ok((self.meet(step, b - self.s.c * shift, struck, frame)?, shift))
     }
 
     /// δ of a step that may meet a wall, whose impulses it writes. Out of line: most steps are none.

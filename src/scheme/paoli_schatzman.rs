@@ -2,7 +2,7 @@
 //!
 //! Paoli & Schatzman 2002, SIAM J. Numer. Anal. 40(2), doi:10.1137/S003614290037873X. With q⁺ = q + Δ and q⁻ = q − h v₋,
 //!
-//! M(Δ/h − v₋)/h + C(Δ/h + v₋)/2 + K(¼q⁻ + ½q + ¼q⁺) = f(t) + r
+//! M(Δ/h − v₋)/h + C(Δ/h + v₋)/2 + K(¼q⁻ + ½q + ¼q⁺) = f(t) + r        (blows: see [`crate::step::Balance`])
 //!
 //! is the optimality condition A Δ = b + r of
 //!
@@ -85,15 +85,14 @@ impl PaoliSchatzman {
                 }
             };
         }
-        frame.clear();
-        let mut delta = self.programme.free(b);
-        if !self.programme.admits(delta) {
-            delta = self.programme.solve(b, start, step)?;
-            for ((p, force), &r) in frame.impulse.iter_mut().zip(&mut frame.force).zip(&self.programme.multiplier) {
-                (*p, *force) = (h * r, r);
-            }
-            frame.touched = true;
+        let mut delta = self.settle(b, (start, step), frame)?;
+        if let Some(blows) = self.s.blows(&[count_span(step, h)])
+            && let Some(shift) = self.s.carried(Some(blows), frame)
+            && self.s.c != 0.0
+        {
+            delta = self.settle(b - self.s.c * shift / h, (start, step), frame)?;
         }
+        let s = &self.s;
         let q_end = q + delta + s.land(&blow_spans(step, h), frame);
         let v_half = delta / h;
         let load_end = s.forcing.force(end);
@@ -105,9 +104,33 @@ impl PaoliSchatzman {
         frame.check(step)
     }
 
+    /// Δ over the rows as they are, and the walls' forces.
+    #[inline]
+    fn settle(&mut self, b: f64, (start, step): (f64, u64), frame: &mut Frame) -> Result<f64> {
+        frame.clear();
+        let free = self.programme.free(b);
+        if self.programme.admits(free) {
+            return Ok(free);
+        }
+        let delta = self.programme.solve(b, start, step)?;
+        for ((p, force), &r) in frame.impulse.iter_mut().zip(&mut frame.force).zip(&self.programme.multiplier) {
+            (*p, *force) = (self.s.h * r, r);
+        }
+        frame.touched = true;
+        Ok(delta)
+    }
+
     pub fn count(&self, counters: &mut Counters) {
         self.programme.count(counters);
     }
+}
+
+/// The blows that the momentum balance of a step from t on counts as at t, and that instant: (from, to, t), s.
+#[inline]
+pub(super) fn count_span(step: u64, h: f64) -> (f64, f64, f64) {
+    // The edges of `Forcing::impulse_about`.
+    let edge = |half_steps: f64| (half_steps * h).max(0.0);
+    (edge(step as f64 - 0.5), edge(step as f64 + 0.5), step as f64 * h)
 }
 
 /// The blows of the step from t on, which come half a step about its ends in the momentum balance, and the instant from which the balance

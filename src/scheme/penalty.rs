@@ -62,7 +62,9 @@ impl Penalty {
         let load_end = s.forcing.force(end);
         let load = (1.0 - theta) * self.load + theta * load_end + extra;
         let a = s.m + ht * s.c + ht * ht * s.k;
-        let b = h * (load - s.c * v - s.k * (q + ht * v)) + s.forcing.impulse(start, end);
+        // No wall is rigid here: the blows take the body all their way, which the damper feels.
+        let shift = s.blows(&[(start, end, end - ht)]).map_or(0.0, |(shift, _)| shift);
+        let b = h * (load - s.c * v - s.k * (q + ht * v)) + s.forcing.impulse(start, end) - s.c * shift;
         frame.clear();
         let delta = b / a;
         let mut mean = v + theta * delta;
@@ -77,7 +79,7 @@ impl Penalty {
             }
             frame.touched = true;
         }
-        let q_end = q + h * mean + self.s.land(&[(start, end, end - ht)], frame);
+        let q_end = q + h * mean + shift;
         (self.q, self.v, self.load) = (q_end, v_end, load_end);
         frame.arrive(start, end, v, q_end, v_end);
         frame.check(step)

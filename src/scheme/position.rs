@@ -2,8 +2,9 @@
 //!
 //! With q⁺ = q + Δ, v⁺ = (Δ/h − (1−θ)v)/θ and F = f − C v − K q, the balance
 //!
-//! M(v⁺ − v) = h[(1−θ)(F + r) + θ(F⁺ + r⁺)] + J        (J: load impulses in the step)
+//! M(v⁺ − v) = h[(1−θ)(F + r) + θ(F⁺ + r⁺)] + J − C d
 //!
+//! with J the load impulses in the step and d what they add to the displacement beside the rule for it (see [`crate::step::Balance`]),
 //! is, divided by hθ, the optimality condition A Δ = b + r⁺ of
 //!
 //! minimise ½ A Δ² − b Δ   subject to   g_l ≤ q + Δ ≤ g_u,    A = M/(hθ)² + C/(hθ) + K.
@@ -64,9 +65,9 @@ impl Position {
         let (q, v) = (self.q, self.v);
         // The extra force is constant over the step: it enters F as well as F⁺.
         let before = self.force + extra;
-        let b = s.m * v / (ht * theta) + rest * (before + s.c * v) + f - s.k * q + blow / ht;
-        // The walls hold the body where the blows leave it.
+        // The walls hold the body where the blows leave it, and the damper feels the way there.
         let shift = s.blows(&[(start, end, end - ht)]).map_or(0.0, |(shift, _)| shift);
+        let b = s.m * v / (ht * theta) + rest * (before + s.c * v) + f - s.k * q + (blow - s.c * shift) / ht;
         let ahead = q + shift;
         for (row, wall) in self.programme.rows.iter_mut().zip(&s.walls) {
             *row = match wall.law {

@@ -162,6 +162,13 @@ impl Ledger {
         self.book(energy + walls, flows);
     }
 
+    /// Books as damping what the dampers take of the work of blows, which [`Ledger::see_grid`] is given without it, J.
+    pub fn damp(&mut self, lost: f64) {
+        self.report.load_work_j += lost;
+        self.report.damping_j += lost;
+        self.flowed += lost.abs();
+    }
+
     /// Books what the blows of the step just seen did beside its rule: their work is that at their own instants, where the velocity is not
     /// the mean of the step's ends, and the difference is what the forces at rest with the displacement take from it on the way.
     pub fn displace(&mut self, scene: &Scene, h: f64, step: &Step<'_>) {

@@ -26,6 +26,8 @@ pub(super) struct Body {
     /// M factored: what a blow changes of the velocity. None without blows.
     inertia: Option<Factor>,
     blow: Vec<f64>,
+    /// True if C is not zero.
+    pub damped: bool,
     /// Where the blows of the step take the displacement beside its own rule, m, and what they make of the velocity, m/s.
     pub shift: Vec<f64>,
     pub given: Vec<f64>,
@@ -53,6 +55,7 @@ impl Body {
             // A mass that cannot be factored is refused by the scene.
             inertia: if loads.has_blows() { Factor::new(&matrices.mass).ok() } else { None },
             blow: vec![0.0; n],
+            damped: matrices.damping.diagonal_entries().iter().any(|&c| c != 0.0),
             shift: vec![0.0; n],
             given: vec![0.0; n],
             load,
@@ -157,16 +160,31 @@ impl Body {
     /// Takes the structure to where the blows of the step leave it, unless a rigid wall that pushes was what they drove into.
     #[inline]
     pub fn land(&mut self, spans: &[(f64, f64, f64)], frame: &mut Frame) {
-        if !self.find_blows(spans) {
-            return;
+        if self.find_blows(spans) && !self.answers(&frame.pushing) {
+            self.shift(&mut frame.q);
         }
-        let answers = |&wall: &usize| {
-            let stop = self.walls[wall];
-            stop.law.is_rigid() && stop.sign * self.rows.dot(wall, &self.given) < 0.0
-        };
-        if !frame.pushing.iter().any(answers) {
-            frame.q.iter_mut().zip(&self.shift).for_each(|(q, shift)| *q += shift);
-        }
+    }
+
+    /// Adds what the blows found add to the displacement to `q`.
+    #[inline]
+    pub fn shift(&self, q: &mut [f64]) {
+        q.iter_mut().zip(&self.shift).for_each(|(q, shift)| *q += shift);
+    }
+
+    /// True if a rigid one of the walls `pushing` is what the blows found drive into.
+    pub fn answers(&self, pushing: &[usize]) -> bool {
+        pushing.iter().any(|&wall| self.drives(wall))
+    }
+
+    /// True if the blows found drive into a wall, and it is rigid.
+    pub fn drives(&self, wall: usize) -> bool {
+        let stop = self.walls[wall];
+        stop.law.is_rigid() && stop.sign * self.rows.dot(wall, &self.given) < 0.0
+    }
+
+    /// Adds −`scale` C d to `b`: what the damper feels of the way on which the blows found take the displacement.
+    pub fn damp_shift(&self, scale: f64, b: &mut [f64]) {
+        self.damping.add_product(-scale, &self.shift, b);
     }
 
     /// Adds what the blows in (from, to] make of the velocity to `v`.

@@ -11,6 +11,7 @@ use super::start::StartForce;
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Symmetric};
 use crate::scene::{Scene, WallLaw};
+use crate::scheme::paoli_schatzman::count_span;
 
 #[derive(Debug)]
 pub(super) struct CentralDifference {
@@ -66,6 +67,9 @@ impl CentralDifference {
         body.stiffness.add_product(-1.0, &frame.q, b);
         body.damping.add_product(-1.0, v, b);
         body.strike_about(step, v, 1.0 / h, b, &mut frame.struck);
+        if body.find_blows(&[count_span(step, h)]) {
+            body.damp_shift(1.0 / h, b);
+        }
         frame.before.copy_from_slice(v);
         let depth = |body: &Body, wall: usize| body.walls[wall].depth(body.rows.dot(wall, &frame.q));
         if (0..body.walls.len()).any(|wall| depth(body, wall) > 0.0) {

@@ -82,6 +82,11 @@ impl Frame {
     pub fn begin(&mut self, step: u64, h: f64) {
         self.start = step as f64 * h;
         self.end = (step + 1) as f64 * h;
+        self.let_go();
+    }
+
+    /// Forgets the walls of a step that is solved once more.
+    pub fn let_go(&mut self) {
         for wall in self.pushing.drain(..) {
             self.impulse[wall] = 0.0;
             self.force[wall] = 0.0;

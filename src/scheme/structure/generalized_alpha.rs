@@ -30,7 +30,8 @@
 //! force does on U: each impact makes or loses energy of order h.
 //!
 //! An extra force over the step moves the velocity by hM⁻¹f_x and the displacement by half a step of that, a blow at t_b the velocity by
-//! M⁻¹J and the displacement by (t⁺ − t_b) of that, outside of a.
+//! M⁻¹J and the displacement by (t⁺ − t_b) of that, outside of a. The rule has the damper feel J from the middle of the step on (the sum
+//! over all later steps counts, and γ = ½ + α_f − α_m makes it so): −C d with M d = (t⁺ − h/2 − t_b)J is added to the momentum.
 
 use super::body::{Body, factor};
 use super::frame::Frame;
@@ -101,10 +102,9 @@ impl GeneralizedAlpha {
         let place = Programme::new(scene, matrix, gap, |k, c| 1.0 / (k + c / h), backend)?;
         let rate = Programme::over(scene, WallLaw::is_rigid, drag.clone(), gap / h, |_, _| 0.0, backend)?;
         let zero = vec![0.0; body.n];
-        let damped = m.damping.diagonal_entries().iter().any(|&c| c != 0.0);
         Ok(Self {
             alpha: [alpha_m, alpha_f, beta, gamma],
-            unfelt: if damped { h * (1.0 - gamma / (2.0 * beta)) } else { 0.0 },
+            unfelt: if body.damped { h * (1.0 - gamma / (2.0 * beta)) } else { 0.0 },
             closed: closed(&body, &frame.q),
             a,
             force,
@@ -148,7 +148,11 @@ impl GeneralizedAlpha {
         self.predict(frame);
         let met = self.displace(step, frame)?;
         self.press(frame);
-        if met {
+        let answered = frame.blown && self.body.damped && self.answers(frame);
+        if answered {
+            self.damp_blows(-1.0, frame);
+        }
+        if met || answered {
             self.free_velocity(frame);
         }
         let pushed = self.correct_velocity(frame, step)?;
@@ -160,7 +164,7 @@ impl GeneralizedAlpha {
         for &wall in &self.holding {
             body.rows.add_transposed(wall, self.held[wall], force);
         }
-        if met || pushed {
+        if met || pushed || answered {
             let mu = (1.0 - *alpha_m) / (1.0 - *alpha_f);
             a.iter_mut().zip(past.iter()).zip(force.iter()).for_each(|((a, past), force)| *a = (past + force) / mu);
             mass.solve(a);
@@ -196,6 +200,9 @@ impl GeneralizedAlpha {
                 q[i] += body.shift[i];
                 v[i] += body.given[i];
                 frame.struck[i] = frame.v[i] + body.given[i];
+            }
+            if self.body.damped {
+                self.damp_blows(1.0, frame);
             }
         }
     }
@@ -292,6 +299,27 @@ impl GeneralizedAlpha {
         for (i, a) in b.iter().enumerate() {
             frame.v[i] = v[i] + body.h * *gamma * a;
         }
+    }
+
+    /// Adds −`share` M⁻¹C d to v̂, with d the way on which the blows take the body beside the half step that the rule gives their velocity.
+    fn damp_blows(&mut self, share: f64, frame: &Frame) {
+        let Self { body, b, v, mass, .. } = self;
+        if body.find_blows(&[(frame.start, frame.end, frame.end - 0.5 * body.h)]) {
+            b.fill(0.0);
+            body.damp_shift(share, b);
+            mass.solve(b);
+            v.iter_mut().zip(b.iter()).for_each(|(v, change)| *v += change);
+        }
+    }
+
+    /// True if a rigid wall that is closed at q⁺ is what the blows drive into: it keeps the body from that way, and what they would lose to the
+    /// damper on it is the wall's.
+    fn answers(&self, frame: &Frame) -> bool {
+        let Self { body, multiplier, .. } = self;
+        let closed = |wall: usize| {
+            multiplier[wall] != 0.0 || body.walls[wall].depth(body.rows.dot(wall, &frame.q)) >= -body.touch
+        };
+        (0..body.walls.len()).any(|wall| body.drives(wall) && closed(wall))
     }
 
     /// v⁺ and the impulses, at the rigid walls that are closed. Returns whether one pushes.

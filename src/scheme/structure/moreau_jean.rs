@@ -64,13 +64,23 @@ impl MoreauJean {
         frame.blown = body.strike((frame.start, frame.end), &frame.v, 1.0, b, &mut frame.struck);
         self.bind(frame);
         self.programme.solve(&self.b, (frame.start, step), &mut frame.impulse, &mut frame.pushing)?;
+        let blows = self.body.find_blows(&[(frame.start, frame.end, frame.end - h * theta)]);
+        // What a rigid wall answers stays with the answer, which is known only when the walls have been asked without.
+        let carried = blows && !self.body.answers(&frame.pushing);
+        if carried && self.body.damped {
+            frame.let_go();
+            self.body.damp_shift(1.0, &mut self.b);
+            self.programme.solve(&self.b, (frame.start, step), &mut frame.impulse, &mut frame.pushing)?;
+        }
         let delta = self.programme.x();
         for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(delta) {
             *q += h * (*v + theta * d);
             *v += d;
         }
         frame.after.copy_from_slice(&frame.v);
-        self.body.land(&[(frame.start, frame.end, frame.end - h * theta)], frame);
+        if carried {
+            self.body.shift(&mut frame.q);
+        }
         for &wall in &frame.pushing {
             frame.force[wall] = frame.impulse[wall] / h;
         }

@@ -17,6 +17,7 @@ use crate::linear::Symmetric;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
 use crate::scheme::Counters;
+use crate::scheme::paoli_schatzman::count_span;
 
 #[derive(Debug)]
 pub(super) struct PaoliSchatzman {
@@ -89,16 +90,13 @@ impl PaoliSchatzman {
         // A blow comes first, and the wall answers the velocity it leaves: q⁻ in the bound is where that would have come from.
         frame.blown = body.strike_about(step, v, 1.0 / h, b, &mut frame.struck);
         frame.before.copy_from_slice(v);
-        self.bind(frame, None);
-        frame.one_restitution = false;
-        let at = (frame.start, step);
-        let solved = self.programme.solve(&self.b, at, &mut frame.force, &mut frame.pushing);
-        if let (Err(Error::Qp { .. }), Some(least)) = (&solved, self.least) {
-            self.bind(frame, Some(least));
-            frame.one_restitution = true;
-            self.programme.solve(&self.b, at, &mut frame.force, &mut frame.pushing)?;
-        } else {
-            solved?;
+        self.settle(step, frame)?;
+        // What a rigid wall answers the damper does not feel, which is known only when the walls have been asked without.
+        let blows = self.body.find_blows(&[count_span(step, h)]);
+        if blows && self.body.damped && !self.body.answers(&frame.pushing) {
+            frame.let_go();
+            self.body.damp_shift(1.0 / h, &mut self.b);
+            self.settle(step, frame)?;
         }
         let Self { body, v, load, extra, programme, arrival, .. } = self;
         for &wall in &frame.pushing {
@@ -109,6 +107,20 @@ impl PaoliSchatzman {
             *v = d / h;
         }
         arrival.finish(body, step, v, (load, extra), frame)
+    }
+
+    /// Solves for Δ, and the walls' forces.
+    fn settle(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
+        self.bind(frame, None);
+        frame.one_restitution = false;
+        let at = (frame.start, step);
+        let solved = self.programme.solve(&self.b, at, &mut frame.force, &mut frame.pushing);
+        if let (Err(Error::Qp { .. }), Some(least)) = (&solved, self.least) {
+            self.bind(frame, Some(least));
+            frame.one_restitution = true;
+            return self.programme.solve(&self.b, at, &mut frame.force, &mut frame.pushing);
+        }
+        solved
     }
 
     /// The bounds of the rows, in Δ, with the restitution `one` for all rigid walls or the own of each.

@@ -69,8 +69,11 @@ impl Position {
         body.stiffness.add_product(-1.0, &frame.q, b);
         frame.before.copy_from_slice(&frame.v);
         body.strike((frame.start, frame.end), &frame.v, 1.0 / ht, b, &mut frame.struck);
-        // The rigid walls hold the structure where the blows leave it.
+        // The rigid walls hold the structure where the blows leave it, and the damper feels the way there.
         let blown = body.find_blows(&[(frame.start, frame.end, frame.end - ht)]);
+        if blown {
+            body.damp_shift(1.0 / ht, b);
+        }
         self.bind(frame, blown);
         self.programme.solve(&self.b, (frame.start, step), &mut frame.force, &mut frame.pushing)?;
         for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(self.programme.x()) {
@@ -78,7 +81,7 @@ impl Position {
             *v = (d / h - (1.0 - theta) * *v) / theta;
         }
         if blown {
-            frame.q.iter_mut().zip(&self.body.shift).for_each(|(q, shift)| *q += shift);
+            self.body.shift(&mut frame.q);
         }
         frame.after.copy_from_slice(&frame.v);
         if !frame.pushing.is_empty() || !self.holding.is_empty() {
