@@ -47,7 +47,7 @@ pub use scene::{
     TimeFunction, Wall, WallLaw,
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper};
-pub use statistics::{AVERAGED_OVER, ForceStatistics, Forces, HalfWidths, Statistics, Summary, WallStatistics};
+pub use statistics::{ForceStatistics, Forces, HalfWidths, Statistics, Summary, WallStatistics};
 pub use step::{Balance, Conserves, Contact, Contract, Path, Promise, Step, Tolerance, Tolerances};
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
 pub use trajectory::{Recorder, Trajectory};

@@ -16,21 +16,28 @@ pub struct TimeOptions {
     pub sample: Option<f64>,
     /// Start of the window for statistics, s: 0 or more, below the end.
     pub statistics_from: f64,
+    /// Stretch over which the force of a rigid wall is averaged before its root mean square over time is taken, s: above 0; by default
+    /// [`FORCE_AVERAGING`](Self::FORCE_AVERAGING). The stretch used may be shorter, a tenth of the window at most, or longer where the window
+    /// would hold more than 1e7 of them.
+    pub force_averaging: f64,
 }
 
 impl TimeOptions {
+    /// A millisecond: short for the period of a structure, long for an impact.
+    pub const FORCE_AVERAGING: f64 = 1e-3;
+
     /// Steps of `step` seconds, all of them recorded, statistics from the start.
     #[must_use]
     pub fn with_step(step: f64) -> Self {
-        Self { step, sample: None, statistics_from: 0.0 }
+        Self { step, sample: None, statistics_from: 0.0, force_averaging: Self::FORCE_AVERAGING }
     }
 
     /// Checks the times against one another and against the duration (s) of the run.
     ///
     /// # Errors
-    /// [`Error::Invalid`] naming `time.step`, `time.sample` or `time.statistics_from`.
+    /// [`Error::Invalid`] naming `time.step`, `time.sample`, `time.statistics_from` or `time.force_averaging`.
     pub fn validate(&self, duration: f64) -> Result<()> {
-        let Self { step, sample, statistics_from } = *self;
+        let Self { step, sample, statistics_from, force_averaging } = *self;
         let refuse = |key: &str, value: f64, expected: String| {
             Err(Error::invalid(format!("time.{key}"), format_args!("{value:?}"), expected))
         };
@@ -63,6 +70,9 @@ impl TimeOptions {
         }
         if !(statistics_from >= 0.0 && statistics_from < duration) {
             return refuse("statistics_from", statistics_from, format!("0 or more, less than time.end, {duration:?}"));
+        }
+        if !(force_averaging.is_finite() && force_averaging > 0.0) {
+            return refuse("force_averaging", force_averaging, "a finite number above 0".to_owned());
         }
         Ok(())
     }

@@ -99,7 +99,7 @@ fn true_error(scene: &Scene, found: &Run) -> (f64, String) {
     let sample = found.grid.end / found.grid.rows as f64;
     let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(sample) };
     let exact = run(scene, &Scheme::Event, &Options::new(time, Backend::Auto)).unwrap();
-    let change = Change::of_runs(scene, found, &exact, scene.duration, 0.0).unwrap();
+    let change = Change::of_runs(scene, found, &exact, scene.duration);
     change.worst()
 }
 
@@ -386,7 +386,7 @@ fn a_wall_that_is_hardly_touched_does_not_decide() {
         driven(3.0, 5.0, 1.5).with_wall(upper(1e-3, 0.5)).with_wall(lower(-6.5e-3, 0.5)).with_load(Load::constant(2.0));
     let coarse = at_step(&scene, &MOREAU, 1e-3, 1e-3);
     let exact = run(&scene, &Scheme::Event, &Options::new(time(), Backend::Auto)).unwrap();
-    let change = Change::of_runs(&scene, &coarse, &exact, 1.5, 0.0).unwrap();
+    let change = Change::of_runs(&scene, &coarse, &exact, 1.5);
     let impulses = |name: &str| [&coarse, &exact].map(|r| r.trajectory.impulse(name).unwrap());
     let largest = impulses("upper")[1].abs();
     assert!(impulses("lower")[1].abs() < 0.8 * largest, "{:?}", impulses("lower"));
@@ -405,7 +405,7 @@ fn the_number_of_impacts_that_accumulate_is_not_asked_for() {
         let exact = run(&scene, &Scheme::Event, &Options::new(time(), Backend::Auto)).unwrap();
         for h in [1e-2, 1e-3, 1e-4] {
             let found = at_step(&scene, &MOREAU, h, 1e-2);
-            let wall = &Change::of_runs(&scene, &found, &exact, duration, 0.0).unwrap().walls[0];
+            let wall = &Change::of_runs(&scene, &found, &exact, duration).walls[0];
             assert_eq!(wall.contacts, None, "e = {e}, h = {h}");
             // What is asked for instead has a limit: the impulse is the weight's, whatever the impacts.
             assert!(wall.impulse < 20.0 * h && wall.contact_time < 60.0 * h, "e = {e}, h = {h}: {wall:?}");
@@ -414,7 +414,7 @@ fn the_number_of_impacts_that_accumulate_is_not_asked_for() {
     let separate = driven(3.0, 5.0, 1.0).with_wall(upper(5e-3, 0.8));
     let exact = run(&separate, &Scheme::Event, &Options::new(time(), Backend::Auto)).unwrap();
     let found = at_step(&separate, &MOREAU, 1e-4, 1e-3);
-    assert!(Change::of_runs(&separate, &found, &exact, 1.0, 0.0).unwrap().walls[0].contacts.is_some());
+    assert!(Change::of_runs(&separate, &found, &exact, 1.0).walls[0].contacts.is_some());
 }
 
 #[test]

@@ -137,6 +137,7 @@ const WRONG: &[Wrong] = &[
     ("negative sample", "sample = 1e-3", "sample = -1e-3", "28:10", &["time.sample", "above 0"]),
     ("statistics after the end", "sample = 1e-3", "statistics_from = 10.0", "28:19", &["time.statistics_from", "less than time.end"]),
     ("statistics before the start", "sample = 1e-3", "statistics_from = -1", "28:19", &["time.statistics_from", "0 or more"]),
+    ("averaging over nothing", "sample = 1e-3", "force_averaging = 0.0", "28:19", &["time.force_averaging", "above 0"]),
     // Penalty.
     ("no epsilon", "[1e-12, 1e-9]", "[]", "31:11", &["penalty.epsilon", "one value or more"]),
     ("epsilon of nothing", "1e-9]", "0.0]", "31:19", &["penalty law 2: epsilon", "above 0"]),

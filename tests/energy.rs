@@ -7,7 +7,7 @@ use common::{GAP, MOREAU_JEAN, penalty, slope, source, spread};
 use signorini::{Integrator, Options, Run, Scene, Scheme, Stepper, TimeOptions, Wall, run};
 
 fn go(scene: &Scene, scheme: &Scheme, step: f64) -> Run {
-    let time = TimeOptions { step, sample: Some(scene.duration / 10.0), statistics_from: 0.0 };
+    let time = TimeOptions { sample: Some(scene.duration / 10.0), ..TimeOptions::with_step(step) };
     let run = run(scene, scheme, &Options { time, ..Options::with_step(step) }).expect("a run");
     assert_eq!(run.findings, [], "{scheme}, h = {step}");
     run

@@ -57,10 +57,16 @@ fn every_built_in_case_is_run_again_from_its_summary() {
 fn what_the_command_line_changed_is_in_the_summary() {
     let folder = tempfile::tempdir().unwrap();
     let end = ["--end", "0.3"];
-    let options = [&end[..], &["--restitution", "0.35", "--step", "3e-4", "--sample", "6e-4"]].concat();
+    let options =
+        [&end[..], &["--restitution", "0.35", "--step", "3e-4", "--sample", "6e-4", "--force-averaging", "2e-3"]]
+            .concat();
     let summary = same_again(folder.path(), "rigid-walls-sine", &options);
     assert_eq!(summary["case_file"]["wall"][0]["restitution"], 0.35);
-    assert_eq!(summary["case_file"]["time"], serde_json::json!({ "end": 0.3, "step": 3e-4, "sample": 6e-4 }));
+    let time = serde_json::json!({ "end": 0.3, "step": 3e-4, "sample": 6e-4, "force_averaging": 2e-3 });
+    assert_eq!(summary["case_file"]["time"], time);
+    // 150 stretches over the window.
+    let averaged = |wall: usize| &summary["statistics"]["walls"][wall]["force"]["rms_averaged_over_s"];
+    assert!(averaged(0).as_f64().is_some_and(|s| (s - 2e-3).abs() < 1e-12), "{}", averaged(0));
     same_again(folder.path(), "rigid-walls-sine", &["--end", "0.3", "--scheme", "event"]);
     same_again(folder.path(), "rigid-walls-sine", &["--end", "0.3", "--scheme", "penalty", "--epsilon", "2e-9"]);
     let summary =

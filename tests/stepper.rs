@@ -188,7 +188,7 @@ fn a_run_is_its_steps_and_its_columns_sum_to_its_impulses() {
         for scheme in schemes() {
             // 7 ms do not divide a second: rows of a 143rd, steps that divide them.
             for (step, sample) in [(1e-4, None), (1e-4, Some(7e-3)), (3e-4, Some(1e-2))] {
-                let time = TimeOptions { step, sample, statistics_from: 0.0 };
+                let time = TimeOptions { sample, ..TimeOptions::with_step(step) };
                 let options = Options { time, ..Options::with_step(step) };
                 let run = run(&scene, &scheme, &options).expect("a run");
                 let what = format!("{scheme}, h = {step}, rows every {sample:?}");

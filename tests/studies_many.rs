@@ -108,7 +108,7 @@ fn errors_are_those_of_the_worst_probe_and_a_method_that_cannot_go_is_a_row_with
     let still = Scene::oscillator(1.0, 0.2, 100.0).with_duration(0.5);
     let mut scene = beside(&still, &source(0.8, 0.5));
     scene.probes.push(Probe { name: "half".into(), at: Row::new(vec![(1, 0.5)]) });
-    let time = TimeOptions { step: 1e-3, sample: Some(1e-3), statistics_from: 0.0 };
+    let time = TimeOptions { sample: Some(1e-3), ..TimeOptions::with_step(1e-3) };
     let refused = Method { scheme: MOREAU, backend: signorini::qp::Backend::Clamp };
     let comparison = compare(&scene, &[Method::new(MOREAU), refused], &time, &|_| {}).unwrap();
     let alone = compare(&source(0.8, 0.5), &[Method::new(MOREAU)], &time, &|_| {}).unwrap();
@@ -126,11 +126,11 @@ fn a_change_counts_at_every_probe_and_is_measured_by_the_mass_that_each_wall_fee
     let still = Scene::oscillator(3.0, 0.0, 100.0).with_duration(0.5);
     let scene = beside(&still, &source(0.8, 0.5));
     let go = |h: f64| {
-        let time = TimeOptions { step: h, sample: Some(1e-3), statistics_from: 0.0 };
+        let time = TimeOptions { sample: Some(1e-3), ..TimeOptions::with_step(h) };
         run(&scene, &MOREAU, &Options::new(time, signorini::qp::Backend::Auto)).unwrap()
     };
     let (coarse, fine) = (go(1e-3), go(1e-4));
-    let change = Change::of_runs(&scene, &coarse, &fine, 0.5, 0.0).unwrap();
+    let change = Change::of_runs(&scene, &coarse, &fine, 0.5);
     let [first, second] = [0, 1].map(|p| {
         let pairs = coarse.trajectory.displacements()[p].iter().zip(&fine.trajectory.displacements()[p]);
         pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
@@ -286,9 +286,9 @@ fn an_error_is_kept_by_halving_and_the_result_is_within_it_of_a_much_finer_run()
     assert!(outcome.shortfall.is_none(), "{:?}", outcome.shortfall);
     let step = outcome.accuracy.step_s.unwrap() / 16.0;
     let rows = outcome.run.grid.end / outcome.run.grid.rows as f64;
-    let time = TimeOptions { step, sample: Some(rows), statistics_from: 0.0 };
+    let time = TimeOptions { sample: Some(rows), ..TimeOptions::with_step(step) };
     let fine = run(&scene, &MOREAU, &Options::new(time, signorini::qp::Backend::Auto)).unwrap();
-    let change = Change::of_runs(&scene, &outcome.run, &fine, scene.duration, 0.0).unwrap();
+    let change = Change::of_runs(&scene, &outcome.run, &fine, scene.duration);
     assert!(change.displacement < 1e-2, "{}", change.displacement);
 }
 

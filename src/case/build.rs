@@ -66,6 +66,9 @@ impl Builder<'_> {
             step: self.number("time.step", &time.step),
             sample: self.optional("time.sample", time.sample.as_ref()),
             statistics_from: self.optional("time.statistics_from", time.statistics_from.as_ref()).unwrap_or(0.0),
+            force_averaging: self
+                .optional("time.force_averaging", time.force_averaging.as_ref())
+                .unwrap_or(TimeOptions::FORCE_AVERAGING),
         };
         if let Some(penalty) = file.penalty.as_ref().filter(|_| self.static_correction) {
             let help = "expected no [penalty]: with static_correction rigid walls are springs of the compliance that the modes leave out already";

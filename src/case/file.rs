@@ -195,6 +195,7 @@ pub(super) struct Time {
     pub step: Spanned<Number>,
     pub sample: Option<Spanned<Number>>,
     pub statistics_from: Option<Spanned<Number>>,
+    pub force_averaging: Option<Spanned<Number>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -136,6 +136,7 @@ impl Args {
             step: None,
             end: self.end,
             sample: None,
+            force_averaging: None,
             restitution: self.restitution,
             modes: None,
             epsilon: None,

@@ -26,6 +26,9 @@ pub struct Request {
     /// Spacing of the recorded rows, s
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub sample: Option<f64>,
+    /// Stretch over which forces of rigid walls are averaged before their RMS is taken, s [default: the case's, or 1e-3]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    pub force_averaging: Option<f64>,
     /// Restitution of every rigid wall, 0 to 1
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     pub restitution: Option<f64>,
@@ -149,6 +152,7 @@ impl Request {
         }
         case.time.step = self.step.unwrap_or(case.time.step);
         case.time.sample = self.sample.or(case.time.sample);
+        case.time.force_averaging = self.force_averaging.unwrap_or(case.time.force_averaging);
         set_restitution(&mut case, self.restitution)?;
         if let Some(epsilon) = self.epsilon {
             case.penalty.laws = vec![PenaltyLaw::Quartic { epsilon }];

@@ -19,6 +19,7 @@ pub fn asked(command: &str, case: &Case, methods: &[Method]) -> Map<String, Valu
         "step_s": case.time.step,
         "sample_s": case.time.sample,
         "statistics_from_s": case.time.statistics_from,
+        "force_averaging_s": case.time.force_averaging,
         "modes": case.truncated.as_ref().map(|truncated| truncated.reduction.modes.count()),
         "methods": methods.iter().map(ToString::to_string).collect::<Vec<_>>(),
     }));

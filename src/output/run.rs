@@ -110,7 +110,7 @@ pub fn remarks(run: &Run) -> Vec<String> {
     if let Some(stretch) = run.statistics.walls.iter().find_map(|wall| wall.force?.rms_averaged_over_s) {
         remarks.push(format!(
             "mean of |force| over time; RMS at rigid walls of the mean over stretches of {stretch:.3e} s, since that of impulse/h has no limit \
-             as h → 0; 95 % intervals of both are in the summary"
+             as h → 0 (--force-averaging); 95 % intervals of both are in the summary"
         ));
     }
     if run.statistics.walls.iter().any(|wall| wall.arrived_less_departed_power_w < 0.0) {

@@ -63,7 +63,7 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let mut stepper = Stepper::with_backend(scene, scheme, grid.step, options.backend)?;
     let start = stepper.state();
     let mut judge = J::begin(&stepper, grid.step, &start);
-    let mut recorder = R::begin(&stepper, grid.rows, &start, options.time.statistics_from);
+    let mut recorder = R::begin(&stepper, grid.rows, &start, &options.time);
     let (mut count, mut report) = (0, 1);
     loop {
         let step = stepper.step()?;

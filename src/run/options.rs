@@ -196,7 +196,7 @@ pub trait Recording: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     const ROWLESS: bool;
     #[doc(hidden)]
-    fn begin(stepper: &Stepper, rows: u64, start: &State, statistics_from: f64) -> Self::Recorder;
+    fn begin(stepper: &Stepper, rows: u64, start: &State, time: &TimeOptions) -> Self::Recorder;
     #[doc(hidden)]
     fn see(recorder: &mut Self::Recorder, step: &Step<'_>);
     #[doc(hidden)]
@@ -224,8 +224,9 @@ impl Recording for Recorded {
     type Recorder = (Recorder, Forces);
     const ROWLESS: bool = false;
 
-    fn begin(stepper: &Stepper, rows: u64, start: &State, from: f64) -> (Recorder, Forces) {
-        (Recorder::new(stepper.scene(), rows, &start.q, &start.v), Forces::new(stepper.scene(), from))
+    fn begin(stepper: &Stepper, rows: u64, start: &State, time: &TimeOptions) -> (Recorder, Forces) {
+        let forces = Forces::new(stepper.scene(), time.statistics_from, time.force_averaging);
+        (Recorder::new(stepper.scene(), rows, &start.q, &start.v), forces)
     }
 
     fn see((recorder, forces): &mut (Recorder, Forces), step: &Step<'_>) {
@@ -255,7 +256,7 @@ impl Recording for Unrecorded {
     type Recorder = ();
     const ROWLESS: bool = true;
 
-    fn begin(_: &Stepper, _: u64, _: &State, _: f64) {}
+    fn begin(_: &Stepper, _: u64, _: &State, _: &TimeOptions) {}
 
     fn see((): &mut (), _: &Step<'_>) {}
 

@@ -1,12 +1,12 @@
 //! The force of a wall over time: impulse, mean and root mean square, step by step.
 
-use super::{BATCHES, half_width};
+use super::batch::{BATCHES, half_width};
 use crate::scene::Scene;
 use crate::step::{Path, Step};
 use serde::Serialize;
 
-/// Longest stretch over which the force of a rigid wall is averaged before it is squared, s.
-pub const AVERAGED_OVER: f64 = 1e-3;
+/// Most stretches of a window; of a window that has more of them, they are longer. They cost time where a contact lasts.
+const MOST_STRETCHES: f64 = 1e7;
 
 /// Gauss's rule of two points on [0, 1].
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
@@ -16,17 +16,20 @@ const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 pub struct ForceStatistics {
     /// Impulse of the wall on the body over the window, N s; signed as the force.
     pub impulse_n_s: f64,
+    /// Half width of its 95 % interval by batch means, N s; this and the two below are none unless ten contacts began in the window, or
+    /// the wall pushed in each of its ten batches.
+    pub impulse_half_width_95_n_s: Option<f64>,
     /// Mean of |force| over time, Σ|p|/T, N.
     pub mean_n: f64,
     /// Half width of its 95 % interval by batch means, N.
-    pub mean_half_width_95_n: f64,
+    pub mean_half_width_95_n: Option<f64>,
     /// Root mean square of the force over time, N: of the force itself where the wall is elastic; of its mean over stretches of
     /// `rms_averaged_over_s` where it is rigid, since impacts have no finite force and the mean square of impulse/h has no limit as h → 0.
     pub rms_n: f64,
-    /// Half width of its 95 % interval by batch means of the square, N.
-    pub rms_half_width_95_n: f64,
-    /// Those stretches, s: [`AVERAGED_OVER`] or a little less, so that each batch of the window holds a whole number of them; none where the
-    /// force itself is squared.
+    /// Half width of its 95 % interval, N: that of the mean square by batch means, over twice the RMS.
+    pub rms_half_width_95_n: Option<f64>,
+    /// Those stretches, s: [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging) or a little less, so that each batch of the
+    /// window holds a whole number of them; more where the window would hold more than 1e7. None where the force itself is squared.
     pub rms_averaged_over_s: Option<f64>,
 }
 
@@ -57,13 +60,15 @@ pub struct Forces {
 }
 
 impl Forces {
-    /// For the walls of `scene` (as the scheme sees it) from the time `from` (s) to its end.
+    /// For the walls of `scene` (as the scheme sees it) from the time `from` (s) to its end, the forces of rigid walls averaged over stretches
+    /// of `averaging` (s) at most.
     #[must_use]
-    pub fn new(scene: &Scene, from: f64) -> Self {
+    pub fn new(scene: &Scene, from: f64, averaging: f64) -> Self {
         let from = from.min(scene.duration);
         let length = scene.duration - from;
         let batches = BATCHES as f64;
-        let bins = BATCHES as u64 * ((length / (batches * AVERAGED_OVER) * (1.0 - 1e-9)).ceil().max(1.0) as u64);
+        let stretches = (length / (batches * averaging) * (1.0 - 1e-9)).ceil().clamp(1.0, MOST_STRETCHES / batches);
+        let bins = BATCHES as u64 * stretches as u64;
         let tally = |rigid| Tally { rigid, ..Tally::default() };
         let walls = scene.walls.iter().map(|wall| tally(wall.law.is_rigid())).collect();
         Self { from, length, bin: length / bins as f64, bins, at: 0, walls }
@@ -138,27 +143,30 @@ impl Forces {
         }
     }
 
-    /// What was seen, wall by wall; none of a window without length.
-    #[must_use]
-    pub fn statistics(&self) -> Vec<Option<ForceStatistics>> {
-        let mut done = self.clone();
-        done.close();
+    /// What was seen of the wall number `wall`, at which `contacts` began in the window; none of a window without length.
+    pub(super) fn statistics(&self, wall: usize, contacts: usize) -> Option<ForceStatistics> {
+        let tally = self.walls.get(wall).filter(|_| self.length > 0.0)?;
         let batch = self.length / BATCHES as f64;
-        let of = |tally: &Tally| {
-            let means = tally.pushed.map(|p| p / batch);
-            let squares = tally.square.map(|s| s / batch);
-            let mean = |x: &[f64; BATCHES]| x.iter().sum::<f64>() / BATCHES as f64;
-            let rms = mean(&squares).sqrt();
-            ForceStatistics {
-                impulse_n_s: tally.impulse,
-                mean_n: mean(&means),
-                mean_half_width_95_n: half_width(&means),
-                rms_n: rms,
-                rms_half_width_95_n: if rms > 0.0 { half_width(&squares) / (2.0 * rms) } else { 0.0 },
-                rms_averaged_over_s: tally.rigid.then_some(self.bin),
-            }
-        };
-        done.walls.iter().map(|tally| (self.length > 0.0).then(|| of(tally))).collect()
+        let mut squares = tally.square;
+        if tally.rigid {
+            // The stretch under way ends with the window.
+            squares[self.batch()] += tally.stretch * tally.stretch / self.bin;
+        }
+        let means = tally.pushed.map(|p| p / batch);
+        let squares = squares.map(|s| s / batch);
+        let mean = |x: &[f64; BATCHES]| x.iter().sum::<f64>() / BATCHES as f64;
+        let rms = mean(&squares).sqrt();
+        let enough = contacts >= BATCHES || tally.pushed.iter().all(|&p| p > 0.0);
+        let told = |half_width: f64| enough.then_some(half_width);
+        Some(ForceStatistics {
+            impulse_n_s: tally.impulse,
+            impulse_half_width_95_n_s: told(half_width(&means) * self.length),
+            mean_n: mean(&means),
+            mean_half_width_95_n: told(half_width(&means)),
+            rms_n: rms,
+            rms_half_width_95_n: told(if rms > 0.0 { half_width(&squares) / (2.0 * rms) } else { 0.0 }),
+            rms_averaged_over_s: tally.rigid.then_some(self.bin),
+        })
     }
 }
 

@@ -1,31 +1,19 @@
 //! Contact statistics: what wear models ask of a run.
 //!
 //! Everything here is of one window, from `statistics_from` to the end. How far a number scatters from one stretch of the window to
-//! the next is told by batch means: ten equal batches, the half width of the 95 % interval of their mean (Student's t with nine degrees of
-//! freedom; Law & Kelton, Simulation Modeling and Analysis, on batch means). It is the sampling error of a motion that does not repeat
-//! itself, not the error of the step.
+//! the next is told by batch means: ten equal batches and the half width of a 95 % interval. It is the sampling error of a
+//! motion that does not repeat itself, not the error of the step. Fewer than ten events do not fill ten batches: then there is no interval.
+//! Extremes have none in any case: the largest of a longer window is larger.
 
+mod batch;
 mod force;
 
-pub use force::{AVERAGED_OVER, ForceStatistics, Forces};
+pub use force::{ForceStatistics, Forces};
 
 use crate::scene::{Scene, Wall};
 use crate::step::Contact;
+use batch::{BATCHES, batch_of, half_width, ratio_half_width};
 use serde::Serialize;
-
-/// Batches of the window.
-const BATCHES: usize = 10;
-
-/// Student's t for 95 %, two-sided, with nine degrees of freedom.
-const STUDENT: f64 = 2.262_157_162_740_992;
-
-/// Half width of the 95 % interval of the mean of ten batch means.
-fn half_width(batches: &[f64; BATCHES]) -> f64 {
-    let count = BATCHES as f64;
-    let mean = batches.iter().sum::<f64>() / count;
-    let square = batches.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0);
-    STUDENT * (square / count).sqrt()
-}
 
 /// Mean and largest of a set of magnitudes, one of each episode; both `None` if the set is empty.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
@@ -47,15 +35,23 @@ impl Summary {
     }
 }
 
-/// Half widths of the 95 % intervals of a wall's rates, by batch means; none of them where the window holds fewer contacts than batches.
+/// Half widths of the 95 % intervals of what is drawn from a wall's contacts, by batch means; none of them where fewer than ten contacts began in
+/// the window.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct HalfWidths {
     /// Of the rate of contacts, 1/s.
     pub contact_rate_per_s: f64,
     /// Of the share of time in contact.
     pub contact_time_ratio: f64,
+    /// Of the mean impulse of an episode, N s: by the ratio estimator, t √(Σ(xₖ − R nₖ)²/9/10)/n̄ with R = Σxₖ/Σnₖ, since the
+    /// number nₖ of episodes in a batch scatters too (Crane & Iglehart 1975, doi:10.1287/opre.23.1.33).
+    pub episode_impulse_n_s: f64,
+    /// Of the mean peak of an episode, N, likewise; none where fewer than ten episodes had a finite force.
+    pub episode_peak_force_n: Option<f64>,
     /// Of the impact power, W.
     pub impact_power_w: f64,
+    /// Of the power that arrived less the one that left, W.
+    pub arrived_less_departed_power_w: f64,
 }
 
 /// Contacts at one wall within the window. An episode counts where it begins; its time counts where it passes.
@@ -84,7 +80,7 @@ pub struct WallStatistics {
     /// meanwhile, and that work is in it: negative where the body leaves with more than it brought. What dashpots of walls dissipate is
     /// [`Energy::wall_damping_j`](crate::residual::Energy::wall_damping_j).
     pub arrived_less_departed_power_w: f64,
-    /// How far the rates above scatter.
+    /// How far the numbers above scatter; those of the force are beside it.
     pub half_width_95: Option<HalfWidths>,
 }
 
@@ -122,10 +118,15 @@ impl Statistics {
     /// The same with the force over time, as it was seen step by step.
     #[must_use]
     pub fn with_forces(mut self, forces: &Forces) -> Self {
-        for (wall, force) in self.walls.iter_mut().zip(forces.statistics()) {
-            wall.force = force;
+        for (index, wall) in self.walls.iter_mut().enumerate() {
+            wall.force = forces.statistics(index, wall.contacts);
         }
         self
+    }
+
+    /// Impulse of the wall number `wall` on the body over the window, N s, signed as the force; 0 where it is not known.
+    pub(crate) fn impulse(&self, wall: usize) -> f64 {
+        self.walls.get(wall).and_then(|wall| wall.force).map_or(0.0, |force| force.impulse_n_s)
     }
 }
 
@@ -142,21 +143,27 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> Wa
     let contacts = here.clone().count();
     let reaching = all.iter().filter(|c| c.end.is_none_or(|end| end >= from));
     let arrived = total(&mut here.clone().map(|c| energy(c.approach_speed)));
+    let peaks = reaching.clone().filter_map(|c| Some((c.start, c.peak_force?)));
     let half_width_95 = (contacts >= BATCHES && length > 0.0).then(|| {
-        let [mut counts, mut times, mut powers] = [[0.0; BATCHES]; 3];
+        let [mut counts, mut times, mut powers, mut left, mut impulses] = [[0.0; BATCHES]; 5];
         let batch = length / BATCHES as f64;
         for c in here.clone() {
-            let k = (((c.start - from) / batch) as usize).min(BATCHES - 1);
-            counts[k] += 1.0 / batch;
+            let k = batch_of(c.start - from, length);
+            counts[k] += 1.0;
+            impulses[k] += c.impulse.abs();
             powers[k] += energy(c.approach_speed) / batch;
+            left[k] += lost(c) / batch;
         }
         for (k, time) in times.iter_mut().enumerate() {
             *time = touching([0, 1].map(|j| from + batch * (k + j) as f64)) / batch;
         }
         HalfWidths {
-            contact_rate_per_s: half_width(&counts),
+            contact_rate_per_s: half_width(&counts) / batch,
             contact_time_ratio: half_width(&times),
+            episode_impulse_n_s: ratio_half_width(&impulses, &counts).unwrap_or(0.0),
+            episode_peak_force_n: scatter_of_peaks(peaks.clone(), [from, length]),
             impact_power_w: half_width(&powers),
+            arrived_less_departed_power_w: half_width(&left),
         }
     });
     WallStatistics {
@@ -165,10 +172,23 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> Wa
         contact_rate_per_s: per_time(contacts as f64),
         contact_time_ratio: per_time(touching([from, to])),
         force: None,
-        episode_peak_force_n: Summary::of(reaching.filter_map(|c| c.peak_force)),
+        episode_peak_force_n: Summary::of(peaks.map(|(_, force)| force)),
         episode_impulse_n_s: Summary::of(here.clone().map(|c| c.impulse.abs())),
         impact_power_w: per_time(arrived),
         arrived_less_departed_power_w: per_time(total(&mut here.map(lost))),
         half_width_95,
     }
+}
+
+/// Half width of the 95 % interval of the mean of peaks (time at which the episode began, s; force, N) in the window from a time on (s) of a
+/// length (s); none of fewer than ten.
+fn scatter_of_peaks(peaks: impl Iterator<Item = (f64, f64)>, [from, length]: [f64; 2]) -> Option<f64> {
+    let [mut counts, mut sums] = [[0.0; BATCHES]; 2];
+    for (start, force) in peaks {
+        // One that began before the window stands in its first batch.
+        let k = batch_of((start - from).max(0.0), length);
+        counts[k] += 1.0;
+        sums[k] += force;
+    }
+    if counts.iter().sum::<f64>() < BATCHES as f64 { None } else { ratio_half_width(&sums, &counts) }
 }

@@ -1,7 +1,6 @@
 //! What differs between two runs of one scene, in the quantities that matter.
 
 use super::difference::{self, wall_speeds, worse};
-use crate::error::Result;
 use crate::run::Run;
 use crate::scene::{Scene, WallLaw};
 use crate::statistics::{Statistics, WallStatistics};
@@ -21,7 +20,7 @@ pub struct Change {
     pub walls: Vec<WallChange>,
 }
 
-/// The part of one wall, over the whole run. Each is relative to the largest value that a wall of the scene has, or to what one impact
+/// The part of one wall, over the window of the statistics. Each is relative to the largest value that a wall of the scene has, or to what one impact
 /// at the largest speed v at this wall would give where that is more, with the mass m that it feels ([`Scene::wall_masses`]): a wall that
 /// is hardly touched does not decide.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -56,26 +55,31 @@ impl WallChange {
 }
 
 impl Change {
-    /// The change from `run` to `against`, both of `scene` and with the same rows; displacements up to the time `until` (s), statistics
-    /// from the time `from` (s).
-    ///
-    /// # Errors
-    /// [`crate::Error::Unknown`] if the runs are not of this scene.
-    pub fn between(scene: &Scene, run: &Trajectory, against: &Trajectory, until: f64, from: f64) -> Result<Self> {
+    /// The change from `run` to `against`, both of `scene`, with the same rows and the same window of statistics, which hold the forces over
+    /// time; displacements up to the time `until` (s).
+    #[must_use]
+    pub fn between(
+        scene: &Scene,
+        run: (&Trajectory, &Statistics),
+        against: (&Trajectory, &Statistics),
+        until: f64,
+    ) -> Self {
+        let statistics = [run.1, against.1];
+        let (run, against) = (run.0, against.0);
+        let from = statistics[1].from_s;
         let gap = scene.gap_scale();
         let rows = difference::rows(run, against).take_while(|(t, _)| *t <= until * (1.0 + 1e-12));
         let displacement = rows.fold(0.0, |largest, (_, difference)| worse(largest, difference / gap));
         let speeds = wall_speeds(scene, against);
         let masses = scene.wall_masses();
-        let statistics = [run, against].map(|t| Statistics::new(scene, t.contacts(), from));
-        let window = scene.duration - from;
+        let window = statistics[1].to_s - from;
         let numbers = |index: usize| [run, against].map(|t| number(scene, t.contacts(), index, from));
         let part = |s: &Statistics, index: usize, of: fn(&WallStatistics) -> f64| s.walls.get(index).map_or(0.0, of);
-        let [_, own] = &statistics;
+        let [_, own] = statistics;
         // The largest of any wall, in the motion that is the measure.
         let mut most = Largest::default();
         for (index, wall) in scene.walls.iter().enumerate() {
-            most.impulse = most.impulse.max(against.impulse(&wall.name)?.abs());
+            most.impulse = most.impulse.max(own.impulse(index).abs());
             most.number = most.number.max(numbers(index)[1].unwrap_or(0.0));
             most.power = most.power.max(part(own, index, |w| w.impact_power_w));
             if !wall.law.is_rigid() {
@@ -86,12 +90,12 @@ impl Change {
         for (index, wall) in scene.walls.iter().enumerate() {
             let mass = masses.get(index).copied().unwrap_or(0.0);
             let speed = speeds.get(index).copied().unwrap_or(0.0);
-            let impulses = [run.impulse(&wall.name)?, against.impulse(&wall.name)?];
+            let impulses = statistics.map(|s| s.impulse(index));
             let contacts = match numbers(index) {
                 [Some(a), Some(b)] => Some(relative([a, b], most.number.max(1.0))),
                 _ => None,
             };
-            let of = |what: fn(&WallStatistics) -> f64| statistics.each_ref().map(|s| part(s, index, what));
+            let of = |what: fn(&WallStatistics) -> f64| statistics.map(|s| part(s, index, what));
             let [time, time_against] = of(|w| w.contact_time_ratio);
             let peak_force = match wall.law {
                 WallLaw::Elastic { stiffness, .. } => {
@@ -109,15 +113,14 @@ impl Change {
                 peak_force,
             });
         }
-        Ok(Self { displacement, walls })
+        Self { displacement, walls }
     }
 
-    /// The same between two finished runs.
-    ///
-    /// # Errors
-    /// As [`Change::between`].
-    pub fn of_runs(scene: &Scene, run: &Run, against: &Run, until: f64, from: f64) -> Result<Self> {
-        Self::between(scene, &run.trajectory, &against.trajectory, until, from)
+    /// The same between two finished runs with the same window of statistics.
+    #[must_use]
+    pub fn of_runs(scene: &Scene, run: &Run, against: &Run, until: f64) -> Self {
+        let against = (&against.trajectory, &against.statistics);
+        Self::between(scene, (&run.trajectory, &run.statistics), against, until)
     }
 
     /// The largest of all, and the quantity it belongs to.

@@ -5,6 +5,8 @@ use crate::residual::{Finding, Judge};
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
+use crate::statistics::{Forces, Statistics};
+use crate::time::TimeOptions;
 use crate::trajectory::{Recorder, Trajectory};
 
 /// Steps from event to event that a reference may take: a second or so. The exact scheme itself follows far more before it gives up.
@@ -42,19 +44,34 @@ pub fn stride(scene: &Scene) -> f64 {
     scene.duration / STRETCHES
 }
 
-/// The exact motion of `scene` at the rows of `run`, with stops at every multiple of [`stride`], and what the judge refutes of it.
+/// The exact motion with other roundings.
+#[derive(Debug, Clone)]
+pub struct Replay {
+    /// Its rows and contacts.
+    pub trajectory: Trajectory,
+    /// Its statistics.
+    pub statistics: Statistics,
+    /// What the judge refutes of it.
+    pub findings: Vec<Finding>,
+}
+
+/// The exact motion of `scene` at the rows of `run`, with stops at every multiple of [`stride`]; its statistics have the window of `time`.
 ///
 /// # Errors
 /// What the exact scheme reports.
-pub fn replay(scene: &Scene, run: &Run) -> Result<(Trajectory, Vec<Finding>)> {
+pub fn replay(scene: &Scene, run: &Run, time: &TimeOptions) -> Result<Replay> {
     let mut stepper = Stepper::new(scene, &Scheme::Event, stride(scene))?;
     let state = stepper.state();
     let mut judge = Judge::new(scene, stepper.contract(), stride(scene), &state.q, &state.v);
     let mut recorder = Recorder::new(scene, run.grid.rows, &state.q, &state.v);
+    let mut forces = Forces::new(scene, time.statistics_from, time.force_averaging);
     while stepper.time() < scene.duration {
         let step = stepper.step()?;
         judge.see(&step);
         recorder.see(&step);
+        forces.see(&step);
     }
-    Ok((recorder.finish(&stepper.open_contacts()), judge.findings()))
+    let trajectory = recorder.finish(&stepper.open_contacts());
+    let statistics = Statistics::new(scene, trajectory.contacts(), time.statistics_from).with_forces(&forces);
+    Ok(Replay { trajectory, statistics, findings: judge.findings() })
 }

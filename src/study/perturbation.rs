@@ -114,7 +114,7 @@ fn record(scene: &Scene, method: &Method, step: f64) -> Result<Trajectory> {
     let sample = Some(scene.duration / ROWS as f64);
     let exact = method.scheme == Scheme::Event;
     let step = step.min(scene.duration / ROWS as f64);
-    let grid = TimeGrid::stepping(scene.duration, &TimeOptions { step, sample, statistics_from: 0.0 })?;
+    let grid = TimeGrid::stepping(scene.duration, &TimeOptions { sample, ..TimeOptions::with_step(step) })?;
     let step = if exact { scene.duration } else { grid.step };
     let mut stepper = Stepper::with_backend(scene, &method.scheme, step, method.backend)?;
     let state = stepper.state();

@@ -1,7 +1,7 @@
 //! The refinement verdict: the same run with half the step, and what that changed.
 
 use super::change::Change;
-use super::exact::{affordable, replay, stride};
+use super::exact::{Replay, affordable, replay, stride};
 use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::Result;
 use crate::qp::Backend;
@@ -9,7 +9,6 @@ use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
-use crate::statistics::Statistics;
 use crate::time::TimeOptions;
 use serde::Serialize;
 use std::fmt;
@@ -41,9 +40,9 @@ pub enum Check {
 pub struct WallVerdict {
     /// The wall's name.
     pub wall: String,
-    /// Impulse of the run and of its check over the whole run, N s, signed.
+    /// Impulse of the run and of its check in the window for statistics, N s, signed.
     pub impulse_n_s: [f64; 2],
-    /// Contacts of the run and of its check in the window for statistics.
+    /// Contacts of the run and of its check in that window.
     pub contacts: [usize; 2],
     /// Largest force of the run and of its check in that window, N; none where there is no finite one.
     pub peak_force_n: [Option<f64>; 2],
@@ -78,13 +77,14 @@ impl Verdict {
         progress: &mut dyn FnMut(f64),
     ) -> Result<Self> {
         let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
-        let (check, (trajectory, findings), backend) = if method.scheme == Scheme::Event {
-            (Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run)?, Backend::Auto)
+        let (check, again, backend) = if method.scheme == Scheme::Event {
+            (Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run, time)?, Backend::Auto)
         } else {
             let step_s = 0.5 * run.grid.step;
             let options = Options::new(TimeOptions { step: step_s, ..rows }, method.backend);
             let half = run_with_progress(scene, &method.scheme, &options, progress)?;
-            (Check::HalfStep { step_s }, (half.trajectory, half.findings), method.backend)
+            let Run { trajectory, statistics, findings, .. } = half;
+            (Check::HalfStep { step_s }, Replay { trajectory, statistics, findings }, method.backend)
         };
         // A penalty moves between springs: what grows there is not what grows between rigid walls.
         let model = Stepper::with_backend(scene, &method.scheme, run.grid.step, backend)?.scene().clone();
@@ -95,19 +95,18 @@ impl Verdict {
             (_, growth) => growth,
         };
         let horizon_s = growth.map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH));
-        let from = time.statistics_from;
-        let change = Change::between(scene, &run.trajectory, &trajectory, horizon_s, from)?;
-        let again = Statistics::new(scene, trajectory.contacts(), from);
+        let pair = ((&run.trajectory, &run.statistics), (&again.trajectory, &again.statistics));
+        let change = Change::between(scene, pair.0, pair.1, horizon_s);
         let mut walls = Vec::new();
-        for (before, after) in run.statistics.walls.iter().zip(&again.walls) {
+        for (index, (before, after)) in run.statistics.walls.iter().zip(&again.statistics.walls).enumerate() {
             walls.push(WallVerdict {
                 wall: before.wall.clone(),
-                impulse_n_s: [run.trajectory.impulse(&before.wall)?, trajectory.impulse(&before.wall)?],
+                impulse_n_s: [&run.statistics, &again.statistics].map(|s| s.impulse(index)),
                 contacts: [before.contacts, after.contacts],
                 peak_force_n: [before.episode_peak_force_n.max, after.episode_peak_force_n.max],
             });
         }
-        Ok(Self { check, displacement: change.displacement, horizon_s, walls, findings })
+        Ok(Self { check, displacement: change.displacement, horizon_s, walls, findings: again.findings })
     }
 
     /// Largest change of a wall's impulse, as a share of the largest impulse that a wall has in either run: a wall that is hardly touched,

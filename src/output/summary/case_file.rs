@@ -3,6 +3,7 @@
 use crate::case::{Case, Model, Place};
 use crate::scene::{BarEnd, BeamEnd, Damping, Load, LoadKind, MassMatrix, Row, Side, System, Wall, WallLaw};
 use crate::scheme::PenaltyLaw;
+use crate::time::TimeOptions;
 use serde_json::{Map, Value, json};
 
 /// The whole of it; null in place of what no case file can say, such as a load that is a function of a program.
@@ -37,6 +38,8 @@ pub(super) fn case_file(case: &Case) -> Value {
     time.insert("step".to_owned(), json!(case.time.step));
     put(&mut time, "sample", case.time.sample.map(|x| json!(x)));
     put(&mut time, "statistics_from", Some(case.time.statistics_from).filter(|x| *x != 0.0).map(|x| json!(x)));
+    let averaging = Some(case.time.force_averaging).filter(|x| *x != TimeOptions::FORCE_AVERAGING);
+    put(&mut time, "force_averaging", averaging.map(|x| json!(x)));
     out.insert("time".to_owned(), Value::Object(time));
     put(&mut out, "penalty", penalty(case));
     Value::Object(out)

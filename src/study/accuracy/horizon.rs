@@ -104,7 +104,7 @@ pub(super) fn explain(scene: &Scene, outcome: &mut Outcome) {
     let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(sample) };
     let judged =
         if outcome.accuracy.judged_by == JudgedBy::Halving { "its own refinements" } else { "its own springs" };
-    let rigid = exact(scene, time).and_then(|exact| Change::of_runs(scene, &outcome.run, &exact, until, 0.0));
+    let rigid = exact(scene, time).map(|exact| Change::of_runs(scene, &outcome.run, &exact, until));
     if let Ok(change) = rigid {
         outcome.run.notes.push(format!(
             "the error is against {judged}: from the rigid walls the displacement lies {:.1e} of the gap away up to t = {until:.4} s, which \

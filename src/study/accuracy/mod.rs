@@ -194,8 +194,8 @@ struct Judged {
 }
 
 impl Judged {
-    fn change(&self, run: &Run, against: &Run) -> Result<Change> {
-        Change::of_runs(&self.model, run, against, self.scene.duration, self.from)
+    fn change(&self, run: &Run, against: &Run) -> Change {
+        Change::of_runs(&self.model, run, against, self.scene.duration)
     }
 
     fn time(&self, time: &TimeOptions) -> TimeOptions {
@@ -207,14 +207,15 @@ impl Judged {
 fn other_rounding(judged: &Judged, target: &Target) -> Result<Refined> {
     let time = judged.time(&TimeOptions { sample: Some(judged.coarse.sample), ..target.time });
     let run = unchecked(&judged.scene, time)?;
-    let (again, _) = replay(&judged.scene, &run)?;
-    let change = Change::between(&judged.model, &run.trajectory, &again, judged.scene.duration, judged.from)?;
+    let again = replay(&judged.scene, &run, &time)?;
+    let pair = ((&run.trajectory, &run.statistics), (&again.trajectory, &again.statistics));
+    let change = Change::between(&judged.model, pair.0, pair.1, judged.scene.duration);
     let worst = change.worst();
     let steps = run.counters.steps;
     let level = Level { step_s: judged.scene.duration, steps, error: Some(worst.0), failure: None };
     Ok(Refined {
         kept: worst.0 <= target.tolerance,
-        agrees_until: super::change::agree_until(&judged.scene, &run.trajectory, &again, target.tolerance),
+        agrees_until: super::change::agree_until(&judged.scene, &run.trajectory, &again.trajectory, target.tolerance),
         judged_by: JudgedBy::OtherRounding,
         level: 0,
         sufficient: 0,

@@ -92,7 +92,7 @@ pub(super) fn refine(
             }
         };
         let against = reference.as_ref().or(done.last().map(|(_, run)| run));
-        let change = against.map(|against| judged.change(&run, against)).transpose()?;
+        let change = against.map(|against| judged.change(&run, against));
         levels.push(Level { step_s: run.grid.step, steps, error: change.as_ref().map(|c| c.worst().0), failure: None });
         if let Some(change) = change {
             worst = change.worst();
@@ -124,7 +124,7 @@ pub(super) fn refine(
     let mut sufficient = level;
     if reference.is_none() {
         for (coarser, earlier) in done.iter().rev() {
-            if judged.change(earlier, &run)?.worst().0 <= SUFFICIENT * target.tolerance {
+            if judged.change(earlier, &run).worst().0 <= SUFFICIENT * target.tolerance {
                 sufficient = *coarser;
             }
         }

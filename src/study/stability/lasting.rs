@@ -121,7 +121,7 @@ impl Quality {
     pub fn of(scene: &Scene, schemes: &[Scheme], time: &TimeOptions, scale: &Scale) -> Result<Self> {
         let joined = scale.joined();
         let go = |scheme: Scheme, step: f64| {
-            let time = TimeOptions { step, sample: Some(step), statistics_from: 0.0 };
+            let time = TimeOptions { sample: Some(step), ..TimeOptions::with_step(step) };
             run(scene, &scheme, &Options::new(time, Backend::Auto)).and_then(Run::unrefuted)
         };
         let finest = MULTIPLES.iter().copied().fold(1.0, f64::min) * time.step;

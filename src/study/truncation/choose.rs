@@ -93,7 +93,7 @@ pub fn choose_modes(
     while modes < most && quiet < QUIET_INCREASES {
         modes = (modes + modes.div_ceil(2)).min(most);
         let next = make(modes)?;
-        let truncation = Truncation::between(whole, [&last.0, &next.0], [&last.1, &next.1], time.statistics_from)?;
+        let truncation = Truncation::between(whole, [&last.0, &next.0], [&last.1, &next.1]);
         let (change, quantity) = truncation.worst();
         quiet = if change <= QUIET * tolerance { quiet + 1 } else { 0 };
         levels.push(ModesLevel { modes, change: Some(change), quantity: Some(quantity) });

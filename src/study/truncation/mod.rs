@@ -2,7 +2,7 @@
 //!
 //! A truncation without static correction keeps restitution and changes the mass that a wall feels, 1/(g M⁻¹ gᵀ): it falls as modes are added (on a
 //! continuous string or bar to 0), and with it the impulse of one impact, while impacts grow in number. What converges is what a contact hands over
-//! in all. So a truncation is judged by the wall's impulse over the run, and by its largest force, or largest impulse of one contact where contacts are
+//! in all. So a truncation is judged by the wall's impulse over the window of the statistics, and by its largest force, or largest impulse of one contact where contacts are
 //! impacts, which have no finite force.
 
 mod choose;
@@ -50,7 +50,7 @@ impl Whole {
 pub struct WallTruncated {
     /// The wall's name.
     pub wall: String,
-    /// Impulse over the whole run, N s, signed: of the run, and with more modes.
+    /// Impulse over the window for statistics, N s, signed: of the run, and with more modes.
     pub impulse_n_s: [f64; 2],
     /// Change of it, as [`WallChange::impulse`](super::change::WallChange::impulse).
     pub impulse_change: f64,
@@ -107,14 +107,14 @@ impl Truncation {
         let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
         let options = Options::new(rows, method.backend);
         let against = run_with_progress(&more.scene, &method.scheme, &options, progress)?;
-        let between = Self::between(whole, [reduction, &more], [run, &against], time.statistics_from)?;
+        let between = Self::between(whole, [reduction, &more], [run, &against]);
         Ok(Some(Self { findings: against.findings, ..between }))
     }
 
     /// What changes from one cut and its run to the other.
-    fn between(whole: &Whole, cuts: [&Reduction; 2], runs: [&Run; 2], from: f64) -> Result<Self> {
+    fn between(whole: &Whole, cuts: [&Reduction; 2], runs: [&Run; 2]) -> Self {
         let [run, against] = runs;
-        let change = Change::of_runs(&cuts[1].scene, run, against, against.grid.end, from)?;
+        let change = Change::of_runs(&cuts[1].scene, run, against, against.grid.end);
         let mut walls = Vec::new();
         // A wall that is hardly touched, or in one of the runs only, does not decide: changes are shares of the largest wall's value.
         let most = |part: fn(&WallStatistics) -> f64| {
@@ -135,7 +135,7 @@ impl Truncation {
             let kept = cuts.map(|cut| cut.walls.get(index).copied());
             walls.push(WallTruncated {
                 wall: wall.wall.clone(),
-                impulse_n_s: [run.trajectory.impulse(&wall.wall)?, against.trajectory.impulse(&wall.wall)?],
+                impulse_n_s: runs.map(|run| run.statistics.impulse(index)),
                 impulse_change: wall.impulse,
                 peak_force_n: peaks,
                 largest_impulse_n_s: largest,
@@ -144,14 +144,14 @@ impl Truncation {
                 compliance_share: kept.map(|w| w.map_or(f64::NAN, |w| w.share())),
             });
         }
-        Ok(Self {
+        Self {
             modes: cuts.map(|cut| cut.modes.count()),
             degrees_of_freedom: cuts[0].degrees_of_freedom,
             static_correction: whole.static_correction,
             displacement: change.displacement,
             walls,
             findings: Vec::new(),
-        })
+        }
     }
 
     /// The largest change of any wall's impulse or peak, and the quantity it belongs to; of the displacement in a scene without walls.

@@ -69,11 +69,8 @@ impl Ladder {
     /// Step and rows of a run of `count` steps, s.
     pub fn time(&self, count: u64) -> TimeOptions {
         let rows = self.rows.min(count);
-        TimeOptions {
-            step: self.duration / count as f64,
-            sample: Some(self.duration / rows as f64),
-            statistics_from: 0.0,
-        }
+        let step = self.duration / count as f64;
+        TimeOptions { sample: Some(self.duration / rows as f64), ..TimeOptions::with_step(step) }
     }
 }
 

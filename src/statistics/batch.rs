@@ -1,0 +1,42 @@
+//! Batch means: how far a number scatters from one stretch of the window to the next.
+//!
+//! The window is cut into ten equal batches. A mean over time has the 95 % interval of the mean of its ten batch means, by Student's t
+//! with nine degrees of freedom (Schmeiser, Batch size effects in the analysis of simulation output, Operations Research 30(3), 1982,
+//! doi:10.1287/opre.30.3.556: ten to thirty batches, more gain nothing). A mean over episodes is a ratio, Σ of a quantity over the number
+//! of episodes; both scatter, and its interval is that of the ratio estimator (see [`ratio_half_width`]).
+
+/// Batches of the window.
+pub(super) const BATCHES: usize = 10;
+
+/// Student's t for 95 %, two-sided, with nine degrees of freedom.
+const STUDENT: f64 = 2.262_157_162_740_992;
+
+/// The batch of a window of `length` (s) in which the time `after` (s) its start lies.
+pub(super) fn batch_of(after: f64, length: f64) -> usize {
+    ((after / length * BATCHES as f64) as usize).min(BATCHES - 1)
+}
+
+/// Half width of the 95 % interval of the mean of ten batch means.
+pub(super) fn half_width(batches: &[f64; BATCHES]) -> f64 {
+    let count = BATCHES as f64;
+    let mean = batches.iter().sum::<f64>() / count;
+    let square = batches.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0);
+    STUDENT * (square / count).sqrt()
+}
+
+/// Half width of the 95 % interval of the ratio R = Σxₖ/Σnₖ, from the sums xₖ and the numbers nₖ of ten batches.
+///
+/// The ratio estimator: to first order R is off by the mean of zₖ = xₖ − R nₖ over the mean of nₖ, so that the half width is
+/// t √(s_z²/10) / n̄ with s_z² = Σzₖ²/9 (Crane & Iglehart, Simulating stable stochastic systems III, Operations
+/// Research 23(1), 1975, doi:10.1287/opre.23.1.33, with batches in the place of regenerative cycles). `None` where nothing was counted.
+pub(super) fn ratio_half_width(sums: &[f64; BATCHES], numbers: &[f64; BATCHES]) -> Option<f64> {
+    let all: f64 = numbers.iter().sum();
+    if all <= 0.0 {
+        return None;
+    }
+    let ratio = sums.iter().sum::<f64>() / all;
+    let mut open = *sums;
+    open.iter_mut().zip(numbers).for_each(|(z, n)| *z -= ratio * n);
+    // The zₖ sum to 0 but for rounding, which half_width takes off.
+    Some(half_width(&open) * BATCHES as f64 / all)
+}
