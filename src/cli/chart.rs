@@ -6,7 +6,6 @@ use super::{request, values};
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::asked::{asked, with};
-use crate::output::atomic::write_whole;
 use crate::output::document;
 use crate::output::results::Results;
 use crate::output::table::Table;
@@ -184,7 +183,7 @@ fn write(results: &mut Results, case: &Case, chart: &WorkPrecision, peers: &[Pee
         _ => title.to_owned(),
     };
     for (name, svg) in output::charts(&title, chart, peers) {
-        write_whole(&results.place(&format!("{name}.svg"))?, svg.as_bytes())?;
+        results.draw(name, &svg)?;
     }
     Ok(())
 }

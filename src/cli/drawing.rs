@@ -1,8 +1,10 @@
 //! What the options say of a command's pictures.
 
+use super::values;
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::Span;
+use crate::output::format::Format;
 
 /// The stretch of time that pictures show.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
@@ -32,5 +34,30 @@ impl Stretch {
             return Err(Error::invalid("--to", to, expected));
         }
         Ok(Span { from, to })
+    }
+}
+
+/// What pictures are written as.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Formats {
+    /// Write pictures as svg, pdf or png, or several of them [default: svg]
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = values::formats(), hide_possible_values = true)]
+    format: Vec<Format>,
+}
+
+impl Formats {
+    /// The formats asked for, each once; SVG where none is.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for one that this build cannot write.
+    pub fn usable(&self) -> Result<Vec<Format>> {
+        let mut formats = Vec::new();
+        for format in &self.format {
+            format.check()?;
+            if !formats.contains(format) {
+                formats.push(*format);
+            }
+        }
+        Ok(if formats.is_empty() { vec![Format::Svg] } else { formats })
     }
 }

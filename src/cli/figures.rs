@@ -1,12 +1,12 @@
 //! `signorini figures`: the figures of the source, from the built-in cases.
 
+use super::drawing::Formats;
 use super::refuted::Refutations;
 use super::run::perform;
 use super::ui::Ui;
 use crate::case::{Case, Embedded};
 use crate::error::{Error, Result};
 use crate::output::Span;
-use crate::output::atomic::write_whole;
 use crate::output::figure::{Curve, Figure, Mark, Panel};
 use crate::output::pictures::{Labelled, Sheet};
 use crate::output::results::Results;
@@ -26,6 +26,8 @@ pub struct Args {
     /// Replace other results in that folder
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    formats: Formats,
 }
 
 /// What stands in one figure of the source: its number, the case, and whether it is the contact force alone.
@@ -64,7 +66,7 @@ const SHOWN: f64 = 2.0;
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let request = json!({ "command": "figures" }).as_object().cloned().unwrap_or_default();
-    let mut results = Results::open(&args.out, request, args.force)?;
+    let mut results = Results::open(&args.out, request, args.force, args.formats.usable()?)?;
     // One look a method in all figures: its place in the order in which methods first appear.
     let mut known = Vec::new();
     let mut refuted = Refutations::default();
@@ -73,9 +75,9 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         case.scene.duration = case.scene.duration.min(SHOWN);
         case.time.sample = Some(case.time.step.max(case.scene.duration / 4000.0));
         for (name, svg) in plate.draw(&case, &mut known, ui, &mut refuted)? {
-            let path = results.place(&format!("fig{}-{name}.svg", plate.number))?;
-            write_whole(&path, svg.as_bytes())?;
-            ui.message(&format!("wrote {}", path.display()));
+            for path in results.draw(&format!("fig{}-{name}", plate.number), &svg)? {
+                ui.message(&format!("wrote {}", path.display()));
+            }
         }
     }
     super::run::finish(&results, "", ui)?;

@@ -1,5 +1,6 @@
 //! The case a command is about, and what the command line changes of it.
 
+use super::drawing::Formats;
 use super::ui::Ui;
 use super::values;
 use crate::case::{Case, Embedded};
@@ -55,7 +56,7 @@ pub struct Request {
     pub place: Place,
 }
 
-/// Where results go.
+/// Where results go, and what their pictures are written as.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Place {
     /// Folder for the results [default: out/CASE/COMMAND]
@@ -64,6 +65,9 @@ pub struct Place {
     /// Replace the results of another request
     #[arg(long)]
     pub force: bool,
+    /// What pictures are written as
+    #[command(flatten)]
+    pub formats: Formats,
 }
 
 impl Place {
@@ -71,10 +75,10 @@ impl Place {
     /// results of another request than `request`.
     ///
     /// # Errors
-    /// As [`Results::open`].
+    /// As [`Results::open`] and [`Formats::usable`].
     pub fn results(&self, case: &str, command: &str, request: Map<String, Value>) -> Result<Results> {
         let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(case).join(command));
-        Results::open(&folder, request, self.force)
+        Results::open(&folder, request, self.force, self.formats.usable()?)
     }
 }
 
@@ -261,7 +265,7 @@ impl Request {
     /// The folder for what `command` makes of the case, asked for by `request`.
     ///
     /// # Errors
-    /// As [`Results::open`].
+    /// As [`Place::results`].
     pub fn results(&self, case: &Case, command: &str, request: Map<String, Value>) -> Result<Results> {
         self.place.results(&case.name, command, request)
     }

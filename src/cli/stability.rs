@@ -6,7 +6,6 @@ use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
 use crate::output::asked::asked;
-use crate::output::atomic::write_whole;
 use crate::output::document;
 use crate::output::stability as output;
 use crate::output::table::Table;
@@ -65,14 +64,14 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let e = impact::wall_restitution(&case.scene);
     let impacts = impact::maps(plan.scale.mass, case.time.step, e);
     output::impacts(&results.place("impact-map.csv")?, &impacts)?;
-    write_whole(&results.place("impact-map.svg")?, output::impact_figure(&impacts, e).as_bytes())?;
+    results.draw("impact-map", &output::impact_figure(&impacts, e))?;
     let bar = ui.progress("stability", plan.work());
     let maps = plan.run(&|done| bar.set(done));
     bar.finish();
     let maps = maps?;
     output::cells(&results.place("stability.csv")?, &maps)?;
     for (name, svg) in output::maps_figures(&maps, case.title.as_deref().unwrap_or(&case.name)) {
-        write_whole(&results.place(&name)?, svg.as_bytes())?;
+        results.draw(&name, &svg)?;
     }
     let quality = Quality::of(&case.scene, &schemes(&case), &case.time, &maps.scale)?;
     output::quality(&results.place("lasting-contact.csv")?, &quality)?;

@@ -1,6 +1,7 @@
 //! The words that options take, so that the shell can complete them.
 
 use crate::case::Embedded;
+use crate::output::format::Format;
 use crate::qp::Backend;
 use crate::scheme::{Integrator, NAMES};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -43,4 +44,9 @@ pub fn solvers() -> impl TypedValueParser<Value = Backend> {
 /// An integrator of the penalty.
 pub fn integrators() -> impl TypedValueParser<Value = Integrator> {
     PossibleValuesParser::new(Integrator::ALL.map(Integrator::name)).try_map(|name| name.parse::<Integrator>())
+}
+
+/// A format of pictures.
+pub fn formats() -> impl TypedValueParser<Value = Format> {
+    PossibleValuesParser::new(Format::ALL.map(Format::name)).try_map(|name| name.parse::<Format>())
 }

@@ -1,7 +1,6 @@
 //! What a comparison leaves behind: the files of every run, figures of all, `compare.csv` and `compare-walls.csv`, a table, JSON.
 
 use super::Span;
-use super::atomic::write_whole;
 use super::csv::{self, digits};
 use super::pictures::{Labelled, Sheet};
 use super::results::Results;
@@ -101,7 +100,7 @@ fn figures(results: &mut Results, case: &Case, comparison: &Comparison, span: Sp
     let title = case.title.as_deref().unwrap_or(&case.name);
     let sheet = Sheet { title, scene: &case.scene, runs: &runs, span };
     for (name, svg) in sheet.figures()? {
-        write_whole(&results.place(&format!("{name}.svg"))?, svg.as_bytes())?;
+        results.draw(name, &svg)?;
     }
     Ok(())
 }

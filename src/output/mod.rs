@@ -15,6 +15,7 @@
 //! | [`stability`] | tables and maps of a stability study |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
+//! | [`format`] | figures as files: SVG, PDF, PNG |
 
 pub mod asked;
 pub mod atomic;
@@ -22,6 +23,7 @@ pub mod compare;
 pub mod csv;
 pub mod document;
 pub mod figure;
+pub mod format;
 pub(crate) mod json;
 mod motion;
 pub mod pictures;

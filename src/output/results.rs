@@ -3,6 +3,7 @@
 //! `request.json` in the folder says what was asked, when it was done, and which files belong to it.
 
 use super::atomic::{check_folder, write_whole};
+use super::format::Format;
 use crate::error::{Error, Result};
 use serde_json::{Map, Value, json};
 use std::fs;
@@ -24,6 +25,8 @@ const RESULTS: [&str; 6] =
 pub struct Results {
     folder: PathBuf,
     request: Map<String, Value>,
+    /// What pictures are written as.
+    formats: Vec<Format>,
     /// When what stands in the folder was made, and its files.
     before: Option<Before>,
     files: Vec<String>,
@@ -37,11 +40,11 @@ struct Before {
 
 impl Results {
     /// Makes sure that `folder` can be written and holds no results of another request than `request`: asked before a
-    /// long run rather than after. With `force` it may hold anything.
+    /// long run rather than after. With `force` it may hold anything. Pictures are written in each of `formats`.
     ///
     /// # Errors
     /// [`Error::Io`], a wrong request, which says when the other results were made and what differs.
-    pub fn open(folder: &Path, request: Map<String, Value>, force: bool) -> Result<Self> {
+    pub fn open(folder: &Path, request: Map<String, Value>, force: bool, formats: Vec<Format>) -> Result<Self> {
         let manifest = read(folder);
         if !force {
             let refused = match &manifest {
@@ -65,7 +68,7 @@ impl Results {
             let files = listed.filter_map(|name| name.as_str().map(str::to_owned)).collect();
             Some(Before { made: made(manifest).map(str::to_owned), files })
         });
-        Ok(Self { folder: folder.to_owned(), request, before, files: Vec::new() })
+        Ok(Self { folder: folder.to_owned(), request, formats, before, files: Vec::new() })
     }
 
     /// The folder.
@@ -94,6 +97,21 @@ impl Results {
         }
         self.files.push(name.to_owned());
         Ok(self.folder.join(name))
+    }
+
+    /// Writes the picture `svg` in each format asked for, as `name` with the ending of the format; `name` may have folders
+    /// before it. Gives the paths.
+    ///
+    /// # Errors
+    /// As [`Results::place`] and [`Format::write`].
+    pub fn draw(&mut self, name: &str, svg: &str) -> Result<Vec<PathBuf>> {
+        let mut paths = Vec::new();
+        for format in self.formats.clone() {
+            let path = self.place(&format!("{name}.{format}"))?;
+            format.write(&path, svg)?;
+            paths.push(path);
+        }
+        Ok(paths)
     }
 
     /// Says what the folder now holds, and takes away what is left there of the results before. Gives the sentence that
@@ -190,7 +208,7 @@ mod tests {
     }
 
     fn fill(folder: &Path, end: f64, force: bool, name: &str) -> Result<Option<String>> {
-        let mut results = Results::open(folder, request(end), force)?;
+        let mut results = Results::open(folder, request(end), force, Vec::new())?;
         let path = results.place(name)?;
         write_whole(&path, b"1")?;
         results.finish()

@@ -7,7 +7,6 @@ use super::table::Table;
 use super::{Span, csv};
 use crate::case::Case;
 use crate::error::Result;
-use crate::output::atomic::write_whole;
 use crate::run::Run;
 use crate::scheme::{Method, Scheme};
 use crate::statistics::{ForceStatistics, WallStatistics};
@@ -47,7 +46,7 @@ pub fn write(
     let title = case.title.as_deref().unwrap_or(&case.name);
     let sheet = Sheet { title, scene: &case.scene, runs: &runs, span: picture.span };
     for (name, svg) in sheet.figures()? {
-        write_whole(&results.place(&named(&format!("{name}.svg")))?, svg.as_bytes())?;
+        results.draw(&named(name), &svg)?;
     }
     summary::write(&results.place(&named("summary.json"))?, case, run, reasons, checks)?;
     summary::document(case, run, reasons, checks)

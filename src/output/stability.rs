@@ -193,12 +193,12 @@ pub fn impact_figure(maps: &[ImpactMap], e: f64) -> String {
     figure.to_svg()
 }
 
-/// One map of classes for each family: file name and SVG text.
+/// One map of classes for each family: file name without its ending, and SVG text.
 #[must_use]
 pub fn maps_figures(maps: &Maps, title: &str) -> Vec<(String, String)> {
     Family::all()
         .into_iter()
-        .map(|family| (format!("stability-{}.svg", slug(family)), map_figure(maps, family, title)))
+        .map(|family| (format!("stability-{}", slug(family)), map_figure(maps, family, title)))
         .collect()
 }
 

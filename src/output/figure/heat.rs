@@ -1,32 +1,16 @@
 //! A heat map: classes or numbers over two axes, readable in grey.
 
 use super::axis::{Axis, Extent, Scale};
+use super::class::Class;
 use super::frame::{Frame, draw_axes};
-use super::look::{LABEL, SMALL, TITLE};
+use super::look::{LABEL, SMALL, TITLE, WIDTH};
 use super::regions::letter_places;
-use super::sheet::WIDTH;
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 use super::tone::{TONES, draw_bar, draw_keys, ramp};
 
 /// Height of the map itself.
 const HEIGHT: f64 = 300.0;
-
-/// One class of a map: its name in the legend, its letter on the map.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Class {
-    /// What the legend says.
-    pub name: String,
-    /// What stands in its regions on the map where they are large enough.
-    pub letter: char,
-}
-
-impl Class {
-    /// A class.
-    pub fn new(name: impl Into<String>, letter: char) -> Self {
-        Self { name: name.into(), letter }
-    }
-}
 
 /// A grid of cells over two axes, each a class or a number.
 ///

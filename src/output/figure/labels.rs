@@ -2,9 +2,8 @@
 
 use super::axis::Axis;
 use super::frame::Frame;
-use super::look::SMALL;
+use super::look::{SMALL, WIDTH};
 use super::panel::Panel;
-use super::sheet::WIDTH;
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 

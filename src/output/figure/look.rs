@@ -2,6 +2,8 @@
 
 use super::svg::{Canvas, Stroke};
 
+/// Width of every figure: 160 mm.
+pub(super) const WIDTH: f64 = 640.0;
 /// Sizes in quarters of a millimetre: body text of a paper at 160 mm width.
 pub(super) const TITLE: f64 = 13.0;
 /// Axis labels, legend.

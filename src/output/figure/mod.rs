@@ -33,6 +33,7 @@
 //! ```
 
 mod axis;
+mod class;
 mod curve;
 mod envelope;
 mod frame;
@@ -49,7 +50,8 @@ mod thin;
 mod tone;
 
 pub use axis::Scale;
+pub use class::Class;
 pub use curve::{Curve, Mark, Stems};
-pub use heat::{Class, HeatMap};
+pub use heat::HeatMap;
 pub use panel::Panel;
 pub use sheet::Figure;

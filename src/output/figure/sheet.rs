@@ -4,13 +4,11 @@ use super::axis::{Axis, Extent, Scale};
 use super::frame::{Frame, draw_axes, draw_grid};
 use super::labels;
 use super::legend::Legend;
-use super::look::{LABEL, Look, Role, SMALL, TITLE, look};
+use super::look::{LABEL, Look, Role, SMALL, TITLE, WIDTH, look};
 use super::panel::{Entry, Panel, include_marks};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 
-/// Width of every figure: 160 mm.
-pub(super) const WIDTH: f64 = 640.0;
 /// Points in one figure, whatever it is given: about 250 kB.
 const BUDGET: usize = 22_000;
 

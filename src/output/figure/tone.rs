@@ -1,7 +1,7 @@
 //! Tones of a heat map and what explains them: boxes with letters for classes, a bar for numbers.
 
 use super::axis::Axis;
-use super::heat::Class;
+use super::class::Class;
 use super::look::{FRAME, LABEL, SMALL};
 use super::svg::{Anchor, Canvas, Text};
 use super::text;
