@@ -29,7 +29,8 @@ impl Arc {
     /// Force of wall `wall` on the body at `t`, N, signed: 0 if it does not touch.
     #[must_use]
     pub fn contact_force(&self, wall: usize, t: f64) -> f64 {
-        self.force_at(wall, t, self.state(t))
+        let touches = self.support.is_some_and(|s| s.wall == wall) || self.touching.iter().any(|a| a.wall == wall);
+        if touches { self.force_at(wall, t, self.state(t)) } else { 0.0 }
     }
 
     /// The same where the state (m, m/s) at `t` is at hand.

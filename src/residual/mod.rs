@@ -274,14 +274,13 @@ impl Judge {
         self.normal_balance = self.balance / weight;
         self.balance_scale = self.balance_scale.max(ends.largest_force / weight);
         self.rounding.load(0, ends.largest_force);
-        for index in 0..self.scene.walls.len() {
-            let wall = &self.scene.walls[index];
-            let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid());
-            for (t, _) in quadrature::nodes(step.start, step.end) {
+        for (t, _) in quadrature::nodes(step.start, step.end) {
+            let (q, v) = arc.state(t);
+            for index in 0..self.scene.walls.len() {
                 let wall = &self.scene.walls[index];
-                let (q, v) = arc.state(t);
+                let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid());
                 let (w, wdot) = (wall.at.dot(&[q]), wall.at.dot(&[v]));
-                let pressure = sign * arc.contact_force(index, t);
+                let pressure = sign * arc.force_at(index, t, (q, v));
                 self.force_scale = self.force_scale.max(pressure.abs());
                 self.tension = self.tension.max(-pressure);
                 self.depth[index] = self.depth[index].max(-wall.gap(w));
