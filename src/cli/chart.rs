@@ -1,5 +1,6 @@
 //! `signorini chart`: accuracy against speed.
 
+use super::pace::Pace;
 use super::refuted::Refutations;
 use super::ui::Ui;
 use super::{request, values};
@@ -95,7 +96,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         }),
     );
     let mut results = request.results(&case, "chart", asked)?;
-    let progress = ui.progress("charting", UNITS as u64);
+    let pace = Pace::of_chart(&case.scene, &methods, args.levels, args.longest);
+    let progress = ui.paced("charting", UNITS as u64, pace);
     let chart = study(&case.scene, &methods, &effort, &|share| progress.set((UNITS * share) as u64));
     progress.finish();
     let chart = chart?;

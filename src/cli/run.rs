@@ -123,21 +123,25 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let mut results = args.request.results(case, "run", request)?;
     let target = Target { method, ..Target::new(tolerance, case.time) };
     target.validate()?;
+    // A step costs what its unknowns cost: patience for a structure is some times that for one degree of freedom, and no more.
+    let patience = |case: &Case| {
+        let unknowns = case.scene.system.degrees_of_freedom() as u64;
+        (PATIENCE * target.most_steps / unknowns).clamp(FEWEST_STEPS, target.most_steps)
+    };
+    let watch = ui.paced("", 0, Pace::of_search(&case.scene, method, case.time.step, patience(case)));
     // Said before the search, which may take minutes.
     if let Ok(Some(until)) = foresee(&case.scene, &target) {
         ui.message(&format!(
-            "beyond about t = {until:.4} s no step keeps an error of {tolerance:e}: rounding alone grows to it; what follows is found up to there at most"
+            "beyond about t = {until:.4e} s no step keeps an error of {tolerance:e}: rounding alone grows to it; what follows is found up to there at most"
         ));
     }
     let (case, modes) = enough_modes(case, &target, ui)?;
-    // A step costs what its unknowns cost: patience for a structure is some times that for one degree of freedom, and no more.
-    let unknowns = case.scene.system.degrees_of_freedom() as u64;
-    let most_steps = (PATIENCE * target.most_steps / unknowns).clamp(FEWEST_STEPS, target.most_steps);
-    let target = Target { most_steps, ..target };
+    let target = Target { most_steps: patience(&case), ..target };
     let bar = ui.progress("refining", UNITS as u64);
     let end = case.scene.duration;
     let outcome = reach(&case.scene, &target, &mut |time| bar.set((UNITS * time / end) as u64));
     bar.finish();
+    watch.finish();
     let Outcome { method, reason, run, accuracy, mut shortfall } = outcome?;
     let mut refuted = Refutations::default();
     refuted.see(&method.to_string(), &run.findings);
@@ -202,7 +206,7 @@ struct Bar {
 impl Bar {
     /// A bar for a work of `runs` times that of the run.
     fn new(method: &Method, case: &Case, runs: f64, ui: &Ui) -> Self {
-        let pace = Pace::of(&case.scene, method, case.time.step);
+        let pace = Pace::of(&case.scene, method, case.time.step).times(runs);
         Self { progress: ui.paced(&method.to_string(), UNITS as u64, pace), end: case.scene.duration, runs }
     }
 
@@ -226,7 +230,7 @@ impl Bar {
         self.progress.share(runs / self.runs);
     }
 
-    fn finish(&self) {
+    fn finish(self) {
         self.progress.finish();
     }
 }

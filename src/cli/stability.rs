@@ -1,5 +1,6 @@
 //! `signorini stability`: where each scheme fails on a case.
 
+use super::pace::Pace;
 use super::refuted::Refutations;
 use super::request;
 use super::ui::Ui;
@@ -12,7 +13,7 @@ use crate::output::table::Table;
 use crate::scheme::{PenaltyLaw, Scheme};
 use crate::study::stability::family::{Family, Question};
 use crate::study::stability::impact::{self, ImpactMap};
-use crate::study::stability::lasting::{Line, Quality};
+use crate::study::stability::lasting::{Line, MULTIPLES, Quality};
 use crate::study::stability::plan::{Grid, Maps, Plan, Row};
 
 const EXAMPLES: &str = "\
@@ -65,7 +66,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let impacts = impact::maps(plan.scale.mass, case.time.step, e);
     output::impacts(&results.place("impact-map.csv")?, &impacts)?;
     results.draw("impact-map", &output::impact_figure(&impacts, e))?;
-    let bar = ui.progress("stability", plan.work());
+    let pace = Pace::of_maps(&case.scene, plan.work(), plan.subjects.len());
+    let bar = ui.paced("stability", plan.work(), pace);
     let maps = plan.run(&|done| bar.set(done));
     bar.finish();
     let maps = maps?;
@@ -73,7 +75,14 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     for (name, svg) in output::maps_figures(&maps, case.title.as_deref().unwrap_or(&case.name)) {
         results.draw(&name, &svg)?;
     }
-    let quality = Quality::of(&case.scene, &schemes(&case), &case.time, &maps.scale)?;
+    let schemes = schemes(&case);
+    // Each at four times, once and a quarter of the step, in parallel; judged and recorded.
+    let runs = 2.0 * MULTIPLES.iter().map(|multiple| 1.0 / multiple).sum::<f64>() * schemes.len() as f64;
+    let threads = std::thread::available_parallelism().map_or(1.0, |count| count.get() as f64);
+    let bar = ui.paced("contacts", 0, Pace::of_contacts(&case.scene, case.time.step, runs / threads));
+    let quality = Quality::of(&case.scene, &schemes, &case.time, &maps.scale);
+    bar.finish();
+    let quality = quality?;
     output::quality(&results.place("lasting-contact.csv")?, &quality)?;
     let mut refuted = Refutations::default();
     for line in &quality.lines {

@@ -1,6 +1,6 @@
 //! What the tool says and where: data on stdout, messages and progress on stderr.
 
-use super::pace::Pace;
+use super::pace::{Pace, Watch};
 use crate::error::{Error, Result};
 use crate::output::json;
 use crate::output::table::Table;
@@ -8,7 +8,6 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::Value;
 use std::cell::Cell;
 use std::io::{self, IsTerminal, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// After this long a bar appears, and a line says how long the work will take.
@@ -137,14 +136,20 @@ impl Ui {
             bar.set_message(label.to_owned());
             bar
         });
-        Progress { bar, total, forecast: None, told: AtomicBool::new(self.quiet), started: Instant::now() }
+        Progress { bar, total, watch: None, started: Instant::now() }
     }
 
     /// The same, for work whose pace is known to follow from something: after a second a line says how long all of it
     /// will take, and why.
     #[must_use]
     pub fn paced(&self, label: &str, total: u64, pace: Pace) -> Progress {
-        Progress { forecast: Some(pace), ..self.progress(label, total) }
+        let progress = self.progress(label, total);
+        let bar = progress.bar.clone();
+        let say = move |line: &str| match &bar {
+            Some(bar) => bar.suspend(|| drop(writeln!(io::stderr(), "{line}"))),
+            None => drop(writeln!(io::stderr(), "{line}")),
+        };
+        Progress { watch: (!self.quiet).then(|| Watch::new(pace, PATIENCE, say)), ..progress }
     }
 }
 
@@ -165,9 +170,8 @@ fn width() -> Option<usize> {
 pub struct Progress {
     bar: Option<ProgressBar>,
     total: u64,
-    forecast: Option<Pace>,
-    /// True once the line that says how long it takes was said, or is not wanted.
-    told: AtomicBool,
+    /// What says how long it takes; none where that is not wanted.
+    watch: Option<Watch>,
     started: Instant,
 }
 
@@ -179,23 +183,18 @@ impl Progress {
 
     /// Tells which share of all is done.
     pub fn share(&self, share: f64) {
-        let elapsed = self.started.elapsed();
-        if elapsed > PATIENCE
-            && let Some(forecast) = &self.forecast
-            && !self.told.swap(true, Ordering::Relaxed)
-            && let Some(line) = forecast.line(elapsed, share)
-        {
-            let _ = writeln!(io::stderr(), "{line}");
+        if let Some(watch) = &self.watch {
+            watch.share(share);
         }
         let Some(bar) = &self.bar else { return };
-        if bar.is_hidden() && elapsed > PATIENCE {
+        if bar.is_hidden() && self.started.elapsed() > PATIENCE {
             bar.set_draw_target(ProgressDrawTarget::stderr());
         }
         bar.set_position((share * self.total as f64) as u64);
     }
 
-    /// Takes the bar away.
-    pub fn finish(&self) {
+    /// Takes the bar away; nothing more is said of how long it takes.
+    pub fn finish(self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
