@@ -13,11 +13,12 @@
 mod body;
 mod hold;
 mod terms;
+mod wave;
 
 pub(crate) use body::Body;
 pub(crate) use hold::{Held, Hold};
-use terms::Wave;
 pub(crate) use terms::{Start, Touching};
+use wave::Wave;
 
 /// Terms of the longest series, and the stride of a polynomial.
 pub(crate) const TERMS: usize = 32;

@@ -1,5 +1,6 @@
 //! The terms of a series, one from the other.
 
+use super::wave::Wave;
 use super::{Acting, Body, Hold, Series, TERMS};
 
 /// What a series starts from.
@@ -103,7 +104,7 @@ impl Series {
         }
         self.look(body, 0);
         self.look(body, 1);
-        self.wind(body);
+        Wave::wind(&mut self.waves, body, self.start, self.unit);
         for k in 0..self.terms - 2 {
             let (known, next) = self.motion.split_at_mut((k + 2) * n);
             let force = &mut next[..n];
@@ -112,7 +113,7 @@ impl Series {
             } else {
                 force.fill(0.0)
             }
-            Self::push(&mut self.waves, body, (self.start, self.unit), k, force);
+            Wave::push(&mut self.waves, body, (self.start, self.unit), k, force);
             body.stiffness.add_product(-1.0, &known[k * n..(k + 1) * n], force);
             if let Some(damping) = &body.damping {
                 damping.add_product(-((k + 1) as f64) / self.unit, &known[(k + 1) * n..], force);
@@ -171,54 +172,4 @@ fn terms_for(radians: f64) -> usize {
         term *= radians / k as f64;
     }
     (k + 3).max(FEWEST)
-}
-
-/// A sine of the loads on its way from order to order.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Wave {
-    /// A (ω unit)ᵏ/k!, N.
-    amplitude: f64,
-    /// ω unit.
-    radians: f64,
-    /// sin θ, cos θ, −sin θ, −cos θ at the start: the derivatives in turn.
-    phases: [f64; 4],
-}
-
-impl Series {
-    /// The sines of the loads at the start.
-    fn wind(&mut self, body: &Body) {
-        self.waves.clear();
-        for wave in body.loads.iter().flat_map(|(_, forcing)| &forcing.harmonics) {
-            let (sin, cos) = (wave.omega * self.start + wave.phase).sin_cos();
-            let phases = [sin, cos, -sin, -cos];
-            self.waves.push(Wave { amplitude: wave.amplitude, radians: wave.omega * self.unit, phases });
-        }
-    }
-
-    /// Adds the Taylor coefficients in x of the loads, order `k`, to `force`; k goes up by one each time.
-    fn push(waves: &mut [Wave], body: &Body, (start, unit): (f64, f64), k: usize, force: &mut [f64]) {
-        let mut waves = waves.iter_mut();
-        for (row, forcing) in &body.loads {
-            let mut value = if k == 0 { forcing.constant } else { 0.0 };
-            if k < 2 {
-                for table in &forcing.tables {
-                    let (at, slope) = table.piece(start);
-                    value += if k == 0 { at } else { slope * unit };
-                }
-            }
-            for wave in waves.by_ref().take(forcing.harmonics.len()) {
-                if k > 0 {
-                    wave.amplitude *= wave.radians / k as f64;
-                }
-                value += wave.amplitude * wave.phases[k % 4];
-            }
-            if value != 0.0 {
-                for &(i, weight) in row.entries() {
-                    if let Some(f) = force.get_mut(i) {
-                        *f += weight * value;
-                    }
-                }
-            }
-        }
-    }
 }

@@ -6,6 +6,7 @@
 //! ends, put back onto walls that the steps have passed. Whoever reads the run is told.
 
 use super::StructureEvent;
+use super::stretch::Stretch;
 use crate::contact::Episodes;
 use crate::error::Result;
 use crate::qp::Backend;
@@ -27,40 +28,6 @@ const LONGEST: f64 = 1e-3;
 
 /// The rule that steps.
 const RULE: Scheme = Scheme::MoreauJean { theta: 0.5 };
-
-/// A stretch under way.
-#[derive(Debug)]
-pub(super) struct Stretch {
-    kernel: Structure,
-    episodes: Episodes,
-    scene: Scene,
-    from: f64,
-    to: f64,
-    /// Its step, s.
-    pub h: f64,
-    step: u64,
-    /// The contract that its steps keep.
-    pub contract: crate::step::Contract,
-}
-
-/// Counts events, to know a crowd.
-#[derive(Debug, Default)]
-pub(super) struct Crowd {
-    since: f64,
-    at_since: u64,
-    /// End of the last stretch handed over, s.
-    handed: f64,
-    /// Stretches handed over, those that follow one another as one.
-    pub stretches: Vec<Handed>,
-    pub steps: u64,
-}
-
-impl Crowd {
-    /// Counts anew from `time` (s) on, when so many `events` have been.
-    pub fn restart(&mut self, time: f64, events: u64) {
-        (self.since, self.at_since) = (time, events);
-    }
-}
 
 impl StructureEvent {
     /// The length of a stretch in which events are counted, s.

@@ -1,37 +1,12 @@
 //! What happens in an instant: blows, impacts, lasting contact and its end, entry into elastic walls and letting go.
 
-use super::rest::Fate;
+use super::StructureEvent;
 use super::rows::SIGNS;
-use super::{Cause, StructureEvent};
+use super::seat::{Cause, Fate, Seat, side_of};
 use crate::error::Result;
 use crate::flow::Held;
 use crate::scheme::event::{Barrier, Phase};
 use crate::step::Contact;
-
-/// A closed row at an instant.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Seat {
-    pub row: usize,
-    /// The sign of the force of the walls that are touched.
-    pub sign: f64,
-    /// Walls of both sides are touched: the row cannot move.
-    pub both: bool,
-    /// The sign of the walls that held the row so far; 0 without.
-    pub was: f64,
-    /// ẇ away from the walls before the instant, m/s.
-    pub arrived: f64,
-    pub restitution: f64,
-    /// Impulses of the lower and the upper walls, magnitudes, N s.
-    pub push: [f64; 2],
-    /// Its flight may be the tail of an accumulation.
-    pub candidate: bool,
-    pub fate: Fate,
-}
-
-/// 0 for lower walls, 1 for upper ones.
-pub(super) fn side_of(sign: f64) -> usize {
-    usize::from(sign < 0.0)
-}
 
 impl StructureEvent {
     /// Everything that happens at the present instant, to which `hit` has led. True if the velocity jumped or a contact changed.

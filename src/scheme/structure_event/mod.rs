@@ -2,13 +2,15 @@
 //!
 //! | file | what it holds |
 //! |---|---|
+//! | `start.rs` | the scene at its start |
 //! | `rows.rs` | the rows of the walls: bounds, what is held, roundings |
 //! | `search.rs`, `root.rs` | the first event of a stretch |
 //! | `motion.rs` | what drives the structure: series, forces, impulses |
 //! | `instant.rs` | what happens in an instant, and the episodes of contact |
 //! | `impact.rs` | impacts, at several walls at once |
 //! | `rest.rs` | which walls carry what touches without speed |
-//! | `hand.rs` | what is handed to moreau-jean |
+//! | `seat.rs` | what is told of an instant |
+//! | `hand.rs`, `stretch.rs` | what is handed to moreau-jean |
 //! | `view.rs` | what a run shows of itself |
 
 mod hand;
@@ -19,19 +21,21 @@ mod rest;
 mod root;
 mod rows;
 mod search;
+mod seat;
+mod start;
+mod stretch;
 mod view;
 
-use super::event::{Barrier, Counters, Guard, WINDOWS, known_loads, marks};
+use super::event::{Barrier, Counters, Guard};
 use super::grid::all_finite;
 use crate::error::{Error, Result};
 use crate::flow::{Body, Hold, Series, Touching};
-use crate::qp::{self, Backend};
+use crate::qp;
 use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Contract};
-use hand::{Crowd, Stretch};
-use instant::Seat;
 use rows::{DERIVATIVES, Place, Sizes};
-use search::Cause;
+use seat::Seat;
+use stretch::{Crowd, Stretch};
 
 /// A structure between walls, from event to event:
 ///
@@ -122,131 +126,7 @@ const CHANGES_AT_ONCE: usize = 16;
 const DOUBT: f64 = 4.0;
 const MOST_DOUBT: f64 = 1e4;
 
-/// The programme's signs are tested relative to the motion at hand, so any positive length will do.
-const SCALE: f64 = 1e-200;
-
 impl StructureEvent {
-    /// The scene at its start, after the blows at t = 0. Steps end at events, with a series, and at multiples of `stride` (s).
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] for a wall of the φ² penalty, which has no linear law, and for a function of time as load.
-    pub fn new(scene: &Scene, stride: f64) -> Result<Self> {
-        known_loads(scene)?;
-        let mut barriers = Vec::with_capacity(scene.walls.len());
-        for wall in &scene.walls {
-            let barrier = Barrier::new(wall).ok_or_else(|| {
-                let key = format!("wall {:?}: law", wall.name);
-                Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
-            })?;
-            barriers.push(barrier);
-        }
-        let singular = || Error::invalid("system: mass matrix", "singular", "a positive definite matrix");
-        let mut body = Body::new(scene).ok_or_else(singular)?;
-        let (n, rows, walls) = (body.n, body.rows.count(), barriers.len());
-        let mut walls_of = vec![Vec::new(); rows];
-        body.row_of.iter().enumerate().for_each(|(wall, &row)| walls_of[row].push(wall));
-        let places = walls_of.iter().map(|walls| Place::new(scene, walls)).collect();
-        let loads = Loads::new(&scene.loads);
-        let (mut v, mut blow) = (scene.initial.v.clone(), vec![0.0; n]);
-        if loads.initial_blow(&mut blow) {
-            body.solve(&mut blow);
-            v.iter_mut().zip(&blow).for_each(|(v, change)| *v += change);
-        }
-        let mut blows: Vec<f64> = body.blow_times();
-        blows.retain(|&t| t > 0.0);
-        let zero = || vec![0.0; n];
-        let mut event = Self {
-            loads,
-            barriers,
-            places,
-            walls_of,
-            solver: None,
-            series: Series::new(&body),
-            flight: Series::new(&body),
-            hold: Hold::with_room(rows),
-            surface: Hold::with_room(rows),
-            carriers: Vec::with_capacity(walls),
-            touching: Vec::with_capacity(walls),
-            seats: Vec::with_capacity(rows),
-            fastest_row: 0.0,
-            fastest_weighed: 0.0,
-            sizes: Sizes::new(n),
-            duration: scene.duration,
-            window: scene.duration / WINDOWS,
-            stride,
-            length: if walls > 0 { scene.gap_scale() } else { 0.0 },
-            time: 0.0,
-            q: scene.initial.q.clone(),
-            velocity_before: v.clone(),
-            v,
-            extra: zero(),
-            doubt: 1.0,
-            decided: f64::NEG_INFINITY,
-            marks: 0,
-            blows,
-            blow: 0,
-            guard: Guard::default(),
-            crowd: Crowd::default(),
-            stretch: None,
-            handed: None,
-            scene: scene.clone(),
-            last_wall: None,
-            steps: 0,
-            derivatives: std::array::from_fn(|_| zero()),
-            rhs: zero(),
-            rhs_size: zero(),
-            arriving: zero(),
-            departing: zero(),
-            scratch: vec![0.0; rows],
-            pushes: Vec::with_capacity(rows),
-            lo: vec![f64::NEG_INFINITY; rows],
-            hi: vec![f64::INFINITY; rows],
-            start: 0.0,
-            impulse: vec![0.0; walls],
-            jump: vec![0.0; walls],
-            force: vec![0.0; walls],
-            closed: Vec::with_capacity(3 * walls + 2),
-            body,
-        };
-        if rows > 1 && event.body.is_small() {
-            event.make_solver()?;
-        }
-        event.reclassify();
-        event.set_forces();
-        Ok(event)
-    }
-
-    /// The solver of impacts and of lasting contact at several walls, made when it is first needed: of many walls it is large.
-    fn make_solver(&mut self) -> Result<()> {
-        let (mass, rows) = (self.scene.system.structure().mass, &self.body.rows);
-        let problem = qp::Problem { a: mass, g: rows.clone(), compliance: vec![0.0; rows.count()] };
-        let (time, step) = (self.time, self.steps);
-        let refused = |f: qp::Failure| Error::Qp { time, step, wall: None, reason: f.to_string() };
-        self.solver = Some(qp::Solver::new(problem, Backend::Condensed, SCALE).map_err(refused)?);
-        Ok(())
-    }
-
-    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each: the state after whatever happened at that instant.
-    pub fn restart(&mut self, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
-        let mut event = Self::new(&self.scene, self.stride)?;
-        (event.time, event.start) = (time, time);
-        event.q.copy_from_slice(q);
-        event.v.copy_from_slice(v);
-        event.velocity_before.copy_from_slice(v);
-        event.marks = marks(time, self.stride);
-        event.blow = event.blows.iter().filter(|&&blow| blow <= time).count();
-        (event.guard, event.steps) = (self.guard, self.steps);
-        event.guard.restart(time);
-        event.crowd = std::mem::take(&mut self.crowd);
-        event.crowd.restart(time, event.guard.total.events);
-        event.reclassify();
-        event.closed.clear();
-        event.set_forces();
-        event.solver = self.solver.take();
-        *self = event;
-        Ok(())
-    }
-
     /// Moves on to the next event, end of a series, multiple of the stride, or the end of the scene, whichever is first, under a constant
     /// extra force (N, n entries; none is none).
     /// A step of no length happens where the structure starts on a wall and moves into it. Past the end of the scene the motion goes on.

@@ -6,27 +6,14 @@
 //! so it is not in contact, and the search for events sees which way it goes.
 
 use super::StructureEvent;
-use super::instant::{Seat, side_of};
 use super::rows::{SIGNS, Zeros};
+use super::seat::{Fate, Seat, side_of};
 use crate::error::Result;
 use crate::flow::Held;
 use crate::scheme::event::noise;
 
 /// Derivatives of the acceleration that are asked, with itself.
 const LEVELS: usize = 3;
-
-/// What becomes of a row without speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Fate {
-    /// It has speed, or is not closed.
-    None,
-    /// No derivative has decided.
-    Open,
-    /// Held, by the derivative of this order of its force.
-    Held(usize),
-    /// Let go, by the derivative of this order of its acceleration.
-    Gone(usize),
-}
 
 /// A force that has just been found to vanish does so to this share of its terms, or something else has happened to it.
 const VANISHED: f64 = 1e-9;

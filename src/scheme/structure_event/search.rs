@@ -3,19 +3,9 @@
 use super::StructureEvent;
 use super::root::highest;
 use super::rows::{Rounding, SIGNS, Seen, Watched, Zeros, size};
+use super::seat::Cause;
 use crate::flow::TERMS;
 use crate::scheme::event::{Phase, noise};
-
-/// What a stretch ends with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Cause {
-    /// A gap of a rigid wall closes: row and side.
-    Gap(usize, usize),
-    /// The force that holds a row vanishes.
-    Release(usize),
-    /// An elastic wall is entered, left, lets go or takes hold.
-    Elastic(usize),
-}
 
 /// When, in the stretch's x, and with what.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,0 +1,41 @@
+//! A stretch that moreau-jean steps, and the count of events that calls for one.
+
+use crate::contact::Episodes;
+use crate::scene::Scene;
+use crate::scheme::Handed;
+use crate::scheme::structure::Structure;
+use crate::step::Contract;
+
+/// A stretch under way.
+#[derive(Debug)]
+pub(super) struct Stretch {
+    pub kernel: Structure,
+    pub episodes: Episodes,
+    pub scene: Scene,
+    pub from: f64,
+    pub to: f64,
+    /// Its step, s.
+    pub h: f64,
+    pub step: u64,
+    /// The contract that its steps keep.
+    pub contract: Contract,
+}
+
+/// Counts events, to know a crowd.
+#[derive(Debug, Default)]
+pub(super) struct Crowd {
+    pub since: f64,
+    pub at_since: u64,
+    /// End of the last stretch handed over, s.
+    pub handed: f64,
+    /// Stretches handed over, those that follow one another as one.
+    pub stretches: Vec<Handed>,
+    pub steps: u64,
+}
+
+impl Crowd {
+    /// Counts anew from `time` (s) on, when so many `events` have been.
+    pub fn restart(&mut self, time: f64, events: u64) {
+        (self.since, self.at_since) = (time, events);
+    }
+}
