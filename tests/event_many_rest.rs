@@ -190,9 +190,8 @@ fn sound(scene: &Scene, run: &Judged, reach: f64, energy: f64) -> bool {
     let share = (reach / r.gap_scale).max(1.0);
     r.penetration_m <= 1e-11 * reach
         && r.complementarity * r.gap_scale <= 1e-11 * reach
-        && r.energy.residual_j.abs() <= 1e-9 * r.energy.exchanged_j.max(energy)
-        // Between two events there may be so little time that the rounding of a velocity passes for a force.
-        && r.force_balance <= 1e-6 * share
+        && r.energy.residual_j.abs() <= 1e-10 * r.energy.exchanged_j.max(energy)
+        && r.force_balance <= 1e-9 * share
         && r.tension_n <= 1e-12 * r.force_scale_n
 }
 
