@@ -1,5 +1,5 @@
 //! Cost of a step's programme: the clamp, bare Clarabel (`update_q`, `update_b`, `solve`), the polished solver, and the condensed one
-//! against a loop by hand, measured in turn in one run. Prints tables; asserts nothing about time.
+//! against a loop by hand and, with more rows than unknowns, against Clarabel, measured in turn in one run. Prints tables; asserts nothing about time.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSolver, IPSolver, NonnegativeConeT};
@@ -7,6 +7,8 @@ use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, ScalarRow, Solver, clamp};
 use std::hint::black_box;
 
+#[path = "../tests/qp_support/beam.rs"]
+mod beam;
 mod support;
 use support::{clarabel_settings, race, time};
 
@@ -240,7 +242,55 @@ fn chains() {
     println!();
 }
 
+/// More rows than unknowns: a beam between more supports than it has modes, from one that rests on all of them to one that leaves most.
+fn beams() {
+    println!(
+        "{:>5} {:>8} {:>6} {:>12} {:>12} {:>7} {:>34}",
+        "modes", "supports", "shaken", "condensed µs", "Clarabel µs", "ratio", "reached, carry, pivots, fallbacks"
+    );
+    let sizes = [(12, 300), (20, 60), (20, 100), (60, 199)];
+    for ((modes, supports), shake) in sizes.into_iter().flat_map(|size| [(size, 1.0), (size, 10.0)]) {
+        let (beam, steps) = beam::programmes(modes, supports, shake, 100);
+        let new = |backend| Solver::new(beam.problem(), backend, beam::GAP / beam::STEP).expect("a sound problem");
+        let (mut condensed, mut clarabel) = (new(Backend::Condensed), new(Backend::Clarabel));
+        let (mut reached, mut carry) = (0, 0);
+        for (b, lo, hi) in &steps {
+            let found = condensed.solve(&Rhs { b, lo, hi }).expect("feasible");
+            carry += found.multiplier.iter().filter(|r| **r != 0.0).count();
+            reached += lo.iter().zip(hi).filter(|(lo, hi)| lo.is_finite() || hi.is_finite()).count();
+        }
+        let before = condensed.counters();
+        let few = steps.len() / 5;
+        let rounds = 3;
+        let [ours, theirs] = race(rounds, || {
+            [
+                time(steps.len(), |call| {
+                    let (b, lo, hi) = &steps[call];
+                    black_box(condensed.solve(&Rhs { b, lo, hi }).expect("feasible"));
+                }),
+                time(few, |call| {
+                    let (b, lo, hi) = &steps[5 * call];
+                    black_box(clarabel.solve(&Rhs { b, lo, hi }).expect("feasible"));
+                }),
+            ]
+        });
+        let (all, after) = ((rounds * steps.len()) as f64, condensed.counters());
+        println!(
+            "{modes:>5} {supports:>8} {shake:>6} {:>12.0} {:>12.0} {:>7.3} {:>14}, {}, {:.1}, {:.2}",
+            ours / 1e3,
+            theirs / 1e3,
+            ours / theirs,
+            reached / steps.len(),
+            carry / steps.len(),
+            (after.pivots - before.pivots) as f64 / all,
+            (after.fallbacks - before.fallbacks) as f64 / all,
+        );
+    }
+    println!();
+}
+
 fn main() {
+    beams();
     chains();
     println!("{:>5} {:>14} {:>14} {:>8} {:>18}", "n", "bare ns", "polished ns", "ratio", "iterations a step");
     for n in [1, 5, 20, 40] {

@@ -4,11 +4,13 @@
 //! and Idnani 1983, doi:10.1007/BF02591962) written on W: the multipliers always have their sign, each pivot raises the
 //! dual objective, so no set returns and the method ends for any positive semidefinite W — also where several rows see
 //! the same motion (duplicate walls): a row that depends on those in play is left out if they already satisfy it,
-//! exchanged for one of them if not, and reported as infeasible if none can give way. One row at a time, and W in full: the last resort
-//! behind [`super::pivoting`], for rows so nearly dependent that rounding decides its signs.
+//! exchanged for one of them if not, and reported as infeasible if none can give way. One row at a time, and W in full: where there
+//! are more rows than the motion has freedoms (see [`super::crowd`]), and the last resort behind [`super::pivoting`], for rows so nearly
+//! dependent that rounding decides its signs.
 
 use super::delassus::Delassus;
 use super::pivoting::Side;
+use super::sums::dot;
 use super::{Failure, NOISE, ROUNDING, ULPS};
 
 /// Pivot of the factor, relative to Wᵢᵢ, under which a row is taken to depend on those before it (dimensionless; the
@@ -25,6 +27,8 @@ pub(super) struct ActiveSet {
     /// Forces of `rows`, and the change of them per unit of force on an entering row.
     force: Vec<f64>,
     change: Vec<f64>,
+    /// y of all rows under these forces.
+    y: Vec<f64>,
 }
 
 impl ActiveSet {
@@ -36,6 +40,7 @@ impl ActiveSet {
             factor: vec![0.0; m * m],
             force: vec![0.0; m],
             change: vec![0.0; m],
+            y: vec![0.0; m],
         }
     }
 
@@ -53,29 +58,30 @@ impl ActiveSet {
     }
 
     /// Starts from the rows in play and ends with the exact r (m entries). `scale` is the length that signs of gaps are
-    /// tested against. Returns the number of pivots.
+    /// tested against, or the row's free motion where that is larger. Fails after `limit` pivots. Returns their number.
     pub(super) fn solve(
         &mut self,
         system: &Delassus,
         lo: &[f64],
         hi: &[f64],
         scale: f64,
+        limit: u64,
         r: &mut [f64],
     ) -> Result<u64, Failure> {
         let bounds = |row: usize| super::clamp::meet(lo[row], hi[row]);
         let mut pivots = 0;
+        // A bound of the guess may be none of this programme.
+        self.keep(system, |row, side, _| (if side == Side::Lower { lo[row] } else { hi[row] }).is_finite());
         // A guess is a valid start once no force has the wrong sign; each round removes a row, so this ends.
         loop {
             self.balance(system, bounds);
             let before = self.rows.len();
-            self.keep(system, |side, force| side.sign() * force >= 0.0);
+            self.keep(system, |_, side, force| side.sign() * force >= 0.0);
             if self.rows.len() == before {
                 break;
             }
             pivots += (before - self.rows.len()) as u64;
         }
-        // Far above the few exchanges per row ever seen; a wrong bound here would hang, so it is a failure instead.
-        let limit = 100 + 50 * self.m as u64;
         loop {
             r.fill(0.0);
             for (&row, &force) in self.rows.iter().zip(&self.force) {
@@ -102,15 +108,17 @@ impl ActiveSet {
         r: &[f64],
     ) -> Option<(usize, Side)> {
         let mut worst = (0.0, None);
+        self.y.copy_from_slice(&system.y);
+        self.rows.iter().for_each(|&row| system.push(row, r[row], &mut self.y));
         let reach = self.rows.iter().fold(0.0, |reach, &j| f64::max(reach, r[j].abs() * system.weight[j]));
         for row in 0..self.m {
             if self.rows.contains(&row) {
                 continue;
             }
-            let y = self.displacement(system, row, r);
+            let y = self.y[row];
             let (lo, hi) = bounds(row);
             let (excess, side) = if y < lo { (lo - y, Side::Lower) } else { (y - hi, Side::Upper) };
-            if excess > ROUNDING * scale
+            if excess > ROUNDING * scale.max(system.y[row].abs())
                 && excess / system.weight[row] > worst.0
                 && excess > self.rounding(system, row, reach)
             {
@@ -129,11 +137,6 @@ impl ActiveSet {
         triangular(&self.factor, self.m, self.rows.len(), &mut self.change);
         let parts = self.change.iter().zip(&self.rows).map(|(c, &j)| c.abs() * system.weight[j]);
         ULPS * reach * (system.weight[row] + parts.sum::<f64>())
-    }
-
-    /// y of a row under the forces r.
-    fn displacement(&self, system: &Delassus, row: usize, r: &[f64]) -> f64 {
-        self.rows.iter().fold(system.y[row], |y, &j| y + system.entry(row, j) * r[j])
     }
 
     /// Brings a violated row into play, dropping rows whose force falls to zero on the way.
@@ -210,7 +213,7 @@ impl ActiveSet {
                 self.rows.remove(i);
                 self.sides.remove(i);
                 self.force.copy_within(i + 1.., i);
-                self.refactor(system);
+                self.refactor(system, i);
             }
         }
     }
@@ -234,10 +237,11 @@ impl ActiveSet {
         triangular(&self.factor, self.m, self.rows.len(), &mut self.force);
     }
 
-    fn keep(&mut self, system: &Delassus, wanted: impl Fn(Side, f64) -> bool) {
-        let mut kept = 0;
+    fn keep(&mut self, system: &Delassus, wanted: impl Fn(usize, Side, f64) -> bool) {
+        let (mut kept, mut same) = (0, 0);
         for i in 0..self.rows.len() {
-            if wanted(self.sides[i], self.force[i]) {
+            if wanted(self.rows[i], self.sides[i], self.force[i]) {
+                same += usize::from(kept == i);
                 (self.rows[kept], self.sides[kept]) = (self.rows[i], self.sides[i]);
                 kept += 1;
             }
@@ -245,12 +249,13 @@ impl ActiveSet {
         if kept < self.rows.len() {
             self.rows.truncate(kept);
             self.sides.truncate(kept);
-            self.refactor(system);
+            self.refactor(system, same);
         }
     }
 
-    fn refactor(&mut self, system: &Delassus) {
-        for k in 0..self.rows.len() {
+    /// Factors W on the rows in play again, from row number `from` on.
+    fn refactor(&mut self, system: &Delassus, from: usize) {
+        for k in from..self.rows.len() {
             // A subset of independent rows is independent.
             self.extend_factor(system, k, self.rows[k]);
         }
@@ -263,8 +268,7 @@ impl ActiveSet {
         let mut pivot = system.entry(row, row);
         for j in 0..k {
             let above = &done[j * m..=j * m + j];
-            let dot: f64 = above[..j].iter().zip(&line[..j]).map(|(a, b)| a * b).sum();
-            line[j] = (system.entry(row, self.rows[j]) - dot) / above[j];
+            line[j] = (system.entry(row, self.rows[j]) - dot(&above[..j], &line[..j])) / above[j];
             pivot -= line[j] * line[j];
         }
         let independent = pivot > DEPENDENT * system.entry(row, row);
@@ -278,8 +282,7 @@ impl ActiveSet {
 fn triangular(factor: &[f64], m: usize, k: usize, v: &mut [f64]) {
     for i in 0..k {
         let line = &factor[i * m..=i * m + i];
-        let dot: f64 = line[..i].iter().zip(&v[..i]).map(|(a, b)| a * b).sum();
-        v[i] = (v[i] - dot) / line[i];
+        v[i] = (v[i] - dot(&line[..i], &v[..i])) / line[i];
     }
     for i in (0..k).rev() {
         v[i] /= factor[i * m + i];

@@ -9,6 +9,7 @@
 use super::ULPS;
 use super::delassus::Delassus;
 use super::relations::{Relations, SPREAD};
+use super::sums::dot;
 
 /// NᵀW N over NᵀD N below which rows are dependent (dimensionless, the square of an angle: 1e-6, and 1e4 times its rounding error).
 const DEPENDENT: f64 = 1e-12;
@@ -34,8 +35,10 @@ pub(super) struct Block {
     /// True while the factor is in the order of rows.
     ordered: bool,
     relations: Relations,
-    /// False if no set of rows can depend on one another.
-    singular: bool,
+    /// Rows of which none depends on the others, of all m; as many as m where no set of rows can depend on one another.
+    rank: usize,
+    /// m.
+    count: usize,
     /// Forces of the basis, or a combination.
     work: Vec<f64>,
     /// L D of all rows in play, and what is left of their Wᵢᵢ, while the largest pivot is sought.
@@ -57,7 +60,8 @@ impl Block {
             inverse: Vec::with_capacity(m),
             ordered: true,
             relations: Relations::new(m),
-            singular: false,
+            rank: m,
+            count: m,
             work: Vec::with_capacity(m),
             panel: Vec::new(),
             left: Vec::new(),
@@ -68,8 +72,8 @@ impl Block {
             block.rows.push(row);
             block.extend(system, row) & well
         });
-        block.singular = !block.relations.rows().is_empty();
-        if block.singular {
+        block.rank = m - block.relations.rows().len();
+        if block.singular() {
             block.relations.reserve(m);
         }
         if !well {
@@ -89,7 +93,12 @@ impl Block {
 
     /// True if some rows, in play or not, depend on one another.
     pub(super) fn singular(&self) -> bool {
-        self.singular
+        self.rank < self.count
+    }
+
+    /// How many rows can be independent of one another, of all there are.
+    pub(super) fn rank(&self) -> usize {
+        self.rank
     }
 
     /// What grows without limit as δ → 0: rows that cannot be met together, if the programme was solved with them.
@@ -341,21 +350,4 @@ impl Block {
             }
         }
     }
-}
-
-/// a · b, in four sums that do not wait for one another.
-#[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    if a.len() < 8 {
-        return a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b);
-    }
-    let mut sums = [0.0; 4];
-    let (left, right) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest: f64 = left.remainder().iter().zip(right.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in left.zip(right) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += a * b;
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }

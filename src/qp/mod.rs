@@ -16,7 +16,8 @@
 //!
 //! [`Backend::Auto`] takes the clamp for one unknown and the condensed solver for more: both are exact, and cost nothing where nothing is in
 //! contact but the free motion. Where rows depend on one another the multipliers are those of least Σ Wᵢᵢ rᵢ². If pivoting does
-//! not settle, Clarabel tells where to start, and a dual active set is the last resort.
+//! not settle, Clarabel tells where to start, and a dual active set is the last resort. With more rows than the motion has
+//! freedoms a dual active set from the last programme's rows comes before Clarabel, and with more than twice as many it comes first.
 //!
 //! [`clamp()`] is the same scalar programme without matrices, for kernels that hold floats only.
 
@@ -27,11 +28,13 @@ mod backend;
 mod block;
 mod clamp;
 mod clarabel;
+mod crowd;
 mod delassus;
 mod failure;
 mod pivoting;
 mod relations;
 mod solver;
+mod sums;
 
 pub use backend::Backend;
 pub use clamp::{ScalarRow, clamp};

@@ -142,6 +142,11 @@ impl Pivoting {
         }
     }
 
+    /// How many rows can be independent of one another, of all there are.
+    pub(super) fn rank(&self) -> usize {
+        self.block.rank()
+    }
+
     /// Rows in play, increasing.
     pub(super) fn rows(&self) -> &[usize] {
         self.block.rows()

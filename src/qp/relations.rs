@@ -10,6 +10,7 @@
 //! Where they cannot, e is the escape: forces that grow without limit and move nothing.
 
 use super::delassus::Delassus;
+use super::sums::dot;
 use super::{NOISE, ROUNDING};
 
 /// A row of less than this share in a combination gives way to none of the others (dimensionless).
@@ -29,6 +30,8 @@ pub(super) struct Relations {
     /// c of each, one after the other, over the rows of the factor as far as it was then.
     combination: Vec<f64>,
     ends: Vec<usize>,
+    /// D c of one of them.
+    weighed: Vec<f64>,
     /// Lower Cholesky factor of NᵀD N, row after row without gaps.
     gram: Vec<f64>,
     /// z, or the forces of the dependent rows.
@@ -52,6 +55,7 @@ impl Relations {
     pub(super) fn reserve(&mut self, m: usize) {
         let count = self.rows.len();
         self.combination.reserve(m);
+        self.weighed.reserve(m);
         self.gram.reserve((count * (count + 1) / 2).min(MOST_GRAM));
         self.share.reserve(count);
     }
@@ -81,11 +85,16 @@ impl Relations {
         gram.clear();
         for i in 0..self.rows.len() {
             let at = gram.len();
+            self.weighed.clear();
+            let own = &self.combination[self.ends[i]..self.ends[i + 1]];
+            self.weighed.extend(own.iter().zip(basis).map(|(c, &row)| c * system.square(row)));
             for j in 0..=i {
-                let common = self.combination(i).iter().zip(self.combination(j)).zip(basis);
                 let start = j * (j + 1) / 2;
-                let mut sum: f64 = common.map(|((a, b), &row)| a * b * system.square(row)).sum();
-                sum -= gram[start..start + j].iter().zip(&gram[at..]).map(|(a, b)| a * b).sum::<f64>();
+                // A combination is as long as the factor was then.
+                let other = self.combination(j);
+                let common = other.len().min(self.weighed.len());
+                let mut sum = dot(&other[..common], &self.weighed[..common]);
+                sum -= dot(&gram[start..start + j], &gram[at..at + j]);
                 // D of the row itself bounds the pivot from below.
                 gram.push(match i == j {
                     true => (sum.max(0.0) + system.square(self.rows[i])).sqrt(),

@@ -3,13 +3,15 @@
 use super::active_set::ActiveSet;
 use super::clamp::{Clamp, meet};
 use super::clarabel::Clarabel;
+use super::crowd::Crowd;
 use super::delassus::Delassus;
 use super::pivoting::{Pivoting, Side, passes};
 use super::{Backend, Failure, NOISE, Problem, Rhs, Solution};
 use std::fmt;
 
 /// Solves one [`Problem`] for one [`Rhs`] after another. Allocates nothing after the first (what Clarabel allocates
-/// inside itself apart, and its rebuilding when a bound that was always infinite becomes finite).
+/// inside itself apart, its rebuilding when a bound that was always infinite becomes finite, and what is made where a method
+/// is first needed).
 pub struct Solver {
     kind: Kind,
     n: usize,
@@ -34,6 +36,8 @@ pub struct Counters {
     /// Programmes on which the condensed solver's pivoting did not settle, or found that bounds cross, so that Clarabel told it where to
     /// start once more.
     pub fallbacks: u64,
+    /// Programmes with more rows than the motion has freedoms that a dual active set took over from pivoting, whether or not it settled.
+    pub crowded: u64,
 }
 
 enum Kind {
@@ -48,12 +52,37 @@ struct Condensed {
     /// What the interior point is built from when it is needed.
     problem: Problem,
     interior: Option<Clarabel>,
+    /// Made where pivoting first leaves a programme with more rows than freedoms.
+    crowd: Option<Box<Crowd>>,
     /// Rows that the interior point called.
     start: Vec<(usize, Side)>,
     /// True if the interior point is asked every time.
     always: bool,
-    /// Passes that pivoting has before the interior point is asked.
+    /// Passes that pivoting has before another method is asked.
     passes: usize,
+}
+
+/// Passes of pivoting where rows can depend on one another: most programmes take one or two, and what has not settled by then mostly
+/// brings ever more rows into play than are needed.
+const FEW: usize = 30;
+
+/// Rows per freedom of the motion from which on pivoting is asked only whether the last programme's rows still are those in play.
+const CROWDED: usize = 2;
+
+/// Rows of a programme that pivoting is left with: all its passes cost little, and where nearly dependent rows close a cone it settles more
+/// often.
+const SMALL: usize = 16;
+
+/// Most rows for which a dual active set is kept: its factor takes 32 MB.
+const MOST_ROWS: usize = 2048;
+
+/// Passes that pivoting has for m rows of which `rank` can be independent, before another method is asked.
+fn patience(m: usize, rank: usize) -> usize {
+    match rank {
+        _ if rank == m || m <= SMALL || m > MOST_ROWS => passes(m),
+        _ if m > CROWDED * rank => 1,
+        _ => FEW,
+    }
 }
 
 impl Solver {
@@ -85,6 +114,7 @@ impl Solver {
             let system = Delassus::new(&problem)?;
             let pivoting = Pivoting::new(&system);
             let always = backend == Backend::Clarabel;
+            let passes = patience(m, pivoting.rank());
             Kind::Condensed(Box::new(Condensed {
                 system,
                 pivoting,
@@ -92,7 +122,8 @@ impl Solver {
                 interior: None,
                 start: Vec::new(),
                 always,
-                passes: passes(m),
+                crowd: None,
+                passes,
             }))
         };
         let solution = Solution { x: vec![0.0; n], multiplier: vec![0.0; m] };
@@ -193,6 +224,15 @@ impl Condensed {
                     return self.answer(rhs, solution);
                 }
                 // That bounds cross is told after a second opinion only.
+                Err(_) if pivoting.rank() < r.len() && r.len() <= MOST_ROWS => {
+                    counters.crowded += 1;
+                    let crowd = self.crowd.get_or_insert_with(|| Box::new(Crowd::new(system)));
+                    if let Ok(pivots) = crowd.solve(system, pivoting, rhs, scale, r) {
+                        counters.pivots += pivots;
+                        return self.answer(rhs, solution);
+                    }
+                    counters.fallbacks += 1;
+                }
                 Err(_) => counters.fallbacks += 1,
             }
         }
@@ -222,7 +262,9 @@ impl Condensed {
         // What neither settles is left to a method that cannot go round in circles, and can say which bounds cross.
         let mut play = ActiveSet::new(r.len());
         pivoting.called().for_each(|(row, side)| play.push(system, row, side));
-        counters.pivots += play.solve(system, rhs.lo, rhs.hi, largest, r)?;
+        // Far above the few exchanges per row ever seen; a wrong bound here would hang, so it is a failure instead.
+        let limit = 100 + 50 * r.len() as u64;
+        counters.pivots += play.solve(system, rhs.lo, rhs.hi, largest, limit, r)?;
         if self.always {
             found?;
         }
