@@ -103,7 +103,7 @@ fn a_long_run_shows_its_envelope_and_its_last_periods_and_orbits_of_these_alone(
     let phase = read(folder.path(), "phase.svg");
     let title = &labels(&phase)[0].body;
     assert!(title.contains("rigid walls"), "{title}");
-    assert!(phase.contains("last 10 periods of 5 Hz, 8 to 10 s"));
+    assert!(phase.contains("last 10 periods of 5\u{a0}Hz, 8 to 10\u{a0}s"));
     // Two seconds of it are drawn as they are.
     drawn(folder.path(), &["run", "rigid-walls-sine", "--from", "4", "--to", "6"]);
     let displacement = read(folder.path(), "displacement.svg");

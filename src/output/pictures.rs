@@ -150,12 +150,20 @@ impl Sheet<'_> {
     fn phase(&self, probes: &Chosen<usize>, window: &Window) -> String {
         let remarks = probes.left_out("probes").into_iter().chain(window.words());
         let mut figure = Figure::new(self.title(remarks), "Displacement (mm)");
+        let largest = |columns: &[Vec<f64>]| columns.iter().flatten().fold(0.0_f64, |a, x| a.max(x.abs()));
+        let leading = self.leading().map(|run| &run.trajectory);
+        let still = leading.map_or((0.0, 0.0), |t| (largest(t.displacements()), largest(t.velocities())));
+        let still = (STILL * MM * still.0, STILL * MM * still.1);
         for &probe in &probes.shown {
             let mut panel = self.moving("Velocity (mm/s)", probe, |run| run.trajectory.velocities());
             for labelled in self.runs {
                 let shown = window.detail();
                 let orbit = motion(self.scene, labelled.run, probe, shown, shown, true);
-                panel = panel.curve(self.curve(labelled, orbit.iter().map(|k| (MM * k.q, MM * k.v))));
+                let points: Vec<_> = orbit.iter().map(|k| (MM * k.q, MM * k.v)).collect();
+                panel = panel.curve(match (stays(&points, still), points.last()) {
+                    (true, Some(&end)) => self.curve(labelled, [end]).marked(),
+                    _ => self.curve(labelled, points),
+                });
             }
             figure = figure.panel(self.marks(probe).map(Mark::upright).fold(panel, Panel::mark));
         }
@@ -246,4 +254,13 @@ impl Sheet<'_> {
 /// An instantaneous impact on a rigid wall: its force is not finite.
 fn is_impact(contact: &Contact) -> bool {
     contact.peak_force.is_none()
+}
+
+/// True if an orbit moves by less than `limit` in displacement and velocity: a point, which no line shows.
+fn stays(orbit: &[(f64, f64)], limit: (f64, f64)) -> bool {
+    let range = |of: fn(&(f64, f64)) -> f64| {
+        let ends = orbit.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        ends.1 - ends.0
+    };
+    range(|point| point.0) <= limit.0 && range(|point| point.1) <= limit.1
 }

@@ -66,10 +66,11 @@ impl Window {
         }
     }
 
-    /// What a picture that shows the last periods alone says of them.
+    /// What a picture that shows the last periods alone says of them; numbers stay with their units.
     pub fn words(&self) -> Option<String> {
         self.last.map(|last| {
-            format!("{}, {} to {} s", self.last_words().replace("Last", "last"), short(last.from), short(last.to))
+            let words = self.last_words().replace("Last", "last").replace(" Hz", "\u{a0}Hz");
+            format!("{words}, {} to {}\u{a0}s", short(last.from), short(last.to))
         })
     }
 

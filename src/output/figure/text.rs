@@ -18,7 +18,7 @@ pub(super) fn escape_into(out: &mut String, text: &str) {
 /// Width of `text` at font size `size`, from above: as wide as in DejaVu Sans, the widest common sans-serif.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     let em = |c: char| match c {
-        'i' | 'j' | 'l' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' | ' ' => 0.34,
+        'i' | 'j' | 'l' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' | ' ' | '\u{a0}' => 0.34,
         '(' | ')' | '[' | ']' | 'f' | 't' | 'r' | '-' | '/' => 0.42,
         'm' | 'w' | 'M' | 'W' | '@' | '%' => 0.99,
         '−' | '+' | '=' | '×' | '<' | '>' | '~' | '±' => 0.84,
@@ -47,11 +47,13 @@ pub(super) fn shorten(text: &str, size: f64, room: f64) -> String {
     kept
 }
 
-/// `text` broken at spaces into at most `lines` lines no wider than `room`; what does not fit is cut with an ellipsis.
+/// `text` broken at spaces, no-break ones excepted, into at most `lines` lines no wider than `room`; what does not fit is cut with an ellipsis.
 pub(super) fn wrap(text: &str, size: f64, room: f64, lines: usize) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
     let mut current = String::new();
-    for word in text.split(|c: char| c.is_whitespace() || c.is_control()).filter(|word| !word.is_empty()) {
+    for word in
+        text.split(|c: char| (c.is_whitespace() && c != '\u{a0}') || c.is_control()).filter(|word| !word.is_empty())
+    {
         let longer = if current.is_empty() { word.to_owned() } else { format!("{current} {word}") };
         if current.is_empty() || width(&longer, size) <= room || out.len() + 1 == lines {
             current = longer;
