@@ -1,8 +1,12 @@
 //! What a reader must know of a run: sentences, drawn from its residuals and counters.
 
 mod approach;
+#[cfg(feature = "cli")]
+mod resting;
 mod setup;
 
+#[cfg(feature = "cli")]
+pub(crate) use resting::resting;
 pub(crate) use setup::setup;
 
 use crate::residual::Energy;
@@ -82,7 +86,8 @@ fn standing(scene: &Scene, contact: &Contact, q: &[f64]) -> Option<String> {
     let lasts = contact.end.is_none() && contact.peak_force.is_some();
     (lasts && depth > WORTH_SAYING * scene.gap_scale()).then(|| {
         format!(
-            "at the end the body rests {depth:.2e} m behind wall {:?}, where its last impact left it: moreau-jean does not lift it, and the              force is the one of that place, off by the stiffness times that depth; use a smaller step, or generalized-alpha, which rests on the face",
+            "at the end the body rests {depth:.2e} m behind wall {:?}, where its last impact left it: moreau-jean does not lift it, and the \
+             force is the one of that place, off by the stiffness times that depth; use a smaller step, or generalized-alpha, which rests on the face",
             wall.name
         )
     })

@@ -146,3 +146,33 @@ fn built_in_cases_ask_for_no_finer_step() {
         assert!(!said.contains("resolve") && !said.contains("far from"), "{}: {said}", embedded.name);
     }
 }
+
+#[test]
+fn explain_says_where_moreau_jean_rests_too_deep_and_what_does_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path();
+    // A spring of 1e4 N/m takes 10 N to the stop at 1 mm.
+    let explained = |force: f64, side: &str| {
+        let case = format!(
+            "[system.oscillator]\nmass = 1\ndamping = 20\nstiffness = 1e4\n[[wall]]\nname = \"stop\"\nside = \"{side}\"\n\
+             position = {}\nrestitution = 0.3\n[[load]]\nconstant = {{ force = {force:?} }}\n[time]\nend = 0.5\nstep = 1e-3\n",
+            if side == "upper" { 1e-3 } else { -1e-3 }
+        );
+        fs::write(dir.join("case.toml"), case).unwrap();
+        let mut tool = Command::new(env!("CARGO_BIN_EXE_signorini"));
+        let output = tool.args(["explain", "case.toml"]).current_dir(dir).output().unwrap();
+        String::from_utf8([output.stdout, output.stderr].concat())
+            .unwrap()
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    for (force, side, rests) in
+        [(35.0, "upper", true), (9.0, "upper", false), (-35.0, "upper", false), (-35.0, "lower", true)]
+    {
+        let said = explained(force, side);
+        let told =
+            said.contains("hold the body on wall \"stop\"") && said.contains("generalized-alpha rest on the face");
+        assert_eq!(told, rests, "{force} N, {side}: {said}");
+    }
+}

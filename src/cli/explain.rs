@@ -144,7 +144,9 @@ fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
 
 /// What is worth saying of the step and the scene before anything runs.
 fn setup(case: &Case, choice: &Choice) -> Vec<String> {
-    notes::setup(&case.scene, &choice.method.scheme, case.time.step)
+    let mut said = notes::setup(&case.scene, &choice.method.scheme, case.time.step);
+    said.extend(notes::resting(&case.scene));
+    said
 }
 
 /// About so long, by a moment of it.
