@@ -107,6 +107,8 @@ pub struct Tolerances {
     pub walls: Tolerance,
     /// Of the momentum balance over the largest force in it, and of the displacement from what the velocities make of it.
     pub balance: Tolerance,
+    /// Of the momentum that the walls' impulses leave open over the run, over the momentum exchanged.
+    pub impulses: Tolerance,
     /// Of the energy ledger over the energy exchanged.
     pub energy: Tolerance,
     /// Where that ledger is promised to close.
@@ -120,6 +122,10 @@ impl Tolerances {
         Self {
             walls: Tolerance { limit: 1e-6, reason: "solvers meet a bound to 1e-9 of its scale; the rest is rounding" },
             balance: Tolerance { limit: 1e-6, reason: "a step's equations are solved to rounding" },
+            impulses: Tolerance {
+                limit: 1e-6,
+                reason: "what a step's rule for the smooth forces may miss is taken off",
+            },
             energy: Tolerance { limit: 1e-6, reason: "the scheme conserves energy to rounding" },
             conserves,
         }

@@ -84,17 +84,17 @@ impl Judge {
             let either = closed && self.scene.walls.iter().any(drives);
             self.take_felt(either, step);
         }
-        let scratch = &self.scratch;
         let (mut worst, mut path) = (0.0_f64, 0.0_f64);
         for (i, weight) in self.scales.root_mass.iter().enumerate() {
-            let residual = scratch.residual[i].abs();
+            let residual = self.scratch.residual[i].abs();
             self.balance = self.balance.max(residual / h);
             worst = worst.max(residual / (h * weight));
             // The displacement's own balance is one of lengths: over h² it would be the rounding of q.
             if !closed {
-                path = path.max(h * scratch.inertia[i].abs() / weight);
+                path = path.max(h * self.scratch.inertia[i].abs() / weight);
             }
             self.rounding.load(i, s_end[i].abs().max(force_end[i].abs()));
+            self.scratch.spring[i] = force_end[i] + step.extra[i];
         }
         self.normal_balance = self.normal_balance.max(worst);
         self.kinematics = self.kinematics.max(path);

@@ -18,6 +18,8 @@ pub enum Refuted {
     WallLaw,
     /// Momentum changes by something else than the forces.
     MomentumBalance,
+    /// The impulses recorded of the walls do not carry the momentum of the run from its start to its end.
+    Impulses,
     /// The displacement does not follow from the velocities.
     Kinematics,
     /// The energy ledger does not close although the scheme conserves energy.
@@ -36,7 +38,7 @@ pub struct Finding {
     pub tolerance: f64,
     /// Why they allow that much and no more.
     pub reason: &'static str,
-    /// End of the step in which it was worst, s; of a ledger, which is a sum, the end of the run so far.
+    /// End of the step in which it was worst, s; of ledgers, which are sums, the end of the run so far.
     pub time_s: f64,
     /// Name of the wall; none where the promise is not one of a wall.
     pub wall: Option<String>,
@@ -50,6 +52,9 @@ impl fmt::Display for Refuted {
             Self::Complementarity => "complementarity at a rigid wall",
             Self::WallLaw => "the force of a wall is not that of its law, in shares of the largest contact force",
             Self::MomentumBalance => "momentum balance",
+            Self::Impulses => {
+                "the recorded impulses do not carry the momentum of the run, in shares of what was exchanged"
+            }
             Self::Kinematics => "displacement and velocities do not belong together",
             Self::Energy => "the energy ledger does not close",
         })

@@ -156,10 +156,11 @@ impl Judge {
     /// Adds C times what the damper felt of blows to the residual, unless a wall answered these (`either`) and without it less is left.
     pub(super) fn take_felt(&mut self, either: bool, step: &Step<'_>) {
         let s = &mut self.scratch;
-        s.damper.fill(0.0);
-        self.scene.system.add_damping(1.0, &s.felt, &mut s.damper);
+        let felt = &mut s.mean_v;
+        felt.fill(0.0);
+        self.scene.system.add_damping(1.0, &s.felt, felt);
         let left = |share: f64| -> f64 {
-            let terms = s.residual.iter().zip(&s.damper).zip(&self.scales.root_mass);
+            let terms = s.residual.iter().zip(&*felt).zip(&self.scales.root_mass);
             terms.map(|((r, felt), weight)| ((r + share * felt) / weight).powi(2)).sum()
         };
         if either && left(0.0) <= left(1.0) {
@@ -167,10 +168,10 @@ impl Judge {
         }
         let mut lost = 0.0;
         for i in 0..s.residual.len() {
-            s.residual[i] += s.damper[i];
-            s.blow[i] -= s.damper[i];
-            lost += 0.5 * s.damper[i] * (step.velocity_before[i] + step.velocity_after[i]);
-            self.balance_scale = self.balance_scale.max(s.damper[i].abs() / (self.h * self.scales.root_mass[i]));
+            s.residual[i] += felt[i];
+            s.blow[i] -= felt[i];
+            lost += 0.5 * felt[i] * (step.velocity_before[i] + step.velocity_after[i]);
+            self.balance_scale = self.balance_scale.max(felt[i].abs() / (self.h * self.scales.root_mass[i]));
         }
         self.energy.damp(lost);
     }

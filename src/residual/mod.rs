@@ -10,6 +10,7 @@ mod quadrature;
 mod recorded;
 mod scales;
 mod series;
+mod sums;
 mod verdict;
 
 pub use energy::Energy;
@@ -24,6 +25,7 @@ use complementarity::Pairs;
 use corrected::Memory;
 use scales::Scales;
 use serde::Serialize;
+use sums::Sums;
 
 /// How well a run kept its word; all of it seen step by step, however few rows were recorded.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -100,6 +102,8 @@ pub struct Judge {
     rounding: Rounding,
     /// The residuals beyond rounding.
     doubts: Residue,
+    /// The momentum of the whole run.
+    sums: Sums,
 }
 
 /// What is left of the residuals beyond what rounding explains, each with its place.
@@ -176,6 +180,7 @@ impl Judge {
             mass,
             energy: energy::Ledger::new(scene, contract, &q, &v),
             scales: Scales::new(scene),
+            sums: Sums::new(scene, &q, &v),
             memory: Memory::new(scene, contract, &q, &v, &load),
             q,
             load,
@@ -244,6 +249,7 @@ impl Judge {
                 (self.contract, self.h) = own;
             }
         }
+        self.sum(step);
         for (wall, depth) in self.scene.walls.iter().zip(&mut self.depth) {
             *depth = depth.max(-wall.gap(wall.at.dot(step.q)));
         }

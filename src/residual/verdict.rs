@@ -102,6 +102,7 @@ impl Judge {
             (Refuted::Tension, doubts.rebounds.pull.over(force), allowed.walls),
             (Refuted::WallLaw, doubts.law.over(law), allowed.walls),
             (Refuted::MomentumBalance, doubts.balance.over(balance), allowed.balance),
+            (Refuted::Impulses, self.open_momentum(), allowed.impulses),
             (Refuted::Kinematics, doubts.path.over(self.normal_reach.max(self.scales.gap)), allowed.balance),
             (Refuted::Energy, ledger.over(energy.exchanged_j), allowed.energy),
         ]

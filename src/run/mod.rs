@@ -80,8 +80,8 @@ pub fn run_with_progress<J: Judging, R: Recording>(
         }
     }
     let from = options.time.statistics_from;
-    let (residuals, findings) = J::verdict(judge);
     let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), scene, from);
+    let (residuals, findings) = J::verdict(judge, R::trajectory(&trajectory));
     let mut run = Run {
         scheme: *scheme,
         backend: stepper.backend(),

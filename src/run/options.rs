@@ -122,7 +122,7 @@ pub trait Judging: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     fn see(judge: &mut Self::Judge, step: &Step<'_>);
     #[doc(hidden)]
-    fn verdict(judge: Self::Judge) -> (Self::Verdict, Self::Findings);
+    fn verdict(judge: Self::Judge, recorded: Option<&Trajectory>) -> (Self::Verdict, Self::Findings);
     #[doc(hidden)]
     fn residuals(verdict: &Self::Verdict) -> Option<&Residuals>;
     #[doc(hidden)]
@@ -150,7 +150,11 @@ impl Judging for Judged {
         judge.see(step);
     }
 
-    fn verdict(judge: Judge) -> (Residuals, Vec<Finding>) {
+    fn verdict(mut judge: Judge, recorded: Option<&Trajectory>) -> (Residuals, Vec<Finding>) {
+        if let Some(trajectory) = recorded {
+            let sums: Vec<f64> = trajectory.contact_impulses().iter().map(|column| column.iter().sum()).collect();
+            judge.hear(&sums);
+        }
         (judge.residuals(), judge.findings())
     }
 
@@ -172,7 +176,7 @@ impl Judging for Unjudged {
 
     fn see((): &mut (), _: &Step<'_>) {}
 
-    fn verdict((): ()) -> ((), ()) {
+    fn verdict((): (), _: Option<&Trajectory>) -> ((), ()) {
         ((), ())
     }
 
