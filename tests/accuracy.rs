@@ -433,3 +433,34 @@ fn a_search_that_leads_nowhere_ends_early_and_the_stretch_is_foreseen() {
     let settled = driven(3.0, 5.0, 10.0).with_wall(upper(5e-3, 0.8)).with_wall(lower(-5e-3, 0.8));
     assert_eq!(foresee(&settled, &patient).unwrap(), None);
 }
+
+#[test]
+fn statistics_that_scatter_more_than_the_error_asked_for_are_named() {
+    // Chaotic motion between its walls: one tenth of the window differs from the next.
+    let scene = driven(3.0, 5.0, 4.0).with_wall(upper(5e-3, 0.95)).with_wall(lower(-5e-3, 0.95));
+    let outcome = reach(&scene, &Target::new(1e-3, time()), &mut |_| {}).unwrap();
+    let of_wall = |wall: &signorini::WallStatistics| wall.force.and_then(|f| Some(f.mean_half_width_95_n? / f.mean_n));
+    let widest = outcome.run.statistics.walls.iter().filter_map(of_wall).fold(0.0, f64::max);
+    let note = |outcome: &signorini::study::accuracy::Outcome| {
+        outcome.run.notes.iter().find(|note| note.contains("95 % interval by ten batches")).cloned()
+    };
+    assert!(widest > 1e-3 && widest < 0.9, "{widest}");
+    let found = note(&outcome).unwrap_or_else(|| panic!("{:?}", outcome.run.notes));
+    assert!(found.contains(&format!("±{:.1} %", 100.0 * widest)), "{found}: {widest}");
+    // An interval within what is asked for is worth no note.
+    let coarse = reach(&scene, &Target::new(0.95, time()), &mut |_| {}).unwrap();
+    assert_eq!(note(&coarse), None);
+}
+
+#[test]
+fn a_wall_that_one_of_two_runs_touches_changes_by_a_finite_share() {
+    let scene = Scene::oscillator(1.0, 0.0, 100.0).with_wall(upper(5e-3, 0.5)).with_wall(lower(-5e-3, 0.5));
+    let scene = scene.with_duration(0.2);
+    let one = at_step(&scene.clone().with_initial(&[0.0], &[1.0]), &MOREAU, 1e-3, 1e-3);
+    let none = at_step(&scene.clone().with_initial(&[0.0], &[1e-3]), &MOREAU, 1e-3, 1e-3);
+    assert!(one.trajectory.impulse("upper").unwrap() < 0.0 && none.trajectory.impulse("upper").unwrap() == 0.0);
+    for [run, against] in [[&one, &none], [&none, &one]] {
+        let (worst, quantity) = Change::of_runs(&scene, run, against, 0.2).worst();
+        assert!(worst.is_finite() && worst > 0.1, "{quantity}: {worst}");
+    }
+}

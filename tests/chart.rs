@@ -244,6 +244,25 @@ fn the_command_writes_table_and_picture_and_lays_other_programs_over() {
     // A run that fails is a row with the reason in it.
     assert!(csv.lines().any(|l| l.contains(explicit) && l.contains("failed: ") && l.contains("diverged")), "{csv}");
     assert_eq!(csv.lines().count(), 1 + 1 + 2 * 4);
+    // However many walls there are, the columns are the same; each wall has its rows beside it.
+    let header = csv.lines().next().unwrap();
+    assert!(header.contains(",impulse_error_of_the_worst_wall,") && !header.contains("upper"), "{header}");
+    let cells = |text: &str| {
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let header = reader.headers().unwrap().clone();
+        let row = |record: csv::StringRecord| -> std::collections::HashMap<String, String> {
+            header.iter().map(str::to_owned).zip(record.iter().map(str::to_owned)).collect()
+        };
+        reader.records().map(|record| row(record.unwrap())).collect::<Vec<_>>()
+    };
+    let by_wall = cells(&std::fs::read_to_string(out.join("work-precision-walls.csv")).unwrap());
+    let ran: Vec<_> = cells(&csv).into_iter().filter(|row| !row["seconds"].is_empty()).collect();
+    assert!(!ran.is_empty() && by_wall.len() == 2 * ran.len(), "{by_wall:?}");
+    for point in &ran {
+        let walls = by_wall.iter().filter(|w| w["method"] == point["method"] && w["step_s"] == point["step_s"]);
+        let worst = walls.map(|w| w["impulse_error"].parse::<f64>().unwrap()).fold(0.0, f64::max);
+        assert_eq!(point["impulse_error_of_the_worst_wall"].parse::<f64>().unwrap(), worst, "{point:?}");
+    }
     let svg = std::fs::read_to_string(out.join("work-precision.svg")).unwrap();
     let texts = ["Other RK", "Pareto front", "moreau-jean", "ε = 1e-12", "Displacement:", "Impulse:", "Contact times:"];
     for text in texts {

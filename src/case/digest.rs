@@ -1,10 +1,10 @@
-//! SHA-256, by which a file that a run read is known again.
+//! SHA-256, by which a file that a run read, or what was asked, is known again.
 
 use sha2::{Digest, Sha256};
 
 /// The SHA-256 of `bytes` (FIPS 180-4, doi:10.6028/NIST.FIPS.180-4), 64 hexadecimal digits: what
 /// `sha256sum` prints.
-pub(super) fn sha256(bytes: &[u8]) -> String {
+pub(crate) fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -36,6 +36,7 @@ mod value;
 mod walls;
 mod written;
 
+pub(crate) use digest::sha256;
 pub use embedded::Embedded;
 pub use model::{Model, Place};
 pub use penalty::PenaltyOptions;

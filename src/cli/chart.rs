@@ -27,7 +27,7 @@ Examples:
 Each error is dimensionless, and a column of work-precision.csv:
   displacement   largest difference over the gap
   velocity       distance between the completed graphs (t, u, v), jumps filled in
-  impulse        difference at each wall over the reference's total
+  impulse        largest difference at a wall over the reference's total; each wall's is in work-precision-walls.csv
   contact time   largest shift of a contact over the duration, and contacts missing or spurious
 Times are of stepping alone: the best of several, in turn, warm. The file of --with has the columns
 program,method,error_over_gap,seconds; benches/peers makes one.";
@@ -176,7 +176,8 @@ fn any_ran(chart: &WorkPrecision) -> Result<()> {
 }
 
 fn write(results: &mut Results, case: &Case, chart: &WorkPrecision, peers: &[Peer]) -> Result<()> {
-    output::table(&results.place("work-precision.csv")?, &case.scene, chart)?;
+    output::table(&results.place("work-precision.csv")?, chart)?;
+    output::walls(&results.place("work-precision-walls.csv")?, &case.scene, chart)?;
     let title = case.title.as_deref().unwrap_or(&case.name);
     let walls = case.scene.walls.iter();
     let asked: Vec<f64> = walls.filter_map(|w| w.law.restitution()).collect();

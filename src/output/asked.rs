@@ -1,10 +1,10 @@
 //! What a request asked for, as its results remember it: by it the folder of another request is told from one of the same.
 
 use super::results::FINGERPRINT;
-use crate::case::Case;
+use crate::case::{Case, sha256};
 use crate::scheme::{Method, Scheme};
 use serde_json::{Map, Value, json};
-use std::fmt::{self, Write};
+use std::fmt::Debug;
 
 /// The request of `command` for `methods` on `case`: times and settings as they are, what is too long to tell as
 /// fingerprints. Titles and comments of a case file are not in it.
@@ -54,24 +54,9 @@ fn object(value: Value) -> Map<String, Value> {
     }
 }
 
-/// 64 bits of a value: of its Debug form, in which floats have all their digits.
-fn fingerprint(value: &dyn fmt::Debug) -> Value {
-    let mut digest = Fnv(0xcbf2_9ce4_8422_2325);
-    // Writing into a number cannot fail.
-    let _ = write!(digest, "{value:?}");
-    json!(format!("{:016x}", digest.0))
-}
-
-/// FNV-1a (Fowler, Noll, Vo; RFC 9923): the same in every version of the compiler, as the standard library's hashes are not.
-struct Fnv(u64);
-
-impl Write for Fnv {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        for byte in text.bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-        Ok(())
-    }
+/// A digest of a value: of its Debug form, in which floats have all their digits.
+fn fingerprint(value: &dyn Debug) -> Value {
+    json!(sha256(format!("{value:?}").as_bytes()))
 }
 
 #[cfg(test)]
@@ -91,13 +76,5 @@ mod tests {
         let differing: Vec<_> = own.keys().filter(|key| own[*key] != other[*key]).collect();
         assert_eq!(differing, ["walls_fingerprint"]);
         assert_ne!(own, asked("compare", &case, &method));
-    }
-
-    #[test]
-    fn the_digest_is_fnv_1a() {
-        // Test vector of the authors: "foobar".
-        let mut digest = Fnv(0xcbf2_9ce4_8422_2325);
-        digest.write_str("foobar").unwrap();
-        assert_eq!(digest.0, 0x8594_4171_f739_67e8);
     }
 }

@@ -1,4 +1,4 @@
-//! `work-precision.csv` and the charts of accuracy against speed.
+//! `work-precision.csv`, `work-precision-walls.csv` and the charts of accuracy against speed.
 
 use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
@@ -17,21 +17,40 @@ const NO_ANSWER: f64 = 1.0;
 ///
 /// # Errors
 /// As [`csv::table`].
-pub fn table(path: &Path, scene: &Scene, chart: &WorkPrecision) -> Result<()> {
-    let walls: Vec<&str> = scene.walls.iter().map(|w| w.name.as_str()).collect();
+pub fn table(path: &Path, chart: &WorkPrecision) -> Result<()> {
     let front = front(chart, &[]);
     let rows = chart.series.iter().flat_map(|s| s.points.iter().map(move |p| (&s.method, p)));
-    csv::table(path, &header(&walls), rows.map(|(method, point)| row(chart, method, point, &walls, &front)))
+    csv::table(path, &header(), rows.map(|(method, point)| row(chart, method, point, &front)))
 }
 
-fn header(walls: &[&str]) -> Vec<String> {
-    let words = csv::words(walls);
+/// Writes one row for each point that ran and each wall, however many walls there are: the errors of impulses, against the scene and of
+/// a penalty against its own springs.
+///
+/// # Errors
+/// As [`csv::table`].
+pub fn walls(path: &Path, scene: &Scene, chart: &WorkPrecision) -> Result<()> {
+    let header = ["method", "step_s", "wall", "impulse_error", "own_impulse_error"];
+    let points = chart.series.iter().flat_map(|s| s.measured().map(move |(step, m)| (&s.method, step, m)));
+    let rows = points.flat_map(|(method, step, m)| {
+        let cell = |errors: Option<&Errors>, wall: usize| number(errors.and_then(|e| e.impulse.get(wall).copied()));
+        scene.walls.iter().enumerate().map(move |(index, wall)| {
+            let errors = [Some(&m.errors), m.own.as_ref()].map(|errors| cell(errors, index));
+            let [scene, own] = errors;
+            vec![method.to_string(), number(step), wall.name.clone(), scene, own]
+        })
+    });
+    csv::table(path, &header.map(str::to_owned), rows)
+}
+
+fn number(x: Option<f64>) -> String {
+    x.map_or_else(String::new, |x| format!("{x:.16e}"))
+}
+
+fn header() -> Vec<String> {
     let errors = |prefix: &str| {
-        let named = |name: &str| format!("{prefix}{name}");
-        let mut columns = vec![named("displacement_error_over_gap"), named("velocity_graph_error")];
-        columns.extend(words.iter().map(|wall| named(&format!("impulse_{wall}_error"))));
-        columns.extend(["contact_time_error", "contacts_missing", "contacts_spurious"].map(named));
-        columns
+        let columns = ["displacement_error_over_gap", "velocity_graph_error", "impulse_error_of_the_worst_wall"];
+        let contacts = ["contact_time_error", "contacts_missing", "contacts_spurious"];
+        columns.into_iter().chain(contacts).map(|name| format!("{prefix}{name}")).collect::<Vec<_>>()
     };
     let mut header = vec!["method".to_owned(), "step_s".to_owned(), "seconds".to_owned(), "on_front".to_owned()];
     header.extend(errors(""));
@@ -56,11 +75,10 @@ fn header(walls: &[&str]) -> Vec<String> {
     header
 }
 
-fn row(chart: &WorkPrecision, method: &Method, point: &Point, walls: &[&str], front: &[(f64, f64)]) -> Vec<String> {
-    let number = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:.16e}"));
+fn row(chart: &WorkPrecision, method: &Method, point: &Point, front: &[(f64, f64)]) -> Vec<String> {
     let mut row = vec![method.to_string(), number(point.step)];
     let Some(m) = point.measured() else {
-        row.resize(header(walls).len() - 1, String::new());
+        row.resize(header().len() - 1, String::new());
         row.push(match &point.outcome {
             Outcome::Failed(error) => format!("failed: {error}"),
             Outcome::LeftOut(seconds) => format!("left out: it would take about {seconds:.1} s"),
@@ -70,7 +88,7 @@ fn row(chart: &WorkPrecision, method: &Method, point: &Point, walls: &[&str], fr
     };
     let errors = |e: Option<&Errors>| {
         let mut cells = vec![number(e.map(|e| e.displacement)), number(e.map(|e| e.velocity))];
-        cells.extend((0..walls.len()).map(|i| number(e.and_then(|e| e.impulse.get(i).copied()))));
+        cells.push(number(e.and_then(Errors::worst_impulse)));
         cells.push(number(e.and_then(|e| e.contact_time)));
         let count = |n: Option<usize>| n.map_or_else(String::new, |n| n.to_string());
         cells.extend([count(e.map(|e| e.missing)), count(e.map(|e| e.spurious))]);

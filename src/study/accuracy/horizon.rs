@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::run::{Options, Run, run};
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme};
+use crate::statistics::{Statistics, WallStatistics};
 use crate::study::change::Change;
 use crate::study::exact::affordable;
 use crate::study::horizon::{Growth, LARGEST_GROWTH};
@@ -87,6 +88,23 @@ pub(super) fn perturbed(
     Ok((until < judged.scene.duration).then_some(until))
 }
 
+/// What the statistics themselves are known to, where that is less than the error asked for: the wall with the widest interval. Walls with
+/// fewer contacts than batches have none.
+fn sampling(statistics: &Statistics, tolerance: f64) -> Option<String> {
+    let share = |wall: &WallStatistics| {
+        let force = wall.force.filter(|force| wall.half_width_95.is_some() && force.mean_n > 0.0)?;
+        Some(force.mean_half_width_95_n? / force.mean_n)
+    };
+    let shares = statistics.walls.iter().filter_map(|wall| Some((share(wall)?, &wall.wall)));
+    let (widest, wall) = shares.filter(|(share, _)| *share > tolerance).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(format!(
+        "the mean force of wall {wall:?} scatters along the window: its 95 % interval by ten batches is ±{:.1} % of it, wider than the \
+         {tolerance:e} asked for; the error is that of this stretch of motion, and as an average of a longer one the force is known no better \
+         than the interval",
+        100.0 * widest
+    ))
+}
+
 /// Adds to the run's notes what a reader must know of an error that was kept.
 pub(super) fn explain(scene: &Scene, outcome: &mut Outcome) {
     let until = outcome.accuracy.until_s;
@@ -96,6 +114,7 @@ pub(super) fn explain(scene: &Scene, outcome: &mut Outcome) {
              the calculation, for exactly these numbers"
         ));
     }
+    outcome.run.notes.extend(sampling(&outcome.run.statistics, outcome.accuracy.tolerance));
     let rigid = scene.walls.iter().any(|w| w.law.is_rigid());
     if !(rigid && matches!(outcome.method.scheme, Scheme::Penalty { .. })) {
         return;
