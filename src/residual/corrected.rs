@@ -111,7 +111,7 @@ impl Judge {
     fn walls_corrected(&mut self, step: &Step<'_>, held: &mut [f64]) -> bool {
         let (h, gap_scale) = (self.h, self.energy.gap_scale);
         let mut any = false;
-        for index in 0..self.scene.walls.len() {
+        for (index, held) in held.iter_mut().enumerate().take(self.scene.walls.len()) {
             let wall = &self.scene.walls[index];
             let (sign, p) = (wall.side.sign(), step.impulse[index]);
             let pressure = sign * p / h;
@@ -146,13 +146,13 @@ impl Judge {
             };
             let force = step.force[index];
             self.force_scale = self.force_scale.max(force.abs());
-            let error = (sign * force - expected).abs().max((p / h - 0.5 * (held[index] + force)).abs());
+            let error = (sign * force - expected).abs().max((p / h - 0.5 * (*held + force)).abs());
             self.law_error = self.law_error.max(error);
             let size = (now.abs().max(before.abs()) + wall.position.abs()).max(self.reach);
             let softest = wall.law.tangent(now.max(before).max(f64::MIN_POSITIVE)) + damping_of(wall) / h;
             self.rounding.push(index, force, false);
             self.doubt_law(index, error, softest * self.rounding.met(size, gap_scale));
-            held[index] = force;
+            *held = force;
         }
         any
     }

@@ -167,11 +167,11 @@ impl Judge {
             return;
         }
         let mut lost = 0.0;
-        for i in 0..s.residual.len() {
-            s.residual[i] += felt[i];
-            s.blow[i] -= felt[i];
-            lost += 0.5 * felt[i] * (step.velocity_before[i] + step.velocity_after[i]);
-            self.balance_scale = self.balance_scale.max(felt[i].abs() / (self.h * self.scales.root_mass[i]));
+        for (i, &felt) in felt.iter().enumerate() {
+            s.residual[i] += felt;
+            s.blow[i] -= felt;
+            lost += 0.5 * felt * (step.velocity_before[i] + step.velocity_after[i]);
+            self.balance_scale = self.balance_scale.max(felt.abs() / (self.h * self.scales.root_mass[i]));
         }
         self.energy.damp(lost);
     }

@@ -4,7 +4,8 @@
 //!
 //! from the states at the ends of the steps and the impulses that were recorded. The integral is taken by the trapezoid rule over these
 //! ends. A scheme counts the same forces by weights of its own, or at an instant within the step: that is one step's change of the force a
-//! step, and one step's force at either end of the run. What is open beyond is momentum that no wall gave.
+//! step, and one step's force at either end of the run. What is open beyond is momentum that no wall gave. Loads and the structure's forces
+//! count apart: where the two nearly balance, as under heavy damping, their sum changes little while each may change much.
 
 use super::Judge;
 use super::beyond::Worst;
@@ -26,8 +27,9 @@ pub(super) struct Sums {
     place: Vec<f64>,
     rate: Vec<f64>,
     load: Vec<f64>,
-    /// The smooth force of the last step, N, the sum of its changes, its largest size, and the sum of its sizes.
-    force: Vec<f64>,
+    /// The load and the structure's own force of the last step, N; of both the sum of their changes, their largest size, and the sum of
+    /// their sizes.
+    force: Vec<[f64; 2]>,
     changes: Vec<f64>,
     largest: Vec<f64>,
     exchanged: Vec<f64>,
@@ -54,7 +56,7 @@ impl Sums {
             place: zero(),
             rate: zero(),
             load: zero(),
-            force: zero(),
+            force: vec![[0.0; 2]; n],
             changes: zero(),
             largest: zero(),
             exchanged: zero(),
@@ -82,6 +84,8 @@ impl Judge {
         let sums = &mut self.sums;
         if sums.steps == 0 {
             sums.from = step.start;
+            // A staggered rule balances from half a step before to half a step before the end, whatever it shows at these ends.
+            sums.first.copy_from_slice(step.velocity_before);
         }
         sums.steps += 1;
         for ((seen, size), &p) in sums.seen.iter_mut().zip(&mut sums.sizes).zip(step.impulse) {
@@ -89,6 +93,8 @@ impl Judge {
             *size += p.abs();
         }
         sums.whole &= matches!(step.path, Path::Grid | Path::OneRestitution);
+        // Where a wall answers a blow, a staggered rule leaves out what the damper feels of the blow's instant: not seen from the ends.
+        sums.whole &= !(matches!(self.contract.balance, Balance::Staggered(_)) && self.loads.has_blows());
         if !sums.whole {
             return;
         }
@@ -98,18 +104,24 @@ impl Judge {
         for i in 0..sums.last.len() {
             sums.place[i] += half * (self.q[i] + step.q[i]);
             if corrected {
-                sums.rate[i] += half * (sums.last[i] + step.v[i]);
+                sums.rate[i] += half * (sums.last[i] + step.velocity_after[i]);
             }
             sums.load[i] += half * (self.load[i] + s.load_end[i]) + h * step.extra[i];
-            sums.last[i] = step.v[i];
-            // Of a rule with a memory, the force at the end of the step, which has the springs of walls in it.
-            let force = if corrected { s.spring[i] } else { s.load[i] - (s.damper[i] + s.spring[i]) / h };
+            sums.last[i] = step.velocity_after[i];
+            // Of a rule with a memory, the force at the end of the step, which has dampers and the springs of walls in it; of all others
+            // the mean, without dampers, whose impulse the way from start to end tells exactly.
+            let [load, own] = match corrected {
+                true => [s.load_end[i], s.spring[i] - s.load_end[i]],
+                false => [s.load[i], -s.spring[i] / h],
+            };
             if sums.steps > 1 {
-                sums.changes[i] += (force - sums.force[i]).abs();
+                let [load_before, own_before] = sums.force[i];
+                sums.changes[i] += (load - load_before).abs() + (own - own_before).abs();
             }
-            sums.force[i] = force;
-            sums.largest[i] = sums.largest[i].max(force.abs());
-            sums.exchanged[i] += h * force.abs();
+            sums.force[i] = [load, own];
+            let damper = if corrected { 0.0 } else { -s.damper[i] / h };
+            sums.largest[i] = sums.largest[i].max(load.abs() + own.abs() + damper.abs());
+            sums.exchanged[i] += h * (load + own + damper).abs();
         }
     }
 
@@ -139,13 +151,18 @@ impl Judge {
         let mut blows = vec![0.0; n];
         self.loads.blow(sums.from, self.now, &mut blows);
         let mut exchanged = sums.exchanged.clone();
-        // The force at the end of the run, in which no step's mean has it.
+        // The forces at both ends of the run, in which no step's mean has them: a staggered rule starts half a step before.
+        let mut begin = vec![0.0; n];
+        self.loads.add_force(sums.from, 1.0, &mut begin);
+        system.add_damping(-1.0, &sums.first, &mut begin);
+        system.add_stiffness(-1.0, &sums.start, &mut begin);
         let mut end = self.load.clone();
         system.add_damping(-1.0, &sums.last, &mut end);
         system.add_stiffness(-1.0, &self.q, &mut end);
         let mut ends: Vec<f64> = sums.largest.iter().zip(&end).map(|(largest, end)| largest.max(end.abs())).collect();
         for i in 0..n {
-            ends[i] += (end[i] - sums.force[i]).abs();
+            let [load, own] = sums.force[i];
+            ends[i] += begin[i].abs() + (self.load[i] - load).abs() + (end[i] - self.load[i] - own).abs();
         }
         for (wall, (p, size)) in self.scene.walls.iter().zip(impulses.iter().zip(&sums.sizes)) {
             for &(i, weight) in wall.at.entries() {
