@@ -74,6 +74,8 @@ pub(super) struct Rounding {
     unit: f64,
     /// √Mᵢᵢ, √Kᵢᵢ and √Cᵢᵢ.
     root: Vec<[f64; 3]>,
+    /// 1/√Mᵢᵢ.
+    per_root: Vec<f64>,
     /// Largest √(Kᵢᵢ/Mᵢᵢ) and √(Cᵢᵢ/Mᵢᵢ).
     rates: [f64; 2],
     /// √m that each wall feels.
@@ -102,6 +104,7 @@ impl Rounding {
             unit: UNITS * f64::EPSILON * (n.max(1) as f64).sqrt(),
             rates: [largest(1), largest(2)],
             wall: scene.wall_masses().into_iter().map(f64::sqrt).collect(),
+            per_root: root.iter().map(|r| 1.0 / r[0]).collect(),
             root,
             speed: 0.0,
             reach: 0.0,
@@ -124,14 +127,28 @@ impl Rounding {
         }
     }
 
+    /// The same of two velocities at once.
+    pub fn step(&mut self, q: &[f64], before: &[f64], after: &[f64], span: f64) {
+        for (((q, before), after), [mass, spring, dashpot]) in q.iter().zip(before).zip(after).zip(&self.root) {
+            let v = before.abs().max(after.abs());
+            let q = q.abs() + span * v;
+            self.speed = self.speed.max(v * mass);
+            self.reach = self.reach.max(q * mass);
+            self.strain = self.strain.max(q * spring);
+            self.rub = self.rub.max(v * dashpot);
+        }
+    }
+
     /// Takes in a load on a degree of freedom, N.
     pub fn load(&mut self, i: usize, force: f64) {
-        let mass = self.root.get(i).map_or(1.0, |r| r[0]);
-        self.load = self.load.max(force.abs() / mass);
+        self.load = self.load.max(force.abs() * self.per_root.get(i).copied().unwrap_or(1.0));
     }
 
     /// Takes in a wall's force, N.
     pub fn push(&mut self, wall: usize, force: f64, rigid: bool) {
+        if force == 0.0 {
+            return;
+        }
         let force = force.abs() / self.wall.get(wall).copied().unwrap_or(1.0);
         self.push = self.push.max(force);
         if !rigid {

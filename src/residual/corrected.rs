@@ -1,44 +1,10 @@
-//! A step that predicts and then corrects, held to its word: [`Balance::GeneralizedAlpha`] and [`Promise::Corrected`].
+//! A step that predicts and then corrects, held to its word: [`Balance::GeneralizedAlpha`] and [`Promise::Corrected`](crate::step::Promise::Corrected).
 
 use super::complementarity::damping_of;
+use super::memory::{Memory, smooth};
 use super::{Judge, divide};
-use crate::scene::{Scene, Wall, WallLaw};
-use crate::step::{Balance, Contract, Promise, Step};
-
-/// What the rule remembers from step to step: M a and F at the step's start, N, n entries each, and the elastic walls' forces, N.
-#[derive(Debug)]
-pub(super) struct Memory {
-    s: Vec<f64>,
-    force: Vec<f64>,
-    held: Vec<f64>,
-    /// s⁺ and F⁺ of the step at hand.
-    s_end: Vec<f64>,
-    force_end: Vec<f64>,
-}
-
-impl Memory {
-    /// At the start of a run under such a contract: there M a = F is what acts, `load` (N) and the walls that are springs.
-    pub fn new(scene: &Scene, contract: Contract, q: &[f64], v: &[f64], load: &[f64]) -> Option<Box<Self>> {
-        if contract.promise != Promise::Corrected {
-            return None;
-        }
-        let held: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(q), w.at.dot(v))).collect();
-        let mut force = load.to_vec();
-        smooth(scene, q, v, &held, &mut force);
-        Some(Box::new(Self { s: force.clone(), s_end: force.clone(), force_end: force.clone(), force, held }))
-    }
-}
-
-/// Adds −C v − K q and the forces of the walls to `out`.
-fn smooth(scene: &Scene, q: &[f64], v: &[f64], walls: &[f64], out: &mut [f64]) {
-    scene.system.add_damping(-1.0, v, out);
-    scene.system.add_stiffness(-1.0, q, out);
-    for (wall, &r) in scene.walls.iter().zip(walls).filter(|(wall, _)| !wall.law.is_rigid()) {
-        for &(i, weight) in wall.at.entries() {
-            out[i] += weight * r;
-        }
-    }
-}
+use crate::scene::{Wall, WallLaw};
+use crate::step::{Balance, Step};
 
 impl Judge {
     /// A step of a grid whose displacement and velocity its walls corrected.

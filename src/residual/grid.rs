@@ -16,13 +16,15 @@ impl Judge {
     /// A step between two instants of a grid.
     pub(super) fn see_grid(&mut self, step: &Step<'_>) {
         let beyond = self.find_beyond(step);
-        self.walls_on_grid(step);
+        self.walls_on_grid(step, beyond);
         let h = self.h;
+        let per_h = 1.0 / h;
         let (mut worst, mut path) = (0.0_f64, 0.0_f64);
         let s = &mut self.scratch;
+        let arrived: &[f64] = if beyond { &s.arrived } else { step.q };
         let (before, after) = (step.velocity_before, step.velocity_after);
         for i in 0..s.residual.len() {
-            let (q0, q1) = (self.q[i], s.arrived[i]);
+            let (q0, q1) = (self.q[i], arrived[i]);
             match self.contract.balance {
                 Balance::Theta(theta) => {
                     let mean = |a: f64, b: f64| (1.0 - theta) * a + theta * b;
@@ -42,9 +44,7 @@ impl Judge {
             }
             s.load[i] += step.extra[i];
             s.residual[i] = -h * s.load[i] - s.blow[i];
-            let largest = s.load[i].abs().max(s.blow[i].abs() / h);
-            self.rounding.load(i, largest);
-            self.balance_scale = self.balance_scale.max(largest / self.scales.root_mass[i]);
+            self.rounding.load(i, s.load[i].abs().max(s.blow[i].abs() * per_h));
             (s.inertia[i], s.damper[i], s.spring[i]) = (0.0, 0.0, 0.0);
         }
         let system = &self.scene.system;
@@ -55,8 +55,9 @@ impl Judge {
         for i in 0..s.residual.len() {
             let (inertia, damper, spring) = (s.inertia[i], s.damper[i], s.spring[i]);
             s.residual[i] += inertia + damper + spring;
-            let largest = inertia.abs().max(damper.abs()).max(spring.abs()) / h;
-            self.balance_scale = self.balance_scale.max(largest / self.scales.root_mass[i]);
+            let moved = inertia.abs().max(damper.abs()).max(spring.abs()).max(s.blow[i].abs());
+            let largest = s.load[i].abs().max(moved * per_h);
+            self.balance_scale = self.balance_scale.max(largest * self.scales.per_root_mass[i]);
         }
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
             for &(i, weight) in wall.at.entries() {
@@ -64,14 +65,16 @@ impl Judge {
             }
         }
         self.feel_blows(step, beyond);
-        let s = &mut self.scratch;
-        for (r, weight) in s.residual.iter().zip(&self.scales.root_mass) {
-            self.balance = self.balance.max(r.abs() / h);
-            worst = worst.max(r.abs() / (h * weight));
+        let s = &self.scratch;
+        let arrived: &[f64] = if beyond { &s.arrived } else { step.q };
+        for (r, per_weight) in s.residual.iter().zip(&self.scales.per_root_mass) {
+            let open = r.abs() * per_h;
+            self.balance = self.balance.max(open);
+            worst = worst.max(open * per_weight);
         }
         self.normal_balance = self.normal_balance.max(worst);
         self.kinematics = self.kinematics.max(path);
-        self.energy.see_grid(&self.scene, h, (&self.q, &s.arrived), step, &s.load, &s.blow);
+        self.energy.see_grid(&self.scene, h, (&self.q, arrived), step, &s.load, &s.blow);
         if beyond {
             self.energy.displace(&self.scene, h, step);
         }
@@ -79,13 +82,14 @@ impl Judge {
         self.doubt_path(path);
     }
 
-    /// What the blows of the step add to the displacement, and the displacement without; returns whether they add anything.
+    /// What the blows of the step add to the displacement, and the displacement without, in `arrived`; returns whether they add anything: if
+    /// not, the displacement is the step's, and `arrived` is not set.
     fn find_beyond(&mut self, step: &Step<'_>) -> bool {
-        let s = &mut self.scratch;
-        s.arrived.copy_from_slice(step.q);
         if !self.loads.has_blows() {
             return false;
         }
+        let s = &mut self.scratch;
+        s.arrived.copy_from_slice(step.q);
         let (start, end, h) = (step.start, step.end, self.h);
         let spans = match self.contract.balance {
             Balance::Theta(theta) => [(start, end, end - theta * h), (end, end, end)],
@@ -176,32 +180,36 @@ impl Judge {
         self.energy.damp(lost);
     }
 
-    fn walls_on_grid(&mut self, step: &Step<'_>) {
+    fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) {
         let (h, gap_scale) = (self.h, self.energy.gap_scale);
         for index in 0..self.scene.walls.len() {
             let wall = &self.scene.walls[index];
             let sign = wall.side.sign();
             // The multiplier where the promise is made on it, else the mean force of the step.
-            let force = match self.contract.promise {
-                Promise::EndPosition => step.force[index],
-                _ => step.impulse[index] / h,
-            };
+            let p = step.impulse[index];
+            // Most walls push in few steps.
+            let mean = if p == 0.0 { 0.0 } else { p / h };
+            let force = if self.contract.promise == Promise::EndPosition { step.force[index] } else { mean };
             let pressure = sign * force;
-            let largest = pressure.abs().max(step.impulse[index].abs() / h);
+            let largest = pressure.abs().max(mean.abs());
             self.force_scale = self.force_scale.max(largest);
             self.tension = self.tension.max(-pressure);
             // A bound on the displacement at the end holds where the blows leave it, all else without.
             let held = self.contract.promise == Promise::EndPosition && wall.law.is_rigid();
-            let (w0, w1) = (wall.at.dot(&self.q), wall.at.dot(if held { step.q } else { &self.scratch.arrived }));
+            let (w0, w1) =
+                (wall.at.dot(&self.q), wall.at.dot(if held || !beyond { step.q } else { &self.scratch.arrived }));
             let rates = (wall.at.dot(step.velocity_before), wall.at.dot(step.velocity_after));
             // What rounding makes of the place of the body: of the terms that are summed, and of the way of a step.
-            let terms = wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * self.q[i]).abs());
-            let size = terms.sum::<f64>() + wall.position.abs() + h * (rates.0.abs() + rates.1.abs());
+            let size = |old: &[f64], wall: &Wall| {
+                let terms = wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * old[i]).abs());
+                terms.sum::<f64>() + wall.position.abs() + h * (rates.0.abs() + rates.1.abs())
+            };
             self.rounding.push(index, largest, wall.law.is_rigid());
             if !wall.law.is_rigid() {
                 let expected = expected_pressure(wall, self.contract, h, (w0, w1), rates);
                 let error = (pressure - expected).abs();
                 self.law_error = self.law_error.max(error);
+                let size = size(&self.q, wall);
                 let depth = (-wall.gap(w0)).max(-wall.gap(w1)).max(f64::MIN_POSITIVE);
                 let slope = wall.law.tangent(depth) + 2.0 * damping_of(wall) / h;
                 self.doubt_law(index, error, slope * self.rounding.met(size, gap_scale));
@@ -211,6 +219,18 @@ impl Judge {
             let (ends, after) = ((w0, w1), (struck, rates.1));
             let slack =
                 complementarity::slack(&self.scene, index, (self.contract, step.path), h, ends, after, gap_scale);
+            if pressure == 0.0 && slack.is_none_or(|slack| slack >= 0.0) {
+                // Nothing to doubt: nobody pushes, and nobody is where a wall is.
+                if let Some(slack) = slack {
+                    let pairs = match self.contract.promise {
+                        Promise::Velocity => &mut self.rebounds,
+                        _ => &mut self.pairs,
+                    };
+                    pairs.add(slack, pressure);
+                }
+                continue;
+            }
+            let size = size(&self.q, wall);
             // Whether the body reaches the wall within the step is a question that rounding may answer either way.
             let edge = (wall.gap(w0 + 0.5 * h * struck) - 1e-12 * gap_scale).abs() <= self.rounding.of(size);
             match slack {

@@ -1,13 +1,16 @@
 //! The judge: sees every step as it is made, and knows the scene and the step only — no scheme and no QP.
 
+mod arc;
 mod beyond;
 mod complementarity;
 mod corrected;
 mod energy;
 mod finding;
 mod grid;
+mod memory;
 mod quadrature;
 mod recorded;
+mod residuals;
 mod scales;
 mod series;
 mod sums;
@@ -16,47 +19,16 @@ mod verdict;
 pub use energy::Energy;
 pub use finding::{Finding, Refuted};
 pub use recorded::{Momentum, momentum};
+pub use residuals::Residuals;
 
 use crate::linear::Factor;
 use crate::scene::{Loads, Scene, System};
 use crate::step::{Balance, Contract, Path, Promise, Step};
 use beyond::{Doubts, Rounding, Worst};
 use complementarity::Pairs;
-use corrected::Memory;
+use memory::Memory;
 use scales::Scales;
-use serde::Serialize;
 use sums::Sums;
-
-/// How well a run kept its word; all of it seen step by step, however few rows were recorded.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Residuals {
-    /// Largest |min(γ/γ₀, |r|/r₀)| over steps and rigid walls, and of | |r| − law |/r₀ over elastic ones; dimensionless. γ and r are
-    /// taken where the scheme promises them ([`Promise`]). A damped wall's law jumps where the body meets its face, from 0 to c_a ṡ: a
-    /// body there to rounding may feel any pressure between.
-    pub complementarity: f64,
-    /// Deepest position behind each wall at the end of a step, m, ≥ 0, in the scene's order.
-    pub depth_m: Vec<f64>,
-    /// Deepest position behind a rigid wall, m.
-    pub penetration_m: f64,
-    /// Largest force with which a wall pulled, N, ≥ 0.
-    pub tension_n: f64,
-    /// Largest residual of the step's momentum balance, per h, N (N m in the balance of a rotation).
-    pub force_balance_n: f64,
-    /// The same over the largest force in that balance, or the mismatch of q⁺ − q with the velocities over the gap scale or the
-    /// largest |q|, if that is more. Balances of several degrees of freedom, whose units may differ, are compared in the metric of the mass: forces
-    /// over √Mᵢᵢ, displacements times it.
-    pub force_balance: f64,
-    /// The energy ledger.
-    pub energy: Energy,
-    /// γ₀: what gaps are measured by, m; for a velocity-level promise the run's largest speed at a rigid wall (Σ|gᵢvᵢ|, the size of what
-    /// its speed is a sum of), or a gap in the run's duration if that is more (a body held fast has a speed of rounding), m/s. A promise on
-    /// both levels measures its gaps by the first and its speeds by the second; the first is given.
-    pub gap_scale: f64,
-    /// r₀: the largest contact force of the run, N (impulse/h for a scheme on a grid). Contact forces below 1e-6 of the largest force in the
-    /// momentum balance, which may be rounding, are measured by that share of it. Where there is none, an elastic wall that should
-    /// have pushed is held against what the stiffest would make of the gap scale.
-    pub force_scale_n: f64,
-}
 
 /// Units in the last place by which the place of a body is not known: its terms' and those of the time.
 const PLACE_UNITS: f64 = 32.0;
@@ -225,15 +197,22 @@ impl Judge {
         if !fits {
             return;
         }
-        self.scratch.load_end.fill(0.0);
+        match &mut self.scratch.load_end[..] {
+            // One number is not worth a call.
+            [load] => *load = 0.0,
+            loads => loads.fill(0.0),
+        }
         self.loads.add_force(step.end, 1.0, &mut self.scratch.load_end);
-        let struck = match self.contract.balance {
-            Balance::Staggered(_) => self.loads.blow_about(step.index, self.h, &mut self.scratch.blow),
-            _ => self.loads.blow(step.start, step.end, &mut self.scratch.blow),
-        };
-        self.scratch.struck.copy_from_slice(&self.scratch.blow);
-        if struck {
-            divide(&self.scene, self.mass.as_mut(), &mut self.scratch.struck);
+        // Without blows these are zero, and stay so.
+        if self.loads.has_blows() {
+            let struck = match self.contract.balance {
+                Balance::Staggered(_) => self.loads.blow_about(step.index, self.h, &mut self.scratch.blow),
+                _ => self.loads.blow(step.start, step.end, &mut self.scratch.blow),
+            };
+            self.scratch.struck.copy_from_slice(&self.scratch.blow);
+            if struck {
+                divide(&self.scene, self.mass.as_mut(), &mut self.scratch.struck);
+            }
         }
         self.prepare(step);
         match step.path {
@@ -252,63 +231,17 @@ impl Judge {
         self.sum(step);
         for (wall, depth) in self.scene.walls.iter().zip(&mut self.depth) {
             *depth = depth.max(-wall.gap(wall.at.dot(step.q)));
-        }
-        for wall in self.scene.walls.iter().filter(|wall| wall.law.is_rigid()) {
-            let terms = wall.at.entries().iter().map(|&(i, weight)| (weight * step.velocity_after[i]).abs());
-            self.speed_scale = self.speed_scale.max(terms.sum());
-        }
-        for (q, weight) in step.q.iter().zip(&self.scales.root_mass) {
-            self.reach = self.reach.max(q.abs());
-            self.normal_reach = self.normal_reach.max(q.abs() * weight);
-        }
-        self.q.copy_from_slice(step.q);
-        std::mem::swap(&mut self.load, &mut self.scratch.load_end);
-    }
-
-    fn see_arc(&mut self, step: &Step<'_>, arc: &crate::flow::Arc) {
-        let ends = self.energy.see_arc(&self.scene, step, arc, &self.loads, &self.scratch.blow);
-        for (index, wall) in self.scene.walls.iter().enumerate() {
-            self.tension = self.tension.max(-wall.side.sign() * step.jump[index]);
-        }
-        // An instant knows no forces.
-        if step.end <= step.start {
-            return;
-        }
-        let weight = self.scales.root_mass.first().copied().unwrap_or(1.0);
-        let balance = ends.balance / (step.end - step.start);
-        self.balance = self.balance.max(balance);
-        self.normal_balance = self.balance / weight;
-        self.balance_scale = self.balance_scale.max(ends.largest_force / weight);
-        self.rounding.load(0, ends.largest_force);
-        for (t, _) in quadrature::nodes(step.start, step.end) {
-            let (q, v) = arc.state(t);
-            for index in 0..self.scene.walls.len() {
-                let wall = &self.scene.walls[index];
-                let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid());
-                let (w, wdot) = (wall.at.dot(&[q]), wall.at.dot(&[v]));
-                let pressure = sign * arc.force_at(index, t, (q, v));
-                self.force_scale = self.force_scale.max(pressure.abs());
-                self.tension = self.tension.max(-pressure);
-                self.depth[index] = self.depth[index].max(-wall.gap(w));
-                self.rounding.state(&[q], &[v], 0.0);
-                self.rounding.push(index, pressure, rigid);
-                let size = self.reach.max(w.abs()) + wall.position.abs() + wdot.abs() * t;
-                if rigid {
-                    let gap = wall.gap(w);
-                    self.pairs.add(gap, pressure);
-                    self.doubt_gap(index, gap, size, pressure);
-                } else {
-                    let rounding = PLACE_UNITS * f64::EPSILON * size;
-                    let law = |s: f64| wall.law.pressure(s, -sign * wdot);
-                    let (low, high) = (law(-wall.gap(w) - rounding), law(-wall.gap(w) + rounding));
-                    // Between the two, which differ by the wall's stiffness times the rounding, but at a damped wall's face.
-                    let error = (low - pressure).max(pressure - high);
-                    self.law_error = self.law_error.max(error);
-                    self.doubt_law(index, error, 0.0);
-                }
+            if wall.law.is_rigid() {
+                let terms = wall.at.entries().iter().map(|&(i, weight)| (weight * step.velocity_after[i]).abs());
+                self.speed_scale = self.speed_scale.max(terms.sum());
             }
         }
-        self.doubt_balance(balance / weight);
+        for ((old, q), weight) in self.q.iter_mut().zip(step.q).zip(&self.scales.root_mass) {
+            self.reach = self.reach.max(q.abs());
+            self.normal_reach = self.normal_reach.max(q.abs() * weight);
+            *old = *q;
+        }
+        std::mem::swap(&mut self.load, &mut self.scratch.load_end);
     }
 
     /// By which speeds of rebound are measured, m/s.

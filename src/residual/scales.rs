@@ -9,6 +9,8 @@ use crate::scene::Scene;
 pub(super) struct Scales {
     /// √Mᵢᵢ, n entries.
     pub root_mass: Vec<f64>,
+    /// 1/√Mᵢᵢ.
+    pub per_root_mass: Vec<f64>,
     /// √m of the lightest wall, by the mass it feels; without walls of the heaviest degree of freedom.
     root_wall_mass: f64,
     /// The gap scale, m √kg.
@@ -31,7 +33,15 @@ impl Scales {
         let fastest = stiffness.iter().zip(&root_mass).map(|(k, m)| k / (m * m)).fold(0.0, f64::max);
         // Its tangent at the face; 0 for a rigid wall.
         let stiffest = scene.walls.iter().map(|wall| wall.law.tangent(f64::MIN_POSITIVE)).fold(0.0, f64::max);
-        Self { root_mass, root_wall_mass, gap, spring: fastest * gap, wall: stiffest * scene.gap_scale() }
+        let per_root_mass: Vec<f64> = root_mass.iter().map(|root| 1.0 / root).collect();
+        Self {
+            root_mass,
+            per_root_mass,
+            root_wall_mass,
+            gap,
+            spring: fastest * gap,
+            wall: stiffest * scene.gap_scale(),
+        }
     }
 
     /// The inverse of [`normal_force`](Self::normal_force), N.

@@ -22,9 +22,7 @@ impl Judge {
             Path::Grid | Path::OneRestitution => (self.h, 1.0),
         };
         let way = if matches!(step.path, Path::Exact(_) | Path::Series(_)) { 0.0 } else { self.span };
-        for v in [step.velocity_before, step.velocity_after] {
-            self.rounding.state(step.q, v, way);
-        }
+        self.rounding.step(step.q, step.velocity_before, step.velocity_after, way);
         for (i, (extra, load)) in step.extra.iter().zip(&self.scratch.load_end).enumerate() {
             self.rounding.load(i, extra.abs() + load.abs());
         }

@@ -245,13 +245,14 @@ fn finish(
         _ => None,
     };
     let shortfall = if !refined.kept {
-        Some(Error::Inaccurate {
+        // Where all runs are refuted there is no error to speak of.
+        Some(refined.run.refuted().unwrap_or(Error::Inaccurate {
             tolerance: target.tolerance,
             reached,
             quantity: quantity.clone(),
             until: refined.agrees_until,
             steps: refined.levels.last().map_or(0, |l| l.steps),
-        })
+        }))
     } else {
         let horizon = perturbed.unwrap_or(until_s);
         let short = horizon < scene.duration;

@@ -53,12 +53,27 @@ fn leads_nowhere(levels: &[Level]) -> bool {
 }
 
 /// Halves the step of `method` until the tolerance is kept, the next run would take too many steps, or the runs so far show that it would
-/// not be kept by then.
+/// not be kept by then. Where the judge refutes every run, the last of them is the result: it keeps nothing, and its findings say why.
+///
+/// # Errors
+/// What the last of the runs reports, where none was made.
 pub(super) fn refine(
     judged: &Judged,
     method: &Method,
     target: &Target,
     progress: &mut dyn FnMut(f64),
+) -> Result<Refined> {
+    refine_by(judged, method, target, &mut |options| {
+        run_with_progress(&judged.scene, &method.scheme, options, progress)
+    })
+}
+
+/// The same with runs as `make` makes them.
+fn refine_by(
+    judged: &Judged,
+    method: &Method,
+    target: &Target,
+    make: &mut dyn FnMut(&Options) -> Result<Run>,
 ) -> Result<Refined> {
     let rows = TimeOptions { sample: Some(judged.coarse.sample), ..judged.time(&target.time) };
     let reference = match target.against {
@@ -69,6 +84,7 @@ pub(super) fn refine(
     let share = if reference.is_some() { 1.0 } else { QUIET };
     let mut levels = Vec::new();
     let mut done: Vec<(u32, Run)> = Vec::new();
+    let mut refuted: Option<(u32, Run)> = None;
     let mut worst = (f64::INFINITY, "nothing to compare".to_owned());
     let (mut kept, mut quiet, mut failure) = (false, 0, None);
     for level in 0..u64::BITS {
@@ -78,8 +94,14 @@ pub(super) fn refine(
         }
         let time = judged.time(&judged.coarse.options(level, &target.time));
         let options = Options::new(time, method.backend);
-        let made = run_with_progress(&judged.scene, &method.scheme, &options, progress);
-        let run = match made.and_then(Run::unrefuted) {
+        let made = make(&options).and_then(|run| match run.refuted() {
+            Some(error) => {
+                refuted = Some((level, run));
+                Err(error)
+            }
+            None => Ok(run),
+        });
+        let run = match made {
             Ok(run) => run,
             Err(error) if error.is_request() => return Err(error),
             // A step too large for its scheme is no reason not to try a smaller one.
@@ -109,7 +131,11 @@ pub(super) fn refine(
             break;
         }
     }
-    let Some((level, run)) = done.pop() else {
+    if done.is_empty() && refuted.is_some() {
+        worst = (f64::INFINITY, "refuted by the judge".to_owned());
+        kept = false;
+    }
+    let Some((level, run)) = done.pop().or(refuted) else {
         return Err(failure.unwrap_or(Error::Inaccurate {
             tolerance: target.tolerance,
             reached: f64::INFINITY,
@@ -130,4 +156,43 @@ pub(super) fn refine(
         }
     }
     Ok(Refined { run, level, sufficient, levels, worst, kept, agrees_until, judged_by })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::residual::{Finding, Refuted};
+    use crate::run::run;
+    use crate::scene::{Scene, Wall};
+    use crate::scheme::Scheme;
+    use crate::study::accuracy::coarse::CoarseGrid;
+
+    #[test]
+    fn where_every_run_is_refuted_the_last_is_the_result() {
+        let scene = Scene::oscillator(1.0, 0.1, 100.0).with_wall(Wall::upper("stop", 0.1)).with_initial(&[0.0], &[2.0]);
+        let method = Method::new(Scheme::MoreauJean { theta: 0.5 });
+        let time = TimeOptions::with_step(1e-2);
+        let target = Target { method: Some(method), most_steps: 10_000, ..Target::new(1e-9, time) };
+        let coarse = CoarseGrid::of(&scene, &time).unwrap();
+        let judged = Judged { model: scene.clone(), scene, coarse, from: 0.0 };
+        let finding = Finding {
+            refuted: Refuted::MomentumBalance,
+            residual: 1.0,
+            tolerance: 1e-9,
+            reason: "a run made wrong for this test",
+            time_s: 0.5,
+            wall: None,
+        };
+        let mut steps = 0;
+        let refined = refine_by(&judged, &method, &target, &mut |options| {
+            let mut run = run(&judged.scene, &method.scheme, options)?;
+            steps = run.grid.steps;
+            run.findings.push(finding.clone());
+            Ok(run)
+        });
+        let refined = refined.expect("results, marked");
+        assert!(!refined.kept && refined.worst.0.is_infinite(), "{:?}", refined.worst);
+        assert_eq!((refined.run.findings.len(), refined.run.grid.steps), (1, steps));
+        assert!(refined.levels.len() > 1 && refined.levels.iter().all(|level| level.failure.is_some()));
+    }
 }
