@@ -18,7 +18,7 @@ pub struct TimeOptions {
     pub statistics_from: f64,
     /// Stretch over which the force of a rigid wall is averaged before its root mean square over time is taken, s: above 0; by default
     /// [`FORCE_AVERAGING`](Self::FORCE_AVERAGING). The stretch used may be shorter, a tenth of the window at most, or longer where the window
-    /// would hold more than 1e7 of them.
+    /// would hold more than 1e6 of them.
     pub force_averaging: f64,
 }
 

@@ -88,7 +88,7 @@ fn the_rms_of_a_rigid_wall_is_that_of_the_force_averaged_over_the_stretch_asked_
 }
 
 #[test]
-fn a_stretch_of_averaging_is_above_0_and_costs_no_more_than_ten_million_of_them() {
+fn a_stretch_of_averaging_is_above_0_and_costs_no_more_than_a_million_of_them() {
     for wrong in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
         let mut options = Options::with_step(1e-3);
         options.time.force_averaging = wrong;
@@ -98,7 +98,7 @@ fn a_stretch_of_averaging_is_above_0_and_costs_no_more_than_ten_million_of_them(
     let mut options = Options::with_step(1e-3);
     options.time.force_averaging = 1e-300;
     let force = run(&ball(10.0), &Scheme::Event, &options).expect("a run").statistics.walls[0].force.expect("it");
-    assert_eq!(force.rms_averaged_over_s, Some(1e-6));
+    assert_eq!(force.rms_averaged_over_s, Some(1e-5));
 }
 
 #[test]

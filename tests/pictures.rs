@@ -171,7 +171,7 @@ fn a_method_has_one_colour_in_all_figures_of_a_command() {
 #[test]
 fn four_hundred_walls_and_tiny_powers_of_ten_leave_every_text_legible() {
     let points: Vec<(f64, f64)> =
-        (0..200).map(|i| f64::from(i)).map(|i| (3e-81 * (0.1 * i).sin(), 2e-81 * (0.1 * i).cos())).collect();
+        (0..200).map(f64::from).map(|i| (3e-81 * (0.1 * i).sin(), 2e-81 * (0.1 * i).cos())).collect();
     let mut level = Panel::new("Displacement (mm)").heading("last").curve(Curve::new("a", points.clone()));
     let mut upright = Panel::new("Velocity (mm/s)").heading("last").curve(Curve::new("b", points));
     for i in 0..400 {

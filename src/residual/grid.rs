@@ -154,6 +154,7 @@ impl Judge {
         }
         let either = matches!(self.contract.balance, Balance::Staggered(_))
             && answered(&self.scene, self.contract.promise, step.impulse, &s.struck);
+        self.sums.whole &= !either;
         self.take_felt(either, step);
     }
 

@@ -41,8 +41,9 @@ pub(super) struct Sums {
     steps: u64,
     /// Start of the first step, s.
     from: f64,
-    /// True as long as every step was one of the run's own grid.
-    whole: bool,
+    /// True as long as every step was one of the run's own grid, and no wall answered a blow of a staggered rule, which then keeps the
+    /// blow's timing or leaves out what the damper feels of it: which of the two, the ends do not tell.
+    pub(super) whole: bool,
 }
 
 impl Sums {
@@ -93,8 +94,6 @@ impl Judge {
             *size += p.abs();
         }
         sums.whole &= matches!(step.path, Path::Grid | Path::OneRestitution);
-        // Where a wall answers a blow, a staggered rule leaves out what the damper feels of the blow's instant: not seen from the ends.
-        sums.whole &= !(matches!(self.contract.balance, Balance::Staggered(_)) && self.loads.has_blows());
         if !sums.whole {
             return;
         }
@@ -149,7 +148,12 @@ impl Judge {
         system.add_damping(1.0, &way, &mut open);
         system.add_stiffness(1.0, &sums.place, &mut open);
         let mut blows = vec![0.0; n];
-        self.loads.blow(sums.from, self.now, &mut blows);
+        // A staggered rule's last step has the blows up to its middle.
+        let until = match self.contract.balance {
+            Balance::Staggered(_) => (sums.steps as f64 - 0.5).mul_add(self.h, sums.from),
+            _ => self.now,
+        };
+        self.loads.blow(sums.from, until, &mut blows);
         let mut exchanged = sums.exchanged.clone();
         // The forces at both ends of the run, in which no step's mean has them: a staggered rule starts half a step before.
         let mut begin = vec![0.0; n];

@@ -6,7 +6,7 @@ use crate::step::{Path, Step};
 use serde::Serialize;
 
 /// Most stretches of a window; of a window that has more of them, they are longer. They cost time where a contact lasts.
-const MOST_STRETCHES: f64 = 1e7;
+const MOST_STRETCHES: f64 = 1e6;
 
 /// Gauss's rule of two points on [0, 1].
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
@@ -29,7 +29,7 @@ pub struct ForceStatistics {
     /// Half width of its 95 % interval, N: that of the mean square by batch means, over twice the RMS.
     pub rms_half_width_95_n: Option<f64>,
     /// Those stretches, s: [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging) or a little less, so that each batch of the
-    /// window holds a whole number of them; more where the window would hold more than 1e7. None where the force itself is squared.
+    /// window holds a whole number of them; more where the window would hold more than 1e6. None where the force itself is squared.
     pub rms_averaged_over_s: Option<f64>,
 }
 

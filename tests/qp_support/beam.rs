@@ -45,7 +45,7 @@ pub fn programmes(modes: usize, supports: usize, shake: f64, count: usize) -> (B
     while steps.len() < count {
         let t = h * f64::from(step);
         let load = |j: usize| {
-            let weight = if j % 2 == 0 { -10.0 * 2_f64.sqrt() * 2.0 / ((j + 1) as f64 * pi) } else { 0.0 };
+            let weight = if j.is_multiple_of(2) { -10.0 * 2_f64.sqrt() * 2.0 / ((j + 1) as f64 * pi) } else { 0.0 };
             weight * (1.0 + 0.2 * shake * (95.0 * t).sin()) + shake / (j + 1) as f64 * (140.0 * t + j as f64).sin()
         };
         let force = |j: usize| load(j) - rate[j] * rate[j] * (q[j] + 0.25 * h * v[j]) - 0.01 * rate[j] * v[j];
