@@ -1,6 +1,5 @@
 //! Imports go one way, and ARCHITECTURE.md names what exists.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -82,58 +81,6 @@ fn a_room_imports_only_rooms_below_it() {
     }
     // Guards the scan itself: a pattern that finds nothing would pass for ever.
     assert!(checked > 80, "only {checked} imports found");
-}
-
-/// The files beside it that a file imports.
-fn neighbours(file: &Path) -> BTreeSet<String> {
-    let text = fs::read_to_string(file).unwrap();
-    let code: Vec<_> = text.lines().filter(|l| !l.trim_start().starts_with("//")).collect();
-    let code = code.join("\n");
-    let before_tests = code.split("#[cfg(test)]").next().unwrap_or_default();
-    let mut found = BTreeSet::new();
-    for (at, _) in before_tests.match_indices("super::") {
-        if before_tests[..at].ends_with("super::") {
-            continue;
-        }
-        let rest = &before_tests[at + "super::".len()..];
-        let names = match rest.strip_prefix('{') {
-            Some(list) => list.split('}').next().unwrap_or_default().split(',').collect(),
-            None => vec![rest],
-        };
-        let word =
-            |text: &str| text.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
-        found.extend(names.into_iter().map(word));
-    }
-    let beside = |name: &String| {
-        let folder = file.parent().unwrap();
-        folder.join(format!("{name}.rs")).exists() || folder.join(name).is_dir()
-    };
-    found.into_iter().filter(beside).collect()
-}
-
-#[test]
-fn files_of_the_output_and_of_the_tool_import_one_another_in_one_direction() {
-    let mut files = Vec::new();
-    for room in ["output", "cli"] {
-        sources(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).join(room), &mut files);
-    }
-    let mut imports: BTreeMap<PathBuf, BTreeSet<PathBuf>> = BTreeMap::new();
-    // A mod.rs stands for its folder: what its files import of one another is seen file by file.
-    for file in files.iter().filter(|file| file.file_name().is_some_and(|name| name != "mod.rs")) {
-        let folder = file.parent().unwrap();
-        let known = neighbours(file).into_iter().map(|name| folder.join(name)).collect();
-        imports.insert(file.with_extension(""), known);
-    }
-    assert!(imports.values().map(BTreeSet::len).sum::<usize>() > 60, "the scan finds too few imports");
-    // Files that import nothing that is left are taken away, until none is: what stays goes in a circle.
-    loop {
-        let left: BTreeSet<PathBuf> = imports.keys().cloned().collect();
-        imports.retain(|_, known| known.iter().any(|other| left.contains(other)));
-        if imports.len() == left.len() {
-            break;
-        }
-    }
-    assert!(imports.is_empty(), "these import one another in a circle, or what does: {imports:#?}");
 }
 
 #[test]

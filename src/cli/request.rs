@@ -75,7 +75,7 @@ impl Place {
     /// results of another request than `request`.
     ///
     /// # Errors
-    /// As [`Results::open`] and [`Formats::usable`].
+    /// As [`Results::open`]; [`Error::Invalid`] for a format that this build cannot write.
     pub fn results(&self, case: &str, command: &str, request: Map<String, Value>) -> Result<Results> {
         let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(case).join(command));
         Results::open(&folder, request, self.force, self.formats.usable()?)

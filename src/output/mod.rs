@@ -15,7 +15,7 @@
 //! | [`stability`] | tables and maps of a stability study |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
-//! | [`format`] | figures as files: SVG, PDF, PNG |
+//! | [`mod@format`] | figures as files: SVG, PDF, PNG |
 
 pub mod asked;
 pub mod atomic;

@@ -15,6 +15,7 @@ mod scales;
 mod series;
 mod sums;
 mod verdict;
+mod whole;
 
 pub use energy::Energy;
 pub use finding::{Finding, Refuted};

@@ -115,6 +115,6 @@ pub(super) fn back(body: &Body, v: &[f64], force: &[f64]) -> Result<Vec<f64>> {
     let m = &body.matrices;
     let a = Symmetric::sum(&[(1.0, &m.mass), (0.5 * body.h, &m.damping)]);
     let mut change = force.to_vec();
-    super::body::factor(&a)?.solve(&mut change);
+    super::factor::factor(&a)?.solve(&mut change);
     Ok(v.iter().zip(&change).map(|(v, a)| v - 0.5 * body.h * a).collect())
 }

@@ -1,7 +1,6 @@
 //! What every scheme knows of the scene.
 
 use super::frame::Frame;
-use crate::error::{Error, Result};
 use crate::linear::{Factor, Operator, Rows, Symmetric};
 use crate::scene::{Loads, Scene, Structure};
 use crate::scheme::stop::{Stop, touching_distance};
@@ -207,9 +206,4 @@ impl Body {
             }
         }
     }
-}
-
-/// The factor of a matrix of a step.
-pub(super) fn factor(a: &Symmetric) -> Result<Factor> {
-    Factor::new(a).map_err(|fault| Error::invalid("system: matrices", fault, "a positive definite mass"))
 }

@@ -3,7 +3,8 @@
 //! (M/h + C/2)(v₊ − v₋) = f − C v₋ − K q + J/h + Gᵀ r, where r is known but for the walls' dashpots, which feel the mean of v₋ and v₊.
 
 use super::arrival::{Arrival, back};
-use super::body::{Body, factor};
+use super::body::Body;
+use super::factor::factor;
 use super::frame::Frame;
 use super::newton::{Answer, Walls};
 use super::paoli_schatzman::centre;

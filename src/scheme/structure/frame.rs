@@ -1,6 +1,6 @@
 //! The state that a scheme carries, and what it shows of each step.
 
-use super::body::factor;
+use super::factor::factor;
 use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
 use crate::scheme::grid::all_finite;

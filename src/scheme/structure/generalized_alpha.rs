@@ -33,7 +33,8 @@
 //! M⁻¹J and the displacement by (t⁺ − t_b) of that, outside of a. The rule has the damper feel J from the middle of the step on (the sum
 //! over all later steps counts, and γ = ½ + α_f − α_m makes it so): −C d with M d = (t⁺ − h/2 − t_b)J is added to the momentum.
 
-use super::body::{Body, factor};
+use super::body::Body;
+use super::factor::factor;
 use super::frame::Frame;
 use super::programme::{Programme, Seat};
 use super::start::StartForce;

@@ -15,6 +15,7 @@
 mod arrival;
 mod body;
 mod central_difference;
+mod factor;
 mod frame;
 mod generalized_alpha;
 mod moreau_jean;

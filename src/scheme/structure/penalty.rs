@@ -3,7 +3,8 @@
 //! A(v_θ − v)/θ = b + h Gᵀ P̄(G v_θ), A = M + hθC + h²θ²K. The walls' velocities y = G v_θ obey y = y_free + θh W P̄(y) with W = G A⁻¹ Gᵀ, which is
 //! solved first. One Newton step for all of v_θ follows: it takes out the rounding of that detour, which a stiff wall would turn into work.
 
-use super::body::{Body, factor};
+use super::body::Body;
+use super::factor::factor;
 use super::frame::Frame;
 use super::newton::{Answer, Walls};
 use crate::error::{Error, Result};

@@ -1,6 +1,7 @@
 //! How far an error can be promised.
 
-use super::{CoarseGrid, Judged, JudgedBy, Outcome, Target, exact};
+use super::judged::{Judged, exact};
+use super::{CoarseGrid, JudgedBy, Outcome, Target};
 use crate::error::Result;
 use crate::run::{Options, Run, run};
 use crate::scene::{Scene, System};

@@ -2,136 +2,27 @@
 
 mod coarse;
 mod horizon;
+mod judged;
+mod outcome;
 mod refine;
+mod target;
 
 pub use coarse::CoarseGrid;
 pub use horizon::foresee;
+pub use outcome::{Accuracy, JudgedBy, Level, Outcome};
+pub use target::{Against, MOST_STEPS, Target};
 
 use super::change::Change;
 use super::choice::{self, Choice};
 use super::exact::{affordable, replay};
 use super::horizon::Growth;
 use crate::error::{Error, Result};
-use crate::qp::Backend;
-use crate::run::{Options, Run, run, run_with_progress};
+use crate::run::{Options, run_with_progress};
 use crate::scene::Scene;
-use crate::scheme::{Method, Scheme, Stepper};
+use crate::scheme::{Scheme, Stepper};
 use crate::time::TimeOptions;
+use judged::{Judged, exact, unchecked};
 use refine::{Refined, refine};
-use serde::Serialize;
-use std::fmt;
-
-/// Steps that one run of a refinement may take unless a target says otherwise: seconds of a scalar scheme.
-pub const MOST_STEPS: u64 = 1 << 24;
-
-/// What a stepping run is held against.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Against {
-    /// The exact motion where there is one, else its own refinements.
-    Exact,
-    /// Its own refinements only.
-    Refinements,
-}
-
-/// The error asked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Target {
-    /// Largest error: of the displacement over the gap scale, and of each wall's numbers in the sense of [`Change`]. Above 0, below 1.
-    pub tolerance: f64,
-    /// The method to refine; none leaves it to the scene.
-    pub method: Option<Method>,
-    /// Rows and window for statistics; its step is not used.
-    pub time: TimeOptions,
-    /// What a stepping run is held against.
-    pub against: Against,
-    /// Most steps of one run.
-    pub most_steps: u64,
-}
-
-impl Target {
-    /// An error of `tolerance`, by whatever the scene needs, with the rows and the window of `time`.
-    #[must_use]
-    pub fn new(tolerance: f64, time: TimeOptions) -> Self {
-        Self { tolerance, method: None, time, against: Against::Exact, most_steps: MOST_STEPS }
-    }
-
-    /// Checks the error asked for.
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] for one that is no share.
-    pub fn validate(&self) -> Result<()> {
-        if self.tolerance > 0.0 && self.tolerance < 1.0 {
-            return Ok(());
-        }
-        Err(Error::invalid("accuracy", self.tolerance, "a number above 0 and below 1, as a share of the gap"))
-    }
-}
-
-/// How the error of a result was judged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum JudgedBy {
-    /// Against the exact motion.
-    ExactMotion,
-    /// By two halvings in succession, each of which changed less than a quarter of the tolerance.
-    Halving,
-    /// The exact motion itself: against the same with other roundings.
-    OtherRounding,
-}
-
-/// One run of a refinement.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Level {
-    /// Its step, s.
-    pub step_s: f64,
-    /// Its steps.
-    pub steps: u64,
-    /// Its error, or the change since the level before it; none for the first level of a run that is held against its refinements, and for
-    /// one that failed.
-    pub error: Option<f64>,
-    /// Why it failed, if it did.
-    pub failure: Option<String>,
-}
-
-/// What was reached, and how.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Accuracy {
-    /// The error asked for.
-    pub tolerance: f64,
-    /// The error of the result or, by halving, its last change; infinite if nothing could be compared.
-    pub reached: f64,
-    /// The quantity that `reached` belongs to: the worst of all.
-    pub quantity: String,
-    /// Time up to which it was judged, s: the end, or the horizon of predictability.
-    pub until_s: f64,
-    /// Largest growth of a small change of the start up to then; none where it is not known.
-    pub growth: Option<f64>,
-    /// How it was judged.
-    pub judged_by: JudgedBy,
-    /// The step of the result, s; none for the exact scheme.
-    pub step_s: Option<f64>,
-    /// The coarsest step tried that keeps the tolerance, s. Judged by halving it lies within half the tolerance of the result.
-    pub sufficient_step_s: Option<f64>,
-    /// The runs of the refinement, coarse to fine.
-    pub levels: Vec<Level>,
-    /// Steps of all of them.
-    pub total_steps: u64,
-}
-
-/// The result, which is worth having even if it falls short.
-#[derive(Debug, Clone)]
-pub struct Outcome {
-    /// The method that made it.
-    pub method: Method,
-    /// Why this method, in a sentence.
-    pub reason: String,
-    /// The run, over the whole duration.
-    pub run: Run,
-    /// What was reached.
-    pub accuracy: Accuracy,
-    /// [`Error::Inaccurate`] or [`Error::Unpredictable`] where that is less than was asked for.
-    pub shortfall: Option<Error>,
-}
 
 /// Finds scheme and step for `target` on `scene`. `progress` hears the time (s) that the run under way has reached.
 ///
@@ -169,38 +60,6 @@ pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> R
     let mut outcome = finish(scene, target, chosen, &judged, refined, growth, progress)?;
     horizon::explain(scene, &mut outcome);
     Ok(outcome)
-}
-
-/// The exact motion of `scene`, at the rows of `time`, where it can be afforded and the judge has not refuted it.
-fn exact(scene: &Scene, time: TimeOptions) -> Result<Run> {
-    affordable(scene)?;
-    unchecked(scene, time)?.unrefuted()
-}
-
-/// The same, whatever the judge says of it.
-fn unchecked(scene: &Scene, time: TimeOptions) -> Result<Run> {
-    run(scene, &Scheme::Event, &Options::new(time, Backend::Auto))
-}
-
-/// What is judged: the scene up to the horizon.
-#[derive(Debug)]
-struct Judged {
-    scene: Scene,
-    /// The scene as the scheme sees it.
-    model: Scene,
-    coarse: CoarseGrid,
-    /// Start of the window for statistics, s.
-    from: f64,
-}
-
-impl Judged {
-    fn change(&self, run: &Run, against: &Run) -> Change {
-        Change::of_runs(&self.model, run, against, self.scene.duration)
-    }
-
-    fn time(&self, time: &TimeOptions) -> TimeOptions {
-        TimeOptions { statistics_from: self.from, ..*time }
-    }
 }
 
 /// The exact motion, held against itself with other roundings.
@@ -281,26 +140,4 @@ fn finish(
         levels: refined.levels,
     };
     Ok(Outcome { method, reason, run, accuracy, shortfall })
-}
-
-impl fmt::Display for Accuracy {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let how = match self.judged_by {
-            JudgedBy::ExactMotion => "against the exact motion",
-            JudgedBy::Halving => "by halving the step",
-            JudgedBy::OtherRounding => "the exact motion, against itself with other roundings",
-        };
-        write!(
-            f,
-            "asked for {:e}, reached {:.1e} ({}) up to t = {:.4} s, {how}",
-            self.tolerance, self.reached, self.quantity, self.until_s
-        )?;
-        if let Some(step) = self.step_s {
-            write!(f, "; step {step:.3e} s, {} steps in {} runs", self.total_steps, self.levels.len())?;
-        }
-        match self.sufficient_step_s {
-            Some(step) if self.step_s.is_some_and(|s| s < 0.75 * step) => write!(f, "; {step:.3e} s would do"),
-            _ => Ok(()),
-        }
-    }
 }

@@ -1,6 +1,7 @@
 //! Halving the step until the error is kept.
 
-use super::{Against, Judged, JudgedBy, Level, Target, exact};
+use super::judged::{Judged, exact};
+use super::{Against, JudgedBy, Level, Target};
 use crate::error::{Error, Result};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scheme::Method;

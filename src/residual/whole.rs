@@ -1,0 +1,139 @@
+//! The momentum of the whole run, which the walls' impulses must carry whatever a scheme's own balance says of its steps:
+//!
+//! M(v_T − v_0) = ∫(f − C v − K q) dt + Σ J + Gᵀ Σ p
+//!
+//! from the states at the ends of the steps and the impulses that were recorded. The integral is taken by the trapezoid rule over these
+//! ends. A scheme counts the same forces by weights of its own, or at an instant within the step: that is one step's change of the force a
+//! step, and one step's force at either end of the run. What is open beyond is momentum that no wall gave. Loads and the structure's forces
+//! count apart: where the two nearly balance, as under heavy damping, their sum changes little while each may change much.
+
+use super::Judge;
+use super::beyond::Worst;
+use crate::step::{Balance, Path, Promise, Step};
+
+/// A scheme's weights differ from the trapezoid's by no more than this many steps in all.
+const STEPS: f64 = 2.0;
+
+impl Judge {
+    /// Takes in what the recorder has of each wall's impulse over the whole run, N s, in the scene's order: [`Judge::findings`] holds the run
+    /// to that in place of the steps that were seen. Another number of walls is not heard.
+    pub fn hear(&mut self, impulses: &[f64]) {
+        if impulses.len() == self.sums.seen.len() {
+            self.sums.recorded = Some(impulses.to_vec());
+        }
+    }
+
+    /// Adds a step, whose mean forces are in the scratch: its state at the start is still the judge's own.
+    pub(super) fn sum(&mut self, step: &Step<'_>) {
+        let sums = &mut self.sums;
+        if sums.steps == 0 {
+            sums.from = step.start;
+            // A staggered rule balances from half a step before to half a step before the end, whatever it shows at these ends.
+            sums.first.copy_from_slice(step.velocity_before);
+        }
+        sums.steps += 1;
+        for ((seen, size), &p) in sums.seen.iter_mut().zip(&mut sums.sizes).zip(step.impulse) {
+            *seen += p;
+            *size += p.abs();
+        }
+        sums.whole &= matches!(step.path, Path::Grid | Path::OneRestitution);
+        if !sums.whole {
+            return;
+        }
+        let (h, s) = (self.h, &self.scratch);
+        let half = 0.5 * h;
+        let corrected = self.contract.promise == Promise::Corrected;
+        for i in 0..sums.last.len() {
+            sums.place[i] += half * (self.q[i] + step.q[i]);
+            if corrected {
+                sums.rate[i] += half * (sums.last[i] + step.velocity_after[i]);
+            }
+            sums.load[i] += half * (self.load[i] + s.load_end[i]) + h * step.extra[i];
+            sums.last[i] = step.velocity_after[i];
+            // Of a rule with a memory, the force at the end of the step, which has dampers and the springs of walls in it; of all others
+            // the mean, without dampers, whose impulse the way from start to end tells exactly.
+            let [load, own] = match corrected {
+                true => [s.load_end[i], s.spring[i] - s.load_end[i]],
+                false => [s.load[i], -s.spring[i] / h],
+            };
+            if sums.steps > 1 {
+                let [load_before, own_before] = sums.force[i];
+                sums.changes[i] += (load - load_before).abs() + (own - own_before).abs();
+            }
+            sums.force[i] = [load, own];
+            let damper = if corrected { 0.0 } else { -s.damper[i] / h };
+            sums.largest[i] = sums.largest[i].max(load.abs() + own.abs() + damper.abs());
+            sums.exchanged[i] += h * (load + own + damper).abs();
+        }
+    }
+
+    /// The worst of what the impulses leave open beyond what a step may miss and rounding, over the largest momentum handed to and fro.
+    pub(super) fn open_momentum(&self) -> Worst {
+        let sums = &self.sums;
+        let mut worst = Worst::default();
+        let impulses = sums.recorded.as_ref().unwrap_or(&sums.seen);
+        for (wall, ((p, seen), size)) in impulses.iter().zip(&sums.seen).zip(&sums.sizes).enumerate() {
+            let rounding = sums.steps as f64 * f64::EPSILON * size;
+            worst.see(over((p - seen).abs() - rounding, *size), self.now, Some(wall));
+        }
+        if !sums.whole || sums.steps == 0 || self.contract.balance == Balance::Exact {
+            return worst;
+        }
+        let n = sums.last.len();
+        let mut open: Vec<f64> = sums.load.iter().map(|load| -load).collect();
+        let gained: Vec<f64> = sums.last.iter().zip(&sums.first).map(|(last, first)| last - first).collect();
+        let system = &self.scene.system;
+        system.add_mass(1.0, &gained, &mut open);
+        let way: Vec<f64> = match self.contract.promise {
+            Promise::Corrected => sums.rate.clone(),
+            _ => self.q.iter().zip(&sums.start).map(|(q, start)| q - start).collect(),
+        };
+        system.add_damping(1.0, &way, &mut open);
+        system.add_stiffness(1.0, &sums.place, &mut open);
+        let mut blows = vec![0.0; n];
+        // A staggered rule's last step has the blows up to its middle.
+        let until = match self.contract.balance {
+            Balance::Staggered(_) => (sums.steps as f64 - 0.5).mul_add(self.h, sums.from),
+            _ => self.now,
+        };
+        self.loads.blow(sums.from, until, &mut blows);
+        let mut exchanged = sums.exchanged.clone();
+        // The forces at both ends of the run, in which no step's mean has them: a staggered rule starts half a step before.
+        let mut begin = vec![0.0; n];
+        self.loads.add_force(sums.from, 1.0, &mut begin);
+        system.add_damping(-1.0, &sums.first, &mut begin);
+        system.add_stiffness(-1.0, &sums.start, &mut begin);
+        let mut end = self.load.clone();
+        system.add_damping(-1.0, &sums.last, &mut end);
+        system.add_stiffness(-1.0, &self.q, &mut end);
+        let mut ends: Vec<f64> = sums.largest.iter().zip(&end).map(|(largest, end)| largest.max(end.abs())).collect();
+        for i in 0..n {
+            let [load, own] = sums.force[i];
+            ends[i] += begin[i].abs() + (self.load[i] - load).abs() + (end[i] - self.load[i] - own).abs();
+        }
+        for (wall, (p, size)) in self.scene.walls.iter().zip(impulses.iter().zip(&sums.sizes)) {
+            for &(i, weight) in wall.at.entries() {
+                open[i] -= weight * p;
+                exchanged[i] += weight.abs() * size;
+                // A wall that is a spring pushes over the last half step too, and its force is not among the loads.
+                if !wall.law.is_rigid() {
+                    let last = wall.law_force(wall.at.dot(&self.q), wall.at.dot(&sums.last));
+                    ends[i] += weight.abs() * self.force_scale.max(last.abs());
+                }
+            }
+        }
+        let rounding = sums.steps as f64 * self.h * self.rounding.force(self.h, 1.0);
+        let roots = &self.scales.root_mass;
+        let largest = exchanged.iter().zip(roots).map(|(x, root)| x / root).fold(0.0, f64::max);
+        for i in 0..n {
+            let missed = STEPS * self.h * (sums.changes[i] + ends[i]);
+            let left = (open[i] - blows[i]).abs() - missed;
+            worst.see(over(left / roots[i] - rounding, largest), self.now, None);
+        }
+        worst
+    }
+}
+
+fn over(x: f64, scale: f64) -> f64 {
+    if x <= 0.0 { 0.0 } else { x / scale }
+}

@@ -1,0 +1,95 @@
+//! What was reached, and how.
+
+use crate::error::Error;
+use crate::run::Run;
+use crate::scheme::Method;
+use serde::Serialize;
+use std::fmt;
+
+/// How the error of a result was judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum JudgedBy {
+    /// Against the exact motion.
+    ExactMotion,
+    /// By two halvings in succession, each of which changed less than a quarter of the tolerance.
+    Halving,
+    /// The exact motion itself: against the same with other roundings.
+    OtherRounding,
+}
+
+/// One run of a refinement.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Level {
+    /// Its step, s.
+    pub step_s: f64,
+    /// Its steps.
+    pub steps: u64,
+    /// Its error, or the change since the level before it; none for the first level of a run that is held against its refinements, and for
+    /// one that failed.
+    pub error: Option<f64>,
+    /// Why it failed, if it did.
+    pub failure: Option<String>,
+}
+
+/// What was reached, and how.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Accuracy {
+    /// The error asked for.
+    pub tolerance: f64,
+    /// The error of the result or, by halving, its last change; infinite if nothing could be compared.
+    pub reached: f64,
+    /// The quantity that `reached` belongs to: the worst of all.
+    pub quantity: String,
+    /// Time up to which it was judged, s: the end, or the horizon of predictability.
+    pub until_s: f64,
+    /// Largest growth of a small change of the start up to then; none where it is not known.
+    pub growth: Option<f64>,
+    /// How it was judged.
+    pub judged_by: JudgedBy,
+    /// The step of the result, s; none for the exact scheme.
+    pub step_s: Option<f64>,
+    /// The coarsest step tried that keeps the tolerance, s. Judged by halving it lies within half the tolerance of the result.
+    pub sufficient_step_s: Option<f64>,
+    /// The runs of the refinement, coarse to fine.
+    pub levels: Vec<Level>,
+    /// Steps of all of them.
+    pub total_steps: u64,
+}
+
+/// The result, which is worth having even if it falls short.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The method that made it.
+    pub method: Method,
+    /// Why this method, in a sentence.
+    pub reason: String,
+    /// The run, over the whole duration.
+    pub run: Run,
+    /// What was reached.
+    pub accuracy: Accuracy,
+    /// [`Error::Inaccurate`] or [`Error::Unpredictable`] where that is less than was asked for.
+    pub shortfall: Option<Error>,
+}
+
+impl fmt::Display for Accuracy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let how = match self.judged_by {
+            JudgedBy::ExactMotion => "against the exact motion",
+            JudgedBy::Halving => "by halving the step",
+            JudgedBy::OtherRounding => "the exact motion, against itself with other roundings",
+        };
+        write!(
+            f,
+            "asked for {:e}, reached {:.1e} ({}) up to t = {:.4} s, {how}",
+            self.tolerance, self.reached, self.quantity, self.until_s
+        )?;
+        if let Some(step) = self.step_s {
+            write!(f, "; step {step:.3e} s, {} steps in {} runs", self.total_steps, self.levels.len())?;
+        }
+        match self.sufficient_step_s {
+            Some(step) if self.step_s.is_some_and(|s| s < 0.75 * step) => write!(f, "; {step:.3e} s would do"),
+            _ => Ok(()),
+        }
+    }
+}
