@@ -184,7 +184,7 @@ impl fmt::Display for Error {
             }
             Self::TooManyEvents { time, wall, count, window } => write!(
                 f,
-                "{count} contact events, or steps of the search for them, within {window:e} s at wall {wall:?}, t = {time} s: more than the exact scheme follows; \
+                "{count} contact events, or steps of the search for them, within {window:.3e} s at wall {wall:?}, t = {time:.6} s: more than the exact scheme follows; \
                  a stepping scheme (moreau-jean, paoli-schatzman) does not resolve them one by one"
             ),
             Self::Inaccurate { tolerance, reached, steps, .. } if reached.is_infinite() => write!(

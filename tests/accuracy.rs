@@ -464,3 +464,15 @@ fn a_wall_that_one_of_two_runs_touches_changes_by_a_finite_share() {
         assert!(worst.is_finite() && worst > 0.1, "{quantity}: {worst}");
     }
 }
+
+#[test]
+fn where_the_numbers_of_a_rattling_tube_cannot_be_kept_is_known_from_its_first_stretch() {
+    // Exact runs from starts 1e-10 apart part within half a second of ten: a sixteenth of the run tells.
+    let case = signorini::case::Case::embedded("tube-loose-supports").unwrap();
+    let target = Target::new(1e-2, case.time);
+    let until = foresee(&case.scene, &target).unwrap().expect("a horizon");
+    assert!((0.2..0.8).contains(&until), "{until}");
+    // The same scene for as long as it can be told.
+    let whole = Target { time: TimeOptions { statistics_from: 0.0, ..case.time }, ..target };
+    assert_eq!(foresee(&case.scene.clone().with_duration(0.1), &whole).unwrap(), None);
+}

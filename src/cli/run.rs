@@ -130,12 +130,22 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     };
     let watch = ui.paced("", 0, Pace::of_search(&case.scene, method, case.time.step, patience(case)));
     // Said before the search, which may take minutes.
-    if let Ok(Some(until)) = foresee(&case.scene, &target) {
+    let foreseen = foresee(&case.scene, &target).ok().flatten();
+    if let Some(until) = foreseen {
         ui.message(&format!(
-            "beyond about t = {until:.4e} s no step keeps an error of {tolerance:e}: rounding alone grows to it; what follows is found up to there at most"
+            "beyond about t = {until:.4e} s no step keeps an error of {tolerance:e}: rounding alone grows to it; what follows is \
+             found up to there at most"
         ));
     }
-    let (case, modes) = enough_modes(case, &target, ui)?;
+    let (case, modes) = match (foreseen, &case.truncated) {
+        // The error is missed whatever the modes are, and runs that chance has parted tell nothing of them.
+        (Some(_), Some(truncated)) => {
+            let modes = truncated.reduction.modes.count();
+            ui.message(&format!("so the {modes} modes of the case are kept, and no more are tried"));
+            (case.clone(), None)
+        }
+        _ => enough_modes(case, &target, ui)?,
+    };
     let target = Target { most_steps: patience(&case), ..target };
     let bar = ui.progress("refining", UNITS as u64);
     let end = case.scene.duration;

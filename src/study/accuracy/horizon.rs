@@ -24,9 +24,14 @@ const PERTURBATION: f64 = 1e-10;
 /// A perturbation that has grown to this, over the gap, has stopped growing: the gap is full.
 const SATURATED: f64 = 0.1;
 
+/// Shares of the run, shortest first, over which exact runs of a structure are asked how fast rounding grows: where it
+/// soon does, that is known in a fraction of a run.
+const SHORT: [f64; 3] = [1.0 / 16.0, 0.25, 1.0];
+
 /// The time (s) beyond which no step keeps the error asked for, since rounding alone grows to it; none if it never does, or if that is
-/// not known. A matter of a few short runs, to be asked before [`reach`](super::reach): for one degree of freedom exact, for a structure at
-/// most this time, by runs of the method with the coarsest step that could see the motion.
+/// not known. A matter of a few short runs, to be asked before [`reach`](super::reach): for one degree of freedom exact. For a structure
+/// at most this time: by short exact runs where the exact scheme can follow it, else by runs of the method with the coarsest step that
+/// could see the motion.
 ///
 /// # Errors
 /// [`crate::Error::Invalid`] for a request that makes no sense, and what the runs report.
@@ -34,6 +39,16 @@ pub fn foresee(scene: &Scene, target: &Target) -> Result<Option<f64>> {
     target.validate()?;
     scene.validate()?;
     let most = SHARE * target.tolerance / ROUNDING;
+    if let System::Structure(_) = scene.system {
+        for share in SHORT {
+            let short = scene.clone().with_duration(share * scene.duration);
+            let Ok(growth) = affordable(&short).and_then(|()| Growth::of(&short)) else { break };
+            let until = growth.horizon(most);
+            if until < short.duration * (1.0 - 1e-9) {
+                return Ok(Some(until));
+            }
+        }
+    }
     let growth = match scene.system {
         System::Oscillator(_) => {
             affordable(scene)?;
