@@ -48,10 +48,10 @@ fn the_recorded_impulses_close_the_momentum_balance_of_any_run() {
                 // the place, whose velocity the damper feels, by a step: c h v of an impact of m v.
                 let impacts = run.trajectory.contacts().len() as f64;
                 let damper = if name == "pressed" { 20.0 * 1e-3 } else { 1.2 * 1e-2 };
-                let allowed = 2.0 * seen.step_ns.min(h * 40.0) + impacts * damper * h * 10.0 + 1e-11;
+                let allowed = 2.0 * seen.step_n_s.min(h * 40.0) + impacts * damper * h * 10.0 + 1e-11;
                 println!("{name} {scheme} h = {h}: {seen:?}, {impacts} contacts, allowed {allowed:e}");
-                assert!(seen.residual_ns <= allowed, "{name}, {scheme}, h = {h}: {seen:?}, not {allowed:e}");
-                assert!(allowed < 0.05 * seen.exchanged_ns, "{name}, {scheme}: a test of nothing, {seen:?}");
+                assert!(seen.residual_n_s <= allowed, "{name}, {scheme}, h = {h}: {seen:?}, not {allowed:e}");
+                assert!(allowed < 0.05 * seen.exchanged_n_s, "{name}, {scheme}: a test of nothing, {seen:?}");
             }
         }
     }
@@ -65,8 +65,8 @@ fn an_impulse_column_that_is_short_of_what_the_wall_gave_is_seen() {
     let moved = Scene { walls: vec![at(Wall::upper("stop", 1e-3), Row::new(vec![(0, 0.5)]))], ..scene.clone() };
     let seen = momentum(&moved, &run.trajectory).expect("a probe");
     // Half of 25 N over ten seconds.
-    assert!((seen.residual_ns - 125.0).abs() < 2.0, "{seen:?}");
-    assert!(momentum(&scene, &run.trajectory).expect("a probe").residual_ns < 0.1);
+    assert!((seen.residual_n_s - 125.0).abs() < 2.0, "{seen:?}");
+    assert!(momentum(&scene, &run.trajectory).expect("a probe").residual_n_s < 0.1);
 }
 
 /// What a judge of the scheme's steps finds, told that the walls gave `share` of the impulses recorded, and seen them give `shown`.

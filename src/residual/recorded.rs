@@ -11,11 +11,11 @@ use crate::trajectory::Trajectory;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Momentum {
     /// The largest difference of the two sides over the degrees of freedom, N s.
-    pub residual_ns: f64,
+    pub residual_n_s: f64,
     /// What a step between two rows moves at most: the largest force of the right-hand side, walls included, times the rows' spacing, N s.
-    pub step_ns: f64,
+    pub step_n_s: f64,
     /// The largest momentum handed to and fro on a degree of freedom: Σ|p| and ∫|f − K q| dt, N s.
-    pub exchanged_ns: f64,
+    pub exchanged_n_s: f64,
 }
 
 /// The momentum balance of a whole run, from the rows of `trajectory` alone: whatever a scheme's own balance says of its steps, the
@@ -75,5 +75,5 @@ pub fn momentum(scene: &Scene, trajectory: &Trajectory) -> Option<Momentum> {
         largest = largest.max(if spacing > 0.0 { most / spacing } else { 0.0 });
     }
     let worst = |x: &[f64]| x.iter().fold(0.0, |worst, x| f64::max(worst, x.abs()));
-    Some(Momentum { residual_ns: worst(&open), step_ns: largest * spacing, exchanged_ns: worst(&exchanged) })
+    Some(Momentum { residual_n_s: worst(&open), step_n_s: largest * spacing, exchanged_n_s: worst(&exchanged) })
 }

@@ -12,7 +12,7 @@ pub use guard::{Counters, EVENTS_PER_WINDOW, WINDOWS};
 
 use crate::error::{Error, Result};
 use crate::flow::Arc;
-use crate::scene::{Forcing, LoadKind, Oscillator, Scene, System};
+use crate::scene::{Forcing, LoadKind, Oscillator, Scene, System, Wall};
 use crate::step::{Balance, Conserves, Contact, Contract, Promise, Tolerances};
 pub(in crate::scheme) use barrier::{Barrier, Phase};
 pub(in crate::scheme) use guard::Guard;
@@ -38,6 +38,17 @@ pub(in crate::scheme) fn known_loads(scene: &Scene) -> Result<()> {
         )),
         None => Ok(()),
     }
+}
+
+/// The walls as the exact scheme sees them; refuses a law under which the motion is not known.
+pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<Barrier>> {
+    let barrier = |wall: &Wall| {
+        Barrier::new(wall).ok_or_else(|| {
+            let key = format!("wall {:?}: law", wall.name);
+            Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
+        })
+    };
+    scene.walls.iter().map(barrier).collect()
 }
 
 /// One degree of freedom between walls, from event to event:
@@ -137,14 +148,7 @@ impl Event {
         let System::Oscillator(body) = scene.system else {
             return Err(Error::invalid("scheme", "event", "one degree of freedom"));
         };
-        let mut barriers = Vec::with_capacity(scene.walls.len());
-        for wall in &scene.walls {
-            let barrier = Barrier::new(wall).ok_or_else(|| {
-                let key = format!("wall {:?}: law", wall.name);
-                Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
-            })?;
-            barriers.push(barrier);
-        }
+        let barriers = barriers(scene)?;
         let forcing = Forcing::on(0, &scene.loads);
         let q = scene.initial.q.first().copied().unwrap_or(0.0);
         let v = scene.initial.v.first().copied().unwrap_or(0.0) + forcing.initial_impulse() / body.mass;

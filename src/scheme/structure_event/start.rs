@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::flow::{Body, Hold, Series};
 use crate::qp::{self, Backend};
 use crate::scene::{Loads, Scene};
-use crate::scheme::event::{Barrier, Guard, WINDOWS, known_loads, marks};
+use crate::scheme::event::{Guard, WINDOWS, barriers, known_loads, marks};
 
 /// The programme's signs are tested relative to the motion at hand, so any positive length will do.
 const SCALE: f64 = 1e-200;
@@ -19,14 +19,7 @@ impl StructureEvent {
     /// [`Error::Invalid`] for a wall of the φ² penalty, which has no linear law, and for a function of time as load.
     pub(in crate::scheme) fn new(scene: &Scene, stride: f64) -> Result<Self> {
         known_loads(scene)?;
-        let mut barriers = Vec::with_capacity(scene.walls.len());
-        for wall in &scene.walls {
-            let barrier = Barrier::new(wall).ok_or_else(|| {
-                let key = format!("wall {:?}: law", wall.name);
-                Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
-            })?;
-            barriers.push(barrier);
-        }
+        let barriers = barriers(scene)?;
         let singular = || Error::invalid("system: mass matrix", "singular", "a positive definite matrix");
         let mut body = Body::new(scene).ok_or_else(singular)?;
         let (n, rows, walls) = (body.n, body.rows.count(), barriers.len());
