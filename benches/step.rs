@@ -5,7 +5,7 @@
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSolver, IPSolver, NonnegativeConeT};
 use signorini::qp::Backend;
-use signorini::{Load, Scene, Scheme, Stepper, Wall};
+use signorini::{Load, Method, Scene, Scheme, Stepper, Wall};
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
@@ -243,7 +243,7 @@ const MOREAU_JEAN: Scheme = Scheme::MoreauJean { theta: 0.5 };
 const H: f64 = 1e-4;
 
 fn stepper(scene: &Scene, backend: Backend) -> Stepper {
-    Stepper::with_backend(scene, &MOREAU_JEAN, H, backend).expect("a scene")
+    Stepper::new(scene, &Method { scheme: MOREAU_JEAN, backend }, H).expect("a scene")
 }
 
 fn main() {

@@ -1,7 +1,6 @@
 //! An error asked for is kept, and the step found for it is not far from the best.
 #![cfg(feature = "cli")]
 
-use signorini::qp::Backend;
 use signorini::study::accuracy::{Against, JudgedBy, Target, foresee, reach};
 use signorini::study::change::Change;
 use signorini::study::verdict::Verdict;
@@ -98,7 +97,7 @@ fn time() -> TimeOptions {
 fn true_error(scene: &Scene, found: &Run) -> (f64, String) {
     let sample = found.grid.end / found.grid.rows as f64;
     let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(sample) };
-    let exact = run(scene, &Scheme::Event, &Options::new(time, Backend::Auto)).unwrap();
+    let exact = run(scene, &Scheme::Event, &Options::new(time)).unwrap();
     let change = Change::of_runs(scene, found, &exact, scene.duration);
     change.worst()
 }
@@ -107,7 +106,7 @@ fn true_error(scene: &Scene, found: &Run) -> (f64, String) {
 fn displacement_and_impulse(scene: &Scene, found: &Run) -> f64 {
     let sample = found.grid.end / found.grid.rows as f64;
     let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(sample) };
-    let exact = run(scene, &Scheme::Event, &Options::new(time, Backend::Auto)).unwrap();
+    let exact = run(scene, &Scheme::Event, &Options::new(time)).unwrap();
     let pairs = found.trajectory.displacement().iter().zip(exact.trajectory.displacement());
     let mut error = pairs.map(|(x, y)| (x - y).abs() / scene.gap_scale()).fold(0.0, f64::max);
     let speed = exact.trajectory.velocity().iter().fold(0.0_f64, |a, v| a.max(v.abs()));
@@ -121,7 +120,7 @@ fn displacement_and_impulse(scene: &Scene, found: &Run) -> f64 {
 
 fn at_step(scene: &Scene, scheme: &Scheme, step: f64, sample: f64) -> Run {
     let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(step) };
-    run(scene, scheme, &Options::new(time, Backend::Auto)).unwrap()
+    run(scene, scheme, &Options::new(time)).unwrap()
 }
 
 fn target(scheme: Scheme, against: Against, tolerance: f64) -> Target {
@@ -385,7 +384,7 @@ fn a_wall_that_is_hardly_touched_does_not_decide() {
     let scene =
         driven(3.0, 5.0, 1.5).with_wall(upper(1e-3, 0.5)).with_wall(lower(-6.5e-3, 0.5)).with_load(Load::constant(2.0));
     let coarse = at_step(&scene, &MOREAU, 1e-3, 1e-3);
-    let exact = run(&scene, &Scheme::Event, &Options::new(time(), Backend::Auto)).unwrap();
+    let exact = run(&scene, &Scheme::Event, &Options::new(time())).unwrap();
     let change = Change::of_runs(&scene, &coarse, &exact, 1.5);
     let impulses = |name: &str| [&coarse, &exact].map(|r| r.trajectory.impulse(name).unwrap());
     let largest = impulses("upper")[1].abs();
@@ -402,7 +401,7 @@ fn the_number_of_impacts_that_accumulate_is_not_asked_for() {
     for (e, duration) in [(0.5, 2.0), (0.8, 6.0)] {
         // Rests after √(2h/g)(1 + e)/(1 − e): 1.35 and 4.06 s.
         let scene = ball(e, duration);
-        let exact = run(&scene, &Scheme::Event, &Options::new(time(), Backend::Auto)).unwrap();
+        let exact = run(&scene, &Scheme::Event, &Options::new(time())).unwrap();
         for h in [1e-2, 1e-3, 1e-4] {
             let found = at_step(&scene, &MOREAU, h, 1e-2);
             let wall = &Change::of_runs(&scene, &found, &exact, duration).walls[0];
@@ -412,7 +411,7 @@ fn the_number_of_impacts_that_accumulate_is_not_asked_for() {
         }
     }
     let separate = driven(3.0, 5.0, 1.0).with_wall(upper(5e-3, 0.8));
-    let exact = run(&separate, &Scheme::Event, &Options::new(time(), Backend::Auto)).unwrap();
+    let exact = run(&separate, &Scheme::Event, &Options::new(time())).unwrap();
     let found = at_step(&separate, &MOREAU, 1e-4, 1e-3);
     assert!(Change::of_runs(&separate, &found, &exact, 1.0).walls[0].contacts.is_some());
 }

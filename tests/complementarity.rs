@@ -7,7 +7,7 @@ use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, ScalarRow, Solver, clamp};
 use signorini::residual::{Judge, Residuals};
 use signorini::{
-    Load, LoadKind, Options, Run, Scene, Scheme, Side, Step, Stepper, System, TimeOptions, Wall, WallLaw, run,
+    Load, LoadKind, Method, Options, Run, Scene, Scheme, Side, Step, Stepper, System, TimeOptions, Wall, WallLaw, run,
 };
 
 /// Scenes of every kind of wall, by name; all of them over two seconds.
@@ -38,8 +38,12 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     scenes.into_iter().map(|(name, scene)| (name, scene.with_duration(2.0))).collect()
 }
 
-fn options(step: f64, backend: Backend) -> Options {
-    Options::new(TimeOptions { sample: Some(1e-2), ..TimeOptions::with_step(step) }, backend)
+fn options(step: f64) -> Options {
+    Options::new(TimeOptions { sample: Some(1e-2), ..TimeOptions::with_step(step) })
+}
+
+fn by(scheme: Scheme, backend: Backend) -> Method {
+    Method { scheme, backend }
 }
 
 #[test]
@@ -47,7 +51,7 @@ fn complementarity_holds_to_1e_12_with_the_clamp_at_every_step_of_every_scheme()
     for (name, scene) in scenes() {
         for scheme in CONSTRAINED {
             for step in [1e-2, 1e-3, 1e-4] {
-                let run = run(&scene, &scheme, &options(step, Backend::Clamp)).expect("a run");
+                let run = run(&scene, &by(scheme, Backend::Clamp), &options(step)).expect("a run");
                 let (what, r) = (format!("{scheme}, {name}, h = {step}"), run.residuals);
                 assert_eq!(run.findings, [], "{what}");
                 // Rounding of positions leaves some 1e-15 of the scales.
@@ -85,8 +89,8 @@ fn clarabel_keeps_it_to_1e_9_and_agrees_with_the_clamp_over_whole_runs() {
         for scheme in CONSTRAINED.into_iter().filter(|s| *s != Scheme::Newmark) {
             for step in [1e-2, 1e-3] {
                 let what = format!("{scheme}, {name}, h = {step}");
-                let by_clamp = run(&scene, &scheme, &options(step, Backend::Clamp)).expect("a run");
-                let by_clarabel = run(&scene, &scheme, &options(step, Backend::Clarabel)).expect("a run");
+                let by_clamp = run(&scene, &by(scheme, Backend::Clamp), &options(step)).expect("a run");
+                let by_clarabel = run(&scene, &by(scheme, Backend::Clarabel), &options(step)).expect("a run");
                 assert!(by_clarabel.residuals.complementarity <= 1e-9, "{what}: {:?}", by_clarabel.residuals);
                 assert_eq!(by_clarabel.findings, [], "{what}");
                 // A run is chaotic for this purpose if a load changed by rounding (1e-15) moves it by more than a hundredth of the
@@ -99,7 +103,7 @@ fn clarabel_keeps_it_to_1e_9_and_agrees_with_the_clamp_over_whole_runs() {
                         _ => {}
                     }
                 }
-                let nudged = run(&nudged, &scheme, &options(step, Backend::Clamp)).expect("a run");
+                let nudged = run(&nudged, &by(scheme, Backend::Clamp), &options(step)).expect("a run");
                 let growth = difference(&by_clamp, &nudged, &scene);
                 if growth.0.max(growth.1) > 1e-11 {
                     chaotic.push(what);

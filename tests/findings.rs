@@ -269,7 +269,7 @@ fn no_built_in_case_is_accused() {
         for method in every_method(&case.penalty.laws) {
             for coarser in [1.0, 8.0] {
                 let step = (coarser * case.time.step).min(scene.duration / 10.0);
-                match run(&scene, &method.scheme, &Options::with_step(step).with_sample(scene.duration)) {
+                match run(&scene, &method, &Options::with_step(step).with_sample(scene.duration)) {
                     Ok(run) => assert_eq!(run.findings, [], "{}, {method}, h = {step}", embedded.name),
                     Err(Error::NotFinite { .. } | Error::Newton { .. } | Error::Qp { .. }) => continue,
                     Err(error) => panic!("{}, {method}: {error}", embedded.name),

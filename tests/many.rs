@@ -7,7 +7,7 @@ use common::{CONSTRAINED, INTEGRATORS, MOREAU_JEAN, schemes, spring};
 use random_structures::{at, chain, on};
 use signorini::linear::{Factor, Symmetric};
 use signorini::qp::Backend;
-use signorini::{Error, Integrator, Load, Row, Scene, Scheme, State, Stepper, System, Wall};
+use signorini::{Error, Integrator, Load, Method, Row, Scene, Scheme, State, Stepper, System, Wall};
 
 fn source(upper: f64, lower: f64) -> Scene {
     common::source(upper, lower).with_load(Load::impulse(0.05, 0.3))
@@ -211,7 +211,7 @@ fn what_does_not_fit_is_refused_and_the_stepper_goes_on() {
         }
         assert_eq!(stepper.time(), 0.0);
         stepper.step_with(&[1.0, 2.0]).expect("a step");
-        let clamp = Stepper::with_backend(&scene, &scheme, 1e-3, Backend::Clamp);
+        let clamp = Stepper::new(&scene, &Method { scheme, backend: Backend::Clamp }, 1e-3);
         let asks = scheme.has_qp();
         assert!(!asks || clamp.is_err_and(|e| e.to_string().contains("unknown")), "{scheme}");
         for step in [0.0, -1.0, f64::NAN] {

@@ -8,7 +8,7 @@ use common::{INTEGRATORS, MOREAU_JEAN, spring};
 use random_structures::{Draws, random_scene};
 use signorini::qp::Backend;
 use signorini::residual::{Judge, Residuals};
-use signorini::{Error, Integrator, LoadKind, Scene, Scheme, Stepper, Wall, WallLaw};
+use signorini::{Error, Integrator, LoadKind, Method, Scene, Scheme, Stepper, Wall, WallLaw};
 
 const STEP: f64 = 1e-3;
 
@@ -29,7 +29,7 @@ fn schemes(scene: &Scene) -> Vec<Scheme> {
 }
 
 fn judged(scene: &Scene, scheme: &Scheme, backend: Backend, steps: u32, push: f64) -> Result<Residuals, Error> {
-    let mut stepper = Stepper::with_backend(scene, scheme, STEP, backend)?;
+    let mut stepper = Stepper::new(scene, &Method { scheme: *scheme, backend }, STEP)?;
     let start = stepper.state();
     let mut judge = Judge::new(stepper.scene(), stepper.contract(), STEP, &start.q, &start.v);
     let mut extra = vec![0.0; start.q.len()];
@@ -117,7 +117,7 @@ fn clarabel_and_the_condensed_solver_make_the_same_motion() {
             let r = judged(&scene, &scheme, Backend::Clarabel, 100, 0.5).unwrap_or_else(|e| panic!("{what}: {e}"));
             assert!(r.complementarity <= 1e-9 && r.force_balance <= 1e-10, "{what}: {r:?}");
             let mut pair = [Backend::Clarabel, Backend::Condensed]
-                .map(|backend| Stepper::with_backend(&scene, &scheme, STEP, backend).expect("a sound scene"));
+                .map(|backend| Stepper::new(&scene, &Method { scheme, backend }, STEP).expect("a sound scene"));
             for i in 0..60 {
                 let [a, b] = pair.each_mut().map(|stepper| stepper.step().expect("a step"));
                 for (x, y) in a.q.iter().zip(b.q) {

@@ -5,7 +5,7 @@ mod random_structures;
 
 use random_structures::{Draws, at, chain};
 use signorini::qp::Backend;
-use signorini::{Options, Path, Row, Scene, Scheme, Stepper, Wall, run};
+use signorini::{Method, Options, Path, Row, Scene, Scheme, Stepper, Wall, run};
 
 /// Two masses between stops and a stop on their distance, each with a restitution of its own.
 fn dependent(draws: &mut Draws) -> Scene {
@@ -53,8 +53,8 @@ fn walls_at_one_place_share_their_force_alike_in_every_solver() {
         .with_duration(1.0);
     for scheme in [common::MOREAU_JEAN, Scheme::PaoliSchatzman, Scheme::ImplicitEuler] {
         for backend in [Backend::Clamp, Backend::Condensed, Backend::Clarabel] {
-            let options = Options { backend, ..Options::with_step(1e-3) };
-            let run = run(&scene, &scheme, &options).expect("a run");
+            let (method, options) = (Method { scheme, backend }, Options::with_step(1e-3));
+            let run = run(&scene, &method, &options).expect("a run");
             let [first, second] = ["first", "second"].map(|wall| run.trajectory.impulse(wall).expect("a wall"));
             assert!(first < 0.0, "{scheme}, {backend:?}: nothing was met");
             // Clarabel's answers are polished to rounding, but which of two equal walls it leaves how much is its tolerance's.

@@ -8,8 +8,8 @@ use signorini::qp::Backend;
 use signorini::residual::Judge;
 use signorini::scheme::event::Event;
 use signorini::{
-    Balance, Contact, Error, Integrator, Load, Options, Recorder, Row, Scene, Scheme, Stepper, Structure, System,
-    TimeOptions, Wall, WallLaw, run,
+    Balance, Contact, Error, Integrator, Load, Method, Options, Recorder, Row, Scene, Scheme, Stepper, Structure,
+    System, TimeOptions, Wall, WallLaw, run,
 };
 
 mod counting {
@@ -55,7 +55,8 @@ fn no_step_after_the_first_allocates() {
             if matches!(scheme, Scheme::Penalty { .. }) && scene.walls.iter().any(|w| !w.law.is_rigid()) {
                 continue;
             }
-            let mut stepper = Stepper::with_backend(&scene, scheme, 1e-4, Backend::Clamp).expect("a sound scene");
+            let mut stepper = Stepper::new(&scene, &Method { scheme: *scheme, backend: Backend::Clamp }, 1e-4)
+                .expect("a sound scene");
             stepper.step().expect("a step");
             let before = counting::count();
             let mut contacts = 0;

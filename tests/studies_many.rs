@@ -127,7 +127,7 @@ fn a_change_counts_at_every_probe_and_is_measured_by_the_mass_that_each_wall_fee
     let scene = beside(&still, &source(0.8, 0.5));
     let go = |h: f64| {
         let time = TimeOptions { sample: Some(1e-3), ..TimeOptions::with_step(h) };
-        run(&scene, &MOREAU, &Options::new(time, signorini::qp::Backend::Auto)).unwrap()
+        run(&scene, &MOREAU, &Options::new(time)).unwrap()
     };
     let (coarse, fine) = (go(1e-3), go(1e-4));
     let change = Change::of_runs(&scene, &coarse, &fine, 0.5);
@@ -287,7 +287,7 @@ fn an_error_is_kept_by_halving_and_the_result_is_within_it_of_a_much_finer_run()
     let step = outcome.accuracy.step_s.unwrap() / 16.0;
     let rows = outcome.run.grid.end / outcome.run.grid.rows as f64;
     let time = TimeOptions { sample: Some(rows), ..TimeOptions::with_step(step) };
-    let fine = run(&scene, &MOREAU, &Options::new(time, signorini::qp::Backend::Auto)).unwrap();
+    let fine = run(&scene, &MOREAU, &Options::new(time)).unwrap();
     let change = Change::of_runs(&scene, &outcome.run, &fine, scene.duration);
     assert!(change.displacement < 1e-2, "{}", change.displacement);
 }

@@ -34,7 +34,7 @@ fn method() -> Method {
 }
 
 fn made(case: &Case) -> Run {
-    run(&case.scene, &method().scheme, &Options::new(case.time, method().backend)).unwrap()
+    run(&case.scene, &method(), &Options::new(case.time)).unwrap()
 }
 
 fn cost(case: &Case) -> Option<Truncation> {

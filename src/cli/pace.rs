@@ -245,7 +245,7 @@ pub fn estimate(scene: &Scene, method: &Method, step: f64, patience: Duration) -
         System::Oscillator(_) if exact => step.min(PERIODS_A_LOOK * TAU / fastest(scene).0),
         _ => step,
     };
-    let mut stepper = Stepper::with_backend(scene, &method.scheme, stride, method.backend).ok()?;
+    let mut stepper = Stepper::new(scene, method, stride).ok()?;
     let setup = started.elapsed().as_secs_f64();
     let stepping = Instant::now();
     let mut time = 0.0;

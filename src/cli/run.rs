@@ -221,8 +221,8 @@ impl Bar {
     }
 
     fn run(&self, case: &Case, method: &Method) -> Result<Run> {
-        let options = Options::new(case.time, method.backend);
-        run_with_progress(&case.scene, &method.scheme, &options, &mut |time| self.set(time / self.end))
+        let options = Options::new(case.time);
+        run_with_progress(&case.scene, method, &options, &mut |time| self.set(time / self.end))
     }
 
     fn verdict(&self, case: &Case, method: &Method, run: &Run) -> Result<Verdict> {

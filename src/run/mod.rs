@@ -8,7 +8,7 @@ pub use options::{Judged, Judging, Options, Recorded, Recording, Unjudged, Unrec
 
 use crate::error::Result;
 use crate::scene::Scene;
-use crate::scheme::{Scheme, Stepper};
+use crate::scheme::{Method, Scheme, Stepper};
 use std::time::Instant;
 
 /// Most steps between two reports of progress.
@@ -17,7 +17,7 @@ const PROGRESS_STRIDE: u64 = 1 << 14;
 /// The first reports come more often, this share of the steps so far apart: a step may take a nanosecond or a second.
 const PROGRESS_SHARE: u64 = 8;
 
-/// Runs `scene` by `scheme` to its end.
+/// Runs `scene` by `method`, a [`Scheme`] or a [`Method`], to its end.
 ///
 /// ```
 /// use signorini::{Load, Options, Scene, Scheme, Wall, run};
@@ -42,8 +42,12 @@ const PROGRESS_SHARE: u64 = 8;
 ///
 /// # Errors
 /// [`crate::Error::Invalid`] for a request that makes no sense, and what [`Stepper::step`] reports.
-pub fn run<J: Judging, R: Recording>(scene: &Scene, scheme: &Scheme, options: &Options<J, R>) -> Result<Run<J, R>> {
-    run_with_progress(scene, scheme, options, &mut |_| {})
+pub fn run<J: Judging, R: Recording>(
+    scene: &Scene,
+    method: &(impl Copy + Into<Method>),
+    options: &Options<J, R>,
+) -> Result<Run<J, R>> {
+    run_with_progress(scene, method, options, &mut |_| {})
 }
 
 /// The same, telling `progress` the time reached (s) now and then.
@@ -52,15 +56,16 @@ pub fn run<J: Judging, R: Recording>(scene: &Scene, scheme: &Scheme, options: &O
 /// As [`run`].
 pub fn run_with_progress<J: Judging, R: Recording>(
     scene: &Scene,
-    scheme: &Scheme,
+    method: &(impl Copy + Into<Method>),
     options: &Options<J, R>,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Run<J, R>> {
     scene.validate()?;
-    let exact = *scheme == Scheme::Event;
+    let method: Method = (*method).into();
+    let exact = method.scheme == Scheme::Event;
     let grid = options.grid(scene, exact)?;
     let started = Instant::now();
-    let mut stepper = Stepper::with_backend(scene, scheme, grid.step, options.backend)?;
+    let mut stepper = Stepper::new(scene, &method, grid.step)?;
     let start = stepper.state();
     let mut judge = J::begin(&stepper, grid.step, &start);
     let mut recorder = R::begin(&stepper, grid.rows, &start, &options.time);
@@ -83,7 +88,7 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), scene, from);
     let (residuals, findings) = J::verdict(judge, R::trajectory(&trajectory));
     let mut run = Run {
-        scheme: *scheme,
+        scheme: method.scheme,
         backend: stepper.backend(),
         grid,
         state: stepper.state(),

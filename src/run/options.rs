@@ -1,7 +1,6 @@
-//! What a run needs to know beside the scene and the scheme, and what it is asked to keep.
+//! What a run needs to know beside the scene and the method, and what it is asked to keep.
 
 use crate::error::Result;
-use crate::qp::Backend;
 use crate::residual::{Finding, Judge, Residuals};
 use crate::scene::{Scene, State};
 use crate::scheme::Stepper;
@@ -11,7 +10,7 @@ use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
 use std::fmt::Debug;
 
-/// What a run needs to know beside the scene and the scheme.
+/// What a run needs to know beside the scene and the method.
 ///
 /// A run is judged and recorded unless told otherwise. A study that needs only one of the two, or only the state at the
 /// end, leaves the other out and saves its time; what was not asked for is then no field full of zeros, but absent from the
@@ -44,8 +43,6 @@ use std::fmt::Debug;
 pub struct Options<J: Judging = Judged, R: Recording = Recorded> {
     /// Step, rows and the window of the statistics. The exact scheme has no use for the step.
     pub time: TimeOptions,
-    /// Solver of the quadratic programmes.
-    pub backend: Backend,
     /// Whether the run is judged.
     pub judge: J,
     /// Whether it is recorded.
@@ -53,16 +50,16 @@ pub struct Options<J: Judging = Judged, R: Recording = Recorded> {
 }
 
 impl Options {
-    /// Steps of `step` seconds, all of them recorded, statistics from the start, the solver chosen by the scene.
+    /// Steps of `step` seconds, all of them recorded, statistics from the start.
     #[must_use]
     pub fn with_step(step: f64) -> Self {
-        Self::new(TimeOptions::with_step(step), Backend::Auto)
+        Self::new(TimeOptions::with_step(step))
     }
 
     /// A judged and recorded run.
     #[must_use]
-    pub fn new(time: TimeOptions, backend: Backend) -> Self {
-        Self { time, backend, judge: Judged, record: Recorded }
+    pub fn new(time: TimeOptions) -> Self {
+        Self { time, judge: Judged, record: Recorded }
     }
 }
 
@@ -77,8 +74,8 @@ impl<J: Judging, R: Recording> Options<J, R> {
     /// The same without the judge: [`Run::residuals`](crate::Run::residuals) is then `()`.
     #[must_use]
     pub fn unjudged(self) -> Options<Unjudged, R> {
-        let Self { time, backend, record, .. } = self;
-        Options { time, backend, judge: Unjudged, record }
+        let Self { time, record, .. } = self;
+        Options { time, judge: Unjudged, record }
     }
 
     /// The same without rows, contacts and statistics: [`Run::trajectory`](crate::Run::trajectory) and
@@ -86,8 +83,8 @@ impl<J: Judging, R: Recording> Options<J, R> {
     /// [`Options::with_sample`] of the duration.)
     #[must_use]
     pub fn unrecorded(self) -> Options<J, Unrecorded> {
-        let Self { time, backend, judge, .. } = self;
-        Options { time, backend, judge, record: Unrecorded }
+        let Self { time, judge, .. } = self;
+        Options { time, judge, record: Unrecorded }
     }
 
     /// The steps and rows of a run over `scene`.

@@ -23,6 +23,12 @@ impl Method {
     }
 }
 
+impl From<Scheme> for Method {
+    fn from(scheme: Scheme) -> Self {
+        Self::new(scheme)
+    }
+}
+
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let scheme = self.scheme.to_string();

@@ -1,9 +1,9 @@
 //! The stepper: one public type over all schemes.
 
-use super::Scheme;
 use super::grid::{Frame, Handed, Scalar};
 use super::kernel::Kernel;
 use super::stop::touching_distance;
+use super::{Method, Scheme};
 use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
@@ -48,26 +48,22 @@ pub struct Stepper {
 }
 
 impl Stepper {
-    /// A stepper for `scene` by `scheme` with steps of `step` seconds. For the exact scheme, which steps from event to
-    /// event, `step` is the longest stretch of one step.
+    /// A stepper for `scene` by `method`, a [`Scheme`] or a [`Method`], with steps of `step` seconds. For the exact scheme, which steps
+    /// from event to event, `step` is the longest stretch of one step.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a scene, scheme or step that makes no sense.
-    pub fn new(scene: &Scene, scheme: &Scheme, step: f64) -> Result<Self> {
-        Self::with_backend(scene, scheme, step, Backend::Auto)
+    pub fn new(scene: &Scene, method: &(impl Copy + Into<Method>), step: f64) -> Result<Self> {
+        Self::by(scene, (*method).into(), step)
     }
 
-    /// The same, with a named solver for the quadratic programmes of the steps that meet a wall.
-    ///
-    /// # Errors
-    /// As [`Stepper::new`].
-    pub fn with_backend(scene: &Scene, scheme: &Scheme, step: f64, backend: Backend) -> Result<Self> {
+    fn by(scene: &Scene, Method { scheme, backend }: Method, step: f64) -> Result<Self> {
         scene.validate()?;
         scheme.validate()?;
         if !(step.is_finite() && step > 0.0) {
             return Err(Error::invalid("time.step", step, "a finite number above 0"));
         }
-        let scene = match *scheme {
+        let scene = match scheme {
             Scheme::Penalty { law, .. } => scene.penalised(law)?,
             Scheme::Event => scene.clone(),
             _ => without_quartic(scene)?.clone(),
@@ -77,14 +73,14 @@ impl Stepper {
         let single = matches!(scene.system, System::Oscillator(_)) && direct;
         // One degree of freedom: the programme has one unknown, and a clamp solves it exactly.
         let backend = if single && backend == Backend::Auto { Backend::Clamp } else { backend };
-        let kernel = Kernel::new(&scene, scheme, step, backend, single)?;
+        let kernel = Kernel::new(&scene, &scheme, step, backend, single)?;
         let backend =
             if let Kernel::Structure(kernel) = &kernel { kernel.backend().unwrap_or(backend) } else { backend };
         let (q, v) = if single { Scalar::new(&scene, step).start(&scene) } else { (0.0, 0.0) };
         let frame = Frame::new(q, v, scene.walls.len());
         let contract = scheme.contract();
         let episodes = Episodes::new(&scene, contract);
-        Ok(Self { scene, scheme: *scheme, contract, step, backend, index: 0, before: (0, 0), kernel, frame, episodes })
+        Ok(Self { scene, scheme, contract, step, backend, index: 0, before: (0, 0), kernel, frame, episodes })
     }
 
     /// Advances by one step.

@@ -95,8 +95,8 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
     let possible = if structure { affordable(scene) } else { Ok(()) };
     let done = |before: usize, reached: f64| progress(before as f64 + reached / scene.duration);
     let timed = |before: usize, method: &Method, time| {
-        let options = Options::new(time, method.backend);
-        run_with_progress(scene, &method.scheme, &options, &mut |reached| done(before, reached))
+        let options = Options::new(time);
+        run_with_progress(scene, method, &options, &mut |reached| done(before, reached))
     };
     let exact = Method::new(Scheme::Event);
     let reference = possible.and_then(|()| timed(0, &exact, time));
@@ -183,7 +183,7 @@ fn step_ns(scene: &Scene, method: &Method, time: &TimeOptions) -> Result<f64> {
     let step = if exact { scene.duration } else { grid.step };
     let mut best = f64::INFINITY;
     for _ in 0..TIMED_RUNS {
-        let mut stepper = Stepper::with_backend(scene, &method.scheme, step, method.backend)?;
+        let mut stepper = Stepper::new(scene, method, step)?;
         let mut steps = 0;
         let started = Instant::now();
         while steps < grid.steps.min(TIMED_STEPS) && stepper.time() < scene.duration {

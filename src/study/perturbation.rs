@@ -116,7 +116,7 @@ fn record(scene: &Scene, method: &Method, step: f64) -> Result<Trajectory> {
     let step = step.min(scene.duration / ROWS as f64);
     let grid = TimeGrid::stepping(scene.duration, &TimeOptions { sample, ..TimeOptions::with_step(step) })?;
     let step = if exact { scene.duration } else { grid.step };
-    let mut stepper = Stepper::with_backend(scene, &method.scheme, step, method.backend)?;
+    let mut stepper = Stepper::new(scene, method, step)?;
     let state = stepper.state();
     let mut recorder = Recorder::new(stepper.scene(), grid.rows, &state.q, &state.v);
     let mut steps = 0;

@@ -4,7 +4,6 @@ use super::change::Change;
 use super::exact::{Replay, affordable, replay, stride};
 use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::Result;
-use crate::qp::Backend;
 use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Scene, System};
@@ -77,17 +76,17 @@ impl Verdict {
         progress: &mut dyn FnMut(f64),
     ) -> Result<Self> {
         let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
-        let (check, again, backend) = if method.scheme == Scheme::Event {
-            (Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run, time)?, Backend::Auto)
+        let (check, again) = if method.scheme == Scheme::Event {
+            (Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run, time)?)
         } else {
             let step_s = 0.5 * run.grid.step;
-            let options = Options::new(TimeOptions { step: step_s, ..rows }, method.backend);
-            let half = run_with_progress(scene, &method.scheme, &options, progress)?;
+            let options = Options::new(TimeOptions { step: step_s, ..rows });
+            let half = run_with_progress(scene, method, &options, progress)?;
             let Run { trajectory, statistics, findings, .. } = half;
-            (Check::HalfStep { step_s }, Replay { trajectory, statistics, findings }, method.backend)
+            (Check::HalfStep { step_s }, Replay { trajectory, statistics, findings })
         };
         // A penalty moves between springs: what grows there is not what grows between rigid walls.
-        let model = Stepper::with_backend(scene, &method.scheme, run.grid.step, backend)?.scene().clone();
+        let model = Stepper::new(scene, method, run.grid.step)?.scene().clone();
         let growth = affordable(&model).and_then(|()| Growth::of(&model));
         let growth = match (&model.system, growth) {
             // Several degrees of freedom: where the exact scheme cannot go, the method itself can.

@@ -98,7 +98,7 @@ pub(super) fn perturbed(
         scene.validate().is_ok().then_some(scene)
     });
     let Some(beside) = beside else { return Ok(None) };
-    let other = run(&beside, &method.scheme, &Options::new(time, method.backend))?;
+    let other = run(&beside, method, &Options::new(time))?;
     let most = (SHARE * target.tolerance * PERTURBATION / ROUNDING).min(SATURATED);
     let until = crate::study::change::agree_until(&judged.scene, &other.trajectory, &found.trajectory, most);
     Ok((until < judged.scene.duration).then_some(until))

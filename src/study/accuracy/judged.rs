@@ -2,7 +2,6 @@
 
 use super::CoarseGrid;
 use crate::error::Result;
-use crate::qp::Backend;
 use crate::run::{Options, Run, run};
 use crate::scene::Scene;
 use crate::scheme::Scheme;
@@ -18,7 +17,7 @@ pub(super) fn exact(scene: &Scene, time: TimeOptions) -> Result<Run> {
 
 /// The same, whatever the judge says of it.
 pub(super) fn unchecked(scene: &Scene, time: TimeOptions) -> Result<Run> {
-    run(scene, &Scheme::Event, &Options::new(time, Backend::Auto))
+    run(scene, &Scheme::Event, &Options::new(time))
 }
 
 /// What is judged: the scene up to the horizon.

@@ -38,7 +38,7 @@ pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> R
     };
     let method = chosen.method;
     // A penalty's motion is that between its springs; the exact scheme follows those too where they are linear.
-    let model = Stepper::with_backend(scene, &method.scheme, scene.duration, method.backend)?.scene().clone();
+    let model = Stepper::new(scene, &method, scene.duration)?.scene().clone();
     let coarse = CoarseGrid::of(&model, &target.time)?;
     let growth = affordable(&model).and_then(|()| Growth::of(&model));
     if let (Scheme::Event, Err(error)) = (method.scheme, &growth) {
@@ -122,8 +122,8 @@ fn finish(
             true => judged.coarse.options(refined.level, &target.time),
             false => target.time,
         };
-        let options = Options::new(time, method.backend);
-        run_with_progress(scene, &method.scheme, &options, progress)?
+        let options = Options::new(time);
+        run_with_progress(scene, &method, &options, progress)?
     } else {
         refined.run
     };

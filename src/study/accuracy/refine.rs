@@ -64,18 +64,11 @@ pub(super) fn refine(
     target: &Target,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Refined> {
-    refine_by(judged, method, target, &mut |options| {
-        run_with_progress(&judged.scene, &method.scheme, options, progress)
-    })
+    refine_by(judged, target, &mut |options| run_with_progress(&judged.scene, method, options, progress))
 }
 
 /// The same with runs as `make` makes them.
-fn refine_by(
-    judged: &Judged,
-    method: &Method,
-    target: &Target,
-    make: &mut dyn FnMut(&Options) -> Result<Run>,
-) -> Result<Refined> {
+fn refine_by(judged: &Judged, target: &Target, make: &mut dyn FnMut(&Options) -> Result<Run>) -> Result<Refined> {
     let rows = TimeOptions { sample: Some(judged.coarse.sample), ..judged.time(&target.time) };
     let reference = match target.against {
         Against::Exact => exact(&judged.model, rows).ok(),
@@ -94,7 +87,7 @@ fn refine_by(
             break;
         }
         let time = judged.time(&judged.coarse.options(level, &target.time));
-        let options = Options::new(time, method.backend);
+        let options = Options::new(time);
         let made = make(&options).and_then(|run| match run.refuted() {
             Some(error) => {
                 refuted = Some((level, run));
@@ -185,8 +178,8 @@ mod tests {
             wall: None,
         };
         let mut steps = 0;
-        let refined = refine_by(&judged, &method, &target, &mut |options| {
-            let mut run = run(&judged.scene, &method.scheme, options)?;
+        let refined = refine_by(&judged, &target, &mut |options| {
+            let mut run = run(&judged.scene, &method, options)?;
             steps = run.grid.steps;
             run.findings.push(finding.clone());
             Ok(run)

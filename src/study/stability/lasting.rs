@@ -15,7 +15,6 @@
 
 use super::scale::Scale;
 use crate::error::Result;
-use crate::qp::Backend;
 use crate::run::{Options, Run, run};
 use crate::scene::Scene;
 use crate::scheme::Scheme;
@@ -122,7 +121,7 @@ impl Quality {
         let joined = scale.joined();
         let go = |scheme: Scheme, step: f64| {
             let time = TimeOptions { sample: Some(step), ..TimeOptions::with_step(step) };
-            run(scene, &scheme, &Options::new(time, Backend::Auto)).and_then(Run::unrefuted)
+            run(scene, &scheme, &Options::new(time)).and_then(Run::unrefuted)
         };
         let finest = MULTIPLES.iter().copied().fold(1.0, f64::min) * time.step;
         let exact = crate::study::exact::affordable(scene).and_then(|()| go(Scheme::Event, finest));

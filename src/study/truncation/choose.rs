@@ -79,10 +79,10 @@ pub fn choose_modes(
     tolerance: f64,
     progress: &mut dyn FnMut(f64),
 ) -> Result<ChosenModes> {
-    let options = Options::new(*time, method.backend);
+    let options = Options::new(*time);
     let mut make = |modes: usize| -> Result<(Reduction, Run)> {
         let cut = whole.cut(modes)?;
-        let run = run_with_progress(&cut.scene, &method.scheme, &options, progress)?.unrefuted()?;
+        let run = run_with_progress(&cut.scene, method, &options, progress)?.unrefuted()?;
         Ok((cut, run))
     };
     let mut last = make(start)?;

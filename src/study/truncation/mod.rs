@@ -105,8 +105,8 @@ impl Truncation {
         let more = whole.cut((2 * modes).min(reduction.degrees_of_freedom))?;
         // The same rows, whatever the scheme.
         let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
-        let options = Options::new(rows, method.backend);
-        let against = run_with_progress(&more.scene, &method.scheme, &options, progress)?;
+        let options = Options::new(rows);
+        let against = run_with_progress(&more.scene, method, &options, progress)?;
         let between = Self::between(whole, [reduction, &more], [run, &against]);
         Ok(Some(Self { findings: against.findings, ..between }))
     }

@@ -94,7 +94,7 @@ fn errors_of(
         let outcome = if expected > effort.most_seconds {
             Outcome::LeftOut(expected)
         } else {
-            match run(scene, &method.scheme, &Options::new(time, method.backend)).and_then(Run::unrefuted) {
+            match run(scene, &method, &Options::new(time)).and_then(Run::unrefuted) {
                 Ok(run) => {
                     pace = run.seconds / count as f64;
                     ran(measure(run, reference, own))

@@ -120,7 +120,7 @@ impl Reference {
     ) -> Result<Self> {
         let go = |count| {
             let time = ladder.time(count);
-            run(scene, &method.scheme, &Options::new(time, method.backend)).and_then(Run::unrefuted)
+            run(scene, &method, &Options::new(time)).and_then(Run::unrefuted)
         };
         let finest = ladder.counts.last().copied().unwrap_or(ladder.rows).max(ladder.rows);
         let mut count = ladder.rows;

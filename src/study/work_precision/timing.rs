@@ -48,7 +48,7 @@ pub(super) fn best(
 fn once(scene: &Scene, job: &Job, ladder: &Ladder) -> Result<f64> {
     let exact = job.method.scheme == Scheme::Event;
     let step = if exact { scene.duration } else { ladder.time(job.count).step };
-    let mut stepper = Stepper::with_backend(scene, &job.method.scheme, step, job.method.backend)?;
+    let mut stepper = Stepper::new(scene, &job.method, step)?;
     let started = Instant::now();
     if exact {
         while stepper.time() < scene.duration {
