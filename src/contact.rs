@@ -4,7 +4,7 @@
 //! scheme: what a scheme computes there is rounding, and counts as no force.
 
 use crate::scene::{LoadKind, Scene, Side, System, WallLaw};
-use crate::step::{Contact, Contract, Promise};
+use crate::step::{Bound, Contact, Contract};
 
 /// An impact on a rigid wall takes one step on the velocity level and up to two on the position level. Longer episodes
 /// are lasting contact, whose force is finite after those first steps.
@@ -34,7 +34,7 @@ impl Floor {
         let loads: f64 = scene.loads.iter().map(|load| size(&load.kind)).sum();
         // Of a structure the loads alone tell: what its springs carry at rest is what they put on it.
         let spring = if let System::Oscillator(o) = scene.system { o.stiffness } else { 0.0 };
-        let positions = matches!(contract.promise, Promise::EndPosition | Promise::MeanPosition | Promise::Corrected);
+        let positions = matches!(contract.promise.rigid.displacement, Some(Bound::End | Bound::Reflected));
         let floor = |(wall, mass): (&crate::scene::Wall, f64)| {
             let place = wall.position.abs();
             let own = if let WallLaw::Elastic { stiffness, .. } = wall.law { stiffness } else { 0.0 };

@@ -48,6 +48,9 @@ pub use scene::{
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper};
 pub use statistics::{ForceStatistics, Forces, HalfWidths, Statistics, Summary, WallStatistics};
-pub use step::{Balance, Conserves, Contact, Contract, Path, Promise, Step, Tolerance, Tolerances};
+pub use step::{
+    Balance, Bound, Conserves, Contact, Contract, Elastic, Law, Path, Promise, PromisedForce, Reached, Rigid, Step,
+    Tolerance, Tolerances,
+};
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
 pub use trajectory::{Recorder, Trajectory};

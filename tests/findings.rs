@@ -7,7 +7,8 @@ use common::{MOREAU_JEAN, source, spring};
 use random_structures::{Draws, random_scene};
 use signorini::residual::Judge;
 use signorini::{
-    Error, Finding, Integrator, Load, Oscillator, Refuted, Scene, Scheme, Step, Stepper, System, Wall, WallLaw,
+    Bound, Contract, Error, Finding, Integrator, Load, Oscillator, Refuted, Scene, Scheme, Step, Stepper, System, Wall,
+    WallLaw,
 };
 
 const STEP: f64 = 1e-3;
@@ -315,4 +316,28 @@ fn the_summary_says_that_a_run_was_refuted_and_by_what() {
     assert_eq!(broken["findings"][0]["refuted"], serde_json::json!("momentum_balance"));
     assert!(broken["findings"][0]["residual"].as_f64().expect("a number") > 1e-3);
     std::fs::remove_file(&path).expect("its own");
+}
+
+/// A promise is made of parts, and one that no scheme of the crate makes is judged like any other: without restitution the reflected bound
+/// of paoli-schatzman is the bound at the step's end; with it that bound lies elsewhere, and such a promise is broken.
+#[test]
+fn a_promise_that_no_scheme_makes_is_judged_by_its_parts() {
+    let found = |e: f64| {
+        let scene = source(e, e).with_duration(0.2);
+        let mut stepper = Stepper::new(&scene, &Scheme::PaoliSchatzman, STEP).unwrap();
+        let state = stepper.state();
+        let mut contract: Contract = stepper.contract();
+        contract.promise.rigid.displacement = Some(Bound::End);
+        let mut judge = Judge::new(&scene, contract, STEP, &state.q, &state.v);
+        let mut pushed = false;
+        for _ in 0..200 {
+            let step = stepper.step().unwrap();
+            pushed |= step.impulse.iter().any(|&p| p != 0.0);
+            judge.see(&step);
+        }
+        assert!(pushed, "no wall was met");
+        kinds(&judge.findings())
+    };
+    assert_eq!(found(0.0), []);
+    assert!(found(0.8).contains(&Refuted::Complementarity));
 }

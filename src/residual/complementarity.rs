@@ -1,7 +1,7 @@
 //! What a wall may do, read off the positions and velocities of a step.
 
 use crate::scene::{Scene, Side, Wall, WallLaw};
-use crate::step::{Balance, Contract, Path, Promise};
+use crate::step::{Bound, Law, Path};
 
 /// Pairs (γ, |r|) that should be complementary, kept so that the scales may come at the end of the run: of the
 /// positive pairs only those that no other exceeds in both.
@@ -45,37 +45,31 @@ impl Pairs {
     }
 }
 
-/// γ of a rigid wall at what the scheme promises, from the velocity after the step's blows (`struck`) and after the step; `None` where it
-/// promises no force at all.
+/// γ of a rigid wall at the bound that the scheme promises, from the displacements at both ends of a step and the velocity after its blows.
 pub(super) fn slack(
     scene: &Scene,
     index: usize,
-    (contract, path): (Contract, Path<'_>),
+    (bound, path): (Bound, Path<'_>),
     h: f64,
     (w0, w1): (f64, f64),
-    (struck, after): (f64, f64),
-    gap_scale: f64,
-) -> Option<f64> {
+    struck: f64,
+) -> f64 {
     let wall = &scene.walls[index];
-    let restitution = wall.law.restitution()?;
+    let Bound::Reflected = bound else { return wall.gap(w1) };
+    let back = w0 - h * struck;
+    let e = match path {
+        Path::OneRestitution => least_restitution(scene),
+        _ => shared_restitution(scene, wall, back),
+    };
+    let e = e.or(wall.law.restitution()).unwrap_or(0.0);
+    wall.side.sign() * ((w1 - wall.position) + e * (back - wall.position))
+}
+
+/// The speed of rebound of a rigid wall, m/s, from the velocities after the step's blows and after the step.
+pub(super) fn rebound(wall: &Wall, struck: f64, after: f64) -> f64 {
     let sign = wall.side.sign();
-    match contract.promise {
-        Promise::MeanPosition => {
-            let back = w0 - h * struck;
-            let e = match path {
-                Path::OneRestitution => least_restitution(scene),
-                _ => shared_restitution(scene, wall, back),
-            };
-            let e = e.unwrap_or(restitution);
-            Some(sign * ((w1 - wall.position) + e * (back - wall.position)))
-        }
-        Promise::Velocity => {
-            let reaches = wall.gap(w0 + 0.5 * h * struck) <= 1e-12 * gap_scale;
-            let epsilon = if sign * struck <= 0.0 { restitution } else { 1.0 };
-            reaches.then_some(sign * (after + epsilon * struck))
-        }
-        _ => Some(wall.gap(w1)),
-    }
+    let epsilon = if sign * struck <= 0.0 { wall.law.restitution().unwrap_or(0.0) } else { 1.0 };
+    sign * (after + epsilon * struck)
 }
 
 /// The smallest restitution of all rigid walls.
@@ -103,7 +97,7 @@ pub(super) fn damping_of(wall: &Wall) -> f64 {
 /// |r| of an elastic or penalised wall as the scheme promises it for a step.
 pub(super) fn expected_pressure(
     wall: &Wall,
-    contract: Contract,
+    at: Law,
     h: f64,
     (w0, w1): (f64, f64),
     (before, after): (f64, f64),
@@ -112,23 +106,21 @@ pub(super) fn expected_pressure(
     let law = &wall.law;
     let c = damping_of(wall);
     let k = if let WallLaw::Elastic { stiffness, .. } = *law { stiffness } else { 0.0 };
-    let theta = if let Balance::Theta(theta) = contract.balance { theta } else { 0.5 };
     let rate = (s1.max(0.0) - s0.max(0.0)) / h;
-    let pressure = match contract.promise {
-        Promise::EndPosition => k * s1 + c * (s1 - s0.max(0.0)) / h,
-        Promise::MeanPosition => {
+    let pressure = match at {
+        Law::Depth(theta) => {
+            let depth = (1.0 - theta) * s0 + theta * s1;
+            k * depth + c * (depth - s0.max(0.0)) / (theta * h)
+        }
+        Law::MeanDepth(b) => {
             let back = -wall.gap(w0 - h * before);
-            0.25 * k * (back + 2.0 * s0 + s1) + 0.5 * c * (s1 - back.max(0.0)) / h
+            k * (b * back + (1.0 - 2.0 * b) * s0 + b * s1) + 0.5 * c * (s1 - back.max(0.0)) / h
         }
-        Promise::Velocity => {
-            let at = (1.0 - theta) * s0 + theta * s1;
-            k * at + c * (at - s0.max(0.0)) / (theta * h)
-        }
-        Promise::LawAtEnds => (1.0 - theta) * law.pressure(s0, 0.0) + theta * law.pressure(s1, 0.0) + c * rate,
-        Promise::LawAtStart if s0 <= 0.0 => 0.0,
-        Promise::LawAtStart => law.pressure(s0, 0.0) - wall.side.sign() * c * 0.5 * (before + after),
-        Promise::DiscreteGradient => mean_pressure(law, s0, s1) + c * rate,
-        Promise::Corrected | Promise::Exact => 0.0,
+        Law::Ends(theta) => (1.0 - theta) * law.pressure(s0, 0.0) + theta * law.pressure(s1, 0.0) + c * rate,
+        Law::Start if s0 <= 0.0 => 0.0,
+        Law::Start => law.pressure(s0, 0.0) - wall.side.sign() * c * 0.5 * (before + after),
+        Law::Gradient => mean_pressure(law, s0, s1) + c * rate,
+        Law::Throughout => 0.0,
     };
     pressure.max(0.0)
 }

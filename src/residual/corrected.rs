@@ -1,9 +1,8 @@
-//! A step that predicts and then corrects, held to its word: [`Balance::GeneralizedAlpha`] and [`Promise::Corrected`](crate::step::Promise::Corrected).
+//! A step that predicts and then corrects, held to its balance: [`Balance::GeneralizedAlpha`].
 
-use super::complementarity::damping_of;
 use super::memory::{Memory, smooth};
 use super::{Judge, divide};
-use crate::scene::{Wall, WallLaw};
+use crate::scene::Wall;
 use crate::step::{Balance, Step};
 
 impl Judge {
@@ -12,7 +11,7 @@ impl Judge {
         let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = self.contract.balance else { return };
         let Some(mut memory) = self.memory.take() else { return };
         let h = self.h;
-        let closed = self.walls_corrected(step, &mut memory.held);
+        let closed = self.walls_on_grid(step, false);
         let Memory { s, force, s_end, force_end, .. } = &mut *memory;
         let scratch = &mut self.scratch;
         force_end.copy_from_slice(&scratch.load_end);
@@ -71,55 +70,5 @@ impl Judge {
         self.energy.see_grid(&self.scene, h, (&self.q, step.q), step, &self.scratch.load, &self.scratch.blow);
         self.doubt_balance(worst);
         self.doubt_path(path);
-    }
-
-    /// The walls of such a step; returns whether a rigid one is closed after it.
-    fn walls_corrected(&mut self, step: &Step<'_>, held: &mut [f64]) -> bool {
-        let (h, gap_scale) = (self.h, self.energy.gap_scale);
-        let mut any = false;
-        for (index, held) in held.iter_mut().enumerate().take(self.scene.walls.len()) {
-            let wall = &self.scene.walls[index];
-            let (sign, p) = (wall.side.sign(), step.impulse[index]);
-            let pressure = sign * p / h;
-            self.force_scale = self.force_scale.max(pressure.abs());
-            self.tension = self.tension.max(-pressure);
-            if let Some(restitution) = wall.law.restitution() {
-                let gap = wall.gap(wall.at.dot(step.q));
-                self.pairs.add(gap, pressure);
-                let size =
-                    wall.position.abs() + wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs()).sum::<f64>();
-                self.doubt_gap(index, gap, size, pressure);
-                if gap <= 1e-12 * gap_scale || p != 0.0 {
-                    any = true;
-                    let wall = &self.scene.walls[index];
-                    let struck = wall.at.dot(step.velocity_before) + wall.at.dot(&self.scratch.struck);
-                    let epsilon = if sign * struck <= 0.0 { restitution } else { 1.0 };
-                    let slack = sign * (wall.at.dot(step.velocity_after) + epsilon * struck);
-                    self.rebounds.add(slack, pressure);
-                    // A wall that the gap's rounding alone calls closed promises nothing.
-                    if p != 0.0 || gap <= 0.0 {
-                        self.doubt_rebound(index, slack, step, pressure);
-                    }
-                }
-                continue;
-            }
-            let (before, now) = (-wall.gap(wall.at.dot(&self.q)), -wall.gap(wall.at.dot(step.q)));
-            let expected = match wall.law {
-                WallLaw::Elastic { stiffness, damping } => {
-                    (stiffness * now + damping * (now - before.max(0.0)) / h).max(0.0)
-                }
-                _ => 0.0,
-            };
-            let force = step.force[index];
-            self.force_scale = self.force_scale.max(force.abs());
-            let error = (sign * force - expected).abs().max((p / h - 0.5 * (*held + force)).abs());
-            self.law_error = self.law_error.max(error);
-            let size = (now.abs().max(before.abs()) + wall.position.abs()).max(self.reach);
-            let softest = wall.law.tangent(now.max(before).max(f64::MIN_POSITIVE)) + damping_of(wall) / h;
-            self.rounding.push(index, force, false);
-            self.doubt_law(index, error, softest * self.rounding.met(size, gap_scale));
-            *held = force;
-        }
-        any
     }
 }

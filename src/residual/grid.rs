@@ -1,15 +1,15 @@
 //! A step on a grid, held to its word.
 
-use super::complementarity::{self, damping_of, expected_pressure};
 use super::{Judge, divide};
 use crate::scene::{Scene, Wall};
-use crate::step::{Balance, Promise, Step};
+use crate::step::{Balance, Bound, Promise, Step};
 
-/// True if a rigid wall that pushes is what the blows, which give the velocity `given`, drive into, where a promise keeps the two together.
+/// True if a rigid wall that pushes is what the blows, which give the velocity `given`, drive into, where a promise keeps the two together:
+/// a bound at the step's end does not, for it holds where the blows leave the displacement.
 fn answered(scene: &Scene, promise: Promise, impulse: &[f64], given: &[f64]) -> bool {
     let drives =
         |(wall, &p): (&Wall, &f64)| wall.law.is_rigid() && p != 0.0 && wall.side.sign() * wall.at.dot(given) < 0.0;
-    matches!(promise, Promise::Velocity | Promise::MeanPosition) && scene.walls.iter().zip(impulse).any(drives)
+    promise.rigid.displacement != Some(Bound::End) && scene.walls.iter().zip(impulse).any(drives)
 }
 
 impl Judge {
@@ -179,79 +179,5 @@ impl Judge {
             self.balance_scale = self.balance_scale.max(felt.abs() / (self.h * self.scales.root_mass[i]));
         }
         self.energy.damp(lost);
-    }
-
-    fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) {
-        let (h, gap_scale) = (self.h, self.energy.gap_scale);
-        for index in 0..self.scene.walls.len() {
-            let wall = &self.scene.walls[index];
-            let sign = wall.side.sign();
-            // The multiplier where the promise is made on it, else the mean force of the step.
-            let p = step.impulse[index];
-            // Most walls push in few steps.
-            let mean = if p == 0.0 { 0.0 } else { p / h };
-            let force = if self.contract.promise == Promise::EndPosition { step.force[index] } else { mean };
-            let pressure = sign * force;
-            let largest = pressure.abs().max(mean.abs());
-            self.force_scale = self.force_scale.max(largest);
-            self.tension = self.tension.max(-pressure);
-            // A bound on the displacement at the end holds where the blows leave it, all else without.
-            let held = self.contract.promise == Promise::EndPosition && wall.law.is_rigid();
-            let (w0, w1) =
-                (wall.at.dot(&self.q), wall.at.dot(if held || !beyond { step.q } else { &self.scratch.arrived }));
-            let rates = (wall.at.dot(step.velocity_before), wall.at.dot(step.velocity_after));
-            // What rounding makes of the place of the body: of the terms that are summed, and of the way of a step.
-            let size = |old: &[f64], wall: &Wall| {
-                let terms = wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * old[i]).abs());
-                terms.sum::<f64>() + wall.position.abs() + h * (rates.0.abs() + rates.1.abs())
-            };
-            self.rounding.push(index, largest, wall.law.is_rigid());
-            if !wall.law.is_rigid() {
-                let expected = expected_pressure(wall, self.contract, h, (w0, w1), rates);
-                let error = (pressure - expected).abs();
-                self.law_error = self.law_error.max(error);
-                let size = size(&self.q, wall);
-                let depth = (-wall.gap(w0)).max(-wall.gap(w1)).max(f64::MIN_POSITIVE);
-                let slope = wall.law.tangent(depth) + 2.0 * damping_of(wall) / h;
-                self.doubt_law(index, error, slope * self.rounding.met(size, gap_scale));
-                continue;
-            }
-            let struck = rates.0 + wall.at.dot(&self.scratch.struck);
-            let (ends, after) = ((w0, w1), (struck, rates.1));
-            let slack =
-                complementarity::slack(&self.scene, index, (self.contract, step.path), h, ends, after, gap_scale);
-            if pressure == 0.0 && slack.is_none_or(|slack| slack >= 0.0) {
-                // Nothing to doubt: nobody pushes, and nobody is where a wall is.
-                if let Some(slack) = slack {
-                    let pairs = match self.contract.promise {
-                        Promise::Velocity => &mut self.rebounds,
-                        _ => &mut self.pairs,
-                    };
-                    pairs.add(slack, pressure);
-                }
-                continue;
-            }
-            let size = size(&self.q, wall);
-            // Whether the body reaches the wall within the step is a question that rounding may answer either way.
-            let edge = (wall.gap(w0 + 0.5 * h * struck) - 1e-12 * gap_scale).abs() <= self.rounding.of(size);
-            match slack {
-                Some(slack) if self.contract.promise == Promise::Velocity => {
-                    self.rebounds.add(slack, pressure);
-                    if !edge {
-                        self.doubt_rebound(index, slack, step, pressure);
-                    }
-                }
-                Some(slack) => {
-                    self.pairs.add(slack, pressure);
-                    self.doubt_gap(index, slack, size, pressure);
-                }
-                None => {
-                    self.law_error = self.law_error.max(pressure.abs());
-                    if !edge {
-                        self.doubt_law(index, pressure.abs(), 0.0);
-                    }
-                }
-            }
-        }
     }
 }

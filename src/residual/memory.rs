@@ -1,29 +1,31 @@
 //! What the judge of a step that predicts and corrects remembers from step to step.
 
 use crate::scene::Scene;
-use crate::step::{Contract, Promise};
+use crate::step::{Balance, Contract};
 
-/// What the rule remembers from step to step: M a and F at the step's start, N, n entries each, and the elastic walls' forces, N.
+/// What the rule remembers from step to step: M a and F at the step's start, N, n entries each.
 #[derive(Debug)]
 pub(super) struct Memory {
     pub s: Vec<f64>,
     pub force: Vec<f64>,
-    pub held: Vec<f64>,
     /// s⁺ and F⁺ of the step at hand.
     pub s_end: Vec<f64>,
     pub force_end: Vec<f64>,
 }
 
 impl Memory {
-    /// At the start of a run under such a contract: there M a = F is what acts, `load` (N) and the walls that are springs.
-    pub fn new(scene: &Scene, contract: Contract, q: &[f64], v: &[f64], load: &[f64]) -> Option<Box<Self>> {
-        if contract.promise != Promise::Corrected {
-            return None;
-        }
-        let held: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(q), w.at.dot(v))).collect();
+    /// At the start of a run under such a contract: there M a = F is what acts, `load` (N) and `walls` (N) that are springs.
+    pub fn new(
+        scene: &Scene,
+        contract: Contract,
+        (q, v): (&[f64], &[f64]),
+        load: &[f64],
+        walls: &[f64],
+    ) -> Option<Box<Self>> {
+        let Balance::GeneralizedAlpha { .. } = contract.balance else { return None };
         let mut force = load.to_vec();
-        smooth(scene, q, v, &held, &mut force);
-        Some(Box::new(Self { s: force.clone(), s_end: force.clone(), force_end: force.clone(), force, held }))
+        smooth(scene, q, v, walls, &mut force);
+        Some(Box::new(Self { s: force.clone(), s_end: force.clone(), force_end: force.clone(), force }))
     }
 }
 

@@ -15,6 +15,7 @@ mod scales;
 mod series;
 mod sums;
 mod verdict;
+mod walls;
 mod whole;
 
 pub use energy::Energy;
@@ -24,7 +25,7 @@ pub use residuals::Residuals;
 
 use crate::linear::Factor;
 use crate::scene::{Loads, Scene, System};
-use crate::step::{Balance, Contract, Path, Promise, Step};
+use crate::step::{Balance, Contract, Path, Step};
 use beyond::{Doubts, Rounding, Worst};
 use complementarity::Pairs;
 use memory::Memory;
@@ -67,6 +68,10 @@ pub struct Judge {
     scales: Scales,
     /// What a generalized-α run remembers from step to step.
     memory: Option<Box<Memory>>,
+    /// Force of each elastic wall at the end of the last step, N.
+    held: Vec<f64>,
+    /// Distance within which a wall counts as touched, m.
+    touch: f64,
     energy: energy::Ledger,
     /// The step at hand: the time at its end and its length, s, and 1 + t ε over that length for exact motion, whose ends are known to an ulp.
     now: f64,
@@ -131,6 +136,7 @@ impl Judge {
         };
         let fit = |x: &[f64]| x.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect::<Vec<f64>>();
         let (q, v) = (fit(q), fit(v));
+        let held: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(&q), w.at.dot(&v))).collect();
         let scratch = Scratch {
             load_end: zero(),
             load: zero(),
@@ -154,7 +160,9 @@ impl Judge {
             energy: energy::Ledger::new(scene, contract, &q, &v),
             scales: Scales::new(scene),
             sums: Sums::new(scene, &q, &v),
-            memory: Memory::new(scene, contract, &q, &v, &load),
+            memory: Memory::new(scene, contract, (&q, &v), &load, &held),
+            held,
+            touch: scene.touching_distance(),
             q,
             load,
             scratch,
@@ -255,7 +263,9 @@ impl Judge {
     pub fn residuals(&self) -> Residuals {
         let speed_scale = self.rebound_scale();
         let force_scale = self.contact_scale();
-        let gap_scale = if self.contract.promise == Promise::Velocity { speed_scale } else { self.energy.gap_scale };
+        let rigid = self.contract.promise.rigid;
+        let speeds_only = rigid.displacement.is_none() && rigid.velocity.is_some();
+        let gap_scale = if speeds_only { speed_scale } else { self.energy.gap_scale };
         let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
         // Where no wall ever pushed, an elastic one is measured by what it would make of a gap.
         let law = over(self.law_error, if force_scale > 0.0 { force_scale } else { self.scales.wall });

@@ -3,7 +3,7 @@
 use super::beyond::Worst;
 use super::{Finding, Judge, Refuted};
 use crate::scene::WallLaw;
-use crate::step::{Conserves, Path, Promise, Step, Tolerance};
+use crate::step::{Bound, Conserves, Path, Step, Tolerance};
 
 /// A contact force below this share of the largest force in the balance is measured by that share of it: what is left where forces
 /// cancel is rounding, and a share of rounding says nothing.
@@ -86,7 +86,7 @@ impl Judge {
         let law = if force > 0.0 { force } else { self.scales.wall };
         let balance = self.balance_scale.max(self.scales.normal_force(self.force_scale)).max(self.scales.spring);
         let (doubts, allowed) = (&self.doubts, &self.contract.tolerances);
-        let stands = matches!(self.contract.promise, Promise::EndPosition | Promise::Corrected | Promise::Exact);
+        let stands = matches!(self.contract.promise.rigid.displacement, Some(Bound::End | Bound::Throughout));
         let behind = if stands { Refuted::Penetration } else { Refuted::Complementarity };
         let energy = self.energy.report();
         let open = energy.residual_j.abs() - self.rounding.energy;

@@ -9,7 +9,7 @@
 
 use super::Judge;
 use super::beyond::Worst;
-use crate::step::{Balance, Path, Promise, Step};
+use crate::step::{Balance, Path, Step};
 
 /// A scheme's weights differ from the trapezoid's by no more than this many steps in all.
 const STEPS: f64 = 2.0;
@@ -42,7 +42,7 @@ impl Judge {
         }
         let (h, s) = (self.h, &self.scratch);
         let half = 0.5 * h;
-        let corrected = self.contract.promise == Promise::Corrected;
+        let corrected = matches!(self.contract.balance, Balance::GeneralizedAlpha { .. });
         for i in 0..sums.last.len() {
             sums.place[i] += half * (self.q[i] + step.q[i]);
             if corrected {
@@ -84,8 +84,8 @@ impl Judge {
         let gained: Vec<f64> = sums.last.iter().zip(&sums.first).map(|(last, first)| last - first).collect();
         let system = &self.scene.system;
         system.add_mass(1.0, &gained, &mut open);
-        let way: Vec<f64> = match self.contract.promise {
-            Promise::Corrected => sums.rate.clone(),
+        let way: Vec<f64> = match self.contract.balance {
+            Balance::GeneralizedAlpha { .. } => sums.rate.clone(),
             _ => self.q.iter().zip(&sums.start).map(|(q, start)| q - start).collect(),
         };
         system.add_damping(1.0, &way, &mut open);

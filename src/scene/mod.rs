@@ -165,6 +165,12 @@ impl Scene {
             .unwrap_or(1.0)
     }
 
+    /// Distance within which a wall counts as touched, m: 1e-12 of [`Scene::gap_scale`].
+    #[must_use]
+    pub fn touching_distance(&self) -> f64 {
+        1e-12 * self.gap_scale()
+    }
+
     /// Which of the distinct rows each wall has, and the lower walls of each of those rows.
     fn lower_walls(&self) -> (Vec<usize>, Vec<Vec<&Wall>>) {
         let places = distinct(self.walls.iter().map(|wall| &wall.at));

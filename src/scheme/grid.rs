@@ -1,6 +1,6 @@
 //! What every scheme on a fixed grid shares: the oscillator's numbers, its walls, and the frame it fills.
 
-use super::stop::{Stop, touching_distance};
+use super::stop::Stop;
 use crate::error::{Error, Result};
 use crate::scene::{Forcing, Scene};
 
@@ -28,7 +28,7 @@ impl Scalar {
             h,
             forcing: Forcing::on(0, &scene.loads),
             walls: scene.walls.iter().map(Stop::new).collect(),
-            touch: touching_distance(scene),
+            touch: scene.touching_distance(),
             since: 0.0,
         }
     }

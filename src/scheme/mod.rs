@@ -24,7 +24,9 @@ pub use name::NAMES;
 pub use penalty_law::{Integrator, PenaltyLaw};
 pub use stepper::Stepper;
 
-use crate::step::{Balance, Conserves, Contract, Promise, Tolerances};
+use crate::step::{
+    Balance, Bound, Conserves, Contract, Elastic, Law, Promise, PromisedForce, Reached, Rigid, Tolerances,
+};
 
 /// A way to advance time. What each realises and where it fails stands in the README's table of schemes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,18 +70,26 @@ impl Scheme {
     #[must_use]
     pub fn contract(&self) -> Contract {
         let (balance, promise, instant) = match *self {
-            Self::ImplicitEuler => (Balance::Theta(1.0), Promise::EndPosition, 1.0),
-            Self::Newmark => (Balance::Theta(0.5), Promise::EndPosition, 1.0),
-            Self::PaoliSchatzman => (Balance::Staggered(0.25), Promise::MeanPosition, 0.0),
-            Self::MoreauJean { theta } => (Balance::Theta(theta), Promise::Velocity, 0.5),
-            Self::GeneralizedAlpha { rho } => (generalized_alpha(rho), Promise::Corrected, 0.5),
+            Self::ImplicitEuler => (Balance::Theta(1.0), end_position(), 1.0),
+            Self::Newmark => (Balance::Theta(0.5), end_position(), 1.0),
+            Self::PaoliSchatzman => {
+                (Balance::Staggered(0.25), rigid(Some(Bound::Reflected), None, Law::MeanDepth(0.25)), 0.0)
+            }
+            Self::MoreauJean { theta } => {
+                (Balance::Theta(theta), rigid(None, Some(Reached::Ahead(0.5)), Law::Depth(theta)), 0.5)
+            }
+            Self::GeneralizedAlpha { rho } => {
+                let mut promise = rigid(Some(Bound::End), Some(Reached::Closed), Law::Depth(1.0));
+                promise.elastic.force = PromisedForce::Trapezoid;
+                (generalized_alpha(rho), promise, 0.5)
+            }
             Self::Penalty { integrator, .. } => match integrator {
-                Integrator::Trapezoidal => (Balance::Theta(0.5), Promise::LawAtEnds, 0.5),
-                Integrator::ImplicitEuler => (Balance::Theta(1.0), Promise::LawAtEnds, 1.0),
-                Integrator::CentralDifference => (Balance::Staggered(0.0), Promise::LawAtStart, 0.0),
-                Integrator::DiscreteGradient => (Balance::Theta(0.5), Promise::DiscreteGradient, 0.5),
+                Integrator::Trapezoidal => (Balance::Theta(0.5), Promise::springs(Law::Ends(0.5)), 0.5),
+                Integrator::ImplicitEuler => (Balance::Theta(1.0), Promise::springs(Law::Ends(1.0)), 1.0),
+                Integrator::CentralDifference => (Balance::Staggered(0.0), Promise::springs(Law::Start), 0.0),
+                Integrator::DiscreteGradient => (Balance::Theta(0.5), Promise::springs(Law::Gradient), 0.5),
             },
-            Self::Event => (Balance::Exact, Promise::Exact, 1.0),
+            Self::Event => (Balance::Exact, Promise::throughout(), 1.0),
         };
         let conserves = match *self {
             Self::MoreauJean { theta: 0.5 } => Conserves::RigidWalls,
@@ -88,6 +98,21 @@ impl Scheme {
             _ => Conserves::Nothing,
         };
         Contract { balance, promise, instant, tolerances: Tolerances::of(conserves) }
+    }
+}
+
+/// Conditions at rigid walls on the mean force of a step, and the law of the others on that mean.
+fn rigid(displacement: Option<Bound>, velocity: Option<Reached>, law: Law) -> Promise {
+    let force = PromisedForce::Mean;
+    Promise { rigid: Rigid { force, displacement, velocity }, elastic: Elastic { force, law } }
+}
+
+/// Walls on the displacement at the end of the step, by the force there.
+fn end_position() -> Promise {
+    let force = PromisedForce::End;
+    Promise {
+        rigid: Rigid { force, displacement: Some(Bound::End), velocity: None },
+        elastic: Elastic { force, law: Law::Depth(1.0) },
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::grid::{Frame, Handed, Scalar};
 use super::kernel::Kernel;
-use super::stop::touching_distance;
 use super::{Method, Scheme};
 use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
@@ -170,7 +169,7 @@ impl Stepper {
                 return Err(Error::invalid(key, x, "finite numbers"));
             }
         }
-        let touch = touching_distance(&self.scene);
+        let touch = self.scene.touching_distance();
         let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.at.dot(&state.q)) < -touch;
         if let (true, Some(wall)) = (exact, self.scene.walls.iter().find(behind)) {
             let found = format!("{:?} at the rigid wall {:?}", wall.at.dot(&state.q), wall.name);

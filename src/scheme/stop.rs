@@ -1,6 +1,6 @@
 //! A wall as the kernels on a grid want it.
 
-use crate::scene::{Scene, Side, Wall, WallLaw};
+use crate::scene::{Side, Wall, WallLaw};
 
 /// The numbers of a wall, without its name and row.
 #[derive(Debug, Clone, Copy)]
@@ -28,9 +28,4 @@ impl Stop {
     pub fn plate(&self, w: f64) -> f64 {
         if self.upper { w.max(self.g) } else { w.min(self.g) }
     }
-}
-
-/// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
-pub(super) fn touching_distance(scene: &Scene) -> f64 {
-    1e-12 * scene.gap_scale()
 }

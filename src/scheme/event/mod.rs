@@ -129,7 +129,7 @@ impl Event {
     /// The promise of the scheme.
     pub const CONTRACT: Contract = Contract {
         balance: Balance::Exact,
-        promise: Promise::Exact,
+        promise: Promise::throughout(),
         instant: 1.0,
         tolerances: Tolerances::of(Conserves::Everything),
     };

@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use crate::linear::{Factor, Operator, Rows, Symmetric};
 use crate::scene::{Loads, Scene, Structure};
-use crate::scheme::stop::{Stop, touching_distance};
+use crate::scheme::stop::Stop;
 
 /// The structure as a kernel wants it.
 #[derive(Debug)]
@@ -49,7 +49,7 @@ impl Body {
             stiffness: Operator::new(&matrices.stiffness),
             walls: scene.walls.iter().map(Stop::new).collect(),
             rows: Rows::new(n, scene.walls.iter().map(|wall| wall.at.entries())),
-            touch: touching_distance(scene),
+            touch: scene.touching_distance(),
             since: 0.0,
             // A mass that cannot be factored is refused by the scene.
             inertia: if loads.has_blows() { Factor::new(&matrices.mass).ok() } else { None },

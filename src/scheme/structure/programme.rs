@@ -10,7 +10,7 @@ use crate::linear::{Rows, Symmetric};
 use crate::qp::{self, Backend, Failure, Rhs};
 use crate::scene::{Scene, Side, Wall, WallLaw, distinct};
 use crate::scheme::Counters;
-use crate::scheme::stop::{Stop, touching_distance};
+use crate::scheme::stop::Stop;
 
 /// A wall behind a row of the programme.
 #[derive(Debug, Clone, Copy)]
@@ -96,7 +96,7 @@ impl Programme {
         for (row, place) in places.iter().enumerate() {
             place.iter().for_each(|&wall| row_of[wall] = row);
         }
-        let touch = touching_distance(scene);
+        let touch = scene.touching_distance();
         let interval = |place: &Vec<usize>| {
             let ends = |(lo, hi): (f64, f64), w: &&Wall| match (w.law.is_rigid(), w.side) {
                 (false, _) => (f64::INFINITY, f64::NEG_INFINITY),

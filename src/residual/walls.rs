@@ -1,0 +1,138 @@
+//! The walls of a step on a grid, held to what the scheme promises of them.
+
+use super::Judge;
+use super::complementarity::{damping_of, expected_pressure, rebound, slack};
+use crate::scene::Wall;
+use crate::step::{Bound, PromisedForce, Reached, Step};
+
+/// What a wall sees of a step.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    index: usize,
+    /// |r| as the promise means it, N, negative where the wall pulls.
+    pressure: f64,
+    /// Displacements at both ends, m.
+    w: (f64, f64),
+    /// Velocities at both ends, m/s, the first without and with the blows of the step.
+    before: f64,
+    struck: f64,
+    after: f64,
+}
+
+impl Judge {
+    /// Holds every wall to its part of the promise; `beyond` says that blows add to the displacement beside the rule of the step. Returns
+    /// whether a rigid wall is closed after the step, where the promise speaks of that.
+    pub(super) fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) -> bool {
+        let mut closed = false;
+        let promise = self.contract.promise;
+        for index in 0..self.scene.walls.len() {
+            let wall = &self.scene.walls[index];
+            let (sign, is_rigid) = (wall.side.sign(), wall.law.is_rigid());
+            let p = step.impulse[index];
+            // Most walls push in few steps.
+            let mean = if p == 0.0 { 0.0 } else { p / self.h };
+            let force = match if is_rigid { promise.rigid.force } else { promise.elastic.force } {
+                PromisedForce::Mean => mean,
+                PromisedForce::End | PromisedForce::Trapezoid => step.force[index],
+            };
+            let pressure = sign * force;
+            let largest = pressure.abs().max(mean.abs());
+            self.force_scale = self.force_scale.max(largest);
+            self.tension = self.tension.max(-pressure).max(-sign * mean);
+            self.rounding.push(index, largest, is_rigid);
+            // A bound on the displacement at the end holds where the blows leave it, all else without.
+            let bound_there = is_rigid && promise.rigid.displacement == Some(Bound::End);
+            let end = if bound_there || !beyond { step.q } else { &self.scratch.arrived };
+            let before = wall.at.dot(step.velocity_before);
+            let seen = Seen {
+                index,
+                pressure,
+                w: (wall.at.dot(&self.q), wall.at.dot(end)),
+                before,
+                struck: if is_rigid { before + wall.at.dot(&self.scratch.struck) } else { before },
+                after: wall.at.dot(step.velocity_after),
+            };
+            if is_rigid {
+                closed |= self.hold_rigid(step, seen);
+            } else {
+                self.hold_elastic(step, seen, mean);
+            }
+        }
+        closed
+    }
+
+    /// What rounding makes of the place of the body: of the terms that are summed, and of the way of a step, m.
+    fn size(&self, step: &Step<'_>, wall: &Wall, seen: &Seen) -> f64 {
+        let terms = wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * self.q[i]).abs());
+        terms.sum::<f64>() + wall.position.abs() + self.h * (seen.before.abs() + seen.after.abs())
+    }
+
+    fn hold_elastic(&mut self, step: &Step<'_>, seen: Seen, mean: f64) {
+        let promise = self.contract.promise.elastic;
+        let wall = &self.scene.walls[seen.index];
+        let mut error =
+            (seen.pressure - expected_pressure(wall, promise.law, self.h, seen.w, (seen.before, seen.after))).abs();
+        if promise.force == PromisedForce::Trapezoid
+            && let Some(held) = self.held.get_mut(seen.index)
+        {
+            let force = step.force[seen.index];
+            error = error.max((mean - 0.5 * (*held + force)).abs());
+            *held = force;
+        }
+        self.law_error = self.law_error.max(error);
+        let size = self.size(step, wall, &seen);
+        let depth = (-wall.gap(seen.w.0)).max(-wall.gap(seen.w.1)).max(f64::MIN_POSITIVE);
+        let slope = wall.law.tangent(depth) + 2.0 * damping_of(wall) / self.h;
+        self.doubt_law(seen.index, error, slope * self.rounding.met(size, self.energy.gap_scale));
+    }
+
+    /// Returns whether the wall is closed after the step, where the promise speaks of that.
+    fn hold_rigid(&mut self, step: &Step<'_>, seen: Seen) -> bool {
+        let Seen { index, pressure, w, struck, after, .. } = seen;
+        let promise = self.contract.promise.rigid;
+        let wall = &self.scene.walls[index];
+        if let Some(bound) = promise.displacement {
+            let slack = slack(&self.scene, index, (bound, step.path), self.h, w, struck);
+            self.pairs.add(slack, pressure);
+            if slack < 0.0 || pressure != 0.0 {
+                self.doubt_gap(index, slack, self.size(step, wall, &seen), pressure);
+            }
+        }
+        let wall = &self.scene.walls[index];
+        let (reached, way) = match promise.velocity {
+            Some(Reached::Ahead(at)) => {
+                let gap = wall.gap(w.0 + at * self.h * struck);
+                (gap <= self.touch, gap)
+            }
+            Some(Reached::Closed) => {
+                let gap = wall.gap(w.1);
+                (gap <= self.touch || pressure != 0.0, gap)
+            }
+            None => (false, f64::INFINITY),
+        };
+        let slack = if reached { rebound(wall, struck, after) } else { 0.0 };
+        if reached {
+            self.rebounds.add(slack, pressure);
+        }
+        if pressure == 0.0 && slack >= 0.0 {
+            // Nothing to doubt: nobody pushes, and nobody is where a wall is.
+        } else if promise.velocity == Some(Reached::Closed) {
+            // A wall that the gap's rounding alone calls closed promises nothing.
+            if reached && (pressure != 0.0 || way <= 0.0) {
+                self.doubt_rebound(index, slack, step, pressure);
+            }
+        } else if reached || promise.displacement.is_none() {
+            // Whether the body reaches the wall within the step is a question that rounding may answer either way.
+            let edge = (way - self.touch).abs() <= self.rounding.of(self.size(step, wall, &seen));
+            if !reached {
+                self.law_error = self.law_error.max(pressure.abs());
+            }
+            match reached {
+                _ if edge => {}
+                true => self.doubt_rebound(index, slack, step, pressure),
+                false => self.doubt_law(index, pressure.abs(), 0.0),
+            }
+        }
+        reached && promise.velocity == Some(Reached::Closed)
+    }
+}
