@@ -133,3 +133,8 @@ const ACCEPTED: &[(&str, &str)] = &[
 pub(super) fn accepted(path: &str) -> Option<&'static str> {
     ACCEPTED.iter().find(|(key, _)| *key == path).map(|(_, text)| *text)
 }
+
+/// The path of every key, without the names and numbers of walls, loads and probes.
+pub(super) fn paths() -> impl Iterator<Item = &'static str> + Clone {
+    ACCEPTED.iter().map(|(key, _)| *key)
+}

@@ -1,6 +1,5 @@
 //! The case files that come with the crate.
 
-use super::{Case, build};
 use crate::error::{Error, Result};
 
 /// A case file, as text, with the tables it reads.
@@ -74,16 +73,5 @@ impl Embedded {
             Some((cells.next()?.parse().ok()?, cells.next()?.parse().ok()?))
         };
         lines.map(point).collect()
-    }
-
-    /// The case that the text holds.
-    ///
-    /// # Errors
-    /// None for the texts that come with the crate, which its tests read.
-    pub fn case(&self) -> Result<Case> {
-        build::case(self.text, &format!("{}.toml", self.name), &|file| {
-            let table = self.tables.iter().find(|(name, _)| *name == file);
-            table.map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).ok_or_else(|| "no such file".to_owned())
-        })
     }
 }

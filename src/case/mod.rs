@@ -14,11 +14,15 @@
 mod accepted;
 mod build;
 mod builder;
+mod case_file;
+mod changes;
 mod damping;
 mod digest;
 mod embedded;
 mod file;
 mod initial;
+mod key;
+mod key_value;
 mod loads;
 mod modal;
 mod model;
@@ -36,8 +40,11 @@ mod value;
 mod walls;
 mod written;
 
+pub use case_file::CaseFile;
 pub(crate) use digest::sha256;
 pub use embedded::Embedded;
+pub use key::Key;
+pub use key_value::KeyValue;
 pub use model::{Model, Place};
 pub use penalty::PenaltyOptions;
 pub use table::TableColumns;

@@ -1,14 +1,14 @@
 //! A case from the `summary.json` of a run: the same scene again.
 
+use super::Embedded;
 use super::digest::sha256;
 use super::text::{MOST_TABLE_BYTES, read_text};
-use super::{Case, Embedded, build};
 use crate::error::{Error, Result};
 use serde_json::Value;
 use std::path::Path;
 
-/// Reads the case that `text`, a summary at `path`, is of. Files that it read must be as they were.
-pub(super) fn read(text: &str, path: &Path) -> Result<Case> {
+/// Name and text of the case file within `text`, a summary at `path`, and the summary.
+pub(super) fn read(text: &str, path: &Path) -> Result<(String, String, Value)> {
     let failed = |reason: String| Error::Io { path: path.display().to_string(), reason, request: true };
     let summary: Value = serde_json::from_str(text).map_err(|error| failed(format!("no JSON: {error}")))?;
     let written = summary.get("case_file").filter(|value| value.is_object()).ok_or_else(|| {
@@ -16,23 +16,26 @@ pub(super) fn read(text: &str, path: &Path) -> Result<Case> {
         failed(format!("no summary of a run\nhelp: {help}"))
     })?;
     let case = toml::to_string(written).map_err(|error| failed(format!("its `case_file` is no case file: {error}")))?;
-    let name = summary.get("case").and_then(Value::as_str).unwrap_or("case");
-    build::case(&case, &format!("{name}.toml"), &|file| {
-        let entry = summary["files"].as_array().and_then(|files| files.iter().find(|entry| entry["file"] == file));
-        let word = |key: &str| entry.and_then(|entry| entry[key].as_str());
-        let at = word("path").unwrap_or(file);
-        let text = match read_text(Path::new(at), MOST_TABLE_BYTES) {
-            Ok(text) => text,
-            Err(reason) => {
-                let tables = Embedded::all().iter().flat_map(|case| case.tables);
-                tables.clone().find(|(name, _)| *name == at).map(|(_, text)| (*text).to_owned()).ok_or(reason)?
-            }
-        };
-        match word("sha256") {
-            Some(digest) if digest != sha256(text.as_bytes()) => {
-                Err(format!("{at} is not what the run read: its SHA-256 was {digest}"))
-            }
-            _ => Ok((at.to_owned(), text)),
+    let name = summary.get("case").and_then(Value::as_str).unwrap_or("case").to_owned();
+    Ok((format!("{name}.toml"), case, summary))
+}
+
+/// Path and text of a file that the run of `summary` has read: it must be as it was.
+pub(super) fn open(summary: &Value, file: &str) -> std::result::Result<(String, String), String> {
+    let entry = summary["files"].as_array().and_then(|files| files.iter().find(|entry| entry["file"] == file));
+    let word = |key: &str| entry.and_then(|entry| entry[key].as_str());
+    let at = word("path").unwrap_or(file);
+    let text = match read_text(Path::new(at), MOST_TABLE_BYTES) {
+        Ok(text) => text,
+        Err(reason) => {
+            let mut tables = Embedded::all().iter().flat_map(|case| case.tables);
+            tables.find(|(name, _)| *name == at).map(|(_, text)| (*text).to_owned()).ok_or(reason)?
         }
-    })
+    };
+    match word("sha256") {
+        Some(digest) if digest != sha256(text.as_bytes()) => {
+            Err(format!("{at} is not what the run read: its SHA-256 was {digest}"))
+        }
+        _ => Ok((at.to_owned(), text)),
+    }
 }

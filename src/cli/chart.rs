@@ -42,6 +42,8 @@ pub struct Args {
     /// Case file, or the name of a built-in case; a file of that name is taken before a built-in case
     #[arg(value_hint = clap::ValueHint::FilePath)]
     case: String,
+    #[command(flatten)]
+    changes: request::Changes,
     /// End of the run, s; the comparison ends earlier where the motion is too sensitive
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     end: Option<f64>,
@@ -134,6 +136,7 @@ impl Args {
     fn request(&self) -> request::Request {
         request::Request {
             case: self.case.clone(),
+            changes: self.changes.clone(),
             step: None,
             end: self.end,
             sample: None,

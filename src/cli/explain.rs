@@ -1,7 +1,7 @@
 //! `signorini explain`: what would be chosen, and why, without running.
 
 use super::pace::{Estimate, estimate, words};
-use super::request::case;
+use super::request::Changes;
 use super::ui::Ui;
 use crate::case::{Case, Model};
 use crate::error::Result;
@@ -21,6 +21,8 @@ pub struct Args {
     /// Case file, or the name of a built-in case; a file of that name is taken before a built-in case
     #[arg(value_hint = clap::ValueHint::FilePath)]
     case: String,
+    #[command(flatten)]
+    changes: Changes,
     /// Modes to keep, in place of the case's
     #[arg(long, value_name = "K")]
     modes: Option<usize>,
@@ -36,7 +38,7 @@ struct Section {
 }
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let case = case(&args.case, ui)?;
+    let case = args.changes.case(&args.case, ui)?;
     let case = match args.modes {
         Some(modes) => case.with_modes(modes)?,
         None => case,

@@ -3,7 +3,7 @@
 use super::drawing::Formats;
 use super::ui::Ui;
 use super::values;
-use crate::case::{Case, Embedded};
+use crate::case::{Case, CaseFile, Embedded};
 use crate::error::{Error, Result};
 use crate::output::results::Results;
 use crate::qp::Backend;
@@ -18,6 +18,9 @@ pub struct Request {
     /// Case file, summary.json of a run, or the name of a built-in case; a file is taken before a built-in case
     #[arg(value_hint = clap::ValueHint::FilePath)]
     pub case: String,
+    /// What of the case is changed by its keys
+    #[command(flatten)]
+    pub changes: Changes,
     /// Step of the stepping schemes, s
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub step: Option<f64>,
@@ -82,12 +85,12 @@ impl Place {
     }
 }
 
-/// Reads the case that `name` asks for: the file of that name; else, for a name without an extension, the file NAME.toml here; else the
-/// built-in case of that name. Says which it took wherever a built-in case bears the name, too.
+/// The file of the case that `name` asks for: the file of that name; else, for a name without an extension, the file NAME.toml here; else
+/// the built-in case of that name. Says which it took wherever a built-in case bears the name, too.
 ///
 /// # Errors
-/// As [`Case::read`].
-pub fn case(name: &str, ui: &Ui) -> Result<Case> {
+/// As [`CaseFile::read`].
+pub fn case_file(name: &str, ui: &Ui) -> Result<CaseFile> {
     let file = Path::new(name);
     let beside = PathBuf::from(format!("{name}.toml"));
     // `..` and `.toml` have an extension of their own or none to add.
@@ -98,7 +101,7 @@ pub fn case(name: &str, ui: &Ui) -> Result<Case> {
         _ if bare && beside.is_file() => &beside,
         Ok(embedded) => {
             ui.message(&format!("{name}: the built-in case"));
-            return embedded.case();
+            return CaseFile::embedded(embedded.name);
         }
         Err(_) => file,
     };
@@ -106,18 +109,56 @@ pub fn case(name: &str, ui: &Ui) -> Result<Case> {
         let other = if built_in.is_ok() { ", not the built-in case of that name" } else { "" };
         ui.message(&format!("{name}: the file {}{other}", taken.display()));
     }
-    Case::read(taken)
+    CaseFile::read(taken)
 }
 
-/// The same, with another restitution at every rigid wall, checked.
-///
-/// # Errors
-/// As [`case`], and [`Error::Invalid`] for a restitution that makes no sense.
-pub fn case_with_restitution(name: &str, restitution: Option<f64>, ui: &Ui) -> Result<Case> {
-    let mut case = case(name, ui)?;
-    set_restitution(&mut case, restitution)?;
-    case.validate()?;
-    Ok(case)
+/// Values of the case that the command line sets by their keys.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Changes {
+    /// Set a value of the case by its key, such as wall.upper.position=6e-3, load.1.harmonic.frequency=4, wall.*.restitution=0.8; may be given
+    /// several times
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+impl Changes {
+    /// The file of the case that `name` asks for, as [`case_file`] finds it, with the values set.
+    ///
+    /// # Errors
+    /// As [`case_file`] and [`CaseFile::set`]; [`Error::Invalid`] for what is no KEY=VALUE.
+    pub fn case_file(&self, name: &str, ui: &Ui) -> Result<CaseFile> {
+        let mut file = case_file(name, ui)?;
+        if !self.set.is_empty() {
+            // What is wrong with the file itself is shown in its own lines.
+            file.case()?;
+        }
+        for text in &self.set {
+            let wrong =
+                || Error::invalid("--set", format_args!("{text:?}"), "KEY=VALUE, such as wall.upper.position=6e-3");
+            let (key, value) = text.split_once('=').ok_or_else(wrong)?;
+            file.set(&key.parse()?, &value.parse()?)?;
+        }
+        Ok(file)
+    }
+
+    /// The case of that file.
+    ///
+    /// # Errors
+    /// As [`Changes::case_file`] and [`CaseFile::case`].
+    pub fn case(&self, name: &str, ui: &Ui) -> Result<Case> {
+        self.case_file(name, ui)?.case()
+    }
+
+    /// The same, with another restitution at every rigid wall, checked.
+    ///
+    /// # Errors
+    /// As [`Changes::case`], and [`Error::Invalid`] for a restitution that makes no sense.
+    pub fn case_with_restitution(&self, name: &str, restitution: Option<f64>, ui: &Ui) -> Result<Case> {
+        let mut case = self.case(name, ui)?;
+        set_restitution(&mut case, restitution)?;
+        case.validate()?;
+        Ok(case)
+    }
 }
 
 fn set_restitution(case: &mut Case, restitution: Option<f64>) -> Result<()> {
@@ -140,9 +181,9 @@ impl Request {
     /// The case with the command line's changes, checked.
     ///
     /// # Errors
-    /// As [`case`], and [`Error::Invalid`] for a change that makes no sense.
+    /// As [`Changes::case`], and [`Error::Invalid`] for a change that makes no sense.
     pub fn case(&self, ui: &Ui) -> Result<Case> {
-        let mut case = case(&self.case, ui)?;
+        let mut case = self.changes.case(&self.case, ui)?;
         if let Some(modes) = self.modes {
             case = case.with_modes(modes)?;
         }

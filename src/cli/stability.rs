@@ -46,6 +46,8 @@ pub struct Args {
     /// Case file, or the name of a built-in case; a file of that name is taken before a built-in case
     #[arg(value_hint = clap::ValueHint::FilePath)]
     case: String,
+    #[command(flatten)]
+    changes: request::Changes,
     /// Restitution of every rigid wall, 0 to 1
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     restitution: Option<f64>,
@@ -58,7 +60,7 @@ pub struct Args {
 /// # Errors
 /// A case that makes no sense or has no wall, a folder that cannot be written, a reference run that fails.
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let case = request::case_with_restitution(&args.case, args.restitution, ui)?;
+    let case = args.changes.case_with_restitution(&args.case, args.restitution, ui)?;
     let mut results = args.place.results(&case.name, "stability", asked("stability", &case, &[]))?;
     let question = Question { scene: &case.scene, laws: &case.penalty.laws };
     let plan = Plan::new(question, &Grid::of(&case.scene))?;

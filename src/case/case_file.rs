@@ -1,0 +1,204 @@
+//! A case file that is not built yet: its values can be changed by their keys.
+
+use super::key::Key;
+use super::key_value::KeyValue;
+use super::text::{MOST_CASE_BYTES, MOST_TABLE_BYTES, read_text};
+use super::{Case, Embedded, build, changes, summary};
+use crate::error::{Error, Result, nearest};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The text of a case file and where the files that it names are; [`CaseFile::case`] builds it.
+///
+/// Values go in by their keys, and through the reader of case files like all others: whatever a file may say can be set.
+///
+/// ```
+/// use signorini::case::CaseFile;
+///
+/// let mut file = CaseFile::embedded("rigid-walls-sine")?;
+/// file.set(&"wall.upper.position".parse()?, &6e-3.into())?;
+/// assert_eq!(file.case()?.scene.walls[0].position, 6e-3);
+///
+/// file.set(&"wall.*.restitution".parse()?, &2.0.into())?;
+/// assert!(file.case().unwrap_err().to_string().contains("expected a number from 0 to 1"));
+/// # Ok::<(), signorini::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct CaseFile {
+    /// What messages call it.
+    shown: String,
+    text: String,
+    /// Its values, once some were changed.
+    changed: Option<toml::Table>,
+    /// The changes, in words.
+    changes: Vec<String>,
+    files: Files,
+    /// Files that were read: path and text by the name in the case.
+    read: Arc<Mutex<BTreeMap<String, (String, String)>>>,
+}
+
+/// Where the files are that a case names.
+#[derive(Debug, Clone)]
+enum Files {
+    /// In this folder.
+    In(PathBuf),
+    /// Built in.
+    Embedded(Embedded),
+    /// Where the run of a summary found them, unchanged since.
+    Of(Arc<serde_json::Value>),
+}
+
+impl CaseFile {
+    /// Reads a case file, or the case of the `summary.json` of a run; tables are looked for beside it.
+    ///
+    /// # Errors
+    /// [`Error::Io`] where the file cannot be read.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        let json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+        let text = read_text(path, if json { MOST_TABLE_BYTES } else { MOST_CASE_BYTES })
+            .map_err(|reason| unreadable(path, &reason))?;
+        if json {
+            let (name, text, summary) = summary::read(&text, path)?;
+            return Ok(Self::new(&text, &name, Files::Of(Arc::new(summary))));
+        }
+        Ok(Self::from_text(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new(""))))
+    }
+
+    /// The case of that name that comes with the crate.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`], listing the names there are.
+    pub fn embedded(name: &str) -> Result<Self> {
+        Ok(Self::of_embedded(*Embedded::named(name)?))
+    }
+
+    /// A case file from its text. Messages call it `name`, the case takes its own name from there, and tables are looked for in `folder`.
+    #[must_use]
+    pub fn from_text(text: &str, name: &str, folder: impl AsRef<Path>) -> Self {
+        Self::new(text, name, Files::In(folder.as_ref().to_owned()))
+    }
+
+    pub(super) fn of_embedded(embedded: Embedded) -> Self {
+        Self::new(embedded.text, &format!("{}.toml", embedded.name), Files::Embedded(embedded))
+    }
+
+    fn new(text: &str, name: &str, files: Files) -> Self {
+        let (shown, text) = (name.to_owned(), text.to_owned());
+        Self { shown, text, changed: None, changes: Vec::new(), files, read: Arc::default() }
+    }
+
+    /// Changes the value at `key`. Whether the key takes it shows when the case is built.
+    ///
+    /// # Errors
+    /// [`Error::Case`] for a text that is no TOML, [`Error::Unknown`] for a wall, load or probe that the file does not have, and
+    /// [`Error::Invalid`] for an entry of a list that it does not have.
+    pub fn set(&mut self, key: &Key, value: &KeyValue) -> Result<()> {
+        self.put(key, value)?;
+        self.changes.push(format!("{key} = {value}"));
+        Ok(())
+    }
+
+    fn put(&mut self, key: &Key, value: &KeyValue) -> Result<()> {
+        let mut table = match self.changed.take() {
+            Some(table) => table,
+            None => self.table()?,
+        };
+        let done = changes::set(&mut table, key, value);
+        self.changed = Some(table);
+        done
+    }
+
+    /// The value at `key` in the file; none where the file leaves it out, or where `*` names several that differ.
+    ///
+    /// # Errors
+    /// [`Error::Case`] for a text that is no TOML.
+    pub fn get(&self, key: &Key) -> Result<Option<KeyValue>> {
+        match &self.changed {
+            Some(table) => Ok(changes::get(table, key)),
+            None => Ok(changes::get(&self.table()?, key)),
+        }
+    }
+
+    fn table(&self) -> Result<toml::Table> {
+        // The reader of case files says best what is wrong with a text.
+        toml::from_str(&self.text).or_else(|error| {
+            self.case()?;
+            Err(Error::Case(error.to_string()))
+        })
+    }
+
+    /// The text with the changes made so far, as the case is built from it.
+    ///
+    /// # Errors
+    /// None beyond those of values that TOML cannot write.
+    pub fn text(&self) -> Result<String> {
+        match &self.changed {
+            Some(table) => {
+                toml::to_string(table).map_err(|error| Error::Case(format!("error: {}: {error}", self.shown)))
+            }
+            None => Ok(self.text.clone()),
+        }
+    }
+
+    /// Name of the case: that of the file without folder and extension.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        Path::new(&self.shown).file_stem().and_then(|stem| stem.to_str()).unwrap_or("case")
+    }
+
+    /// Builds the case. Files that it names are read once, and kept.
+    ///
+    /// # Errors
+    /// [`Error::Case`], which shows the place: file, line, column, key, and what would be accepted.
+    pub fn case(&self) -> Result<Case> {
+        let tables = |file: &str| self.open(file);
+        if self.changed.is_none() {
+            return build::case(&self.text, &self.shown, &tables);
+        }
+        let shown = format!("{}, changed by {}", self.shown, self.changes.join(", "));
+        let case = build::case(&self.text()?, &shown, &tables)?;
+        Ok(Case { name: self.name().to_owned(), ..case })
+    }
+
+    /// Path and text of the file that the case calls `name`, or why there is none.
+    fn open(&self, name: &str) -> std::result::Result<(String, String), String> {
+        // A panic of another thread leaves the map as it was.
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = read.get(name) {
+            return Ok(known.clone());
+        }
+        let found = match &self.files {
+            Files::In(folder) => {
+                let path = folder.join(name);
+                (path.display().to_string(), read_text(&path, MOST_TABLE_BYTES)?)
+            }
+            Files::Embedded(embedded) => {
+                let table = embedded.tables.iter().find(|(table, _)| *table == name);
+                let (name, text) = table.ok_or_else(|| "no such file".to_owned())?;
+                ((*name).to_owned(), (*text).to_owned())
+            }
+            Files::Of(summary) => summary::open(summary, name)?,
+        };
+        read.insert(name.to_owned(), found.clone());
+        Ok(found)
+    }
+}
+
+/// Why there is no case file at `path`, and what could have been meant.
+fn unreadable(path: &Path, reason: &str) -> Error {
+    let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
+    let hint = match Embedded::named(stem) {
+        Ok(embedded) => format!("`signorini new {}` writes the case of that name", embedded.name),
+        Err(_) => {
+            let known = Embedded::all().iter().map(|case| case.name);
+            nearest(stem, known).map_or_else(
+                || "a case file is a TOML text; `signorini new rigid-walls-sine` writes one to start from".into(),
+                |near| format!("did you mean {near}? It is a built-in case; `signorini new` lists them all"),
+            )
+        }
+    };
+    let shown = if path.as_os_str().is_empty() { "\"\"".to_owned() } else { path.display().to_string() };
+    Error::Io { path: shown, reason: format!("{reason}\nhelp: {hint}"), request: true }
+}
