@@ -64,7 +64,7 @@ fn programmes(n: usize, count: usize) -> (Problem, Vec<Step>) {
     let problem = Problem { a: Symmetric::from_entries(n, chain), g, compliance: vec![0.0; n] };
     let (h, k, gap) = (1e-3, 1e4, 1e-3);
     let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
-    let mut hand = Hand::new(n);
+    let mut hand = Hand::new(n, COUPLING);
     let mut steps = Vec::new();
     for step in 0..1000 + count {
         let at = |q: &[f64], i: usize, d: isize| i.checked_add_signed(d).and_then(|j| q.get(j)).copied().unwrap_or(0.0);
@@ -87,9 +87,29 @@ fn programmes(n: usize, count: usize) -> (Problem, Vec<Step>) {
     (problem, steps)
 }
 
+/// h²θ²k of a chain of masses 1 and springs 1e6 at h = 1e-2, θ = ½: a force reaches some ten masses.
+const STIFF: f64 = 25.0;
+
+/// Programmes of that chain with every other mass held against its stop, a few of which let go or take hold from step to step.
+fn held(n: usize, count: usize) -> (Problem, Vec<Step>) {
+    let chain = (0..n).map(|i| (i, i, 1.0 + 2.0 * STIFF)).chain((1..n).map(|i| (i, i - 1, -STIFF)));
+    let unit: Vec<[(usize, f64); 1]> = (0..n).map(|i| [(i, 1.0)]).collect();
+    let g = Rows::new(n, unit.iter().map(|row| row.as_slice()));
+    let problem = Problem { a: Symmetric::from_entries(n, chain), g, compliance: vec![0.0; n] };
+    let push = |step: usize, i: usize| 1.0 + 1.05 * (0.05 * step as f64 + 0.9 * i as f64).sin();
+    let stop = |i: usize| if i % 2 == 0 { 0.0 } else { f64::INFINITY };
+    let step = |step: usize| {
+        let b = (0..n).map(|i| push(step, i)).collect();
+        (b, vec![f64::NEG_INFINITY; n], (0..n).map(stop).collect())
+    };
+    (problem, (0..count).map(step).collect())
+}
+
 /// The same programme by hand, for this chain only: a primal-dual active set, each pass one sweep of the tridiagonal system in which the
 /// masses in contact are held.
 struct Hand {
+    /// h²θ²k of the chain.
+    coupling: f64,
     x: Vec<f64>,
     r: Vec<f64>,
     side: Vec<i8>,
@@ -99,21 +119,21 @@ struct Hand {
 }
 
 impl Hand {
-    fn new(n: usize) -> Self {
+    fn new(n: usize, c: f64) -> Self {
         let (mut l, mut d) = (vec![0.0; n], vec![0.0; n]);
         let mut last = 0.0;
         for i in 0..n {
-            l[i] = -COUPLING * last;
-            d[i] = 1.0 / (1.0 + 2.0 * COUPLING + COUPLING * l[i]);
+            l[i] = -c * last;
+            d[i] = 1.0 / (1.0 + 2.0 * c + c * l[i]);
             last = d[i];
         }
         l[0] = 0.0;
         let zero = || vec![0.0; n];
-        Self { x: zero(), r: zero(), side: vec![0; n], d: zero(), factor: (l, d), passes: 0 }
+        Self { coupling: c, x: zero(), r: zero(), side: vec![0; n], d: zero(), factor: (l, d), passes: 0 }
     }
 
     fn solve(&mut self, b: &[f64], lo: &[f64], hi: &[f64]) {
-        let n = b.len();
+        let (n, c) = (b.len(), self.coupling);
         let (b, lo, hi) = (&b[..n], &lo[..n], &hi[..n]);
         let (x, r, side, d) = (&mut self.x[..n], &mut self.r[..n], &mut self.side[..n], &mut self.d[..n]);
         // Free motion with the factor made before.
@@ -126,7 +146,7 @@ impl Hand {
         let mut next = 0.0;
         let mut inside = true;
         for i in (0..n).rev() {
-            next = (x[i] + COUPLING * next) * fd[i];
+            next = (x[i] + c * next) * fd[i];
             x[i] = next;
             inside &= lo[i] <= next && next <= hi[i];
         }
@@ -149,8 +169,8 @@ impl Hand {
             let (mut last, mut pivot, mut part) = (0.0, 0.0, 0.0);
             for i in 0..n {
                 if side[i] == 0 {
-                    last = b[i] + COUPLING * part * last;
-                    pivot = 1.0 / (1.0 + 2.0 * COUPLING - COUPLING * COUPLING * pivot);
+                    last = b[i] + c * part * last;
+                    pivot = 1.0 / (1.0 + 2.0 * c - c * c * pivot);
                     part = pivot;
                 } else {
                     last = if side[i] < 0 { lo[i] } else { hi[i] };
@@ -161,7 +181,7 @@ impl Hand {
             let (mut next, mut changed) = (0.0, false);
             for i in (0..n).rev() {
                 if side[i] == 0 {
-                    next = (x[i] + COUPLING * next) * d[i];
+                    next = (x[i] + c * next) * d[i];
                     x[i] = next;
                     let new = i8::from(next > hi[i] + 1e-12) - i8::from(next < lo[i] - 1e-12);
                     changed |= new != 0;
@@ -178,7 +198,7 @@ impl Hand {
                 } else if side[i] != 0 {
                     let left = if i > 0 { x[i - 1] } else { 0.0 };
                     let right = if i + 1 < n { x[i + 1] } else { 0.0 };
-                    r[i] = (1.0 + 2.0 * COUPLING) * x[i] - COUPLING * (left + right) - b[i];
+                    r[i] = (1.0 + 2.0 * c) * x[i] - c * (left + right) - b[i];
                     if r[i] * f64::from(side[i]) > 0.0 {
                         (r[i], side[i], changed) = (0.0, 0, true);
                     }
@@ -197,15 +217,18 @@ fn chains() {
         "{:>5} {:>10} {:>12} {:>7} {:>12} {:>24}",
         "n", "hand ns", "condensed ns", "ratio", "Clarabel ns", "in play, passes by hand, pivots, free"
     );
-    for n in [20, 200] {
-        let (problem, steps) = programmes(n, 500);
+    let sets = [(programmes(20, 500), COUPLING), (programmes(200, 500), COUPLING), (held(1000, 100), STIFF)];
+    for ((problem, steps), coupling) in sets {
+        let n = problem.a.size();
         let new = |backend| Solver::new(problem.clone(), backend, 1.0).expect("a sound problem");
-        let (mut hand, mut condensed, mut clarabel) = (Hand::new(n), new(Backend::Condensed), new(Backend::Clarabel));
+        let (mut hand, mut condensed, mut clarabel) =
+            (Hand::new(n, coupling), new(Backend::Condensed), new(Backend::Clarabel));
         let (mut apart, mut play) = (0.0_f64, 0);
         for (b, lo, hi) in &steps {
             hand.solve(b, lo, hi);
             let found = condensed.solve(&Rhs { b, lo, hi }).expect("feasible");
-            apart = found.multiplier.iter().zip(&hand.r).fold(apart, |most, (a, b)| most.max((a - b).abs()));
+            let size = hand.r.iter().fold(1.0, |most: f64, r| most.max(r.abs()));
+            apart = found.multiplier.iter().zip(&hand.r).fold(apart, |most, (a, b)| most.max((a - b).abs() / size));
             play += hand.r.iter().filter(|r| **r != 0.0).count();
         }
         assert!(apart <= 1e-12, "the two differ by {apart:e}");
@@ -223,7 +246,7 @@ fn chains() {
                     let (b, lo, hi) = &steps[call % steps.len()];
                     black_box(condensed.solve(&Rhs { b, lo, hi }).expect("feasible"));
                 }),
-                time(steps.len() / 10, |call| {
+                time(steps.len() / 50, |call| {
                     let (b, lo, hi) = &steps[call % steps.len()];
                     black_box(clarabel.solve(&Rhs { b, lo, hi }).expect("feasible"));
                 }),

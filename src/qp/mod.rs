@@ -18,6 +18,8 @@
 //! contact but the free motion. Where rows depend on one another the multipliers are those of least Σ Wᵢᵢ rᵢ². If pivoting does
 //! not settle, Clarabel tells where to start, and a dual active set is the last resort. With more rows than the motion has
 //! freedoms a dual active set from the last programme's rows comes before Clarabel, and with more than twice as many it comes first.
+//! Where A is a narrow band and so many rows are in play that a pass over W costs more than one over the band, their unknowns are
+//! eliminated there.
 //!
 //! [`clamp()`] is the same scalar programme without matrices, for kernels that hold floats only.
 
@@ -30,6 +32,7 @@ mod clamp;
 mod clarabel;
 mod crowd;
 mod delassus;
+mod elimination;
 mod failure;
 mod pivoting;
 mod relations;

@@ -5,6 +5,7 @@ use super::clamp::{Clamp, meet};
 use super::clarabel::Clarabel;
 use super::crowd::Crowd;
 use super::delassus::Delassus;
+use super::elimination::Elimination;
 use super::pivoting::{Pivoting, Side, passes};
 use super::{Backend, Failure, NOISE, Problem, Rhs, Solution};
 use std::fmt;
@@ -36,6 +37,8 @@ pub struct Counters {
     /// Programmes on which the condensed solver's pivoting did not settle, or found that bounds cross, so that Clarabel told it where to
     /// start once more.
     pub fallbacks: u64,
+    /// Programmes with so many rows in play that their unknowns were eliminated on the band of A.
+    pub eliminated: u64,
     /// Programmes with more rows than the motion has freedoms that a dual active set took over from pivoting, whether or not it settled.
     pub crowded: u64,
 }
@@ -49,6 +52,8 @@ enum Kind {
 struct Condensed {
     system: Delassus,
     pivoting: Pivoting,
+    /// Where A is a narrow band and every row has an unknown of its own.
+    elimination: Option<Box<Elimination>>,
     /// What the interior point is built from when it is needed.
     problem: Problem,
     interior: Option<Clarabel>,
@@ -114,10 +119,12 @@ impl Solver {
             let system = Delassus::new(&problem)?;
             let pivoting = Pivoting::new(&system);
             let always = backend == Backend::Clarabel;
+            let elimination = Elimination::new(&problem).map(Box::new);
             let passes = patience(m, pivoting.rank());
             Kind::Condensed(Box::new(Condensed {
                 system,
                 pivoting,
+                elimination,
                 problem,
                 interior: None,
                 start: Vec::new(),
@@ -217,6 +224,13 @@ impl Condensed {
         if !self.always {
             if system.loose {
                 pivoting.call_violated(system, rhs);
+            }
+            if let Some(elimination) = self.elimination.as_mut().filter(|e| e.pays(system, pivoting))
+                && let Some(pivots) = elimination.solve(system, pivoting, rhs, scale, (x, r))
+            {
+                counters.pivots += pivots;
+                counters.eliminated += 1;
+                return super::finite("solution", x, |v| v.is_finite());
             }
             match pivoting.solve(system, rhs, scale, self.passes, r) {
                 Ok(pivots) => {
