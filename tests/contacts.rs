@@ -4,7 +4,7 @@ mod common;
 
 use common::event_driven::EventDriven;
 use common::{MOREAU_JEAN, schemes, source};
-use signorini::{Contact, Integrator, Load, Options, Scene, Scheme, Table, TimeOptions, Wall, run};
+use signorini::{Contact, Integrator, Load, Options, Scene, Scheme, Stepper, Table, TimeOptions, Wall, run};
 
 /// Contacts of a run over the scene's duration with steps of `h`.
 fn contacts(scene: &Scene, scheme: &Scheme, h: f64) -> Vec<Contact> {
@@ -114,5 +114,185 @@ fn a_body_that_lands_with_restitution_zero_stays_until_it_is_lifted() {
         let found = contacts(&common::ball(0.0, 0.0), &scheme, h);
         let [contact] = found[..] else { panic!("{scheme}: {found:?}") };
         assert_eq!((contact.end, contact.departure_speed), (None, None), "{scheme}");
+    }
+}
+
+/// Where in a step a scheme's contact impulse acts, as a share of it: the multiplier of a
+/// position-level rule is the force at its end, that of a staggered one is the force at its start,
+/// an impulse on the velocity stands for the whole step.
+fn instant(scheme: &Scheme) -> f64 {
+    match scheme {
+        Scheme::ImplicitEuler | Scheme::Newmark => 1.0,
+        Scheme::PaoliSchatzman => 0.0,
+        Scheme::Penalty { integrator: Integrator::ImplicitEuler, .. } => 1.0,
+        Scheme::Penalty { integrator: Integrator::CentralDifference, .. } => 0.0,
+        _ => 0.5,
+    }
+}
+
+/// One wall's episodes, put together from the steps by their definition: runs of steps with an
+/// impulse, times and sums alone.
+#[derive(Debug, Default)]
+struct Joined {
+    start: f64,
+    end: f64,
+    steps: u32,
+    impulse: f64,
+    moment: f64,
+    peak: f64,
+}
+
+#[test]
+fn the_table_joins_the_steps_in_which_a_wall_pushes() {
+    let scenes = [
+        ("rigid", source(0.8, 0.4)),
+        ("elastic and rigid", common::elastic(3.0, 0.5)),
+        ("elastic", common::all_elastic(1.0)),
+    ];
+    for (name, scene) in scenes {
+        for scheme in schemes() {
+            let h = 1e-4;
+            let mut stepper = Stepper::new(&scene, &scheme, h).expect("a sound scene");
+            let rigid: Vec<bool> = stepper.scene().walls.iter().map(|wall| wall.law.is_rigid()).collect();
+            let mut open: Vec<Option<Joined>> = vec![None, None];
+            let (mut lasting, mut impacts) = (0, 0);
+            for _ in 0..20_000 {
+                let step = stepper.step().expect("a step");
+                let at = step.start + instant(&scheme) * h;
+                for (wall, open) in open.iter_mut().enumerate() {
+                    let p = step.impulse[wall];
+                    let closed = step.closed.iter().find(|contact| contact.wall == wall);
+                    if p == 0.0 {
+                        let Some(joined) = open.take() else {
+                            assert!(closed.is_none(), "{name}, {scheme}: {closed:?} at {at} s");
+                            continue;
+                        };
+                        let contact = closed.expect("an episode that has ended");
+                        let what = format!("{name}, {scheme}: {contact:?}, {joined:?}");
+                        // An impact takes up to two steps at a rigid wall, and has one instant:
+                        // that of its impulse on the average.
+                        let impact = rigid[wall] && joined.steps <= 2;
+                        let mean = joined.moment / joined.impulse;
+                        let (start, end) = if impact { (mean, mean) } else { (joined.start, joined.end) };
+                        // Sums of a few terms, and of at most a period's steps.
+                        let near =
+                            |found: f64, expected: f64, share: f64| (found - expected).abs() <= share * expected.abs();
+                        assert!(near(contact.start, start, 1e-15), "{what}: {start}");
+                        assert!(near(contact.end.expect("closed"), end, 1e-15), "{what}: {end}");
+                        assert!(near(contact.impulse, joined.impulse, 1e-12), "{what}");
+                        // A spring has its largest force; a blow has none, and nor has a rest while
+                        // it is made of blows.
+                        match contact.peak_force {
+                            None => assert!(rigid[wall], "{what}"),
+                            Some(peak) => assert!(!impact && near(peak, joined.peak, 1e-15), "{what}"),
+                        }
+                        if impact {
+                            impacts += 1
+                        } else {
+                            lasting += 1
+                        }
+                        continue;
+                    }
+                    assert!(closed.is_none(), "{name}, {scheme}: {closed:?} at {at} s");
+                    let joined = open.get_or_insert(Joined { start: at, ..Joined::default() });
+                    joined.end = at;
+                    joined.steps += 1;
+                    joined.impulse += p;
+                    joined.moment += p * at;
+                    let finite = !rigid[wall] || joined.steps > 2 && step.velocity_before[0].abs() <= 1e-2 * p.abs();
+                    joined.peak = joined.peak.max(if finite { p.abs() / h } else { 0.0 });
+                }
+            }
+            // Each scene has what it is here for: a spring pushes for long, an impact is over at
+            // once.
+            assert!(lasting > 0 || rigid.iter().all(|&rigid| rigid), "{name}, {scheme}");
+            assert!(impacts > 0 || !rigid.contains(&true) || !lands_at_once(&scheme), "{name}, {scheme}");
+        }
+    }
+}
+
+/// True for schemes that leave a rigid wall by its restitution, one or two steps after they met it.
+fn lands_at_once(scheme: &Scheme) -> bool {
+    matches!(scheme, Scheme::PaoliSchatzman | Scheme::MoreauJean { .. } | Scheme::GeneralizedAlpha { .. })
+}
+
+#[test]
+fn a_free_body_turns_round_at_the_instant_of_its_impact() {
+    // Wherever the impact falls in a step: the lines on which the body comes and goes cross at the
+    // instant that the table gives. For moreau-jean that is the middle of the step in which ½hv
+    // takes it to the wall. The bound of paoli-schatzman mirrors the displacement of two steps
+    // before, so the body leaves as if from the wall 2h after it came there: the lines cross 2eh/(1
+    // + e) after.
+    let (h, v) = (1e-2, 0.3);
+    for e in [1.0, 0.5, 0.05] {
+        for phase in 1..20 {
+            let wall = 1.0 + f64::from(phase) * 0.05 * v * h;
+            for side in [1.0, -1.0] {
+                let stop = if side > 0.0 { Wall::upper("stop", wall) } else { Wall::lower("stop", -wall) };
+                let scene = Scene::oscillator(1.0, 0.0, 0.0)
+                    .with_wall(stop.with_restitution(e))
+                    .with_initial(&[0.0], &[side * v])
+                    .with_duration(6.0);
+                for scheme in [MOREAU_JEAN, Scheme::PaoliSchatzman] {
+                    let run = run(&scene, &scheme, &Options::with_step(h)).expect("a run");
+                    let [contact] = run.trajectory.contacts() else {
+                        panic!("{scheme}: {:?}", run.trajectory.contacts())
+                    };
+                    let what = format!("{scheme}, e = {e}, phase {phase}: {contact:?}");
+                    assert_eq!((contact.end, contact.peak_force), (Some(contact.start), None), "{what}");
+                    let (t, q) = (run.trajectory.time(), run.trajectory.displacement());
+                    // side (q_end − e v (t_end − t)·(−1)) = v t where the lines meet.
+                    let (last, end) = (side * q[q.len() - 1], t[t.len() - 1]);
+                    let crossing = (last + e * v * end) / (v + e * v);
+                    // Sums of 600 steps, of 6 s and 1.8 m at most.
+                    assert!((contact.start - crossing).abs() < 1e-12, "{what}: {crossing}");
+                    let arrival = wall / v;
+                    let late = contact.start - arrival;
+                    let found = match scheme {
+                        Scheme::PaoliSchatzman => (late - 2.0 * e * h / (1.0 + e)).abs() < 1e-12,
+                        _ => (-1e-12..h + 1e-12).contains(&late),
+                    };
+                    assert!(found, "{what}: {late:e} s after {arrival}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_push_of_two_steps_is_an_impact_and_one_of_three_lasts() {
+    // A body that lies on a stop is pressed onto it for some steps and then pulled off.
+    let h = 1e-2;
+    for pushed in 1..6_u32 {
+        let until = f64::from(pushed) * h;
+        let edge = 1e-3 * h;
+        for (scheme, from, to) in [
+            // The load at the start of a step, at its end, or its mean: the table turns where the
+            // last of them is taken.
+            (Scheme::PaoliSchatzman, until - h + edge, until - edge),
+            (Scheme::ImplicitEuler, until + edge, until + h - edge),
+            (MOREAU_JEAN, until, until + edge),
+        ] {
+            let table = Table::new(vec![0.0, from, to, 1.0], vec![2.0, 2.0, -2.0, -2.0]).expect("a sound table");
+            let scene = Scene::oscillator(1.0, 0.0, 0.0)
+                .with_wall(Wall::upper("stop", 0.1))
+                .with_load(Load::table(table))
+                .with_initial(&[0.1], &[0.0])
+                .with_duration(0.2);
+            let found = contacts(&scene, &scheme, h);
+            let [contact] = found[..] else { panic!("{scheme}: {found:?}") };
+            let what = format!("{scheme}, {pushed} steps: {contact:?}");
+            let (first, last) = (instant(&scheme) * h, (f64::from(pushed) - 1.0 + instant(&scheme)) * h);
+            let near = |found: f64, expected: f64| (found - expected).abs() < 1e-15;
+            assert!((contact.impulse + 2.0 * until).abs() < 1e-15, "{what}");
+            if pushed <= 2 {
+                let mean = 0.5 * (first + last);
+                assert!(near(contact.start, mean) && contact.end == Some(contact.start), "{what}");
+                assert_eq!(contact.peak_force, None, "{what}");
+            } else {
+                assert!(near(contact.start, first) && near(contact.end.expect("closed"), last), "{what}");
+                assert!((contact.peak_force.expect("a force that lasts") - 2.0).abs() < 1e-12, "{what}");
+            }
+        }
     }
 }

@@ -210,3 +210,62 @@ proptest::proptest! {
         }
     }
 }
+
+#[test]
+fn elastic_walls_that_take_turns_freeze_nothing() {
+    // The body is thrown from one pad to the other in every step; a spring's answer is its force,
+    // not a rule that holds the body up.
+    for (walls, frozen) in [(false, false), (true, true)] {
+        let close = |wall: Wall| if walls { wall } else { wall.with_elasticity(1e4, 0.0) };
+        let mut scene = Scene::oscillator(1.0, 0.0, 0.0)
+            .with_wall(close(Wall::upper("upper", 1e-3)))
+            .with_wall(close(Wall::lower("lower", -1e-3)))
+            .with_initial(&[0.0], &[10.0])
+            .with_duration(2.0);
+        for structure in [false, true] {
+            if structure {
+                scene.system = System::Structure(Box::new(scene.system.structure()));
+            }
+            let (mut turns, mut last) = (0, 0.0);
+            let mut stepper = Stepper::new(&scene, &MOREAU_JEAN, 4e-2).expect("sound");
+            for _ in 0..50 {
+                let step = stepper.step().expect("a step");
+                let pushed = step.impulse.iter().sum::<f64>();
+                turns += u32::from(pushed * last < 0.0);
+                last = pushed;
+            }
+            assert!(turns > 20, "{walls}, {structure}: {turns}");
+            let counted = stepper.counters().frozen_steps;
+            assert_eq!(counted, if frozen { u64::from(turns) } else { 0 }, "{walls}, {structure}: {turns} turns");
+        }
+    }
+}
+
+#[test]
+fn a_motion_that_leaves_the_numbers_is_an_error_at_that_step() {
+    // 1e308 N on 1 kg: after a second 1e308 m/s, after two more than a double holds.
+    for structure in [false, true] {
+        let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::constant(1e308)).with_duration(10.0);
+        if structure {
+            scene.system = System::Structure(Box::new(scene.system.structure()));
+        }
+        let mut schemes = common::schemes();
+        schemes.retain(|scheme| !matches!(scheme, Scheme::Penalty { .. }));
+        for scheme in schemes {
+            let mut stepper = Stepper::new(&scene, &scheme, 1.0).expect("sound");
+            let mut good = 0;
+            let error = loop {
+                match stepper.step() {
+                    Ok(step) => {
+                        assert!(step.q[0].is_finite() && step.v[0].is_finite(), "{scheme}, {structure}: {step:?}");
+                        good += 1;
+                        assert!(good < 5, "{scheme}, {structure}");
+                    }
+                    Err(error) => break error,
+                }
+            };
+            assert!(matches!(error, Error::NotFinite { step, .. } if step == good), "{scheme}, {structure}: {error:?}");
+            assert!(!error.is_request(), "{error}");
+        }
+    }
+}

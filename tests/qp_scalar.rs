@@ -113,3 +113,92 @@ fn what_is_no_number_is_named() {
     let short = clamp(1.0, 0.5, &rows, &mut []);
     assert_eq!(short, Err(Failure::Shape { what: "forces", expected: 1, found: 0 }));
 }
+
+#[test]
+fn the_stiffest_row_takes_what_the_balance_leaves() {
+    // A stop of compliance 1e-18 at 1 and a soft pad that starts at ½: in x = 1 + 3e-18, which no
+    // double tells from 1, stands the stop's force.
+    let (stop, pad) = (elastic(-INF, 1.0, 1e-18), elastic(-INF, 0.5, 0.5));
+    for (rows, which) in [([stop, pad], 0), ([pad, stop], 1)] {
+        let (x, r) = solve(2.0, 6.0, rows);
+        // a x = b + r₁ + r₂ with −1 of the pad.
+        assert!((x - 1.0).abs() <= f64::EPSILON, "{x}");
+        assert!(
+            (r[which] + 3.0).abs() <= 8.0 * f64::EPSILON && (r[1 - which] + 1.0).abs() <= 8.0 * f64::EPSILON,
+            "{r:?}"
+        );
+    }
+    // The mirror, and a third row that is soft and met, behind one that is not.
+    let rows = [elastic(-0.5, INF, 0.5), elastic(-9.0, INF, 1e-20), elastic(-1.0, INF, 1e-18), elastic(-0.5, INF, 1.0)];
+    let (x, r) = solve(2.0, -6.0, rows);
+    assert!((x + 1.0).abs() <= f64::EPSILON, "{x}");
+    for (found, expected) in r.iter().zip([1.0, 0.0, 2.5, 0.5]) {
+        assert!((found - expected).abs() <= 8.0 * f64::EPSILON, "{r:?}");
+    }
+}
+
+#[test]
+fn rigid_bounds_that_cross_by_more_than_rounding_are_refused() {
+    // 1e-12 of the largest of the bounds and the free motion, and no more.
+    let crossed = |lo: f64, hi: f64, b: f64| clamp(2.0, b, &[rigid(lo, INF), rigid(-INF, hi)], &mut [0.0; 2]);
+    let infeasible = Err(Failure::Infeasible { row: 0, against: 1 });
+    for size in [1.0, 1e-9, 1e9] {
+        for sign in [1.0, -1.0] {
+            let bounds = |share: f64| {
+                let (a, b) = (sign * size, sign * size * (1.0 - sign * share));
+                (a.max(b), a.min(b))
+            };
+            for (share, refused) in [(0.5e-12, false), (2e-12, true), (1e-9, true), (1e-3, true)] {
+                let (lo, hi) = bounds(share);
+                let found = crossed(lo, hi, 0.0);
+                assert_eq!(found == infeasible, refused, "{lo} over {hi}: {found:?}");
+            }
+        }
+        // Beside a free motion to ten times as far, ten times as much is rounding.
+        let (lo, hi) = (size * (1.0 + 5e-12), size);
+        assert_eq!(crossed(lo, hi, 0.0), infeasible);
+        assert!(crossed(lo, hi, 20.0 * size).is_ok() && crossed(lo, hi, -20.0 * size).is_ok());
+    }
+}
+
+#[test]
+fn bounds_that_cross_by_rounding_hold_at_their_midpoint() {
+    let (lo, hi) = (1.0 + 8.0 * f64::EPSILON, 1.0);
+    for (b, force) in [(6.0, -4.0), (-6.0, 8.0)] {
+        for (rows, on) in [([rigid(lo, INF), rigid(-INF, hi)], [0, 1]), ([rigid(-INF, hi), rigid(lo, INF)], [1, 0])] {
+            let (x, r) = solve(2.0, b, rows);
+            assert_eq!(x, 1.0 + 4.0 * f64::EPSILON);
+            // The side that bears is the one the body is driven into.
+            let [lower, upper] = on.map(|row| r[row]);
+            let (bears, idle) = if force > 0.0 { (lower, upper) } else { (upper, lower) };
+            assert!((bears - force).abs() <= 32.0 * f64::EPSILON && idle == 0.0, "{r:?}");
+        }
+    }
+    // Around 0, where a share of the place is nothing and only the free motion tells that the
+    // bounds cross by rounding.
+    let (lo, hi) = (1e-13, -1e-13);
+    let rows = [rigid(-INF, 5.0), rigid(-5.0, INF), rigid(-INF, hi), rigid(lo, INF)];
+    assert_eq!(solve(2.0, 6.0, rows), (0.0, [0.0, 0.0, -6.0, 0.0]));
+    assert_eq!(solve(2.0, -6.0, rows), (0.0, [0.0, 0.0, 0.0, 6.0]));
+}
+
+#[test]
+fn the_tightest_wall_of_each_side_bears_wherever_it_stands_in_the_list() {
+    let rows =
+        [rigid(-INF, 3.0), rigid(-3.0, INF), rigid(-INF, 1.0), rigid(-1.0, INF), rigid(-INF, 2.0), rigid(-2.0, INF)];
+    assert_eq!(solve(2.0, 6.0, rows), (1.0, [0.0, 0.0, -4.0, 0.0, 0.0, 0.0]));
+    assert_eq!(solve(2.0, -6.0, rows), (-1.0, [0.0, 0.0, 0.0, 4.0, 0.0, 0.0]));
+    // Behind a pad as well, whose force is its own.
+    let rows = [elastic(-0.5, INF, 0.5), rigid(-2.0, INF), rigid(-1.0, INF)];
+    assert_eq!(solve(2.0, -6.0, rows), (-1.0, [1.0, 0.0, 3.0]));
+}
+
+#[test]
+fn a_free_motion_beyond_all_numbers_is_named() {
+    // b and a are numbers, b/a is none.
+    for (a, b) in [(1e-300, 1e300), (1e-300, -1e300)] {
+        for rows in [[rigid(-1.0, 1.0)], [rigid(-INF, INF)], [elastic(-1.0, 1.0, 0.1)]] {
+            assert_eq!(clamp(a, b, &rows, &mut [0.0]), Err(Failure::NotFinite { what: "b", index: 0 }), "{rows:?}");
+        }
+    }
+}

@@ -273,3 +273,26 @@ fn a_graze_without_force_is_no_broken_complementarity() {
         assert_eq!(run.findings, []);
     }
 }
+
+#[test]
+fn a_contact_that_ends_after_the_window_counts_up_to_its_end() {
+    // Open at the end of the run, ended beyond it, and in the last instant: each half a second of
+    // the window of five.
+    for end in [None, Some(10.0), Some(10.5), Some(1e9)] {
+        let statistics = Statistics::new(&scene(), &[lasting(9.5, end, 2.0, 20.0, 1.0, None)], 5.0);
+        close(Some(statistics.walls[1].contact_time_ratio), 0.1);
+    }
+    // One that lasts from before the window to beyond it is all of it, and one beyond it is none.
+    let around = Statistics::new(&scene(), &[lasting(1.0, Some(12.0), 2.0, 20.0, 1.0, None)], 5.0);
+    assert_eq!(around.walls[1].contact_time_ratio, 1.0);
+    let after = Statistics::new(&scene(), &[lasting(11.0, Some(12.0), 2.0, 20.0, 1.0, None)], 5.0);
+    assert_eq!(after.walls[1].contact_time_ratio, 0.0);
+    // Nor may it make a batch longer than it is: ten contacts, one in each second, the last ending
+    // a second late.
+    let mut contacts: Vec<Contact> =
+        (0..10).map(|k| lasting(f64::from(k), Some(f64::from(k) + 0.5), 1.0, 1.0, 1.0, Some(1.0))).collect();
+    contacts[9].start = 9.5;
+    contacts[9].end = Some(11.0);
+    let even = Statistics::new(&scene(), &contacts, 0.0).walls[1].half_width_95.expect("ten contacts");
+    assert!(even.contact_time_ratio < 1e-15, "{even:?}");
+}

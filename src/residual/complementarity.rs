@@ -133,3 +133,67 @@ fn mean_pressure(law: &WallLaw, s0: f64, s1: f64) -> f64 {
     // Both ends inside, or at one place: the whole way is inside.
     if a == s0 && b == s1 { mean } else { mean * (b - a) / (s1 - s0) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The definition, over all pairs.
+    fn worst(pairs: &[(f64, f64)], gap_scale: f64, force_scale: f64) -> f64 {
+        pairs.iter().map(|&(s, p)| (s / gap_scale).min(p / force_scale).abs()).fold(0.0, f64::max)
+    }
+
+    fn of(pairs: &[(f64, f64)]) -> Pairs {
+        let mut all = Pairs::default();
+        pairs.iter().for_each(|&(slack, pressure)| all.add(slack, pressure));
+        all
+    }
+
+    /// `count` pairs none of which exceeds another in both, in an order that is neither rising nor
+    /// falling.
+    fn stairs(count: usize) -> Vec<(f64, f64)> {
+        (0..count).map(|i| (i * 37 % count) as f64).map(|i| (1.0 + i, count as f64 - i)).collect()
+    }
+
+    const SCALES: [(f64, f64); 5] = [(1.0, 1.0), (1e-3, 1.0), (1.0, 1e-3), (7.0, 3.0), (1e-6, 1e6)];
+
+    #[test]
+    fn few_pairs_are_kept_as_they_are_whatever_the_scales() {
+        let mut pairs = stairs(STAIRS);
+        // Pairs that another exceeds in both, equal ones, and what is behind a wall or pulls, or
+        // touches without force.
+        pairs.extend([(0.5, 0.5), pairs[3], (-2.0, 0.0), (0.0, -3.0), (0.0, 9e9), (9e9, 0.0), (-1.0, 5.0)]);
+        for (gap, force) in SCALES {
+            assert_eq!(of(&pairs).worst(gap, force), worst(&pairs, gap, force), "{gap}, {force}");
+        }
+        // One that exceeds them all takes their place.
+        pairs.push((1e3, 1e3));
+        assert_eq!(of(&pairs).staircase, [(1e3, 1e3)]);
+    }
+
+    #[test]
+    fn many_pairs_are_merged_upwards_never_down() {
+        for count in [STAIRS + 1, 100, 1000] {
+            let pairs = stairs(count);
+            let all = of(&pairs);
+            assert!(all.staircase.len() <= STAIRS, "{}", all.staircase.len());
+            // Each pair is under a stair: no violation is lost, at any scales.
+            for &(slack, pressure) in &pairs {
+                assert!(all.staircase.iter().any(|&(s, p)| s >= slack && p >= pressure), "{slack}, {pressure}");
+            }
+            for (gap, force) in SCALES {
+                let (found, least) = (all.worst(gap, force), worst(&pairs, gap, force));
+                // And no stair is higher than the largest of either.
+                let most = (count as f64 / gap).min(count as f64 / force);
+                assert!(least <= found && found <= most, "{count}, {gap}, {force}: {least} <= {found} <= {most}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_scale_of_nothing_measures_nothing() {
+        // No wall ever pushed: the scale of forces is 0, and so is every force.
+        assert_eq!(of(&[(1.0, 0.0), (0.0, 0.0)]).worst(1.0, 0.0), 0.0);
+        assert_eq!(of(&[(-1.0, 0.0)]).worst(2.0, 0.0), 0.5);
+    }
+}
