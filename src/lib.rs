@@ -10,9 +10,10 @@
 //!
 //! In the folder `examples/`, each run by `cargo run --release --example NAME`: `tube_contact_force` (the contact force of a tube in loose
 //! supports), `co_simulation` (a controller in another program, with repeated steps), `work_precision` (what an error costs, scheme by
-//! scheme), `poincare` (Poincaré points of an impact oscillator).
+//! scheme), `poincare` (Poincaré points of an impact oscillator), `bifurcation` (the same of many at once, by [`batch`]).
 #![forbid(unsafe_code)]
 
+pub mod batch;
 #[cfg(feature = "cli")]
 pub mod case;
 #[cfg(feature = "cli")]

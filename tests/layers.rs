@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms from the ground up: each may import those before it.
-const ROOMS: [&str; 17] = [
+const ROOMS: [&str; 18] = [
     "error",
     "linear",
     "scene",
@@ -17,6 +17,7 @@ const ROOMS: [&str; 17] = [
     "residual",
     "statistics",
     "scheme",
+    "batch",
     "run",
     "study",
     "case",

@@ -1,0 +1,183 @@
+//! An oscillator that the lanes do not hold, followed by the scheme `event`.
+
+use super::lane::Lane;
+use super::outcome::{AtWall, By, Outcome, grown};
+use super::series::REACH;
+use crate::error::Result;
+use crate::flow::Arc;
+use crate::scene::Oscillator;
+use crate::scheme::{Scheme, Stepper};
+use crate::step::{Path, Step};
+
+/// Where turns are looked for: so many times in a radian of the fastest rate.
+const LOOKS: f64 = 4.0;
+
+/// Halvings after which the place of a turn is known to rounding.
+const HALVINGS: usize = 52;
+
+/// The window of one oscillator as it passes.
+struct Window {
+    walls: [AtWall; 2],
+    extent: [f64; 2],
+    /// A change of the start: displacement, velocity times a step of the lanes.
+    tangent: [f64; 2],
+    /// Damping and acceleration at the end of the last arc, unless its end was an impact.
+    last: Option<[f64; 2]>,
+    /// ln of its size when the window began, less what was scaled out since.
+    began: f64,
+    /// Fastest rate, 1/s.
+    rate: f64,
+}
+
+/// Follows `lane` for `settle` periods and then one for each of `strobes`.
+pub(super) fn follow(lane: &Lane, settle: u32, strobes: &mut [[f64; 2]]) -> Result<Outcome> {
+    let periods = u64::from(settle) + strobes.len() as u64;
+    let scene = lane.scene(periods as f64 * lane.period);
+    let mut stepper = Stepper::new(&scene, &Scheme::Event, lane.period)?;
+    let mut window = Window::new(lane);
+    let has_lower = usize::from(lane.lower.is_some());
+    // The scene's walls are those that there are, the lower one first.
+    let slot = |wall: usize| if wall < has_lower { 0 } else { 1 };
+    let mut passed = 0;
+    if settle == 0 {
+        window.begin(lane.displacement);
+    }
+    while passed < periods {
+        let step = stepper.step()?;
+        window.see(&step, &slot);
+        let (end, state) = (step.end, [step.q, step.v].map(|x| x.first().copied().unwrap_or(0.0)));
+        // Half a unit of rounding of the time is no period.
+        if end < (passed + 1) as f64 * lane.period * (1.0 - 1e-14) {
+            continue;
+        }
+        passed += 1;
+        window.scale();
+        if let Some(strobe) = passed.checked_sub(u64::from(settle) + 1).and_then(|row| strobes.get_mut(row as usize)) {
+            *strobe = state;
+        }
+        if passed == u64::from(settle) {
+            window.begin(state[0]);
+        }
+    }
+    for contact in stepper.open_contacts() {
+        window.note(slot(contact.wall), contact.peak_force);
+    }
+    let [lower, upper] = window.walls;
+    let exponent = grown(window.began, window.size()) / (strobes.len() as f64 * lane.period);
+    Ok(Outcome { by: By::Event, lower, upper, extent: window.extent, exponent })
+}
+
+impl Window {
+    fn new(lane: &Lane) -> Self {
+        let Oscillator { mass, damping, stiffness } = lane.body;
+        let (sigma, natural) = (0.5 * damping / mass, stiffness / mass);
+        let excess = sigma * sigma - natural;
+        let own = if excess > 0.0 { sigma + excess.sqrt() } else { natural.sqrt() };
+        let omega = |multiple: u32| std::f64::consts::TAU * f64::from(multiple) / lane.period;
+        let rate = lane.sines.iter().map(|s| omega(s.multiple)).fold(own, f64::max).max(REACH / lane.period);
+        Self {
+            walls: [AtWall::default(); 2],
+            extent: [f64::NEG_INFINITY, f64::INFINITY],
+            tangent: [1.0, rate],
+            last: None,
+            began: 0.0,
+            rate,
+        }
+    }
+
+    fn size(&self) -> f64 {
+        self.tangent[0].hypot(self.tangent[1] / self.rate)
+    }
+
+    fn begin(&mut self, q: f64) {
+        self.walls = [AtWall::default(); 2];
+        self.extent = [q; 2];
+        self.began = self.size().ln();
+    }
+
+    /// Scales the change of the start to size 1, unless it is nothing.
+    fn scale(&mut self) {
+        let size = self.size();
+        if size > 0.0 {
+            self.tangent = self.tangent.map(|x| x / size);
+            self.began -= size.ln();
+        }
+    }
+
+    fn note(&mut self, slot: usize, peak: Option<f64>) {
+        let known = &mut self.walls[slot].peak_force;
+        *known = known.iter().copied().chain(peak).reduce(f64::max);
+    }
+
+    fn see(&mut self, step: &Step<'_>, slot: &impl Fn(usize) -> usize) {
+        for (wall, (impulse, jump)) in step.impulse.iter().zip(step.jump).enumerate() {
+            let at = &mut self.walls[slot(wall)];
+            at.impulse += impulse;
+            at.impacts += u64::from(*jump != 0.0);
+            at.largest_impulse = at.largest_impulse.max(jump.abs());
+        }
+        for contact in step.closed {
+            self.note(slot(contact.wall), contact.peak_force);
+        }
+        let Path::Exact(arc) = step.path else { return };
+        let after = step.v.first().copied().unwrap_or(0.0);
+        self.carry(step, arc, after);
+        self.reach(arc);
+    }
+
+    /// The change of the start over a step: by the free flow, by elastic walls that are met or
+    /// left, by an impact at the end (Leine & Nijmeijer 2004, doi:10.1007/978-3-540-44398-8, ch.
+    /// 7).
+    fn carry(&mut self, step: &Step<'_>, arc: &Arc, after: f64) {
+        let jumped = step.jump.iter().any(|&p| p != 0.0);
+        if step.end > step.start {
+            let first = arc.acceleration(step.start);
+            let (_, v) = arc.state(step.start);
+            if let Some([damping, before]) = self.last
+                && damping != arc.damping()
+                && v != 0.0
+            {
+                self.tangent[1] += (first - before) / v * self.tangent[0];
+            }
+            let [[a, b], [c, d]] = arc.propagator();
+            let [x, y] = self.tangent;
+            self.tangent = [a * x + b * y, c * x + d * y];
+        }
+        let (_, before) = arc.state(step.end);
+        let a_before = arc.acceleration(step.end);
+        self.last = (!jumped).then_some([arc.damping(), a_before]);
+        if jumped && before != 0.0 {
+            let e = -after / before;
+            let a_after = a_before + arc.damping() / arc.mass() * (before - after);
+            let [x, y] = self.tangent;
+            self.tangent = [-e * x, (a_after + e * a_before) / before * x - e * y];
+        }
+    }
+
+    /// The extremes of an arc: at its ends, and at the turns within.
+    fn reach(&mut self, arc: &Arc) {
+        let (from, to) = (arc.start(), arc.end());
+        let mut see = |q: f64| self.extent = [self.extent[0].min(q), self.extent[1].max(q)];
+        see(arc.state(from).0);
+        see(arc.state(to).0);
+        if arc.is_rest() {
+            return;
+        }
+        let looks = ((to - from) * self.rate * LOOKS).ceil().clamp(1.0, 1e6) as u32;
+        let time = |look: u32| if look == looks { to } else { from + (to - from) * f64::from(look) / f64::from(looks) };
+        let mut before = (from, arc.state(from).1);
+        for look in 1..=looks {
+            let now = (time(look), arc.state(time(look)).1);
+            if before.1 * now.1 < 0.0 {
+                let (mut low, mut high) = (before.0, now.0);
+                for _ in 0..HALVINGS {
+                    let mid = 0.5 * (low + high);
+                    let same = arc.state(mid).1 * before.1 > 0.0;
+                    (low, high) = if same { (mid, high) } else { (low, mid) };
+                }
+                see(arc.state(low).0);
+            }
+            before = now;
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! One oscillator of a batch.
+
+use crate::error::{Error, Result};
+use crate::scene::{Load, LoadKind, Oscillator, Row, Scene, Side, System, Wall, WallLaw};
+
+/// Multiples of a frequency, of a period, that are whole to this share of themselves are whole:
+/// rounding of both.
+const WHOLE: f64 = 1e-9;
+
+/// A wall of an oscillator.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stop {
+    /// g, m.
+    pub position: f64,
+    /// Rigid or elastic.
+    pub law: WallLaw,
+}
+
+/// One sine of the load: amplitude · sin(2π multiple t/T + phase), with T the lane's period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sine {
+    /// N.
+    pub amplitude: f64,
+    /// Periods of the sine in one of the load, 1 or more.
+    pub multiple: u32,
+    /// rad.
+    pub phase: f64,
+}
+
+/// One oscillator between two walls or at one, under a load of period T:
+///
+/// m q̈ + c q̇ + k q = f₀ + Σ A sin(2π n t/T + φ) + r,  g_l ≤ q ≤ g_u.
+///
+/// ```
+/// use signorini::batch::Lane;
+/// use signorini::{Load, Scene, Wall};
+///
+/// let scene = Scene::oscillator(1.0, 0.2, 100.0)
+///     .with_wall(Wall::upper("upper", 5e-3).with_restitution(0.8))
+///     .with_load(Load::harmonic(3.0, 5.0, 0.0));
+/// let lane = Lane::of(&scene, 0.2)?;
+/// assert_eq!(lane.sines[0].multiple, 1);
+///
+/// // What a lane cannot hold is refused by name.
+/// let refused = Lane::of(&scene.with_load(Load::impulse(0.1, 0.5)), 0.2).unwrap_err();
+/// assert!(refused.to_string().starts_with("load 2"));
+/// # Ok::<(), signorini::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lane {
+    /// m, c, k.
+    pub body: Oscillator,
+    /// The wall below, if there is one.
+    pub lower: Option<Stop>,
+    /// The wall above.
+    pub upper: Option<Stop>,
+    /// f₀, N.
+    pub constant: f64,
+    /// T, s: a strobe is taken once in each.
+    pub period: f64,
+    /// The sines of the load.
+    pub sines: Vec<Sine>,
+    /// Displacement at the start, m.
+    pub displacement: f64,
+    /// Velocity there, m/s.
+    pub velocity: f64,
+}
+
+impl Lane {
+    /// The oscillator of `scene` with strobes every `period` (s); the duration of the scene is not
+    /// asked for.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a scene that does not validate, or that a lane does not hold: a
+    /// structure, a second wall on one side, the φ² penalty, a blow, a table, a function of time, a
+    /// sine that has no whole number of its periods in `period`.
+    pub fn of(scene: &Scene, period: f64) -> Result<Self> {
+        scene.validate()?;
+        let System::Oscillator(body) = scene.system else {
+            let found = format!("{} degrees of freedom", scene.system.degrees_of_freedom());
+            return Err(Error::invalid("system", found, "an oscillator: a lane of a batch has one degree of freedom"));
+        };
+        let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);
+        let mut lane = Self {
+            body,
+            lower: None,
+            upper: None,
+            constant: 0.0,
+            period,
+            sines: Vec::new(),
+            displacement: first(&scene.initial.q),
+            velocity: first(&scene.initial.v),
+        };
+        for wall in &scene.walls {
+            if wall.at != Row::dof(0) {
+                let key = format!("wall {:?}: at", wall.name);
+                return Err(Error::invalid(
+                    key,
+                    "a weight",
+                    "the displacement itself: a lane of a batch has no levers",
+                ));
+            }
+            let slot = if wall.side == Side::Upper { &mut lane.upper } else { &mut lane.lower };
+            if slot.replace(Stop { position: wall.position, law: wall.law }).is_some() {
+                let key = format!("wall {:?}", wall.name);
+                return Err(Error::invalid(key, "a second wall on its side", "one wall a side for a lane of a batch"));
+            }
+        }
+        for (index, load) in scene.loads.iter().enumerate() {
+            let weight: f64 = load.at.entries().iter().map(|&(_, weight)| weight).sum();
+            let refuse = |what: &str| {
+                let expected = "a constant or a sine for a lane of a batch; the scheme event takes the others";
+                Err(Error::invalid(format!("load {}", index + 1), what, expected))
+            };
+            match &load.kind {
+                LoadKind::Constant { force } => lane.constant += weight * force,
+                LoadKind::Harmonic { amplitude, frequency, phase } if *frequency == 0.0 => {
+                    lane.constant += weight * amplitude * phase.sin();
+                }
+                LoadKind::Harmonic { amplitude, frequency, phase } => {
+                    let multiple = whole(index, *frequency, period)?;
+                    lane.sines.push(Sine { amplitude: weight * amplitude, multiple, phase: *phase });
+                }
+                LoadKind::Impulse { .. } => return refuse("a blow"),
+                LoadKind::Table(_) => return refuse("a table"),
+                LoadKind::Function(_) => return refuse("a function of time"),
+            }
+        }
+        lane.validate()?;
+        Ok(lane)
+    }
+
+    /// Checks everything that the engine relies on.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for the first value that makes no sense.
+    pub fn validate(&self) -> Result<()> {
+        if !(self.period.is_finite() && self.period > 0.0) {
+            return Err(Error::invalid("period", format_args!("{:?}", self.period), "a finite number above 0, s"));
+        }
+        if let Some((index, _)) = self.sines.iter().enumerate().find(|(_, sine)| sine.multiple == 0) {
+            return Err(Error::invalid(format!("sine {}: multiple", index + 1), 0, "1 or more"));
+        }
+        for stop in [self.lower, self.upper].into_iter().flatten() {
+            if matches!(stop.law, WallLaw::Quartic { .. }) {
+                return Err(Error::invalid("wall: law", "the φ² penalty", "a rigid or an elastic wall"));
+            }
+        }
+        self.scene(self.period).validate()
+    }
+
+    /// The scene of this oscillator over `duration` (s): walls `lower` and `upper`.
+    #[must_use]
+    pub fn scene(&self, duration: f64) -> Scene {
+        let Oscillator { mass, damping, stiffness } = self.body;
+        let mut scene = Scene::oscillator(mass, damping, stiffness)
+            .with_initial(&[self.displacement], &[self.velocity])
+            .with_duration(duration);
+        if let Some(stop) = self.lower {
+            scene = scene.with_wall(Wall { law: stop.law, ..Wall::lower("lower", stop.position) });
+        }
+        if let Some(stop) = self.upper {
+            scene = scene.with_wall(Wall { law: stop.law, ..Wall::upper("upper", stop.position) });
+        }
+        if self.constant != 0.0 {
+            scene = scene.with_load(Load::constant(self.constant));
+        }
+        let sine = |s: &Sine| Load::harmonic(s.amplitude, f64::from(s.multiple) / self.period, s.phase);
+        self.sines.iter().map(sine).fold(scene, Scene::with_load)
+    }
+}
+
+/// The number of periods of load `index`, of `frequency` (Hz), in `period` (s).
+fn whole(index: usize, frequency: f64, period: f64) -> Result<u32> {
+    let count = frequency * period;
+    let near = count.round();
+    if near >= 1.0 && near <= f64::from(u32::MAX) && (count - near).abs() <= WHOLE * near {
+        Ok(near as u32)
+    } else {
+        let key = format!("load {}: frequency", index + 1);
+        let expected = format!("a multiple of 1/{period:?} Hz: strobes are taken once a period of the whole load");
+        Err(Error::invalid(key, format_args!("{frequency:?}"), expected))
+    }
+}

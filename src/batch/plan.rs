@@ -1,0 +1,90 @@
+//! How long a batch is followed, and on what.
+
+use super::lane::Lane;
+use super::outcome::{Batch, Outcome};
+use super::width::Width;
+use super::work::Work;
+use crate::error::{Error, Result};
+use std::num::NonZero;
+use std::sync::Mutex;
+
+/// Oscillators that a thread takes at a time.
+const SHARE: usize = 256;
+
+/// Strobes of a batch at most: 16 bytes each.
+const MOST_STROBES: usize = 1 << 32;
+
+/// How long a batch is followed, and on what.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Plan {
+    /// Periods of each lane before the window.
+    pub settle: u32,
+    /// Periods of the window, 1 or more.
+    pub keep: u32,
+    /// Threads; 0 for as many as the machine has. Results do not depend on it.
+    pub threads: usize,
+    /// Lanes side by side.
+    pub width: Width,
+}
+
+impl Plan {
+    /// `settle` periods, then a window of `keep`, on all threads and the widest lanes that this
+    /// machine has.
+    #[must_use]
+    pub fn new(settle: u32, keep: u32) -> Self {
+        Self { settle, keep, threads: 0, width: Width::Widest }
+    }
+
+    /// Follows every oscillator.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for an oscillator that does not validate, a window without a period,
+    /// lanes that this machine does not have. An oscillator that could not be followed is an error
+    /// in its own place of [`Batch::outcomes`].
+    pub fn run(&self, lanes: &[Lane]) -> Result<Batch> {
+        self.width.check()?;
+        if self.keep == 0 {
+            return Err(Error::invalid("keep", 0, "1 period or more"));
+        }
+        let keep = self.keep as usize;
+        let strobes = lanes.len().saturating_mul(keep);
+        if strobes > MOST_STROBES {
+            return Err(Error::invalid(
+                "strobes",
+                format!("{strobes:e}"),
+                "at most 4e9: fewer periods kept, or oscillators",
+            ));
+        }
+        for (index, lane) in lanes.iter().enumerate() {
+            lane.validate().map_err(|error| match error {
+                Error::Invalid { key, value, expected } => {
+                    Error::Invalid { key: format!("oscillator {}: {key}", index + 1), value, expected }
+                }
+                other => other,
+            })?;
+        }
+        let mut strobes = vec![[f64::NAN; 2]; strobes];
+        let mut outcomes: Vec<Option<Result<Outcome>>> = vec![None; lanes.len()];
+        let shares = lanes.chunks(SHARE).zip(outcomes.chunks_mut(SHARE)).zip(strobes.chunks_mut(SHARE * keep));
+        let queue = Mutex::new(shares);
+        let work = || loop {
+            // A thread that panicked has left the queue whole: what it took is taken.
+            let next = queue.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).next();
+            let Some(((lanes, outcomes), strobes)) = next else { return };
+            Work { lanes, outcomes, strobes, settle: self.settle, keep: self.keep }.run(self.width);
+        };
+        let threads = match self.threads {
+            0 => std::thread::available_parallelism().map_or(1, NonZero::get),
+            some => some,
+        };
+        std::thread::scope(|scope| {
+            for _ in 1..threads.min(lanes.len().div_ceil(SHARE)) {
+                scope.spawn(work);
+            }
+            work();
+        });
+        let missed = || Err(Error::invalid("oscillator", "not followed", "an outcome"));
+        let outcomes = outcomes.into_iter().map(|outcome| outcome.unwrap_or_else(missed)).collect();
+        Ok(Batch { keep, strobes, outcomes })
+    }
+}

@@ -1,0 +1,61 @@
+//! A share of a batch: what the lanes take, and what goes to the scheme `event`.
+
+use super::engine::Engine;
+use super::handed::follow;
+use super::lane::{Lane, Stop};
+use super::outcome::Outcome;
+use super::series::Series;
+use super::width::Width;
+use crate::error::Result;
+use crate::scene::{Side, WallLaw};
+
+/// Sines of a lane's load at most; the scheme `event` takes more.
+const MOST_SINES: usize = 4;
+
+/// Oscillators that one thread follows.
+pub(super) struct Work<'a> {
+    pub lanes: &'a [Lane],
+    pub outcomes: &'a mut [Option<Result<Outcome>>],
+    /// `keep` for each oscillator.
+    pub strobes: &'a mut [[f64; 2]],
+    pub settle: u32,
+    pub keep: u32,
+}
+
+impl Work<'_> {
+    pub fn run(self, width: Width) {
+        let Self { lanes, outcomes, strobes, settle, keep } = self;
+        let seated: Vec<_> =
+            lanes.iter().enumerate().filter_map(|(index, lane)| Some((index, lane, seated(lane)?))).collect();
+        let mut found: Vec<Option<Outcome>> = vec![None; lanes.len()];
+        let sines = seated.iter().map(|(_, lane, _)| lane.sines.len()).max().unwrap_or(0);
+        let place = &mut found;
+        // A sine without amplitude changes no bit, so that the number for the whole share does not
+        // matter.
+        if sines <= 1 {
+            width.dispatch(Engine::<1> { lanes: &seated, outcomes: place, strobes, settle, keep });
+        } else {
+            width.dispatch(Engine::<MOST_SINES> { lanes: &seated, outcomes: place, strobes, settle, keep });
+        }
+        let places = outcomes.iter_mut().zip(strobes.chunks_mut(keep as usize));
+        for ((lane, found), (outcome, strobes)) in lanes.iter().zip(found).zip(places) {
+            *outcome = Some(match found {
+                Some(found) => Ok(found),
+                None => follow(lane, settle, strobes),
+            });
+        }
+    }
+}
+
+/// The constants of an oscillator that the lanes hold: rigid walls, not started on one unless on
+/// the way off, few sines, and a step that is not far shorter than the period.
+fn seated(lane: &Lane) -> Option<Series> {
+    let starts_free = |stop: Option<Stop>, side: Side| {
+        stop.is_none_or(|stop| {
+            let rigid = matches!(stop.law, WallLaw::Rigid { .. });
+            rigid && (lane.displacement != stop.position || side.sign() * lane.velocity > 0.0)
+        })
+    };
+    let holds = starts_free(lane.lower, Side::Lower) && starts_free(lane.upper, Side::Upper);
+    if holds && lane.sines.len() <= MOST_SINES { Series::of(lane) } else { None }
+}
