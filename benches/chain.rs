@@ -3,7 +3,7 @@
 //! the same motion while that is predictable, and asserts nothing about time.
 
 use signorini::linear::Symmetric;
-use signorini::{Load, Row, Scene, Scheme, Stepper, Structure, System, Wall};
+use signorini::{Load, Row, Scene, Scheme, Stepper, Structure, Wall};
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
@@ -35,7 +35,7 @@ fn scene(n: usize) -> Scene {
         stiffness: neighbours(STIFFNESS),
     };
     let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_duration(END);
-    scene.system = System::Structure(Box::new(structure));
+    scene.system = structure.into();
     scene.initial.q = vec![0.0; n];
     scene.initial.v = vec![0.0; n];
     for i in 0..n {

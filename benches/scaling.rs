@@ -11,7 +11,7 @@
 use signorini::linear::{Factor, Symmetric};
 use signorini::output::atomic::write_whole;
 use signorini::output::figure::{Curve, Figure, Panel};
-use signorini::{Chain, Load, Options, Probe, Row, Scene, Scheme, State, Stepper, System, Wall, run};
+use signorini::{Chain, Load, Options, Probe, Row, Scene, Scheme, State, Stepper, Wall, run};
 use std::hint::black_box;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -31,7 +31,7 @@ fn chain(n: usize, walled: usize, driven: impl Iterator<Item = usize>) -> Scene 
     let mut structure = chain.structure().expect("a chain");
     structure.damping = Symmetric::sum(&[(1e-5, &structure.stiffness)]);
     let mut scene = Scene::oscillator(1.0, 0.0, 1.0).with_duration(1e3);
-    scene.system = System::Structure(Box::new(structure));
+    scene.system = structure.into();
     scene.initial = State { q: vec![0.0; n], v: vec![0.0; n] };
     scene.probes = vec![Probe { name: "first".into(), at: Row::dof(0) }];
     for i in 0..walled {

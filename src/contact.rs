@@ -24,7 +24,7 @@ struct Floor {
 
 impl Floor {
     /// One a wall of `scene`.
-    fn all(scene: &Scene, contract: Contract) -> Vec<Self> {
+    fn all(scene: &Scene, masses: &[f64], contract: Contract) -> Vec<Self> {
         let size = |kind: &LoadKind| match kind {
             LoadKind::Constant { force } => force.abs(),
             LoadKind::Harmonic { amplitude, .. } => amplitude.abs(),
@@ -35,13 +35,13 @@ impl Floor {
         // Of a structure the loads alone tell: what its springs carry at rest is what they put on it.
         let spring = if let System::Oscillator(o) = scene.system { o.stiffness } else { 0.0 };
         let positions = matches!(contract.promise.rigid.displacement, Some(Bound::End | Bound::Reflected));
-        let floor = |(wall, mass): (&crate::scene::Wall, f64)| {
+        let floor = |(wall, mass): (&crate::scene::Wall, &f64)| {
             let place = wall.position.abs();
             let own = if let WallLaw::Elastic { stiffness, .. } = wall.law { stiffness } else { 0.0 };
             let inertia = if positions { mass * place } else { 0.0 };
             Self { force: ROUNDING * (loads + (spring + own) * place), inertia: ROUNDING * inertia }
         };
-        scene.walls.iter().zip(scene.wall_masses()).map(floor).collect()
+        scene.walls.iter().zip(masses).map(floor).collect()
     }
 
     /// True if an impulse `p` (N s) of a step of `h` (s) is rounding; without a division, since every wall that
@@ -99,13 +99,14 @@ pub(crate) struct Episodes {
 }
 
 impl Episodes {
-    pub(crate) fn new(scene: &Scene, contract: Contract) -> Self {
+    /// Of `scene`, whose walls feel `masses` (kg).
+    pub(crate) fn new(scene: &Scene, masses: &[f64], contract: Contract) -> Self {
         let walls = scene.walls.len();
         Self {
             instant: contract.instant,
             rigid: scene.walls.iter().map(|w| w.law.is_rigid()).collect(),
-            floor: Floor::all(scene, contract),
-            mass: scene.wall_masses(),
+            floor: Floor::all(scene, masses, contract),
+            mass: masses.to_vec(),
             side: scene.walls.iter().map(|w| w.side).collect(),
             open: vec![None; walls],
             any: false,

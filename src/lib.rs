@@ -44,8 +44,8 @@ pub use scene::{
     ModalData, ModalPoint, Modes, Reduction, WallTruncation, matrices,
 };
 pub use scene::{
-    Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, Row, Scene, Side, State, Structure, System, Table,
-    TimeFunction, Wall, WallLaw,
+    Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, Row, Scene, SharedStructure, Side, State, Structure,
+    System, Table, TimeFunction, Wall, WallLaw,
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper};
 pub use statistics::{ForceStatistics, Forces, HalfWidths, Statistics, Summary, WallStatistics};

@@ -11,7 +11,7 @@ pub(crate) use setup::setup;
 
 use crate::residual::Energy;
 use crate::run::{Judging, Recording, Run};
-use crate::scene::Scene;
+use crate::scene::{Checked, Scene};
 use crate::scheme::Scheme;
 use crate::step::Contact;
 
@@ -29,7 +29,7 @@ const SHARE_OF_LARGEST: f64 = 0.1;
 /// Stretches handed over that are told one by one.
 const MOST_HANDED: usize = 5;
 
-pub(crate) fn notes<J: Judging, R: Recording>(scene: &Scene, run: &Run<J, R>) -> Vec<String> {
+pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) -> Vec<String> {
     let mut notes = Vec::new();
     let asked: Vec<f64> = scene.walls.iter().filter_map(|w| w.law.restitution()).collect();
     if run.grid.shortened {
@@ -120,7 +120,7 @@ fn of_energy(energy: &Energy, arrived: Option<f64>) -> Option<String> {
 }
 
 /// Kinetic energy that arrived at rigid walls, J, by the speeds before each contact.
-fn arrived(scene: &Scene, contacts: &[Contact]) -> f64 {
+fn arrived(scene: &Checked, contacts: &[Contact]) -> f64 {
     let masses = scene.wall_masses();
     let mass = |wall: usize| masses.get(wall).copied().unwrap_or(0.0);
     let rigid = |wall: usize| scene.walls.get(wall).is_some_and(|w| w.law.is_rigid());

@@ -1,7 +1,7 @@
 //! The elastic bar thrown against a rigid wall, held against its closed form: contact from t = 1 s to 2 s under the stress ½, then back to the start at
 //! t = 3 s (L = E = ρ = area = 1, u(x, 0) = ½(1 − x), v = 0, held at x = 1, wall at x = 0, e = 0; GetFEM's test of contact in elastodynamics).
 
-use signorini::{Bar, BarEnd, MassMatrix, Options, Probe, Run, Scene, Scheme, System, TimeOptions, Wall, run};
+use signorini::{Bar, BarEnd, MassMatrix, Options, Probe, Run, Scene, Scheme, TimeOptions, Wall, run};
 
 fn scene(elements: usize) -> Scene {
     let bar = Bar {
@@ -18,7 +18,7 @@ fn scene(elements: usize) -> Scene {
     let mut wall = Wall::lower("wall", 0.0).with_restitution(0.0);
     wall.at = end.clone();
     let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(wall).with_duration(3.0);
-    scene.system = System::Structure(Box::new(bar.structure().unwrap()));
+    scene.system = bar.structure().unwrap().into();
     scene.initial.q = bar.field("initial.displacement", &|x| 0.5 * (1.0 - x)).unwrap();
     scene.initial.v = vec![0.0; scene.initial.q.len()];
     scene.probes = vec![Probe { name: "end".into(), at: end }];

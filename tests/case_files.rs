@@ -3,7 +3,7 @@
 
 use signorini::case::{Case, Embedded};
 use signorini::case::{Model, Place};
-use signorini::{Chain, Damping, Load, LoadKind, Probe, Row, Scene, System, Wall};
+use signorini::{Chain, Damping, Load, LoadKind, Probe, Row, Scene, Wall};
 use signorini::{Integrator, PenaltyLaw};
 use std::fs;
 use std::path::Path;
@@ -144,7 +144,7 @@ fn the_chains_are_those_of_the_benchmark() {
         let chain = Chain { masses: vec![1.0; n], springs: vec![1e4; n - 1], grounds: [1e4; 2] };
         let damping = Damping::Rayleigh { mass: 0.0, stiffness: 1e-5 };
         let structure = chain.structure().unwrap().with_damping(&damping).unwrap();
-        assert_eq!(case.scene.system, System::Structure(Box::new(structure)));
+        assert_eq!(case.scene.system, structure.into());
         assert_eq!(case.scene.walls.len(), 2 * n);
         for (i, pair) in case.scene.walls.chunks(2).enumerate() {
             let wall = |name: &str, position: f64| {

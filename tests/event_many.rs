@@ -10,7 +10,7 @@ fn as_matrices(mut scene: Scene) -> Scene {
     let System::Oscillator(o) = scene.system else { return scene };
     let one = |x: f64| Symmetric::diagonal(&[x]);
     let structure = Structure { mass: one(o.mass), damping: one(o.damping), stiffness: one(o.stiffness) };
-    scene.system = System::Structure(Box::new(structure));
+    scene.system = structure.into();
     scene
 }
 
@@ -92,7 +92,7 @@ fn diagonal(mass: &[f64], damping: &[f64], stiffness: &[f64]) -> Structure {
 fn scene(structure: Structure) -> Scene {
     let n = structure.mass.size();
     let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_initial(&vec![0.0; n], &vec![0.0; n]);
-    scene.system = System::Structure(Box::new(structure));
+    scene.system = structure.into();
     scene.probes = (0..n).map(|i| Probe { name: format!("q{i}"), at: Row::dof(i) }).collect();
     scene
 }

@@ -2,7 +2,7 @@
 #![allow(unsafe_code, reason = "an allocator that counts")]
 
 use signorini::linear::Symmetric;
-use signorini::{Load, Row, Scene, Scheme, Stepper, Structure, System, Wall};
+use signorini::{Load, Row, Scene, Scheme, Stepper, Structure, Wall};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -37,7 +37,7 @@ fn steps_from_event_to_event_allocate_nothing() {
     let structure =
         Structure { mass: Symmetric::diagonal(&vec![1.0; n]), damping: stiffness(0.05), stiffness: stiffness(1e4) };
     let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_initial(&vec![0.0; n], &vec![0.0; n]).with_duration(2.0);
-    scene.system = System::Structure(Box::new(structure));
+    scene.system = structure.into();
     scene = scene.with_load(Load::harmonic(50.0, 5.0, 0.0)).with_load(Load::impulse(0.5, 0.3));
     for dof in 0..n {
         let upper = Wall::upper(&format!("u{dof}"), 1e-3).with_restitution(if dof % 2 == 0 { 0.0 } else { 0.6 });

@@ -3,13 +3,13 @@
 mod common;
 
 use signorini::linear::Symmetric;
-use signorini::{Options, Scene, Scheme, Structure, System, TimeOptions, run};
+use signorini::{Options, Scene, Scheme, Structure, TimeOptions, run};
 
 /// A ball with e = 1 that only drag brings to rest: its impacts never end, and no flight is the tail of a geometric series.
 fn ball_in_oil(drag: f64) -> Scene {
     let mut scene = common::ball(1e-3, 1.0).with_duration(8.0);
     let one = |x: f64| Symmetric::diagonal(&[x]);
-    scene.system = System::Structure(Box::new(Structure { mass: one(1.0), damping: one(drag), stiffness: one(0.0) }));
+    scene.system = Structure { mass: one(1.0), damping: one(drag), stiffness: one(0.0) }.into();
     scene
 }
 

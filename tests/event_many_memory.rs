@@ -2,7 +2,7 @@
 #![allow(unsafe_code, reason = "an allocator that counts")]
 
 use signorini::linear::Symmetric;
-use signorini::{Load, Row, Scene, Scheme, Stepper, Structure, System, Wall};
+use signorini::{Load, Row, Scene, Scheme, Stepper, Structure, Wall};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -41,7 +41,7 @@ fn memory_follows_the_rows_in_play() {
         stiffness: Symmetric::from_entries(n, entries),
     };
     let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_initial(&vec![0.0; n], &vec![0.0; n]).with_duration(0.1);
-    scene.system = System::Structure(Box::new(structure));
+    scene.system = structure.into();
     scene = scene.with_load(Load::constant(50.0));
     for i in 0..walls {
         let mut wall = Wall::upper(&format!("w{i}"), 1e-3).with_restitution(if i % 2 == 0 { 0.0 } else { 0.5 });

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use signorini::linear::Symmetric;
 use signorini::residual::{Judge, Residuals};
-use signorini::{Error, Load, Probe, Row, Scene, Scheme, Side, Stepper, Structure, System, Wall, WallLaw};
+use signorini::{Error, Load, Probe, Row, Scene, Scheme, Side, Stepper, Structure, Wall, WallLaw};
 
 /// n degrees of freedom: L Lᵀ with L from the entries, plus `ridge` on the diagonal.
 fn gram(n: usize, entries: &[f64], ridge: f64) -> Symmetric {
@@ -16,7 +16,7 @@ fn gram(n: usize, entries: &[f64], ridge: f64) -> Symmetric {
 fn scene(structure: Structure) -> Scene {
     let n = structure.mass.size();
     let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_initial(&vec![0.0; n], &vec![0.0; n]);
-    scene.system = System::Structure(Box::new(structure));
+    scene.system = structure.into();
     scene.probes = (0..n).map(|i| Probe { name: format!("q{i}"), at: Row::dof(i) }).collect();
     scene
 }

@@ -224,7 +224,7 @@ fn elastic_walls_that_take_turns_freeze_nothing() {
             .with_duration(2.0);
         for structure in [false, true] {
             if structure {
-                scene.system = System::Structure(Box::new(scene.system.structure()));
+                scene.system = System::Structure(scene.system.structure());
             }
             let (mut turns, mut last) = (0, 0.0);
             let mut stepper = Stepper::new(&scene, &MOREAU_JEAN, 4e-2).expect("sound");
@@ -247,7 +247,7 @@ fn a_motion_that_leaves_the_numbers_is_an_error_at_that_step() {
     for structure in [false, true] {
         let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::constant(1e308)).with_duration(10.0);
         if structure {
-            scene.system = System::Structure(Box::new(scene.system.structure()));
+            scene.system = System::Structure(scene.system.structure());
         }
         let mut schemes = common::schemes();
         schemes.retain(|scheme| !matches!(scheme, Scheme::Penalty { .. }));

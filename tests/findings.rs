@@ -191,6 +191,7 @@ fn no_run_of_a_random_structure_is_accused_at_any_scale() {
         // A scene in other units of mass (and force): everything that has kilograms in it is scaled.
         let unit = 10_f64.powf(draws.between(-6.0, 6.0));
         if let System::Structure(s) = &mut scene.system {
+            let s = &mut **s;
             for matrix in [&mut s.mass, &mut s.damping, &mut s.stiffness] {
                 *matrix = signorini::linear::Symmetric::sum(&[(unit, &*matrix)]);
             }

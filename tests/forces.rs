@@ -170,7 +170,7 @@ fn moving() -> Vec<(&'static str, Scene)> {
     masses = masses.with_wall(at(Wall::lower("between", -2e-3), Row::new(vec![(1, 1.0), (2, -1.0)])));
     masses = masses.with_load(on(Load::harmonic(9.0, 3.0, 0.0), 0)).with_load(on(Load::constant(2.0), 2));
     let mut structure = common::elastic(3.0, 0.5);
-    structure.system = System::Structure(Box::new(structure.system.structure()));
+    structure.system = System::Structure(structure.system.structure());
     vec![
         ("rigid", source(0.8, 0.4)),
         ("elastic and rigid", common::elastic(3.0, 0.5)),

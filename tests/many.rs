@@ -36,7 +36,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
 }
 
 fn as_matrices(mut scene: Scene) -> Scene {
-    scene.system = System::Structure(Box::new(scene.system.structure()));
+    scene.system = System::Structure(scene.system.structure());
     scene
 }
 

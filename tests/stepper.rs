@@ -9,7 +9,7 @@ use signorini::residual::Judge;
 use signorini::scheme::event::Event;
 use signorini::{
     Balance, Contact, Error, Integrator, Load, Method, Options, Recorder, Row, Scene, Scheme, Stepper, Structure,
-    System, TimeOptions, Wall, WallLaw, run,
+    TimeOptions, Wall, WallLaw, run,
 };
 
 mod counting {
@@ -361,7 +361,7 @@ fn steps_of_another_scene_change_nothing_for_recorder_and_judge() {
     let mut wide = small.clone().with_initial(&[0.0, 0.0], &[1.0, 1.0]);
     let two = signorini::linear::Symmetric::diagonal(&[1.0, 1.0]);
     let structure = Structure { mass: two.clone(), damping: signorini::linear::Symmetric::zeros(2), stiffness: two };
-    wide.system = System::Structure(Box::new(structure));
+    wide.system = structure.into();
     for scheme in [MOREAU_JEAN, Scheme::Event, Scheme::GeneralizedAlpha { rho: 0.8 }] {
         for (mine, other) in [(&small, &wide), (&wide, &small)] {
             let state = &mine.initial;

@@ -41,7 +41,7 @@ fn beside(first: &Scene, second: &Scene) -> Scene {
         stiffness: diagonal(|o| o.stiffness),
     };
     let mut scene = first.clone();
-    scene.system = System::Structure(Box::new(structure));
+    scene.system = structure.into();
     scene.walls.extend(second.walls.iter().map(|w| Wall {
         name: format!("{}2", w.name),
         at: Row::dof(1),
@@ -74,7 +74,7 @@ fn bar(elements: usize) -> Scene {
         stiffness: Symmetric::from_entries(n, springs),
     };
     let mut scene = Scene::oscillator(1.0, 0.0, 1.0).with_wall(Wall::lower("wall", 0.0).with_restitution(0.0));
-    scene.system = System::Structure(Box::new(structure));
+    scene.system = structure.into();
     scene.initial = State { q: (0..n).map(|i| 0.5 * (1.0 - i as f64 * size)).collect(), v: vec![0.0; n] };
     scene.probes = vec![Probe { name: "end".into(), at: Row::dof(0) }];
     scene.with_duration(3.0)
@@ -150,7 +150,7 @@ fn statistics_take_the_mass_that_each_wall_feels() {
     let mut scene = Scene::oscillator(1.0, 0.0, 1.0).with_wall(Wall::upper("ground", 1.0)).with_duration(10.0);
     let between = Row::new(vec![(0, 1.0), (1, -1.0)]);
     scene.walls.push(Wall { at: between, ..Wall::upper("between", 0.5) });
-    scene.system = System::Structure(Box::new(structure));
+    scene.system = structure.into();
     scene.initial = State { q: vec![0.0; 2], v: vec![0.0; 2] };
     let contact = |wall| Contact {
         wall,

@@ -8,7 +8,7 @@ use super::report::Source;
 use super::value::{Number, Section};
 use super::{Case, FileRead, PenaltyOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result};
-use crate::scene::{Condensation, Damping, Scene, State, System, Wall};
+use crate::scene::{Condensation, Damping, Scene, State, Structure, System, Wall};
 use crate::scheme::{Integrator, PenaltyLaw};
 use crate::study::truncation::Whole;
 use std::ops::Range;
@@ -129,7 +129,7 @@ impl Builder<'_> {
         }
         if let (System::Structure(structure), Some(damping)) = (&mut less.system, pending) {
             **structure =
-                structure.as_ref().clone().with_damping(damping).map_err(|error| self.locate(error, &scene))?;
+                Structure::clone(structure).with_damping(damping).map_err(|error| self.locate(error, &scene))?;
         }
         Ok((less, Some(condensation)))
     }

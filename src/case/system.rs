@@ -113,7 +113,7 @@ impl Builder<'_> {
                 damping => structure = structure.with_damping(&damping).map_err(|error| self.at_key(error))?,
             }
         }
-        Ok(Built { model, system: System::Structure(Box::new(structure)), pending })
+        Ok(Built { model, system: structure.into(), pending })
     }
 
     fn chain(&mut self, chain: file::Chain) -> Result<Chain> {

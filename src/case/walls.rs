@@ -10,7 +10,7 @@ use crate::scene::{ModalData, Probe, Row, Side, Wall, WallLaw};
 use std::ops::Range;
 use toml::Spanned;
 
-/// Most walls of a scene. Each is checked against every other.
+/// Most walls of a scene: what one table makes is written and drawn wall by wall.
 const MOST_WALLS: usize = 4096;
 
 impl Builder<'_> {

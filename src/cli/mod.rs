@@ -113,3 +113,33 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
 fn command() -> clap::Command {
     <Cli as clap::CommandFactory>::command()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Cli, Stdout, Ui, execute};
+    use crate::linear::counted as factored;
+    use crate::scene::counted as checked;
+    use clap::Parser;
+
+    /// How often `signorini run CASE --no-verdict` checks a scene, and the sizes of the matrices that it factors.
+    fn counted(case: &str) -> (usize, Vec<usize>) {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out").display().to_string();
+        let words = ["signorini", "run", case, "--no-verdict", "--quiet", "--out", &out];
+        let cli = Cli::try_parse_from(words).unwrap();
+        (checked::take(), factored::take());
+        execute(&cli.command, &Ui::new(true, false, Stdout::Open)).unwrap();
+        (checked::take(), factored::take())
+    }
+
+    /// A matrix is factored once, however many ask for it: M, C and K where the scene is checked, K + σM for the slowest frequency, and the
+    /// matrix of a step. Scenes are checked where they are read, where the command line has changed them, and where they are run.
+    #[test]
+    fn a_run_checks_its_scene_and_factors_its_matrices_once() {
+        assert_eq!(counted("chain-200"), (2, vec![200; 5]));
+        // The whole tube: M, C and K; twice what finding its modes takes, and their remainder. The modes: the same as of the chain, and a
+        // step on them twice, once to say how long the run will take.
+        let [whole, modes] = [120, 20].map(|n| vec![n; 6]);
+        assert_eq!(counted("tube-loose-supports"), (4, [whole, modes].concat()));
+    }
+}

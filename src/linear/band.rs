@@ -2,6 +2,7 @@
 
 use super::Symmetric;
 use super::definite::NotDefinite;
+use std::ops::Range;
 
 /// A band is stored by diagonals if that takes at most this many times the room of the entries alone.
 const FILL: usize = 4;
@@ -74,6 +75,10 @@ pub(super) struct BandFactor {
 
 /// A pivot below this share of its diagonal entry is rounding: the matrix is not positive definite.
 const LEAST_PIVOT: f64 = 1e-14;
+
+/// What is left of an answer below this share is nothing: rounding (1e-16) even if it should grow by the √cond A < 1e8 of a matrix that has
+/// a factor.
+const NOTHING: f64 = 1e-26;
 
 impl BandFactor {
     pub(super) fn new(matrix: &Symmetric) -> Result<Self, NotDefinite> {
@@ -151,6 +156,108 @@ impl BandFactor {
                 }
             }
         }
+    }
+
+    /// Solves A x = b in place for a b that is zero outside `span`, as far as x is anything: returns the rows outside of which x is zero.
+    ///
+    /// Both substitutions end where what is left is below [`NOTHING`] of the largest so far, in the metric of D. With y = L⁻¹b, the norm of
+    /// what is left out of y is in that metric the error of x in the norm of A, and what follows a row can outgrow it by √cond A at most.
+    pub(super) fn solve_near(&self, x: &mut [f64], span: Range<usize>) -> Range<usize> {
+        let (n, middle) = (self.n, self.n / 2);
+        let x = &mut x[..n];
+        let near = match self.width {
+            0 => {
+                span.clone().for_each(|i| x[i] *= self.inverse[i]);
+                Some(span.clone())
+            }
+            // A tridiagonal matrix is eliminated from both ends: rows are counted from the one at hand.
+            1 if span.end <= middle => self.follow(x, span.clone(), middle, |i| i, |i| self.lower[i]),
+            1 if span.start > middle => {
+                let turned = n - span.end..n - span.start;
+                let near = self.follow(x, turned, n - 1 - middle, |i| n - 1 - i, |i| self.lower[n - i]);
+                near.map(|near| n - near.end..n - near.start)
+            }
+            1 => None,
+            width => Some(self.solve_band_near(x, span.clone(), width)),
+        };
+        near.unwrap_or_else(|| {
+            self.solve(x);
+            0..n
+        })
+    }
+
+    /// The same along one of the two chains of a tridiagonal matrix, whose row i is `at(i)` and whose entry of rows i and i − 1 is `lower(i)`,
+    /// i < `limit`. None where the answer reaches the limit, with x as it was.
+    fn follow(
+        &self,
+        x: &mut [f64],
+        span: Range<usize>,
+        limit: usize,
+        at: impl Fn(usize) -> usize,
+        lower: impl Fn(usize) -> f64,
+    ) -> Option<Range<usize>> {
+        let given: Vec<f64> = span.clone().map(|i| x[at(i)]).collect();
+        let (mut largest, mut end) = (0.0_f64, span.start);
+        loop {
+            if end == limit {
+                (span.start..end).for_each(|i| x[at(i)] = 0.0);
+                span.zip(given).for_each(|(i, b)| x[at(i)] = b);
+                return None;
+            }
+            if end > span.start {
+                x[at(end)] -= lower(end) * x[at(end - 1)];
+            }
+            let size = x[at(end)].powi(2) * self.inverse[at(end)];
+            largest = largest.max(size);
+            end += 1;
+            if end >= span.end && size <= NOTHING * NOTHING * largest {
+                break;
+            }
+        }
+        let mut first = end;
+        largest = 0.0;
+        while first > 0 {
+            first -= 1;
+            let above = if first + 1 < end { lower(first + 1) * x[at(first + 1)] } else { 0.0 };
+            x[at(first)] = x[at(first)] * self.inverse[at(first)] - above;
+            let size = x[at(first)].powi(2) / self.inverse[at(first)];
+            largest = largest.max(size);
+            if first <= span.start && size <= NOTHING * NOTHING * largest {
+                break;
+            }
+        }
+        Some(first..end)
+    }
+
+    fn solve_band_near(&self, x: &mut [f64], span: Range<usize>, width: usize) -> Range<usize> {
+        let row = |i: usize| &self.lower[i * width + i.saturating_sub(width) + width - i..(i + 1) * width];
+        // As many rows of nothing as the band is wide end a substitution.
+        let (mut largest, mut still, mut end) = (0.0_f64, 0, span.start);
+        while end < self.n && (end < span.end || still < width) {
+            let first = end.saturating_sub(width);
+            let (known, rest) = x.split_at_mut(end);
+            rest[0] -= row(end).iter().zip(&known[first..]).map(|(l, x)| l * x).sum::<f64>();
+            let size = rest[0].powi(2) * self.inverse[end];
+            largest = largest.max(size);
+            still = if size <= NOTHING * NOTHING * largest { still + 1 } else { 0 };
+            end += 1;
+        }
+        x[span.start..end].iter_mut().zip(&self.inverse[span.start..]).for_each(|(x, d)| *x *= d);
+        let mut first = end;
+        (largest, still) = (0.0, 0);
+        while first > 0 && (first > span.start || still < width) {
+            first -= 1;
+            let (rest, known) = x.split_at_mut(first);
+            let xi = known[0];
+            for (l, x) in row(first).iter().zip(&mut rest[first.saturating_sub(width)..]) {
+                *x -= l * xi;
+            }
+            let size = xi.powi(2) / self.inverse[first];
+            largest = largest.max(size);
+            still = if size <= NOTHING * NOTHING * largest { still + 1 } else { 0 };
+        }
+        x[first.saturating_sub(width)..first].fill(0.0);
+        first..end
     }
 
     /// Two chains of operations, one from either end, that do not wait for one another: waiting is all that this costs.

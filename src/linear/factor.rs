@@ -4,21 +4,25 @@ use super::Symmetric;
 use super::band::{BandFactor, is_band};
 use super::definite::NotDefinite;
 use super::sparse::SparseFactor;
+use std::ops::Range;
+use std::sync::Arc;
 
 /// A = L D Lᵀ, factored once and solved many times.
 ///
 /// A narrow band, a diagonal and a full matrix are factored as bands, in their own order, with cost n · width² once and 4 n · width a solve; any
-/// other sparse matrix with an order that keeps its factor sparse.
-#[derive(Debug)]
+/// other sparse matrix with an order that keeps its factor sparse. A clone shares the factor, and has room of its own to solve in.
+#[derive(Debug, Clone)]
 pub struct Factor {
     n: usize,
     kind: Kind,
+    /// n entries for a sparse matrix, none for a band.
+    room: Vec<f64>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 enum Kind {
-    Band(BandFactor),
-    Sparse(Box<SparseFactor>),
+    Band(Arc<BandFactor>),
+    Sparse(Arc<SparseFactor>),
 }
 
 impl Factor {
@@ -27,12 +31,13 @@ impl Factor {
     /// # Errors
     /// [`NotDefinite`].
     pub fn new(matrix: &Symmetric) -> Result<Self, NotDefinite> {
-        let kind = if is_band(matrix) {
-            Kind::Band(BandFactor::new(matrix)?)
-        } else {
-            Kind::Sparse(Box::new(SparseFactor::new(matrix)?))
-        };
-        Ok(Self { n: matrix.size(), kind })
+        #[cfg(test)]
+        counted::count(matrix.size());
+        let n = matrix.size();
+        if is_band(matrix) {
+            return Ok(Self { n, kind: Kind::Band(Arc::new(BandFactor::new(matrix)?)), room: Vec::new() });
+        }
+        Ok(Self { n, kind: Kind::Sparse(Arc::new(SparseFactor::new(matrix)?)), room: vec![0.0; n] })
     }
 
     /// Solves A x = b in place; `x` has n entries, others are left as they are.
@@ -41,10 +46,22 @@ impl Factor {
         if x.len() != self.n {
             return;
         }
-        match &mut self.kind {
+        match &self.kind {
             Kind::Band(factor) => factor.solve(x),
-            Kind::Sparse(factor) => factor.solve(x),
+            Kind::Sparse(factor) => factor.solve(x, &mut self.room),
         }
+    }
+
+    /// The same for a b that is zero outside the rows `span`: returns the rows outside of which x is zero, or too small to be told from
+    /// zero beside the rest (1e-16 of it at most, in the norm of A). Of a band, where the answer to a force dies away, that costs nothing of n.
+    pub(crate) fn solve_near(&mut self, x: &mut [f64], span: Range<usize>) -> Range<usize> {
+        if let (Kind::Band(factor), true) =
+            (&self.kind, x.len() == self.n && span.start < span.end && span.end <= self.n)
+        {
+            return factor.solve_near(x, span);
+        }
+        self.solve(x);
+        0..self.n
     }
 
     /// Multiplications and additions of one solve.
@@ -60,14 +77,43 @@ impl Factor {
     #[must_use]
     pub fn describe(&self) -> String {
         match &self.kind {
-            Kind::Band(factor) => match factor.width() {
-                0 => "diagonal".to_owned(),
-                1 => "tridiagonal".to_owned(),
-                width if width + 1 >= self.n => "dense".to_owned(),
-                width => format!("banded, half bandwidth {width}"),
-            },
-            Kind::Sparse(_) => "sparse, minimum-degree order".to_owned(),
+            Kind::Band(factor) => describe(self.n, Some(factor.width())),
+            Kind::Sparse(_) => describe(self.n, None),
         }
+    }
+
+    /// The same of the factor that `matrix` would have.
+    #[must_use]
+    pub fn described(matrix: &Symmetric) -> String {
+        describe(matrix.size(), is_band(matrix).then(|| matrix.half_bandwidth()))
+    }
+}
+
+/// Of n rows and, for a band, its half bandwidth.
+fn describe(n: usize, width: Option<usize>) -> String {
+    match width {
+        Some(0) => "diagonal".to_owned(),
+        Some(1) => "tridiagonal".to_owned(),
+        Some(width) if width + 1 >= n => "dense".to_owned(),
+        Some(width) => format!("banded, half bandwidth {width}"),
+        None => "sparse, minimum-degree order".to_owned(),
+    }
+}
+
+/// How many matrices this thread has factored: what tests count.
+#[cfg(test)]
+pub(crate) mod counted {
+    use std::cell::RefCell;
+
+    thread_local!(static SIZES: RefCell<Vec<usize>> = const { RefCell::new(Vec::new()) });
+
+    pub(super) fn count(n: usize) {
+        SIZES.with_borrow_mut(|sizes| sizes.push(n));
+    }
+
+    /// The sizes n of the matrices factored since the last call.
+    pub(crate) fn take() -> Vec<usize> {
+        SIZES.take()
     }
 }
 
@@ -108,6 +154,43 @@ mod tests {
             // Condition of these matrices is below 10; some ulps of each sum.
             let error = b.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(error < 1e-14, "n {n}, width {width}: {error:e}");
+        }
+    }
+
+    #[test]
+    fn a_solution_near_a_row_is_the_whole_one() {
+        let mut seed = 7;
+        for (n, width) in [(300, 0), (301, 1), (300, 1), (4, 1), (300, 3), (90, 5)] {
+            // From one in which an answer dies away at once to one in which it reaches everywhere.
+            for stiff in [0.1, 3.0, 1e3] {
+                let mut entries: Vec<(usize, usize, f64)> =
+                    (0..n).map(|i| (i, i, 1.0 + stiff * width as f64)).collect();
+                for i in 0..n {
+                    entries.extend((1..=width.min(i)).map(|d| (i, i - d, stiff * random(&mut seed))));
+                }
+                let matrix = Symmetric::from_entries(n, entries);
+                let mut factor = Factor::new(&matrix).unwrap();
+                for start in [0, 1, n / 2 - 1, n / 2, n - 2] {
+                    let (mut near, mut whole) = (vec![0.0; n], vec![0.0; n]);
+                    for i in start..start + 2 {
+                        (near[i], whole[i]) = (1.0, 1.0);
+                    }
+                    let rows = factor.solve_near(&mut near, start..start + 2);
+                    factor.solve(&mut whole);
+                    let size = whole.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                    for (i, (near, whole)) in near.iter().zip(&whole).enumerate() {
+                        assert!(
+                            (near - whole).abs() <= 1e-15 * size,
+                            "n {n}, width {width}, {stiff}: row {i} of {start}"
+                        );
+                        assert!(rows.contains(&i) || *near == 0.0);
+                    }
+                    // Where little couples rows the answer to a force stays near it, but for those that the middle of a tridiagonal matrix
+                    // divides.
+                    let divided = width == 1 && start.abs_diff(n / 2) < 60;
+                    assert!(stiff > 1.0 || divided || rows.len() < 120.min(n + 1), "{} rows of {n}", rows.len());
+                }
+            }
         }
     }
 

@@ -17,6 +17,8 @@ mod symmetric;
 
 pub use definite::NotDefinite;
 pub use factor::Factor;
+#[cfg(test)]
+pub(crate) use factor::counted;
 pub use operator::Operator;
 pub use rows::Rows;
 pub use sparse::negative_pivots;

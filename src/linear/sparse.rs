@@ -5,9 +5,17 @@ use super::definite::NotDefinite;
 use clarabel::algebra::CscMatrix;
 use clarabel::qdldl::{QDLDLFactorisation, QDLDLSettings};
 
-/// L D Lᵀ of a sparse positive definite matrix.
+/// L D Lᵀ of a sparse positive definite matrix, of which row `order[i]` is eliminated in place i.
 #[derive(Debug)]
-pub(super) struct SparseFactor(QDLDLFactorisation<f64>);
+pub(super) struct SparseFactor {
+    order: Vec<usize>,
+    /// L below its unit diagonal, by columns.
+    starts: Vec<usize>,
+    rows: Vec<usize>,
+    values: Vec<f64>,
+    /// 1/D.
+    inverse: Vec<f64>,
+}
 
 impl SparseFactor {
     pub(super) fn new(matrix: &Symmetric) -> Result<Self, NotDefinite> {
@@ -15,17 +23,39 @@ impl SparseFactor {
         // Which row gives way is known in the order of the elimination only.
         match factor.D.iter().position(|d| d.is_nan() || *d <= 0.0) {
             Some(at) => Err(NotDefinite { row: factor.perm.get(at).copied().unwrap_or(at) }),
-            None => Ok(Self(factor)),
+            None => Ok(Self {
+                order: factor.perm,
+                starts: factor.L.colptr,
+                rows: factor.L.rowval,
+                values: factor.L.nzval,
+                inverse: factor.Dinv,
+            }),
         }
     }
 
     /// Number of entries of L below its diagonal.
     pub(super) fn stored(&self) -> usize {
-        self.0.L.nnz()
+        self.values.len()
     }
 
-    pub(super) fn solve(&mut self, x: &mut [f64]) {
-        self.0.solve(x);
+    /// Solves A x = b in place, with `room` for as many numbers.
+    pub(super) fn solve(&self, x: &mut [f64], room: &mut [f64]) {
+        room.iter_mut().zip(&self.order).for_each(|(y, &i)| *y = x[i]);
+        let column = |i: usize| {
+            let span = self.starts[i]..self.starts[i + 1];
+            self.rows[span.clone()].iter().zip(&self.values[span])
+        };
+        for i in 0..room.len() {
+            let known = room[i];
+            for (&row, l) in column(i) {
+                room[row] -= l * known;
+            }
+        }
+        for i in (0..room.len()).rev() {
+            let sum: f64 = column(i).map(|(&row, l)| l * room[row]).sum();
+            room[i] = room[i] * self.inverse[i] - sum;
+        }
+        room.iter().zip(&self.order).for_each(|(y, &i)| x[i] = *y);
     }
 }
 

@@ -10,6 +10,13 @@ pub struct Symmetric {
     values: Vec<f64>,
 }
 
+impl Default for Symmetric {
+    /// The matrix without rows.
+    fn default() -> Self {
+        Self::zeros(0)
+    }
+}
+
 impl Symmetric {
     /// The n × n matrix of the sum of `entries` (row, column, value). An entry off the diagonal is given once, in either triangle, and stands
     /// for both; entries beyond n are left out.

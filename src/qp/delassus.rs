@@ -7,6 +7,7 @@
 
 use super::{Failure, Problem, Rhs};
 use crate::linear::{Factor, Rows};
+use std::ops::Range;
 
 /// Share of a force's own motion below which its motion elsewhere is nothing (dimensionless; see above).
 const NOTHING: f64 = 1e-17;
@@ -31,11 +32,11 @@ impl Runs {
         Self { starts: vec![0], first: Vec::with_capacity(rows), values: Vec::new() }
     }
 
-    /// Adds the run of `row` from its first to its last entry that is wanted; empty where none is.
-    fn push(&mut self, row: &[f64], wanted: impl Fn(usize, f64) -> bool) {
+    /// Adds the run of `row` from its first to its last entry within `near` that is wanted; empty where none is.
+    fn push(&mut self, row: &[f64], near: Range<usize>, wanted: impl Fn(usize, f64) -> bool) {
         let keep = |&i: &usize| wanted(i, row[i]);
-        let first = (0..row.len()).find(keep).unwrap_or(0);
-        let end = (first..row.len()).rev().find(keep).map_or(first, |last| last + 1);
+        let first = near.clone().find(keep).unwrap_or(0);
+        let end = (first..near.end).rev().find(keep).map_or(first, |last| last + 1);
         self.first.push(first);
         self.values.extend_from_slice(&row[first..end]);
         self.starts.push(self.values.len());
@@ -46,6 +47,12 @@ impl Runs {
         (self.first[i], &self.values[self.starts[i]..self.starts[i + 1]])
     }
 
+    /// The entries of run i.
+    fn span(&self, i: usize) -> Range<usize> {
+        let (first, values) = self.row(i);
+        first..first + values.len()
+    }
+
     /// Adds `factor` times run i to `out`.
     #[inline]
     fn add(&self, i: usize, factor: f64, out: &mut [f64]) {
@@ -53,6 +60,29 @@ impl Runs {
         for (out, value) in out[first..first + values.len()].iter_mut().zip(values) {
             *out += factor * value;
         }
+    }
+}
+
+/// The first and the last row that sees each unknown; (m, 0) where none does.
+struct Seen(Vec<(usize, usize)>);
+
+impl Seen {
+    fn new(n: usize, g: &Rows) -> Self {
+        let mut of = vec![(g.count(), 0); n];
+        for i in 0..g.count() {
+            for &(column, _) in g.row(i) {
+                let (first, last) = of[column];
+                of[column] = (first.min(i), last.max(i));
+            }
+        }
+        Self(of)
+    }
+
+    /// The rows from the first to the last that see one of `unknowns`, `own` among them.
+    fn rows(&self, unknowns: Range<usize>, own: usize) -> Range<usize> {
+        let ends = |(a, b): (usize, usize), &(first, last): &(usize, usize)| (a.min(first), b.max(last));
+        let (first, last) = self.0[unknowns].iter().fold((own, own), ends);
+        first..last + 1
     }
 }
 
@@ -83,39 +113,48 @@ impl Delassus {
         let g = problem.g.clone();
         let unit: Vec<f64> = problem.a.diagonal_entries().iter().map(|d| d.sqrt()).collect();
         let mut response = vec![0.0; n];
+        // Writes A⁻¹gⱼᵀ into zeros, and returns the unknowns outside of which it is nothing.
         let mut respond = |j: usize, response: &mut [f64]| {
-            response.fill(0.0);
             g.add_transposed(j, 1.0, response);
-            factor.solve(response);
+            let columns = || g.row(j).iter().map(|entry| entry.0);
+            match (columns().min(), columns().max()) {
+                (Some(first), Some(last)) => factor.solve_near(response, first..last + 1),
+                _ => 0..0,
+            }
         };
         // Wⱼⱼ of all rows come first, since the others are measured by them.
         let mut weight = vec![0.0; m];
         let mut columns = Some(Runs::with_capacity(m));
         for (j, weight) in weight.iter_mut().enumerate() {
-            respond(j, &mut response);
+            let near = respond(j, &mut response);
             let own = g.dot(j, &response) + problem.compliance[j];
             *weight = if own > 0.0 { own.sqrt() } else { 1.0 };
             if let Some(runs) = &mut columns {
                 // √Aᵢᵢ is at most 1/√(A⁻¹)ᵢᵢ, so no unknown of small motion is cut too early.
-                runs.push(&response, |i, v| v.abs() * unit[i] > NOTHING * *weight);
+                runs.push(&response, near.clone(), |i, v| v.abs() * unit[i] > NOTHING * *weight);
                 if runs.values.len() > MOST_COLUMNS {
                     columns = None;
                 }
             }
+            response[near].fill(0.0);
         }
+        let seen = Seen::new(n, &g);
         let mut w = Runs::with_capacity(m);
         let mut row = vec![0.0; m];
         for j in 0..m {
-            match &columns {
+            let near = match &columns {
                 Some(runs) => {
-                    response.fill(0.0);
                     runs.add(j, 1.0, &mut response);
+                    runs.span(j)
                 }
                 None => respond(j, &mut response),
-            }
-            g.product(&response, &mut row);
+            };
+            let rows = seen.rows(near.clone(), j);
+            rows.clone().for_each(|i| row[i] = g.dot(i, &response));
             row[j] += problem.compliance[j];
-            w.push(&row, |i, v| i == j || v.abs() > NOTHING * weight[i] * weight[j]);
+            w.push(&row, rows.clone(), |i, v| i == j || v.abs() > NOTHING * weight[i] * weight[j]);
+            response[near].fill(0.0);
+            row[rows].fill(0.0);
         }
         symmetrise(&mut w);
         let loose = (0..m).all(|i| {

@@ -93,7 +93,7 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    pub fn new(scene: &Scene) -> Self {
+    pub fn new(scene: &Scene, masses: &[f64]) -> Self {
         let structure = scene.system.structure();
         let diagonals = [&structure.mass, &structure.stiffness, &structure.damping].map(|m| m.diagonal_entries());
         let n = diagonals[0].len();
@@ -103,7 +103,7 @@ impl Rounding {
         Self {
             unit: UNITS * f64::EPSILON * (n.max(1) as f64).sqrt(),
             rates: [largest(1), largest(2)],
-            wall: scene.wall_masses().into_iter().map(f64::sqrt).collect(),
+            wall: masses.iter().map(|mass| mass.sqrt()).collect(),
             per_root: root.iter().map(|r| 1.0 / r[0]).collect(),
             root,
             speed: 0.0,

@@ -30,6 +30,7 @@ use beyond::{Doubts, Rounding, Worst};
 use complementarity::Pairs;
 use memory::Memory;
 use scales::Scales;
+use std::sync::Arc;
 use sums::Sums;
 
 /// Units in the last place by which the place of a body is not known: its terms' and those of the time.
@@ -38,7 +39,7 @@ const PLACE_UNITS: f64 = 32.0;
 /// Watches a run.
 #[derive(Debug)]
 pub struct Judge {
-    scene: Scene,
+    scene: Arc<Scene>,
     contract: Contract,
     h: f64,
     loads: Loads,
@@ -124,6 +125,17 @@ impl Judge {
     /// from the state `q` (m), `v` (m/s), one value of each per degree of freedom; what is missing is 0, what is left over is not read.
     #[must_use]
     pub fn new(scene: &Scene, contract: Contract, h: f64, q: &[f64], v: &[f64]) -> Self {
+        Self::over(&Arc::new(scene.clone()), &scene.wall_masses(), contract, h, (q, v))
+    }
+
+    /// The same of a shared scene, whose walls feel `masses` (kg).
+    pub(crate) fn over(
+        scene: &Arc<Scene>,
+        masses: &[f64],
+        contract: Contract,
+        h: f64,
+        (q, v): (&[f64], &[f64]),
+    ) -> Self {
         let n = scene.system.degrees_of_freedom();
         let loads = Loads::new(&scene.loads);
         let zero = || vec![0.0; n];
@@ -131,7 +143,7 @@ impl Judge {
         loads.add_force(0.0, 1.0, &mut load);
         // What a blow does to the velocities; a mass that cannot be factored is refused long before.
         let mass = match &scene.system {
-            System::Structure(s) if loads.has_blows() => Factor::new(&s.mass).ok(),
+            System::Structure(s) if loads.has_blows() => s.mass_factor().ok(),
             _ => None,
         };
         let fit = |x: &[f64]| x.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect::<Vec<f64>>();
@@ -158,7 +170,7 @@ impl Judge {
             loads,
             mass,
             energy: energy::Ledger::new(scene, contract, &q, &v),
-            scales: Scales::new(scene),
+            scales: Scales::new(scene, masses),
             sums: Sums::new(scene, &q, &v),
             memory: Memory::new(scene, contract, (&q, &v), &load, &held),
             held,
@@ -183,9 +195,9 @@ impl Judge {
             now: 0.0,
             span: h,
             clock: 1.0,
-            rounding: Rounding::new(scene),
+            rounding: Rounding::new(scene, masses),
             doubts: Residue::default(),
-            scene: scene.clone(),
+            scene: Arc::clone(scene),
         }
     }
 

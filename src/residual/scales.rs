@@ -23,10 +23,10 @@ pub(super) struct Scales {
 }
 
 impl Scales {
-    pub fn new(scene: &Scene) -> Self {
+    pub fn new(scene: &Scene, masses: &[f64]) -> Self {
         let structure = scene.system.structure();
         let root_mass: Vec<f64> = structure.mass.diagonal_entries().into_iter().map(f64::sqrt).collect();
-        let lightest = scene.wall_masses().into_iter().filter(|m| m.is_finite()).reduce(f64::min);
+        let lightest = masses.iter().copied().filter(|m| m.is_finite()).reduce(f64::min);
         let root_wall_mass = lightest.map_or_else(|| root_mass.iter().fold(0.0, |a: f64, b| a.max(*b)), f64::sqrt);
         let gap = scene.gap_scale() * root_wall_mass;
         let stiffness = structure.stiffness.diagonal_entries();

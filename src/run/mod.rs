@@ -7,7 +7,7 @@ pub use finished::Run;
 pub use options::{Judged, Judging, Options, Recorded, Recording, Unjudged, Unrecorded};
 
 use crate::error::Result;
-use crate::scene::Scene;
+use crate::scene::{Checked, Scene};
 use crate::scheme::{Method, Scheme, Stepper};
 use std::time::Instant;
 
@@ -60,12 +60,12 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     options: &Options<J, R>,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Run<J, R>> {
-    scene.validate()?;
+    let scene = &Checked::new(scene)?;
     let method: Method = (*method).into();
     let exact = method.scheme == Scheme::Event;
     let grid = options.grid(scene, exact)?;
     let started = Instant::now();
-    let mut stepper = Stepper::new(scene, &method, grid.step)?;
+    let mut stepper = Stepper::by(scene, method, grid.step)?;
     let start = stepper.state();
     let mut judge = J::begin(&stepper, grid.step, &start);
     let mut recorder = R::begin(&stepper, grid.rows, &start, &options.time);
@@ -85,7 +85,7 @@ pub fn run_with_progress<J: Judging, R: Recording>(
         }
     }
     let from = options.time.statistics_from;
-    let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), scene, from);
+    let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), (scene, scene.wall_masses()), from);
     let (residuals, findings) = J::verdict(judge, R::trajectory(&trajectory));
     let mut run = Run {
         scheme: method.scheme,

@@ -140,7 +140,8 @@ impl Judging for Judged {
     type Judge = Judge;
 
     fn begin(stepper: &Stepper, step: f64, start: &State) -> Judge {
-        Judge::new(stepper.scene(), stepper.contract(), step, &start.q, &start.v)
+        let scene = stepper.checked();
+        Judge::over(scene.shared(), scene.wall_masses(), stepper.contract(), step, (&start.q, &start.v))
     }
 
     fn see(judge: &mut Judge, step: &Step<'_>) {
@@ -204,7 +205,7 @@ pub trait Recording: sealed::Sealed + Debug + Copy {
     fn finish(
         recorder: Self::Recorder,
         open: &[Contact],
-        scene: &Scene,
+        scene: (&Scene, &[f64]),
         statistics_from: f64,
     ) -> (Self::Motion, Self::Statistics);
     #[doc(hidden)]
@@ -238,11 +239,11 @@ impl Recording for Recorded {
     fn finish(
         (recorder, forces): (Recorder, Forces),
         open: &[Contact],
-        scene: &Scene,
+        (scene, masses): (&Scene, &[f64]),
         from: f64,
     ) -> (Trajectory, Statistics) {
         let trajectory = recorder.finish(open);
-        let statistics = Statistics::new(scene, trajectory.contacts(), from).with_forces(&forces);
+        let statistics = Statistics::of(scene, masses, trajectory.contacts(), from).with_forces(&forces);
         (trajectory, statistics)
     }
 
@@ -261,7 +262,7 @@ impl Recording for Unrecorded {
 
     fn see((): &mut (), _: &Step<'_>) {}
 
-    fn finish((): (), _: &[Contact], _: &Scene, _: f64) -> ((), ()) {
+    fn finish((): (), _: &[Contact], _: (&Scene, &[f64]), _: f64) -> ((), ()) {
         ((), ())
     }
 

@@ -1,6 +1,7 @@
 //! What is simulated: a linear system, its walls, its loads, its start and how long.
 
 mod builders;
+mod checked;
 mod condensation;
 mod damping;
 mod forcing;
@@ -11,11 +12,13 @@ pub mod matrices;
 mod modal;
 mod row;
 mod scales;
+mod shared;
 mod structure;
 mod system;
 mod wall;
 
 pub use builders::{Bar, BarEnd, Beam, BeamEnd, Chain, MOST_ELEMENTS, MassMatrix, ModalData, ModalPoint};
+pub(crate) use checked::Checked;
 pub use condensation::Condensation;
 pub use damping::Damping;
 pub use forcing::{Forcing, Harmonic};
@@ -25,6 +28,7 @@ pub use loads::Loads;
 pub use modal::{MOST_DENSE, MOST_MODES, Modes, Reduction, WallTruncation};
 pub(crate) use row::distinct;
 pub use row::{Probe, Row};
+pub use shared::SharedStructure;
 pub use structure::Structure;
 pub use system::{Oscillator, System};
 pub use wall::{Side, Wall, WallLaw};
@@ -94,10 +98,11 @@ impl Scene {
 
     /// A structure at rest at 0, without walls, loads or probes, for one second.
     #[must_use]
-    pub fn structure(structure: Structure) -> Self {
+    pub fn structure(structure: impl Into<SharedStructure>) -> Self {
+        let structure = structure.into();
         let rest = vec![0.0; structure.mass.size()];
         Self {
-            system: System::Structure(Box::new(structure)),
+            system: System::Structure(structure),
             walls: Vec::new(),
             loads: Vec::new(),
             probes: Vec::new(),
@@ -186,6 +191,8 @@ impl Scene {
     /// # Errors
     /// [`Error::Invalid`] for the first value that makes no sense: what it is, and what would be accepted.
     pub fn validate(&self) -> Result<()> {
+        #[cfg(test)]
+        counted::count();
         self.system.validate()?;
         positive("time.end", self.duration)?;
         let n = self.system.degrees_of_freedom();
@@ -270,5 +277,22 @@ fn check_crossing(upper: &Wall, lower: &[&Wall]) -> Result<()> {
             format!("at least {:?}, the position of the rigid lower wall {:?}", lower.position, lower.name),
         )),
         None => Ok(()),
+    }
+}
+
+/// How many scenes this thread has checked: what tests count.
+#[cfg(test)]
+pub(crate) mod counted {
+    use std::cell::Cell;
+
+    thread_local!(static CHECKS: Cell<usize> = const { Cell::new(0) });
+
+    pub(super) fn count() {
+        CHECKS.set(CHECKS.get() + 1);
+    }
+
+    /// The number since the last call.
+    pub(crate) fn take() -> usize {
+        CHECKS.replace(0)
     }
 }

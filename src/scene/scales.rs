@@ -1,6 +1,6 @@
 //! Typical sizes of a scene: frequencies, and the mass a wall feels.
 
-use super::{Scene, System, Wall};
+use super::{Row, Scene, Structure, System, distinct};
 use crate::linear::{Factor, Symmetric};
 
 /// Iterations of the power method: a frequency that sets a scale needs no more digits than they give.
@@ -16,23 +16,31 @@ impl System {
     pub fn frequencies(&self) -> [f64; 2] {
         match self {
             Self::Oscillator(o) => [(o.stiffness / o.mass).sqrt(); 2],
-            Self::Structure(s) => {
-                let fastest = power(&s.mass, &s.stiffness).unwrap_or(0.0);
-                let shift = SHIFT * fastest;
-                let shifted = Symmetric::sum(&[(1.0, &s.stiffness), (shift, &s.mass)]);
-                // The slowest is the reciprocal of the fastest of the inverse pencil.
-                let inverse = power(&shifted, &s.mass).filter(|x| *x > 0.0);
-                let slowest = inverse.map_or(0.0, |x| (1.0 / x - shift).max(0.0));
-                [if slowest > 1e3 * shift { slowest.sqrt() } else { 0.0 }, fastest.sqrt()]
-            }
+            Self::Structure(s) => s.frequencies(),
         }
     }
 }
 
-/// The largest λ of B x = λ A x, by the power method; none if A is not positive definite.
-fn power(a: &Symmetric, b: &Symmetric) -> Option<f64> {
+/// The same of `structure`, whose M has the factor `mass`.
+pub(super) fn frequencies(structure: &Structure, mass: Option<Factor>) -> [f64; 2] {
+    let fastest = fastest_squared(structure, mass);
+    let shift = SHIFT * fastest;
+    let shifted = Symmetric::sum(&[(1.0, &structure.stiffness), (shift, &structure.mass)]);
+    // The slowest is the reciprocal of the fastest of the inverse pencil.
+    let inverse = power(&shifted, Factor::new(&shifted).ok(), &structure.mass).filter(|x| *x > 0.0);
+    let slowest = inverse.map_or(0.0, |x| (1.0 / x - shift).max(0.0));
+    [if slowest > 1e3 * shift { slowest.sqrt() } else { 0.0 }, fastest.sqrt()]
+}
+
+/// ω² of the fastest motion, 1/s².
+pub(in crate::scene) fn fastest_squared(structure: &Structure, mass: Option<Factor>) -> f64 {
+    power(&structure.mass, mass, &structure.stiffness).unwrap_or(0.0)
+}
+
+/// The largest λ of B x = λ A x, by the power method; none if A is not positive definite, and has no factor.
+fn power(a: &Symmetric, factor: Option<Factor>, b: &Symmetric) -> Option<f64> {
     let n = a.size();
-    let mut factor = Factor::new(a).ok()?;
+    let mut factor = factor?;
     // Components along every mode, whatever symmetry the structure has.
     let mut x: Vec<f64> = (0..n).map(|i| (1.0 + 0.618_033_988_75 * i as f64).fract() - 0.3).collect();
     let mut y = vec![0.0; n];
@@ -62,35 +70,38 @@ impl Scene {
     pub fn wall_masses(&self) -> Vec<f64> {
         match &self.system {
             System::Oscillator(o) => {
-                let weight = |row: &super::Row| row.entries().iter().map(|entry| entry.1).sum::<f64>();
+                let weight = |row: &Row| row.entries().iter().map(|entry| entry.1).sum::<f64>();
                 self.walls.iter().map(|w| o.mass / weight(&w.at).powi(2)).collect()
             }
             System::Structure(s) => {
-                let Ok(mut factor) = Factor::new(&s.mass) else { return vec![f64::INFINITY; self.walls.len()] };
+                let Ok(mut factor) = s.mass_factor() else { return vec![f64::INFINITY; self.walls.len()] };
                 let lumped = s.mass.half_bandwidth() == 0;
                 let mut response = vec![0.0; s.mass.size()];
-                let mass = |wall: &Wall| {
+                let mass = |at: &Row| {
                     let mut inverse = 0.0;
-                    for &(i, weight) in wall.at.entries() {
+                    for &(i, weight) in at.entries() {
                         if let Some(x) = response.get_mut(i) {
                             *x += weight;
                         }
                     }
                     if lumped {
                         // Entry by entry: a wall costs nothing of n.
-                        for &(i, _) in wall.at.entries() {
+                        for &(i, _) in at.entries() {
                             if let Some(x) = response.get_mut(i) {
                                 inverse += std::mem::take(x).powi(2) / s.mass.get(i, i);
                             }
                         }
                     } else {
                         factor.solve(&mut response);
-                        inverse += wall.at.dot(&response);
+                        inverse += at.dot(&response);
                         response.fill(0.0);
                     }
                     1.0 / inverse
                 };
-                self.walls.iter().map(mass).collect()
+                // Walls of one place feel one mass.
+                let places = distinct(self.walls.iter().map(|wall| &wall.at));
+                let masses: Vec<f64> = places.rows.into_iter().map(mass).collect();
+                places.of.into_iter().filter_map(|place| masses.get(place).copied()).collect()
             }
         }
     }

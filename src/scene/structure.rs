@@ -1,7 +1,7 @@
 //! A structure by its matrices.
 
 use crate::error::{Error, Result};
-use crate::linear::{Factor, Symmetric};
+use crate::linear::{Factor, NotDefinite, Symmetric};
 
 /// M q̈ + C q̇ + K q = f by matrices, all n × n: M symmetric positive definite (kg), C (N s/m) and K (N/m) symmetric positive semidefinite. In modal
 /// coordinates all three may be diagonal, and in coordinates that are rotations the units are those of the conjugate quantities.
@@ -27,7 +27,7 @@ use crate::linear::{Factor, Symmetric};
 /// assert!(displacement.iter().any(|&q| q > 0.99e-3)); // it has met its stop
 /// # Ok::<(), signorini::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Structure {
     /// M.
     pub mass: Symmetric,
@@ -37,33 +37,37 @@ pub struct Structure {
     pub stiffness: Symmetric,
 }
 
-impl Structure {
-    /// Each matrix is factored once, which for a band costs n · width² and so little beside a run.
-    pub(crate) fn validate(&self) -> Result<()> {
-        let n = self.mass.size();
-        if n == 0 {
-            return Err(Error::invalid("system", "without degrees of freedom", "one or more"));
-        }
-        for (name, matrix) in [("mass", &self.mass), ("damping", &self.damping), ("stiffness", &self.stiffness)] {
-            if matrix.size() != n {
-                let size = format!("{0} × {0}", matrix.size());
-                return Err(Error::invalid(format!("system: {name} matrix"), size, format!("{n} × {n}, as the mass")));
-            }
-            if let Some((i, j, value)) = matrix.not_finite() {
-                let key = format!("system: {name} matrix, row {}, column {}", i + 1, j + 1);
-                return Err(Error::invalid(key, format_args!("{value:?}"), "a finite number"));
-            }
-        }
-        definite(&self.mass)?;
-        semidefinite("damping", &self.damping)?;
-        semidefinite("stiffness", &self.stiffness)
+/// Refuses matrices that make no sense; `mass` factors M. Each matrix is factored once, which for a band costs n · width² and so little
+/// beside a run.
+pub(super) fn validate(
+    structure: &Structure,
+    mass: impl FnOnce() -> std::result::Result<(), NotDefinite>,
+) -> Result<()> {
+    let n = structure.mass.size();
+    if n == 0 {
+        return Err(Error::invalid("system", "without degrees of freedom", "one or more"));
     }
+    for (name, matrix) in
+        [("mass", &structure.mass), ("damping", &structure.damping), ("stiffness", &structure.stiffness)]
+    {
+        if matrix.size() != n {
+            let size = format!("{0} × {0}", matrix.size());
+            return Err(Error::invalid(format!("system: {name} matrix"), size, format!("{n} × {n}, as the mass")));
+        }
+        if let Some((i, j, value)) = matrix.not_finite() {
+            let key = format!("system: {name} matrix, row {}, column {}", i + 1, j + 1);
+            return Err(Error::invalid(key, format_args!("{value:?}"), "a finite number"));
+        }
+    }
+    definite(&structure.mass, mass)?;
+    semidefinite("damping", &structure.damping)?;
+    semidefinite("stiffness", &structure.stiffness)
 }
 
 /// Rounding of an assembled matrix, relative to its diagonal: shifted by this much, a semidefinite one is definite.
 const SHIFT: f64 = 1e-9;
 
-fn definite(mass: &Symmetric) -> Result<()> {
+fn definite(mass: &Symmetric, factor: impl FnOnce() -> std::result::Result<(), NotDefinite>) -> Result<()> {
     const EXPECTED: &str = "a positive definite matrix: every motion has kinetic energy";
     let entry = |i: usize, j: usize| format!("system: mass matrix, row {}, column {}", i + 1, j + 1);
     let diagonal = mass.diagonal_entries();
@@ -82,13 +86,16 @@ fn definite(mass: &Symmetric) -> Result<()> {
         let expected = format!("less than {most:?} in size, as the diagonal bounds it, of {EXPECTED}");
         return Err(Error::invalid(entry(i, j), format_args!("{value:?}"), expected));
     }
-    Factor::new(mass).map(|_| ()).map_err(|fault| {
+    factor().map_err(|fault| {
         let i = fault.row;
         Error::invalid(entry(i, i), format_args!("{:?}, without a positive pivot", mass.get(i, i)), EXPECTED)
     })
 }
 
 fn semidefinite(name: &str, matrix: &Symmetric) -> Result<()> {
+    if matrix.entries().all(|entry| entry.2 == 0.0) {
+        return Ok(());
+    }
     const EXPECTED: &str = "a positive semidefinite matrix";
     let entry = |i: usize, j: usize| format!("system: {name} matrix, row {}, column {}", i + 1, j + 1);
     let diagonal = matrix.diagonal_entries();

@@ -1,5 +1,6 @@
 //! The linear system: what vibrates when nothing touches it.
 
+use super::shared::SharedStructure;
 use super::structure::Structure;
 use crate::error::{Error, Result};
 use crate::linear::Symmetric;
@@ -22,19 +23,25 @@ pub enum System {
     /// A single degree of freedom: three numbers, no matrices.
     Oscillator(Oscillator),
     /// Several, by matrices.
-    Structure(Box<Structure>),
+    Structure(SharedStructure),
+}
+
+impl From<Structure> for System {
+    fn from(structure: Structure) -> Self {
+        Self::Structure(structure.into())
+    }
 }
 
 impl System {
     /// M, C and K as matrices.
     #[must_use]
-    pub fn structure(&self) -> Structure {
+    pub fn structure(&self) -> SharedStructure {
         match self {
             Self::Oscillator(o) => {
                 let one = |x: f64| Symmetric::diagonal(&[x]);
-                Structure { mass: one(o.mass), damping: one(o.damping), stiffness: one(o.stiffness) }
+                Structure { mass: one(o.mass), damping: one(o.damping), stiffness: one(o.stiffness) }.into()
             }
-            Self::Structure(s) => Structure::clone(s),
+            Self::Structure(s) => s.clone(),
         }
     }
 

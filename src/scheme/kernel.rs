@@ -13,6 +13,7 @@ use super::{Integrator, Scheme};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
+use std::sync::Arc;
 
 /// The state and constants of one scheme on one scene. Smallness is a variant's content: these hold floats, no matrices.
 #[derive(Debug)]
@@ -29,7 +30,7 @@ pub(super) enum Kernel {
 
 impl Kernel {
     /// `scheme` on `scene` with steps of `step` seconds; `single` says whether the kernels of one degree of freedom can hold the scene.
-    pub fn new(scene: &Scene, scheme: &Scheme, step: f64, backend: Backend, single: bool) -> Result<Self> {
+    pub fn new(scene: &Arc<Scene>, scheme: &Scheme, step: f64, backend: Backend, single: bool) -> Result<Self> {
         Ok(match *scheme {
             Scheme::Event if !single => Self::StructureEvent(Box::new(StructureEvent::new(scene, step)?)),
             // Of generalized-α there is no scalar kernel: an oscillator is a structure of 1 × 1 matrices to it.
@@ -45,7 +46,7 @@ impl Kernel {
                 Integrator::DiscreteGradient => Self::Penalty(Penalty::new(scene, 0.5, Mean::DiscreteGradient, step)),
                 Integrator::CentralDifference => Self::CentralDifference(CentralDifference::new(scene, step)),
             },
-            Scheme::Event => Self::Event(Box::new(Event::new(scene, step)?)),
+            Scheme::Event => Self::Event(Box::new(Event::over(scene, step)?)),
         })
     }
 

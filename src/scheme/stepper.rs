@@ -6,7 +6,7 @@ use super::{Method, Scheme};
 use crate::contact::{Episodes, Rates};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::{Row, Scene, State, System, Wall, WallLaw};
+use crate::scene::{Checked, Row, Scene, State, System, Wall, WallLaw};
 use crate::scheme::Counters;
 use crate::step::{Contact, Contract, Path, Step};
 use crate::time::MOST_STEPS;
@@ -33,7 +33,7 @@ use crate::time::MOST_STEPS;
 /// A step allocates nothing, apart from Clarabel's own single allocation where that solver was asked for.
 #[derive(Debug)]
 pub struct Stepper {
-    scene: Scene,
+    scene: Checked,
     scheme: Scheme,
     contract: Contract,
     step: f64,
@@ -53,17 +53,17 @@ impl Stepper {
     /// # Errors
     /// [`Error::Invalid`] for a scene, scheme or step that makes no sense.
     pub fn new(scene: &Scene, method: &(impl Copy + Into<Method>), step: f64) -> Result<Self> {
-        Self::by(scene, (*method).into(), step)
+        Self::by(&Checked::new(scene)?, (*method).into(), step)
     }
 
-    fn by(scene: &Scene, Method { scheme, backend }: Method, step: f64) -> Result<Self> {
-        scene.validate()?;
+    /// The same over a scene that is checked already.
+    pub(crate) fn by(scene: &Checked, Method { scheme, backend }: Method, step: f64) -> Result<Self> {
         scheme.validate()?;
         if !(step.is_finite() && step > 0.0) {
             return Err(Error::invalid("time.step", step, "a finite number above 0"));
         }
         let scene = match scheme {
-            Scheme::Penalty { law, .. } => scene.penalised(law)?,
+            Scheme::Penalty { law, .. } => scene.with_laws(|scene| scene.penalised(law))?,
             Scheme::Event => scene.clone(),
             _ => without_quartic(scene)?.clone(),
         };
@@ -72,13 +72,13 @@ impl Stepper {
         let single = matches!(scene.system, System::Oscillator(_)) && direct;
         // One degree of freedom: the programme has one unknown, and a clamp solves it exactly.
         let backend = if single && backend == Backend::Auto { Backend::Clamp } else { backend };
-        let kernel = Kernel::new(&scene, &scheme, step, backend, single)?;
+        let kernel = Kernel::new(scene.shared(), &scheme, step, backend, single)?;
         let backend =
             if let Kernel::Structure(kernel) = &kernel { kernel.backend().unwrap_or(backend) } else { backend };
         let (q, v) = if single { Scalar::new(&scene, step).start(&scene) } else { (0.0, 0.0) };
         let frame = Frame::new(q, v, scene.walls.len());
         let contract = scheme.contract();
-        let episodes = Episodes::new(&scene, contract);
+        let episodes = Episodes::new(&scene, scene.wall_masses(), contract);
         Ok(Self { scene, scheme, contract, step, backend, index: 0, before: (0, 0), kernel, frame, episodes })
     }
 
@@ -176,10 +176,10 @@ impl Stepper {
             let expected = format!("a place before it, which stands at {:?}", wall.position);
             return Err(Error::invalid("state: displacement", found, expected));
         }
-        self.kernel.restart(&self.scene, time, &state.q, &state.v)?;
+        self.kernel.restart(self.scene.shared(), time, &state.q, &state.v)?;
         let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);
         self.frame.restart(time, first(&state.q), first(&state.v));
-        self.episodes = Episodes::new(&self.scene, self.contract);
+        self.episodes = Episodes::new(&self.scene, self.scene.wall_masses(), self.contract);
         let (made, from) = self.before;
         self.before = (made + (self.index - from), index);
         self.index = index;
@@ -314,6 +314,11 @@ impl Stepper {
         &self.scene
     }
 
+    /// The same, shared.
+    pub(crate) fn checked(&self) -> &Checked {
+        &self.scene
+    }
+
     /// The scheme.
     #[must_use]
     pub fn scheme(&self) -> Scheme {
@@ -359,7 +364,7 @@ impl Stepper {
 }
 
 /// The scene, if its walls are such that a quadratic programme can hold them: the φ² law is none of those.
-fn without_quartic(scene: &Scene) -> Result<&Scene> {
+fn without_quartic(scene: &Checked) -> Result<&Checked> {
     match scene.walls.iter().find(|wall| matches!(wall.law, WallLaw::Quartic { .. })) {
         Some(wall) => Err(Error::invalid(
             format!("wall {:?}: law", wall.name),

@@ -100,9 +100,13 @@ impl Statistics {
     /// is the end or later (or no number), has times and powers of 0.
     #[must_use]
     pub fn new(scene: &Scene, contacts: &[Contact], from: f64) -> Self {
+        Self::of(scene, &scene.wall_masses(), contacts, from)
+    }
+
+    /// The same of a scene whose walls feel `masses` (kg).
+    pub(crate) fn of(scene: &Scene, masses: &[f64], contacts: &[Contact], from: f64) -> Self {
         let to = scene.duration;
         let from = from.min(to);
-        let masses = scene.wall_masses();
         let mut by_wall = vec![Vec::new(); scene.walls.len()];
         for contact in contacts {
             if let Some(list) = by_wall.get_mut(contact.wall) {

@@ -160,8 +160,7 @@ fn damping(system: &System, structure: &Structure) -> String {
 pub fn path(scene: &Scene, h: f64) -> Option<String> {
     let System::Structure(s) = &scene.system else { return None };
     let iteration = Symmetric::sum(&[(1.0, &s.mass), (0.5 * h, &s.damping), (0.25 * h * h, &s.stiffness)]);
-    let factor = Factor::new(&iteration).ok()?;
-    Some(format!("{}: factored once, solved in every step", factor.describe()))
+    Some(format!("{}: factored once, solved in every step", Factor::described(&iteration)))
 }
 
 /// What vibrates and how it is damped, in words.

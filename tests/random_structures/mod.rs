@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use signorini::linear::Symmetric;
-use signorini::{Load, Row, Scene, Structure, System, Wall};
+use signorini::{Load, Row, Scene, Structure, Wall};
 
 /// Numbers drawn one after the other from a seed (a linear congruential generator, Knuth's multiplier).
 pub struct Draws(u64);
@@ -39,7 +39,7 @@ impl Draws {
 pub fn scene(mass: Symmetric, damping: Symmetric, stiffness: Symmetric) -> Scene {
     let n = mass.size();
     let mut scene = Scene::oscillator(1.0, 0.0, 0.0);
-    scene.system = System::Structure(Box::new(Structure { mass, damping, stiffness }));
+    scene.system = Structure { mass, damping, stiffness }.into();
     scene.with_initial(&vec![0.0; n], &vec![0.0; n])
 }
 

@@ -59,9 +59,10 @@ const ITERATIONS: usize = 40;
 impl Body {
     /// `scene` made ready; none if its mass cannot be factored, which the scene itself refuses.
     pub fn new(scene: &Scene) -> Option<Self> {
-        let Structure { mass, damping, stiffness } = scene.system.structure();
+        let structure = scene.system.structure();
+        let Structure { mass, damping, stiffness } = &*structure;
         let n = mass.size();
-        let mut factor = Factor::new(&mass).ok()?;
+        let mut factor = structure.mass_factor().ok()?;
         let places = distinct(scene.walls.iter().map(|wall| &wall.at));
         let (count, row_of) = (places.rows.len(), places.of);
         let rows = Rows::new(n, places.rows.iter().map(|row| row.entries()));
@@ -69,17 +70,17 @@ impl Body {
         let waves = loads.iter().flat_map(|(_, forcing)| &forcing.harmonics);
         let load = waves.map(|wave| wave.omega).fold(0.0, f64::max);
         let damped = damping.entries().any(|entry| entry.2 != 0.0);
-        let rub = if damped { largest_ratio(&mass, &mut factor, &damping) } else { 0.0 };
-        let omega = largest_ratio(&mass, &mut factor, &stiffness).max(scene.system.frequencies()[1].powi(2));
+        let rub = if damped { largest_ratio(mass, &mut factor, damping) } else { 0.0 };
+        let omega = largest_ratio(mass, &mut factor, stiffness).max(scene.system.frequencies()[1].powi(2));
         let absolute = |m: &Symmetric| Symmetric::from_entries(n, m.entries().map(|(i, j, x)| (i, j, x.abs())));
         let body = Self {
             n,
             mass: RefCell::new(factor),
-            inertia: Operator::new(&mass),
+            inertia: Operator::new(mass),
             root_mass: mass.diagonal_entries().into_iter().map(f64::sqrt).collect(),
-            sizes: [Operator::new(&absolute(&damping)), Operator::new(&absolute(&stiffness))],
-            damping: damped.then(|| Operator::new(&damping)),
-            stiffness: Operator::new(&stiffness),
+            sizes: [Operator::new(&absolute(damping)), Operator::new(&absolute(stiffness))],
+            damping: damped.then(|| Operator::new(damping)),
+            stiffness: Operator::new(stiffness),
             loads,
             rows,
             row_of,

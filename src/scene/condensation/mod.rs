@@ -65,7 +65,7 @@ impl Scene {
         let loads: Vec<Seen> = self.loads.iter().map(|load| statics.seen(&load.at)).collect();
         let probes: Vec<Seen> = self.probes.iter().map(|probe| statics.seen(&probe.at)).collect();
         let mut scene = Self {
-            system: System::Structure(Box::new(statics.reduced(&kept)?)),
+            system: statics.reduced(&kept)?.into(),
             walls: self.walls.iter().zip(&walls).map(|(w, seen)| Wall { at: seen.row.clone(), ..w.clone() }).collect(),
             loads: self.loads.clone(),
             probes: self.probes.clone(),

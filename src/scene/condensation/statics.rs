@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::linear::{Factor, NotDefinite, Symmetric};
 use crate::scene::matrices::MOST_ENTRIES;
-use crate::scene::{Row, Structure};
+use crate::scene::{Row, SharedStructure, Structure};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::result::Result as Either;
@@ -59,7 +59,8 @@ impl<'a> Statics<'a> {
         let mut one = vec![0.0; structure.mass.size()];
         massless.iter().for_each(|&b| one[b] = 1.0);
         let mass = Symmetric::sum(&[(1.0, &structure.mass), (1.0, &Symmetric::diagonal(&one))]);
-        Structure { mass, damping: structure.damping.clone(), stiffness: structure.stiffness.clone() }.validate()?;
+        let filled = Structure { mass, damping: structure.damping.clone(), stiffness: structure.stiffness.clone() };
+        SharedStructure::from(filled).validate()?;
         let (mut kept, mut condensed) = (0, 0);
         let count = |counter: &mut usize| std::mem::replace(counter, *counter + 1);
         let number: Vec<_> =

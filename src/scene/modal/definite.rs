@@ -3,10 +3,10 @@
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Symmetric};
 
-/// An error unless `mass` is positive definite.
-pub(super) fn definite(mass: &Symmetric) -> Result<()> {
+/// The factor of `mass`; an error unless it is positive definite.
+pub(super) fn definite(mass: &Symmetric) -> Result<Factor> {
     match Factor::new(mass) {
-        Ok(_) => Ok(()),
+        Ok(factor) => Ok(factor),
         Err(fault) => {
             let key = format!("system: mass matrix, row {}", fault.row + 1);
             let value = mass.get(fault.row, fault.row);

@@ -4,7 +4,8 @@ use super::definite::definite;
 use super::dense::eigen;
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Operator, Symmetric, negative_pivots};
-use crate::scene::{Structure, System};
+use crate::scene::Structure;
+use crate::scene::scales::fastest_squared;
 use nalgebra::DMatrix;
 
 /// Start vectors: modes of one frequency are found together up to this many.
@@ -124,7 +125,7 @@ impl Basis {
 
 /// M-orthonormal shapes of the `count` slowest modes.
 pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>>> {
-    definite(&structure.mass)?;
+    let mass = definite(&structure.mass)?;
     let n = structure.mass.size();
     let singular = || {
         let expected = "a positive semidefinite matrix: no motion gains energy from the springs";
@@ -138,7 +139,7 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
             "fewer, or a coarser mesh: the slowest modes drown in the rounding of a very stiff K",
         )
     };
-    let [_, fastest] = System::Structure(Box::new(structure.clone())).frequencies();
+    let fastest = fastest_squared(structure, Some(mass)).sqrt();
     let least = SHIFT * fastest.powi(2).max(f64::MIN_POSITIVE);
     // A shift amid the modes that are asked for keeps the digits of the slowest and the fastest of them alike. A short run says where that is.
     let mut scout = Basis::new(structure, least).ok_or_else(singular)?;

@@ -94,11 +94,11 @@ impl Scene {
         let stiffness: Vec<f64> = kept.omega.iter().map(|omega| omega * omega).collect();
         let row = |row: &Row| Row::new(kept.seen(row).into_iter().enumerate().collect());
         let mut scene = Self {
-            system: System::Structure(Box::new(Structure {
+            system: System::from(Structure {
                 mass: Symmetric::diagonal(&vec![1.0; modes]),
                 damping,
                 stiffness: Symmetric::diagonal(&stiffness),
-            })),
+            }),
             walls: self.walls.iter().map(|wall| Wall { at: row(&wall.at), ..wall.clone() }).collect(),
             loads: self.loads.clone(),
             probes: self.probes.clone(),

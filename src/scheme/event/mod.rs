@@ -141,6 +141,11 @@ impl Event {
     /// the φ² penalty or a function of time as load, which have no closed-form motion.
     pub fn new(scene: &Scene, stride: f64) -> Result<Self> {
         scene.validate()?;
+        Self::over(scene, stride)
+    }
+
+    /// The same over a scene that is checked already.
+    pub(in crate::scheme) fn over(scene: &Scene, stride: f64) -> Result<Self> {
         known_loads(scene)?;
         if !(stride.is_finite() && stride > 0.0) {
             return Err(Error::invalid("stride", stride, "a finite number above 0"));
@@ -193,7 +198,7 @@ impl Event {
 
     /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), the state after whatever happened at that instant.
     pub(in crate::scheme) fn restart(&mut self, scene: &Scene, time: f64, q: f64, v: f64) -> Result<()> {
-        let mut event = Self::new(scene, self.stride)?;
+        let mut event = Self::over(scene, self.stride)?;
         (event.time, event.start, event.q, event.v) = (time, time, q, v);
         (event.velocity_before, event.velocity_left) = (v, v);
         event.marks = marks(time, self.stride);

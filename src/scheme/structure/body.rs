@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use crate::linear::{Factor, Operator, Rows, Symmetric};
-use crate::scene::{Loads, Scene, Structure};
+use crate::scene::{Loads, Scene, SharedStructure};
 use crate::scheme::stop::Stop;
 
 /// The structure as a kernel wants it.
@@ -10,7 +10,7 @@ use crate::scheme::stop::Stop;
 pub(super) struct Body {
     pub n: usize,
     pub h: f64,
-    pub matrices: Structure,
+    pub matrices: SharedStructure,
     pub mass: Operator,
     pub damping: Operator,
     pub stiffness: Operator,
@@ -52,7 +52,7 @@ impl Body {
             touch: scene.touching_distance(),
             since: 0.0,
             // A mass that cannot be factored is refused by the scene.
-            inertia: if loads.has_blows() { Factor::new(&matrices.mass).ok() } else { None },
+            inertia: if loads.has_blows() { matrices.mass_factor().ok() } else { None },
             blow: vec![0.0; n],
             damped: matrices.damping.diagonal_entries().iter().any(|&c| c != 0.0),
             shift: vec![0.0; n],

@@ -1,6 +1,6 @@
 //! The state that a scheme carries, and what it shows of each step.
 
-use super::factor::factor;
+use super::factor::mass_factor;
 use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
 use crate::scheme::grid::all_finite;
@@ -42,7 +42,7 @@ impl Frame {
         let loads = Loads::new(&scene.loads);
         let mut blow = vec![0.0; n];
         if loads.initial_blow(&mut blow) {
-            factor(&scene.system.structure().mass)?.solve(&mut blow);
+            mass_factor(&scene.system.structure())?.solve(&mut blow);
             v.iter_mut().zip(&blow).for_each(|(v, change)| *v += change);
         }
         Ok(Self {

@@ -34,7 +34,7 @@
 //! over all later steps counts, and γ = ½ + α_f − α_m makes it so): −C d with M d = (t⁺ − h/2 − t_b)J is added to the momentum.
 
 use super::body::Body;
-use super::factor::factor;
+use super::factor::{factor, mass_factor};
 use super::frame::Frame;
 use super::programme::{Programme, Seat};
 use super::start::StartForce;
@@ -93,7 +93,7 @@ impl GeneralizedAlpha {
         let mut holding = Vec::with_capacity(held.len());
         holding.extend((0..held.len()).filter(|&wall| held[wall] != 0.0));
         let m = &body.matrices;
-        let mut mass = factor(&m.mass)?;
+        let mut mass = mass_factor(m)?;
         let mut a = force.clone();
         mass.solve(&mut a);
         let (mu, scale) = ((1.0 - alpha_m) / (1.0 - alpha_f), h * h * beta);

@@ -52,7 +52,7 @@ impl StructureEvent {
         let contract = RULE.contract();
         self.stretch = Some(Box::new(Stretch {
             kernel: Structure::new(&scene, &RULE, h, Backend::Auto)?,
-            episodes: Episodes::new(&scene, contract),
+            episodes: Episodes::new(&scene, &scene.wall_masses(), contract),
             scene,
             from: self.time,
             to,

@@ -35,6 +35,7 @@ use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Contract};
 use rows::{DERIVATIVES, Place, Sizes};
 use seat::Seat;
+use std::sync::Arc;
 use stretch::{Crowd, Stretch};
 
 /// A structure between walls, from event to event:
@@ -50,7 +51,7 @@ use stretch::{Crowd, Stretch};
 /// - Accumulations of impacts close into lasting contact as they do for one degree of freedom.
 #[derive(Debug)]
 pub(super) struct StructureEvent {
-    scene: Scene,
+    scene: Arc<Scene>,
     body: Body,
     loads: Loads,
     barriers: Vec<Barrier>,

@@ -8,6 +8,7 @@ use crate::flow::{Body, Hold, Series};
 use crate::qp::{self, Backend};
 use crate::scene::{Loads, Scene};
 use crate::scheme::event::{Guard, WINDOWS, barriers, known_loads, marks};
+use std::sync::Arc;
 
 /// The programme's signs are tested relative to the motion at hand, so any positive length will do.
 const SCALE: f64 = 1e-200;
@@ -17,7 +18,7 @@ impl StructureEvent {
     ///
     /// # Errors
     /// [`Error::Invalid`] for a wall of the φ² penalty, which has no linear law, and for a function of time as load.
-    pub(in crate::scheme) fn new(scene: &Scene, stride: f64) -> Result<Self> {
+    pub(in crate::scheme) fn new(scene: &Arc<Scene>, stride: f64) -> Result<Self> {
         known_loads(scene)?;
         let barriers = barriers(scene)?;
         let singular = || Error::invalid("system: mass matrix", "singular", "a positive definite matrix");
@@ -98,7 +99,7 @@ impl StructureEvent {
 
     /// The solver of impacts and of lasting contact at several walls, made when it is first needed: of many walls it is large.
     pub(super) fn make_solver(&mut self) -> Result<()> {
-        let (mass, rows) = (self.scene.system.structure().mass, &self.body.rows);
+        let (mass, rows) = (self.scene.system.structure().mass.clone(), &self.body.rows);
         let problem = qp::Problem { a: mass, g: rows.clone(), compliance: vec![0.0; rows.count()] };
         let (time, step) = (self.time, self.steps);
         let refused = |f: qp::Failure| Error::Qp { time, step, wall: None, reason: f.to_string() };

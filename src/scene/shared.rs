@@ -1,0 +1,85 @@
+//! A structure that many share.
+
+use super::scales;
+use super::structure::{self, Structure};
+use crate::error::Result;
+use crate::linear::{Factor, NotDefinite};
+use std::fmt;
+use std::ops::{Deref, DerefMut};
+use std::sync::{Arc, OnceLock};
+
+/// A [`Structure`] that scenes, steppers and judges share without copies of its matrices, and with it what is derived from them once: whether
+/// they make sense, the factor of M, the frequencies. A change through `DerefMut` is made to a copy, if there are others, and derives anew.
+#[derive(Clone, Default)]
+pub struct SharedStructure(Arc<Inner>);
+
+#[derive(Default)]
+struct Inner {
+    structure: Structure,
+    checked: OnceLock<Result<()>>,
+    mass: OnceLock<std::result::Result<Factor, NotDefinite>>,
+    frequencies: OnceLock<[f64; 2]>,
+}
+
+impl SharedStructure {
+    /// As [`Structure::validate`], once.
+    pub(super) fn validate(&self) -> Result<()> {
+        self.0.checked.get_or_init(|| structure::validate(self, || self.mass_factor().map(|_| ()))).clone()
+    }
+
+    /// The factor of M, made once.
+    pub(crate) fn mass_factor(&self) -> std::result::Result<Factor, NotDefinite> {
+        self.0.mass.get_or_init(|| Factor::new(&self.mass)).clone()
+    }
+
+    /// As [`System::frequencies`](super::System::frequencies), found once.
+    pub(super) fn frequencies(&self) -> [f64; 2] {
+        *self.0.frequencies.get_or_init(|| scales::frequencies(self, self.mass_factor().ok()))
+    }
+}
+
+impl Deref for SharedStructure {
+    type Target = Structure;
+
+    fn deref(&self) -> &Structure {
+        &self.0.structure
+    }
+}
+
+impl DerefMut for SharedStructure {
+    fn deref_mut(&mut self) -> &mut Structure {
+        let inner = Arc::make_mut(&mut self.0);
+        *inner = Inner::from(std::mem::take(&mut inner.structure));
+        &mut inner.structure
+    }
+}
+
+impl From<Structure> for Inner {
+    fn from(structure: Structure) -> Self {
+        Self { structure, ..Self::default() }
+    }
+}
+
+impl Clone for Inner {
+    fn clone(&self) -> Self {
+        self.structure.clone().into()
+    }
+}
+
+impl From<Structure> for SharedStructure {
+    fn from(structure: Structure) -> Self {
+        Self(Arc::new(structure.into()))
+    }
+}
+
+impl PartialEq for SharedStructure {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || **self == **other
+    }
+}
+
+impl fmt::Debug for SharedStructure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        (**self).fmt(f)
+    }
+}
