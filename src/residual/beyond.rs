@@ -1,5 +1,6 @@
 //! Residuals less what rounding may leave of them, with the place where each was worst.
 
+use super::most;
 use crate::scene::Scene;
 
 /// Units in the last place that a sum of a step may be off by, times √n for sums over n degrees of freedom (tests of extreme scenes
@@ -137,6 +138,35 @@ impl Rounding {
             self.strain = self.strain.max(q * spring);
             self.rub = self.rub.max(v * dashpot);
         }
+    }
+
+    /// The same for n degrees of freedom of a step on a grid, in one go.
+    #[inline(always)]
+    pub fn step_of(&mut self, (q, before, after): (&[f64], &[f64], &[f64]), span: f64, n: usize) {
+        let (q, before, after, root) = (&q[..n], &before[..n], &after[..n], &self.root[..n]);
+        let [mut speed, mut reach, mut strain, mut rub] = [self.speed, self.reach, self.strain, self.rub];
+        for i in 0..n {
+            let [mass, spring, dashpot] = root[i];
+            let v = most(before[i].abs(), after[i].abs());
+            let q = q[i].abs() + span * v;
+            speed = most(speed, v * mass);
+            reach = most(reach, q * mass);
+            strain = most(strain, q * spring);
+            rub = most(rub, v * dashpot);
+        }
+        (self.speed, self.reach, self.strain, self.rub) = (speed, reach, strain, rub);
+    }
+
+    /// Takes in the loads of a step on a grid, its mean, that at its end and the extra force, N, and its blows, N s.
+    #[inline(always)]
+    pub fn loads_of(&mut self, (mean, end, extra, blow): (&[f64], &[f64], &[f64], &[f64]), per_h: f64, n: usize) {
+        let (mean, end, extra, blow) = (&mean[..n], &end[..n], &extra[..n], &blow[..n]);
+        let (per_root, mut load) = (&self.per_root[..n], self.load);
+        for i in 0..n {
+            let force = most(most(mean[i].abs(), blow[i].abs() * per_h), extra[i].abs() + end[i].abs());
+            load = most(load, force * per_root[i]);
+        }
+        self.load = load;
     }
 
     /// Takes in a load on a degree of freedom, N.

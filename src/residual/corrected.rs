@@ -67,7 +67,8 @@ impl Judge {
         std::mem::swap(s, s_end);
         std::mem::swap(force, force_end);
         self.memory = Some(memory);
-        self.energy.see_grid(&self.scene, h, (&self.q, step.q), step, &self.scratch.load, &self.scratch.blow);
+        let (ends, loads, n) = ((&self.q[..], step.q), (&self.scratch.load[..], &self.scratch.blow[..]), self.q.len());
+        self.energy.see_grid(&self.scene, &self.matrices, h, ends, step, loads, n);
         self.doubt_balance(worst);
         self.doubt_path(path);
     }

@@ -1,6 +1,7 @@
 //! A step on a grid, held to its word.
 
-use super::{Judge, divide};
+use super::matrices::Part;
+use super::{Judge, divide, most};
 use crate::scene::{Scene, Wall};
 use crate::step::{Balance, Bound, Promise, Step};
 
@@ -15,79 +16,122 @@ fn answered(scene: &Scene, promise: Promise, impulse: &[f64], given: &[f64]) -> 
 impl Judge {
     /// A step between two instants of a grid.
     pub(super) fn see_grid(&mut self, step: &Step<'_>) {
-        let beyond = self.find_beyond(step);
+        match self.q.len() {
+            // The same code over one number is compiled without loops.
+            1 => self.see_grid_of(step, 1),
+            n => self.see_grid_of(step, n),
+        }
+    }
+
+    #[inline(always)]
+    fn see_grid_of(&mut self, step: &Step<'_>, n: usize) {
+        let beyond = self.loads.has_blows() && self.find_beyond(step);
+        let path = self.terms_of(step, beyond, n);
         self.walls_on_grid(step, beyond);
-        let h = self.h;
-        let per_h = 1.0 / h;
-        let (mut worst, mut path) = (0.0_f64, 0.0_f64);
-        let s = &mut self.scratch;
-        let arrived: &[f64] = if beyond { &s.arrived } else { step.q };
-        let (before, after) = (step.velocity_before, step.velocity_after);
-        for i in 0..s.residual.len() {
-            let (q0, q1) = (self.q[i], arrived[i]);
-            match self.contract.balance {
-                Balance::Theta(theta) => {
-                    let mean = |a: f64, b: f64| (1.0 - theta) * a + theta * b;
-                    s.load[i] = mean(self.load[i], s.load_end[i]);
-                    s.mean_q[i] = mean(q0, q1);
-                    s.mean_v[i] = mean(before[i], after[i]);
-                    path = path.max((q1 - q0 - h * s.mean_v[i]).abs() * self.scales.root_mass[i]);
-                }
-                Balance::Staggered(b) => {
-                    let back = q0 - h * before[i];
-                    s.load[i] = self.load[i];
-                    s.mean_q[i] = b * back + (1.0 - 2.0 * b) * q0 + b * q1;
-                    s.mean_v[i] = 0.5 * (before[i] + after[i]);
-                    path = path.max((q1 - q0 - h * after[i]).abs() * self.scales.root_mass[i]);
-                }
-                Balance::GeneralizedAlpha { .. } | Balance::Exact => {}
-            }
-            s.load[i] += step.extra[i];
-            s.residual[i] = -h * s.load[i] - s.blow[i];
-            self.rounding.load(i, s.load[i].abs().max(s.blow[i].abs() * per_h));
-            (s.inertia[i], s.damper[i], s.spring[i]) = (0.0, 0.0, 0.0);
-        }
-        let system = &self.scene.system;
-        system.add_mass(1.0, after, &mut s.inertia);
-        system.add_mass(-1.0, before, &mut s.inertia);
-        system.add_damping(h, &s.mean_v, &mut s.damper);
-        system.add_stiffness(h, &s.mean_q, &mut s.spring);
-        for i in 0..s.residual.len() {
-            let (inertia, damper, spring) = (s.inertia[i], s.damper[i], s.spring[i]);
-            s.residual[i] += inertia + damper + spring;
-            let moved = inertia.abs().max(damper.abs()).max(spring.abs()).max(s.blow[i].abs());
-            let largest = s.load[i].abs().max(moved * per_h);
-            self.balance_scale = self.balance_scale.max(largest * self.scales.per_root_mass[i]);
-        }
+        self.products_of(step, n);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
-            for &(i, weight) in wall.at.entries() {
-                s.residual[i] -= weight * p;
+            if p != 0.0 {
+                for &(i, weight) in wall.at.entries() {
+                    self.scratch.residual[i] -= weight * p;
+                }
             }
         }
-        self.feel_blows(step, beyond);
-        let s = &self.scratch;
-        let arrived: &[f64] = if beyond { &s.arrived } else { step.q };
-        for (r, per_weight) in s.residual.iter().zip(&self.scales.per_root_mass) {
-            let open = r.abs() * per_h;
-            self.balance = self.balance.max(open);
-            worst = worst.max(open * per_weight);
+        if self.loads.has_blows() {
+            self.feel_blows(step, beyond);
         }
-        self.normal_balance = self.normal_balance.max(worst);
-        self.kinematics = self.kinematics.max(path);
-        self.energy.see_grid(&self.scene, h, (&self.q, arrived), step, &s.load, &s.blow);
+        let (per_h, mut worst) = (1.0 / self.h, 0.0);
+        let s = &self.scratch;
+        for (r, per_weight) in s.residual[..n].iter().zip(&self.scales.per_root_mass[..n]) {
+            let open = r.abs() * per_h;
+            self.balance = most(self.balance, open);
+            worst = most(worst, open * per_weight);
+        }
+        self.normal_balance = most(self.normal_balance, worst);
+        self.kinematics = most(self.kinematics, path);
+        let arrived: &[f64] = if beyond { &s.arrived } else { step.q };
+        let ends = (&self.q[..], arrived);
+        self.energy.see_grid(&self.scene, &self.matrices, self.h, ends, step, (&s.load, &s.blow), n);
         if beyond {
-            self.energy.displace(&self.scene, h, step);
+            self.energy.displace(&self.scene, &self.matrices, self.h, step);
         }
         self.doubt_balance(worst);
         self.doubt_path(path);
+        self.sum(step, n);
+        self.go_on(step, n);
+    }
+
+    /// Mean load, displacement and velocity of a step, what they add to its balance, and the sizes of all these; returns by how much
+    /// the displacement misses what the velocities make of it, m√kg.
+    #[inline(always)]
+    fn terms_of(&mut self, step: &Step<'_>, beyond: bool, n: usize) -> f64 {
+        (self.now, self.span, self.clock) = (step.end, self.h, 1.0);
+        let h = self.h;
+        let s = &mut self.scratch;
+        let arrived: &[f64] = if beyond { &s.arrived } else { step.q };
+        let (q0, q1, shown) = (&self.q[..n], &arrived[..n], &step.q[..n]);
+        let (before, after, extra) = (&step.velocity_before[..n], &step.velocity_after[..n], &step.extra[..n]);
+        let (load_start, load_end) = (&self.load[..n], &s.load_end[..n]);
+        let (load, blow, residual) = (&mut s.load[..n], &s.blow[..n], &mut s.residual[..n]);
+        let (mean_q, mean_v, inertia) = (&mut s.mean_q[..n], &mut s.mean_v[..n], &mut s.gained[..n]);
+        let root_mass = &self.scales.root_mass[..n];
+        let mut path = 0.0;
+        match self.contract.balance {
+            Balance::Theta(theta) => {
+                let mean = |a: f64, b: f64| (1.0 - theta) * a + theta * b;
+                for i in 0..n {
+                    load[i] = mean(load_start[i], load_end[i]);
+                    mean_q[i] = mean(q0[i], q1[i]);
+                    mean_v[i] = mean(before[i], after[i]);
+                    path = most(path, (q1[i] - q0[i] - h * mean_v[i]).abs() * root_mass[i]);
+                }
+            }
+            Balance::Staggered(b) => {
+                for i in 0..n {
+                    let back = q0[i] - h * before[i];
+                    load[i] = load_start[i];
+                    mean_q[i] = b * back + (1.0 - 2.0 * b) * q0[i] + b * q1[i];
+                    mean_v[i] = 0.5 * (before[i] + after[i]);
+                    path = most(path, (q1[i] - q0[i] - h * after[i]).abs() * root_mass[i]);
+                }
+            }
+            Balance::GeneralizedAlpha { .. } | Balance::Exact => {}
+        }
+        for i in 0..n {
+            load[i] += extra[i];
+            residual[i] = -h * load[i] - blow[i];
+            inertia[i] = after[i] - before[i];
+        }
+        self.rounding.step_of((shown, before, after), h, n);
+        self.rounding.loads_of((load, load_end, extra, blow), 1.0 / h, n);
+        self.rounding.book();
+        path
+    }
+
+    /// Adds the structure's own terms to the balance.
+    #[inline(always)]
+    fn products_of(&mut self, step: &Step<'_>, n: usize) {
+        debug_assert_eq!(step.q.len(), n);
+        let (h, per_h) = (self.h, 1.0 / self.h);
+        let s = &mut self.scratch;
+        self.matrices.product(Part::Mass, 1.0, &s.gained[..n], &mut s.inertia[..n]);
+        self.matrices.product(Part::Damping, h, &s.mean_v[..n], &mut s.damper[..n]);
+        self.matrices.product(Part::Stiffness, h, &s.mean_q[..n], &mut s.spring[..n]);
+        let (inertia, damper, spring) = (&s.inertia[..n], &s.damper[..n], &s.spring[..n]);
+        let (load, blow, residual) = (&s.load[..n], &s.blow[..n], &mut s.residual[..n]);
+        let per_root_mass = &self.scales.per_root_mass[..n];
+        let mut scale = self.balance_scale;
+        for i in 0..n {
+            residual[i] += inertia[i] + damper[i] + spring[i];
+            let moved = most(most(inertia[i].abs(), damper[i].abs()), most(spring[i].abs(), blow[i].abs()));
+            scale = most(scale, most(load[i].abs(), moved * per_h) * per_root_mass[i]);
+        }
+        self.balance_scale = scale;
     }
 
     /// What the blows of the step add to the displacement, and the displacement without, in `arrived`; returns whether they add anything: if
     /// not, the displacement is the step's, and `arrived` is not set.
+    #[inline(never)]
     fn find_beyond(&mut self, step: &Step<'_>) -> bool {
-        if !self.loads.has_blows() {
-            return false;
-        }
         let s = &mut self.scratch;
         s.arrived.copy_from_slice(step.q);
         let (start, end, h) = (step.start, step.end, self.h);
@@ -135,10 +179,8 @@ impl Judge {
     }
 
     /// Takes −C d into the balance: what the damper feels of the way on which the blows take the body beside the rule's.
+    #[inline(never)]
     fn feel_blows(&mut self, step: &Step<'_>, beyond: bool) {
-        if !self.loads.has_blows() {
-            return;
-        }
         let s = &mut self.scratch;
         match self.contract.balance {
             Balance::Theta(_) if beyond => s.felt.copy_from_slice(&s.beyond),

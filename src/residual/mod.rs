@@ -7,12 +7,14 @@ mod corrected;
 mod energy;
 mod finding;
 mod grid;
+mod matrices;
 mod memory;
 mod quadrature;
 mod recorded;
 mod residuals;
 mod scales;
 mod series;
+mod sight;
 mod sums;
 mod verdict;
 mod walls;
@@ -28,8 +30,10 @@ use crate::scene::{Loads, Scene, System};
 use crate::step::{Balance, Contract, Path, Step};
 use beyond::{Doubts, Rounding, Worst};
 use complementarity::Pairs;
+use matrices::Matrices;
 use memory::Memory;
 use scales::Scales;
+use sight::Sight;
 use std::sync::Arc;
 use sums::Sums;
 
@@ -43,6 +47,12 @@ pub struct Judge {
     contract: Contract,
     h: f64,
     loads: Loads,
+    matrices: Matrices,
+    /// The walls, in the scene's order, and those of them that are rigid and see several degrees of freedom.
+    sights: Vec<Sight>,
+    wide: Vec<usize>,
+    /// Largest weight with which a rigid wall sees each degree of freedom alone, n entries.
+    seen: Vec<f64>,
     mass: Option<Factor>,
     q: Vec<f64>,
     /// Load at the end of the last step, N.
@@ -114,6 +124,8 @@ struct Scratch {
     felt: Vec<f64>,
     mean_q: Vec<f64>,
     mean_v: Vec<f64>,
+    /// Change of velocity, m/s.
+    gained: Vec<f64>,
     residual: Vec<f64>,
     inertia: Vec<f64>,
     damper: Vec<f64>,
@@ -159,15 +171,29 @@ impl Judge {
             felt: zero(),
             mean_q: zero(),
             mean_v: zero(),
+            gained: zero(),
             residual: zero(),
             inertia: zero(),
             damper: zero(),
             spring: zero(),
         };
+        let rigid = || scene.walls.iter().enumerate().filter(|(_, wall)| wall.law.is_rigid());
+        let mut seen = zero();
+        for (_, wall) in rigid() {
+            if let &[(i, weight)] = wall.at.entries()
+                && let Some(seen) = seen.get_mut(i)
+            {
+                *seen = seen.max(weight.abs());
+            }
+        }
         Self {
             contract,
             h,
             loads,
+            matrices: Matrices::new(&scene.system),
+            sights: scene.walls.iter().map(Sight::new).collect(),
+            wide: rigid().filter(|(_, wall)| wall.at.entries().len() > 1).map(|(index, _)| index).collect(),
+            seen,
             mass,
             energy: energy::Ledger::new(scene, contract, &q, &v),
             scales: Scales::new(scene, masses),
@@ -235,34 +261,63 @@ impl Judge {
                 divide(&self.scene, self.mass.as_mut(), &mut self.scratch.struck);
             }
         }
-        self.prepare(step);
         match step.path {
-            Path::Grid if self.memory.is_some() => self.see_corrected(step),
+            Path::Grid if self.memory.is_some() => {
+                self.prepare(step);
+                self.see_corrected(step);
+                self.sum(step, n);
+                self.arrive(step);
+            }
             Path::Grid | Path::OneRestitution => self.see_grid(step),
-            Path::Exact(arc) => self.see_arc(step, arc),
-            Path::Series(series) => self.see_series(step, series),
+            Path::Exact(arc) => {
+                self.prepare(step);
+                self.see_arc(step, arc);
+                self.sum(step, n);
+                self.arrive(step);
+            }
+            Path::Series(series) => {
+                self.prepare(step);
+                self.see_series(step, series);
+                self.sum(step, n);
+                self.arrive(step);
+            }
             Path::Handed { contract, step: h } => {
                 self.doubts.handed = true;
                 let own = (self.contract, self.h);
-                (self.contract, self.h) = (contract, h);
+                (self.contract, self.h) = (*contract, h);
                 self.see_grid(step);
                 (self.contract, self.h) = own;
             }
         }
-        self.sum(step);
+        std::mem::swap(&mut self.load, &mut self.scratch.load_end);
+    }
+
+    /// Takes the state at the end of a step for that at the start of the next.
+    fn arrive(&mut self, step: &Step<'_>) {
         for (wall, depth) in self.scene.walls.iter().zip(&mut self.depth) {
             *depth = depth.max(-wall.gap(wall.at.dot(step.q)));
-            if wall.law.is_rigid() {
-                let terms = wall.at.entries().iter().map(|&(i, weight)| (weight * step.velocity_after[i]).abs());
-                self.speed_scale = self.speed_scale.max(terms.sum());
-            }
         }
-        for ((old, q), weight) in self.q.iter_mut().zip(step.q).zip(&self.scales.root_mass) {
-            self.reach = self.reach.max(q.abs());
-            self.normal_reach = self.normal_reach.max(q.abs() * weight);
-            *old = *q;
+        self.go_on(step, self.q.len());
+    }
+
+    /// The same but for the depths behind the walls.
+    #[inline(always)]
+    fn go_on(&mut self, step: &Step<'_>, n: usize) {
+        for &index in &self.wide {
+            let Some(wall) = self.scene.walls.get(index) else { continue };
+            let terms = wall.at.entries().iter().map(|&(i, weight)| (weight * step.velocity_after[i]).abs());
+            self.speed_scale = self.speed_scale.max(terms.sum());
         }
-        std::mem::swap(&mut self.load, &mut self.scratch.load_end);
+        let (old, q, after) = (&mut self.q[..n], &step.q[..n], &step.velocity_after[..n]);
+        let (seen, root_mass) = (&self.seen[..n], &self.scales.root_mass[..n]);
+        let [mut speed, mut reach, mut normal] = [self.speed_scale, self.reach, self.normal_reach];
+        for i in 0..n {
+            speed = most(speed, (seen[i] * after[i]).abs());
+            reach = most(reach, q[i].abs());
+            normal = most(normal, q[i].abs() * root_mass[i]);
+            old[i] = q[i];
+        }
+        (self.speed_scale, self.reach, self.normal_reach) = (speed, reach, normal);
     }
 
     /// By which speeds of rebound are measured, m/s.
@@ -299,6 +354,12 @@ impl Judge {
             force_scale_n: self.force_scale,
         }
     }
+}
+
+/// The larger of two; what is not a number is passed over, as by [`f64::max`], but in one instruction.
+#[inline(always)]
+fn most(so_far: f64, x: f64) -> f64 {
+    if x > so_far { x } else { so_far }
 }
 
 /// M⁻¹x in place: what impulses (N s) make of velocities, m/s.

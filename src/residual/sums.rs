@@ -1,6 +1,18 @@
 //! What the check of a whole run's momentum sums up, step by step.
 
+use super::most;
 use crate::scene::Scene;
+
+/// Load and own force of the structure on one degree of freedom: those of the last step, N, the sum of the changes of both, the
+/// largest size of their sum, N, and the momentum handed over, N s.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Forces {
+    pub load: f64,
+    pub own: f64,
+    pub changes: f64,
+    pub largest: f64,
+    pub exchanged: f64,
+}
 
 /// Sums over the steps of a run on a grid; vectors over degrees of freedom have n entries, those over walls as many as there are.
 #[derive(Debug)]
@@ -14,12 +26,8 @@ pub(super) struct Sums {
     pub place: Vec<f64>,
     pub rate: Vec<f64>,
     pub load: Vec<f64>,
-    /// The load and the structure's own force of the last step, N; of both the sum of their changes, their largest size, and the sum of
-    /// their sizes.
-    pub force: Vec<[f64; 2]>,
-    pub changes: Vec<f64>,
-    pub largest: Vec<f64>,
-    pub exchanged: Vec<f64>,
+    /// The forces on each degree of freedom.
+    pub forces: Vec<Forces>,
     /// Impulse that each wall gave in the steps seen, N s, and the sum of its sizes.
     pub seen: Vec<f64>,
     pub sizes: Vec<f64>,
@@ -44,10 +52,7 @@ impl Sums {
             place: zero(),
             rate: zero(),
             load: zero(),
-            force: vec![[0.0; 2]; n],
-            changes: zero(),
-            largest: zero(),
-            exchanged: zero(),
+            forces: vec![Forces::default(); n],
             seen: vec![0.0; walls],
             sizes: vec![0.0; walls],
             recorded: None,
@@ -55,5 +60,18 @@ impl Sums {
             from: 0.0,
             whole: true,
         }
+    }
+
+    /// Adds a step's load, own force and damper force on degree of freedom `i`, N, the first two of which count as changes; `first` of a
+    /// run, which has no step before it.
+    #[inline(always)]
+    pub fn add(&mut self, i: usize, first: bool, h: f64, [load, own, damper]: [f64; 3]) {
+        let Some(force) = self.forces.get_mut(i) else { return };
+        if !first {
+            force.changes += (load - force.load).abs() + (own - force.own).abs();
+        }
+        (force.load, force.own) = (load, own);
+        force.largest = most(force.largest, load.abs() + own.abs() + damper.abs());
+        force.exchanged += h * (load + own + damper).abs();
     }
 }

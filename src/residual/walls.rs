@@ -24,41 +24,62 @@ impl Judge {
     /// whether a rigid wall is closed after the step, where the promise speaks of that.
     pub(super) fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) -> bool {
         let mut closed = false;
-        let promise = self.contract.promise;
+        let blows = self.loads.has_blows();
         for index in 0..self.scene.walls.len() {
-            let wall = &self.scene.walls[index];
-            let (sign, is_rigid) = (wall.side.sign(), wall.law.is_rigid());
-            let p = step.impulse[index];
-            // Most walls push in few steps.
-            let mean = if p == 0.0 { 0.0 } else { p / self.h };
-            let force = match if is_rigid { promise.rigid.force } else { promise.elastic.force } {
-                PromisedForce::Mean => mean,
-                PromisedForce::End | PromisedForce::Trapezoid => step.force[index],
-            };
-            let pressure = sign * force;
-            let largest = pressure.abs().max(mean.abs());
-            self.force_scale = self.force_scale.max(largest);
-            self.tension = self.tension.max(-pressure).max(-sign * mean);
-            self.rounding.push(index, largest, is_rigid);
-            // A bound on the displacement at the end holds where the blows leave it, all else without.
-            let bound_there = is_rigid && promise.rigid.displacement == Some(Bound::End);
-            let end = if bound_there || !beyond { step.q } else { &self.scratch.arrived };
-            let before = wall.at.dot(step.velocity_before);
-            let seen = Seen {
-                index,
-                pressure,
-                w: (wall.at.dot(&self.q), wall.at.dot(end)),
-                before,
-                struck: if is_rigid { before + wall.at.dot(&self.scratch.struck) } else { before },
-                after: wall.at.dot(step.velocity_after),
-            };
-            if is_rigid {
-                closed |= self.hold_rigid(step, seen);
-            } else {
-                self.hold_elastic(step, seen, mean);
+            let (wall, sight) = (&self.scene.walls[index], &self.sights[index]);
+            if step.impulse[index] == 0.0 && step.force[index] == 0.0 && !beyond {
+                let ends = (sight.of(wall, &self.q), sight.of(wall, step.q));
+                let mut rate = sight.of(wall, step.velocity_before).abs();
+                if blows {
+                    rate += sight.of(wall, &self.scratch.struck).abs();
+                }
+                if sight.is_clear(ends, rate, self.h, self.touch) {
+                    continue;
+                }
             }
+            closed |= self.hold(step, beyond, index);
         }
         closed
+    }
+
+    /// Holds one wall to it, and returns whether it is closed after the step.
+    #[inline(never)]
+    fn hold(&mut self, step: &Step<'_>, beyond: bool, index: usize) -> bool {
+        let promise = self.contract.promise;
+        let wall = &self.scene.walls[index];
+        let (sign, is_rigid) = (wall.side.sign(), wall.law.is_rigid());
+        let p = step.impulse[index];
+        // Most walls push in few steps.
+        let mean = if p == 0.0 { 0.0 } else { p / self.h };
+        let force = match if is_rigid { promise.rigid.force } else { promise.elastic.force } {
+            PromisedForce::Mean => mean,
+            PromisedForce::End | PromisedForce::Trapezoid => step.force[index],
+        };
+        let pressure = sign * force;
+        let largest = pressure.abs().max(mean.abs());
+        self.force_scale = self.force_scale.max(largest);
+        self.tension = self.tension.max(-pressure).max(-sign * mean);
+        self.rounding.push(index, largest, is_rigid);
+        // A bound on the displacement at the end holds where the blows leave it, all else without.
+        let bound_there = is_rigid && promise.rigid.displacement == Some(Bound::End);
+        let end = if bound_there || !beyond { step.q } else { &self.scratch.arrived };
+        let before = wall.at.dot(step.velocity_before);
+        let seen = Seen {
+            index,
+            pressure,
+            w: (wall.at.dot(&self.q), wall.at.dot(end)),
+            before,
+            struck: if is_rigid { before + wall.at.dot(&self.scratch.struck) } else { before },
+            after: wall.at.dot(step.velocity_after),
+        };
+        let (shown, depth) = (wall.at.dot(step.q), &mut self.depth[index]);
+        *depth = depth.max(-wall.gap(shown));
+        if is_rigid {
+            self.hold_rigid(step, seen)
+        } else {
+            self.hold_elastic(step, seen, mean);
+            false
+        }
     }
 
     /// What rounding makes of the place of the body: of the terms that are summed, and of the way of a step, m.

@@ -9,6 +9,7 @@
 
 use super::Judge;
 use super::beyond::Worst;
+use super::sums::Forces;
 use crate::step::{Balance, Path, Step};
 
 /// A scheme's weights differ from the trapezoid's by no more than this many steps in all.
@@ -24,7 +25,8 @@ impl Judge {
     }
 
     /// Adds a step, whose mean forces are in the scratch: its state at the start is still the judge's own.
-    pub(super) fn sum(&mut self, step: &Step<'_>) {
+    #[inline(always)]
+    pub(super) fn sum(&mut self, step: &Step<'_>, n: usize) {
         let sums = &mut self.sums;
         if sums.steps == 0 {
             sums.from = step.start;
@@ -33,37 +35,37 @@ impl Judge {
         }
         sums.steps += 1;
         for ((seen, size), &p) in sums.seen.iter_mut().zip(&mut sums.sizes).zip(step.impulse) {
-            *seen += p;
-            *size += p.abs();
+            if p != 0.0 {
+                *seen += p;
+                *size += p.abs();
+            }
         }
         sums.whole &= matches!(step.path, Path::Grid | Path::OneRestitution);
         if !sums.whole {
             return;
         }
         let (h, s) = (self.h, &self.scratch);
-        let half = 0.5 * h;
-        let corrected = matches!(self.contract.balance, Balance::GeneralizedAlpha { .. });
-        for i in 0..sums.last.len() {
-            sums.place[i] += half * (self.q[i] + step.q[i]);
-            if corrected {
-                sums.rate[i] += half * (sums.last[i] + step.velocity_after[i]);
+        let (half, per_h, first) = (0.5 * h, 1.0 / h, sums.steps == 1);
+        let (q0, q1, after, extra) = (&self.q[..n], &step.q[..n], &step.velocity_after[..n], &step.extra[..n]);
+        let (load_start, load_end, mean) = (&self.load[..n], &s.load_end[..n], &s.load[..n]);
+        let (spring, damper) = (&s.spring[..n], &s.damper[..n]);
+        if matches!(self.contract.balance, Balance::GeneralizedAlpha { .. }) {
+            // Of a rule with a memory, the force at the end of the step, which has dampers and the springs of walls in it.
+            for i in 0..n {
+                sums.rate[i] += half * (sums.last[i] + after[i]);
+                sums.add(i, first, h, [load_end[i], spring[i] - load_end[i], 0.0]);
             }
-            sums.load[i] += half * (self.load[i] + s.load_end[i]) + h * step.extra[i];
-            sums.last[i] = step.velocity_after[i];
-            // Of a rule with a memory, the force at the end of the step, which has dampers and the springs of walls in it; of all others
-            // the mean, without dampers, whose impulse the way from start to end tells exactly.
-            let [load, own] = match corrected {
-                true => [s.load_end[i], s.spring[i] - s.load_end[i]],
-                false => [s.load[i], -s.spring[i] / h],
-            };
-            if sums.steps > 1 {
-                let [load_before, own_before] = sums.force[i];
-                sums.changes[i] += (load - load_before).abs() + (own - own_before).abs();
+        } else {
+            // Of all others the mean, without dampers, whose impulse the way from start to end tells exactly.
+            for i in 0..n {
+                sums.add(i, first, h, [mean[i], -spring[i] * per_h, -damper[i] * per_h]);
             }
-            sums.force[i] = [load, own];
-            let damper = if corrected { 0.0 } else { -s.damper[i] / h };
-            sums.largest[i] = sums.largest[i].max(load.abs() + own.abs() + damper.abs());
-            sums.exchanged[i] += h * (load + own + damper).abs();
+        }
+        let (place, load, last) = (&mut sums.place[..n], &mut sums.load[..n], &mut sums.last[..n]);
+        for i in 0..n {
+            place[i] += half * (q0[i] + q1[i]);
+            load[i] += half * (load_start[i] + load_end[i]) + h * extra[i];
+            last[i] = after[i];
         }
     }
 
@@ -97,7 +99,7 @@ impl Judge {
             _ => self.now,
         };
         self.loads.blow(sums.from, until, &mut blows);
-        let mut exchanged = sums.exchanged.clone();
+        let mut exchanged: Vec<f64> = sums.forces.iter().map(|force| force.exchanged).collect();
         // The forces at both ends of the run, in which no step's mean has them: a staggered rule starts half a step before.
         let mut begin = vec![0.0; n];
         self.loads.add_force(sums.from, 1.0, &mut begin);
@@ -106,9 +108,10 @@ impl Judge {
         let mut end = self.load.clone();
         system.add_damping(-1.0, &sums.last, &mut end);
         system.add_stiffness(-1.0, &self.q, &mut end);
-        let mut ends: Vec<f64> = sums.largest.iter().zip(&end).map(|(largest, end)| largest.max(end.abs())).collect();
+        let mut ends: Vec<f64> =
+            sums.forces.iter().zip(&end).map(|(force, end)| force.largest.max(end.abs())).collect();
         for i in 0..n {
-            let [load, own] = sums.force[i];
+            let Forces { load, own, .. } = sums.forces[i];
             ends[i] += begin[i].abs() + (self.load[i] - load).abs() + (end[i] - self.load[i] - own).abs();
         }
         for (wall, (p, size)) in self.scene.walls.iter().zip(impulses.iter().zip(&sums.sizes)) {
@@ -126,7 +129,7 @@ impl Judge {
         let roots = &self.scales.root_mass;
         let largest = exchanged.iter().zip(roots).map(|(x, root)| x / root).fold(0.0, f64::max);
         for i in 0..n {
-            let missed = STEPS * self.h * (sums.changes[i] + ends[i]);
+            let missed = STEPS * self.h * (sums.forces[i].changes + ends[i]);
             let left = (open[i] - blows[i]).abs() - missed;
             worst.see(over(left / roots[i] - rounding, largest), self.now, None);
         }

@@ -3,7 +3,7 @@
 use super::scales;
 use super::structure::{self, Structure};
 use crate::error::Result;
-use crate::linear::{Factor, NotDefinite};
+use crate::linear::{Factor, NotDefinite, Operator};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, OnceLock};
@@ -19,6 +19,7 @@ struct Inner {
     checked: OnceLock<Result<()>>,
     mass: OnceLock<std::result::Result<Factor, NotDefinite>>,
     frequencies: OnceLock<[f64; 2]>,
+    operators: OnceLock<Arc<[Operator; 3]>>,
 }
 
 impl SharedStructure {
@@ -30,6 +31,12 @@ impl SharedStructure {
     /// The factor of M, made once.
     pub(crate) fn mass_factor(&self) -> std::result::Result<Factor, NotDefinite> {
         self.0.mass.get_or_init(|| Factor::new(&self.mass)).clone()
+    }
+
+    /// M, C and K ready for products, made once.
+    pub(crate) fn operators(&self) -> Arc<[Operator; 3]> {
+        let new = || Arc::new([&self.mass, &self.damping, &self.stiffness].map(Operator::new));
+        Arc::clone(self.0.operators.get_or_init(new))
     }
 
     /// As [`System::frequencies`](super::System::frequencies), found once.

@@ -42,7 +42,7 @@ pub enum Path<'a> {
     /// A step of the exact scheme over a stretch that it hands to a scheme on a grid.
     Handed {
         /// What the step keeps, in place of the run's contract.
-        contract: Contract,
+        contract: &'a Contract,
         /// Its length, s: that of the step's times but for their rounding.
         step: f64,
     },

@@ -5,6 +5,7 @@ mod series;
 
 pub(super) use series::Moved;
 
+use super::matrices::{Matrices, Part};
 use crate::scene::{Forcing, Scene, Wall, WallLaw};
 use crate::step::{Balance, Contract, Step};
 use serde::Serialize;
@@ -54,9 +55,12 @@ pub(super) struct Ledger {
     lost: f64,
     /// The largest rate of the load on the first degree of freedom, N/s.
     steepest: f64,
-    /// Two vectors of length n.
+    /// True if a wall is not rigid.
+    springs: bool,
+    /// Three vectors of length n.
     shift: Vec<f64>,
     middle: Vec<f64>,
+    room: Vec<f64>,
 }
 
 /// What a step moves, J.
@@ -92,51 +96,94 @@ impl Ledger {
             steepest: Forcing::on(0, &scene.loads).steepest(),
             shift: vec![0.0; q.len()],
             middle: vec![0.0; q.len()],
+            room: vec![0.0; q.len()],
+            springs: scene.walls.iter().any(|wall| !wall.law.is_rigid()),
         }
     }
 
-    /// One step on a grid from `q0` to `q1`, with the mean load (N) and the blows (N s) that acted.
+    /// One step on a grid from `q0` to `q1`, with the mean load (N) and the blows (N s) that acted; n degrees of freedom.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
     pub fn see_grid(
+        &mut self,
+        scene: &Scene,
+        matrices: &Matrices,
+        h: f64,
+        (q0, q1): (&[f64], &[f64]),
+        step: &Step<'_>,
+        (load, blow): (&[f64], &[f64]),
+        n: usize,
+    ) {
+        let (before, after) = (&step.velocity_before[..n], &step.velocity_after[..n]);
+        let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
+        if let (Some(b), false) = (staggered, self.started) {
+            self.start(scene, matrices, (h, b), q0, before);
+        }
+        self.started = true;
+        let mut flows = Flows::default();
+        let (from, to, load, blow) = (&q0[..n], &q1[..n], &load[..n], &blow[..n]);
+        let shift = &mut self.shift[..n];
+        for i in 0..n {
+            let mean = 0.5 * (before[i] + after[i]);
+            shift[i] = if staggered.is_some() { h * mean } else { to[i] - from[i] };
+            let (pushed, struck) = (load[i] * shift[i], blow[i] * mean);
+            flows.work += pushed + struck;
+            flows.passed += pushed.abs() + struck.abs();
+        }
+        flows.damping = matrices.form(Part::Damping, shift, &mut self.room[..n]) / h;
+        let walls = if self.springs || step.impulse.iter().any(|&p| p != 0.0) {
+            self.see_walls(scene, h, (q0, q1), step, staggered.is_some(), &mut flows)
+        } else {
+            0.0
+        };
+        let energy = match staggered {
+            Some(b) => self.half_step(matrices, (h, b), q0, after, n),
+            None => {
+                let room = &mut self.room[..n];
+                0.5 * (matrices.form(Part::Mass, &step.v[..n], room) + matrices.form(Part::Stiffness, to, room))
+            }
+        };
+        self.book(energy + walls, flows);
+    }
+
+    /// The energy at the start of a staggered rule: half a step before the first.
+    #[cold]
+    fn start(&mut self, scene: &Scene, matrices: &Matrices, (h, b): (f64, f64), q: &[f64], before: &[f64]) {
+        for (wall, held) in scene.walls.iter().zip(&mut self.held) {
+            let (w, rate) = (wall.at.dot(q), wall.at.dot(before));
+            *held = half(wall, w, -h * rate, wall.law_force(w, rate) != 0.0);
+        }
+        let n = q.len();
+        self.energy = self.half_step(matrices, (-h, b), q, before, n) + self.held.iter().sum::<f64>();
+        (self.report.initial_j, self.report.largest_j) = (self.energy, self.energy);
+    }
+
+    /// What flows at the walls; returns what they store after the step, J.
+    #[inline(never)]
+    fn see_walls(
         &mut self,
         scene: &Scene,
         h: f64,
         (q0, q1): (&[f64], &[f64]),
         step: &Step<'_>,
-        load: &[f64],
-        blow: &[f64],
-    ) {
+        staggered: bool,
+        flows: &mut Flows,
+    ) -> f64 {
         let (before, after) = (step.velocity_before, step.velocity_after);
-        let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
-        if let (Some(b), false) = (staggered, self.started) {
-            for (wall, held) in scene.walls.iter().zip(&mut self.held) {
-                let (w, rate) = (wall.at.dot(q0), wall.at.dot(before));
-                *held = half(wall, w, -h * rate, wall.law_force(w, rate) != 0.0);
-            }
-            self.energy = self.half_step(scene, -h, b, q0, before) + self.held.iter().sum::<f64>();
-            (self.report.initial_j, self.report.largest_j) = (self.energy, self.energy);
-        }
-        self.started = true;
-        let mut flows = Flows::default();
-        for i in 0..load.len() {
-            let mean = 0.5 * (before[i] + after[i]);
-            self.shift[i] = if staggered.is_some() { h * mean } else { q1[i] - q0[i] };
-            let (pushed, struck) = (load[i] * self.shift[i], blow[i] * mean);
-            flows.work += pushed + struck;
-            flows.passed += pushed.abs() + struck.abs();
-        }
-        flows.damping = scene.system.damping_form(&self.shift, &self.shift) / h;
         let mut walls = 0.0;
         for (index, (wall, &p)) in scene.walls.iter().zip(step.impulse).enumerate() {
-            let rate = 0.5 * (wall.at.dot(before) + wall.at.dot(after));
-            let (w0, w1) = (wall.at.dot(q0), wall.at.dot(q1));
             if wall.law.is_rigid() {
-                flows.impact -= p * rate;
+                if p != 0.0 {
+                    flows.impact -= p * 0.5 * (wall.at.dot(before) + wall.at.dot(after));
+                }
                 continue;
             }
+            let rate = 0.5 * (wall.at.dot(before) + wall.at.dot(after));
+            let (w0, w1) = (wall.at.dot(q0), wall.at.dot(q1));
             let touches = p != 0.0;
             let now = match staggered {
-                Some(_) => half(wall, w0, h * wall.at.dot(after), touches),
-                None => stored(wall, w1, touches),
+                true => half(wall, w0, h * wall.at.dot(after), touches),
+                false => stored(wall, w1, touches),
             };
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);
@@ -145,7 +192,7 @@ impl Ledger {
             {
                 if touches {
                     let plate = |w: f64| (-wall.gap(w)).max(0.0);
-                    let rate = if staggered.is_some() { rate } else { (plate(w1) - plate(w0)) / h };
+                    let rate = if staggered { rate } else { (plate(w1) - plate(w0)) / h };
                     flows.dashpot += damping * rate * rate * h;
                     // Where it takes hold of a body behind its face, its law supplies what the spring holds there.
                     flows.dashpot -= if held == 0.0 { wall.law.energy(-wall.gap(w0)) } else { 0.0 };
@@ -155,11 +202,7 @@ impl Ledger {
                 }
             }
         }
-        let energy = match staggered {
-            Some(b) => self.half_step(scene, h, b, q0, after),
-            None => 0.5 * (scene.system.mass_form(step.v, step.v) + scene.system.stiffness_form(q1, q1)),
-        };
-        self.book(energy + walls, flows);
+        walls
     }
 
     /// Books as damping what the dampers take of the work of blows, which [`Ledger::see_grid`] is given without it, J.
@@ -171,12 +214,15 @@ impl Ledger {
 
     /// Books what the blows of the step just seen did beside its rule: their work is that at their own instants, where the velocity is not
     /// the mean of the step's ends, and the difference is what the forces at rest with the displacement take from it on the way.
-    pub fn displace(&mut self, scene: &Scene, h: f64, step: &Step<'_>) {
+    pub fn displace(&mut self, scene: &Scene, matrices: &Matrices, h: f64, step: &Step<'_>) {
         let after = step.velocity_after;
         let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
         let mut energy = match staggered {
-            Some(b) => self.half_step(scene, -h, b, step.q, after),
-            None => 0.5 * (scene.system.mass_form(step.v, step.v) + scene.system.stiffness_form(step.q, step.q)),
+            Some(b) => self.half_step(matrices, (-h, b), step.q, after, step.q.len()),
+            None => {
+                let (strain, kinetic) = (Part::Stiffness, Part::Mass);
+                0.5 * (matrices.form(kinetic, step.v, &mut self.room) + matrices.form(strain, step.q, &mut self.room))
+            }
         };
         for (wall, held) in scene.walls.iter().zip(&mut self.held) {
             let (w, touching) = (wall.at.dot(step.q), *held != 0.0);
@@ -192,17 +238,23 @@ impl Ledger {
 
     /// Energy half a step from `q`, on the way to q + h v: ½vᵀMv + ½[x̄ᵀKx̄ − (1−4b)(½hv)ᵀK(½hv)] with x̄ = q + ½hv, conserved by the
     /// staggered balance; without the walls. A negative `h` looks back.
-    fn half_step(&mut self, scene: &Scene, h: f64, b: f64, q: &[f64], v: &[f64]) -> f64 {
-        for i in 0..q.len() {
-            self.shift[i] = 0.5 * h * v[i];
-            self.middle[i] = q[i] + self.shift[i];
+    #[inline(always)]
+    fn half_step(&mut self, matrices: &Matrices, (h, b): (f64, f64), q: &[f64], v: &[f64], n: usize) -> f64 {
+        let (q, v) = (&q[..n], &v[..n]);
+        let (shift, middle, room) = (&mut self.shift[..n], &mut self.middle[..n], &mut self.room[..n]);
+        for i in 0..n {
+            shift[i] = 0.5 * h * v[i];
+            middle[i] = q[i] + shift[i];
         }
-        let system = &scene.system;
-        let strain = system.stiffness_form(&self.middle, &self.middle)
-            - (1.0 - 4.0 * b) * system.stiffness_form(&self.shift, &self.shift);
-        0.5 * (system.mass_form(v, v) + strain)
+        let mut strain = matrices.form(Part::Stiffness, middle, room);
+        let beside = 1.0 - 4.0 * b;
+        if beside != 0.0 {
+            strain -= beside * matrices.form(Part::Stiffness, shift, room);
+        }
+        0.5 * (matrices.form(Part::Mass, v, room) + strain)
     }
 
+    #[inline(always)]
     fn book(&mut self, energy: f64, flows: Flows) {
         let Flows { work, passed, damping, impact, dashpot } = flows;
         let residual = (energy - self.energy) - work + damping + impact + dashpot - self.lost;

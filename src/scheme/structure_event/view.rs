@@ -22,7 +22,7 @@ impl StructureEvent {
             extra: &self.extra,
             closed: &self.closed,
             path: match self.handed {
-                Some((contract, step)) => Path::Handed { contract, step },
+                Some((ref contract, step)) => Path::Handed { contract, step },
                 None => Path::Series(&self.series),
             },
         }

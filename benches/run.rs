@@ -1,0 +1,68 @@
+//! What a run costs beside its stepper alone: the judge, the rows, and both, measured in turn in one
+//! run. Prints a table, asserts nothing about time.
+
+use signorini::{Load, Options, Scene, Scheme, Stepper, Wall, case::Case, run};
+use std::hint::black_box;
+
+mod support;
+use support::{race, time};
+
+/// Best of these rounds counts; the ways take turns within each.
+const ROUNDS: usize = 7;
+
+/// One line: a scene, a scheme, a step (s), and the duration of a round (s).
+fn line(what: &str, scene: &Scene, scheme: &Scheme, step: f64, end: f64) {
+    let scene = scene.clone().with_duration(end);
+    let options = Options::with_step(step);
+    let count = {
+        let counters = run(&scene, scheme, &options.unjudged().unrecorded()).expect("a run").counters;
+        if *scheme == Scheme::Event { counters.events.max(1) } else { counters.steps }
+    };
+    let best = race(ROUNDS, || {
+        let alone = time(1, |_| {
+            let mut stepper = Stepper::new(&scene, scheme, step).expect("a scene");
+            // A grid ends half a step early or late by rounding, the exact scheme on the end itself.
+            let last = if *scheme == Scheme::Event { end } else { end - 0.5 * step };
+            while stepper.time() < last {
+                black_box(stepper.step().expect("a step"));
+            }
+        });
+        [
+            alone,
+            time(1, |_| drop(black_box(run(&scene, scheme, &options.unjudged().unrecorded()).expect("a run")))),
+            time(1, |_| drop(black_box(run(&scene, scheme, &options.unrecorded()).expect("a run")))),
+            time(1, |_| drop(black_box(run(&scene, scheme, &options.unjudged()).expect("a run")))),
+            time(1, |_| drop(black_box(run(&scene, scheme, &options).expect("a run")))),
+        ]
+    })
+    .map(|ns| ns / count as f64);
+    let [alone, bare, judged, recorded, both] = best;
+    println!(
+        "{what:<30} {alone:>9.1} {bare:>9.1} {judged:>9.1} {recorded:>9.1} {both:>9.1} {:>8.2} {:>8.2}",
+        judged / alone,
+        both / alone
+    );
+}
+
+/// The source oscillator between rigid walls.
+fn source(e: f64) -> Scene {
+    Scene::oscillator(1.0, 0.2, 100.0)
+        .with_wall(Wall::upper("upper", 5e-3).with_restitution(e))
+        .with_wall(Wall::lower("lower", -5e-3).with_restitution(e))
+        .with_load(Load::harmonic(3.0, 5.0, 0.0))
+}
+
+fn main() {
+    println!(
+        "{:<30} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8}",
+        "ns a step (event: an impact)", "Stepper", "run bare", "judged", "recorded", "both", "judged/", "both/"
+    );
+    let jean = Scheme::MoreauJean { theta: 0.5 };
+    line("moreau-jean, e = 0.8", &source(0.8), &jean, 1e-4, 10.0);
+    line("paoli-schatzman, e = 0.8", &source(0.8), &Scheme::PaoliSchatzman, 1e-4, 10.0);
+    line("event, e = 0.8", &source(0.8), &Scheme::Event, 100.0, 100.0);
+    for name in ["chain-20", "chain-200", "tube-loose-supports"] {
+        let case = Case::embedded(name).expect("a built-in case");
+        line(&format!("{name}, moreau-jean"), &case.scene, &jean, case.time.step, 2000.0 * case.time.step);
+    }
+}

@@ -1,0 +1,53 @@
+//! M, C and K as the judge multiplies by them: numbers for one degree of freedom, else bands or
+//! sparse rows.
+
+use crate::linear::Operator;
+use crate::scene::System;
+use std::sync::Arc;
+
+/// Which of the three.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Part {
+    Mass = 0,
+    Damping = 1,
+    Stiffness = 2,
+}
+
+/// M, C and K.
+#[derive(Debug, Clone)]
+pub(super) enum Matrices {
+    One([f64; 3]),
+    Many(Arc<[Operator; 3]>),
+}
+
+impl Matrices {
+    pub fn new(system: &System) -> Self {
+        match system {
+            System::Oscillator(o) => Self::One([o.mass, o.damping, o.stiffness]),
+            System::Structure(s) => Self::Many(s.operators()),
+        }
+    }
+
+    /// Writes `scale` times the product with `x` to `out`, n entries each.
+    #[inline(always)]
+    pub fn product(&self, part: Part, scale: f64, x: &[f64], out: &mut [f64]) {
+        match self {
+            Self::One(numbers) => {
+                if let (Some(out), Some(x)) = (out.first_mut(), x.first()) {
+                    *out = scale * numbers[part as usize] * x;
+                }
+            }
+            Self::Many(operators) => {
+                out.fill(0.0);
+                operators[part as usize].add_product(scale, x, out);
+            }
+        }
+    }
+
+    /// xᵀA x, with `room` for n entries.
+    #[inline(always)]
+    pub fn form(&self, part: Part, x: &[f64], room: &mut [f64]) -> f64 {
+        self.product(part, 1.0, x, room);
+        room.iter().zip(x).map(|(y, x)| y * x).sum()
+    }
+}
