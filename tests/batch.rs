@@ -1,7 +1,7 @@
 //! The batch engine against the exact scheme, against itself in other places, and against closed
 //! forms.
 
-use signorini::batch::{By, Lane, Plan, Sine, Stop, Width};
+use signorini::batch::{By, Lane, Outcome, Plan, Sine, Stop, Width};
 use signorini::{Oscillator, Path, Scheme, Stepper, WallLaw};
 
 /// Numbers from 0 to 1 that are the same in every run.
@@ -45,7 +45,7 @@ fn random(draw: &mut Draw) -> Lane {
     let gap = draw.between(1e-3, 2e-2);
     let stop = |draw: &mut Draw, position: f64| Stop {
         position,
-        law: WallLaw::Rigid { restitution: draw.between(0.05, 1.0) },
+        law: WallLaw::Rigid { restitution: draw.between(-0.1, 1.05).clamp(0.0, 1.0) },
     };
     let below = -gap * draw.between(0.2, 1.5);
     let (lower, upper) = (stop(draw, below), stop(draw, gap));
@@ -56,7 +56,7 @@ fn random(draw: &mut Draw) -> Lane {
     Lane {
         body: Oscillator { mass: draw.between(0.3, 3.0), damping, stiffness },
         displacement: lower.position + (upper.position - lower.position) * draw.between(0.01, 0.99),
-        velocity: draw.between(-0.5, 0.5),
+        velocity: draw.one_of(&[0.0, 0.2, 0.2, 0.2]) * draw.between(-2.5, 2.5),
         lower: (one_sided > 0.15).then_some(lower),
         upper: (one_sided < 0.85).then_some(upper),
         constant: draw.one_of(&[0.0, 0.0, 1.0, -2.0]),
@@ -65,8 +65,11 @@ fn random(draw: &mut Draw) -> Lane {
     }
 }
 
+/// The instruction sets of this machine, once each.
 fn widths() -> Vec<Width> {
-    Width::available()
+    let mut widths = Width::available();
+    widths.retain(|width| *width != Width::Widest || !cfg!(target_arch = "x86_64"));
+    widths
 }
 
 /// The same oscillators, every one by the scheme `event`: with more sines than lanes hold, all but
@@ -119,13 +122,35 @@ fn steady(lane: &Lane) -> f64 {
     lane.sines.iter().map(sine).sum::<f64>() + constant
 }
 
+/// A size of the motion, m, and for how many of 100 periods rounding stays small enough to compare
+/// it.
+fn comparable(lane: &Lane, known: &Outcome) -> (f64, usize) {
+    // Where there is one wall only, a motion can be far larger than its distance from the start.
+    let gap = known.extent.map(f64::abs).into_iter().fold(lane.scene(1.0).gap_scale(), f64::max);
+    let fastest = lane.sines.iter().map(|s| s.multiple).max().unwrap_or(1);
+    let own = (lane.body.stiffness / lane.body.mass).sqrt();
+    let noise = amplified(lane, 100, gap, own.max(std::f64::consts::TAU * f64::from(fastest) / lane.period));
+    // The noise is some units of rounding, 1e-15, of the motion in the lanes, of its steady part in
+    // the exact scheme, which takes the motion for the sum of that and a free one. Grown by 1e4 it
+    // is a tenth of what is asked for. Beyond, the motion is chaotic, or grazes, and no two ways of
+    // computing it agree.
+    let large = (steady(lane) / gap).max(1.0);
+    let last = noise.iter().position(|&n| n.is_nan() || n * large >= 1e4).unwrap_or(100);
+    (gap, last)
+}
+
 #[test]
 fn random_oscillators_agree_with_the_exact_scheme_for_as_long_as_rounding_stays_small() {
     let mut draw = Draw(std::env::var("SIGNORINI_SEED").ok().and_then(|n| n.parse().ok()).unwrap_or(7));
-    let cases = std::env::var("SIGNORINI_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(600);
+    let cases = std::env::var("SIGNORINI_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(200);
     let lanes: Vec<Lane> = (0..cases).map(|_| random(&mut draw)).collect();
     let plan = Plan { threads: 1, ..Plan::new(0, 100) };
     let exact = plan.run(&by_event(&lanes)).unwrap();
+    let measure = |(lane, known): (&Lane, &signorini::Result<Outcome>)| match known {
+        Ok(known) => comparable(lane, known),
+        Err(_) => (1.0, 0),
+    };
+    let measured: Vec<_> = lanes.iter().zip(exact.outcomes()).map(measure).collect();
     for width in widths() {
         let (mut compared, mut regular, mut worst) = (0, 0, 0.0f64);
         let batch = Plan { width, ..plan }.run(&lanes).unwrap();
@@ -136,18 +161,7 @@ fn random_oscillators_agree_with_the_exact_scheme_for_as_long_as_rounding_stays_
                 continue;
             }
             compared += 1;
-            // Where there is one wall only, a motion can be far larger than its distance from the
-            // start.
-            let gap = known.extent.map(f64::abs).into_iter().fold(lane.scene(1.0).gap_scale(), f64::max);
-            let fastest = lane.sines.iter().map(|s| s.multiple).max().unwrap_or(1);
-            let own = (lane.body.stiffness / lane.body.mass).sqrt();
-            let noise = amplified(lane, 100, gap, own.max(std::f64::consts::TAU * f64::from(fastest) / lane.period));
-            // The noise is some units of rounding, 1e-15, of the motion in the lanes, of its steady
-            // part in the exact scheme, which takes the motion for the sum of that and a free one.
-            // Grown by 1e4 it is a tenth of what is asked for. Beyond, the motion is chaotic, or
-            // grazes, and no two ways of computing it agree.
-            let large = (steady(lane) / gap).max(1.0);
-            let last = noise.iter().position(|&n| n.is_nan() || n * large >= 1e4).unwrap_or(100);
+            let (gap, last) = measured[index];
             let whole = last == 100;
             for (period, (a, b)) in batch.strobes(index).iter().zip(exact.strobes(index)).enumerate().take(last) {
                 let off = (a[0] - b[0]).abs() / gap;
@@ -161,9 +175,23 @@ fn random_oscillators_agree_with_the_exact_scheme_for_as_long_as_rounding_stays_
                 continue;
             }
             regular += 1;
-            for (a, b) in [(found.lower, known.lower), (found.upper, known.upper)] {
+            for (a, b, stop) in [(found.lower, known.lower, lane.lower), (found.upper, known.upper, lane.upper)] {
+                let restitution = stop.and_then(|s| s.law.restitution()).unwrap_or(0.0);
                 let size = known.lower.impulse.abs() + known.upper.impulse.abs();
-                assert_eq!(a.impacts, b.impacts, "{index} {lane:?}");
+                // How many impacts of an accumulation are followed before it counts as rest means
+                // nothing: those from a height of 1e-12 of the gap down to its rounding, 1e-15, at
+                // most, once or twice a period.
+                let rests = a.peak_force.is_some() || b.peak_force.is_some();
+                let tail = 2.0 - 1e3f64.ln() / (2.0 * restitution.ln());
+                let allowed = if rests { 200.0 * tail } else { 0.0 };
+                assert!(a.impacts.abs_diff(b.impacts) as f64 <= allowed, "{index}: {a:?} {b:?} {lane:?}");
+                assert_eq!(a.peak_force.is_some(), b.peak_force.is_some(), "{index}: {a:?} {b:?} {lane:?}");
+                let (pa, pb) = (a.peak_force.unwrap_or(0.0), b.peak_force.unwrap_or(0.0));
+                // A rest begins at the impact that closes the accumulation; the pressing changes by
+                // 1e-6 until the next. Where strong drag ends the impacts the exact scheme closes
+                // them as soon as the pressing cannot lose half of itself on the way.
+                let near = if lane.body.damping > 10.0 { 0.5 } else { 1e-5 };
+                assert!((pa - pb).abs() <= near * pb, "{index}: {a:?} {b:?} {lane:?}");
                 assert!((a.impulse - b.impulse).abs() <= 1e-9 * size, "{index}: {a:?} {b:?} {lane:?}");
                 assert!((a.largest_impulse - b.largest_impulse).abs() <= 1e-9 * size, "{index}: {a:?} {b:?}");
             }
@@ -184,7 +212,7 @@ fn random_oscillators_agree_with_the_exact_scheme_for_as_long_as_rounding_stays_
 #[test]
 fn a_lane_has_the_same_bits_in_any_company_and_on_any_number_of_threads() {
     let mut draw = Draw(3);
-    let lanes: Vec<Lane> = (0..700).map(|_| random(&mut draw)).collect();
+    let lanes: Vec<Lane> = (0..300).map(|_| random(&mut draw)).collect();
     for width in widths() {
         let plan = Plan { threads: 1, width, ..Plan::new(3, 20) };
         let whole = plan.run(&lanes).unwrap();

@@ -149,6 +149,19 @@ impl Lane {
         self.scene(self.period).validate()
     }
 
+    /// A displacement of ordinary size, m: [`Scene::gap_scale`] of its scene.
+    pub(super) fn length(&self) -> f64 {
+        let positive = |x: &f64| *x > 0.0;
+        let both = self.lower.zip(self.upper).map(|(l, u)| 0.5 * (u.position - l.position));
+        let walls = || [self.lower, self.upper].into_iter().flatten().map(|stop| stop.position);
+        let start = self.displacement;
+        both.filter(positive)
+            .or_else(|| walls().map(|w| (start - w).abs()).filter(positive).reduce(f64::max))
+            .or_else(|| walls().map(f64::abs).filter(positive).reduce(f64::max))
+            .or(Some(start.abs()).filter(positive))
+            .unwrap_or(1.0)
+    }
+
     /// The scene of this oscillator over `duration` (s): walls `lower` and `upper`.
     #[must_use]
     pub fn scene(&self, duration: f64) -> Scene {

@@ -15,8 +15,8 @@
 //!
 //! Bits. What a lane computes depends on its own numbers alone, not on its neighbours, its place,
 //! or the number of threads. See [`Width`] for what holds from machine to machine. Oscillators that
-//! the lanes do not hold (elastic walls, e = 0, rest, more than four sines) are followed by the
-//! scheme `event`; [`Outcome::by`] says which, [`Batch::handed`] how many.
+//! the lanes do not hold (elastic walls, more than four sines, a graze to rounding) are followed by
+//! the scheme `event`; [`Outcome::by`] says which, [`Batch::handed`] how many.
 //!
 //! ```
 //! use signorini::batch::{Lane, Plan};
@@ -45,6 +45,8 @@ mod handed;
 mod lane;
 mod outcome;
 mod plan;
+mod rest;
+mod seat;
 mod series;
 mod state;
 mod stretch;

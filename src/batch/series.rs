@@ -33,6 +33,8 @@ const TERMS: usize = 32;
 /// Responses to one sine.
 #[derive(Debug, Clone)]
 pub(super) struct Wave {
+    /// A, m a step squared.
+    pub amplitude: f64,
     /// θ, rad a step.
     pub theta: f64,
     /// cos θ and sin θ.
@@ -56,6 +58,8 @@ pub(super) struct Series {
     pub alpha: f64,
     pub kappa: f64,
     pub push: f64,
+    /// |p| + Σ|A|: what the load does not exceed, m a step squared.
+    pub load: f64,
     /// S and I: coefficients of z, z² …
     pub impulse: [f64; ORDER],
     pub integral: [f64; ORDER],
@@ -100,6 +104,7 @@ impl Series {
             alpha,
             kappa,
             push,
+            load: push.abs() + waves.iter().map(|w| w.amplitude.abs()).sum::<f64>(),
             impulse: cut(&free),
             integral: cut(&integral),
             whole: [sum(&free), v, r],
@@ -110,6 +115,12 @@ impl Series {
 }
 
 impl Wave {
+    /// Sine and cosine of its phase `t` steps after a period began.
+    pub fn at(&self, t: f64) -> [f64; 2] {
+        let ([s, c], [sin, cos]) = (sin_cos(self.theta * t), self.start);
+        [sin * c + cos * s, cos * c - sin * s]
+    }
+
     fn of([alpha, kappa]: [f64; 2], amplitude: f64, theta: f64, phase: f64) -> Self {
         // (−1)^{n/2} θⁿ/n! for even n (cosine), the like for odd n (sine).
         let mut powers = [1.0; TERMS];
@@ -126,6 +137,7 @@ impl Wave {
         let both = [0, 1].map(|odd| response(alpha, kappa, [0.0; 2], wave(odd)));
         let [sin, cos] = sin_cos(theta);
         Self {
+            amplitude,
             theta,
             turn: [cos, sin],
             start: sin_cos(phase),
@@ -206,7 +218,7 @@ pub(super) const COSINE: [f64; 10] = [
 
 /// sin x and cos x by additions and products alone, so that they have the same bits on every
 /// machine: the mathematics library of a system may choose by processor.
-fn sin_cos(x: f64) -> [f64; 2] {
+pub(super) fn sin_cos(x: f64) -> [f64; 2] {
     // π/2 in three parts of 33 bits (Cody & Waite): the first two products are exact for a million
     // quarter turns.
     const PARTS: [f64; 3] = [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];

@@ -1,8 +1,9 @@
 //! A group of lanes under way: their constants, their states, and one step of the march.
 
 use super::lane::{Lane, Stop};
+use super::rest::TAIL_HEIGHT;
 use super::series::{COSINE, ORDER, SINE, Series};
-use super::vector::{Mask, Vector, polynomial};
+use super::vector::{Mask, Vector, polynomial, series};
 use crate::scene::WallLaw;
 use pulp::Simd;
 
@@ -33,6 +34,11 @@ pub(super) struct Constants<S: Simd, const W: usize> {
     pub upper: Vector<S>,
     /// e of the walls.
     pub restitution: [Vector<S>; 2],
+    /// The square of a speed after an impact, (m a step)², above which the body does not come to
+    /// rest.
+    pub tail: Vector<S>,
+    /// An acceleration below this is rounding, m a step squared.
+    pub noise: Vector<S>,
 }
 
 /// What changes from event to event.
@@ -73,6 +79,8 @@ impl<S: Simd, const W: usize> Constants<S, W> {
             lower: zero,
             upper: zero,
             restitution: [zero; 2],
+            tail: zero,
+            noise: zero,
         }
     }
 
@@ -103,6 +111,11 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         let place = |stop: Option<Stop>, none: f64| stop.map_or(none, |s| s.position);
         self.lower.put(slot, place(lane.lower, f64::NEG_INFINITY));
         self.upper.put(slot, place(lane.upper, f64::INFINITY));
+        let far = [lane.lower, lane.upper].into_iter().flatten().fold(0.0, |far: f64, s| far.max(s.position.abs()));
+        let most = series.load + series.kappa * far;
+        self.noise.put(slot, 16.0 * f64::EPSILON * most);
+        // Twice the largest v²/2p of such a flight, with the rounding of the wall's place.
+        self.tail.put(slot, 4.0 * most * (TAIL_HEIGHT * lane.length() + 8.0 * f64::EPSILON * far));
         for (e, stop) in self.restitution.iter_mut().zip([lane.lower, lane.upper]) {
             let value = match stop.map(|s| s.law) {
                 Some(WallLaw::Rigid { restitution }) => restitution,
@@ -160,8 +173,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         for (wave, [sin, cos]) in self.waves.iter().zip(&mut a.phase) {
             let angle = wave.theta * z;
             let square = angle * angle;
-            let s = angle * polynomial(&SINE.map(|c| z.all(c)), square);
-            let c = polynomial(&COSINE.map(|c| z.all(c)), square);
+            let (s, c) = (angle * series(&SINE, square), series(&COSINE, square));
             (*sin, *cos) = (sin.fma(c, *cos * s), sin.taken_from(s, *cos * c));
         }
         // S and S′ by their series; the response to a displacement is S′ + αS, its rate −κS.
@@ -204,7 +216,11 @@ impl<S: Simd, const W: usize> State<S, W> {
 /// Coefficients of the derivative of z(c₀ + c₁z + …).
 #[inline(always)]
 pub(super) fn rates<S: Simd>(c: &[Vector<S>; ORDER]) -> [Vector<S>; ORDER] {
-    std::array::from_fn(|n| c[n] * c[n].all((n + 1) as f64))
+    let mut rates = *c;
+    for (n, x) in rates.iter_mut().enumerate().skip(1) {
+        *x = *x * x.all((n + 1) as f64);
+    }
+    rates
 }
 
 fn put_all<S: Simd>(vectors: &mut [Vector<S>], slot: usize, values: &[f64]) {

@@ -10,6 +10,12 @@ use pulp::Simd;
 /// 52.
 const MOST_STEPS: usize = 64;
 
+/// Halley's steps on the first terms of the series, which bring a root to 1e-6 of the time or so …
+const ROUGH_STEPS: usize = 3;
+
+/// … and how many terms: the next is of the size of REACH⁹/9! = 1e-7.
+const ROUGH: usize = 8;
+
 /// Halley's step is the last if it is shorter than this share of the time …
 const LAST: f64 = 1e-6;
 
@@ -42,20 +48,19 @@ impl<S: Simd> Path<S> {
     #[inline(always)]
     fn of<const W: usize>(k: &Constants<S, W>, a: &State<S, W>) -> Self {
         let p = k.kappa.taken_from(a.u, k.push);
-        let way = std::array::from_fn(|n| {
-            // S begins with z: an exact velocity stays so.
-            if n == 0 {
-                return a.w;
-            }
-            let mut x = a.w.fma(k.impulse[n], p * k.integral[n]);
+        // S begins with z: a velocity stays what it is.
+        let mut way = [a.w; ORDER];
+        for (n, x) in way.iter_mut().enumerate().skip(1) {
+            *x = a.w.fma(k.impulse[n], p * k.integral[n]);
             for (wave, [sin, cos]) in k.waves.iter().zip(&a.phase) {
-                x = sin.fma(wave.series[0][n], cos.fma(wave.series[1][n], x));
+                *x = sin.fma(wave.series[0][n], cos.fma(wave.series[1][n], *x));
             }
-            x
-        });
+        }
         let rate = rates(&way);
-        let zero = a.w.all(0.0);
-        let bend = std::array::from_fn(|n| rate.get(n + 1).map_or(zero, |r| *r * zero.all((n + 1) as f64)));
+        let mut bend = [a.w.all(0.0); ORDER];
+        for (n, x) in bend.iter_mut().enumerate().take(ORDER - 1) {
+            *x = rate[n + 1] * x.all((n + 1) as f64);
+        }
         Self { way, rate, bend }
     }
 
@@ -111,7 +116,7 @@ impl<S: Simd> Path<S> {
         far: Vector<S>,
         over: Vector<S>,
     ) -> (Vector<S>, Mask<S>) {
-        let [zero, half, two] = [0.0, 0.5, 2.0].map(|x| gap.all(x));
+        let (zero, half, two) = (gap.all(0.0), gap.all(0.5), gap.all(2.0));
         let slope = -(side * self.way[0]);
         let curve = (slope.taken_from(far, over - gap)) / (far * far);
         let root = (curve * gap).taken_from(two + two, slope * slope).max(zero).sqrt();
@@ -120,6 +125,13 @@ impl<S: Simd> Path<S> {
         let first = above / falling.pick(root - slope, -(two * curve));
         let (mut low, mut high) = (zero, far);
         let mut z = (first.gt(low) & first.lt(high)).pick(first, half * far);
+        for _ in 0..ROUGH_STEPS {
+            let way = z * polynomial(&self.way[..ROUGH], z);
+            let (y1, y2) = (polynomial(&self.rate[..ROUGH], z), polynomial(&self.bend[..ROUGH], z));
+            let y = way - side * gap;
+            let halley = z - two * y * y1 / y.taken_from(y2, two * y1 * y1);
+            z = (halley.gt(zero) & halley.lt(far)).pick(halley, z);
+        }
         let mut moving = asked;
         for _ in 0..MOST_STEPS {
             let y = side.taken_from(self.way(z), gap);
@@ -140,6 +152,16 @@ impl<S: Simd> Path<S> {
     }
 }
 
+/// The greatest and the least that the inner control points of a stretch of length `z` allow, seen
+/// from its start at speed `w0`: see [`Constants::march`].
+#[inline(always)]
+fn inner<S: Simd>(w0: Vector<S>, margin: Vector<S>, z: Vector<S>, [way, w]: [Vector<S>; 2]) -> (Vector<S>, Vector<S>) {
+    let third = z * z.all(1.0 / 3.0);
+    let margin = margin * (z * z) * (z * z);
+    let (first, last) = (third * w0, third.taken_from(w, way));
+    (first.max(last) + margin, first.min(last) - margin)
+}
+
 impl<S: Simd, const W: usize> Constants<S, W> {
     /// Moves every lane that is `active` over the next stretch of at most one step: to the first
     /// wall met on it, to a turn that could be a graze or the window's new extreme, to the end of
@@ -147,7 +169,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
     /// fails) stays where it is, and looks at half as much next time.
     #[inline(always)]
     pub fn stretch(&self, a: &mut State<S, W>, active: Mask<S>) -> Ended<S> {
-        let [zero, one, third] = [0.0, 1.0, 1.0 / 3.0].map(|x| a.t.all(x));
+        let (zero, one) = (a.t.all(0.0), a.t.all(1.0));
         let rest = (self.steps - a.t).max(zero);
         let whole = rest.min(one);
         let h = whole * a.share;
@@ -156,13 +178,8 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         let (mut way, mut w) = (path.way(h), path.rate(h));
         let (mut over, mut under) = (way.gt(gap_upper), (-way).gt(gap_lower));
         let margin = self.margin(a);
-        let inner = |z: Vector<S>, way: Vector<S>, w: Vector<S>| {
-            let margin = margin * (z * z) * (z * z);
-            let points = [third * a.w * z, (third * w).taken_from(z, way)];
-            (points[0].max(points[1]) + margin, points[0].min(points[1]) - margin)
-        };
         // A turn that could pass the wall or the extreme: to the turn.
-        let (above, below) = inner(h, way, w);
+        let (above, below) = inner(a.w, margin, h, [way, w]);
         let upper_turn = a.w.gt(zero) & w.lt(zero) & above.max(way).ge(a.high - a.u);
         let lower_turn = a.w.lt(zero) & w.gt(zero) & below.min(way).le(a.low - a.u);
         let turns = active & (upper_turn | lower_turn) & !(over | under);
@@ -172,8 +189,15 @@ impl<S: Simd, const W: usize> Constants<S, W> {
             (z, way, w) = (turns.pick(turn, z), turns.pick(path.way(turn), way), turns.pick(zero, w));
             (over, under) = (over | (turns & way.gt(gap_upper)), under | (turns & (-way).gt(gap_lower)));
         }
-        let crossing = active & (over | under);
-        let (mut lost, mut bend) = (!active, zero);
+        let (on_upper, on_lower) = (a.w.abs().le(zero) & gap_upper.le(zero), a.w.abs().le(zero) & gap_lower.le(zero));
+        let crossing = active & (over | under) & !(on_upper | on_lower);
+        // Both ends move the same way, but not monotonously by the cubic of both ends: a turn and a
+        // turn back between them could be the new extreme.
+        let both = a.w + w;
+        let bent = (way - z * zero.all(1.0 / 3.0) * both) * both;
+        let extreme = above.max(way).ge(a.high - a.u) | below.min(way).le(a.low - a.u);
+        let hidden = (a.w * w).ge(zero) & bent.lt(zero) & extreme & !(turns | crossing | on_upper | on_lower);
+        let (mut lost, mut bend) = (!active | hidden, zero);
         if crossing.any() {
             let side = under.pick(-one, one);
             let gap = under.pick(gap_lower, gap_upper);
@@ -183,8 +207,11 @@ impl<S: Simd, const W: usize> Constants<S, W> {
             (way, w) = (crossing.pick(side * gap, way), crossing.pick(path.rate(met), w));
             bend = path.bend(met);
         }
-        let (above, below) = inner(z, way, w);
-        let decided = !lost & above.le(gap_upper) & way.le(gap_upper) & (-below).le(gap_lower) & (-way).le(gap_lower);
+        let (above, below) = inner(a.w, margin, z, [way, w]);
+        let clear = self.lifts(&path, z, margin, on_lower.pick(one, -one));
+        let before_upper = (above.le(gap_upper) & way.le(gap_upper)) | (on_upper & clear);
+        let before_lower = ((-below).le(gap_lower) & (-way).le(gap_lower)) | (on_lower & clear);
+        let decided = !lost & before_upper & before_lower;
         let strobed = decided & !crossing & !turns & rest.le(one) & a.share.ge(one);
         let struck = [decided & crossing & under, decided & crossing & over & !under];
         let half = zero.all(0.5) * z / whole;
@@ -201,6 +228,16 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         a.high = decided.pick(a.high.max(a.u), a.high);
         a.low = decided.pick(a.low.min(a.u), a.low);
         Ended { strobed, struck, speed }
+    }
+
+    /// Where a body that is let go by a wall, without speed, keeps off it up to `z`: with the
+    /// acceleration 2c₂ and the jerk 6c₃ away from it its gap is at least z²(c₂ + c₃z − |u⁗|z²/24),
+    /// whose bracket is concave. An acceleration of rounding, as at a release from rest, is none.
+    #[inline(always)]
+    fn lifts(&self, path: &Path<S>, z: Vector<S>, margin: Vector<S>, away: Vector<S>) -> Mask<S> {
+        let (c2, c3) = (away * path.way[1], away * path.way[2]);
+        let end = (margin * z.all(12.0) * z).taken_from(z, c3.fma(z, c2.max(z.all(0.0))));
+        c2.ge(-self.noise) & end.gt(z.all(0.0))
     }
 
     /// Newton's law in the lanes that struck a wall, with u″ = `bend` before it; and on the change

@@ -9,6 +9,9 @@ use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// One number a lane.
+///
+/// No closure may stand in code that uses it: compiled by itself, without the instructions that the
+/// engine was compiled for, it would make a call of every product.
 #[derive(Clone, Copy)]
 pub(super) struct Vector<S: Simd> {
     simd: S,
@@ -180,4 +183,14 @@ pub(super) fn polynomial<S: Simd>(c: &[Vector<S>], z: Vector<S>) -> Vector<S> {
         }
     }
     odd.fma(z, even)
+}
+
+/// The same with numbers for coefficients.
+#[inline(always)]
+pub(super) fn series<S: Simd, const N: usize>(c: &[f64; N], z: Vector<S>) -> Vector<S> {
+    let mut vectors = [z; N];
+    for (vector, value) in vectors.iter_mut().zip(c) {
+        *vector = z.all(*value);
+    }
+    polynomial(&vectors, z)
 }

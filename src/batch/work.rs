@@ -4,6 +4,7 @@ use super::engine::Engine;
 use super::handed::follow;
 use super::lane::{Lane, Stop};
 use super::outcome::Outcome;
+use super::seat::{Guest, Results};
 use super::series::Series;
 use super::width::Width;
 use crate::error::Result;
@@ -25,17 +26,16 @@ pub(super) struct Work<'a> {
 impl Work<'_> {
     pub fn run(self, width: Width) {
         let Self { lanes, outcomes, strobes, settle, keep } = self;
-        let seated: Vec<_> =
-            lanes.iter().enumerate().filter_map(|(index, lane)| Some((index, lane, seated(lane)?))).collect();
+        let seated = |(index, lane)| Some(Guest { index, lane, series: seated(lane)? });
+        let guests: Vec<Guest> = lanes.iter().enumerate().filter_map(seated).collect();
         let mut found: Vec<Option<Outcome>> = vec![None; lanes.len()];
-        let sines = seated.iter().map(|(_, lane, _)| lane.sines.len()).max().unwrap_or(0);
-        let place = &mut found;
-        // A sine without amplitude changes no bit, so that the number for the whole share does not
-        // matter.
+        let sines = guests.iter().map(|guest| guest.lane.sines.len()).max().unwrap_or(0);
+        let results = Results { outcomes: &mut found, strobes: &mut *strobes, settle, keep };
+        // A sine without amplitude changes no bit: the number for the whole share does not matter.
         if sines <= 1 {
-            width.dispatch(Engine::<1> { lanes: &seated, outcomes: place, strobes, settle, keep });
+            width.dispatch(Engine::<1> { guests: &guests, results });
         } else {
-            width.dispatch(Engine::<MOST_SINES> { lanes: &seated, outcomes: place, strobes, settle, keep });
+            width.dispatch(Engine::<MOST_SINES> { guests: &guests, results });
         }
         let places = outcomes.iter_mut().zip(strobes.chunks_mut(keep as usize));
         for ((lane, found), (outcome, strobes)) in lanes.iter().zip(found).zip(places) {
@@ -53,7 +53,7 @@ fn seated(lane: &Lane) -> Option<Series> {
     let starts_free = |stop: Option<Stop>, side: Side| {
         stop.is_none_or(|stop| {
             let rigid = matches!(stop.law, WallLaw::Rigid { .. });
-            rigid && (lane.displacement != stop.position || side.sign() * lane.velocity > 0.0)
+            rigid && (lane.displacement != stop.position || side.sign() * lane.velocity >= 0.0)
         })
     };
     let holds = starts_free(lane.lower, Side::Lower) && starts_free(lane.upper, Side::Upper);
