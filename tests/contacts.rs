@@ -296,3 +296,35 @@ fn a_push_of_two_steps_is_an_impact_and_one_of_three_lasts() {
         }
     }
 }
+
+#[test]
+fn a_body_that_stands_at_a_wall_without_pressing_is_not_in_contact() {
+    // Its spring carries the load but for a unit in the last place, which is rounding and no force.
+    for i in 1..60 {
+        let (place, k) = (f64::from(i) / 97.0, 31.0 + f64::from(i) / 7.0);
+        let force = (k * place).next_up();
+        let forever = |force: f64| Load::table(Table::new(vec![0.0, 9.0], vec![force, force]).expect("a sound table"));
+        for (wall, place, force) in
+            [(Wall::upper("wall", place), place, force), (Wall::lower("wall", -place), -place, -force)]
+        {
+            for load in [Load::constant(force), forever(force)] {
+                for scheme in common::CONSTRAINED {
+                    let scene = Scene::oscillator(1.0, 0.1, k)
+                        .with_wall(wall.clone())
+                        .with_load(load.clone())
+                        .with_initial(&[place], &[0.0])
+                        .with_duration(0.1);
+                    let found = contacts(&scene, &scheme, 1e-2);
+                    assert_eq!(found, [], "{scheme}, {force} N at {place} m");
+                }
+            }
+        }
+        // Some hundred units in the last place are a force.
+        let scene = Scene::oscillator(1.0, 0.1, k)
+            .with_wall(Wall::lower("wall", -place))
+            .with_load(Load::constant(-force * (1.0 + 1e-13)))
+            .with_initial(&[-place], &[0.0])
+            .with_duration(0.1);
+        assert_eq!(contacts(&scene, &MOREAU_JEAN, 1e-2).len(), 1);
+    }
+}

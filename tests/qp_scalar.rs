@@ -202,3 +202,47 @@ fn a_free_motion_beyond_all_numbers_is_named() {
         }
     }
 }
+
+#[test]
+fn a_stop_that_drives_the_body_into_a_pad_carries_the_pad_too() {
+    // The free motion violates the stop alone; where the stop puts it, the pad pushes back.
+    let (stop, pad) = (rigid(1.0, INF), elastic(-INF, 0.5, 0.125));
+    assert_eq!(solve(2.0, 0.0, [stop, pad]), (1.0, [6.0, -4.0]));
+    assert_eq!(solve(2.0, 0.0, [pad, stop]), (1.0, [-4.0, 6.0]));
+    let (stop, pad) = (rigid(-INF, -1.0), elastic(-0.5, INF, 0.125));
+    assert_eq!(solve(2.0, 0.0, [stop, pad]), (-1.0, [-6.0, 4.0]));
+}
+
+#[test]
+fn a_stop_before_a_pad_keeps_the_body_off_it() {
+    // The free motion violates both, the body reaches the stop only.
+    assert_eq!(solve(1.0, 10.0, [rigid(-INF, 1.0), elastic(-INF, 2.0, 0.5)]), (1.0, [-9.0, 0.0]));
+    assert_eq!(solve(1.0, -10.0, [elastic(-2.0, INF, 0.5), rigid(-1.0, INF)]), (-1.0, [0.0, 9.0]));
+}
+
+#[test]
+fn a_stop_just_where_a_pad_holds_the_body_carries_nothing() {
+    // Exactly nothing, whatever a, b and c: a force of rounding would count as a contact.
+    for i in 1..200 {
+        let share = |k: i32| f64::from((i * k) % 197) / 197.0;
+        let (a, c) = (0.1 + share(31), 0.01 + share(57));
+        let pad = elastic(-INF, 0.3, c);
+        let (x, [force]) = solve(a, 0.7 + share(83), [pad]);
+        assert_eq!(solve(a, 0.7 + share(83), [pad, rigid(-INF, x)]), (x, [force, 0.0]));
+    }
+}
+
+#[test]
+fn walls_at_the_origin_share_as_walls_anywhere_do() {
+    // No share of a place at 0 is above 0: equal bounds are one place all the same.
+    assert_eq!(solve(2.0, 6.0, [rigid(-INF, 0.0), rigid(-1.0, 0.0)]), (0.0, [-3.0, -3.0]));
+    assert_eq!(solve(2.0, -6.0, [rigid(0.0, INF), rigid(0.0, 1.0)]), (0.0, [3.0, 3.0]));
+}
+
+#[test]
+fn a_wall_that_nothing_can_be_before_and_a_pad_without_stiffness_are_named() {
+    let bad = |row| clamp(1.0, 0.5, &[rigid(-1.0, 1.0), row], &mut [0.0; 2]);
+    assert_eq!(bad(rigid(INF, INF)), Err(Failure::NotFinite { what: "lower bound", index: 1 }));
+    assert_eq!(bad(rigid(-INF, -INF)), Err(Failure::NotFinite { what: "upper bound", index: 1 }));
+    assert_eq!(bad(elastic(-INF, 0.0, INF)), Err(Failure::NotFinite { what: "compliance", index: 1 }));
+}
