@@ -36,7 +36,7 @@ pub mod study;
 mod time;
 mod trajectory;
 
-pub use error::{Error, Result};
+pub use error::{Cause, Error, Part, Result, Subject};
 pub use residual::{Finding, Refuted};
 pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{

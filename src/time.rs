@@ -35,41 +35,45 @@ impl TimeOptions {
     /// Checks the times against one another and against the duration (s) of the run.
     ///
     /// # Errors
-    /// [`Error::Invalid`] naming `time.step`, `time.sample`, `time.statistics_from` or `time.force_averaging`.
+    /// [`Error::Invalid`] naming `step`, `sample`, `statistics_from` or `force_averaging`.
     pub fn validate(&self, duration: f64) -> Result<()> {
         let Self { step, sample, statistics_from, force_averaging } = *self;
-        let refuse = |key: &str, value: f64, expected: String| {
-            Err(Error::invalid(format!("time.{key}"), format_args!("{value:?}"), expected))
+        let refuse = |key: &'static str, value: f64, expected: String| {
+            Err(Error::invalid(key, format_args!("{value:?}"), expected))
         };
         if !(step.is_finite() && step > 0.0) {
             return refuse("step", step, "a finite number above 0".to_owned());
         }
         if step >= duration {
-            return refuse("step", step, format!("less than time.end, {duration:?}"));
+            return refuse("step", step, format!("less than the duration, {duration:?}"));
         }
         if duration / step > MOST_STEPS {
             let least = duration / MOST_STEPS;
-            return refuse("step", step, format!("{least:e} or more: at most 1e10 steps up to time.end"));
+            return refuse("step", step, format!("{least:e} or more: at most 1e10 steps up to the end"));
         }
         match sample {
             None if duration / step > MOST_ROWS => {
-                let expected = "time.sample beside it: without one every step is recorded, and 1e7 rows are the most";
+                let expected = "sample beside it: without one every step is recorded, and 1e7 rows are the most";
                 return refuse("step", step, expected.to_owned());
             }
             Some(sample) if !(sample.is_finite() && sample > 0.0) => {
                 return refuse("sample", sample, "a finite number above 0".to_owned());
             }
             Some(sample) if sample > duration => {
-                return refuse("sample", sample, format!("at most time.end, {duration:?}"));
+                return refuse("sample", sample, format!("at most the duration, {duration:?}"));
             }
             Some(sample) if duration / sample > MOST_ROWS => {
                 let least = duration / MOST_ROWS;
-                return refuse("sample", sample, format!("{least:e} or more: at most 1e7 rows up to time.end"));
+                return refuse("sample", sample, format!("{least:e} or more: at most 1e7 rows up to the end"));
             }
             _ => {}
         }
         if !(statistics_from >= 0.0 && statistics_from < duration) {
-            return refuse("statistics_from", statistics_from, format!("0 or more, less than time.end, {duration:?}"));
+            return refuse(
+                "statistics_from",
+                statistics_from,
+                format!("0 or more, less than the duration, {duration:?}"),
+            );
         }
         if !(force_averaging.is_finite() && force_averaging > 0.0) {
             return refuse("force_averaging", force_averaging, "a finite number above 0".to_owned());

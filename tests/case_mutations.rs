@@ -186,7 +186,7 @@ proptest! {
                 prop_assert!(case.validate().is_ok());
             }
             Err(error) => {
-                prop_assert!(matches!(error, Error::Case(_)), "{error:?}");
+                prop_assert!(matches!(error, Error::Case { .. }), "{error:?}");
                 let said = error.to_string();
                 prop_assert!(said.starts_with("error: "), "{}", said);
                 let files = ["tabulated-pulse.csv:", "M.csv:", "K.mtx:", "L.csv:", "S.csv:", "F.csv:", "P.csv:"];

@@ -206,7 +206,7 @@ fn a_wrong_request_exits_with_2_and_says_what_would_be_accepted() {
         (&["run", case, "--step", "nan"], "above 0"),
         (&["run", case, "--step", "0"], "above 0"),
         (&["run", case, "--step", "-1e-3"], "above 0"),
-        (&["run", case, "--step", "20"], "time.end"),
+        (&["run", case, "--step", "20"], "time.step"),
         (&["run", case, "--step", "1e-12"], "1e10"),
         (&["run", case, "--sample", "1e-9"], "1e7"),
         (&["run", case, "--end", "inf"], "finite"),

@@ -93,7 +93,7 @@ fn a_stretch_of_averaging_is_above_0_and_costs_no_more_than_a_million_of_them() 
         let mut options = Options::with_step(1e-3);
         options.time.force_averaging = wrong;
         let error = run(&ball(1.0), &Scheme::Event, &options).expect_err("a wrong stretch");
-        assert!(error.is_request() && error.to_string().contains("time.force_averaging"), "{error}");
+        assert!(error.is_request() && error.to_string().contains("force_averaging"), "{error}");
     }
     let mut options = Options::with_step(1e-3);
     options.time.force_averaging = 1e-300;

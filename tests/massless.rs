@@ -55,7 +55,7 @@ fn springs_in_series_become_one() {
     scene.initial.q[1] = 3e-3;
     let said = scene.condensed().unwrap_err().to_string();
     assert!(
-        said.contains("initial.displacement") && said.contains("degree of freedom 1") && said.contains("0.004"),
+        said.contains("initial state: displacement") && said.contains("degree of freedom 1") && said.contains("0.004"),
         "{said}"
     );
     // Damping in proportion to stiffness acts on the springs, and so on what they are in series.
@@ -183,7 +183,7 @@ fn what_statics_cannot_say_exactly_is_refused_by_name() {
     // A start behind the wall, which a spring would take, is a mistake at a rigid one.
     let mut behind = free(Row::dof(1));
     behind.initial.q = vec![2e-3, 2e-3, 2e-3];
-    refused(behind, &["initial.displacement", "at most 0.001"]);
+    refused(behind, &["initial state: displacement", "at most 0.001"]);
     // The scene itself says what to do with it.
     let said = Scene::structure(chain(0.0)).validate().unwrap_err().to_string();
     assert!(said.contains("Scene::condensed"), "{said}");
@@ -234,7 +234,7 @@ fn a_case_of_lumped_matrices_keeps_its_own_numbering() {
         write(folder.path(), "L.csv", "150,0,0\n0,0,0\n0,0,300\n");
         let said = match read(&text.replacen(old, new, 1)) {
             Ok(_) => String::new(),
-            Err(Error::Case(said)) => said,
+            Err(Error::Case { report, .. }) => report,
             Err(other) => panic!("{other:?}"),
         };
         let at = if place.is_empty() { String::new() } else { format!("case.toml:{place}\n") };

@@ -219,8 +219,8 @@ fn a_chain_is_its_matrices() {
 #[track_caller]
 fn refused<T: std::fmt::Debug>(result: Result<T, Error>, key: &str, said: &str) {
     match result.unwrap_err() {
-        Error::Invalid { key: found, value, expected } => {
-            assert_eq!(found, key);
+        Error::Invalid { subject: found, value, expected } => {
+            assert_eq!(found.to_string(), key);
             let text = format!("{value}; {expected}");
             assert!(text.contains(said), "{text:?} does not say {said:?}");
         }
@@ -233,11 +233,11 @@ fn values_that_make_no_structure_are_refused_by_name() {
     let chain = |masses: &[f64], springs: &[f64], grounds| {
         Chain { masses: masses.to_vec(), springs: springs.to_vec(), grounds }.structure()
     };
-    refused(chain(&[], &[], [0.0; 2]), "system.chain.masses", "one mass or more");
-    refused(chain(&[1.0, 0.0], &[1.0], [0.0; 2]), "system.chain.masses: value 2", "above 0");
-    refused(chain(&[1.0, 1.0], &[], [0.0; 2]), "system.chain.springs", "1, one between");
-    refused(chain(&[1.0, 1.0], &[-1.0], [0.0; 2]), "system.chain.springs: value 1", "0 or more");
-    refused(chain(&[1.0], &[], [0.0, f64::NAN]), "system.chain.grounds: value 2", "NaN");
+    refused(chain(&[], &[], [0.0; 2]), "chain: masses", "one mass or more");
+    refused(chain(&[1.0, 0.0], &[1.0], [0.0; 2]), "chain: masses: value 2", "above 0");
+    refused(chain(&[1.0, 1.0], &[], [0.0; 2]), "chain: springs", "1, one between");
+    refused(chain(&[1.0, 1.0], &[-1.0], [0.0; 2]), "chain: springs: value 1", "0 or more");
+    refused(chain(&[1.0], &[], [0.0, f64::NAN]), "chain: grounds: value 2", "NaN");
 
     let good = bar(3, BarEnd::Fixed, BarEnd::Free);
     let wrong = |change: &dyn Fn(&mut Bar), key: &str, said: &str| {
@@ -247,14 +247,14 @@ fn values_that_make_no_structure_are_refused_by_name() {
         refused(rod.at(0.5), key, said);
         refused(rod.spread(0.0, 1.0), key, said);
     };
-    wrong(&|b| b.length = 0.0, "system.bar.length", "above 0");
-    wrong(&|b| b.area = -1.0, "system.bar.area", "above 0");
-    wrong(&|b| b.youngs_modulus = f64::INFINITY, "system.bar.youngs_modulus", "finite");
-    wrong(&|b| b.density = f64::NAN, "system.bar.density", "finite");
-    wrong(&|b| b.elements = 0, "system.bar.elements", "from 1 to 100000");
-    wrong(&|b| b.elements = usize::MAX, "system.bar.elements", "from 1 to 100000");
-    wrong(&|b| b.right = BarEnd::Sprung { stiffness: -2.0 }, "system.bar.right: stiffness", "0 or more");
-    wrong(&|b| (b.elements, b.right) = (1, BarEnd::Fixed), "system.bar.elements", "2 or more");
+    wrong(&|b| b.length = 0.0, "bar: length", "above 0");
+    wrong(&|b| b.area = -1.0, "bar: area", "above 0");
+    wrong(&|b| b.youngs_modulus = f64::INFINITY, "bar: youngs_modulus", "finite");
+    wrong(&|b| b.density = f64::NAN, "bar: density", "finite");
+    wrong(&|b| b.elements = 0, "bar: elements", "from 1 to 100000");
+    wrong(&|b| b.elements = usize::MAX, "bar: elements", "from 1 to 100000");
+    wrong(&|b| b.right = BarEnd::Sprung { stiffness: -2.0 }, "bar: right: stiffness", "0 or more");
+    wrong(&|b| (b.elements, b.right) = (1, BarEnd::Fixed), "bar: elements", "2 or more");
 
     let good = beam(3, BeamEnd::Clamped, BeamEnd::Free);
     let wrong = |change: &dyn Fn(&mut Beam), key: &str, said: &str| {
@@ -264,21 +264,17 @@ fn values_that_make_no_structure_are_refused_by_name() {
         refused(tube.at(0.5), key, said);
         refused(tube.spread(0.0, 1.0), key, said);
     };
-    wrong(&|b| b.length = -1.0, "system.beam.length", "above 0");
-    wrong(&|b| b.youngs_modulus = 0.0, "system.beam.youngs_modulus", "above 0");
-    wrong(&|b| b.density = 0.0, "system.beam.density", "above 0");
-    wrong(&|b| b.outer_diameter = f64::NAN, "system.beam.outer_diameter", "finite");
-    wrong(
-        &|b| b.inner_diameter = b.outer_diameter,
-        "system.beam.inner_diameter",
-        "less than the outer diameter, 0.01905 m",
-    );
-    wrong(&|b| b.added_mass = -0.1, "system.beam.added_mass", "0 or more");
-    wrong(&|b| b.elements = 1_000_000_000, "system.beam.elements", "from 1 to 100000");
+    wrong(&|b| b.length = -1.0, "beam: length", "above 0");
+    wrong(&|b| b.youngs_modulus = 0.0, "beam: youngs_modulus", "above 0");
+    wrong(&|b| b.density = 0.0, "beam: density", "above 0");
+    wrong(&|b| b.outer_diameter = f64::NAN, "beam: outer_diameter", "finite");
+    wrong(&|b| b.inner_diameter = b.outer_diameter, "beam: inner_diameter", "less than the outer diameter, 0.01905 m");
+    wrong(&|b| b.added_mass = -0.1, "beam: added_mass", "0 or more");
+    wrong(&|b| b.elements = 1_000_000_000, "beam: elements", "from 1 to 100000");
     let sprung = |stiffness, rotational| BeamEnd::Sprung { stiffness, rotational };
-    wrong(&|b| b.left = sprung(-1.0, 0.0), "system.beam.left: stiffness", "0 or more");
-    wrong(&|b| b.right = sprung(0.0, f64::NAN), "system.beam.right: rotational", "0 or more");
-    wrong(&|b| (b.elements, b.right) = (1, BeamEnd::Clamped), "system.beam.elements", "2 or more");
+    wrong(&|b| b.left = sprung(-1.0, 0.0), "beam: left: stiffness", "0 or more");
+    wrong(&|b| b.right = sprung(0.0, f64::NAN), "beam: right: rotational", "0 or more");
+    wrong(&|b| (b.elements, b.right) = (1, BeamEnd::Clamped), "beam: elements", "2 or more");
 
     for position in [-0.1, 2.1, f64::NAN, f64::INFINITY] {
         refused(good.at(position), "position", "from 0 to 2.0 m");
@@ -306,13 +302,13 @@ fn values_that_make_no_structure_are_refused_by_name() {
 fn damping_that_makes_no_sense_is_refused_by_name() {
     let structure = Chain { masses: vec![1.0; 3], springs: vec![1.0; 2], grounds: [0.0; 2] }.structure().unwrap();
     let with = |damping| structure.clone().with_damping(&damping);
-    refused(with(Damping::Rayleigh { mass: -1.0, stiffness: 0.0 }), "system.damping.mass", "0 or more");
-    refused(with(Damping::Rayleigh { mass: 0.0, stiffness: f64::NAN }), "system.damping.stiffness", "0 or more");
-    refused(with(Damping::Modal(vec![])), "system.damping.ratios", "one ratio or more");
-    refused(with(Damping::Modal(vec![0.1, -0.1])), "system.damping.ratios: value 2", "0 or more");
-    refused(with(Damping::Matrix(Symmetric::zeros(2))), "system.damping.matrix", "3 × 3");
+    refused(with(Damping::Rayleigh { mass: -1.0, stiffness: 0.0 }), "damping: mass", "0 or more");
+    refused(with(Damping::Rayleigh { mass: 0.0, stiffness: f64::NAN }), "damping: stiffness", "0 or more");
+    refused(with(Damping::Modal(vec![])), "damping: ratios", "one ratio or more");
+    refused(with(Damping::Modal(vec![0.1, -0.1])), "damping: ratios: value 2", "0 or more");
+    refused(with(Damping::Matrix(Symmetric::zeros(2))), "damping: matrix", "3 × 3");
     let long = Chain { masses: vec![1.0; 601], springs: vec![1.0; 600], grounds: [0.0; 2] }.structure().unwrap();
-    refused(long.with_damping(&Damping::Modal(vec![0.1])), "system.damping.ratios", "at most 600");
+    refused(long.with_damping(&Damping::Modal(vec![0.1])), "damping: ratios", "at most 600");
     assert_eq!(with(Damping::None).unwrap(), structure);
 }
 

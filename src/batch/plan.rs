@@ -4,7 +4,7 @@ use super::lane::Lane;
 use super::outcome::{Batch, Outcome};
 use super::width::Width;
 use super::work::Work;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use std::num::NonZero;
 use std::sync::Mutex;
 
@@ -57,8 +57,8 @@ impl Plan {
         }
         for (index, lane) in lanes.iter().enumerate() {
             lane.validate().map_err(|error| match error {
-                Error::Invalid { key, value, expected } => {
-                    Error::Invalid { key: format!("oscillator {}: {key}", index + 1), value, expected }
+                Error::Invalid { subject, value, expected } => {
+                    Error::Invalid { subject: subject.within(Subject::nth("oscillator", index)), value, expected }
                 }
                 other => other,
             })?;

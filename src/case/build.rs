@@ -6,8 +6,9 @@ use super::file::{self, File};
 use super::model::{Model, Place};
 use super::report::Source;
 use super::value::{Number, Section};
+use super::wording::written;
 use super::{Case, FileRead, PenaltyOptions, TimeOptions, Truncated, Written};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::scene::{Condensation, Damping, Scene, State, Structure, System, Wall};
 use crate::scheme::{Integrator, PenaltyLaw};
 use crate::study::truncation::Whole;
@@ -18,7 +19,8 @@ use toml::Spanned;
 /// Builds the case that `text` holds.
 pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>) -> Result<Case> {
     let source = Source { name, text };
-    let file: File = toml::from_str(text).map_err(|error| source.toml(error))?;
+    let file: File =
+        toml::from_str(text).map_err(|error: toml::de::Error| source.toml(error.clone()).caused_by(error))?;
     let mut builder = Builder {
         source,
         places: Vec::new(),
@@ -43,11 +45,11 @@ impl Builder<'_> {
             loads: Vec::new(),
             probes: Vec::new(),
             initial: State { q: vec![0.0; self.n], v: vec![0.0; self.n] },
-            duration: self.number("time.end", &time.end),
+            duration: self.number("duration", &time.end),
         };
         if let Some(Section { value: initial, .. }) = file.initial {
-            scene.initial.q = self.field("initial.displacement", initial.displacement.as_ref())?;
-            scene.initial.v = self.field("initial.velocity", initial.velocity.as_ref())?;
+            scene.initial.q = self.field("displacement", initial.displacement.as_ref())?;
+            scene.initial.v = self.field("velocity", initial.velocity.as_ref())?;
         }
         let mut places: Vec<Place> = Vec::new();
         let mut names = Vec::new();
@@ -63,11 +65,11 @@ impl Builder<'_> {
         }
         scene.probes = self.probes(file.probe, &scene.walls, &names, &places)?;
         let time = TimeOptions {
-            step: self.number("time.step", &time.step),
-            sample: self.optional("time.sample", time.sample.as_ref()),
-            statistics_from: self.optional("time.statistics_from", time.statistics_from.as_ref()).unwrap_or(0.0),
+            step: self.number("step", &time.step),
+            sample: self.optional("sample", time.sample.as_ref()),
+            statistics_from: self.optional("statistics_from", time.statistics_from.as_ref()).unwrap_or(0.0),
             force_averaging: self
-                .optional("time.force_averaging", time.force_averaging.as_ref())
+                .optional("force_averaging", time.force_averaging.as_ref())
                 .unwrap_or(TimeOptions::FORCE_AVERAGING),
         };
         if let Some(penalty) = file.penalty.as_ref().filter(|_| self.static_correction) {
@@ -91,14 +93,14 @@ impl Builder<'_> {
             penalty,
             written: std::mem::take(&mut self.written),
         };
-        case.validate().map_err(|error| self.locate(error, &case.scene))?;
+        case.check().map_err(|error| self.locate(error, &case.scene))?;
         if let Some(modes) = modes {
             let ratios = built.pending.filter(|damping| matches!(damping, Damping::Modal(_)));
             let whole = Whole { scene: case.scene.clone(), damping: ratios, static_correction: self.static_correction };
             let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
             case.scene = reduction.scene.clone();
             case.truncated = Some(Truncated { whole, reduction });
-            case.validate().map_err(|error| self.locate(error, &case.scene))?;
+            case.check().map_err(|error| self.locate(error, &case.scene))?;
         }
         Ok(case)
     }
@@ -121,7 +123,7 @@ impl Builder<'_> {
         let (mut less, condensation) = scene.condensed().map_err(|error| self.locate(error, &scene))?;
         let soft = less.walls.iter().zip(&condensation.compliance).filter(|(_, s)| **s > 0.0);
         for (wall, _) in soft {
-            if let Some(span) = self.noted(&format!("wall {:?}: restitution", wall.name)) {
+            if let Some(span) = self.noted(&Subject::wall(&wall.name).part("restitution")) {
                 let title = format!("wall {:?} has restitution, and pushes degrees of freedom without mass", wall.name);
                 let help = "expected no restitution: what has no mass cannot rebound, and their stiffness makes the wall a spring; or mass there";
                 return Err(self.source.error(span, &title, help));
@@ -138,7 +140,7 @@ impl Builder<'_> {
     fn modes(&mut self, system: &file::System) -> Result<Option<usize>> {
         let modes = system.modes.as_ref().map(|modes| self.whole("modes", modes, MOST_MASSES)).transpose()?;
         if let Some(correction) = system.static_correction.as_ref().filter(|word| *word.get_ref()) {
-            self.places.push(("static_correction".to_owned(), correction.span()));
+            self.places.push(("static correction".into(), correction.span()));
             self.static_correction = true;
             if modes.is_none() {
                 let help = "expected modes = k beside it: without them nothing is left out that could be corrected";
@@ -168,7 +170,7 @@ impl Builder<'_> {
             laws.push(PenaltyLaw::Quartic { epsilon });
         }
         for stiffness in penalty.stiffness.iter().flat_map(Spanned::get_ref) {
-            let key = format!("penalty law {}: damping", laws.len() + 1);
+            let key = Subject::nth("penalty law", laws.len()).part("damping");
             let damping = self.optional(key, penalty.damping.as_ref()).unwrap_or(0.0);
             let stiffness = self.law(laws.len(), "stiffness", stiffness);
             laws.push(PenaltyLaw::Linear { stiffness, damping });
@@ -182,19 +184,20 @@ impl Builder<'_> {
         Ok(PenaltyOptions { laws, integrator })
     }
 
-    fn law(&mut self, index: usize, what: &str, value: &Spanned<Number>) -> f64 {
-        self.places.push((format!("penalty law {}", index + 1), value.span()));
-        self.number(format!("penalty law {}: {what}", index + 1), value)
+    fn law(&mut self, index: usize, what: &'static str, value: &Spanned<Number>) -> f64 {
+        let law = Subject::nth("penalty law", index);
+        self.places.push((law.clone(), value.span()));
+        self.number(law.part(what), value)
     }
 
-    /// The number, its place noted under the key by which an error would name it.
-    pub fn number(&mut self, key: impl Into<String>, value: &Spanned<Number>) -> f64 {
-        self.places.push((key.into(), value.span()));
+    /// The number, its place noted under what an error would be about.
+    pub fn number(&mut self, subject: impl Into<Subject>, value: &Spanned<Number>) -> f64 {
+        self.places.push((subject.into(), value.span()));
         value.get_ref().0
     }
 
-    pub fn optional(&mut self, key: impl Into<String>, value: Option<&Spanned<Number>>) -> Option<f64> {
-        value.map(|value| self.number(key, value))
+    pub fn optional(&mut self, subject: impl Into<Subject>, value: Option<&Spanned<Number>>) -> Option<f64> {
+        value.map(|value| self.number(subject, value))
     }
 
     pub fn refuse(&self, span: Range<usize>, key: &str, expected: &str) -> Error {
@@ -202,27 +205,29 @@ impl Builder<'_> {
         self.source.error(span, &title, &format!("expected {expected}"))
     }
 
-    /// The same error, shown at its place.
+    /// The same error, shown at its place; the error itself is its source.
     pub fn locate(&self, error: Error, scene: &Scene) -> Error {
-        let Error::Invalid { key, value, expected } = error else { return error };
+        let Error::Invalid { subject, value, expected } = &error else { return error };
         // A start that is not written down is 0: then the wall that it lies behind is what is wrong.
         let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.at.dot(&scene.initial.q)) < 0.0;
-        let wall = || scene.walls.iter().find(behind).filter(|_| key == "initial.displacement");
+        let start = Subject::from(("initial state", "displacement"));
+        let wall = || scene.walls.iter().find(behind).filter(|_| *subject == start);
         let span = self
-            .noted(&key)
-            .or_else(|| wall().and_then(|wall| self.noted(&format!("wall {:?}: position", wall.name))))
-            .or_else(|| self.nearest(&key))
+            .noted(subject)
+            .or_else(|| wall().and_then(|wall| self.noted(&Subject::wall(&wall.name).part("position"))))
+            .or_else(|| self.nearest(subject))
             .unwrap_or(0..0);
-        self.source.error(span, &format!("{key} is {value}"), &format!("expected {expected}"))
+        let title = format!("{} is {value}", written(subject));
+        self.source.error(span, &title, &format!("expected {expected}")).caused_by(error.clone())
     }
 
-    fn noted(&self, key: &str) -> Option<Range<usize>> {
-        self.places.iter().find(|(k, _)| k == key).map(|(_, span)| span.clone())
+    fn noted(&self, subject: &Subject) -> Option<Range<usize>> {
+        self.places.iter().find(|(s, _)| s == subject).map(|(_, span)| span.clone())
     }
 
-    /// The place of the longest beginning of `key` that was noted.
-    fn nearest(&self, key: &str) -> Option<Range<usize>> {
-        let cuts = key.char_indices().filter(|(_, c)| [':', ',', '.'].contains(c)).map(|(i, _)| i);
-        cuts.collect::<Vec<_>>().into_iter().rev().find_map(|i| self.noted(&key[..i]))
+    /// The place of the smallest whole of `subject` that was noted.
+    fn nearest(&self, subject: &Subject) -> Option<Range<usize>> {
+        let whole = subject.whole()?;
+        self.noted(&whole).or_else(|| self.nearest(&whole))
     }
 }

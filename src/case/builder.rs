@@ -3,6 +3,7 @@
 use super::Written;
 use super::model::Model;
 use super::report::Source;
+use crate::error::Subject;
 use std::ops::Range;
 
 /// Most masses of a chain.
@@ -14,8 +15,8 @@ pub(super) type TableReader<'a> = &'a dyn Fn(&str) -> std::result::Result<(Strin
 /// Reads a case, table by table.
 pub(super) struct Builder<'a> {
     pub source: Source<'a>,
-    /// The key that an error names, and where its value stands.
-    pub places: Vec<(String, Range<usize>)>,
+    /// What an error may be about, and where its value stands.
+    pub places: Vec<(Subject, Range<usize>)>,
     pub tables: TableReader<'a>,
     pub model: Model,
     /// Degrees of freedom of the whole structure.

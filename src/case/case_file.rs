@@ -125,7 +125,7 @@ impl CaseFile {
         // The reader of case files says best what is wrong with a text.
         toml::from_str(&self.text).or_else(|error| {
             self.case()?;
-            Err(Error::Case(error.to_string()))
+            Err(Error::Case { report: error.to_string(), cause: None }.caused_by(error))
         })
     }
 
@@ -135,9 +135,10 @@ impl CaseFile {
     /// None beyond those of values that TOML cannot write.
     pub fn text(&self) -> Result<String> {
         match &self.changed {
-            Some(table) => {
-                toml::to_string(table).map_err(|error| Error::Case(format!("error: {}: {error}", self.shown)))
-            }
+            Some(table) => toml::to_string(table).map_err(|error| {
+                let report = format!("error: {}: {error}", self.shown);
+                Error::Case { report, cause: None }.caused_by(error)
+            }),
             None => Ok(self.text.clone()),
         }
     }
@@ -200,5 +201,5 @@ fn unreadable(path: &Path, reason: &str) -> Error {
         }
     };
     let shown = if path.as_os_str().is_empty() { "\"\"".to_owned() } else { path.display().to_string() };
-    Error::Io { path: shown, reason: format!("{reason}\nhelp: {hint}"), request: true }
+    Error::io(shown, format!("{reason}\nhelp: {hint}"), true)
 }

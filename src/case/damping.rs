@@ -4,7 +4,7 @@ use super::builder::Builder;
 use super::file;
 use super::report::Source;
 use super::value::Section;
-use crate::error::Result;
+use crate::error::{Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::matrices::{read_csv, read_matrix_market};
 use crate::scene::{Damping, Structure};
@@ -32,7 +32,7 @@ impl Builder<'_> {
 
     fn matrix(&mut self, what: &str, file: &Spanned<String>) -> Result<Symmetric> {
         // By this key the structure would name what is wrong with it.
-        self.places.push((format!("system: {what} matrix"), file.span()));
+        self.places.push((Subject::of("system").part(format!("{what} matrix")), file.span()));
         let name = file.get_ref();
         let opened = self.open(name);
         let refuse = |reason: &str| {
@@ -55,7 +55,7 @@ impl Builder<'_> {
     /// What `[system.damping]` says. Exactly one way.
     pub fn damping(&mut self, section: Section<file::Damping>) -> Result<Damping> {
         let Section { span, value: damping } = section;
-        self.places.push(("system.damping".to_owned(), span.clone()));
+        self.places.push(("damping".into(), span.clone()));
         let given: Vec<_> = [
             ("rayleigh", damping.rayleigh.as_ref().map(|s| s.span.clone())),
             ("ratio", damping.ratio.as_ref().map(Spanned::span)),
@@ -91,7 +91,7 @@ impl Builder<'_> {
         }
         match &damping.matrix {
             Some(file) => {
-                self.places.push(("system.damping.matrix".to_owned(), file.span()));
+                self.places.push((("damping", "matrix").into(), file.span()));
                 self.written.matrices.push(("matrix", file.get_ref().clone()));
                 Ok(Damping::Matrix(self.matrix("damping", file)?))
             }

@@ -3,7 +3,7 @@
 use super::builder::Builder;
 use super::model::Model;
 use super::value::Value;
-use crate::error::Result;
+use crate::error::{Result, Subject};
 use toml::Spanned;
 
 impl Builder<'_> {
@@ -19,10 +19,11 @@ impl Builder<'_> {
     }
 
     /// A displacement or velocity of every degree of freedom; 0 where nothing is said.
-    pub fn field(&mut self, key: &str, value: Option<&Spanned<Value>>) -> Result<Vec<f64>> {
+    pub fn field(&mut self, part: &'static str, value: Option<&Spanned<Value>>) -> Result<Vec<f64>> {
         let Some(value) = value else { return Ok(vec![0.0; self.n]) };
-        self.places.push((key.to_owned(), value.span()));
-        let wanted = self.takes_field(if key.ends_with("velocity") { "m/s" } else { "m" });
+        let (subject, key) = (Subject::from(("initial state", part)), &format!("initial.{part}"));
+        self.places.push((subject.clone(), value.span()));
+        let wanted = self.takes_field(if part == "velocity" { "m/s" } else { "m" });
         match value.get_ref() {
             Value::Number(x) if self.n == 1 => Ok(vec![*x]),
             Value::List(items) if !matches!(self.model, Model::Oscillator) => {
@@ -33,7 +34,7 @@ impl Builder<'_> {
                 items.iter().map(|item| self.finite(key, item, &wanted)).collect()
             }
             Value::Table(entries) if !matches!(self.model, Model::Oscillator) => match entries.as_slice() {
-                [(name, points)] if name.get_ref() == "profile" => self.profile(key, name, points, &wanted),
+                [(name, points)] if name.get_ref() == "profile" => self.profile((key, subject), name, points, &wanted),
                 [(name, list)] if name.get_ref() == "dofs" => {
                     let mut field = vec![0.0; self.n];
                     for (dof, x) in self.pairs(&format!("{key}.dofs"), list, &wanted)? {
@@ -55,7 +56,13 @@ impl Builder<'_> {
         }
     }
 
-    fn profile(&mut self, key: &str, name: &Spanned<String>, list: &Spanned<Value>, wanted: &str) -> Result<Vec<f64>> {
+    fn profile(
+        &mut self,
+        (key, subject): (&str, Subject),
+        name: &Spanned<String>,
+        list: &Spanned<Value>,
+        wanted: &str,
+    ) -> Result<Vec<f64>> {
         let mut points = Vec::new();
         if self.has_positions() {
             for (x, value) in self.pairs(&format!("{key}.profile"), list, wanted)? {
@@ -64,8 +71,8 @@ impl Builder<'_> {
             }
         }
         match &self.model {
-            Model::Bar(bar) => bar.field_through(key, &points).map_err(|error| self.at_key(error)),
-            Model::Beam(beam) => beam.field_through(key, &points).map_err(|error| self.at_key(error)),
+            Model::Bar(bar) => bar.field_through(subject, &points).map_err(|error| self.at_key(error)),
+            Model::Beam(beam) => beam.field_through(subject, &points).map_err(|error| self.at_key(error)),
             other => {
                 let title = format!("`{key}`: a {} has no positions", other.kind());
                 Err(self.source.error(name.span(), &title, &format!("expected {wanted}")))

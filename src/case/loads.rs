@@ -4,16 +4,16 @@ use super::builder::Builder;
 use super::file;
 use super::table::{self, TableColumns};
 use super::value::Section;
-use crate::error::Result;
+use crate::error::{Result, Subject};
 use crate::scene::Load;
 use toml::Spanned;
 
 impl Builder<'_> {
     /// The load of table `index`.
     pub fn load(&mut self, index: usize, load: Section<file::Load>) -> Result<Load> {
-        let key = |what: &str| format!("load {}: {what}", index + 1);
+        let key = |what: &'static str| Subject::nth("load", index).part(what);
         let file::Load { at, constant, harmonic, impulse, table } = load.value;
-        self.places.push((format!("load {}", index + 1), load.span.clone()));
+        self.places.push((Subject::nth("load", index), load.span.clone()));
         let given: Vec<_> = [
             ("constant", constant.as_ref().map(|s| s.span.clone())),
             ("harmonic", harmonic.as_ref().map(|s| s.span.clone())),
@@ -31,7 +31,7 @@ impl Builder<'_> {
             ));
         }
         let owner = format!("load {}", index + 1);
-        let mut sites = self.sites(&owner, at.as_ref(), load.span.clone(), true)?;
+        let mut sites = self.sites((&owner, Subject::nth("load", index)), at.as_ref(), load.span.clone(), true)?;
         let site = sites.pop().ok_or_else(|| self.refuse(load.span.clone(), &owner, "a place"))?;
         self.written.loads.push(site.place.clone());
         self.written.tables.push(None);
@@ -102,7 +102,7 @@ impl Builder<'_> {
             let expected = "another sign than the delimiter: delimiter = \";\" beside it";
             return Err(self.refuse(word.span(), &format!("{owner}: table: decimal"), expected));
         }
-        let scale = self.optional(format!("{owner}: table: scale"), table.scale.as_ref()).unwrap_or(plain.scale);
+        let scale = table.scale.as_ref().map_or(plain.scale, |scale| scale.get_ref().0);
         match &table.scale {
             Some(number) if !scale.is_finite() || scale == 0.0 => {
                 let expected = "a finite number other than 0: how many N one unit of the column is";

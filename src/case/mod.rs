@@ -38,6 +38,7 @@ mod text;
 mod truncated;
 mod value;
 mod walls;
+mod wording;
 mod written;
 
 pub use case_file::CaseFile;
@@ -88,6 +89,11 @@ impl Case {
     /// # Errors
     /// [`Error::Invalid`] for the first value that makes no sense.
     pub fn validate(&self) -> Result<()> {
+        self.check().map_err(wording::in_keys)
+    }
+
+    /// The same, with errors in the words of scene and options.
+    fn check(&self) -> Result<()> {
         self.scene.validate()?;
         self.time.validate(self.scene.duration)?;
         let rows = self.scene.duration / self.time.sample.map_or(self.time.step, |s| s.max(self.time.step));
@@ -97,7 +103,7 @@ impl Case {
             let value = self.time.sample.map_or("left out".to_owned(), |sample| format!("{sample:?}"));
             let expected =
                 format!("at least {least:.1e} s: a row has {columns} values, and a table at most {MOST_VALUES:e}");
-            return Err(Error::invalid("time.sample", value, expected));
+            return Err(Error::invalid("sample", value, expected));
         }
         self.penalty.validate(&self.scene.walls)
     }

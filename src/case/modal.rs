@@ -4,7 +4,7 @@ use super::builder::Builder;
 use super::file;
 use super::report::Source;
 use super::value::{Number, Value};
-use crate::error::Result;
+use crate::error::{Result, Subject};
 use crate::scene::{ModalData, ModalPoint};
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -39,7 +39,13 @@ impl Builder<'_> {
     }
 
     /// A list of numbers, each times `factor`; an error of the value is under `name`.
-    fn each(&mut self, key: &str, name: &str, list: &Spanned<Vec<Spanned<Number>>>, factor: f64) -> Result<Vec<f64>> {
+    fn each(
+        &mut self,
+        key: &str,
+        name: &'static str,
+        list: &Spanned<Vec<Spanned<Number>>>,
+        factor: f64,
+    ) -> Result<Vec<f64>> {
         let wanted = "a list of numbers, 0 or more: one for each mode";
         if list.get_ref().is_empty() {
             return Err(self.refuse(list.span(), &format!("system.modal.{key}"), wanted));
@@ -50,23 +56,29 @@ impl Builder<'_> {
             if !(x.is_finite() && x >= 0.0) {
                 return Err(self.refuse(item.span(), &format!("system.modal.{key}: value {}", i + 1), "0 or more"));
             }
-            self.places.push((format!("system.modal.{name}: value {}", i + 1), item.span()));
+            self.places.push((Subject::from(("modal data", name)).value(i), item.span()));
             values.push(factor * x);
         }
         Ok(values)
     }
 
     /// A number for all `k` modes, or a list of one for each.
-    fn of_modes(&mut self, key: &str, value: Option<&Spanned<Value>>, plain: f64, k: usize) -> Result<Vec<f64>> {
+    fn of_modes(
+        &mut self,
+        name: &'static str,
+        value: Option<&Spanned<Value>>,
+        plain: f64,
+        k: usize,
+    ) -> Result<Vec<f64>> {
         let Some(value) = value else { return Ok(vec![plain; k]) };
-        let key = format!("system.modal.{key}");
-        self.places.push((key.clone(), value.span()));
+        let (key, subject) = (format!("system.modal.{name}"), Subject::from(("modal data", name)));
+        self.places.push((subject.clone(), value.span()));
         match value.get_ref() {
             Value::Number(x) => {
-                self.places.push((format!("{key}: value 1"), value.span()));
+                self.places.push((subject.value(0), value.span()));
                 Ok(vec![*x; k])
             }
-            Value::List(items) if items.len() == k => self.list(&key, items),
+            Value::List(items) if items.len() == k => self.list(&key, subject, items),
             Value::List(items) => {
                 let title = format!("{key} has {} value{}", items.len(), if items.len() == 1 { "" } else { "s" });
                 let help = format!("expected {k}, one for each mode, or one number for all");
@@ -78,7 +90,8 @@ impl Builder<'_> {
 
     fn shapes(&mut self, shapes: &Spanned<Value>, k: usize) -> Result<Vec<ModalPoint>> {
         let key = "system.modal.shapes";
-        self.places.push((key.to_owned(), shapes.span()));
+        let subject = Subject::from(("modal data", "shapes"));
+        self.places.push((subject.clone(), shapes.span()));
         match shapes.get_ref() {
             Value::Word(file) => {
                 let (path, text) = self.open(file).map_err(|reason| {
@@ -92,7 +105,7 @@ impl Builder<'_> {
                 for (name, shape) in entries {
                     let key = format!("{key}.{}", name.get_ref());
                     self.name(&key, name)?;
-                    self.places.push((key.clone(), shape.span()));
+                    self.places.push((subject.clone().part(name.get_ref().clone()), shape.span()));
                     let Value::List(items) = shape.get_ref() else {
                         return Err(self.refuse(
                             shape.span(),

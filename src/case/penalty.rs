@@ -1,6 +1,6 @@
 //! The `[penalty]` table.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::scene::Wall;
 use crate::scheme::{Integrator, PenaltyLaw};
 
@@ -17,17 +17,17 @@ impl PenaltyOptions {
     /// Checks every law against the walls.
     ///
     /// # Errors
-    /// [`Error::Invalid`], its key starting with `penalty law` and the number of the law from 1.
+    /// [`Error::Invalid`], its subject a part of the `penalty law` of that number.
     pub fn validate(&self, walls: &[Wall]) -> Result<()> {
         for (index, law) in self.laws.iter().enumerate() {
             law.validate(walls).map_err(|error| match error {
-                Error::Invalid { key, value, expected } => {
-                    Error::Invalid { key: format!("penalty law {}: {key}", index + 1), value, expected }
+                Error::Invalid { subject, value, expected } => {
+                    Error::Invalid { subject: subject.within(Subject::nth("penalty law", index)), value, expected }
                 }
                 other => other,
             })?;
             if self.laws.iter().take(index).any(|other| other == law) {
-                let key = format!("penalty law {}", index + 1);
+                let key = Subject::nth("penalty law", index);
                 return Err(Error::invalid(key, format_args!("{law}, given twice"), "each law once"));
             }
         }

@@ -3,7 +3,7 @@
 use super::builder::Builder;
 use super::model::{Model, Place};
 use super::value::Value;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::scene::Row;
 use std::ops::Range;
 use toml::Spanned;
@@ -42,10 +42,10 @@ impl Builder<'_> {
         }
     }
 
-    /// The sites that `at` names; `owner` is what sits there, at `span` of the file. Loads may be spread.
+    /// The sites that `at` names; `owner` is what sits there, by name and as errors know it, at `span` of the file. Loads may be spread.
     pub fn sites(
         &mut self,
-        owner: &str,
+        (owner, subject): (&str, Subject),
         at: Option<&Spanned<Value>>,
         span: Range<usize>,
         load: bool,
@@ -58,7 +58,7 @@ impl Builder<'_> {
             let title = format!("`at` is missing in {owner}");
             return Err(self.source.error(span, &title, &format!("expected {}", self.takes(load))));
         };
-        self.places.push((key.clone(), at.span()));
+        self.places.push((subject.part("at"), at.span()));
         if let Value::Word(word) = at.get_ref()
             && word == "each"
             && !load

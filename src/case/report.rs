@@ -46,7 +46,7 @@ impl Source<'_> {
         if let Some(note) = note {
             report = report.element(Level::NOTE.message(note));
         }
-        Error::Case(Renderer::plain().render(&[report]))
+        Error::Case { report: Renderer::plain().render(&[report]), cause: None }
     }
 
     /// The text at `span`.

@@ -9,13 +9,15 @@ use std::path::Path;
 
 /// Name and text of the case file within `text`, a summary at `path`, and the summary.
 pub(super) fn read(text: &str, path: &Path) -> Result<(String, String, Value)> {
-    let failed = |reason: String| Error::Io { path: path.display().to_string(), reason, request: true };
-    let summary: Value = serde_json::from_str(text).map_err(|error| failed(format!("no JSON: {error}")))?;
+    let failed = |reason: String| Error::io(path.display(), reason, true);
+    let summary: Value =
+        serde_json::from_str(text).map_err(|error| failed(format!("no JSON: {error}")).caused_by(error))?;
     let written = summary.get("case_file").filter(|value| value.is_object()).ok_or_else(|| {
         let help = "a case file is a TOML text; of JSON files the summary.json of a run is read, which has a `case_file` within";
         failed(format!("no summary of a run\nhelp: {help}"))
     })?;
-    let case = toml::to_string(written).map_err(|error| failed(format!("its `case_file` is no case file: {error}")))?;
+    let case = toml::to_string(written)
+        .map_err(|error| failed(format!("its `case_file` is no case file: {error}")).caused_by(error))?;
     let name = summary.get("case").and_then(Value::as_str).unwrap_or("case").to_owned();
     Ok((format!("{name}.toml"), case, summary))
 }

@@ -5,7 +5,8 @@ use super::builder::{Builder, MOST_MASSES};
 use super::file;
 use super::model::Model;
 use super::value::{Number, Section, Value};
-use crate::error::{Error, Result};
+use super::wording::written;
+use crate::error::{Error, Result, Subject};
 use crate::scene::{Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MOST_ELEMENTS, MassMatrix, Oscillator, System};
 use std::ops::Range;
 use toml::Spanned;
@@ -30,7 +31,7 @@ impl Builder<'_> {
     /// The system, and what it was made from; `cut` if it will be cut to modes.
     pub fn system(&mut self, section: Section<file::System>, cut: bool) -> Result<Built> {
         let Section { span, value: system } = section;
-        let given: Vec<(&str, Range<usize>)> = [
+        let given: Vec<(&'static str, Range<usize>)> = [
             ("oscillator", system.oscillator.as_ref().map(|s| s.span.clone())),
             ("chain", system.chain.as_ref().map(|s| s.span.clone())),
             ("bar", system.bar.as_ref().map(|s| s.span.clone())),
@@ -51,9 +52,9 @@ impl Builder<'_> {
                 return Err(self.source.error(later.clone(), &title, one));
             }
         }
-        self.places.push(("system".to_owned(), given[0].1.clone()));
-        let key = format!("system.{}", given[0].0);
-        self.places.push((key.clone(), given[0].1.clone()));
+        let table = if given[0].0 == "modal" { "modal data" } else { given[0].0 };
+        self.places.push(("system".into(), given[0].1.clone()));
+        self.places.push((table.into(), given[0].1.clone()));
         if let Some(oscillator) = system.oscillator {
             for (key, span) in [
                 ("damping", system.damping.as_ref().map(|s| s.span.clone())),
@@ -67,9 +68,9 @@ impl Builder<'_> {
                 }
             }
             let o = oscillator.value;
-            let mass = self.number("system.oscillator.mass", &o.mass);
-            let damping = self.number("system.oscillator.damping", &o.damping);
-            let stiffness = self.number("system.oscillator.stiffness", &o.stiffness);
+            let mass = self.number(("oscillator", "mass"), &o.mass);
+            let damping = self.number(("oscillator", "damping"), &o.damping);
+            let stiffness = self.number(("oscillator", "stiffness"), &o.stiffness);
             let system = System::Oscillator(Oscillator { mass, damping, stiffness });
             return Ok(Built { model: Model::Oscillator, system, pending: None });
         }
@@ -117,15 +118,15 @@ impl Builder<'_> {
     }
 
     fn chain(&mut self, chain: file::Chain) -> Result<Chain> {
-        let key = "system.chain.masses";
-        self.places.push((key.to_owned(), chain.masses.span()));
+        let (key, subject) = ("system.chain.masses", Subject::from(("chain", "masses")));
+        self.places.push((subject.clone(), chain.masses.span()));
         let masses = match (chain.masses.get_ref(), &chain.mass) {
             (Value::Number(x), Some(mass)) => {
                 let count = self.count(key, *x, chain.masses.span(), MOST_MASSES)?;
-                self.places.push((format!("{key}: value 1"), mass.span()));
-                vec![self.number("system.chain.mass", mass); count]
+                self.places.push((subject.value(0), mass.span()));
+                vec![self.number(("chain", "mass"), mass); count]
             }
-            (Value::List(items), None) => self.list(key, items)?,
+            (Value::List(items), None) => self.list(key, subject, items)?,
             (Value::List(_), Some(mass)) => {
                 let help = "expected mass only where masses says how many there are";
                 return Err(self.source.error(mass.span(), "`system.chain.mass` beside a list of masses", help));
@@ -136,14 +137,14 @@ impl Builder<'_> {
             }
             _ => return Err(self.refuse_as(chain.masses.span(), key)),
         };
-        let key = "system.chain.springs";
-        self.places.push((key.to_owned(), chain.springs.span()));
+        let (key, subject) = ("system.chain.springs", Subject::from(("chain", "springs")));
+        self.places.push((subject.clone(), chain.springs.span()));
         let springs = match chain.springs.get_ref() {
             Value::Number(k) => {
-                self.places.push((format!("{key}: value 1"), chain.springs.span()));
+                self.places.push((subject.value(0), chain.springs.span()));
                 vec![*k; masses.len().saturating_sub(1)]
             }
-            Value::List(items) => self.list(key, items)?,
+            Value::List(items) => self.list(key, subject, items)?,
             _ => return Err(self.refuse_as(chain.springs.span(), key)),
         };
         let mut grounds = [0.0; 2];
@@ -179,11 +180,11 @@ impl Builder<'_> {
             };
         }
         Ok(Bar {
-            length: self.number("system.bar.length", &bar.length),
-            area: self.number("system.bar.area", &bar.area),
-            youngs_modulus: self.number("system.bar.youngs_modulus", &bar.youngs_modulus),
-            density: self.number("system.bar.density", &bar.density),
-            elements: self.whole("system.bar.elements", &bar.elements, MOST_ELEMENTS)?,
+            length: self.number(("bar", "length"), &bar.length),
+            area: self.number(("bar", "area"), &bar.area),
+            youngs_modulus: self.number(("bar", "youngs_modulus"), &bar.youngs_modulus),
+            density: self.number(("bar", "density"), &bar.density),
+            elements: self.whole(("bar", "elements"), &bar.elements, MOST_ELEMENTS)?,
             left: ends[0],
             right: ends[1],
             mass,
@@ -201,13 +202,13 @@ impl Builder<'_> {
             };
         }
         Ok(Beam {
-            length: self.number("system.beam.length", &beam.length),
-            youngs_modulus: self.number("system.beam.youngs_modulus", &beam.youngs_modulus),
-            density: self.number("system.beam.density", &beam.density),
-            outer_diameter: self.number("system.beam.outer_diameter", &beam.outer_diameter),
-            inner_diameter: self.optional("system.beam.inner_diameter", beam.inner_diameter.as_ref()).unwrap_or(0.0),
-            added_mass: self.optional("system.beam.added_mass", beam.added_mass.as_ref()).unwrap_or(0.0),
-            elements: self.whole("system.beam.elements", &beam.elements, MOST_ELEMENTS)?,
+            length: self.number(("beam", "length"), &beam.length),
+            youngs_modulus: self.number(("beam", "youngs_modulus"), &beam.youngs_modulus),
+            density: self.number(("beam", "density"), &beam.density),
+            outer_diameter: self.number(("beam", "outer_diameter"), &beam.outer_diameter),
+            inner_diameter: self.optional(("beam", "inner_diameter"), beam.inner_diameter.as_ref()).unwrap_or(0.0),
+            added_mass: self.optional(("beam", "added_mass"), beam.added_mass.as_ref()).unwrap_or(0.0),
+            elements: self.whole(("beam", "elements"), &beam.elements, MOST_ELEMENTS)?,
             left: ends[0],
             right: ends[1],
         })
@@ -247,20 +248,21 @@ impl Builder<'_> {
     }
 
     /// A list of numbers, the place of each noted.
-    pub fn list(&mut self, key: &str, items: &[Spanned<Value>]) -> Result<Vec<f64>> {
+    pub fn list(&mut self, key: &str, subject: Subject, items: &[Spanned<Value>]) -> Result<Vec<f64>> {
         let mut list = Vec::with_capacity(items.len());
         for (i, item) in items.iter().enumerate() {
             let Value::Number(x) = item.get_ref() else { return Err(self.refuse_as(item.span(), key)) };
-            self.places.push((format!("{key}: value {}", i + 1), item.span()));
+            self.places.push((subject.clone().value(i), item.span()));
             list.push(*x);
         }
         Ok(list)
     }
 
     /// A whole number that counts something, at most `most`.
-    pub fn whole(&mut self, key: &str, value: &Spanned<Number>, most: usize) -> Result<usize> {
-        let x = self.number(key, value);
-        self.count(key, x, value.span(), most)
+    pub fn whole(&mut self, subject: impl Into<Subject>, value: &Spanned<Number>, most: usize) -> Result<usize> {
+        let subject = subject.into();
+        let x = self.number(subject.clone(), value);
+        self.count(&written(&subject), x, value.span(), most)
     }
 
     fn count(&self, key: &str, x: f64, span: Range<usize>, most: usize) -> Result<usize> {

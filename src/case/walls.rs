@@ -5,7 +5,7 @@ use super::file;
 use super::model::{Model, Place};
 use super::place::Site;
 use super::value::Section;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::scene::{ModalData, Probe, Row, Side, Wall, WallLaw};
 use std::ops::Range;
 use toml::Spanned;
@@ -27,7 +27,7 @@ impl Builder<'_> {
         let sides = self.sides(&owner, &wall, span.clone())?;
         let law = self.law_of(&owner, &wall)?;
         let mut walls = Vec::new();
-        let sites = self.sites(&owner, wall.at.as_ref(), span.clone(), false)?;
+        let sites = self.sites((&owner, Subject::wall(&base)), wall.at.as_ref(), span.clone(), false)?;
         let count = first + sites.len() * sides.len();
         if count > MOST_WALLS {
             let place = wall.at.as_ref().map_or(span, Spanned::span);
@@ -52,7 +52,7 @@ impl Builder<'_> {
 
     /// Where the values of a wall stand, under the name that the scene knows it by.
     fn note(&mut self, number: usize, name: &str, wall: &file::Wall) {
-        self.places.push((format!("wall {}: name", number + 1), wall.name.span()));
+        self.places.push((Subject::nth("wall", number).part("name"), wall.name.span()));
         let position = wall.position.as_ref().or(wall.gap.as_ref());
         let keys = [
             ("position", position.map(Spanned::span)),
@@ -62,7 +62,7 @@ impl Builder<'_> {
             ("at", wall.at.as_ref().map(Spanned::span)),
         ];
         for (key, span) in keys {
-            self.places.extend(span.map(|span| (format!("wall {name:?}: {key}"), span)));
+            self.places.extend(span.map(|span| (Subject::wall(name).part(key), span)));
         }
     }
 
@@ -172,7 +172,9 @@ impl Builder<'_> {
         for (index, Section { span, value: probe }) in probes.into_iter().enumerate() {
             let key = format!("probe {}: name", index + 1);
             let base = self.name(&key, &probe.name)?;
-            for site in self.sites(&format!("probe {base:?}"), probe.at.as_ref(), span, false)? {
+            for site in
+                self.sites((&format!("probe {base:?}"), Subject::probe(&base)), probe.at.as_ref(), span, false)?
+            {
                 let name = format!("{base}{}", site.suffix);
                 if all.iter().any(|other| other.name == name) {
                     return Err(self.refuse(probe.name.span(), &key, "a name of its own for each probe"));

@@ -160,8 +160,10 @@ fn independent(case: &Case, title: &str, labels: &[String], runs: &[Run], known:
         let curve = Curve::new(label.as_str(), rows.map(|(&t, &u)| (t, 1e3 * u))).look(place(known, label));
         panel = panel.curve(if run.scheme == Scheme::Event { curve.backdrop() } else { curve });
     }
-    let points = Embedded::reference_points()
-        .ok_or_else(|| Error::Case("error: the built-in reference values cannot be read".into()))?;
+    let points = Embedded::reference_points().ok_or_else(|| Error::Case {
+        report: "error: the built-in reference values cannot be read".into(),
+        cause: None,
+    })?;
     let shown = points.into_iter().filter(|p| p.0 <= case.scene.duration);
     // A point that cannot be drawn between two that can leaves markers without a line.
     let shown = shown.flat_map(|(t, u)| [(t, 1e3 * u), (t, f64::NAN)]);

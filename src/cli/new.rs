@@ -40,7 +40,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let files: Vec<_> = std::iter::once((path.clone(), embedded.text)).chain(tables).collect();
     if let Some((taken, _)) = files.iter().find(|(path, _)| path.exists()).filter(|_| !args.force) {
         let reason = "already exists; --out FILE writes elsewhere, --force replaces it".to_owned();
-        return Err(Error::Io { path: taken.display().to_string(), reason, request: true });
+        return Err(Error::io(taken.display(), reason, true));
     }
     for (path, text) in &files {
         write_whole(path, text.as_bytes())?;

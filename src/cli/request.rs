@@ -283,7 +283,7 @@ impl Request {
     pub fn check_use(&self, methods: &[Method]) -> Result<()> {
         let any = |test: fn(&Scheme) -> bool| methods.iter().any(|m| test(&m.scheme));
         let penalty = |s: &Scheme| matches!(s, Scheme::Penalty { .. });
-        let unused = |option: &str, value: String, scheme: &str| {
+        let unused = |option: &'static str, value: String, scheme: &str| {
             Err(Error::invalid(option, value, format!("a request with {scheme} in it")))
         };
         for (index, method) in methods.iter().enumerate() {

@@ -155,7 +155,7 @@ impl Ui {
 
 /// What is said where stdout cannot be written.
 pub(super) fn unwritable(error: &io::Error) -> Error {
-    Error::Io { path: "standard output".to_owned(), reason: error.to_string(), request: false }
+    Error::io("standard output", error.to_string(), false)
 }
 
 /// Columns of text that stdout has room for: `COLUMNS`, else those of the terminal; none for a file or a pipe, which

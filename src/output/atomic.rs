@@ -22,7 +22,7 @@ use crate::error::{Error, Result};
 /// ```
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     let mut file = WholeFile::create(path)?;
-    file.write_all(bytes).map_err(|e| failure(path, &e, false))?;
+    file.write_all(bytes).map_err(|e| failure(path, e, false))?;
     file.finish()
 }
 
@@ -70,16 +70,16 @@ impl WholeFile {
     /// # Errors
     /// [`Error::Io`] marked as a wrong request: the place asked for cannot be written.
     pub fn create(path: &Path) -> Result<Self> {
-        let wrong = |reason: &str| Error::Io { path: shown(path), reason: reason.to_owned(), request: true };
+        let wrong = |reason: &str| Error::io(shown(path), reason, true);
         let name = path.file_name().ok_or_else(|| wrong("this is no file name"))?;
         if path.is_dir() {
             return Err(wrong("this is a folder, where a file is to be written"));
         }
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-            fs::create_dir_all(folder).map_err(|e| failure(folder, &e, true))?;
+            fs::create_dir_all(folder).map_err(|e| failure(folder, e, true))?;
         }
         loop {
-            let (partial, file) = open_sibling(path, name).map_err(|e| failure(path, &e, true))?;
+            let (partial, file) = open_sibling(path, name).map_err(|e| failure(path, e, true))?;
             if let Some(file) = file {
                 let partial = Partial { path: partial, kept: false };
                 return Ok(Self {
@@ -103,10 +103,10 @@ impl WholeFile {
     /// [`Error::Io`] when the disk refuses; nothing is left behind then, and an older file stays as it was.
     pub fn finish(mut self) -> Result<()> {
         if let Some(writer) = self.writer.take() {
-            let file = writer.into_inner().map_err(|e| failure(&self.path, e.error(), false))?;
+            let file = writer.into_inner().map_err(|e| failure(&self.path, e.into_error(), false))?;
             drop(file);
         }
-        fs::rename(&self.partial.path, &self.path).map_err(|e| failure(&self.path, &e, false))?;
+        fs::rename(&self.partial.path, &self.path).map_err(|e| failure(&self.path, e, false))?;
         self.partial.kept = true;
         Ok(())
     }
@@ -136,8 +136,8 @@ fn open_sibling(path: &Path, name: &std::ffi::OsStr) -> io::Result<(PathBuf, Opt
     }
 }
 
-fn failure(path: &Path, error: &io::Error, request: bool) -> Error {
-    Error::Io { path: shown(path), reason: error.to_string(), request }
+fn failure(path: &Path, error: io::Error, request: bool) -> Error {
+    Error::io(shown(path), error.to_string(), request).caused_by(error)
 }
 
 fn shown(path: &Path) -> String {

@@ -82,18 +82,13 @@ pub fn words<S: AsRef<str>>(names: &[S]) -> Vec<String> {
 /// # Errors
 /// As [`trajectory`].
 pub fn table(path: &Path, header: &[String], rows: impl Iterator<Item = Vec<String>>) -> Result<()> {
-    let failed = |e: csv::Error| Error::Io { path: path.display().to_string(), reason: e.to_string(), request: false };
+    let failed = |e: csv::Error| Error::io(path.display(), e.to_string(), false).caused_by(e);
     let mut writer = csv::Writer::from_writer(WholeFile::create(path)?);
     writer.write_record(header).map_err(failed)?;
     for row in rows {
         writer.write_record(&row).map_err(failed)?;
     }
-    let said = |e: &dyn std::fmt::Display| Error::Io {
-        path: path.display().to_string(),
-        reason: e.to_string(),
-        request: false,
-    };
-    writer.into_inner().map_err(|e| said(&e.error()))?.finish()
+    writer.into_inner().map_err(|e| Error::io(path.display(), e.error().to_string(), false))?.finish()
 }
 
 /// 17 significant digits; an empty cell where there is no value.

@@ -56,7 +56,7 @@ impl Format {
     /// As [`Format::check`] and [`write_whole`]; [`Error::Io`] for a text that is no SVG.
     pub fn write(self, path: &Path, svg: &str) -> Result<()> {
         self.check()?;
-        let failed = |reason| Error::Io { path: path.display().to_string(), reason, request: false };
+        let failed = |reason: String| Error::io(path.display(), reason, false);
         match self {
             Self::Svg => write_whole(path, svg.as_bytes()),
             Self::Pdf => write_whole(path, &convert::pdf(svg).map_err(failed)?),

@@ -58,7 +58,7 @@ impl Results {
             };
             if let Some(reason) = refused {
                 let reason = format!("{reason}\nhelp: --force replaces them, --out DIR writes elsewhere");
-                return Err(Error::Io { path: folder.display().to_string(), reason, request: true });
+                return Err(Error::io(folder.display(), reason, true));
             }
         }
         check_folder(folder)?;
@@ -91,7 +91,7 @@ impl Results {
         if self.files.is_empty() {
             let manifest = self.folder.join(MANIFEST);
             match fs::remove_file(&manifest) {
-                Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(failure(&manifest, &error)),
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(failure(&manifest, error)),
                 _ => {}
             }
         }
@@ -194,8 +194,8 @@ fn differences(other: Option<&Value>, request: &Map<String, Value>) -> Option<St
 /// How the keys of fingerprints end.
 pub const FINGERPRINT: &str = "_fingerprint";
 
-fn failure(path: &Path, error: &std::io::Error) -> Error {
-    Error::Io { path: path.display().to_string(), reason: error.to_string(), request: false }
+fn failure(path: &Path, error: std::io::Error) -> Error {
+    Error::io(path.display(), error.to_string(), false).caused_by(error)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::Structure;
 use super::modal::{MOST_DENSE, Modes};
 use super::system::nonnegative;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use nalgebra::DMatrix;
 
@@ -31,22 +31,22 @@ impl Damping {
     /// C for the M and K of `structure`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `system.damping.mass`, `.stiffness`, `.ratios` or `.matrix`; where modal ratios meet a structure too large;
+    /// [`Error::Invalid`] under the damping's `mass`, `stiffness`, `ratios` or `matrix`; where modal ratios meet a structure too large;
     /// or the errors of [`Modes::lowest`].
     pub fn matrix(&self, structure: &Structure) -> Result<Symmetric> {
         let n = structure.mass.size();
         match self {
             Self::None => Ok(Symmetric::zeros(n)),
             Self::Rayleigh { mass, stiffness } => {
-                nonnegative("system.damping.mass", *mass)?;
-                nonnegative("system.damping.stiffness", *stiffness)?;
+                nonnegative(("damping", "mass"), *mass)?;
+                nonnegative(("damping", "stiffness"), *stiffness)?;
                 Ok(Symmetric::sum(&[(*mass, &structure.mass), (*stiffness, &structure.stiffness)]))
             }
             Self::Modal(ratios) => modal(ratios, structure),
             Self::Matrix(matrix) if matrix.size() == n => Ok(matrix.clone()),
             Self::Matrix(matrix) => {
                 let expected = format!("{n} × {n}, as the mass matrix");
-                Err(Error::invalid("system.damping.matrix", format!("{0} × {0}", matrix.size()), expected))
+                Err(Error::invalid(("damping", "matrix"), format!("{0} × {0}", matrix.size()), expected))
             }
         }
     }
@@ -65,10 +65,10 @@ impl Structure {
 
 fn modal(ratios: &[f64], structure: &Structure) -> Result<Symmetric> {
     let Some(&last) = ratios.last() else {
-        return Err(Error::invalid("system.damping.ratios", "an empty list", "one ratio or more"));
+        return Err(Error::invalid(("damping", "ratios"), "an empty list", "one ratio or more"));
     };
     for (i, &ratio) in ratios.iter().enumerate() {
-        nonnegative(&format!("system.damping.ratios: value {}", i + 1), ratio)?;
+        nonnegative(Subject::from(("damping", "ratios")).value(i), ratio)?;
     }
     let ratio = |i: usize| ratios.get(i).copied().unwrap_or(last);
     let n = structure.mass.size();
@@ -85,7 +85,7 @@ fn modal(ratios: &[f64], structure: &Structure) -> Result<Symmetric> {
         let expected = format!(
             "at most {MOST_DENSE}: modal ratios make C full; cut the structure to modes, or give Rayleigh coefficients"
         );
-        return Err(Error::invalid("system.damping.ratios", format!("for {n} degrees of freedom"), expected));
+        return Err(Error::invalid(("damping", "ratios"), format!("for {n} degrees of freedom"), expected));
     }
     let modes = Modes::lowest(structure, n)?;
     // Columns √(2ζω) M φ: C is their product with their transpose, symmetric and semidefinite to the last bit.

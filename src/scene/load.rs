@@ -3,7 +3,7 @@
 use super::function::TimeFunction;
 use super::row::Row;
 use super::system::{finite, nonnegative, positive};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use std::f64::consts::TAU;
 
 /// Rows that a sampled function may take.
@@ -27,12 +27,12 @@ impl Table {
             return Err(Error::invalid("load table", rows, "as many times as forces, two rows or more"));
         }
         for (i, (&t, &f)) in time.iter().zip(&force).enumerate() {
-            finite(&format!("load table, row {}: time_s", i + 1), t)?;
-            finite(&format!("load table, row {}: force_N", i + 1), f)?;
+            finite(Subject::of("load table").row(i).part("time_s"), t)?;
+            finite(Subject::of("load table").row(i).part("force_N"), f)?;
         }
         for (i, pair) in time.windows(2).enumerate() {
             if pair[1] <= pair[0] {
-                let key = format!("load table, row {}: time_s", i + 2);
+                let key = Subject::of("load table").row(i + 1).part("time_s");
                 return Err(Error::invalid(key, pair[1], format!("more than the row before, {}", pair[0])));
             }
         }
@@ -71,18 +71,18 @@ impl Table {
     pub fn sampled(f: impl Fn(f64) -> f64, [from, to]: [f64; 2], curvature: f64, error: f64) -> Result<Self> {
         if !(from.is_finite() && to.is_finite() && to > from) {
             return Err(Error::invalid(
-                "sampled load: interval",
+                ("sampled load", "interval"),
                 format!("{from:?} to {to:?}"),
                 "from < to, both finite",
             ));
         }
         nonnegative("sampled load: curvature", curvature)?;
-        positive("sampled load: error", error)?;
+        positive(("sampled load", "error"), error)?;
         let intervals = ((to - from) * (curvature / (8.0 * error)).sqrt()).ceil().max(1.0);
         if intervals > MOST_SAMPLES {
             let least = curvature / 8.0 * ((to - from) / MOST_SAMPLES).powi(2);
             let expected = format!("{least:e} N or more: a table of 1e7 rows is the largest");
-            return Err(Error::invalid("sampled load: error", format_args!("{error:e}"), expected));
+            return Err(Error::invalid(("sampled load", "error"), format_args!("{error:e}"), expected));
         }
         let at = |i: u64| if i as f64 == intervals { to } else { from + (to - from) * (i as f64 / intervals) };
         let time: Vec<f64> = (0..=intervals as u64).map(at).collect();
@@ -205,21 +205,21 @@ impl Load {
     }
 
     pub(crate) fn validate(&self, index: usize) -> Result<()> {
-        let key = |what: &str| format!("load {}: {what}", index + 1);
+        let key = |what: &'static str| Subject::nth("load", index).part(what);
         match &self.kind {
-            LoadKind::Constant { force } => finite(&key("force"), *force),
+            LoadKind::Constant { force } => finite(key("force"), *force),
             LoadKind::Harmonic { amplitude, frequency, phase } => {
-                finite(&key("amplitude"), *amplitude)?;
-                nonnegative(&key("frequency"), *frequency)?;
-                finite(&key("frequency"), TAU * frequency)?;
-                finite(&key("phase"), *phase)
+                finite(key("amplitude"), *amplitude)?;
+                nonnegative(key("frequency"), *frequency)?;
+                finite(key("frequency"), TAU * frequency)?;
+                finite(key("phase"), *phase)
             }
             LoadKind::Impulse { impulse, time } => {
-                finite(&key("impulse"), *impulse)?;
-                nonnegative(&key("time"), *time)
+                finite(key("impulse"), *impulse)?;
+                nonnegative(key("time"), *time)
             }
             LoadKind::Table(_) => Ok(()),
-            LoadKind::Function(function) => finite(&key("f(0)"), function.at(0.0)),
+            LoadKind::Function(function) => finite(key("f(0)"), function.at(0.0)),
         }
     }
 }

@@ -33,7 +33,7 @@ pub use structure::Structure;
 pub use system::{Oscillator, System};
 pub use wall::{Side, Wall, WallLaw};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use std::collections::HashSet;
 use system::{finite, positive};
 
@@ -194,31 +194,32 @@ impl Scene {
         #[cfg(test)]
         counted::count();
         self.system.validate()?;
-        positive("time.end", self.duration)?;
+        positive("duration", self.duration)?;
         let n = self.system.degrees_of_freedom();
-        for (key, values) in [("initial.displacement", &self.initial.q), ("initial.velocity", &self.initial.v)] {
+        for (part, values) in [("displacement", &self.initial.q), ("velocity", &self.initial.v)] {
+            let key = || Subject::of("initial state").part(part);
             if values.len() != n {
                 return Err(Error::invalid(
-                    key,
+                    key(),
                     format!("{} values", values.len()),
                     format!("{n}, one per degree of freedom"),
                 ));
             }
-            values.iter().try_for_each(|&x| finite(key, x))?;
+            values.iter().try_for_each(|&x| finite(key(), x))?;
         }
         for (index, load) in self.loads.iter().enumerate() {
             load.validate(index)?;
-            self.check_row(&format!("load {}", index + 1), &load.at)?;
+            self.check_row(|| Subject::nth("load", index), &load.at)?;
         }
         for probe in &self.probes {
-            self.check_row(&format!("probe {:?}", probe.name), &probe.at)?;
+            self.check_row(|| Subject::probe(&probe.name), &probe.at)?;
         }
         let mut names = HashSet::new();
         for (index, wall) in self.walls.iter().enumerate() {
             wall.validate_name(index)?;
             if !names.insert(wall.name.as_str()) {
                 return Err(Error::invalid(
-                    format!("wall {}: name", index + 1),
+                    Subject::nth("wall", index).part("name"),
                     format!("{:?}, which another wall has", wall.name),
                     "a name of its own for each wall",
                 ));
@@ -226,9 +227,9 @@ impl Scene {
         }
         for wall in &self.walls {
             wall.validate()?;
-            self.check_row(&format!("wall {:?}", wall.name), &wall.at)?;
+            self.check_row(|| Subject::wall(&wall.name), &wall.at)?;
             if wall.at.is_blind() {
-                let key = format!("wall {:?}: at", wall.name);
+                let key = Subject::wall(&wall.name).part("at");
                 return Err(Error::invalid(key, "a place that nothing moves", "a place that can move"));
             }
         }
@@ -242,14 +243,14 @@ impl Scene {
         Ok(())
     }
 
-    fn check_row(&self, owner: &str, row: &Row) -> Result<()> {
+    fn check_row(&self, owner: impl Fn() -> Subject, row: &Row) -> Result<()> {
         let n = self.system.degrees_of_freedom();
         for &(i, weight) in row.entries() {
             if i >= n {
                 let least = format!("a degree of freedom from 0 to {}", n - 1);
-                return Err(Error::invalid(format!("{owner}: at"), i, least));
+                return Err(Error::invalid(owner().part("at"), i, least));
             }
-            finite(&format!("{owner}: weight"), weight)?;
+            finite(owner().part("weight"), weight)?;
         }
         Ok(())
     }
@@ -259,7 +260,7 @@ impl Scene {
         if wall.law.is_rigid() && wall.gap(w) < 0.0 {
             let relation = if wall.side == Side::Upper { "at most" } else { "at least" };
             let expected = format!("{relation} {:?}, the position of the rigid wall {:?}", wall.position, wall.name);
-            return Err(Error::invalid("initial.displacement", format_args!("{w:?}"), expected));
+            return Err(Error::invalid(("initial state", "displacement"), format_args!("{w:?}"), expected));
         }
         Ok(())
     }
@@ -272,7 +273,7 @@ fn check_crossing(upper: &Wall, lower: &[&Wall]) -> Result<()> {
     }
     match lower.iter().find(|lower| lower.law.is_rigid() && lower.position > upper.position) {
         Some(lower) => Err(Error::invalid(
-            format!("wall {:?}: position", upper.name),
+            Subject::wall(&upper.name).part("position"),
             format_args!("{:?}", upper.position),
             format!("at least {:?}, the position of the rigid lower wall {:?}", lower.position, lower.name),
         )),

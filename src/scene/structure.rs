@@ -1,6 +1,6 @@
 //! A structure by its matrices.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::linear::{Factor, NotDefinite, Symmetric};
 
 /// M q̈ + C q̇ + K q = f by matrices, all n × n: M symmetric positive definite (kg), C (N s/m) and K (N/m) symmetric positive semidefinite. In modal
@@ -52,10 +52,10 @@ pub(super) fn validate(
     {
         if matrix.size() != n {
             let size = format!("{0} × {0}", matrix.size());
-            return Err(Error::invalid(format!("system: {name} matrix"), size, format!("{n} × {n}, as the mass")));
+            return Err(Error::invalid(matrix_of(name), size, format!("{n} × {n}, as the mass")));
         }
         if let Some((i, j, value)) = matrix.not_finite() {
-            let key = format!("system: {name} matrix, row {}, column {}", i + 1, j + 1);
+            let key = matrix_of(name).entry(i, j);
             return Err(Error::invalid(key, format_args!("{value:?}"), "a finite number"));
         }
     }
@@ -64,12 +64,17 @@ pub(super) fn validate(
     semidefinite("stiffness", &structure.stiffness)
 }
 
+/// M, C or K by its name.
+pub(in crate::scene) fn matrix_of(name: &str) -> Subject {
+    Subject::of("system").part(format!("{name} matrix"))
+}
+
 /// Rounding of an assembled matrix, relative to its diagonal: shifted by this much, a semidefinite one is definite.
 const SHIFT: f64 = 1e-9;
 
 fn definite(mass: &Symmetric, factor: impl FnOnce() -> std::result::Result<(), NotDefinite>) -> Result<()> {
     const EXPECTED: &str = "a positive definite matrix: every motion has kinetic energy";
-    let entry = |i: usize, j: usize| format!("system: mass matrix, row {}, column {}", i + 1, j + 1);
+    let entry = |i: usize, j: usize| matrix_of("mass").entry(i, j);
     let diagonal = mass.diagonal_entries();
     if let Some(i) = diagonal.iter().position(|m| *m <= 0.0) {
         let massless = if diagonal[i] == 0.0 { "; Scene::condensed takes out what has no mass" } else { "" };
@@ -97,7 +102,7 @@ fn semidefinite(name: &str, matrix: &Symmetric) -> Result<()> {
         return Ok(());
     }
     const EXPECTED: &str = "a positive semidefinite matrix";
-    let entry = |i: usize, j: usize| format!("system: {name} matrix, row {}, column {}", i + 1, j + 1);
+    let entry = |i: usize, j: usize| matrix_of(name).entry(i, j);
     let diagonal = matrix.diagonal_entries();
     if let Some(i) = diagonal.iter().position(|x| *x < 0.0) {
         return Err(Error::invalid(

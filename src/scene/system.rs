@@ -2,7 +2,7 @@
 
 use super::shared::SharedStructure;
 use super::structure::Structure;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 
 /// One degree of freedom, m q̈ + c q̇ + k q = f.
@@ -108,9 +108,9 @@ impl System {
     pub(crate) fn validate(&self) -> Result<()> {
         match self {
             Self::Oscillator(o) => {
-                positive("system.oscillator.mass", o.mass)?;
-                nonnegative("system.oscillator.damping", o.damping)?;
-                nonnegative("system.oscillator.stiffness", o.stiffness)
+                positive(("oscillator", "mass"), o.mass)?;
+                nonnegative(("oscillator", "damping"), o.damping)?;
+                nonnegative(("oscillator", "stiffness"), o.stiffness)
             }
             Self::Structure(s) => s.validate(),
         }
@@ -127,22 +127,22 @@ fn first(x: &[f64]) -> f64 {
     x.first().copied().unwrap_or(0.0)
 }
 
-pub(crate) fn positive(key: &str, value: f64) -> Result<()> {
+pub(crate) fn positive(subject: impl Into<Subject>, value: f64) -> Result<()> {
     if value.is_finite() && value > 0.0 {
         Ok(())
     } else {
-        Err(Error::invalid(key, format_args!("{value:?}"), "a finite number above 0"))
+        Err(Error::invalid(subject, format_args!("{value:?}"), "a finite number above 0"))
     }
 }
 
-pub(crate) fn nonnegative(key: &str, value: f64) -> Result<()> {
+pub(crate) fn nonnegative(subject: impl Into<Subject>, value: f64) -> Result<()> {
     if value.is_finite() && value >= 0.0 {
         Ok(())
     } else {
-        Err(Error::invalid(key, format_args!("{value:?}"), "a finite number, 0 or more"))
+        Err(Error::invalid(subject, format_args!("{value:?}"), "a finite number, 0 or more"))
     }
 }
 
-pub(crate) fn finite(key: &str, value: f64) -> Result<()> {
-    if value.is_finite() { Ok(()) } else { Err(Error::invalid(key, format_args!("{value:?}"), "a finite number")) }
+pub(crate) fn finite(subject: impl Into<Subject>, value: f64) -> Result<()> {
+    if value.is_finite() { Ok(()) } else { Err(Error::invalid(subject, format_args!("{value:?}"), "a finite number")) }
 }

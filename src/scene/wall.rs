@@ -2,7 +2,7 @@
 
 use super::row::Row;
 use super::system::{finite, nonnegative, positive};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 
 /// The side of the body on which a wall stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -184,27 +184,27 @@ impl Wall {
     pub(crate) fn validate_name(&self, index: usize) -> Result<()> {
         let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         if self.name.is_empty() || !self.name.chars().all(fits) {
-            let key = format!("wall {}: name", index + 1);
+            let key = Subject::nth("wall", index).part("name");
             return Err(Error::invalid(key, format!("{:?}", self.name), "letters, digits, - and _"));
         }
         Ok(())
     }
 
     pub(crate) fn validate(&self) -> Result<()> {
-        let key = |what: &str| format!("wall {:?}: {what}", self.name);
-        finite(&key("position"), self.position)?;
+        let key = |what: &'static str| Subject::wall(&self.name).part(what);
+        finite(key("position"), self.position)?;
         match self.law {
             WallLaw::Rigid { restitution } if (0.0..=1.0).contains(&restitution) => Ok(()),
             WallLaw::Rigid { restitution } => {
                 Err(Error::invalid(key("restitution"), format_args!("{restitution:?}"), "a number from 0 to 1"))
             }
             WallLaw::Elastic { stiffness, damping } => {
-                positive(&key("stiffness"), stiffness)?;
-                nonnegative(&key("damping"), damping)
+                positive(key("stiffness"), stiffness)?;
+                nonnegative(key("damping"), damping)
             }
             WallLaw::Quartic { epsilon, span } => {
-                positive(&key("epsilon"), epsilon)?;
-                positive(&key("span between the walls"), span)
+                positive(key("epsilon"), epsilon)?;
+                positive(key("span between the walls"), span)
             }
         }
     }

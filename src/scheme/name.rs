@@ -120,7 +120,7 @@ impl Scheme {
     /// # Errors
     /// [`Error::Invalid`]: θ outside [½, 1], ρ∞ outside [0, 1], an ε or stiffness that is not positive, a negative damping.
     pub fn validate(&self) -> Result<()> {
-        let positive = |key: &str, x: f64| {
+        let positive = |key: &'static str, x: f64| {
             if x > 0.0 && x.is_finite() { Ok(()) } else { Err(Error::invalid(key, x, "a finite number above 0")) }
         };
         match *self {

@@ -4,7 +4,7 @@ use super::grid::{Frame, Handed, Scalar};
 use super::kernel::Kernel;
 use super::{Method, Scheme};
 use crate::contact::{Episodes, Rates};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::qp::Backend;
 use crate::scene::{Checked, Row, Scene, State, System, Wall, WallLaw};
 use crate::scheme::Counters;
@@ -60,7 +60,7 @@ impl Stepper {
     pub(crate) fn by(scene: &Checked, Method { scheme, backend }: Method, step: f64) -> Result<Self> {
         scheme.validate()?;
         if !(step.is_finite() && step > 0.0) {
-            return Err(Error::invalid("time.step", step, "a finite number above 0"));
+            return Err(Error::invalid("step", step, "a finite number above 0"));
         }
         let scene = match scheme {
             Scheme::Penalty { law, .. } => scene.with_laws(|scene| scene.penalised(law))?,
@@ -160,13 +160,13 @@ impl Stepper {
         let exact = self.scheme == Scheme::Event;
         let index = self.index_at(time, exact)?;
         let n = self.scene.system.degrees_of_freedom();
-        for (key, values) in [("state: displacement", &state.q), ("state: velocity", &state.v)] {
+        for (part, values) in [("displacement", &state.q), ("velocity", &state.v)] {
             if values.len() != n {
                 let expected = format!("{n}, one per degree of freedom");
-                return Err(Error::invalid(key, format!("{} values", values.len()), expected));
+                return Err(Error::invalid(("state", part), format!("{} values", values.len()), expected));
             }
             if let Some(x) = values.iter().find(|x| !x.is_finite()) {
-                return Err(Error::invalid(key, x, "finite numbers"));
+                return Err(Error::invalid(("state", part), x, "finite numbers"));
             }
         }
         let touch = self.scene.touching_distance();
@@ -174,7 +174,7 @@ impl Stepper {
         if let (true, Some(wall)) = (exact, self.scene.walls.iter().find(behind)) {
             let found = format!("{:?} at the rigid wall {:?}", wall.at.dot(&state.q), wall.name);
             let expected = format!("a place before it, which stands at {:?}", wall.position);
-            return Err(Error::invalid("state: displacement", found, expected));
+            return Err(Error::invalid(("state", "displacement"), found, expected));
         }
         self.kernel.restart(self.scene.shared(), time, &state.q, &state.v)?;
         let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);
@@ -367,7 +367,7 @@ impl Stepper {
 fn without_quartic(scene: &Checked) -> Result<&Checked> {
     match scene.walls.iter().find(|wall| matches!(wall.law, WallLaw::Quartic { .. })) {
         Some(wall) => Err(Error::invalid(
-            format!("wall {:?}: law", wall.name),
+            Subject::wall(&wall.name).part("law"),
             "the φ² penalty",
             "a rigid or an elastic wall, or the scheme penalty, which steps through that law",
         )),

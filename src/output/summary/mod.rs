@@ -122,9 +122,5 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         checks,
         notes: run.notes.iter().cloned().chain(case.notes()).collect(),
     };
-    serde_json::to_value(&summary).map_err(|error| Error::Io {
-        path: "the summary".to_owned(),
-        reason: error.to_string(),
-        request: false,
-    })
+    serde_json::to_value(&summary).map_err(|error| Error::io("the summary", error.to_string(), false).caused_by(error))
 }

@@ -2,7 +2,7 @@
 
 use super::mesh::{Mesh, elements};
 use super::profile;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::system::{nonnegative, positive};
 use crate::scene::{Row, Structure};
@@ -65,25 +65,21 @@ fn shape(xi: f64) -> [f64; 2] {
 impl Bar {
     /// Checks the values, and numbers the unknowns.
     fn mesh(&self) -> Result<Mesh<2>> {
-        positive("system.bar.length", self.length)?;
-        positive("system.bar.area", self.area)?;
-        positive("system.bar.youngs_modulus", self.youngs_modulus)?;
-        positive("system.bar.density", self.density)?;
-        elements("system.bar.elements", self.elements)?;
+        positive(("bar", "length"), self.length)?;
+        positive(("bar", "area"), self.area)?;
+        positive(("bar", "youngs_modulus"), self.youngs_modulus)?;
+        positive(("bar", "density"), self.density)?;
+        elements(("bar", "elements"), self.elements)?;
         let mut fixed = Vec::new();
         for (key, end, node) in [("left", self.left, 0), ("right", self.right, self.elements)] {
             match end {
                 BarEnd::Free => {}
                 BarEnd::Fixed => fixed.push(node),
-                BarEnd::Sprung { stiffness } => nonnegative(&format!("system.bar.{key}: stiffness"), stiffness)?,
+                BarEnd::Sprung { stiffness } => nonnegative(Subject::from(("bar", key)).part("stiffness"), stiffness)?,
             }
         }
         if self.elements == 1 && fixed.len() == 2 {
-            return Err(Error::invalid(
-                "system.bar.elements",
-                1,
-                "2 or more between two fixed ends: nothing could move",
-            ));
+            return Err(Error::invalid(("bar", "elements"), 1, "2 or more between two fixed ends: nothing could move"));
         }
         Ok(Mesh { length: self.length, elements: self.elements, fixed })
     }
@@ -127,22 +123,23 @@ impl Bar {
         self.mesh()?.spread(from, to, shape)
     }
 
-    /// The vector q of a displacement (or velocity) that is given along the bar: its values at the nodes. Errors name `key`.
+    /// The vector q of a displacement (or velocity) that is given along the bar: its values at the nodes. Errors name `subject`.
     ///
     /// # Errors
     /// [`Error::Invalid`] where the field is not finite, or not 0 at a fixed end; or of the bar itself.
-    pub fn field(&self, key: &str, field: &dyn Fn(f64) -> f64) -> Result<Vec<f64>> {
+    pub fn field(&self, subject: impl Into<Subject>, field: &dyn Fn(f64) -> f64) -> Result<Vec<f64>> {
         let mesh = self.mesh()?;
         let values: Vec<f64> = (0..=self.elements).map(|i| field(mesh.node(i))).collect();
-        mesh.gather(key, &values)
+        mesh.gather(subject, &values)
     }
 
-    /// The vector q of a displacement (or velocity) that is linear between `points` (position m, value). Errors name `key`.
+    /// The vector q of a displacement (or velocity) that is linear between `points` (position m, value). Errors name `subject`.
     ///
     /// # Errors
     /// As [`Bar::field`]; and where the positions do not increase from 0 to the length.
-    pub fn field_through(&self, key: &str, points: &[(f64, f64)]) -> Result<Vec<f64>> {
-        profile::check(key, points, self.length)?;
-        self.field(key, &|x| profile::linear(points, x))
+    pub fn field_through(&self, subject: impl Into<Subject>, points: &[(f64, f64)]) -> Result<Vec<f64>> {
+        let subject = subject.into();
+        profile::check(&subject, points, self.length)?;
+        self.field(subject, &|x| profile::linear(points, x))
     }
 }

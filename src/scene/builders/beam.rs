@@ -2,7 +2,7 @@
 
 use super::mesh::{Mesh, elements};
 use super::profile;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::system::{nonnegative, positive};
 use crate::scene::{Row, Structure};
@@ -96,17 +96,17 @@ impl Beam {
 
     /// Checks the values, and numbers the unknowns.
     fn mesh(&self) -> Result<Mesh<4>> {
-        positive("system.beam.length", self.length)?;
-        positive("system.beam.youngs_modulus", self.youngs_modulus)?;
-        positive("system.beam.density", self.density)?;
-        positive("system.beam.outer_diameter", self.outer_diameter)?;
+        positive(("beam", "length"), self.length)?;
+        positive(("beam", "youngs_modulus"), self.youngs_modulus)?;
+        positive(("beam", "density"), self.density)?;
+        positive(("beam", "outer_diameter"), self.outer_diameter)?;
         let inner = self.inner_diameter;
         if !(0.0..self.outer_diameter).contains(&inner) {
             let expected = format!("0 or more, less than the outer diameter, {:?} m", self.outer_diameter);
-            return Err(Error::invalid("system.beam.inner_diameter", format_args!("{inner:?}"), expected));
+            return Err(Error::invalid(("beam", "inner_diameter"), format_args!("{inner:?}"), expected));
         }
-        nonnegative("system.beam.added_mass", self.added_mass)?;
-        elements("system.beam.elements", self.elements)?;
+        nonnegative(("beam", "added_mass"), self.added_mass)?;
+        elements(("beam", "elements"), self.elements)?;
         let mut fixed = Vec::new();
         for (key, end, node) in [("left", self.left, 0), ("right", self.right, self.elements)] {
             match end {
@@ -114,14 +114,14 @@ impl Beam {
                 BeamEnd::Pinned => fixed.push(2 * node),
                 BeamEnd::Clamped => fixed.extend([2 * node, 2 * node + 1]),
                 BeamEnd::Sprung { stiffness, rotational } => {
-                    nonnegative(&format!("system.beam.{key}: stiffness"), stiffness)?;
-                    nonnegative(&format!("system.beam.{key}: rotational"), rotational)?;
+                    nonnegative(Subject::from(("beam", key)).part("stiffness"), stiffness)?;
+                    nonnegative(Subject::from(("beam", key)).part("rotational"), rotational)?;
                 }
             }
         }
         if self.elements == 1 && fixed.len() == 4 {
             let expected = "2 or more between two clamped ends: nothing could move";
-            return Err(Error::invalid("system.beam.elements", 1, expected));
+            return Err(Error::invalid(("beam", "elements"), 1, expected));
         }
         Ok(Mesh { length: self.length, elements: self.elements, fixed })
     }
@@ -180,26 +180,27 @@ impl Beam {
         mesh.spread(from, to, shape(mesh.size()))
     }
 
-    /// The vector q of a deflection (or its velocity) that is given along the beam, as [value, slope]: both at the nodes. Errors name `key`.
+    /// The vector q of a deflection (or its velocity) that is given along the beam, as [value, slope]: both at the nodes. Errors name `subject`.
     ///
     /// # Errors
     /// [`Error::Invalid`] where the field is not finite, or not 0 where an end is held; or of the beam itself.
-    pub fn field(&self, key: &str, field: &dyn Fn(f64) -> [f64; 2]) -> Result<Vec<f64>> {
+    pub fn field(&self, subject: impl Into<Subject>, field: &dyn Fn(f64) -> [f64; 2]) -> Result<Vec<f64>> {
         let mesh = self.mesh()?;
         let values: Vec<f64> = (0..=self.elements).flat_map(|i| field(mesh.node(i))).collect();
-        mesh.gather(key, &values)
+        mesh.gather(subject, &values)
     }
 
     /// The vector q of the smoothest deflection (or velocity) through `points` (position m, value): the cubic spline, which of all curves
-    /// through them bends with the least energy, with slope 0 where an end is clamped. Errors name `key`.
+    /// through them bends with the least energy, with slope 0 where an end is clamped. Errors name `subject`.
     ///
     /// # Errors
     /// As [`Beam::field`]; and where the positions do not increase from 0 to the length.
-    pub fn field_through(&self, key: &str, points: &[(f64, f64)]) -> Result<Vec<f64>> {
-        profile::check(key, points, self.length)?;
+    pub fn field_through(&self, subject: impl Into<Subject>, points: &[(f64, f64)]) -> Result<Vec<f64>> {
+        let subject = subject.into();
+        profile::check(&subject, points, self.length)?;
         let clamped = [self.left, self.right].map(|end| end == BeamEnd::Clamped);
         let slopes = profile::slopes(points, clamped);
-        self.field(key, &|x| profile::cubic(points, &slopes, x))
+        self.field(subject, &|x| profile::cubic(points, &slopes, x))
     }
 }
 

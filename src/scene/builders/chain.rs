@@ -1,6 +1,6 @@
 //! Masses in a line.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::Structure;
 use crate::scene::system::{nonnegative, positive};
@@ -28,20 +28,20 @@ impl Chain {
     pub fn structure(&self) -> Result<Structure> {
         let n = self.masses.len();
         if n == 0 {
-            return Err(Error::invalid("system.chain.masses", "an empty list", "one mass or more, kg"));
+            return Err(Error::invalid(("chain", "masses"), "an empty list", "one mass or more, kg"));
         }
         if self.springs.len() + 1 != n {
             let expected = format!("{}, one between each two of {n} masses", n - 1);
-            return Err(Error::invalid("system.chain.springs", format!("{} values", self.springs.len()), expected));
+            return Err(Error::invalid(("chain", "springs"), format!("{} values", self.springs.len()), expected));
         }
         for (i, &mass) in self.masses.iter().enumerate() {
-            positive(&format!("system.chain.masses: value {}", i + 1), mass)?;
+            positive(Subject::from(("chain", "masses")).value(i), mass)?;
         }
         for (i, &spring) in self.springs.iter().enumerate() {
-            nonnegative(&format!("system.chain.springs: value {}", i + 1), spring)?;
+            nonnegative(Subject::from(("chain", "springs")).value(i), spring)?;
         }
         for (i, &spring) in self.grounds.iter().enumerate() {
-            nonnegative(&format!("system.chain.grounds: value {}", i + 1), spring)?;
+            nonnegative(Subject::from(("chain", "grounds")).value(i), spring)?;
         }
         let between =
             self.springs.iter().enumerate().flat_map(|(i, &k)| [(i, i, k), (i + 1, i + 1, k), (i + 1, i, -k)]);

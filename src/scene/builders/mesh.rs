@@ -1,6 +1,6 @@
 //! A line of equal elements: numbering, assembly, and what one point or stretch of it sees.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::Row;
 
@@ -60,7 +60,7 @@ impl<const N: usize> Mesh<N> {
     }
 
     /// The element a position (m) lies in and where in it, from 0 to 1.
-    fn locate(&self, key: &str, position: f64) -> Result<(usize, f64)> {
+    fn locate(&self, key: &'static str, position: f64) -> Result<(usize, f64)> {
         if !(0.0..=self.length).contains(&position) {
             let expected = format!("a position along the structure, from 0 to {:?} m", self.length);
             return Err(Error::invalid(key, format_args!("{position:?}"), expected));
@@ -103,13 +103,13 @@ impl<const N: usize> Mesh<N> {
     }
 
     /// The vector q of `values` at the nodes, N/2 each in their order; fixed unknowns must be 0, up to rounding of the largest of their kind.
-    pub fn gather(&self, key: &str, values: &[f64]) -> Result<Vec<f64>> {
+    pub fn gather(&self, subject: impl Into<Subject>, values: &[f64]) -> Result<Vec<f64>> {
         let per_node = N / 2;
         let mut q = Vec::with_capacity(self.unknowns());
         for (i, &value) in values.iter().enumerate() {
             let place = format_args!("{value:?} at {:?} m", self.node(i / per_node)).to_string();
             if !value.is_finite() {
-                return Err(Error::invalid(key, place, "a finite number everywhere"));
+                return Err(Error::invalid(subject, place, "a finite number everywhere"));
             }
             if self.free(i).is_some() {
                 q.push(value);
@@ -120,7 +120,7 @@ impl<const N: usize> Mesh<N> {
             if value.abs() > 1e-9 * largest {
                 let what =
                     if i % per_node == 0 { "0 at an end that is held" } else { "slope 0 at an end that is clamped" };
-                return Err(Error::invalid(key, place, what));
+                return Err(Error::invalid(subject, place, what));
             }
         }
         Ok(q)
@@ -128,10 +128,10 @@ impl<const N: usize> Mesh<N> {
 }
 
 /// Checks a number of elements.
-pub(super) fn elements(key: &str, elements: usize) -> Result<()> {
+pub(super) fn elements(subject: impl Into<Subject>, elements: usize) -> Result<()> {
     if (1..=MOST_ELEMENTS).contains(&elements) {
         Ok(())
     } else {
-        Err(Error::invalid(key, elements, format!("a whole number from 1 to {MOST_ELEMENTS}")))
+        Err(Error::invalid(subject, elements, format!("a whole number from 1 to {MOST_ELEMENTS}")))
     }
 }

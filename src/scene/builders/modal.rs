@@ -1,6 +1,6 @@
 //! A structure by its modes, as finite-element programs and modal tests give them.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::system::{finite, nonnegative, positive};
 use crate::scene::{Row, Structure};
@@ -30,40 +30,46 @@ pub struct ModalPoint {
     pub shape: Vec<f64>,
 }
 
+/// The shape of a point.
+fn shape_of(point: &str) -> Subject {
+    Subject::from(("modal data", "shapes")).part(point.to_owned())
+}
+
 impl ModalData {
     /// M, C and K, all diagonal.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `system.modal` for values that make no sense.
+    /// [`Error::Invalid`] for values that make no sense.
     pub fn structure(&self) -> Result<Structure> {
         let k = self.omega.len();
         if k == 0 {
-            return Err(Error::invalid("system.modal.omega", "an empty list", "one mode or more"));
+            return Err(Error::invalid(("modal data", "omega"), "an empty list", "one mode or more"));
         }
         let lists = [("masses", &self.masses), ("damping_ratios", &self.ratios)];
         let shapes = self.points.iter().map(|point| (point.name.as_str(), &point.shape));
         for (key, list) in lists.into_iter().chain(shapes) {
             if list.len() != k {
                 let shape = lists.iter().all(|(name, _)| *name != key);
-                let key = if shape { format!("system.modal.shapes.{key}") } else { format!("system.modal.{key}") };
+                let all = Subject::of("modal data");
+                let key = if shape { all.part("shapes").part(key.to_owned()) } else { all.part(key.to_owned()) };
                 return Err(Error::invalid(key, format!("{} values", list.len()), format!("{k}, one per mode")));
             }
         }
         for (i, point) in self.points.iter().enumerate() {
-            point.shape.iter().try_for_each(|&x| finite(&format!("system.modal.shapes.{}", point.name), x))?;
+            point.shape.iter().try_for_each(|&x| finite(shape_of(&point.name), x))?;
             if self.points.iter().take(i).any(|other| other.name == point.name) {
-                let key = format!("system.modal.shapes.{}", point.name);
+                let key = shape_of(&point.name);
                 return Err(Error::invalid(key, "given twice", "a name of its own for each point"));
             }
         }
         let mut structure = [const { Vec::new() }; 3];
         for (i, ((&omega, &mass), &ratio)) in self.omega.iter().zip(&self.masses).zip(&self.ratios).enumerate() {
-            let key = |what: &str| format!("system.modal.{what}: value {}", i + 1);
-            nonnegative(&key("omega"), omega)?;
-            positive(&key("masses"), mass)?;
-            nonnegative(&key("damping_ratios"), ratio)?;
+            let key = |what: &'static str| Subject::from(("modal data", what)).value(i);
+            nonnegative(key("omega"), omega)?;
+            positive(key("masses"), mass)?;
+            nonnegative(key("damping_ratios"), ratio)?;
             let stiffness = mass * omega * omega;
-            finite(&key("omega"), stiffness)?;
+            finite(key("omega"), stiffness)?;
             let entries = [mass, 2.0 * ratio * omega * mass, stiffness];
             structure.iter_mut().zip(entries).for_each(|(diagonal, x)| diagonal.push(x));
         }

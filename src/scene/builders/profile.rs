@@ -1,22 +1,26 @@
 //! A field along a structure, given by points (position m, value): linear between them, or the cubic spline.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 
 /// Checks that the positions increase from 0 to `length` (m) and that all is finite.
-pub(super) fn check(key: &str, points: &[(f64, f64)], length: f64) -> Result<()> {
+pub(super) fn check(subject: &Subject, points: &[(f64, f64)], length: f64) -> Result<()> {
     let expected = || format!("two points or more (position, value), positions increasing from 0 to {length:?} m");
     let (Some(first), Some(last), true) = (points.first(), points.last(), points.len() >= 2) else {
-        return Err(Error::invalid(key, format!("{} points", points.len()), expected()));
+        return Err(Error::invalid(subject.clone(), format!("{} points", points.len()), expected()));
     };
     if let Some(point) = points.iter().find(|p| !p.0.is_finite() || !p.1.is_finite()) {
-        return Err(Error::invalid(key, format!("{point:?}"), "finite numbers"));
+        return Err(Error::invalid(subject.clone(), format!("{point:?}"), "finite numbers"));
     }
     if let Some(pair) = points.windows(2).find(|pair| pair[1].0 <= pair[0].0) {
         let value = format!("{:?} after {:?} m", pair[1].0, pair[0].0);
-        return Err(Error::invalid(key, value, expected()));
+        return Err(Error::invalid(subject.clone(), value, expected()));
     }
     if first.0.abs() > 1e-9 * length || (last.0 - length).abs() > 1e-9 * length {
-        return Err(Error::invalid(key, format!("positions from {:?} to {:?} m", first.0, last.0), expected()));
+        return Err(Error::invalid(
+            subject.clone(),
+            format!("positions from {:?} to {:?} m", first.0, last.0),
+            expected(),
+        ));
     }
     Ok(())
 }

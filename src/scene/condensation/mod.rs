@@ -6,7 +6,7 @@ use super::row::distinct;
 use super::structure::Structure;
 use super::wall::{Side, Wall, WallLaw};
 use super::{Scene, System};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use statics::{Seen, Statics};
 
 /// What was condensed out of a scene, and what that leaves of its walls.
@@ -59,7 +59,11 @@ impl Scene {
         let mut statics = Statics::new(structure, massless)?;
         let kept: Vec<usize> = (0..statics.number.len()).filter(|&i| statics.number[i].is_ok()).collect();
         if kept.is_empty() {
-            return Err(Error::invalid("system: mass matrix", "0 everywhere", "mass at one degree of freedom or more"));
+            return Err(Error::invalid(
+                ("system", "mass matrix"),
+                "0 everywhere",
+                "mass at one degree of freedom or more",
+            ));
         }
         let walls: Vec<Seen> = self.walls.iter().map(|wall| statics.seen(&wall.at)).collect();
         let loads: Vec<Seen> = self.loads.iter().map(|load| statics.seen(&load.at)).collect();
@@ -74,8 +78,8 @@ impl Scene {
         };
         scene.loads.iter_mut().zip(&loads).for_each(|(load, seen)| load.at = seen.row.clone());
         scene.probes.iter_mut().zip(&probes).for_each(|(probe, seen)| probe.at = seen.row.clone());
-        scene.initial.q = statics.start("initial.displacement", &self.initial.q, &kept)?;
-        scene.initial.v = statics.start("initial.velocity", &self.initial.v, &kept)?;
+        scene.initial.q = statics.start("displacement", &self.initial.q, &kept)?;
+        scene.initial.v = statics.start("velocity", &self.initial.v, &kept)?;
         // Rigid walls are rigid still, so that a start behind one and walls that cross are refused as ever.
         scene.validate()?;
         self.check_apart(&walls, &loads, &probes)?;
@@ -87,7 +91,7 @@ impl Scene {
         for (wall, &s) in scene.walls.iter_mut().zip(&compliance).filter(|(_, s)| **s > 0.0) {
             if damped {
                 let expected = "a wall where degrees of freedom have mass: the damping matrix acts on the massless ones that it pushes";
-                return Err(Error::invalid(format!("wall {:?}: at", wall.name), "a place without mass", expected));
+                return Err(Error::invalid(Subject::wall(&wall.name).part("at"), "a place without mass", expected));
             }
             soften(wall, s)?;
         }
@@ -105,7 +109,7 @@ impl Scene {
     fn check_apart(&self, walls: &[Seen], loads: &[Seen], probes: &[Seen]) -> Result<()> {
         const GIVE: &str = "give the degrees of freedom there mass, or sit it where they have some";
         for (index, load) in loads.iter().enumerate() {
-            let key = format!("load {}: at", index + 1);
+            let key = Subject::nth("load", index).part("at");
             let what = "a place without mass, which it displaces at once";
             if let Some((wall, _)) = self.walls.iter().zip(walls).find(|(_, seen)| seen.meets(load)) {
                 let expected = format!("a place that the wall {:?} does not see: {GIVE}", wall.name);
@@ -127,7 +131,7 @@ impl Scene {
                 };
                 if seen.meets(beside) && !(facing && places.of.get(i) == places.of.get(j)) {
                     let value = format!("a place without mass that the wall {:?} displaces at once", other.name);
-                    return Err(Error::invalid(format!("wall {:?}: at", wall.name), value, GIVE));
+                    return Err(Error::invalid(Subject::wall(&wall.name).part("at"), value, GIVE));
                 }
             }
         }
@@ -137,7 +141,7 @@ impl Scene {
             if let Some((wall, _)) = pushed {
                 let value = format!("a place without mass that the wall {:?} displaces at once", wall.name);
                 let expected = format!("the place of that wall itself; or {GIVE}");
-                return Err(Error::invalid(format!("probe {:?}: at", probe.name), value, expected));
+                return Err(Error::invalid(Subject::probe(&probe.name).part("at"), value, expected));
             }
         }
         Ok(())
@@ -151,11 +155,11 @@ fn soften(wall: &mut Wall, s: f64) -> Result<()> {
         WallLaw::Elastic { stiffness, damping: 0.0 } => *stiffness = 1.0 / (1.0 / *stiffness + s),
         WallLaw::Elastic { damping, .. } => {
             let expected = "0 where the wall pushes degrees of freedom without mass: in series with their spring a dashpot has a motion of its own";
-            return Err(Error::invalid(format!("wall {:?}: damping", wall.name), format!("{damping:?}"), expected));
+            return Err(Error::invalid(Subject::wall(&wall.name).part("damping"), format!("{damping:?}"), expected));
         }
         WallLaw::Quartic { .. } => {
             let expected = "a rigid or elastic wall where degrees of freedom have no mass";
-            return Err(Error::invalid(format!("wall {:?}", wall.name), "a φ² penalty", expected));
+            return Err(Error::invalid(Subject::wall(&wall.name), "a φ² penalty", expected));
         }
     }
     Ok(())

@@ -1,8 +1,9 @@
 //! The statics of the degrees of freedom without mass.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::linear::{Factor, NotDefinite, Symmetric};
 use crate::scene::matrices::MOST_ENTRIES;
+use crate::scene::structure::matrix_of;
 use crate::scene::{Row, SharedStructure, Structure};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -79,7 +80,7 @@ impl<'a> Statics<'a> {
             let dof = massless.get(fault.row).copied().unwrap_or(0);
             let value = "without mass, and free to move without stiffness";
             let expected = "stiffness or mass there: a motion with neither has no equation";
-            Error::invalid(format!("system: degree of freedom {dof}"), value, expected)
+            Error::invalid(Subject::of("system").part(format!("degree of freedom {dof}")), value, expected)
         };
         Factor::new(&Symmetric::sum(&[(1.0, &inner), (1.0, &Symmetric::diagonal(&less))])).map_err(singular)?;
         let factor = Factor::new(&inner).map_err(singular)?;
@@ -165,9 +166,9 @@ impl<'a> Statics<'a> {
                 let value =
                     format!("{} degrees of freedom without mass that couple {n} with mass", self.massless.len());
                 let expected = format!(
-                    "so few that the condensed matrix has at most {MOST_ENTRIES} entries; or modal data, [system.modal]"
+                    "so few that the condensed matrix has at most {MOST_ENTRIES} entries; or modal data in its place"
                 );
-                return Err(Error::invalid("system: stiffness matrix", value, expected));
+                return Err(Error::invalid(("system", "stiffness matrix"), value, expected));
             }
             if !touching.is_empty() {
                 self.damped(a, &t, &touching, &mut c)?;
@@ -202,9 +203,9 @@ impl<'a> Statics<'a> {
         }
         let largest = size.iter().fold(0.0_f64, |most, x| most.max(*x));
         if let Some(b) = (0..t.len()).find(|&b| force[b].abs() > ROUNDING * largest) {
-            let key = format!("system: damping matrix, row {}", self.massless[b] + 1);
+            let key = matrix_of("damping").row(self.massless[b]);
             let expected = "no damping force on a degree of freedom without mass, which would creep: leave its row 0, give it mass, or say \
-                            the damping as [system.damping] rayleigh or ratios";
+                            the damping as Rayleigh's coefficients or modal ratios";
             return Err(Error::invalid(
                 key,
                 format!("damping degree of freedom {}, which has no mass", self.massless[b]),
@@ -216,10 +217,10 @@ impl<'a> Statics<'a> {
     }
 
     /// The kept part of a start; the massless part must be 0, or what statics make of the kept.
-    pub fn start(&mut self, key: &str, whole: &[f64], kept: &[usize]) -> Result<Vec<f64>> {
+    pub fn start(&mut self, part: &'static str, whole: &[f64], kept: &[usize]) -> Result<Vec<f64>> {
         if whole.len() != self.number.len() {
             let expected = format!("{}, one per degree of freedom", self.number.len());
-            return Err(Error::invalid(key, format!("{} values", whole.len()), expected));
+            return Err(Error::invalid(("initial state", part), format!("{} values", whole.len()), expected));
         }
         let outer: Vec<f64> = kept.iter().map(|&i| whole[i]).collect();
         if self.massless.iter().all(|&i| whole[i] == 0.0) {
@@ -237,7 +238,7 @@ impl<'a> Statics<'a> {
             Some((&i, x)) => {
                 let value = format!("{:?} at degree of freedom {i}, which has no mass", whole[i]);
                 let expected = format!("{x:?}, what the others hold it at, or 0 for all that have no mass");
-                Err(Error::invalid(key, value, expected))
+                Err(Error::invalid(("initial state", part), value, expected))
             }
             None => Ok(outer),
         }

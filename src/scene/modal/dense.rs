@@ -32,7 +32,8 @@ pub(super) fn eigen(matrix: DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
 /// L⁻¹ A L⁻ᵀ with M = L Lᵀ, and L.
 pub(super) fn congruent(mass: &Symmetric, matrix: &Symmetric) -> Result<(DMatrix<f64>, DMatrix<f64>)> {
     definite(mass)?;
-    let singular = || Error::invalid("system: mass matrix", "without a Cholesky factor", "a positive definite matrix");
+    let singular =
+        || Error::invalid(("system", "mass matrix"), "without a Cholesky factor", "a positive definite matrix");
     let l = full(mass).cholesky().ok_or_else(singular)?.unpack();
     let half = l.solve_lower_triangular(&full(matrix)).ok_or_else(singular)?;
     let mut whole = l.solve_lower_triangular(&half.transpose()).ok_or_else(singular)?;

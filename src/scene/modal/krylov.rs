@@ -129,7 +129,7 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
     let n = structure.mass.size();
     let singular = || {
         let expected = "a positive semidefinite matrix: no motion gains energy from the springs";
-        Error::invalid("system: stiffness matrix", "with a negative pivot", expected)
+        Error::invalid(("system", "stiffness matrix"), "with a negative pivot", expected)
     };
     let failed = || {
         let value = format!("{count}, of which Lanczos' method found not all");

@@ -4,6 +4,7 @@ use super::definite::definite;
 use super::{dense, krylov};
 use crate::error::{Error, Result};
 use crate::linear::{Operator, Symmetric};
+use crate::scene::structure::matrix_of;
 use crate::scene::{Row, Structure};
 
 /// Up to this many degrees of freedom full matrices are made where they serve: all modes at once, modal damping.
@@ -53,7 +54,7 @@ impl Modes {
         }
         for (name, matrix) in [("mass", &structure.mass), ("stiffness", &structure.stiffness)] {
             if let Some((i, j, value)) = matrix.not_finite() {
-                let key = format!("system: {name} matrix, row {}, column {}", i + 1, j + 1);
+                let key = matrix_of(name).entry(i, j);
                 return Err(Error::invalid(key, format_args!("{value:?}"), "a finite number"));
             }
         }
@@ -92,7 +93,7 @@ impl Modes {
             if lambda < -100.0 * rounding {
                 let expected = "a positive semidefinite matrix: no motion gains energy from the springs";
                 return Err(Error::invalid(
-                    "system: stiffness matrix",
+                    ("system", "stiffness matrix"),
                     format!("ω² = {lambda:e} rad²/s² for a mode"),
                     expected,
                 ));
@@ -170,7 +171,7 @@ fn uncoupled(structure: &Structure, count: usize) -> Result<Modes> {
     definite(&structure.mass)?;
     let (m, k) = (structure.mass.diagonal_entries(), structure.stiffness.diagonal_entries());
     if let Some(row) = k.iter().position(|k| *k < 0.0) {
-        let key = format!("system: stiffness matrix, row {0}, column {0}", row + 1);
+        let key = matrix_of("stiffness").entry(row, row);
         return Err(Error::invalid(key, format_args!("{:?}", k[row]), "0 or more"));
     }
     let mut order: Vec<usize> = (0..m.len()).collect();

@@ -73,7 +73,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Invalid`] under `modes`: a count that does not fit, fewer than the rigid-body motions, or so few that the start comes to
-    /// lie behind a wall; under `static_correction` for a φ² wall; or what [`Scene::validate`] says.
+    /// lie behind a wall; under `static correction` for a φ² wall; or what [`Scene::validate`] says.
     pub fn reduced(&self, modes: usize, static_correction: bool) -> Result<Reduction> {
         self.validate()?;
         let System::Structure(structure) = &self.system else {
@@ -240,7 +240,7 @@ fn correct(wall: &mut Wall, truncation: &mut WallTruncation) -> Result<()> {
         }
         WallLaw::Quartic { .. } => {
             let value = format!("true, with the φ² wall {:?}", wall.name);
-            return Err(Error::invalid("static_correction", value, "rigid or elastic walls only"));
+            return Err(Error::invalid("static correction", value, "rigid or elastic walls only"));
         }
     }
     truncation.corrected = true;

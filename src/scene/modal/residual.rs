@@ -3,6 +3,7 @@
 use super::modes::Modes;
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Symmetric};
+use crate::scene::structure::matrix_of;
 use crate::scene::{Row, Structure};
 
 /// Passes at most; each leaves at most a hundredth of the error.
@@ -26,7 +27,7 @@ impl<'a> Residual<'a> {
         let sigma = if modes.rigid() > 0 { 0.01 * next * next } else { 0.0 };
         let shifted = Symmetric::sum(&[(1.0, &structure.stiffness), (sigma, &structure.mass)]);
         let factor = Factor::new(&shifted).map_err(|fault| {
-            let key = format!("system: stiffness matrix, row {}", fault.row + 1);
+            let key = matrix_of("stiffness").row(fault.row);
             let value =
                 format_args!("{:?} on the diagonal, without a positive pivot", shifted.get(fault.row, fault.row))
                     .to_string();

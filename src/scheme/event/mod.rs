@@ -10,7 +10,7 @@ mod view;
 
 pub use guard::{Counters, EVENTS_PER_WINDOW, WINDOWS};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::flow::Arc;
 use crate::scene::{Forcing, LoadKind, Oscillator, Scene, System, Wall};
 use crate::step::{Balance, Conserves, Contact, Contract, Promise, Tolerances};
@@ -31,7 +31,7 @@ pub(in crate::scheme) fn marks(time: f64, stride: f64) -> u64 {
 pub(in crate::scheme) fn known_loads(scene: &Scene) -> Result<()> {
     match scene.loads.iter().position(|load| matches!(load.kind, LoadKind::Function(_))) {
         Some(index) => Err(Error::invalid(
-            format!("load {}", index + 1),
+            Subject::nth("load", index),
             "a function of time",
             "for the exact scheme, which has to know the motion in closed form: a constant, a sine, an impulse or a table (one of the \
              function, with a stated error, is Table::sampled); or a stepping scheme",
@@ -44,7 +44,7 @@ pub(in crate::scheme) fn known_loads(scene: &Scene) -> Result<()> {
 pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<Barrier>> {
     let barrier = |wall: &Wall| {
         Barrier::new(wall).ok_or_else(|| {
-            let key = format!("wall {:?}: law", wall.name);
+            let key = Subject::wall(&wall.name).part("law");
             Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
         })
     };

@@ -15,5 +15,5 @@ pub(super) fn mass_factor(structure: &SharedStructure) -> Result<Factor> {
 }
 
 fn refused(fault: NotDefinite) -> Error {
-    Error::invalid("system: matrices", fault, "a positive definite mass")
+    Error::invalid(("system", "matrices"), fault, "a positive definite mass")
 }

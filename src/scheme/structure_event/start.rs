@@ -21,7 +21,7 @@ impl StructureEvent {
     pub(in crate::scheme) fn new(scene: &Arc<Scene>, stride: f64) -> Result<Self> {
         known_loads(scene)?;
         let barriers = barriers(scene)?;
-        let singular = || Error::invalid("system: mass matrix", "singular", "a positive definite matrix");
+        let singular = || Error::invalid(("system", "mass matrix"), "singular", "a positive definite matrix");
         let mut body = Body::new(scene).ok_or_else(singular)?;
         let (n, rows, walls) = (body.n, body.rows.count(), barriers.len());
         let mut walls_of = vec![Vec::new(); rows];

@@ -31,7 +31,7 @@ impl Peer {
 /// [`Error::Io`] where the file cannot be read, [`Error::Invalid`] with the line of what makes no sense.
 pub fn read(path: &Path) -> Result<Vec<Peer>> {
     let shown = path.display();
-    let failed = |e: csv::Error| Error::Io { path: shown.to_string(), reason: e.to_string(), request: true };
+    let failed = |e: csv::Error| Error::io(path.display(), e.to_string(), true).caused_by(e);
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(failed)?;
     let header = reader.headers().map_err(failed)?.clone();
     let column = |name: &str| {

@@ -1,5 +1,11 @@
 //! The one error type of the crate.
 
+mod cause;
+mod subject;
+
+pub use cause::Cause;
+pub use subject::{Part, Subject};
+
 use std::fmt;
 
 /// Everything that can go wrong, with what a reader needs to find the place: key, value, time, step, wall.
@@ -11,8 +17,8 @@ use std::fmt;
 pub enum Error {
     /// A value of the scene, the scheme or the time grid that makes no sense.
     Invalid {
-        /// Path of the value, for example `wall "upper": restitution`.
-        key: String,
+        /// The way to the value, for example `wall "upper": restitution`.
+        subject: Subject,
         /// The value found, as text.
         value: String,
         /// What would be accepted.
@@ -27,8 +33,13 @@ pub enum Error {
         /// The names that exist.
         known: Vec<String>,
     },
-    /// A case file that cannot be read: the message already shows file, line and column.
-    Case(String),
+    /// A case file that cannot be read.
+    Case {
+        /// What is wrong, with file, line and column.
+        report: String,
+        /// What the reader of the text, or the library, said of the value.
+        cause: Option<Cause>,
+    },
     /// A file or folder that cannot be read or written.
     Io {
         /// The path.
@@ -37,6 +48,8 @@ pub enum Error {
         reason: String,
         /// True while reading a request or opening the output; false once a run was under way.
         request: bool,
+        /// What the operating system, or the format's reader, reported.
+        cause: Option<Cause>,
     },
     /// The convex programme of a step was not solved.
     Qp {
@@ -125,15 +138,28 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
     /// An [`Error::Invalid`].
-    pub(crate) fn invalid(key: impl Into<String>, value: impl fmt::Display, expected: impl Into<String>) -> Self {
-        Self::Invalid { key: key.into(), value: value.to_string(), expected: expected.into() }
+    pub(crate) fn invalid(subject: impl Into<Subject>, value: impl fmt::Display, expected: impl Into<String>) -> Self {
+        Self::Invalid { subject: subject.into(), value: value.to_string(), expected: expected.into() }
+    }
+
+    /// An [`Error::Io`], of a wrong request or not.
+    pub(crate) fn io(path: impl fmt::Display, reason: impl Into<String>, request: bool) -> Self {
+        Self::Io { path: path.to_string(), reason: reason.into(), request, cause: None }
+    }
+
+    /// The same with the error that led to it, where an error of this kind has one.
+    pub(crate) fn caused_by(mut self, error: impl std::error::Error + Send + Sync + 'static) -> Self {
+        if let Self::Case { cause, .. } | Self::Io { cause, .. } = &mut self {
+            *cause = Some(Cause::new(error));
+        }
+        self
     }
 
     /// True where the request was wrong (exit code 2 of the tool), false where the run failed (exit code 1).
     #[must_use]
     pub fn is_request(&self) -> bool {
         match self {
-            Self::Invalid { .. } | Self::Unknown { .. } | Self::Case(_) => true,
+            Self::Invalid { .. } | Self::Unknown { .. } | Self::Case { .. } => true,
             Self::Io { request, .. } => *request,
             _ => false,
         }
@@ -154,7 +180,7 @@ pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str> + Clo
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Invalid { key, value, expected } => write!(f, "{key} is {value}; expected {expected}"),
+            Self::Invalid { subject, value, expected } => write!(f, "{subject} is {value}; expected {expected}"),
             Self::Unknown { kind, name, known } if known.is_empty() => {
                 write!(f, "no {kind} is named {name:?}: there is none")
             }
@@ -165,7 +191,7 @@ impl fmt::Display for Error {
                 }
                 write!(f, "there is {}", known.join(", "))
             }
-            Self::Case(text) => f.write_str(text),
+            Self::Case { report, .. } => f.write_str(report),
             Self::Io { path, reason, .. } => write!(f, "{path}: {reason}"),
             Self::Qp { time, step, wall, reason } => {
                 write!(f, "the QP of step {step} at t = {time} s was not solved")?;
@@ -210,7 +236,14 @@ impl fmt::Display for Error {
     }
 }
 
-impl std::error::Error for Error {}
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Case { cause, .. } | Self::Io { cause, .. } => cause.as_ref().map(Cause::error),
+            _ => None,
+        }
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -1,0 +1,39 @@
+//! The keys of a case file by what they say of the scene.
+
+use crate::error::{Error, Part, Subject};
+
+/// What an error is about, as a case file writes it.
+pub(super) fn written(subject: &Subject) -> String {
+    let (mut names, mut rest) = (Vec::new(), String::new());
+    for part in subject.parts() {
+        match part {
+            Part::Name(name) if rest.is_empty() => names.push(name.as_ref()),
+            Part::Numbered("value", number) if !names.is_empty() => rest = format!("{rest}: value {number}"),
+            _ => return subject.to_string(),
+        }
+    }
+    let key = match names.as_slice() {
+        ["duration"] => "time.end".to_owned(),
+        [key @ ("step" | "sample" | "statistics_from" | "force_averaging")] => format!("time.{key}"),
+        ["static correction"] => "static_correction".to_owned(),
+        ["initial state", part] => format!("initial.{part}"),
+        // Of an end of a structure the key is that of the end, and its part one of a table within.
+        [table @ ("bar" | "beam"), end @ ("left" | "right"), part] => format!("system.{table}.{end}: {part}"),
+        ["modal data", names @ ..] => format!("system.modal.{}", names.join(".")),
+        [table @ ("oscillator" | "chain" | "bar" | "beam" | "damping"), names @ ..] => {
+            [&["system", table], names].concat().join(".")
+        }
+        _ => return subject.to_string(),
+    };
+    key + &rest
+}
+
+/// The same error about the key of a case file.
+pub(super) fn in_keys(error: Error) -> Error {
+    match error {
+        Error::Invalid { subject, value, expected } => {
+            Error::Invalid { subject: written(&subject).into(), value, expected }
+        }
+        other => other,
+    }
+}
