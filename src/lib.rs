@@ -4,7 +4,8 @@
 //!
 //! [`Scene`] says what is simulated, [`Scheme`] how time advances, [`Stepper`] does it a step at a time, [`run()`] from start to end under the eyes of
 //! [`residual::Judge`], and [`Trajectory`] is what was recorded. [`qp`] is the convex programme of a step, [`flow`] the exact motion between events.
-//! Case files, output and the tool itself come with the default feature `cli`; the format of a case file is documented in [`case`].
+//! Case files come with the feature `case`, output and the tool itself with `cli`, which is the default and has `case` in it; the format of a case
+//! file is documented in [`case`].
 //!
 //! # Examples
 //!
@@ -14,7 +15,7 @@
 #![forbid(unsafe_code)]
 
 pub mod batch;
-#[cfg(feature = "cli")]
+#[cfg(feature = "case")]
 pub mod case;
 #[cfg(feature = "cli")]
 pub mod cli;

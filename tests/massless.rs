@@ -170,7 +170,7 @@ fn what_statics_cannot_say_exactly_is_refused_by_name() {
     let creeping = Structure { damping: Symmetric::diagonal(&[0.0, 1.0, 0.0]), ..chain(0.0) };
     refused(
         Scene::structure(creeping),
-        &["damping matrix, row 2", "degree of freedom 1, which has no mass", "rayleigh"],
+        &["damping matrix, row 2", "degree of freedom 1, which has no mass", "Rayleigh"],
     );
     // Neither mass nor stiffness.
     let loose = Structure { stiffness: Symmetric::diagonal(&[1.0, 0.0, 1.0]), ..chain(0.0) };

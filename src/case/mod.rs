@@ -42,6 +42,7 @@ mod wording;
 mod written;
 
 pub use case_file::CaseFile;
+#[cfg(feature = "cli")]
 pub(crate) use digest::sha256;
 pub use embedded::Embedded;
 pub use key::Key;

@@ -1,9 +1,13 @@
 //! What a case file said that its scene no longer shows: places, and the files it read.
 
+#[cfg(feature = "cli")]
+use super::Case;
+use super::Place;
 use super::digest::sha256;
 use super::table::TableColumns;
-use super::{Case, Place};
-use crate::scene::{Damping, Row};
+use crate::scene::Damping;
+#[cfg(feature = "cli")]
+use crate::scene::Row;
 use serde::Serialize;
 
 /// What the file said, in the order of the scene.
@@ -43,6 +47,8 @@ impl PartialEq for FileRead {
     }
 }
 
+/// For summaries, which say a case again.
+#[cfg(feature = "cli")]
 impl Case {
     /// What the scene, condensed but not cut, sees through a place of the file; none where that touches what was condensed.
     pub(crate) fn sees(&self, place: &Place) -> Option<Row> {

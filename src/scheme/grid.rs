@@ -196,8 +196,7 @@ impl Frame {
 }
 
 /// A stretch that the exact scheme handed to moreau-jean: more impacts crowd there than it follows one by one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "cli", derive(serde::Serialize))]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Handed {
     /// From when, s.
     pub from: f64,
@@ -214,8 +213,7 @@ pub(super) fn all_finite(x: &[f64]) -> bool {
 }
 
 /// What a run has cost, in units that do not depend on the machine.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(serde::Serialize))]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Counters {
     /// Steps taken (for the exact scheme: arcs between events).
