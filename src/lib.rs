@@ -17,14 +17,18 @@
 pub mod batch;
 #[cfg(feature = "case")]
 pub mod case;
+// For the binary.
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 mod contact;
 mod error;
 pub mod flow;
 pub mod linear;
 mod notes;
+// What the tool leaves behind, for its benchmarks and tests.
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod output;
 pub mod qp;
 pub mod residual;

@@ -84,6 +84,7 @@ impl TimeOptions {
 
 /// Equal steps that end exactly at the end, and equal rows that fall on steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct TimeGrid {
     /// The end, s.
     pub end: f64,

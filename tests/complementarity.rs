@@ -347,7 +347,11 @@ fn judged(scene: &Scene, scheme: &Scheme, mut alter: impl FnMut(&Step<'_>, &mut 
         };
         alter(&step, &mut altered);
         let Altered { q, v, after, impulse, force } = altered;
-        judge.see(&Step { q: &[q], v: &[v], velocity_after: &[after], impulse: &impulse, force: &force, ..step });
+        let (q, v, after) = ([q], [v], [after]);
+        let mut altered = step;
+        (altered.q, altered.v, altered.velocity_after) = (&q, &v, &after);
+        (altered.impulse, altered.force) = (&impulse, &force);
+        judge.see(&altered);
     }
     judge.residuals()
 }

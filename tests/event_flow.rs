@@ -39,7 +39,7 @@ fn taylor(scene: &Scene, end: f64) -> [f64; 4] {
                     f[0] += value;
                     f[1] += slope;
                 }
-                LoadKind::Impulse { .. } | LoadKind::Function(_) => {}
+                _ => {}
             }
         }
         let mut a = [0.0; 26];

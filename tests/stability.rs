@@ -49,6 +49,7 @@ fn step(integrator: Integrator, k: f64, (s, v): (f64, f64)) -> (f64, f64) {
             };
             (end, 2.0 * (end - s) - v)
         }
+        other => panic!("{other:?} has no rule here"),
     }
 }
 

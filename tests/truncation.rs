@@ -38,7 +38,7 @@ fn made(case: &Case) -> Run {
 }
 
 fn cost(case: &Case) -> Option<Truncation> {
-    let Truncated { whole, reduction } = case.truncated.as_ref().unwrap();
+    let Truncated { whole, reduction, .. } = case.truncated.as_ref().unwrap();
     Truncation::of(whole, reduction, &made(case), &method(), &case.time, &mut |_| {}).unwrap()
 }
 

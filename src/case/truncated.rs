@@ -7,6 +7,7 @@ use crate::study::truncation::Whole;
 
 /// What a case was cut from, and what is left.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Truncated {
     /// The whole structure.
     pub whole: Whole,

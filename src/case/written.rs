@@ -12,6 +12,7 @@ use serde::Serialize;
 
 /// What the file said, in the order of the scene.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Written {
     /// Where each load sits.
     pub loads: Vec<Place>,
@@ -29,6 +30,7 @@ pub struct Written {
 
 /// A file that a case read.
 #[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct FileRead {
     /// Its name in the case file.
     pub file: String,

@@ -10,10 +10,10 @@ mod new;
 mod noted;
 mod pace;
 mod refuted;
-pub mod request;
+mod request;
 mod run;
 mod stability;
-pub mod ui;
+mod ui;
 mod values;
 mod verdicts;
 

@@ -4,6 +4,7 @@ use std::fmt;
 
 /// A matrix that should be positive definite is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct NotDefinite {
     /// The row in which its elimination found no positive pivot.
     pub row: usize,

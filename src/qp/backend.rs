@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 /// Who solves the programme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum Backend {
     /// One unknown: [`Backend::Clamp`]; several: [`Backend::Condensed`].
     #[default]

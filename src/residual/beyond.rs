@@ -1,6 +1,6 @@
 //! Residuals less what rounding may leave of them, with the place where each was worst.
 
-use super::most;
+use super::most::most;
 use crate::scene::Scene;
 
 /// Units in the last place that a sum of a step may be off by, times √n for sums over n degrees of freedom (tests of extreme scenes

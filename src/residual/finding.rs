@@ -28,6 +28,7 @@ pub enum Refuted {
 
 /// A broken promise: what, by how much, when and where. A run with a finding is wrong; its numbers are not to be used.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Finding {
     /// Which promise.
     pub refuted: Refuted,

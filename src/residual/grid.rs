@@ -1,7 +1,8 @@
 //! A step on a grid, held to its word.
 
 use super::matrices::Part;
-use super::{Judge, divide, most};
+use super::most::most;
+use super::{Judge, divide};
 use crate::scene::{Scene, Wall};
 use crate::step::{Balance, Bound, Promise, Step};
 

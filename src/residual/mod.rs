@@ -9,6 +9,7 @@ mod finding;
 mod grid;
 mod matrices;
 mod memory;
+mod most;
 mod quadrature;
 mod recorded;
 mod residuals;
@@ -32,6 +33,7 @@ use beyond::{Doubts, Rounding, Worst};
 use complementarity::Pairs;
 use matrices::Matrices;
 use memory::Memory;
+use most::most;
 use scales::Scales;
 use sight::Sight;
 use std::sync::Arc;
@@ -354,12 +356,6 @@ impl Judge {
             force_scale_n: self.force_scale,
         }
     }
-}
-
-/// The larger of two; what is not a number is passed over, as by [`f64::max`], but in one instruction.
-#[inline(always)]
-fn most(so_far: f64, x: f64) -> f64 {
-    if x > so_far { x } else { so_far }
 }
 
 /// M⁻¹x in place: what impulses (N s) make of velocities, m/s.

@@ -9,6 +9,7 @@ use crate::trajectory::Trajectory;
 ///
 /// with the integral taken by the trapezoid rule over the rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Momentum {
     /// The largest difference of the two sides over the degrees of freedom, N s.
     pub residual_n_s: f64,

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 /// How well a run kept its word; all of it seen step by step, however few rows were recorded.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Residuals {
     /// Largest |min(γ/γ₀, |r|/r₀)| over steps and rigid walls, and of | |r| − law |/r₀ over elastic ones; dimensionless. γ and r are
     /// taken where the scheme promises them ([`Promise`]). A damped wall's law jumps where the body meets its face, from 0 to c_a ṡ: a

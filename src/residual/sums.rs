@@ -1,6 +1,6 @@
 //! What the check of a whole run's momentum sums up, step by step.
 
-use super::most;
+use super::most::most;
 use crate::scene::Scene;
 
 /// Load and own force of the structure on one degree of freedom: those of the last step, N, the sum of the changes of both, the

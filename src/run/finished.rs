@@ -11,6 +11,7 @@ use crate::trajectory::Trajectory;
 
 /// A finished run: judged and recorded, unless the [`Options`](super::Options) left one of them out.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Run<J: Judging = Judged, R: Recording = Recorded> {
     /// The scheme that made it.
     pub scheme: Scheme,

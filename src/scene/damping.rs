@@ -9,6 +9,7 @@ use nalgebra::DMatrix;
 
 /// Viscous damping: how C follows from M and K.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Damping {
     /// C = 0.
     None,

@@ -110,6 +110,7 @@ impl Table {
 
 /// What a load does in time.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum LoadKind {
     /// A force that never changes.
     Constant {

@@ -26,6 +26,7 @@ impl Side {
 
 /// What a wall answers to a body that reaches it. Depth s is the penetration −gap, and |r| the pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum WallLaw {
     /// Signorini's condition 0 ≤ gap ⟂ |r| ≥ 0 with Newton's impact law ẇ⁺ = −e ẇ⁻.
     ///

@@ -197,6 +197,7 @@ impl Frame {
 
 /// A stretch that the exact scheme handed to moreau-jean: more impacts crowd there than it follows one by one.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct Handed {
     /// From when, s.
     pub from: f64,

@@ -1,6 +1,8 @@
 //! How time advances: one file per scheme, and the [`Stepper`] that drives any of them.
 
 mod central_difference;
+// For tests of the exact scheme alone; a program has Stepper.
+#[doc(hidden)]
 pub mod event;
 mod grid;
 mod kernel;

@@ -13,6 +13,7 @@ const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 
 /// The force of one wall over the window.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ForceStatistics {
     /// Impulse of the wall on the body over the window, N s; signed as the force.
     pub impulse_n_s: f64,

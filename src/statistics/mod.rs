@@ -17,6 +17,7 @@ use serde::Serialize;
 
 /// Mean and largest of a set of magnitudes, one of each episode; both `None` if the set is empty.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Summary {
     /// Arithmetic mean over the episodes: not over time.
     pub mean: Option<f64>,
@@ -38,6 +39,7 @@ impl Summary {
 /// Half widths of the 95 % intervals of what is drawn from a wall's contacts, by batch means; none of them where fewer than ten contacts began in
 /// the window.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct HalfWidths {
     /// Of the rate of contacts, 1/s.
     pub contact_rate_per_s: f64,
@@ -56,6 +58,7 @@ pub struct HalfWidths {
 
 /// Contacts at one wall within the window. An episode counts where it begins; its time counts where it passes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct WallStatistics {
     /// The wall's name.
     pub wall: String,
@@ -86,6 +89,7 @@ pub struct WallStatistics {
 
 /// Contact statistics of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Statistics {
     /// Start of the window, s.
     pub from_s: f64,

@@ -62,6 +62,7 @@ pub struct Tolerance {
 
 /// The scenes on which a scheme keeps the energy ledger closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Conserves {
     /// None: what it makes or loses is the scheme's known error, which the ledger tells and a note says.
     Nothing,

@@ -29,6 +29,7 @@ pub struct Contact {
 
 /// What lies between the two ends of a step.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub enum Path<'a> {
     /// Nothing is known between the grid's instants.
     Grid,
@@ -85,6 +86,7 @@ impl Path<'_> {
 ///
 /// Slices over degrees of freedom have length n, slices over walls the number of walls, in the scene's order.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct Step<'a> {
     /// Number of the step, from 0.
     pub index: u64,

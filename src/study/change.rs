@@ -13,6 +13,7 @@ const SLOW: f64 = 1e-2;
 
 /// How far two runs lie apart. Every number is dimensionless; zero where nothing differs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Change {
     /// Largest |Δu| of any probe over [`Scene::gap_scale`], at the rows up to the time asked for.
     pub displacement: f64,
@@ -24,6 +25,7 @@ pub struct Change {
 /// at the largest speed v at this wall would give where that is more, with the mass m that it feels ([`Scene::wall_masses`]): a wall that
 /// is hardly touched does not decide.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct WallChange {
     /// The wall's name.
     pub wall: String,

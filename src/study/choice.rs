@@ -9,6 +9,7 @@ use crate::scheme::{Method, Scheme};
 
 /// A method and why.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Choice {
     /// What would be run.
     pub method: Method,

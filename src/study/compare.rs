@@ -27,6 +27,7 @@ const SLOW: f64 = 1e-2;
 
 /// Departure over approach speed at the rigid walls of a scene, as a run realised it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Restitution {
     /// Smallest of all impacts.
     pub least: f64,
@@ -55,6 +56,7 @@ pub struct Row {
 
 /// A comparison.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Comparison {
     /// The methods in the order asked for, the exact one last.
     pub rows: Vec<Row>,

@@ -26,6 +26,7 @@ impl fmt::Display for Source {
 
 /// Growth over time.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Growth {
     /// Ends of the exact run's steps, or rows of the perturbed runs, s.
     pub time: Vec<f64>,

@@ -21,6 +21,7 @@ const MOST_NAMED: usize = 4;
 /// How a run was checked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Check {
     /// By the same scheme with half the step.
     HalfStep {
@@ -36,6 +37,7 @@ pub enum Check {
 
 /// One wall before and after.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct WallVerdict {
     /// The wall's name.
     pub wall: String,
@@ -49,6 +51,7 @@ pub struct WallVerdict {
 
 /// What the check changed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Verdict {
     /// How the run was checked.
     pub check: Check,

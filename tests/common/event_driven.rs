@@ -78,7 +78,7 @@ impl EventDriven {
             let (e, k, c) = match w.law {
                 WallLaw::Rigid { restitution } => (Some(restitution), 0.0, 0.0),
                 WallLaw::Elastic { stiffness, damping } => (None, stiffness, damping),
-                WallLaw::Quartic { .. } => panic!("no penalty"),
+                _ => panic!("rigid and elastic walls only"),
             };
             Wall { sign: if w.side == Side::Lower { 1.0 } else { -1.0 }, g: w.position, e, k, c }
         });

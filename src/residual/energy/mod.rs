@@ -14,6 +14,7 @@ use serde::Serialize;
 ///
 /// For a staggered scheme E is the energy at half steps, which is the one it conserves.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Energy {
     /// E at the start.
     pub initial_j: f64,

@@ -9,6 +9,7 @@ use crate::scene::{Row, Structure};
 
 /// What holds an end of a bar.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum BarEnd {
     /// Nothing.
     Free,
@@ -23,6 +24,7 @@ pub enum BarEnd {
 
 /// How the mass of an element becomes a matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum MassMatrix {
     /// ∫ ρ A Nᵀ N dx: frequencies are too high, at second order.
     #[default]

@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 
 /// What holds an end of a beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum BeamEnd {
     /// Nothing.
     Free,

@@ -18,6 +18,7 @@ use statics::{Seen, Statics};
 /// A wall that sees b pushes on statics: w = ḡ a + s r with the compliance s = g_b K_bb⁻¹ g_bᵀ. A rigid wall there is exactly an elastic one of
 /// stiffness 1/s against ḡ a, and without restitution, for what has no mass cannot rebound; an elastic one of stiffness k has 1/(1/k + s).
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Condensation {
     /// The degrees of freedom that are kept, in the numbering of before; entry i is degree of freedom i of the condensed scene.
     pub kept: Vec<usize>,

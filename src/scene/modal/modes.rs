@@ -18,6 +18,7 @@ pub const MOST_MODES: usize = 500;
 /// ω of a rigid-body motion is exactly 0: where φᵀKφ is no more than the rounding of K and φ makes it. The largest component of a shape, weighed by
 /// the root of its mass, is positive, so that shapes can be compared from run to run. Shapes of equal ω are any basis of their space.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Modes {
     /// ωᵢ, rad/s, increasing; k entries.
     pub omega: Vec<f64>,

@@ -13,6 +13,7 @@ use crate::scene::{Damping, Row, Scene, State, Structure, System, Wall, WallLaw}
 /// added and so decides what a blow with restitution does, and its static compliance g K⁻¹ gᵀ, which rises. The residual response to loads
 /// is left out of probes.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Reduction {
     /// The scene in modal coordinates; walls, loads and probes are in the order they had.
     pub scene: Scene,
@@ -33,6 +34,7 @@ pub struct Reduction {
 
 /// What truncation leaves of the structure at a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct WallTruncation {
     /// Effective mass 1/(g M⁻¹ gᵀ) of the whole structure, kg.
     pub mass: f64,

@@ -34,6 +34,7 @@ pub struct Level {
 
 /// What was reached, and how.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Accuracy {
     /// The error asked for.
     pub tolerance: f64,
@@ -59,6 +60,7 @@ pub struct Accuracy {
 
 /// The result, which is worth having even if it falls short.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Outcome {
     /// The method that made it.
     pub method: Method,

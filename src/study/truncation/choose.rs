@@ -37,6 +37,7 @@ pub struct ModesLevel {
 
 /// A number of modes, and how it was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ChosenModes {
     /// The change that was allowed.
     pub tolerance: f64,

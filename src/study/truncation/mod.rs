@@ -69,6 +69,7 @@ pub struct WallTruncated {
 
 /// What more modes change of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Truncation {
     /// Modes of the run, and of the one that it is held against.
     pub modes: [usize; 2],

@@ -53,6 +53,7 @@ impl Default for Effort {
 
 /// What came of one method at one step.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub enum Outcome {
     /// It ran.
     Ran(Box<Measured>),
@@ -144,6 +145,7 @@ pub struct Floor {
 
 /// Accuracy against speed on one scene.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct WorkPrecision {
     /// Until when runs are compared.
     pub horizon: Horizon,

@@ -23,6 +23,7 @@ const SHAVED: f64 = 0.99;
 
 /// How long a comparison means anything.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Horizon {
     /// The comparison's end, s.
     pub end: f64,
