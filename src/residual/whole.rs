@@ -61,12 +61,12 @@ impl Judge {
                 sums.add(i, first, h, [mean[i], -spring[i] * per_h, -damper[i] * per_h]);
             }
         }
-        let (place, load, last) = (&mut sums.place[..n], &mut sums.load[..n], &mut sums.last[..n]);
+        let (place, load) = (&mut sums.place[..n], &mut sums.load[..n]);
         for i in 0..n {
             place[i] += half * (q0[i] + q1[i]);
             load[i] += half * (load_start[i] + load_end[i]) + h * extra[i];
-            last[i] = after[i];
         }
+        sums.last[..n].copy_from_slice(after);
     }
 
     /// The worst of what the impulses leave open beyond what a step may miss and rounding, over the largest momentum handed to and fro.
