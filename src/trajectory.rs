@@ -146,6 +146,9 @@ pub struct Recorder {
     probes: Vec<Row>,
     end: f64,
     rows: u64,
+    /// Rows a second, and the time of the next row, s.
+    rate: f64,
+    due: f64,
     /// Impulse per wall since the last row, N s.
     pending: Vec<f64>,
     partial: Vec<f64>,
@@ -175,6 +178,8 @@ impl Recorder {
             probes: scene.probes.iter().map(|p| p.at.clone()).collect(),
             end: scene.duration,
             rows,
+            rate: rows as f64 / scene.duration,
+            due: 0.0,
             pending: vec![0.0; m],
             partial: vec![0.0; m],
             state: [vec![0.0; n], vec![0.0; n]],
@@ -187,7 +192,7 @@ impl Recorder {
     /// Time of row `k`, s; the last is the end itself. The rate is often a whole number (1 ms: 1000 a second), and dividing by it gives the
     /// double nearest to the decimal.
     fn row_time(&self, k: u64) -> f64 {
-        if k >= self.rows { self.end } else { k as f64 / (self.rows as f64 / self.end) }
+        if k >= self.rows { self.end } else { k as f64 / self.rate }
     }
 
     /// Takes in one step. Steps must come in order; those after the last row are none of the run's and change nothing, nor do
@@ -209,7 +214,7 @@ impl Recorder {
                     *sum += p;
                 }
                 // The grid divides the rows' spacing, so a row's time and a step's end differ by rounding at most.
-                let due = self.row_time(self.trajectory.time.len() as u64);
+                let due = self.due;
                 if step.end > due - 0.5 * (step.end - step.start) {
                     self.push(due, step.q, step.v, step.force);
                 }
@@ -226,7 +231,7 @@ impl Recorder {
         }
         loop {
             let row = self.trajectory.time.len() as u64;
-            let due = self.row_time(row);
+            let due = self.due;
             if row > self.rows || due > step.end {
                 break;
             }
@@ -257,7 +262,7 @@ impl Recorder {
         // Right-continuity: a row at the very end of this arc is the next arc's, or the run's last.
         loop {
             let row = self.trajectory.time.len() as u64;
-            let due = self.row_time(row);
+            let due = self.due;
             if row >= self.rows || due >= step.end {
                 break;
             }
@@ -308,6 +313,7 @@ impl Recorder {
             t.force[index].push(force.get(index).copied().unwrap_or(0.0));
             t.impulse[index].push(std::mem::take(sum));
         }
+        self.due = self.row_time(self.trajectory.time.len() as u64);
     }
 
     /// The trajectory, with the episodes `open` at the end of the run.

@@ -1,54 +1,89 @@
 //! The judge on the exact motion of one degree of freedom.
 
-use super::{Judge, PLACE_UNITS, quadrature};
+use super::energy::{Along, is_damped, stored};
+use super::quadrature::{nodes, panels};
+use super::{Judge, PLACE_UNITS, most};
 use crate::flow::Arc;
 use crate::step::Step;
+
+/// An instant of an arc: displacement (m), velocity (m/s), load (N), and its weight in integrals over the arc, s.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Instant {
+    pub t: f64,
+    pub weight: f64,
+    pub q: f64,
+    pub v: f64,
+    pub load: f64,
+}
 
 impl Judge {
     /// A stretch between two events, or an instant.
     pub(super) fn see_arc(&mut self, step: &Step<'_>, arc: &Arc) {
-        let ends = self.energy.see_arc(&self.scene, step, arc, &self.loads, &self.scratch.blow);
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.tension = self.tension.max(-wall.side.sign() * step.jump[index]);
         }
+        let mut along = Along::default();
         // An instant knows no forces.
-        if step.end <= step.start {
+        let lasts = step.end > step.start;
+        if lasts {
+            let (rate, fastest) = (arc.damping() / arc.mass(), arc.fastest_motion());
+            for panel in panels(step.start, step.end, rate, fastest) {
+                // Tables jump at their ends: the arc stops there, so a load read just inside is the load of the arc.
+                for (t, weight) in nodes(panel) {
+                    let (q, v) = arc.state(t);
+                    let mut load = [step.extra.first().copied().unwrap_or(0.0)];
+                    self.loads.add_force(t, 1.0, &mut load);
+                    self.look(arc, Instant { t, weight, q, v, load: load[0] }, &mut along);
+                }
+                along.end_panel();
+            }
+        }
+        let open = self.energy.see_arc(&self.scene, step, arc, &self.scratch.blow, &along);
+        if !lasts {
             return;
         }
         let weight = self.scales.root_mass.first().copied().unwrap_or(1.0);
-        let balance = ends.balance / (step.end - step.start);
+        let balance = open / (step.end - step.start);
         self.balance = self.balance.max(balance);
         self.normal_balance = self.balance / weight;
-        self.balance_scale = self.balance_scale.max(ends.largest_force / weight);
-        self.rounding.load(0, ends.largest_force);
-        for (t, _) in quadrature::nodes(step.start, step.end) {
-            let (q, v) = arc.state(t);
-            for index in 0..self.scene.walls.len() {
-                let wall = &self.scene.walls[index];
-                let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid());
-                let (w, wdot) = (wall.at.dot(&[q]), wall.at.dot(&[v]));
-                let pressure = sign * arc.force_at(index, t, (q, v));
-                self.force_scale = self.force_scale.max(pressure.abs());
-                self.tension = self.tension.max(-pressure);
-                self.depth[index] = self.depth[index].max(-wall.gap(w));
-                self.rounding.state(&[q], &[v], 0.0);
-                self.rounding.push(index, pressure, rigid);
-                let size = self.reach.max(w.abs()) + wall.position.abs() + wdot.abs() * t;
-                if rigid {
-                    let gap = wall.gap(w);
-                    self.pairs.add(gap, pressure);
-                    self.doubt_gap(index, gap, size, pressure);
-                } else {
-                    let rounding = PLACE_UNITS * f64::EPSILON * size;
-                    let law = |s: f64| wall.law.pressure(s, -sign * wdot);
-                    let (low, high) = (law(-wall.gap(w) - rounding), law(-wall.gap(w) + rounding));
-                    // Between the two, which differ by the wall's stiffness times the rounding, but at a damped wall's face.
-                    let error = (low - pressure).max(pressure - high);
-                    self.law_error = self.law_error.max(error);
-                    self.doubt_law(index, error, 0.0);
-                }
+        self.balance_scale = self.balance_scale.max(along.largest_force / weight);
+        self.doubt_balance(balance / weight);
+    }
+
+    /// What acts at an instant of an arc, and whether the walls keep their laws there.
+    fn look(&mut self, arc: &Arc, at: Instant, along: &mut Along) {
+        let Instant { t, q, v, .. } = at;
+        let force = self.energy.look(&self.scene, at, along);
+        self.rounding.load(0, force);
+        self.rounding.state(&[q], &[v], 0.0);
+        for index in 0..self.scene.walls.len() {
+            let (wall, sight) = (&self.scene.walls[index], &self.sights[index]);
+            let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid());
+            let (w, wdot) = (sight.of(wall, &[q]), sight.of(wall, &[v]));
+            let (gap, r) = (wall.gap(w), arc.force_at(index, t, (q, v)));
+            if rigid && r == 0.0 && gap >= 0.0 {
+                continue;
+            }
+            along.add_wall(at, r, stored(wall, w, r != 0.0), is_damped(wall.law));
+            let pressure = sign * r;
+            self.force_scale = most(self.force_scale, pressure.abs());
+            self.tension = most(self.tension, -pressure);
+            self.depth[index] = most(self.depth[index], -gap);
+            self.rounding.push(index, pressure, rigid);
+            let size = self.reach.max(w.abs()) + wall.position.abs() + wdot.abs() * t;
+            if rigid {
+                self.pairs.add(gap, pressure);
+                self.doubt_gap(index, gap, size, pressure);
+            } else {
+                let rounding = PLACE_UNITS * f64::EPSILON * size;
+                let law = |s: f64| wall.law.pressure(s, -sign * wdot);
+                let (low, high) = (law(-gap - rounding), law(-gap + rounding));
+                // Between the two, which differ by the wall's stiffness times the rounding, but at a damped wall's face.
+                let error = (low - pressure).max(pressure - high);
+                self.law_error = self.law_error.max(error);
+                self.doubt_law(index, error, 0.0);
             }
         }
-        self.doubt_balance(balance / weight);
+        self.energy.reach(along.end_instant(at.weight));
     }
 }

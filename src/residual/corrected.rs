@@ -68,7 +68,7 @@ impl Judge {
         std::mem::swap(force, force_end);
         self.memory = Some(memory);
         let (ends, loads, n) = ((&self.q[..], step.q), (&self.scratch.load[..], &self.scratch.blow[..]), self.q.len());
-        self.energy.see_grid(&self.scene, &self.matrices, h, ends, step, loads, n);
+        self.energy.see_grid(&self.scene, &self.matrices, (h, 1.0 / h), ends, step, loads, n);
         self.doubt_balance(worst);
         self.doubt_path(path);
     }

@@ -27,9 +27,10 @@ impl Judge {
     #[inline(always)]
     fn see_grid_of(&mut self, step: &Step<'_>, n: usize) {
         let beyond = self.loads.has_blows() && self.find_beyond(step);
-        let path = self.terms_of(step, beyond, n);
+        let per_h = 1.0 / self.h;
+        let path = self.terms_of(step, beyond, per_h, n);
         self.walls_on_grid(step, beyond);
-        self.products_of(step, n);
+        self.products_of(per_h, n);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
             if p != 0.0 {
                 for &(i, weight) in wall.at.entries() {
@@ -40,7 +41,7 @@ impl Judge {
         if self.loads.has_blows() {
             self.feel_blows(step, beyond);
         }
-        let (per_h, mut worst) = (1.0 / self.h, 0.0);
+        let mut worst = 0.0;
         let s = &self.scratch;
         for (r, per_weight) in s.residual[..n].iter().zip(&self.scales.per_root_mass[..n]) {
             let open = r.abs() * per_h;
@@ -51,20 +52,20 @@ impl Judge {
         self.kinematics = most(self.kinematics, path);
         let arrived: &[f64] = if beyond { &s.arrived } else { step.q };
         let ends = (&self.q[..], arrived);
-        self.energy.see_grid(&self.scene, &self.matrices, self.h, ends, step, (&s.load, &s.blow), n);
+        self.energy.see_grid(&self.scene, &self.matrices, (self.h, per_h), ends, step, (&s.load, &s.blow), n);
         if beyond {
             self.energy.displace(&self.scene, &self.matrices, self.h, step);
         }
         self.doubt_balance(worst);
         self.doubt_path(path);
-        self.sum(step, n);
+        self.sum(step, per_h, n);
         self.go_on(step, n);
     }
 
     /// Mean load, displacement and velocity of a step, what they add to its balance, and the sizes of all these; returns by how much
     /// the displacement misses what the velocities make of it, m√kg.
     #[inline(always)]
-    fn terms_of(&mut self, step: &Step<'_>, beyond: bool, n: usize) -> f64 {
+    fn terms_of(&mut self, step: &Step<'_>, beyond: bool, per_h: f64, n: usize) -> f64 {
         (self.now, self.span, self.clock) = (step.end, self.h, 1.0);
         let h = self.h;
         let s = &mut self.scratch;
@@ -103,16 +104,15 @@ impl Judge {
             inertia[i] = after[i] - before[i];
         }
         self.rounding.step_of((shown, before, after), h, n);
-        self.rounding.loads_of((load, load_end, extra, blow), 1.0 / h, n);
+        self.rounding.loads_of((load, load_end, extra, blow), per_h, n);
         self.rounding.book();
         path
     }
 
     /// Adds the structure's own terms to the balance.
     #[inline(always)]
-    fn products_of(&mut self, step: &Step<'_>, n: usize) {
-        debug_assert_eq!(step.q.len(), n);
-        let (h, per_h) = (self.h, 1.0 / self.h);
+    fn products_of(&mut self, per_h: f64, n: usize) {
+        let h = self.h;
         let s = &mut self.scratch;
         self.matrices.product(Part::Mass, 1.0, &s.gained[..n], &mut s.inertia[..n]);
         self.matrices.product(Part::Damping, h, &s.mean_v[..n], &mut s.damper[..n]);

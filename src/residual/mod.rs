@@ -267,20 +267,20 @@ impl Judge {
             Path::Grid if self.memory.is_some() => {
                 self.prepare(step);
                 self.see_corrected(step);
-                self.sum(step, n);
+                self.sum(step, 1.0 / self.h, n);
                 self.arrive(step);
             }
             Path::Grid | Path::OneRestitution => self.see_grid(step),
             Path::Exact(arc) => {
                 self.prepare(step);
                 self.see_arc(step, arc);
-                self.sum(step, n);
+                self.sum(step, 1.0 / self.h, n);
                 self.arrive(step);
             }
             Path::Series(series) => {
                 self.prepare(step);
                 self.see_series(step, series);
-                self.sum(step, n);
+                self.sum(step, 1.0 / self.h, n);
                 self.arrive(step);
             }
             Path::Handed { contract, step: h } => {

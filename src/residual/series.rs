@@ -4,7 +4,7 @@
 //! rate, to 1e-20 of their size; were a stretch longer than it says, the ledger would not close.
 
 use super::energy::{Ledger, Moved};
-use super::quadrature::nodes;
+use super::quadrature::{Panel, nodes};
 use super::{Judge, PLACE_UNITS};
 use crate::flow::Series;
 use crate::scene::WallLaw;
@@ -42,7 +42,7 @@ impl Judge {
         s.inertia.fill(0.0);
         s.spring.fill(0.0);
         let system = &self.scene.system;
-        for (t, weight) in nodes(step.start, step.end) {
+        for (t, weight) in nodes(Panel::new(step.start, step.end, series.rate())) {
             series.state(t, &mut s.mean_q, &mut s.mean_v);
             s.load.copy_from_slice(step.extra);
             self.loads.add_force(t, 1.0, &mut s.load);

@@ -26,7 +26,7 @@ impl Judge {
 
     /// Adds a step, whose mean forces are in the scratch: its state at the start is still the judge's own.
     #[inline(always)]
-    pub(super) fn sum(&mut self, step: &Step<'_>, n: usize) {
+    pub(super) fn sum(&mut self, step: &Step<'_>, per_h: f64, n: usize) {
         let sums = &mut self.sums;
         if sums.steps == 0 {
             sums.from = step.start;
@@ -45,7 +45,7 @@ impl Judge {
             return;
         }
         let (h, s) = (self.h, &self.scratch);
-        let (half, per_h, first) = (0.5 * h, 1.0 / h, sums.steps == 1);
+        let (half, first) = (0.5 * h, sums.steps == 1);
         let (q0, q1, after, extra) = (&self.q[..n], &step.q[..n], &step.velocity_after[..n], &step.extra[..n]);
         let (load_start, load_end, mean) = (&self.load[..n], &s.load_end[..n], &s.load[..n]);
         let (spring, damper) = (&s.spring[..n], &s.damper[..n]);

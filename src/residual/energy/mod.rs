@@ -3,6 +3,7 @@
 mod arc;
 mod series;
 
+pub(super) use arc::{Along, is_damped};
 pub(super) use series::Moved;
 
 use super::matrices::{Matrices, Part};
@@ -102,14 +103,14 @@ impl Ledger {
         }
     }
 
-    /// One step on a grid from `q0` to `q1`, with the mean load (N) and the blows (N s) that acted; n degrees of freedom.
+    /// One step of `h` seconds (and 1/h) on a grid from `q0` to `q1`, with the mean load (N) and the blows (N s) that acted; n degrees of freedom.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn see_grid(
         &mut self,
         scene: &Scene,
         matrices: &Matrices,
-        h: f64,
+        (h, per_h): (f64, f64),
         (q0, q1): (&[f64], &[f64]),
         step: &Step<'_>,
         (load, blow): (&[f64], &[f64]),
@@ -131,7 +132,7 @@ impl Ledger {
             flows.work += pushed + struck;
             flows.passed += pushed.abs() + struck.abs();
         }
-        flows.damping = matrices.form(Part::Damping, shift, &mut self.room[..n]) / h;
+        flows.damping = matrices.form(Part::Damping, shift, &mut self.room[..n]) * per_h;
         let walls = if self.springs || step.impulse.iter().any(|&p| p != 0.0) {
             self.see_walls(scene, h, (q0, q1), step, staggered.is_some(), &mut flows)
         } else {
@@ -280,7 +281,7 @@ impl Ledger {
 }
 
 /// Energy in a wall at displacement `w`, J; a damped wall that has let go of the body holds none that the body can have.
-fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
+pub(super) fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
     match wall.law {
         WallLaw::Elastic { damping, .. } if damping > 0.0 && !touching => 0.0,
         _ => wall.law.energy(-wall.gap(w)),
