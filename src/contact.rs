@@ -93,7 +93,7 @@ pub(crate) struct Episodes {
     side: Vec<Side>,
     open: Vec<Option<Open>>,
     any: bool,
-    /// Walls that pushed in the last step, where they are told by a list.
+    /// Walls that pushed in the last step.
     pushed: Vec<usize>,
     closed: Vec<Contact>,
 }
@@ -116,6 +116,14 @@ impl Episodes {
         }
     }
 
+    /// Forgets all that has been seen.
+    pub(crate) fn forget(&mut self) {
+        self.open.fill(None);
+        self.pushed.clear();
+        self.closed.clear();
+        self.any = false;
+    }
+
     /// Episodes that the last step closed.
     #[inline]
     pub(crate) fn closed(&self) -> &[Contact] {
@@ -128,21 +136,9 @@ impl Episodes {
         !self.any && self.closed.is_empty()
     }
 
-    /// Takes in one step from `start` over `h` (s) with its impulses (N s) and, per wall, its velocities ẇ (m/s).
-    pub(crate) fn see(&mut self, start: f64, h: f64, impulse: &[f64], rates: impl Fn(usize) -> Rates) {
-        self.closed.clear();
-        self.any = false;
-        for (wall, &p) in impulse.iter().enumerate() {
-            if p == 0.0 {
-                self.part(wall);
-            } else {
-                self.push(wall, start + self.instant * h, h, p, rates(wall));
-            }
-        }
-    }
-
-    /// The same where `pushing` lists the walls with an impulse: the others are not looked at.
-    pub(crate) fn see_some(
+    /// Takes in one step from `start` over `h` (s) with its impulses (N s) and, per wall, its velocities ẇ (m/s). `pushing` lists the walls
+    /// with an impulse: the others are not looked at.
+    pub(crate) fn see(
         &mut self,
         start: f64,
         h: f64,

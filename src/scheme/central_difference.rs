@@ -1,106 +1,124 @@
 //! `penalty` with the `central-difference` integrator: the explicit rule M(v₊ − v₋)/h = f − C(v₋ + v₊)/2 − K q + r(q).
 //!
 //! Stable while h²(K + k_w)/M ≤ 4; beyond that the walls throw the body back faster than it came. Smooth dampers are taken at the mean
-//! velocity, so they cost no stability.
+//! velocity, so they cost no stability. Order 2 where the step resolves the walls.
+//!
+//! (M/h + C/2)(v₊ − v₋) = f − C v₋ − K q + J/h + Gᵀ r, where r is known but for the walls' dashpots, which feel the mean of v₋ and v₊ and never
+//! pull.
 
-use super::grid::{Frame, Scalar};
-use super::paoli_schatzman::{arrival, back, blow_spans, centred, count_span};
-use crate::error::Result;
+use super::Counters;
+use super::body::Body;
+use super::frame::Frame;
+use super::newton::{Answer, Walls};
+use super::rule::Rule;
+use super::space::{Space, zero};
+use super::staggered::{Staggered, counted_blows};
+use super::start::StartForce;
+use crate::error::{Error, Result};
+use crate::linear::Symmetric;
+use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
 
 #[derive(Debug)]
-pub(super) struct CentralDifference {
-    s: Scalar,
-    q: f64,
-    /// v₋ = (q − q⁻)/h, m/s.
-    v: f64,
-    load: f64,
-    /// The caller's extra force in the last step, N; 0 before the first.
-    extra: f64,
+pub(super) struct CentralDifference<S: Space> {
+    body: Body<S>,
+    staggered: Staggered<S>,
+    /// M/h + C/2.
+    factor: S::Factor,
+    /// The walls' velocities after the step as functions of their forces; none without dashpots.
+    dashpots: Option<Walls>,
+    /// The right-hand side, then v₊ − v₋.
+    b: S::Vector,
+    change: S::Vector,
 }
 
-impl CentralDifference {
-    pub fn new(scene: &Scene, h: f64) -> Self {
-        let s = Scalar::new(scene, h);
-        let (q, v0) = s.start(scene);
-        let v = back(&s, v0, s.start_force(q, v0).total);
-        let load = s.forcing.force(0.0);
-        Self { s, q, v, load, extra: 0.0 }
+impl<S: Space> CentralDifference<S> {
+    pub fn new(scene: &Scene, h: f64) -> Result<Self> {
+        let body = Body::<S>::new(scene, h)?;
+        let m = &body.matrices;
+        let mut factor = S::factor(&Symmetric::sum(&[(1.0 / h, &m.mass), (0.5, &m.damping)]))?;
+        let damped = body.walls.iter().any(|wall| dashpot(&wall.law) > 0.0);
+        let dashpots = damped.then(|| Walls::new(&mut factor, &body, 1.0));
+        let (staggered, b, change) = (Staggered::new(scene, &body)?, zero::<S>(body.n), zero::<S>(body.n));
+        Ok(Self { body, staggered, factor, dashpots, b, change })
     }
 
-    /// Takes the motion up anew at `time` (s), as from a start there.
-    pub fn restart(&mut self, time: f64, q: f64, v: f64) {
-        self.s.since = time;
-        let s = &self.s;
-        let v = back(s, v, s.start_force(q, v).total);
-        (self.q, self.v, self.load, self.extra) = (q, v, s.forcing.force(time), 0.0);
-    }
-
-    #[inline]
-    pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
-        let s = &self.s;
-        let h = s.h;
-        let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
-        let (q, v) = (self.q, self.v);
-        let blow = s.forcing.impulse_about_since(s.since, step, h);
-        let felt = centred(&mut self.extra, extra);
-        frame.extra[0] = felt;
-        let carried = s.blows(&[count_span(step, h)]).map_or(0.0, |(shift, _)| shift);
-        let smooth = self.load + felt + (blow - s.c * carried) / h - s.k * q;
-        frame.clear();
-        let mut v_end = velocity(s.m / h, s.c, v, smooth);
-        if s.walls.iter().any(|wall| wall.depth(q) > 0.0) {
-            v_end = self.touch(q, v, smooth, frame);
+    /// Adds the forces of the walls that the structure is behind. Out of line: most steps are before all of them.
+    #[inline(never)]
+    fn press(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        let Self { body, staggered, factor, dashpots, b, change } = self;
+        let v = &staggered.v;
+        let depth = |wall: usize| body.walls[wall].depth(body.seen(wall, &frame.q));
+        if let Some(dashpots) = dashpots {
+            change.clone_from(b);
+            S::solve(factor, change);
+            for wall in 0..body.walls.len() {
+                dashpots.free[wall] = body.seen(wall, v) + body.seen(wall, change);
+            }
+            let law = |wall: usize, after: f64| {
+                let (stop, depth) = (body.walls[wall], depth(wall));
+                let rate = -stop.sign * 0.5 * (body.seen(wall, v) + after);
+                let pressure = stop.law.pressure(depth, 0.0) + dashpot(&stop.law) * rate;
+                // A wall found to pull lets go.
+                let holds = depth > 0.0 && pressure > 0.0;
+                let (force, slope) = if holds { (stop.sign * pressure, 0.5 * dashpot(&stop.law)) } else { (0.0, 0.0) };
+                Answer { force, slope, noise: 0.0 }
+            };
+            let solved = dashpots.solve(law);
+            solved.map_err(|residual| Error::Newton { time: frame.start, step, residual })?;
+            frame.force.copy_from_slice(&dashpots.force);
+        } else {
+            for (wall, stop) in body.walls.iter().enumerate() {
+                frame.force[wall] = stop.sign * stop.law.pressure(depth(wall), 0.0);
+            }
         }
-        let q_end = q + h * v_end + s.land(&blow_spans(step, h), frame);
-        let load_end = s.forcing.force(end);
-        let v_reported =
-            arrival(s, q_end, v_end, load_end + extra) + s.forcing.impulse((step as f64 + 0.5) * h, end) / s.m;
-        (self.q, self.v, self.load) = (q_end, v_end, load_end);
-        frame.arrive(start, end, v, q_end, v_reported);
-        frame.after[0] = v_end;
-        frame.check(step)
-    }
-
-    /// v₊ with the walls that hold the body: their springs at q, their dashpots at the mean velocity, none of them pulling.
-    fn touch(&self, q: f64, v: f64, smooth: f64, frame: &mut Frame) -> f64 {
-        let s = &self.s;
-        let dashpot = |law: &WallLaw| if let WallLaw::Elastic { damping, .. } = *law { damping } else { 0.0 };
-        frame.touched = true;
-        // A wall found to pull lets go; each pass drops one at least, so there are no more passes than walls.
-        frame.force.iter_mut().zip(&s.walls).for_each(|(f, wall)| *f = f64::from(u8::from(wall.depth(q) > 0.0)));
-        loop {
-            let (mut c, mut force) = (s.c, smooth);
-            for (wall, _) in s.walls.iter().zip(&frame.force).filter(|&(_, &on)| on != 0.0) {
-                c += dashpot(&wall.law);
-                force += wall.sign * wall.law.pressure(wall.depth(q), 0.0);
-            }
-            let v_end = velocity(s.m / s.h, c, v, force);
-            let mut pulled = false;
-            for (wall, on) in s.walls.iter().zip(&mut frame.force).filter(|(_, on)| **on != 0.0) {
-                let rate = -wall.sign * 0.5 * (v + v_end);
-                if wall.law.pressure(wall.depth(q), 0.0) + dashpot(&wall.law) * rate < 0.0 {
-                    *on = 0.0;
-                    pulled = true;
-                }
-            }
-            if pulled {
-                continue;
-            }
-            for ((wall, force), p) in s.walls.iter().zip(&mut frame.force).zip(&mut frame.impulse) {
-                if *force != 0.0 {
-                    let rate = -wall.sign * 0.5 * (v + v_end);
-                    *force = wall.sign * (wall.law.pressure(wall.depth(q), 0.0) + dashpot(&wall.law) * rate);
-                }
-                *p = s.h * *force;
-            }
-            return v_end;
-        }
+        frame.push_by_force(body.h);
+        body.push(1.0, &frame.force, b);
+        Ok(())
     }
 }
 
-/// v₊ from M(v₊ − v₋)/h = F − C(v₋ + v₊)/2.
-#[inline]
-fn velocity(m_over_h: f64, c: f64, v: f64, force: f64) -> f64 {
-    ((m_over_h - 0.5 * c) * v + force) / (m_over_h + 0.5 * c)
+impl<S: Space> Rule<S> for CentralDifference<S> {
+    fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame<S>) -> Result<()> {
+        self.body.restart(time);
+        let start = StartForce::new(scene, &self.body, &frame.q, &frame.v)?;
+        self.staggered.restart(self.body.h, &frame.v, &start.total);
+        Ok(())
+    }
+
+    fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        let Self { body, staggered, b, .. } = self;
+        let h = body.h;
+        staggered.begin(step, h, frame);
+        for (b, (load, extra)) in b.as_mut().iter_mut().zip(body.load.as_ref().iter().zip(frame.extra.as_ref())) {
+            *b = load + extra;
+        }
+        S::add_product(&body.stiffness, -1.0, &frame.q, b);
+        S::add_product(&body.damping, -1.0, &staggered.v, b);
+        body.strike_about(step, 1.0 / h, b, frame);
+        if body.find_blows(&[counted_blows(step, h)]) {
+            body.damp_shift(1.0 / h, b);
+        }
+        if (0..body.walls.len()).any(|wall| body.walls[wall].depth(body.seen(wall, &frame.q)) > 0.0) {
+            self.press(step, frame)?;
+        }
+        let Self { body, staggered, factor, b, .. } = self;
+        S::solve(factor, b);
+        for ((q, v), d) in frame.q.as_mut().iter_mut().zip(staggered.v.as_mut()).zip(b.as_ref()) {
+            *v += d;
+            *q += h * *v;
+        }
+        staggered.finish(body, step, frame)
+    }
+
+    fn count(&self, _: &mut Counters) {}
+
+    fn backend(&self) -> Option<Backend> {
+        None
+    }
+}
+
+/// c_a, N s/m; 0 for a wall without a dashpot.
+fn dashpot(law: &WallLaw) -> f64 {
+    if let WallLaw::Elastic { damping, .. } = *law { damping } else { 0.0 }
 }

@@ -1,91 +1,101 @@
-//! The state of whichever scheme was asked for.
+//! The motion that was asked for: a scheme's rule over the space that the scene calls for, or the exact motion.
 
 use super::central_difference::CentralDifference;
 use super::event::Event;
-use super::grid::Counters;
+use super::generalized_alpha::GeneralizedAlpha;
+use super::grid::Grid;
+use super::line::Line;
+use super::matrices::Matrices;
 use super::moreau_jean::MoreauJean;
+use super::motion::Motion;
 use super::paoli_schatzman::PaoliSchatzman;
 use super::penalty::{Mean, Penalty};
 use super::position::Position;
-use super::structure::Structure;
+use super::rule::Rule;
+use super::space::Space;
 use super::structure_event::StructureEvent;
-use super::{Integrator, Scheme};
-use crate::error::Result;
-use crate::qp::Backend;
-use crate::scene::Scene;
-use std::sync::Arc;
+use super::{Integrator, Method, Scheme};
+use crate::error::{Error, Result};
+use crate::scene::{Checked, Row, Scene, System};
+use crate::step::Step;
 
-/// The state and constants of one scheme on one scene. Smallness is a variant's content: these hold floats, no matrices.
+/// A motion. That of one degree of freedom on a grid is no pointer: a caller's loop reads its steps where they are made.
 #[derive(Debug)]
+#[allow(clippy::large_enum_variant)]
 pub(super) enum Kernel {
-    Position(Position),
-    PaoliSchatzman(PaoliSchatzman),
-    MoreauJean(MoreauJean),
-    Penalty(Penalty),
-    CentralDifference(CentralDifference),
-    Event(Box<Event>),
-    Structure(Box<Structure>),
-    StructureEvent(Box<StructureEvent>),
+    Line(Grid<Line>),
+    Other(Box<dyn Motion>),
+}
+
+/// `scheme` over a space, with steps of `h` seconds. A new scheme gets its line here.
+fn rule<S: Space>(scene: &Scene, Method { scheme, backend }: Method, h: f64) -> Result<Box<dyn Rule<S>>> {
+    Ok(match scheme {
+        Scheme::ImplicitEuler => Box::new(Position::<S>::new(scene, 1.0, h, backend)?),
+        Scheme::Newmark => Box::new(Position::<S>::new(scene, 0.5, h, backend)?),
+        Scheme::PaoliSchatzman => Box::new(PaoliSchatzman::<S>::new(scene, h, backend)?),
+        Scheme::MoreauJean { theta } => Box::new(MoreauJean::<S>::new(scene, theta, h, backend)?),
+        Scheme::GeneralizedAlpha { .. } => {
+            Box::new(GeneralizedAlpha::<S>::new(scene, scheme.contract().balance, h, backend)?)
+        }
+        Scheme::Penalty { integrator, .. } => match integrator {
+            Integrator::Trapezoidal => Box::new(Penalty::<S>::new(scene, 0.5, Mean::Ends, h)?),
+            Integrator::ImplicitEuler => Box::new(Penalty::<S>::new(scene, 1.0, Mean::Ends, h)?),
+            Integrator::DiscreteGradient => Box::new(Penalty::<S>::new(scene, 0.5, Mean::DiscreteGradient, h)?),
+            Integrator::CentralDifference => Box::new(CentralDifference::<S>::new(scene, h)?),
+        },
+        Scheme::Event => return Err(Error::invalid("scheme", scheme, "a scheme with a step")),
+    })
+}
+
+fn grid<S: Space>(scene: &Checked, method: Method, h: f64) -> Result<Grid<S>> {
+    Grid::new(scene, scene.wall_masses(), rule(scene, method, h)?, method.scheme.contract(), h)
 }
 
 impl Kernel {
-    /// `scheme` on `scene` with steps of `step` seconds; `single` says whether the kernels of one degree of freedom can hold the scene.
-    pub fn new(scene: &Arc<Scene>, scheme: &Scheme, step: f64, backend: Backend, single: bool) -> Result<Self> {
-        Ok(match *scheme {
-            Scheme::Event if !single => Self::StructureEvent(Box::new(StructureEvent::new(scene, step)?)),
-            // Of generalized-α there is no scalar kernel: an oscillator is a structure of 1 × 1 matrices to it.
-            _ if !single => Self::Structure(Box::new(Structure::new(scene, scheme, step, backend)?)),
-            Scheme::ImplicitEuler => Self::Position(Position::new(scene, 1.0, step, backend)?),
-            Scheme::Newmark => Self::Position(Position::new(scene, 0.5, step, backend)?),
-            Scheme::PaoliSchatzman => Self::PaoliSchatzman(PaoliSchatzman::new(scene, step, backend)?),
-            Scheme::MoreauJean { theta } => Self::MoreauJean(MoreauJean::new(scene, theta, step, backend)?),
-            Scheme::GeneralizedAlpha { .. } => Self::Structure(Box::new(Structure::new(scene, scheme, step, backend)?)),
-            Scheme::Penalty { integrator, .. } => match integrator {
-                Integrator::Trapezoidal => Self::Penalty(Penalty::new(scene, 0.5, Mean::Ends, step)),
-                Integrator::ImplicitEuler => Self::Penalty(Penalty::new(scene, 1.0, Mean::Ends, step)),
-                Integrator::DiscreteGradient => Self::Penalty(Penalty::new(scene, 0.5, Mean::DiscreteGradient, step)),
-                Integrator::CentralDifference => Self::CentralDifference(CentralDifference::new(scene, step)),
-            },
-            Scheme::Event => Self::Event(Box::new(Event::over(scene, step)?)),
+    /// `method` on `scene` with steps of `step` seconds, for the exact motion at most so long.
+    pub fn new(scene: &Checked, method: Method, step: f64) -> Result<Self> {
+        // A wall behind a lever is more than numbers hold: then the oscillator is a structure of 1 × 1 matrices.
+        let direct = scene.walls.iter().all(|wall| wall.at == Row::dof(0));
+        let line = matches!(scene.system, System::Oscillator(_)) && direct;
+        Ok(match method.scheme {
+            Scheme::Event if line => Self::Other(Box::new(Event::over(scene, step)?)),
+            Scheme::Event => Self::Other(Box::new(StructureEvent::new(scene.shared(), step)?)),
+            _ if line => Self::Line(grid(scene, method, step)?),
+            _ => Self::Other(Box::new(grid::<Matrices>(scene, method, step)?)),
         })
     }
 
-    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each.
+    /// As [`Motion::advance`].
+    #[inline]
+    pub fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
+        match self {
+            Self::Line(grid) => grid.advance(step, extra),
+            Self::Other(motion) => motion.advance(step, extra),
+        }
+    }
+
+    /// As [`Motion::step`]. Inlined, so that a caller pays for the fields it reads only.
+    #[inline(always)]
+    pub fn step(&self, index: u64) -> Step<'_> {
+        match self {
+            Self::Line(grid) => grid.step(index),
+            Self::Other(motion) => motion.step(index),
+        }
+    }
+
+    /// What is not asked in every step.
+    pub fn motion(&self) -> &dyn Motion {
+        match self {
+            Self::Line(grid) => grid,
+            Self::Other(motion) => &**motion,
+        }
+    }
+
+    /// As [`Motion::restart`].
     pub fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
-        let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);
-        let (single, rate) = (first(q), first(v));
         match self {
-            Self::Position(kernel) => kernel.restart(time, single, rate),
-            Self::PaoliSchatzman(kernel) => kernel.restart(time, single, rate),
-            Self::MoreauJean(kernel) => kernel.restart(time, single, rate),
-            Self::Penalty(kernel) => kernel.restart(time, single, rate),
-            Self::CentralDifference(kernel) => kernel.restart(time, single, rate),
-            Self::Event(event) => event.restart(scene, time, single, rate)?,
-            Self::Structure(kernel) => kernel.restart(scene, time, q, v)?,
-            Self::StructureEvent(event) => event.restart(time, q, v)?,
-        }
-        Ok(())
-    }
-
-    /// Adds what the scheme has cost so far.
-    pub fn count(&self, counters: &mut Counters) {
-        match self {
-            Self::Position(kernel) => kernel.count(counters),
-            Self::PaoliSchatzman(kernel) => kernel.count(counters),
-            Self::MoreauJean(kernel) => kernel.count(counters),
-            Self::Penalty(kernel) => kernel.count(counters),
-            Self::CentralDifference(_) => {}
-            Self::Structure(kernel) => kernel.count(counters),
-            Self::Event(event) => of_events(counters, event.counters()),
-            Self::StructureEvent(event) => {
-                of_events(counters, event.counters());
-                event.count(counters);
-            }
+            Self::Line(grid) => grid.restart(scene, time, q, v),
+            Self::Other(motion) => motion.restart(scene, time, q, v),
         }
     }
-}
-
-fn of_events(counters: &mut Counters, inner: super::event::Counters) {
-    counters.events = inner.events;
-    counters.flow_evaluations = inner.evaluations;
 }

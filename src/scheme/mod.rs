@@ -1,26 +1,54 @@
 //! How time advances: one file per scheme, and the [`Stepper`] that drives any of them.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `moreau_jean.rs`, `position.rs`, `paoli_schatzman.rs`, `generalized_alpha.rs`, `penalty.rs`, `central_difference.rs` | the schemes on a grid |
+//! | `event/`, `structure_event/`, `exact/` | the exact scheme, of one degree of freedom and of several, and what both share |
+//! | `rule.rs`, `grid.rs` | what a scheme on a grid has to be, and what drives it |
+//! | `space.rs`, `line.rs`, `matrices.rs` | what it computes with: numbers, or vectors and matrices |
+//! | `body.rs`, `blows.rs`, `start.rs` | what it knows of the scene |
+//! | `programme.rs` | the quadratic programme of a step: walls to rows and back |
+//! | `newton.rs` | walls that answer by laws: semismooth Newton on their forces |
+//! | `staggered.rs` | what schemes share whose velocity is half a step behind |
+//! | `frame.rs` | the state, and what a step shows of itself |
+//! | `motion.rs`, `kernel.rs`, `stepper.rs` | a motion, the one asked for, and the public type over all |
 
+mod blows;
+mod body;
 mod central_difference;
+mod counters;
 // For tests of the exact scheme alone; a program has Stepper.
 #[doc(hidden)]
 pub mod event;
+mod exact;
+mod frame;
+mod generalized_alpha;
 mod grid;
+mod handed;
 mod kernel;
+mod line;
+mod matrices;
 mod method;
 mod moreau_jean;
+mod motion;
 mod name;
+mod newton;
 mod paoli_schatzman;
 mod penalise;
 mod penalty;
 mod penalty_law;
 mod position;
 mod programme;
+mod rule;
+mod space;
+mod staggered;
+mod start;
 mod stepper;
 mod stop;
-mod structure;
 mod structure_event;
 
-pub use grid::{Counters, Handed};
+pub use counters::Counters;
+pub use handed::Handed;
 pub use method::Method;
 pub use name::NAMES;
 pub use penalty_law::{Integrator, PenaltyLaw};

@@ -17,147 +17,171 @@
 //! No wall acts on the displacement: a body that comes to rest on one stays as deep behind it as its last impact left it, by up to
 //! ½h times the speed of arrival, and while it stays the force is that of its place: smaller by k times that depth than at the face, for a
 //! spring k that the body hangs on. To lift it to the face takes work, which would be energy from nowhere to this rule.
+//!
+//! Order 1 through impacts. Where h v exceeds the gap, opposite walls take turns and the body stands still between them: such steps are
+//! counted.
 
-use super::grid::{Counters, Frame, Scalar};
-use super::programme::{FREE, Programme, compliances, elastic_row};
+use super::Counters;
+use super::body::Body;
+use super::frame::Frame;
+use super::programme::Programme;
+use super::rule::Rule;
+use super::space::{Space, zero};
 use crate::error::Result;
-use crate::qp::{Backend, ScalarRow};
+use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
 
 #[derive(Debug)]
-pub(super) struct MoreauJean {
-    s: Scalar,
+pub(super) struct MoreauJean<S: Space> {
+    body: Body<S>,
     theta: f64,
-    q: f64,
-    v: f64,
-    /// f(t) at the step's start, N.
-    load: f64,
-    programme: Programme,
-    /// The open interval, m: a body that reaches no further meets no wall. Empty with an elastic wall, whose spring
-    /// decides for itself.
-    clear: (f64, f64),
-    /// Side (sign of its force) of the rigid wall that pushed in the last step; 0 if none did.
-    last_side: f64,
+    programme: Programme<S>,
+    b: S::Vector,
+    /// q + ½hv, with the velocity that the walls answer.
+    ahead: S::Vector,
+    /// The side from which a row's rigid walls pushed in the last step, as the sign of their force, 0 if none did; and the rows where it is not 0.
+    last: Vec<f64>,
+    pushed: Vec<usize>,
     frozen: u64,
 }
 
-impl MoreauJean {
+impl<S: Space> MoreauJean<S> {
     pub fn new(scene: &Scene, theta: f64, h: f64, backend: Backend) -> Result<Self> {
-        let s = Scalar::new(scene, h);
-        let (q, v) = s.start(scene);
+        let body = Body::<S>::new(scene, h)?;
         let ht = h * theta;
-        let a = s.m + ht * s.c + ht * ht * s.k;
-        let rows = compliances(&s, |k, c| ht * ht * (k + c / ht));
-        let programme = Programme::new(a, scene.gap_scale() / h, &rows, backend)?;
-        let load = s.forcing.force(0.0);
-        let clear = s.clear();
-        Ok(Self { s, theta, q, v, load, programme, clear, last_side: 0.0, frozen: 0 })
+        let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
+        let programme = Programme::new(scene, body.theta_matrix(theta), scene.gap_scale() / h, compliance, backend)?;
+        let (b, ahead, last) = (zero::<S>(body.n), zero::<S>(body.n), vec![0.0; programme.count_rows()]);
+        let pushed = Vec::with_capacity(scene.walls.len());
+        Ok(Self { body, theta, programme, b, ahead, last, pushed, frozen: 0 })
     }
 
-    /// Takes the motion up anew at `time` (s).
-    pub fn restart(&mut self, time: f64, q: f64, v: f64) {
-        (self.q, self.v, self.load) = (q, v, self.s.forcing.force(time));
-        self.last_side = 0.0;
-    }
-
-    pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
-        let s = &self.s;
-        let (h, theta) = (s.h, self.theta);
-        let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
-        // Before the state is read: no number has to outlive the call of a sine.
-        let load_end = s.forcing.force(end);
-        let blows = s.forcing.impulse(start, end);
-        let (q, v) = (self.q, self.v);
-        let load = (1.0 - theta) * self.load + theta * load_end + extra;
-        let b = h * (load - s.c * v - s.k * (q + h * theta * v)) + blows;
-        // A blow comes first, and the wall answers the velocity it leaves.
-        let struck = s.struck(v, blows);
-        let reach = q + 0.5 * h * struck;
-        frame.clear();
-        let mut delta = if reach > self.clear.0 && reach < self.clear.1 {
-            self.last_side = 0.0;
-            self.programme.free(b)
-        } else {
-            self.meet(step, b, struck, frame)?
-        };
-        let mut q_end = q + h * (v + theta * delta);
-        if let Some(blows) = self.s.blows(&[(start, end, end - h * theta)]) {
-            let shift;
-            (delta, shift) = self.carry(step, (b, delta), struck, blows, frame)?;
-            q_end = q + h * (v + theta * delta) + shift;
-        }
-        let v_end = v + delta;
-        (self.q, self.v, self.load) = (q_end, v_end, load_end);
-        frame.arrive(start, end, v, q_end, v_end);
-        frame.struck[0] = struck;
-        frame.check(step)
-    }
-
-    /// The same step where its `blows` take the body beside the rule, and so do what the damper feels: δ, and how far (m). What a rigid wall
-    /// answers stays as it is, which is known only when the walls have been asked without.
+    /// Solves for δ, and the walls' impulses, where the row `first` may be met and none before it. Out of line: most steps meet none.
     #[inline(never)]
-    fn carry(
-        &mut self,
-        step: u64,
-        (b, delta): (f64, f64),
-        struck: f64,
-        blows: (f64, f64),
-        frame: &mut Frame,
-    ) -> Result<(f64, f64)> {
-        let Some(shift) = self.s.carried(Some(blows), frame) else { return Ok((delta, 0.0)) };
-        if self.s.c == 0.0 {
-            return Ok((delta, shift));
+    fn meet(&mut self, first: usize, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        let Self { body, programme, ahead, .. } = self;
+        for row in first..programme.count_rows() {
+            let reach = programme.seen(row, ahead);
+            if !programme.is_clear(row, reach) {
+                Self::bind(body, self.theta, programme, row, reach, frame);
+            }
         }
-        frame.clear();
-        Ok((self.meet(step, b - self.s.c * shift, struck, frame)?, shift))
+        self.settle(step, frame)
     }
 
-    /// δ of a step that may meet a wall, whose impulses it writes. Out of line: most steps are none.
-    #[inline(never)]
-    fn meet(&mut self, step: u64, b: f64, struck: f64, frame: &mut Frame) -> Result<f64> {
-        let s = &self.s;
-        let (h, q, v) = (s.h, self.q, self.v);
-        let ht = h * self.theta;
-        let reach = q + 0.5 * h * struck;
-        for (row, wall) in self.programme.rows.iter_mut().zip(&s.walls) {
-            *row = match wall.law {
+    /// The bounds of a row whose walls may be met, in δ.
+    fn bind(body: &Body<S>, theta: f64, programme: &mut Programme<S>, row: usize, reach: f64, frame: &Frame<S>) {
+        let (h, ht) = (body.h, body.h * theta);
+        let (w, before) = (programme.seen(row, &frame.q), programme.seen(row, &frame.v));
+        let struck = programme.seen(row, frame.struck());
+        for seat in programme.seats(row) {
+            let wall = programme.seat(seat).stop;
+            let bound = match wall.law {
                 WallLaw::Elastic { stiffness, damping } => {
-                    // p = −h[k_a(w_θ − g) + c_a(w_θ − plate)/θh] with w_θ = q + hθ v + hθ²δ.
+                    // p = −h[k_a(w_θ − g) + c_a(w_θ − plate)/θh] with w_θ = w + hθẇ + hθ²δ.
                     let stiff = stiffness + damping / ht;
-                    let offset = h * (stiffness * (q + ht * v - wall.g) + damping * (q + ht * v - wall.plate(q)) / ht);
-                    elastic_row(wall.upper, ht * ht * stiff, offset)
+                    let ahead = w + ht * before;
+                    let offset = h * (stiffness * (ahead - wall.g) + damping * (ahead - wall.plate(w)) / ht);
+                    -offset / (ht * ht * stiff)
                 }
-                WallLaw::Rigid { restitution } if wall.depth(reach) >= -s.touch => {
+                WallLaw::Rigid { restitution } if wall.depth(reach) >= -body.touch => {
                     let epsilon = if wall.sign * struck <= 0.0 { restitution } else { 1.0 };
-                    let bound = -(1.0 + epsilon) * struck + (struck - v);
-                    let (lo, hi) = if wall.upper { (f64::NEG_INFINITY, bound) } else { (bound, f64::INFINITY) };
-                    ScalarRow { lo, hi, compliance: 0.0 }
+                    -(1.0 + epsilon) * struck + (struck - before)
                 }
-                _ => FREE,
+                _ => continue,
             };
+            programme.bind(row, seat, bound);
         }
-        let mut delta = self.programme.free(b);
-        let mut side = 0.0;
-        if !self.programme.admits(delta) {
-            delta = self.programme.solve(b, step as f64 * h, step)?;
-            for (i, &p) in self.programme.multiplier.iter().enumerate() {
-                frame.impulse[i] = p;
-                frame.force[i] = p / h;
-                if p != 0.0 && s.walls[i].law.is_rigid() {
-                    side = p.signum();
-                }
-            }
-            frame.touched = true;
-            if side * self.last_side < 0.0 {
-                self.frozen += 1;
-            }
-        }
-        self.last_side = side;
-        Ok(delta)
     }
 
-    pub fn count(&self, counters: &mut Counters) {
+    /// Solves for δ, and the walls' impulses.
+    fn settle(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        self.programme.solve(&self.b, (frame.start, step), &mut frame.impulse, &mut frame.pushing)
+    }
+
+    /// The same where the blows take the structure beside the rule, and so do what the damper feels. What a rigid wall answers stays as it
+    /// is, which is known only when the walls have been asked without. Returns whether the blows carry the structure on.
+    #[inline(never)]
+    fn carry(&mut self, step: u64, frame: &mut Frame<S>) -> Result<bool> {
+        let found = self.body.find_blows(&[(frame.start, frame.end, frame.end - self.body.h * self.theta)]);
+        if !found || self.body.answers(&frame.pushing) {
+            return Ok(false);
+        }
+        if self.body.damped {
+            frame.let_go();
+            self.body.damp_shift(1.0, &mut self.b);
+            self.settle(step, frame)?;
+        }
+        Ok(true)
+    }
+
+    /// The forces of a step with impulses; counts it if the walls on opposite sides of one place took turns.
+    #[inline(never)]
+    fn watch(&mut self, frame: &mut Frame<S>) {
+        let row_of = |wall: usize| self.programme.row_of(wall);
+        let frozen = frame.pushing.iter().any(|&wall| self.last[row_of(wall)] * frame.impulse[wall] < 0.0);
+        for row in self.pushed.drain(..) {
+            self.last[row] = 0.0;
+        }
+        for &wall in &frame.pushing {
+            let (row, impulse) = (row_of(wall), frame.impulse[wall]);
+            frame.force[wall] = impulse / self.body.h;
+            if self.programme.is_rigid(row) {
+                self.last[row] = impulse.signum();
+                self.pushed.push(row);
+            }
+        }
+        self.frozen += u64::from(frozen);
+    }
+}
+
+impl<S: Space> Rule<S> for MoreauJean<S> {
+    fn restart(&mut self, _: &Scene, time: f64, _: &Frame<S>) -> Result<()> {
+        self.body.restart(time);
+        for row in self.pushed.drain(..) {
+            self.last[row] = 0.0;
+        }
+        Ok(())
+    }
+
+    fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        let Self { body, theta, b, .. } = self;
+        let (h, theta) = (body.h, *theta);
+        frame.begin(step, h);
+        body.theta_momentum(theta, frame, b);
+        // A blow comes first, and the wall answers the velocity it leaves.
+        frame.blown = body.strike((frame.start, frame.end), 1.0, b, frame);
+        let states = frame.q.as_ref().iter().zip(frame.struck().as_ref());
+        for (ahead, (q, v)) in self.ahead.as_mut().iter_mut().zip(states) {
+            *ahead = q + 0.5 * h * v;
+        }
+        self.programme.free();
+        match self.programme.first_near(&self.ahead) {
+            None => self.programme.release(&self.b, (frame.start, step))?,
+            Some(row) => self.meet(row, step, frame)?,
+        }
+        let carried = self.body.blows.is_some() && self.carry(step, frame)?;
+        let delta = self.programme.x().as_ref();
+        for ((q, v), d) in frame.q.as_mut().iter_mut().zip(frame.v.as_mut()).zip(delta) {
+            *q += h * (*v + theta * d);
+            *v += d;
+        }
+        frame.after.clone_from(&frame.v);
+        if carried {
+            self.body.shift(&mut frame.q);
+        }
+        if !self.pushed.is_empty() || !frame.pushing.is_empty() {
+            self.watch(frame);
+        }
+        Ok(())
+    }
+
+    fn count(&self, counters: &mut Counters) {
         self.programme.count(counters);
         counters.frozen_steps = self.frozen;
+    }
+
+    fn backend(&self) -> Option<Backend> {
+        Some(self.programme.backend())
     }
 }

@@ -10,185 +10,107 @@
 //!
 //! The multiplier r is the force at t. The velocity between the grid's instants is what the scheme carries: v₋ and
 //! v₊ = Δ/h; without walls it is the trapezoidal rule on the half steps, so it conserves their energy.
+//!
+//! Order 2 at e = 0, 1 at e > 0, where a wall is penetrated by up to 2ehv/(1+e).
+//!
+//! Where e differs between walls on rows that depend on one another (two masses and their distance), and one of them is penetrated, these
+//! bounds may contradict. With one e they never do, since q⁺ = (1+e)q_a − e q⁻ keeps them for every admissible q_a: such a step is made
+//! with the smallest e for all walls.
 
-use super::grid::{Counters, Frame, Scalar, StartForce};
-use super::programme::{Programme, compliances, elastic_row};
-use crate::error::Result;
-use crate::qp::{Backend, ScalarRow};
+use super::Counters;
+use super::body::Body;
+use super::frame::Frame;
+use super::programme::Programme;
+use super::rule::Rule;
+use super::space::{Space, zero};
+use super::staggered::{Staggered, counted_blows};
+use super::start::StartForce;
+use crate::error::{Error, Result};
+use crate::linear::Symmetric;
+use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
 
 #[derive(Debug)]
-pub(super) struct PaoliSchatzman {
-    s: Scalar,
-    q: f64,
-    /// v₋ = (q − q⁻)/h, m/s.
-    v: f64,
-    /// f(t) at the step's start, N.
-    load: f64,
-    /// The caller's extra force in the last step, N; 0 before the first.
-    extra: f64,
-    /// True if rigid walls differ in e, so that their bounds could cross.
-    unequal: bool,
-    programme: Programme,
+pub(super) struct PaoliSchatzman<S: Space> {
+    body: Body<S>,
+    staggered: Staggered<S>,
+    /// Of each row: true if its rigid walls differ in e, so that their bounds could cross.
+    unequal: Vec<bool>,
+    /// The smallest e of all rigid walls, if they differ.
+    least: Option<f64>,
+    programme: Programme<S>,
+    b: S::Vector,
+    /// q − ¼h v₋, m.
+    mean: S::Vector,
 }
 
-impl PaoliSchatzman {
+impl<S: Space> PaoliSchatzman<S> {
     pub fn new(scene: &Scene, h: f64, backend: Backend) -> Result<Self> {
-        let s = Scalar::new(scene, h);
-        let (q, v0) = s.start(scene);
-        // q⁻ = q − h v + ½h² a with the wall's reaction in a: without it a body at rest on a wall with e = 1 would bounce.
-        let StartForce { total, .. } = s.start_force(q, v0);
-        let v = back(&s, v0, total);
-        let a = s.m / (h * h) + 0.5 * s.c / h + 0.25 * s.k;
-        let rows = compliances(&s, |k, c| 0.25 * k + 0.5 * c / h);
-        let programme = Programme::new(a, scene.gap_scale(), &rows, backend)?;
-        let load = s.forcing.force(0.0);
-        let unequal = unequal(&s);
-        Ok(Self { s, q, v, load, extra: 0.0, unequal, programme })
+        let body = Body::<S>::new(scene, h)?;
+        let m = &body.matrices;
+        let a = Symmetric::sum(&[(1.0 / (h * h), &m.mass), (0.5 / h, &m.damping), (0.25, &m.stiffness)]);
+        let compliance = |k: f64, c: f64| 1.0 / (0.25 * k + 0.5 * c / h);
+        let programme = Programme::<S>::new(scene, a, scene.gap_scale(), compliance, backend)?;
+        let differ = |row: usize| {
+            let mut rigid = programme.seats(row).filter_map(|seat| programme.seat(seat).stop.law.restitution());
+            rigid.next().is_some_and(|first| rigid.any(|e| e != first))
+        };
+        let unequal = (0..programme.count_rows()).map(differ).collect();
+        let rigid = || body.walls.iter().filter_map(|wall| wall.law.restitution());
+        let (least, most) = (rigid().reduce(f64::min), rigid().reduce(f64::max));
+        let least = if least == most { None } else { least };
+        let (staggered, b, mean) = (Staggered::new(scene, &body)?, zero::<S>(body.n), zero::<S>(body.n));
+        Ok(Self { body, staggered, unequal, least, programme, b, mean })
     }
 
-    /// Takes the motion up anew at `time` (s), as from a start there.
-    pub fn restart(&mut self, time: f64, q: f64, v: f64) {
-        self.s.since = time;
-        let s = &self.s;
-        let v = back(s, v, s.start_force(q, v).total);
-        (self.q, self.v, self.load, self.extra) = (q, v, s.forcing.force(time), 0.0);
-    }
-
+    /// Solves for Δ, and the walls' forces.
     #[inline]
-    pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
-        let s = &self.s;
-        let h = s.h;
-        let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
-        let (q, v) = (self.q, self.v);
-        let back = q - h * v;
-        let blow = s.forcing.impulse_about_since(s.since, step, h);
-        // A blow comes first, and the wall answers the velocity it leaves: q⁻ in the bound is where that would have come from.
-        let struck = s.struck(v, blow);
-        let felt = centred(&mut self.extra, extra);
-        frame.extra[0] = felt;
-        let load = self.load + felt;
-        let b = s.m * v / h - 0.5 * s.c * v - s.k * (q - 0.25 * h * v) + load + blow / h;
-        let shared = self.shared_restitution(q - h * struck);
-        for (row, wall) in self.programme.rows.iter_mut().zip(&s.walls) {
-            *row = match wall.law {
-                WallLaw::Elastic { stiffness, damping } => {
-                    // |r| = k_a s̄ + c_a(s⁺ − s⁻₊)/2h, written in Δ.
-                    let offset = stiffness * (q - 0.25 * h * v - wall.g) + 0.5 * damping * (q - wall.plate(back)) / h;
-                    elastic_row(wall.upper, 0.25 * stiffness + 0.5 * damping / h, offset)
-                }
-                _ => {
-                    let e = shared.or(wall.law.restitution()).unwrap_or(0.0);
-                    let bound = (1.0 + e) * (wall.g - q) + e * h * struck;
-                    let (lo, hi) = if wall.upper { (f64::NEG_INFINITY, bound) } else { (bound, f64::INFINITY) };
-                    ScalarRow { lo, hi, compliance: 0.0 }
-                }
-            };
+    fn settle(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        self.bind(frame, None);
+        frame.one_restitution = false;
+        let at = (frame.start, step);
+        let solved = self.programme.solve(&self.b, at, &mut frame.force, &mut frame.pushing);
+        if let (Err(Error::Qp { .. }), Some(least)) = (&solved, self.least) {
+            self.bind(frame, Some(least));
+            frame.one_restitution = true;
+            return self.programme.solve(&self.b, at, &mut frame.force, &mut frame.pushing);
         }
-        let mut delta = self.settle(b, (start, step), frame)?;
-        if let Some(blows) = self.s.blows(&[count_span(step, h)])
-            && let Some(shift) = self.s.carried(Some(blows), frame)
-            && self.s.c != 0.0
-        {
-            delta = self.settle(b - self.s.c * shift / h, (start, step), frame)?;
-        }
-        let s = &self.s;
-        let q_end = q + delta + s.land(&blow_spans(step, h), frame);
-        let v_half = delta / h;
-        let load_end = s.forcing.force(end);
-        let v_end = arrival(s, q_end, v_half, load_end + extra) + s.forcing.impulse((step as f64 + 0.5) * h, end) / s.m;
-        (self.q, self.v, self.load) = (q_end, v_half, load_end);
-        frame.arrive(start, end, v, q_end, v_end);
-        frame.after[0] = v_half;
-        frame.struck[0] = struck;
-        frame.check(step)
+        solved
     }
 
-    /// Δ over the rows as they are, and the walls' forces.
+    /// The bounds of the rows, in Δ, with the restitution `one` for all rigid walls or the own of each.
     #[inline]
-    fn settle(&mut self, b: f64, (start, step): (f64, u64), frame: &mut Frame) -> Result<f64> {
-        frame.clear();
-        let free = self.programme.free(b);
-        if self.programme.admits(free) {
-            return Ok(free);
-        }
-        let delta = self.programme.solve(b, start, step)?;
-        for ((p, force), &r) in frame.impulse.iter_mut().zip(&mut frame.force).zip(&self.programme.multiplier) {
-            (*p, *force) = (self.s.h * r, r);
-        }
-        frame.touched = true;
-        Ok(delta)
-    }
-
-    pub fn count(&self, counters: &mut Counters) {
-        self.programme.count(counters);
-    }
-}
-
-/// The blows that the momentum balance of a step from t on counts as at t, and that instant: (from, to, t), s.
-#[inline]
-pub(super) fn count_span(step: u64, h: f64) -> (f64, f64, f64) {
-    // The edges of `Forcing::impulse_about`.
-    let edge = |half_steps: f64| (half_steps * h).max(0.0);
-    (edge(step as f64 - 0.5), edge(step as f64 + 0.5), step as f64 * h)
-}
-
-/// The blows of the step from t on, which come half a step about its ends in the momentum balance, and the instant from which the balance
-/// counts each: (from, to, counted), s.
-#[inline]
-pub(super) fn blow_spans(step: u64, h: f64) -> [(f64, f64, f64); 2] {
-    let (start, middle, end) = (step as f64 * h, (step as f64 + 0.5) * h, (step + 1) as f64 * h);
-    [(start, middle, start), (middle, end, end)]
-}
-
-/// Velocity at t⁺ from v₊ at t⁺ − ½h: half a step under the smooth force, (1 + hC/2M)v⁺ = v₊ + (h/2M)(f⁺ − K q⁺ + r⁺).
-/// A body at or behind a rigid wall is not accelerated further into it, and an elastic wall too stiff for the step is left out: there v₊
-/// is all that is known. A blow since t⁺ − ½h is not in v₊ yet, and the caller's to add.
-#[inline]
-pub(super) fn arrival(s: &Scalar, q: f64, v_half: f64, load: f64) -> f64 {
-    let mut force = load - s.k * q;
-    for wall in &s.walls {
-        let depth = wall.depth(q);
-        if depth < -s.touch {
-            continue;
-        }
-        let tangent = wall.law.tangent(depth);
-        if wall.law.is_rigid() {
-            if wall.sign * (force - s.c * v_half) < 0.0 {
-                return v_half;
+    fn bind(&mut self, frame: &Frame<S>, one: Option<f64>) {
+        let h = self.body.h;
+        self.programme.free();
+        for row in 0..self.programme.count_rows() {
+            let (w, before) = (self.programme.seen(row, &frame.q), self.programme.seen(row, &frame.before));
+            let struck = if frame.blown { self.programme.seen(row, &frame.struck) } else { before };
+            let shared = if self.unequal[row] { self.shared_restitution(row, w - h * struck) } else { None };
+            for seat in self.programme.seats(row) {
+                let wall = self.programme.seat(seat).stop;
+                let bound = match wall.law {
+                    WallLaw::Elastic { stiffness, damping } => {
+                        // |r| = k_a s̄ + c_a(s⁺ − s⁻₊)/2h, written in Δ.
+                        let plate = wall.plate(w - h * before);
+                        let offset = stiffness * (w - 0.25 * h * before - wall.g) + 0.5 * damping * (w - plate) / h;
+                        -offset / (0.25 * stiffness + 0.5 * damping / h)
+                    }
+                    _ => {
+                        let e = one.or(shared).or(wall.law.restitution()).unwrap_or(0.0);
+                        (1.0 + e) * (wall.g - w) + e * h * struck
+                    }
+                };
+                self.programme.bind(row, seat, bound);
             }
-        } else if s.h * s.h * tangent > s.m {
-            return v_half;
-        } else {
-            force += wall.sign * wall.law.pressure(depth, -wall.sign * v_half);
         }
     }
-    let half = 0.5 * s.h / s.m;
-    (v_half + half * force) / (1.0 + half * s.c)
-}
 
-/// v₋ half a step before the start, v − ½h a, from the velocity (m/s) and the force (N) there. The damping that a contains is divided
-/// as an implicit half step would: h² apart, and a heavy damper does not throw the extrapolation by h C v/2M.
-pub(super) fn back(s: &Scalar, v: f64, force: f64) -> f64 {
-    v - 0.5 * s.h * force / (s.m + 0.5 * s.h * s.c)
-}
-
-/// The extra force over t ± ½h, when `extra` is constant over the step from t on and `last` was so before it; takes `extra` for `last`.
-/// At t = 0 the first half acts before the start, on nothing: v₋ is extrapolated without it.
-#[inline]
-pub(super) fn centred(last: &mut f64, extra: f64) -> f64 {
-    0.5 * (std::mem::replace(last, extra) + extra)
-}
-
-impl PaoliSchatzman {
-    /// The smallest e of the rigid walls, if with its own e for each the bounds of a lower and an upper one would cross: unequal e, and a body
-    /// so deep in one wall that the other's bound lies behind it.
-    fn shared_restitution(&self, back: f64) -> Option<f64> {
-        if !self.unequal {
-            return None;
-        }
+    /// The smallest e of the rigid walls of a row, if with its own e for each the bounds of a lower and an upper one would cross, `back` being w⁻.
+    fn shared_restitution(&self, row: usize, back: f64) -> Option<f64> {
         let (mut lo, mut hi, mut least) = (f64::NEG_INFINITY, f64::INFINITY, 1.0_f64);
-        for wall in &self.s.walls {
+        for seat in self.programme.seats(row) {
+            let wall = self.programme.seat(seat).stop;
             let Some(e) = wall.law.restitution() else { continue };
             let bound = (1.0 + e) * wall.g - e * back;
             (lo, hi) = if wall.upper { (lo, hi.min(bound)) } else { (lo.max(bound), hi) };
@@ -196,10 +118,66 @@ impl PaoliSchatzman {
         }
         (lo > hi).then_some(least)
     }
+
+    /// What a rigid wall answers the damper does not feel of the blows, which is known only when the walls have been asked without: makes
+    /// the step once more where it does.
+    #[inline(never)]
+    fn damp_blows(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        let h = self.body.h;
+        if self.body.find_blows(&[counted_blows(step, h)]) && self.body.damped && !self.body.answers(&frame.pushing) {
+            frame.let_go();
+            self.body.damp_shift(1.0 / h, &mut self.b);
+            self.settle(step, frame)?;
+        }
+        Ok(())
+    }
 }
 
-/// True if rigid walls differ in e.
-fn unequal(s: &Scalar) -> bool {
-    let mut rigid = s.walls.iter().filter_map(|w| w.law.restitution());
-    rigid.next().is_some_and(|first| rigid.any(|e| e != first))
+impl<S: Space> Rule<S> for PaoliSchatzman<S> {
+    fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame<S>) -> Result<()> {
+        self.body.restart(time);
+        // Without the walls' reaction a body at rest on a wall with e = 1 would bounce.
+        let start = StartForce::new(scene, &self.body, &frame.q, &frame.v)?;
+        self.staggered.restart(self.body.h, &frame.v, &start.total);
+        Ok(())
+    }
+
+    fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        let Self { body, staggered, b, mean, .. } = self;
+        let h = body.h;
+        staggered.begin(step, h, frame);
+        for (b, (load, extra)) in b.as_mut().iter_mut().zip(body.load.as_ref().iter().zip(frame.extra.as_ref())) {
+            *b = load + extra;
+        }
+        for (mean, (q, v)) in mean.as_mut().iter_mut().zip(frame.q.as_ref().iter().zip(staggered.v.as_ref())) {
+            *mean = q - 0.25 * h * v;
+        }
+        S::add_product(&body.mass, 1.0 / h, &staggered.v, b);
+        S::add_product(&body.damping, -0.5, &staggered.v, b);
+        S::add_product(&body.stiffness, -1.0, mean, b);
+        // A blow comes first, and the wall answers the velocity it leaves: q⁻ in the bound is where that would have come from.
+        frame.blown = body.strike_about(step, 1.0 / h, b, frame);
+        self.settle(step, frame)?;
+        if self.body.blows.is_some() {
+            self.damp_blows(step, frame)?;
+        }
+        let Self { body, staggered, programme, .. } = self;
+        for &wall in &frame.pushing {
+            frame.impulse[wall] = h * frame.force[wall];
+        }
+        let moved = frame.q.as_mut().iter_mut().zip(staggered.v.as_mut());
+        for ((q, v), d) in moved.zip(programme.x().as_ref()) {
+            *q += d;
+            *v = d / h;
+        }
+        staggered.finish(body, step, frame)
+    }
+
+    fn count(&self, counters: &mut Counters) {
+        self.programme.count(counters);
+    }
+
+    fn backend(&self) -> Option<Backend> {
+        Some(self.programme.backend())
+    }
 }

@@ -11,109 +11,170 @@
 //!
 //! θ = ½ is Newmark's average-acceleration rule (Newmark 1959, J. Eng. Mech. Div. ASCE 85(3)) with the constraint at t⁺:
 //! it returns a restitution between 1/3 and 3 by chance of the phase and gains energy. It is here to be looked at.
-//! θ = 1 returns e = 0 whatever the wall says.
+//! θ = 1 returns e = 0 whatever the wall says. Order 1; it damps, and the force of an impact grows like 1/h.
 
-use super::grid::{Counters, Frame, Scalar, StartForce};
-use super::programme::{Programme, compliances, elastic_row};
+use super::Counters;
+use super::body::Body;
+use super::frame::Frame;
+use super::programme::Programme;
+use super::rule::Rule;
+use super::space::{Space, zero};
+use super::start::StartForce;
 use crate::error::Result;
-use crate::qp::{Backend, ScalarRow};
-use crate::scene::{Scene, WallLaw};
+use crate::linear::Symmetric;
+use crate::qp::Backend;
+use crate::scene::{Scene, Wall, WallLaw};
 
 #[derive(Debug)]
-pub(super) struct Position {
-    s: Scalar,
+pub(super) struct Position<S: Space> {
+    body: Body<S>,
     theta: f64,
-    q: f64,
-    v: f64,
-    /// F + r at the step's start, N.
-    force: f64,
-    /// r of each wall at the step's start, N, and whether any is not zero.
+    /// F + Gᵀ r at the step's start, N; kept where θ < 1 only.
+    force: S::Vector,
+    /// r of each wall at the step's start, N, and the walls where it is not zero.
     held: Vec<f64>,
-    holds: bool,
-    programme: Programme,
+    holding: Vec<usize>,
+    /// Σ of the squared entries of each wall's row.
+    weights: Vec<f64>,
+    programme: Programme<S>,
+    b: S::Vector,
 }
 
-impl Position {
+impl<S: Space> Position<S> {
     pub fn new(scene: &Scene, theta: f64, h: f64, backend: Backend) -> Result<Self> {
-        let s = Scalar::new(scene, h);
-        let (q, v) = s.start(scene);
-        let StartForce { total: force, wall: held } = s.start_force(q, v);
-        let holds = held.iter().any(|&r| r != 0.0);
-        let ht = h * theta;
-        let a = s.m / (ht * ht) + s.c / ht + s.k;
-        let programme = Programme::new(a, scene.gap_scale(), &compliances(&s, |k, c| k + c / h), backend)?;
-        Ok(Self { s, theta, q, v, force, held, holds, programme })
+        let body = Body::<S>::new(scene, h)?;
+        let (ht, m) = (h * theta, &body.matrices);
+        let a = Symmetric::sum(&[(1.0 / (ht * ht), &m.mass), (1.0 / ht, &m.damping), (1.0, &m.stiffness)]);
+        let programme = Programme::new(scene, a, scene.gap_scale(), |k, c| 1.0 / (k + c / h), backend)?;
+        let (n, walls) = (body.n, body.walls.len());
+        let (held, holding) = (vec![0.0; walls], Vec::with_capacity(walls));
+        let square = |wall: &Wall| wall.at.entries().iter().map(|entry| entry.1 * entry.1).sum();
+        let weights = scene.walls.iter().map(square).collect();
+        Ok(Self { body, theta, force: zero::<S>(n), held, holding, weights, programme, b: zero::<S>(n) })
     }
 
-    /// Takes the motion up anew at `time` (s).
-    pub fn restart(&mut self, time: f64, q: f64, v: f64) {
-        self.s.since = time;
-        let StartForce { total, wall } = self.s.start_force(q, v);
-        (self.q, self.v, self.force) = (q, v, total);
-        self.holds = wall.iter().any(|&r| r != 0.0);
-        self.held = wall;
-    }
-
+    /// The bounds of the rows, in Δ. The rigid walls hold the structure where the blows leave it.
     #[inline]
-    pub fn advance(&mut self, step: u64, extra: f64, frame: &mut Frame) -> Result<()> {
-        let s = &self.s;
-        let (h, theta) = (s.h, self.theta);
-        let (ht, rest) = (h * theta, (1.0 - theta) / theta);
-        let (start, end) = (step as f64 * h, (step + 1) as f64 * h);
-        let f = s.forcing.force(end) + extra;
-        let blow = s.forcing.impulse(start, end);
-        let (q, v) = (self.q, self.v);
-        // The extra force is constant over the step: it enters F as well as F⁺.
-        let before = self.force + extra;
-        // The walls hold the body where the blows leave it, and the damper feels the way there.
-        let shift = s.blows(&[(start, end, end - ht)]).map_or(0.0, |(shift, _)| shift);
-        let b = s.m * v / (ht * theta) + rest * (before + s.c * v) + f - s.k * q + (blow - s.c * shift) / ht;
-        let ahead = q + shift;
-        for (row, wall) in self.programme.rows.iter_mut().zip(&s.walls) {
-            *row = match wall.law {
-                // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
-                WallLaw::Elastic { stiffness, damping } => {
-                    let offset = stiffness * (q - wall.g) + damping * (q - wall.plate(q)) / h;
-                    elastic_row(wall.upper, stiffness + damping / h, offset)
-                }
-                _ if wall.upper => ScalarRow { hi: wall.g - ahead, lo: f64::NEG_INFINITY, compliance: 0.0 },
-                _ => ScalarRow { lo: wall.g - ahead, hi: f64::INFINITY, compliance: 0.0 },
+    fn bind(&mut self, frame: &Frame<S>, blown: bool) {
+        let (body, programme) = (&self.body, &mut self.programme);
+        programme.free();
+        for row in 0..programme.count_rows() {
+            let w = programme.seen(row, &frame.q);
+            let shift = match &body.blows {
+                Some(blows) if blown => programme.seen(row, &blows.shift),
+                _ => 0.0,
             };
-        }
-        frame.clear();
-        let mut delta = self.programme.free(b);
-        let mut reaction = 0.0;
-        let mut q_end = ahead + delta;
-        let meets = !self.programme.admits(delta);
-        if meets {
-            delta = self.programme.solve(b, start, step)?;
-            frame.force.copy_from_slice(&self.programme.multiplier);
-            q_end = ahead + delta;
-            for (wall, &r) in s.walls.iter().zip(&frame.force) {
-                reaction += r;
-                // On a rigid wall means on it: q + (g − q) may miss g by the last bit.
-                if r != 0.0 && wall.law.is_rigid() {
-                    q_end = wall.g;
-                }
+            for seat in programme.seats(row) {
+                let wall = programme.seat(seat).stop;
+                let bound = match wall.law {
+                    // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
+                    WallLaw::Elastic { stiffness, damping } => {
+                        let offset = stiffness * (w - wall.g) + damping * (w - wall.plate(w)) / body.h;
+                        -offset / (stiffness + damping / body.h)
+                    }
+                    _ => wall.g - w - shift,
+                };
+                programme.bind(row, seat, bound);
             }
         }
-        if meets || self.holds {
-            // p = h[(1−θ) r + θ r⁺]
-            for ((p, held), &r) in frame.impulse.iter_mut().zip(&mut self.held).zip(&frame.force) {
-                *p = h * ((1.0 - theta) * *held + theta * r);
-                *held = r;
-            }
-            frame.touched = true;
-            self.holds = meets;
-        }
-        let v_end = (delta / h - (1.0 - theta) * v) / theta;
-        self.force = f - extra - s.c * v_end - s.k * q_end + reaction;
-        (self.q, self.v) = (q_end, v_end);
-        frame.arrive(start, end, v, q_end, v_end);
-        frame.check(step)
     }
 
-    pub fn count(&self, counters: &mut Counters) {
+    /// On a rigid wall means on it: w + (g − w) may miss g by the last bit.
+    #[inline(never)]
+    fn place(&self, frame: &mut Frame<S>) {
+        for &wall in frame.pushing.iter().filter(|&&wall| self.body.walls[wall].law.is_rigid()) {
+            let missed = self.body.walls[wall].g - self.body.seen(wall, &frame.q);
+            S::add_transposed(&self.body.rows, wall, missed / self.weights[wall], &mut frame.q);
+        }
+    }
+
+    /// The impulses p = h[(1−θ) r + θ r⁺] of the walls that push at either end.
+    #[inline(never)]
+    fn average(&mut self, frame: &mut Frame<S>) {
+        let (h, theta) = (self.body.h, self.theta);
+        let now = frame.pushing.len();
+        for wall in self.holding.drain(..) {
+            let p = h * (1.0 - theta) * self.held[wall];
+            self.held[wall] = 0.0;
+            frame.impulse[wall] = p;
+            if p != 0.0 && frame.force[wall] == 0.0 {
+                frame.pushing.push(wall);
+            }
+        }
+        for &wall in &frame.pushing[..now] {
+            frame.impulse[wall] += h * theta * frame.force[wall];
+            self.held[wall] = frame.force[wall];
+            self.holding.push(wall);
+        }
+    }
+}
+
+impl<S: Space> Rule<S> for Position<S> {
+    fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame<S>) -> Result<()> {
+        self.body.restart(time);
+        let StartForce { total, wall } = StartForce::new(scene, &self.body, &frame.q, &frame.v)?;
+        self.holding.clear();
+        self.holding.extend((0..wall.len()).filter(|&index| wall[index] != 0.0));
+        (self.force, self.held) = (total, wall);
+        Ok(())
+    }
+
+    fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        let Self { body, theta, force, b, .. } = self;
+        let (h, theta) = (body.h, *theta);
+        let (ht, rest) = (h * theta, (1.0 - theta) / theta);
+        frame.begin(step, h);
+        body.load_at(frame.end);
+        // The extra force is constant over the step: it enters F as well as F⁺.
+        let forces = force.as_ref().iter().zip(body.load.as_ref()).zip(frame.extra.as_ref());
+        for (b, ((force, load), extra)) in b.as_mut().iter_mut().zip(forces) {
+            *b = rest * (force + extra) + load + extra;
+        }
+        S::add_product(&body.mass, 1.0 / (ht * theta), &frame.v, b);
+        if rest != 0.0 {
+            S::add_product(&body.damping, rest, &frame.v, b);
+        }
+        S::add_product(&body.stiffness, -1.0, &frame.q, b);
+        frame.before.clone_from(&frame.v);
+        body.strike((frame.start, frame.end), 1.0 / ht, b, frame);
+        // The damper feels the way on which the blows take the structure.
+        let blown = body.find_blows(&[(frame.start, frame.end, frame.end - ht)]);
+        if blown {
+            body.damp_shift(1.0 / ht, b);
+        }
+        self.bind(frame, blown);
+        self.programme.solve(&self.b, (frame.start, step), &mut frame.force, &mut frame.pushing)?;
+        for ((q, v), d) in frame.q.as_mut().iter_mut().zip(frame.v.as_mut()).zip(self.programme.x().as_ref()) {
+            *q += d;
+            *v = (d / h - (1.0 - theta) * *v) / theta;
+        }
+        if blown {
+            self.body.shift(&mut frame.q);
+        }
+        frame.after.clone_from(&frame.v);
+        if !frame.pushing.is_empty() {
+            self.place(frame);
+        }
+        if !frame.pushing.is_empty() || !self.holding.is_empty() {
+            self.average(frame);
+        }
+        if rest != 0.0 {
+            let Self { body, force, .. } = self;
+            force.clone_from(&body.load);
+            S::add_product(&body.damping, -1.0, &frame.v, force);
+            S::add_product(&body.stiffness, -1.0, &frame.q, force);
+            for &wall in &frame.pushing {
+                S::add_transposed(&body.rows, wall, frame.force[wall], force);
+            }
+        }
+        Ok(())
+    }
+
+    fn count(&self, counters: &mut Counters) {
         self.programme.count(counters);
+    }
+
+    fn backend(&self) -> Option<Backend> {
+        Some(self.programme.backend())
     }
 }

@@ -1,112 +1,317 @@
-//! The quadratic programme of a step in one unknown x, which every scheme on a grid states in the same form:
+//! The quadratic programme of a step over all walls: walls to rows, multipliers to forces.
 //!
-//! minimise ½ a x² − b x over lᵢ ≤ x ≤ uᵢ, elastic rows yielding with a compliance.
+//! minimise ½ xᵀA x − bᵀx over lᵢ ≤ gᵢ·x ≤ uᵢ, elastic rows yielding with a compliance.
+//!
+//! Rigid walls at one place (one row g) share a row of the programme: the tightest bound of each side counts, and walls that stand at that
+//! bound share its force equally. An elastic wall has a row of its own.
 
-use super::grid::{Counters, Scalar};
+use super::Counters;
+use super::space::{Solve, Space};
+use super::stop::Stop;
 use crate::error::{Error, Result};
 use crate::linear::{Rows, Symmetric};
-use crate::qp::{self, Backend, Failure, Rhs, ScalarRow};
+use crate::qp::{self, Backend, Failure};
+use crate::scene::{Row, Scene, Side, Wall, WallLaw, distinct};
 
-/// The programme with its rows, one per wall, and the solver that answers it.
-#[derive(Debug)]
-pub(super) struct Programme {
-    a: f64,
-    /// One row per wall; the kernel writes the bounds of the walls in play and frees the others.
-    pub rows: Vec<ScalarRow>,
-    /// Multiplier of each row, signed: ≥ 0 at a lower bound.
-    pub multiplier: Vec<f64>,
-    solver: Option<Box<Interior>>,
-    solves: u64,
+/// A wall behind a row of the programme.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seat {
+    /// Index in the scene.
+    pub wall: usize,
+    pub stop: Stop,
 }
 
-/// The same programme for Clarabel.
+/// The programme, its bounds, and the solver that answers it.
 #[derive(Debug)]
-struct Interior {
-    solver: qp::Solver,
+pub(super) struct Programme<S: Space> {
+    solver: S::Solver,
+    rows: S::Rows,
+    /// The walls by row, and where those of each row start.
+    seats: Vec<Seat>,
+    starts: Vec<usize>,
+    row_of: Vec<usize>,
+    /// The open interval of g·q, m, in which a row's rigid walls are not touched; empty for an elastic wall, which asks for a look in every step.
+    clear: Vec<(f64, f64)>,
+    /// Bounds of each row in the step, and the rows that have one.
     lo: Vec<f64>,
     hi: Vec<f64>,
+    bounded: Vec<usize>,
+    names: Vec<String>,
+    /// Bound that each seat stands for, in the row's unit.
+    bound: Vec<f64>,
 }
 
-/// A row that binds nothing.
-pub(super) const FREE: ScalarRow = ScalarRow { lo: f64::NEG_INFINITY, hi: f64::INFINITY, compliance: 0.0 };
+/// Bounds of walls at one place that differ by less than this share of their size are one: their walls share the force.
+const ONE_PLACE: f64 = 1e-12;
 
-impl Programme {
-    /// A programme with curvature `a`, a typical length `scale` of its unknown, and the walls' `compliances` (0: rigid).
-    pub fn new(a: f64, scale: f64, compliances: &[f64], backend: Backend) -> Result<Self> {
-        let solver = match backend {
-            Backend::Auto | Backend::Clamp => None,
-            Backend::Condensed | Backend::Clarabel => {
-                let m = compliances.len();
-                let problem = qp::Problem {
-                    a: Symmetric::diagonal(&[a]),
-                    g: Rows::new(1, (0..m).map(|_| [(0, 1.0)].as_slice())),
-                    compliance: compliances.to_vec(),
-                };
-                let solver = qp::Solver::new(problem, backend, scale).map_err(|f| failure(&f, 0.0, 0))?;
-                Some(Box::new(Interior { solver, lo: vec![0.0; m], hi: vec![0.0; m] }))
-            }
-        };
-        let rows = compliances.iter().map(|&compliance| ScalarRow { compliance, ..FREE }).collect();
-        Ok(Self { a, rows, multiplier: vec![0.0; compliances.len()], solver, solves: 0 })
+impl<S: Space> Programme<S> {
+    /// The programme with curvature `a`, a typical length `scale` of g·x, and the compliance of each elastic wall's row as a function of
+    /// its stiffness and damping.
+    pub fn new(
+        scene: &Scene,
+        a: Symmetric,
+        scale: f64,
+        compliance: impl Fn(f64, f64) -> f64,
+        backend: Backend,
+    ) -> Result<Self> {
+        Self::over(scene, |_| true, a, scale, compliance, backend)
     }
 
-    /// The unconstrained minimiser.
-    #[inline]
-    pub fn free(&self, b: f64) -> f64 {
-        b / self.a
-    }
-
-    /// True if `x` is inside every row.
-    #[inline]
-    pub fn admits(&self, x: f64) -> bool {
-        self.rows.iter().all(|row| x >= row.lo && x <= row.hi)
-    }
-
-    /// The minimiser over the rows; multipliers are left in `multiplier`.
-    #[inline(never)]
-    pub fn solve(&mut self, b: f64, time: f64, step: u64) -> Result<f64> {
-        self.solves += 1;
-        match &mut self.solver {
-            None => qp::clamp(self.a, b, &self.rows, &mut self.multiplier).map_err(|f| failure(&f, time, step)),
-            Some(interior) => {
-                for ((lo, hi), row) in interior.lo.iter_mut().zip(&mut interior.hi).zip(&self.rows) {
-                    (*lo, *hi) = (row.lo, row.hi);
+    /// The same over those walls only whose law is `wanted`.
+    pub fn over(
+        scene: &Scene,
+        wanted: impl Fn(&WallLaw) -> bool,
+        a: Symmetric,
+        scale: f64,
+        compliance: impl Fn(f64, f64) -> f64,
+        backend: Backend,
+    ) -> Result<Self> {
+        let mut places: Vec<Vec<usize>> = Vec::new();
+        let distinct = distinct(scene.walls.iter().map(|wall| &wall.at));
+        // The place of the rigid walls of each distinct row.
+        let mut shared: Vec<Option<usize>> = vec![None; distinct.rows.len()];
+        for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| wanted(&wall.law)) {
+            match &mut shared[distinct.of[index]] {
+                Some(place) if wall.law.is_rigid() => places[*place].push(index),
+                place => {
+                    if wall.law.is_rigid() {
+                        *place = Some(places.len());
+                    }
+                    places.push(vec![index]);
                 }
-                let rhs = Rhs { b: &[b], lo: &interior.lo, hi: &interior.hi };
-                let solution = interior.solver.solve(&rhs).map_err(|f| failure(&f, time, step))?;
-                self.multiplier.copy_from_slice(&solution.multiplier);
-                Ok(solution.x.first().copied().unwrap_or(f64::NAN))
             }
         }
+        let walls = |place: &[usize]| place.iter().filter_map(|&w| scene.walls.get(w)).collect::<Vec<_>>();
+        let at: Vec<&Row> = places.iter().filter_map(|place| walls(place).first().map(|wall| &wall.at)).collect();
+        let (n, g) = (a.size(), Rows::new(a.size(), at.iter().map(|row| row.entries())));
+        let soft = |place: &Vec<usize>| match walls(place).first().map(|wall| wall.law) {
+            Some(WallLaw::Elastic { stiffness, damping }) => compliance(stiffness, damping),
+            _ => 0.0,
+        };
+        let problem = qp::Problem { a, g, compliance: places.iter().map(soft).collect() };
+        let solver = S::Solver::new(problem, backend, scale).map_err(|f| failure(&f, None, 0.0, 0))?;
+        let (mut seats, mut starts, m) = (Vec::new(), vec![0], places.len());
+        for place in &places {
+            seats.extend(place.iter().filter_map(|&w| Some(Seat { wall: w, stop: Stop::new(scene.walls.get(w)?) })));
+            starts.push(seats.len());
+        }
+        let mut row_of = vec![0; scene.walls.len()];
+        for (row, place) in places.iter().enumerate() {
+            place.iter().for_each(|&wall| row_of[wall] = row);
+        }
+        let touch = scene.touching_distance();
+        let interval = |place: &Vec<usize>| {
+            let ends = |(lo, hi): (f64, f64), w: &&Wall| match (w.law.is_rigid(), w.side) {
+                (false, _) => (f64::INFINITY, f64::NEG_INFINITY),
+                (true, Side::Upper) => (lo, hi.min(w.position - 2.0 * touch)),
+                (true, Side::Lower) => (lo.max(w.position + 2.0 * touch), hi),
+            };
+            walls(place).iter().fold((f64::NEG_INFINITY, f64::INFINITY), ends)
+        };
+        Ok(Self {
+            solver,
+            rows: S::rows(n, at.into_iter()),
+            clear: places.iter().map(interval).collect(),
+            bound: vec![0.0; seats.len()],
+            seats,
+            starts,
+            row_of,
+            lo: vec![f64::NEG_INFINITY; m],
+            hi: vec![f64::INFINITY; m],
+            bounded: Vec::with_capacity(m),
+            names: scene.walls.iter().map(|wall| wall.name.clone()).collect(),
+        })
     }
 
-    pub fn count(&self, counters: &mut Counters) {
-        counters.qp_solves = self.solves;
-        if let Some(interior) = &self.solver {
-            let inner = interior.solver.counters();
-            counters.interior_point_iterations = inner.iterations;
-            counters.pivots = inner.pivots;
+    /// Number of rows.
+    pub fn count_rows(&self) -> usize {
+        self.lo.len()
+    }
+
+    /// g·x of a row.
+    #[inline]
+    pub fn seen(&self, row: usize, x: &S::Vector) -> f64 {
+        S::dot(&self.rows, row, x)
+    }
+
+    /// True if no wall of a row is touched at the displacement `w` (m), with twice the touching distance to spare, and none asks for a look.
+    #[inline]
+    pub fn is_clear(&self, row: usize, w: f64) -> bool {
+        let (lo, hi) = self.clear[row];
+        lo < w && w < hi
+    }
+
+    /// The first row that [`Programme::is_clear`] does not hold for at the displacements `q` (m); none if it holds for all.
+    #[inline]
+    pub fn first_near(&self, q: &S::Vector) -> Option<usize> {
+        self.clear
+            .iter()
+            .enumerate()
+            .find(|&(row, &(lo, hi))| {
+                let w = self.seen(row, q);
+                !(lo < w && w < hi)
+            })
+            .map(|(row, _)| row)
+    }
+
+    /// The row that a wall is behind.
+    #[inline]
+    pub fn row_of(&self, wall: usize) -> usize {
+        self.row_of[wall]
+    }
+
+    /// False for the row of an elastic wall.
+    #[inline]
+    pub fn is_rigid(&self, row: usize) -> bool {
+        self.seats[self.starts[row]].stop.law.is_rigid()
+    }
+
+    /// Numbers of the seats of a row.
+    #[inline]
+    pub fn seats(&self, row: usize) -> std::ops::Range<usize> {
+        self.starts[row]..self.starts[row + 1]
+    }
+
+    /// The wall at a seat.
+    #[inline]
+    pub fn seat(&self, seat: usize) -> Seat {
+        self.seats[seat]
+    }
+
+    /// Takes away the bounds of the last step, before walls are bound.
+    #[inline]
+    pub fn free(&mut self) {
+        if !self.bounded.is_empty() {
+            self.free_bounded();
         }
     }
+
+    #[inline(never)]
+    fn free_bounded(&mut self) {
+        for row in self.bounded.drain(..) {
+            self.lo[row] = f64::NEG_INFINITY;
+            self.hi[row] = f64::INFINITY;
+        }
+    }
+
+    /// Binds row `row` on behalf of the wall at `seat`: g·x ≤ `value` for an upper wall, ≥ for a lower one. The tightest of a row counts.
+    #[inline]
+    pub fn bind(&mut self, row: usize, seat: usize, value: f64) {
+        // The first of a row: what others stood for in an earlier step is none of this one's.
+        if self.lo[row] == f64::NEG_INFINITY && self.hi[row] == f64::INFINITY {
+            self.bounded.push(row);
+            self.bound[self.starts[row]..self.starts[row + 1]].fill(f64::NAN);
+        }
+        self.bound[seat] = value;
+        if self.seats[seat].stop.upper {
+            self.hi[row] = self.hi[row].min(value);
+        } else {
+            self.lo[row] = self.lo[row].max(value);
+        }
+    }
+
+    /// Holds row `row` where it is, g·x = 0, on behalf of its only wall, which is elastic.
+    #[inline]
+    pub fn hold(&mut self, row: usize) {
+        self.bounded.push(row);
+        (self.lo[row], self.hi[row]) = (0.0, 0.0);
+    }
+
+    /// Solves: the minimiser is [`Programme::x`] until the next call. Writes the multiplier of each wall that pushes to `force`, which is
+    /// all zero before, and its index to `pushing`.
+    #[inline]
+    pub fn solve(
+        &mut self,
+        b: &S::Vector,
+        (time, step): (f64, u64),
+        force: &mut [f64],
+        pushing: &mut Vec<usize>,
+    ) -> Result<()> {
+        if self.bounded.is_empty() {
+            return self.release(b, (time, step));
+        }
+        self.meet(b, (time, step), force, pushing)
+    }
+
+    /// The same where no row has a bound.
+    #[inline]
+    pub fn release(&mut self, b: &S::Vector, (time, step): (f64, u64)) -> Result<()> {
+        let released = self.solver.release(b, &self.lo, &self.hi);
+        released.map_err(|fault| self.refusal(&fault, time, step))
+    }
+
+    /// The same where a row has a bound. Out of line: in most steps none has.
+    #[inline(never)]
+    fn meet(
+        &mut self,
+        b: &S::Vector,
+        (time, step): (f64, u64),
+        force: &mut [f64],
+        pushing: &mut Vec<usize>,
+    ) -> Result<()> {
+        if let Err(fault) = self.solver.solve(b, &self.lo, &self.hi) {
+            return Err(self.refusal(&fault, time, step));
+        }
+        let Some(multiplier) = self.solver.multiplier() else { return Ok(()) };
+        for (row, &r) in multiplier.iter().enumerate() {
+            if r == 0.0 {
+                continue;
+            }
+            let range = self.starts[row]..self.starts[row + 1];
+            if let [seat] = self.seats[range.clone()] {
+                force[seat.wall] = r;
+                pushing.push(seat.wall);
+                continue;
+            }
+            // The walls that stand at the bound which holds.
+            let held = if r < 0.0 { self.hi[row] } else { self.lo[row] };
+            let near = ONE_PLACE * held.abs();
+            let carries =
+                |seat: &usize| self.seats[*seat].stop.upper == (r < 0.0) && (self.bound[*seat] - held).abs() <= near;
+            let carriers = range.clone().filter(carries).count();
+            for seat in range.filter(carries) {
+                let wall = self.seats[seat].wall;
+                force[wall] = r / carriers as f64;
+                pushing.push(wall);
+            }
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn refusal(&self, fault: &Failure, time: f64, step: u64) -> Error {
+        let name = |row: usize| {
+            let seat = self.starts.get(row).and_then(|&first| self.seats.get(first))?;
+            self.names.get(seat.wall).cloned()
+        };
+        let wall = if let Failure::Infeasible { row, .. } = *fault { name(row) } else { None };
+        match fault {
+            // Matrices are sound since the beginning: it is the motion that has left the numbers.
+            Failure::NotFinite { .. } => Error::NotFinite { time, step, what: "motion" },
+            _ => failure(fault, wall, time, step),
+        }
+    }
+
+    /// The minimiser of the last programme solved.
+    #[inline]
+    pub fn x(&self) -> &S::Vector {
+        self.solver.x()
+    }
+
+    pub fn backend(&self) -> Backend {
+        self.solver.backend()
+    }
+
+    /// Adds what the programme has cost.
+    pub fn count(&self, counters: &mut Counters) {
+        let inner = self.solver.counters();
+        counters.qp_solves += inner.solves - inner.free;
+        counters.interior_point_iterations += inner.iterations;
+        counters.pivots += inner.pivots;
+        counters.qp_fallbacks += inner.fallbacks;
+    }
 }
 
-fn failure(failure: &Failure, time: f64, step: u64) -> Error {
-    Error::Qp { time, step, wall: None, reason: failure.to_string() }
-}
-
-/// The elastic row of a wall: its pressure as a function of the unknown, r = −stiffness · x − offset, holds beyond the
-/// bound −offset/stiffness. `None` for a rigid wall.
-pub(super) fn elastic_row(upper: bool, stiffness: f64, offset: f64) -> ScalarRow {
-    let bound = -offset / stiffness;
-    let compliance = 1.0 / stiffness;
-    if upper { ScalarRow { hi: bound, compliance, ..FREE } } else { ScalarRow { lo: bound, compliance, ..FREE } }
-}
-
-/// Compliance of each wall's row, given the row stiffness a scheme sees behind an elastic wall (k_a, c_a).
-pub(super) fn compliances(scalar: &Scalar, stiffness: impl Fn(f64, f64) -> f64) -> Vec<f64> {
-    let law = |wall: &super::stop::Stop| match wall.law {
-        crate::scene::WallLaw::Elastic { stiffness: k, damping: c } => 1.0 / stiffness(k, c),
-        _ => 0.0,
-    };
-    scalar.walls.iter().map(law).collect()
+fn failure(failure: &Failure, wall: Option<String>, time: f64, step: u64) -> Error {
+    Error::Qp { time, step, wall, reason: failure.to_string() }
 }

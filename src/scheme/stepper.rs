@@ -1,14 +1,12 @@
 //! The stepper: one public type over all schemes.
 
-use super::grid::{Frame, Handed, Scalar};
 use super::kernel::Kernel;
-use super::{Method, Scheme};
-use crate::contact::{Episodes, Rates};
+use super::{Handed, Method, Scheme};
 use crate::error::{Error, Result, Subject};
 use crate::qp::Backend;
-use crate::scene::{Checked, Row, Scene, State, System, Wall, WallLaw};
+use crate::scene::{Checked, Scene, State, Wall, WallLaw};
 use crate::scheme::Counters;
-use crate::step::{Contact, Contract, Path, Step};
+use crate::step::{Contact, Contract, Step};
 use crate::time::MOST_STEPS;
 
 /// Advances a scene step by step.
@@ -42,8 +40,6 @@ pub struct Stepper {
     /// Steps made before the state was last set, and the index they led to then.
     before: (u64, u64),
     kernel: Kernel,
-    frame: Frame,
-    episodes: Episodes,
 }
 
 impl Stepper {
@@ -67,29 +63,19 @@ impl Stepper {
             Scheme::Event => scene.clone(),
             _ => without_quartic(scene)?.clone(),
         };
-        // A wall behind a lever is more than the scalar kernels hold: then the oscillator is a structure of 1 × 1 matrices.
-        let direct = scene.walls.iter().all(|wall| wall.at == Row::dof(0));
-        let single = matches!(scene.system, System::Oscillator(_)) && direct;
-        // One degree of freedom: the programme has one unknown, and a clamp solves it exactly.
-        let backend = if single && backend == Backend::Auto { Backend::Clamp } else { backend };
-        let kernel = Kernel::new(scene.shared(), &scheme, step, backend, single)?;
-        let backend =
-            if let Kernel::Structure(kernel) = &kernel { kernel.backend().unwrap_or(backend) } else { backend };
-        let (q, v) = if single { Scalar::new(&scene, step).start(&scene) } else { (0.0, 0.0) };
-        let frame = Frame::new(q, v, scene.walls.len());
+        let kernel = Kernel::new(&scene, Method { scheme, backend }, step)?;
+        let backend = kernel.motion().backend().unwrap_or(backend);
         let contract = scheme.contract();
-        let episodes = Episodes::new(&scene, scene.wall_masses(), contract);
-        Ok(Self { scene, scheme, contract, step, backend, index: 0, before: (0, 0), kernel, frame, episodes })
+        Ok(Self { scene, scheme, contract, step, backend, index: 0, before: (0, 0), kernel })
     }
 
     /// Advances by one step.
     ///
     /// # Errors
     /// [`Error::Qp`], [`Error::Newton`], [`Error::NotFinite`] or [`Error::TooManyEvents`], with the time and the step.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self) -> Result<Step<'_>> {
-        self.advance(0.0)?;
-        Ok(self.last())
+        self.advance(None)
     }
 
     /// Advances by one step under an extra force (N, one value per degree of freedom), constant over the step: for
@@ -99,27 +85,31 @@ impl Stepper {
     /// As [`Stepper::step`]; [`Error::Invalid`] for a force of the wrong length or not finite.
     #[inline]
     pub fn step_with(&mut self, extra: &[f64]) -> Result<Step<'_>> {
-        if matches!(self.kernel, Kernel::Structure(_) | Kernel::StructureEvent(_)) {
-            let n = self.scene.system.degrees_of_freedom();
-            if let Some(force) = extra.iter().find(|force| !force.is_finite()) {
-                return Err(Error::invalid("extra force", force, "a finite number"));
-            }
-            if extra.len() != n {
-                let found = format!("{} values", extra.len());
-                return Err(Error::invalid("extra force", found, format!("{n}, one per degree of freedom")));
-            }
-            self.advance_structure(Some(extra))?;
-            return Ok(self.last());
+        let n = self.scene.system.degrees_of_freedom();
+        if extra.len() != n || extra.iter().any(|force| !force.is_finite()) {
+            return Err(self.refusal(extra));
         }
-        match *extra {
-            [force] if force.is_finite() => self.advance(force)?,
-            [force] => return Err(Error::invalid("extra force", force, "a finite number")),
-            _ => {
+        self.advance(Some(extra))
+    }
+
+    #[cold]
+    fn refusal(&self, extra: &[f64]) -> Error {
+        match extra.iter().find(|force| !force.is_finite()) {
+            Some(force) => Error::invalid("extra force", force, "a finite number"),
+            None => {
+                let n = self.scene.system.degrees_of_freedom();
                 let found = format!("{} values", extra.len());
-                return Err(Error::invalid("extra force", found, "one per degree of freedom"));
+                Error::invalid("extra force", found, format!("{n}, one per degree of freedom"))
             }
         }
-        Ok(self.last())
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, extra: Option<&[f64]>) -> Result<Step<'_>> {
+        let index = self.index;
+        self.kernel.advance(index, extra)?;
+        self.index += 1;
+        Ok(self.kernel.step(index))
     }
 
     /// Puts the scene into `state` at `time` (s), forwards or backwards: so a co-simulation repeats a step, or restarts from
@@ -176,10 +166,7 @@ impl Stepper {
             let expected = format!("a place before it, which stands at {:?}", wall.position);
             return Err(Error::invalid(("state", "displacement"), found, expected));
         }
-        self.kernel.restart(self.scene.shared(), time, &state.q, &state.v)?;
-        let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);
-        self.frame.restart(time, first(&state.q), first(&state.v));
-        self.episodes = Episodes::new(&self.scene, self.scene.wall_masses(), self.contract);
+        self.kernel.restart(&self.scene, time, &state.q, &state.v)?;
         let (made, from) = self.before;
         self.before = (made + (self.index - from), index);
         self.index = index;
@@ -203,109 +190,17 @@ impl Stepper {
         Ok(steps.round() as u64)
     }
 
-    /// A step of several degrees of freedom.
-    #[inline(never)]
-    fn advance_structure(&mut self, extra: Option<&[f64]>) -> Result<()> {
-        match &mut self.kernel {
-            Kernel::Structure(kernel) => {
-                kernel.advance(self.index, extra)?;
-                kernel.tell(&self.scene, self.step, &mut self.episodes);
-            }
-            Kernel::StructureEvent(event) => event.advance(extra)?,
-            _ => {}
-        }
-        self.index += 1;
-        Ok(())
-    }
-
-    fn advance(&mut self, extra: f64) -> Result<()> {
-        let (index, frame) = (self.index, &mut self.frame);
-        frame.extra[0] = extra;
-        match &mut self.kernel {
-            Kernel::MoreauJean(kernel) => kernel.advance(index, extra, frame),
-            Kernel::PaoliSchatzman(kernel) => kernel.advance(index, extra, frame),
-            Kernel::Position(kernel) => kernel.advance(index, extra, frame),
-            Kernel::Penalty(kernel) => kernel.advance(index, extra, frame),
-            Kernel::CentralDifference(kernel) => kernel.advance(index, extra, frame),
-            Kernel::Event(event) => event.advance(extra),
-            Kernel::Structure(_) | Kernel::StructureEvent(_) => return self.advance_structure(None),
-        }?;
-        self.index += 1;
-        // The exact scheme leaves the frame untouched and keeps its own episodes.
-        if frame.touched || !self.episodes.idle() {
-            let walls = &self.scene.walls;
-            let seen = |wall: usize, v: &[f64]| walls.get(wall).map_or(0.0, |w| w.at.dot(v));
-            let rates = |wall: usize| Rates {
-                before: seen(wall, &frame.before),
-                struck: seen(wall, &frame.struck),
-                after: seen(wall, &frame.after),
-            };
-            self.episodes.see(frame.start, self.step, &frame.impulse, rates);
-        }
-        Ok(())
-    }
-
-    /// The step just made. Inlined, so that a caller pays for the fields it reads only.
-    #[inline]
-    fn last(&self) -> Step<'_> {
-        let (index, frame) = (self.index - 1, &self.frame);
-        if matches!(self.kernel, Kernel::Event(_) | Kernel::Structure(_) | Kernel::StructureEvent(_)) {
-            return self.last_elsewhere(index);
-        }
-        Step {
-            index,
-            start: frame.start,
-            end: frame.end,
-            q: &frame.q,
-            v: &frame.v,
-            velocity_before: &frame.before,
-            velocity_after: &frame.after,
-            impulse: &frame.impulse,
-            jump: &frame.jump,
-            force: &frame.force,
-            extra: &frame.extra,
-            closed: self.episodes.closed(),
-            path: Path::Grid,
-        }
-    }
-
-    /// The step just made by a kernel that keeps a frame of its own.
-    #[inline(never)]
-    fn last_elsewhere(&self, index: u64) -> Step<'_> {
-        match &self.kernel {
-            Kernel::Structure(kernel) => kernel.step(index, &self.episodes),
-            Kernel::StructureEvent(event) => event.step(index),
-            Kernel::Event(event) => event.step(index, &self.frame.extra),
-            _ => self.last(),
-        }
-    }
-
     /// Time reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        match &self.kernel {
-            Kernel::Event(event) => event.end(),
-            Kernel::Structure(kernel) => kernel.end(),
-            Kernel::StructureEvent(event) => event.end(),
-            _ => self.frame.end,
-        }
+        self.kernel.motion().end()
     }
 
     /// State reached; at the start, the state after any impulse at t = 0.
     #[must_use]
     pub fn state(&self) -> State {
-        match &self.kernel {
-            Kernel::Event(event) => State { q: event.q().to_vec(), v: event.v().to_vec() },
-            Kernel::Structure(kernel) => {
-                let (q, v) = kernel.state();
-                State { q: q.to_vec(), v: v.to_vec() }
-            }
-            Kernel::StructureEvent(event) => {
-                let (q, v) = event.state();
-                State { q: q.to_vec(), v: v.to_vec() }
-            }
-            _ => State { q: self.frame.q.to_vec(), v: self.frame.v.to_vec() },
-        }
+        let (q, v) = self.kernel.motion().state();
+        State { q: q.to_vec(), v: v.to_vec() }
     }
 
     /// The scene as the scheme sees it: a penalty's walls are springs here.
@@ -340,17 +235,13 @@ impl Stepper {
     /// Contact episodes that are still open.
     #[must_use]
     pub fn open_contacts(&self) -> Vec<Contact> {
-        match &self.kernel {
-            Kernel::Event(event) => event.open_contacts().copied().collect(),
-            Kernel::StructureEvent(event) => event.open_contacts().copied().collect(),
-            _ => self.episodes.still_open(),
-        }
+        self.kernel.motion().open_contacts()
     }
 
     /// Stretches that the exact scheme has handed to moreau-jean so far; none for other schemes.
     #[must_use]
     pub fn handed(&self) -> &[Handed] {
-        if let Kernel::StructureEvent(event) = &self.kernel { event.stretches() } else { &[] }
+        self.kernel.motion().handed()
     }
 
     /// What the run has cost so far.
@@ -358,7 +249,7 @@ impl Stepper {
     pub fn counters(&self) -> Counters {
         let (made, index) = self.before;
         let mut counters = Counters { steps: made + (self.index - index), ..Counters::default() };
-        self.kernel.count(&mut counters);
+        self.kernel.motion().count(&mut counters);
         counters
     }
 }

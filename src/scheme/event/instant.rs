@@ -1,8 +1,8 @@
 //! What happens in an instant: blows, impacts, sticking, release, entry into elastic walls and letting go.
 
-use super::barrier::{Barrier, Phase};
-use super::{Event, noise};
+use super::Event;
 use crate::scene::Side;
+use crate::scheme::exact::{Phase, noise};
 
 /// A flight after an impact is the tail of an accumulation if it is lower than this share of the scene's length …
 const TAIL_HEIGHT: f64 = 1e-12;
@@ -30,15 +30,15 @@ impl Event {
         if hit.is_none() && !blown {
             return false;
         }
-        self.counters_mut().events += 1;
-        self.last_wall = hit.or(self.last_wall);
+        self.clock.count().events += 1;
+        self.clock.last_wall = hit.or(self.clock.last_wall);
         if let Some(index) = self.support {
             if blown {
                 // The rest ends before the blow: what the blow does at the wall is an impact of its own.
                 self.support = None;
                 let time = self.time;
                 if let Some(b) = self.barriers.get_mut(index) {
-                    self.closed.extend(b.close(time, 0.0));
+                    self.shown.closed.extend(b.close(time, 0.0));
                 }
                 self.meet_rigid(None, extra, None);
             } else {
@@ -65,22 +65,14 @@ impl Event {
         let (q, v, time, resolution) = (self.q, self.v, self.time, self.resolution);
         let Some(b) = self.barriers.get_mut(index) else { return };
         let at_surface = b.gap(q).abs() <= resolution;
-        let next = match b.phase {
-            Phase::Rigid(_) => {
-                self.q = b.position;
-                return;
-            }
-            Phase::Outside => Phase::Touching,
-            Phase::Touching if at_surface || b.damping == 0.0 => Phase::Outside,
-            Phase::Touching => Phase::Detached,
-            Phase::Detached if at_surface => Phase::Outside,
-            Phase::Detached => Phase::Touching,
-        };
-        if next == Phase::Outside || b.phase == Phase::Outside {
+        if matches!(b.phase, Phase::Rigid(_)) {
+            self.q = b.position;
+            return;
+        }
+        if b.cross(at_surface, time) {
             self.q = b.position;
         }
-        (b.phase, b.changed) = (next, time);
-        settle(b, index, time, v, &mut self.closed);
+        b.settle(index, time, v, &mut self.shown.closed);
     }
 
     /// After a jump of velocity: elastic walls with damping may let go or take hold.
@@ -88,7 +80,7 @@ impl Event {
         let (q, v, time, resolution) = (self.q, self.v, self.time, self.resolution);
         for (index, b) in self.barriers.iter_mut().enumerate() {
             b.classify(q, v, resolution);
-            settle(b, index, time, v, &mut self.closed);
+            b.settle(index, time, v, &mut self.shown.closed);
         }
     }
 
@@ -119,7 +111,7 @@ impl Event {
         let caught = closed[0].is_some() && closed[1].is_some();
         let before = self.v;
         if let Some(index) = struck {
-            self.counters_mut().impacts += 1;
+            self.clock.count().impacts += 1;
             let e = if caught { 0.0 } else { restitution };
             self.v = if e > 0.0 { -e * before } else { 0.0 };
             let away = -before.signum();
@@ -127,7 +119,7 @@ impl Event {
                 self.v = 0.0;
             }
             let impulse = self.body.mass * (self.v - before);
-            if let Some(jump) = self.jump.get_mut(index) {
+            if let Some(jump) = self.shown.jump.get_mut(index) {
                 *jump += impulse;
             }
             self.reclassify();
@@ -139,7 +131,7 @@ impl Event {
                     open.impulse += impulse;
                 }
                 if !supports {
-                    self.closed.extend(b.close(time, speed));
+                    self.shown.closed.extend(b.close(time, speed));
                 }
             }
         } else if hit.is_some_and(|h| closed.contains(&Some(h))) && self.support.is_none() && held.is_none() {
@@ -158,7 +150,7 @@ impl Event {
         if let Some(old) = held.filter(|&old| next != Some(old)) {
             let (time, v) = (self.time, self.v);
             if let Some(b) = self.barriers.get_mut(old) {
-                self.closed.extend(b.close(time, b.sign * v));
+                self.shown.closed.extend(b.close(time, b.sign * v));
             }
         }
         self.support = next;
@@ -238,14 +230,5 @@ impl Event {
         }
         let change = rate * remaining + drag * speed + spring * 0.5 * speed * speed / press;
         change <= 0.5 * press * mass
-    }
-}
-
-/// Opens or closes the episode of an elastic wall as its phase asks.
-fn settle(b: &mut Barrier, index: usize, time: f64, v: f64, closed: &mut Vec<crate::step::Contact>) {
-    match b.phase {
-        Phase::Touching => b.open(index, time, -b.sign * v),
-        Phase::Outside | Phase::Detached => closed.extend(b.close(time, b.sign * v)),
-        Phase::Rigid(_) => {}
     }
 }

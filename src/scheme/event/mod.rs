@@ -1,55 +1,19 @@
 //! The exact scheme: closed-form motion between events, and the events to rounding.
 
-mod barrier;
-mod guard;
 mod instant;
 mod motion;
 mod root;
 mod search;
 mod view;
 
-pub use guard::{Counters, EVENTS_PER_WINDOW, WINDOWS};
+pub use super::exact::{Counters, EVENTS_PER_WINDOW, WINDOWS};
 
-use crate::error::{Error, Result, Subject};
+use super::exact::{Barrier, CHANGES_AT_ONCE, Clock, Shown, barriers, known_loads, noise};
+use super::line::Line;
+use crate::error::{Error, Result};
 use crate::flow::Arc;
-use crate::scene::{Forcing, LoadKind, Oscillator, Scene, System, Wall};
-use crate::step::{Balance, Conserves, Contact, Contract, Promise, Tolerances};
-pub(in crate::scheme) use barrier::{Barrier, Phase};
-pub(in crate::scheme) use guard::Guard;
-
-/// What a sum of terms of this size may err by: four units in the last place.
-pub(crate) fn noise(size: f64) -> f64 {
-    4.0 * f64::EPSILON * size
-}
-
-/// Multiples of `stride` passed at `time` (s); one that only rounding puts ahead counts.
-pub(in crate::scheme) fn marks(time: f64, stride: f64) -> u64 {
-    (time / stride + 1e-9).floor() as u64
-}
-
-/// Refuses a load under which the exact motion is not known.
-pub(in crate::scheme) fn known_loads(scene: &Scene) -> Result<()> {
-    match scene.loads.iter().position(|load| matches!(load.kind, LoadKind::Function(_))) {
-        Some(index) => Err(Error::invalid(
-            Subject::nth("load", index),
-            "a function of time",
-            "for the exact scheme, which has to know the motion in closed form: a constant, a sine, an impulse or a table (one of the \
-             function, with a stated error, is Table::sampled); or a stepping scheme",
-        )),
-        None => Ok(()),
-    }
-}
-
-/// The walls as the exact scheme sees them; refuses a law under which the motion is not known.
-pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<Barrier>> {
-    let barrier = |wall: &Wall| {
-        Barrier::new(wall).ok_or_else(|| {
-            let key = Subject::wall(&wall.name).part("law");
-            Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
-        })
-    };
-    scene.walls.iter().map(barrier).collect()
-}
+use crate::scene::{Forcing, Oscillator, Scene, System};
+use crate::step::{Balance, Conserves, Contract, Promise, Tolerances};
 
 /// One degree of freedom between walls, from event to event:
 ///
@@ -78,11 +42,7 @@ pub struct Event {
     body: Oscillator,
     forcing: Forcing,
     barriers: Vec<Barrier>,
-    /// s.
-    duration: f64,
-    /// The guard's, s.
-    window: f64,
-    stride: f64,
+    clock: Clock,
     /// A displacement of ordinary size, m.
     length: f64,
     arc: Arc,
@@ -95,35 +55,21 @@ pub struct Event {
     largest: [f64; 2],
     /// The rigid wall that carries the body at rest.
     support: Option<usize>,
-    /// Multiples of the stride passed.
-    marks: u64,
     /// Index of the next impulsive load.
     blow: usize,
     /// When a body without velocity was last found not to be held by the walls it touches, s.
     released: f64,
     accumulation: Option<f64>,
-    last_wall: Option<usize>,
     /// Sizes of acceleration (m/s²) and its rate (m/s³), whose rounding is no pressing.
     force_size: [f64; 2],
     /// A gap below this is none, m: rounding of the displacement.
     resolution: f64,
     /// [`Arc::sizes`] of the present arc.
     sizes: [f64; 4],
-    guard: Guard,
     steps: u64,
-    // The last step, as `Step` wants it.
-    start: f64,
-    velocity_before: f64,
+    shown: Shown<Line>,
     velocity_left: f64,
-    impulse: Vec<f64>,
-    jump: Vec<f64>,
-    force: Vec<f64>,
-    closed: Vec<Contact>,
 }
-
-/// Mode changes that take no time, within one advance: beyond them the step is handed over with no length, and the
-/// guard counts.
-const CHANGES_AT_ONCE: usize = 16;
 
 impl Event {
     /// The promise of the scheme.
@@ -162,9 +108,7 @@ impl Event {
             body,
             forcing,
             barriers,
-            duration: scene.duration,
-            window: scene.duration / WINDOWS,
-            stride,
+            clock: Clock::new(scene.duration, stride),
             length: if walls > 0 { scene.gap_scale() } else { 0.0 },
             arc: Arc::new(body, walls, waves),
             time: 0.0,
@@ -173,43 +117,19 @@ impl Event {
             v,
             largest: [0.0; 2],
             support: None,
-            marks: 0,
             blow: 0,
             released: f64::NEG_INFINITY,
             accumulation: None,
-            last_wall: None,
             force_size: [0.0; 2],
             resolution: noise(scene.walls.iter().map(|w| w.position.abs()).fold(0.0, f64::max)),
             sizes: [0.0; 4],
-            guard: Guard::default(),
             steps: 0,
-            start: 0.0,
-            velocity_before: v,
+            shown: Shown::new(&[v], walls, 2 * walls + 2),
             velocity_left: v,
-            impulse: vec![0.0; walls],
-            jump: vec![0.0; walls],
-            force: vec![0.0; walls],
-            closed: Vec::with_capacity(2 * walls + 2),
         };
         event.reclassify();
         event.set_forces(0.0);
         Ok(event)
-    }
-
-    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), the state after whatever happened at that instant.
-    pub(in crate::scheme) fn restart(&mut self, scene: &Scene, time: f64, q: f64, v: f64) -> Result<()> {
-        let mut event = Self::over(scene, self.stride)?;
-        (event.time, event.start, event.q, event.v) = (time, time, q, v);
-        (event.velocity_before, event.velocity_left) = (v, v);
-        event.marks = marks(time, self.stride);
-        event.blow = event.forcing.impulses.iter().filter(|blow| blow.0 <= time).count();
-        (event.guard, event.steps) = (self.guard, self.steps);
-        event.guard.restart(time);
-        event.reclassify();
-        event.closed.clear();
-        event.set_forces(0.0);
-        *self = event;
-        Ok(())
     }
 
     /// Moves on to the next event, multiple of the stride, or the end of the scene, whichever is first, under a constant
@@ -219,10 +139,9 @@ impl Event {
     /// # Errors
     /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow.
     pub fn advance(&mut self, extra: f64) -> Result<()> {
-        self.closed.clear();
-        self.impulse.fill(0.0);
-        self.jump.fill(0.0);
-        (self.start, self.velocity_before, self.velocity_left) = (self.time, self.v, self.v);
+        self.shown.begin(self.time, &[self.v]);
+        self.shown.extra = [extra];
+        self.velocity_left = self.v;
         self.steps += 1;
         for _ in 0..CHANGES_AT_ONCE {
             let limit = self.limit();
@@ -239,19 +158,15 @@ impl Event {
             self.arc.cut(end, hit.tau);
             self.gather_impulses();
             let changed = self.happen(hit.wall, extra);
-            let jumped = self.jump.iter().any(|&p| p != 0.0);
-            if end > self.start || jumped || !changed {
+            let jumped = self.shown.jumped();
+            if end > self.shown.start || jumped || !changed {
                 break;
             }
         }
-        if self.time >= self.next_mark() {
-            self.marks += 1;
-        }
-        for (impulse, jump) in self.impulse.iter_mut().zip(&self.jump) {
-            *impulse += jump;
-        }
+        self.clock.pass(self.time);
+        self.shown.add_jumps();
         self.set_forces(extra);
-        self.check_guard(self.time)
+        self.clock.check(self.time, &self.barriers)
     }
 
     /// Lets `tau` (s) pass, up to `limit` (s) which is `span` (s) away; what the sum of the times loses to rounding is kept, so that
@@ -269,20 +184,9 @@ impl Event {
         }
     }
 
-    fn counters_mut(&mut self) -> &mut Counters {
-        &mut self.guard.total
-    }
-
-    /// The next multiple of the stride, s; the end of the scene where only rounding would separate the two.
-    fn next_mark(&self) -> f64 {
-        let mark = (self.marks + 1) as f64 * self.stride;
-        if (self.duration - mark).abs() < 1e-9 * self.stride { self.duration } else { mark }
-    }
-
     /// How far the next arc can reach: a mark, a row of a table, a blow, the end if it is still ahead; s.
     fn limit(&self) -> f64 {
-        let mark = self.next_mark();
-        let mut limit = if self.time < self.duration { mark.min(self.duration) } else { mark };
+        let mut limit = self.clock.limit(self.time);
         if let Some(&(time, _)) = self.forcing.impulses.get(self.blow).filter(|b| b.0 > self.time) {
             limit = limit.min(time);
         }
@@ -296,14 +200,7 @@ impl Event {
     }
 
     fn count_evaluation(&mut self, tau: f64) -> Result<()> {
-        self.guard.total.evaluations += 1;
-        self.check_guard(self.time + tau)
-    }
-
-    fn check_guard(&mut self, time: f64) -> Result<()> {
-        let window = self.window;
-        let Some(count) = self.guard.exceeded(time, window) else { return Ok(()) };
-        let wall = self.last_wall.and_then(|i| self.barriers.get(i)).or(self.barriers.first());
-        Err(Error::TooManyEvents { time, wall: wall.map_or_else(String::new, |b| b.name.clone()), count, window })
+        self.clock.count().evaluations += 1;
+        self.clock.check(self.time + tau, &self.barriers)
     }
 }

@@ -1,9 +1,9 @@
 //! What drives the body: the arc it follows, the forces on it, and the impulses of the walls.
 
-use super::barrier::Phase;
-use super::{Event, noise};
+use super::Event;
 use crate::flow::{Start, Support};
 use crate::scene::Oscillator;
+use crate::scheme::exact::{Phase, noise};
 
 /// A motion below this share of the largest so far is none: ε², far below what the sum of any two such motions can show.
 const FADED: f64 = f64::EPSILON * f64::EPSILON;
@@ -52,7 +52,7 @@ impl Event {
     fn take_up(&mut self, least: f64) {
         let Some((index, b)) = self.support.and_then(|i| self.barriers.get_mut(i).map(|b| (i, b))) else { return };
         if self.arc.is_unpressed(least) {
-            self.closed.extend(b.close(self.time, 0.0));
+            self.shown.closed.extend(b.close(self.time, 0.0));
         } else {
             b.open(index, self.time, 0.0);
         }
@@ -65,7 +65,7 @@ impl Event {
             // A wall that carries the body without an episode does not push.
             if (self.support == Some(index) && b.open.is_some()) || b.phase == Phase::Touching {
                 let impulse = self.arc.contact_impulse(index, from, to);
-                if let Some(total) = self.impulse.get_mut(index) {
+                if let Some(total) = self.shown.impulse.get_mut(index) {
                     *total += impulse;
                 }
                 if let Some(open) = &mut b.open {
@@ -117,7 +117,7 @@ impl Event {
         let push = if self.support.is_some() { -self.acceleration(0.0, extra)[0] } else { 0.0 };
         let push = if push.abs() > noise(self.force_size[0]) { self.body.mass * push } else { 0.0 };
         for (index, b) in self.barriers.iter().enumerate() {
-            let Some(force) = self.force.get_mut(index) else { continue };
+            let Some(force) = self.shown.force.get_mut(index) else { continue };
             *force = if self.support == Some(index) {
                 b.sign * (b.sign * push).max(0.0)
             } else if b.phase == Phase::Touching {

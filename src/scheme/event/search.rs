@@ -1,10 +1,10 @@
 //! The search for the next event of an arc.
 
-use super::barrier::{Barrier, Phase};
+use super::Event;
 use super::root::{Below, Step};
-use super::{Event, noise};
 use crate::error::Result;
 use crate::flow::{Jet, Support};
+use crate::scheme::exact::{Barrier, Phase, noise};
 
 /// Where the search ended.
 #[derive(Debug, Clone, Copy)]
@@ -83,8 +83,8 @@ impl Event {
             if tau == 0.0 {
                 // From here on the closed form gives the acceleration, with the rounding of its own terms.
                 let steady = self.arc.steady_size();
-                noise[2] += super::noise(steady);
-                noise[3] += super::noise(steady * fastest);
+                noise[2] += crate::scheme::exact::noise(steady);
+                noise[3] += crate::scheme::exact::noise(steady * fastest);
             }
             jet = self.arc.jet(next);
             if self.arc.touches() {

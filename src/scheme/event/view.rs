@@ -1,39 +1,24 @@
 //! What a run shows of itself after each step.
 
 use super::{Counters, Event};
+use crate::error::Result;
 use crate::flow::Arc;
+use crate::qp::Backend;
+use crate::scene::Scene;
+use crate::scheme::motion::Motion;
 use crate::step::{Contact, Path, Step};
 
 impl Event {
-    /// The last step, number `index`, under the extra force `extra` (N).
-    pub(crate) fn step<'a>(&'a self, index: u64, extra: &'a [f64]) -> Step<'a> {
-        Step {
-            index,
-            start: self.start,
-            end: self.time,
-            q: self.q(),
-            v: self.v(),
-            velocity_before: self.velocity_before(),
-            velocity_after: self.v(),
-            impulse: &self.impulse,
-            jump: &self.jump,
-            force: &self.force,
-            extra,
-            closed: &self.closed,
-            path: Path::Exact(&self.arc),
-        }
-    }
-
     /// True once the end of the scene is reached; the motion goes on beyond it all the same.
     #[must_use]
     pub fn is_done(&self) -> bool {
-        self.time >= self.duration
+        self.time >= self.clock.duration
     }
 
     /// Time at the start of the last step, s.
     #[must_use]
     pub fn start(&self) -> f64 {
-        self.start
+        self.shown.start
     }
 
     /// Time at its end, s: the present.
@@ -57,7 +42,7 @@ impl Event {
     /// Velocity at the start of the last step, m/s, from the right: a slice of one.
     #[must_use]
     pub fn velocity_before(&self) -> &[f64] {
-        std::slice::from_ref(&self.velocity_before)
+        &self.shown.before
     }
 
     /// Velocity at the end of the last step from the left, m/s: before what happened in that instant.
@@ -69,25 +54,25 @@ impl Event {
     /// Impulse of each wall over the last step, N s, signed, with its jump.
     #[must_use]
     pub fn impulse(&self) -> &[f64] {
-        &self.impulse
+        &self.shown.impulse
     }
 
     /// The part of it that acted in the instant at the end, N s.
     #[must_use]
     pub fn jump(&self) -> &[f64] {
-        &self.jump
+        &self.shown.jump
     }
 
     /// Force of each wall now, N, signed.
     #[must_use]
     pub fn force(&self) -> &[f64] {
-        &self.force
+        &self.shown.force
     }
 
     /// Contact episodes that ended in the last step.
     #[must_use]
     pub fn closed(&self) -> &[Contact] {
-        &self.closed
+        &self.shown.closed
     }
 
     /// Contact episodes under way.
@@ -117,6 +102,54 @@ impl Event {
     /// Work done so far.
     #[must_use]
     pub fn counters(&self) -> Counters {
-        self.guard.total
+        self.clock.total()
+    }
+}
+
+impl Motion for Event {
+    fn advance(&mut self, _: u64, extra: Option<&[f64]>) -> Result<()> {
+        self.advance(extra.and_then(|extra| extra.first()).copied().unwrap_or(0.0))
+    }
+
+    fn step(&self, index: u64) -> Step<'_> {
+        self.shown.step(index, self.time, (self.q(), self.v()), Path::Exact(&self.arc))
+    }
+
+    fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+        let first = |x: &[f64]| x.first().copied().unwrap_or(0.0);
+        let (q, v) = (first(q), first(v));
+        let mut event = Self::over(scene, self.clock.stride)?;
+        (event.time, event.q, event.v) = (time, q, v);
+        event.shown.begin(time, &[v]);
+        event.velocity_left = v;
+        event.blow = event.forcing.impulses.iter().filter(|blow| blow.0 <= time).count();
+        (event.clock, event.steps) = (self.clock.clone(), self.steps);
+        event.clock.restart(time);
+        event.reclassify();
+        event.shown.closed.clear();
+        event.set_forces(0.0);
+        *self = event;
+        Ok(())
+    }
+
+    fn end(&self) -> f64 {
+        self.time
+    }
+
+    fn state(&self) -> (&[f64], &[f64]) {
+        (self.q(), self.v())
+    }
+
+    fn open_contacts(&self) -> Vec<Contact> {
+        self.open_contacts().copied().collect()
+    }
+
+    fn count(&self, counters: &mut crate::scheme::Counters) {
+        counters.events = self.clock.total().events;
+        counters.flow_evaluations = self.clock.total().evaluations;
+    }
+
+    fn backend(&self) -> Option<Backend> {
+        None
     }
 }

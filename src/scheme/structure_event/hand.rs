@@ -7,11 +7,12 @@
 
 use super::StructureEvent;
 use super::stretch::Stretch;
-use crate::contact::Episodes;
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::{Load, LoadKind, Scene, State, Table};
-use crate::scheme::structure::Structure;
+use crate::scheme::grid::Grid;
+use crate::scheme::moreau_jean::MoreauJean;
+use crate::scheme::motion::Motion;
 use crate::scheme::{Handed, Scheme};
 
 /// Events within a stretch that are followed one by one …
@@ -26,20 +27,20 @@ const PARTS: u64 = 200;
 /// The longest stretch, as a share of the run.
 const LONGEST: f64 = 1e-3;
 
-/// The rule that steps.
-const RULE: Scheme = Scheme::MoreauJean { theta: 0.5 };
+/// θ of the rule that steps.
+const THETA: f64 = 0.5;
 
 impl StructureEvent {
     /// The length of a stretch in which events are counted, s.
     fn crowd_window(&self) -> f64 {
         let rate = self.series.rate();
-        let longest = LONGEST * self.duration;
+        let longest = LONGEST * self.clock.duration;
         if rate > 0.0 { longest.min(2.0 / rate) } else { longest }
     }
 
     /// Hands the stretch ahead over if events crowd here.
     pub(super) fn hand_over(&mut self) -> Result<()> {
-        let (window, events) = (self.crowd_window(), self.guard.total.events);
+        let (window, events) = (self.crowd_window(), self.clock.total().events);
         if self.time > self.crowd.since + window {
             (self.crowd.since, self.crowd.at_since) = (self.time, events);
         }
@@ -49,11 +50,10 @@ impl StructureEvent {
         }
         let to = self.limit().min(self.time + window);
         let (scene, h) = (self.scene_from_here(to - self.time), (to - self.time) / PARTS as f64);
-        let contract = RULE.contract();
+        let contract = Scheme::MoreauJean { theta: THETA }.contract();
+        let rule = Box::new(MoreauJean::new(&scene, THETA, h, Backend::Auto)?);
         self.stretch = Some(Box::new(Stretch {
-            kernel: Structure::new(&scene, &RULE, h, Backend::Auto)?,
-            episodes: Episodes::new(&scene, &scene.wall_masses(), contract),
-            scene,
+            grid: Grid::new(&scene, &scene.wall_masses(), rule, contract, h)?,
             from: self.time,
             to,
             h,
@@ -104,28 +104,27 @@ impl StructureEvent {
         if stretch.step == 0 {
             // The exact episodes end here; the steps have their own.
             for b in &mut self.barriers {
-                self.closed.extend(b.close(self.time, 0.0));
+                self.shown.closed.extend(b.close(self.time, 0.0));
             }
         }
         let s = &mut *stretch;
-        s.kernel.advance(s.step, Some(&self.extra))?;
-        s.kernel.tell(&s.scene, s.h, &mut s.episodes);
+        s.grid.advance(s.step, Some(&self.shown.extra))?;
         s.step += 1;
         self.crowd.steps += 1;
         let last = s.step == PARTS;
         self.time = if last { s.to } else { s.from + s.step as f64 * s.h };
-        let step = s.kernel.step(s.step - 1, &s.episodes);
+        let step = s.grid.step(s.step - 1);
         self.q.copy_from_slice(step.q);
         self.v.copy_from_slice(step.v);
-        self.impulse.copy_from_slice(step.impulse);
-        self.force.copy_from_slice(step.force);
+        self.shown.impulse.copy_from_slice(step.impulse);
+        self.shown.force.copy_from_slice(step.force);
         let later = |c: &crate::step::Contact| {
             let mut c = *c;
             c.start += s.from;
             c.end = c.end.map(|end| end + s.from);
             c
         };
-        self.closed.extend(step.closed.iter().map(later));
+        self.shown.closed.extend(step.closed.iter().map(later));
         if !last {
             self.stretch = Some(stretch);
             return Ok(());
@@ -136,18 +135,16 @@ impl StructureEvent {
             c.departure_speed = Some(c.departure_speed.unwrap_or(0.0));
             c
         };
-        let still = s.episodes.still_open();
-        self.closed.extend(still.into_iter().map(ended));
+        let still = s.grid.open_contacts();
+        self.shown.closed.extend(still.into_iter().map(ended));
         self.resume()
     }
 
     /// Takes up the exact motion where a stretch has ended.
     fn resume(&mut self) -> Result<()> {
         self.crowd.handed = self.time;
-        (self.crowd.since, self.crowd.at_since) = (self.time, self.guard.total.events);
-        if self.time >= self.next_mark() {
-            self.marks += 1;
-        }
+        (self.crowd.since, self.crowd.at_since) = (self.time, self.clock.total().events);
+        self.clock.pass(self.time);
         self.places.iter_mut().for_each(|place| place.held = 0.0);
         self.hold.set(&self.body, std::iter::empty(), std::iter::empty());
         self.carriers.clear();

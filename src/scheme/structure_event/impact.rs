@@ -13,7 +13,7 @@ use super::rows::size;
 use super::{StructureEvent, seat::side_of};
 use crate::error::{Error, Result};
 use crate::qp::{Failure, Rhs};
-use crate::scheme::event::noise;
+use crate::scheme::exact::noise;
 
 /// Programmes of an instant after which one with e = 0 over all closed walls ends it.
 const PASSES: usize = 20;

@@ -5,7 +5,7 @@ use super::rows::SIGNS;
 use super::seat::{Cause, Fate, Seat, side_of};
 use crate::error::Result;
 use crate::flow::Held;
-use crate::scheme::event::{Barrier, Phase};
+use crate::scheme::exact::{Barrier, Phase};
 use crate::step::Contact;
 
 impl StructureEvent {
@@ -15,13 +15,13 @@ impl StructureEvent {
         if hit.is_none() && !blown {
             return Ok(false);
         }
-        self.counters_mut().events += 1;
+        self.clock.count().events += 1;
         let wall = match hit {
             Some(Cause::Elastic(wall)) => Some(wall),
             Some(Cause::Gap(row, _) | Cause::Release(row)) => self.walls_of.get(row).and_then(|w| w.first()).copied(),
             None => None,
         };
-        self.last_wall = wall.or(self.last_wall);
+        self.clock.last_wall = wall.or(self.clock.last_wall);
         if let Some(Cause::Elastic(wall)) = hit {
             self.cross(wall);
         }
@@ -54,16 +54,8 @@ impl StructureEvent {
         let resolution = self.resolution(row, self.barriers[wall].position);
         let Some(b) = self.barriers.get_mut(wall) else { return };
         let at_surface = b.gap(w).abs() <= resolution;
-        let next = match b.phase {
-            Phase::Rigid(_) => return,
-            Phase::Outside => Phase::Touching,
-            Phase::Touching if at_surface || b.damping == 0.0 => Phase::Outside,
-            Phase::Touching => Phase::Detached,
-            Phase::Detached if at_surface => Phase::Outside,
-            Phase::Detached => Phase::Touching,
-        };
-        (b.phase, b.changed) = (next, self.time);
-        follow(b, wall, self.time, rate, &mut self.closed);
+        b.cross(at_surface, self.time);
+        b.settle(wall, self.time, rate, &mut self.shown.closed);
     }
 
     /// After a jump of velocity: elastic walls with damping may let go or take hold.
@@ -77,7 +69,7 @@ impl StructureEvent {
             let resolution = self.resolution(row, self.barriers[wall].position);
             let b = &mut self.barriers[wall];
             b.classify(w, rate, resolution);
-            follow(b, wall, self.time, rate, &mut self.closed);
+            b.settle(wall, self.time, rate, &mut self.shown.closed);
         }
     }
 
@@ -192,7 +184,7 @@ impl StructureEvent {
         for &wall in &self.walls_of[row] {
             let b = &mut self.barriers[wall];
             if matches!(b.phase, Phase::Rigid(_)) && b.sign == sign && b.position == bound {
-                of(b, wall, &mut self.closed, self.time);
+                of(b, wall, &mut self.shown.closed, self.time);
             }
         }
     }
@@ -204,7 +196,7 @@ impl StructureEvent {
         for (side, sign) in SIGNS.into_iter().enumerate() {
             let stays = place.held == sign;
             if s.push[side] > 0.0 {
-                self.counters_mut().impacts += 1;
+                self.clock.count().impacts += 1;
                 self.tell_impact(s, side, stays, rate);
             } else if s.was == sign && !stays {
                 self.each_wall(s.row, sign, |b, _, closed, time| closed.extend(b.close(time, sign * rate)));
@@ -220,7 +212,7 @@ impl StructureEvent {
         let (place, sign) = (self.places[s.row], SIGNS[side]);
         let (e, arrived) = (place.restitution[side], s.sign * sign * s.arrived);
         let impulse = sign * s.push[side] / place.strikers[side] as f64;
-        let mut jump = std::mem::take(&mut self.jump);
+        let mut jump = std::mem::take(&mut self.shown.jump);
         self.each_wall(s.row, sign, |b, wall, closed, time| {
             if b.phase == Phase::Rigid(e) {
                 if let Some(jump) = jump.get_mut(wall) {
@@ -235,15 +227,6 @@ impl StructureEvent {
                 closed.extend(b.close(time, sign * rate));
             }
         });
-        self.jump = jump;
-    }
-}
-
-/// Opens or closes the episode of an elastic wall as its phase asks.
-fn follow(b: &mut Barrier, wall: usize, time: f64, rate: f64, closed: &mut Vec<Contact>) {
-    match b.phase {
-        Phase::Touching => b.open(wall, time, -b.sign * rate),
-        Phase::Outside | Phase::Detached => closed.extend(b.close(time, b.sign * rate)),
-        Phase::Rigid(_) => {}
+        self.shown.jump = jump;
     }
 }

@@ -26,13 +26,14 @@ mod start;
 mod stretch;
 mod view;
 
-use super::event::{Barrier, Counters, Guard};
-use super::grid::all_finite;
+use super::exact::{Barrier, CHANGES_AT_ONCE, Clock, Shown};
+use super::frame::all_finite;
+use super::matrices::Matrices;
 use crate::error::{Error, Result};
 use crate::flow::{Body, Hold, Series, Touching};
 use crate::qp;
 use crate::scene::{Loads, Scene};
-use crate::step::{Contact, Contract};
+use crate::step::Contract;
 use rows::{DERIVATIVES, Place, Sizes};
 use seat::Seat;
 use std::sync::Arc;
@@ -74,31 +75,24 @@ pub(super) struct StructureEvent {
     fastest_row: f64,
     fastest_weighed: f64,
     sizes: Sizes,
-    /// The guard's window, s.
-    duration: f64,
-    window: f64,
-    stride: f64,
+    clock: Clock,
     /// A displacement of ordinary size, m.
     length: f64,
     time: f64,
     q: Vec<f64>,
     v: Vec<f64>,
-    extra: Vec<f64>,
     /// By how much more than its rounding a coefficient must differ from 0 to be told from it: above 1 while events follow one another in
     /// which nothing moves, for only rounding can make the search contradict what has just been decided.
     doubt: f64,
     /// The instant at which places were last decided, s.
     decided: f64,
-    marks: u64,
     /// Times of the blows after the start, s, and how many have been given.
     blows: Vec<f64>,
     blow: usize,
-    guard: Guard,
     crowd: Crowd,
     stretch: Option<Box<Stretch>>,
     /// The rule of the last step, if it was handed over, and its step, s.
     handed: Option<(Contract, f64)>,
-    last_wall: Option<usize>,
     steps: u64,
     // Vectors of length n.
     derivatives: [Vec<f64>; DERIVATIVES],
@@ -111,17 +105,8 @@ pub(super) struct StructureEvent {
     pushes: Vec<f64>,
     lo: Vec<f64>,
     hi: Vec<f64>,
-    // The last step, as `Step` wants it.
-    start: f64,
-    velocity_before: Vec<f64>,
-    impulse: Vec<f64>,
-    jump: Vec<f64>,
-    force: Vec<f64>,
-    closed: Vec<Contact>,
+    shown: Shown<Matrices>,
 }
-
-/// Changes that take no time, within one advance: beyond them the step is handed over with no length, and the guard counts.
-const CHANGES_AT_ONCE: usize = 16;
 
 /// Factor by which doubt grows with each such event, and where it ends.
 const DOUBT: f64 = 4.0;
@@ -135,19 +120,15 @@ impl StructureEvent {
     /// # Errors
     /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow; [`Error::Qp`] if a programme is not solved.
     pub fn advance(&mut self, extra: Option<&[f64]>) -> Result<()> {
-        self.closed.clear();
-        self.impulse.fill(0.0);
-        self.jump.fill(0.0);
-        self.start = self.time;
-        self.velocity_before.copy_from_slice(&self.v);
+        self.shown.begin(self.time, &self.v);
         let changed = match extra {
-            Some(extra) => self.extra != extra,
-            None => self.extra.iter().any(|&f| f != 0.0),
+            Some(extra) => self.shown.extra != extra,
+            None => self.shown.extra.iter().any(|&f| f != 0.0),
         };
         if changed {
             match extra {
-                Some(extra) => self.extra.copy_from_slice(extra),
-                None => self.extra.fill(0.0),
+                Some(extra) => self.shown.extra.copy_from_slice(extra),
+                None => self.shown.extra.fill(0.0),
             }
             self.decided = f64::NEG_INFINITY;
         }
@@ -159,13 +140,13 @@ impl StructureEvent {
         if let Some(stretch) = self.stretch.take() {
             self.handed = Some((stretch.contract, stretch.h));
             self.advance_stretch(stretch)?;
-            return self.check_guard();
+            return self.clock.check(self.time, &self.barriers);
         }
         for _ in 0..CHANGES_AT_ONCE {
             let before = self.time;
             let limit = self.limit();
             self.begin_series(limit);
-            self.guard.total.evaluations += 1;
+            self.clock.count().evaluations += 1;
             let hit = self.search();
             let (x, end) = match hit {
                 Some(hit) => (hit.x, (self.time + hit.x * self.series.unit()).min(self.series.end())),
@@ -180,20 +161,16 @@ impl StructureEvent {
             }
             self.gather_impulses();
             let changed = self.happen(hit.map(|hit| hit.cause))?;
-            let jumped = self.jump.iter().any(|&p| p != 0.0);
+            let jumped = self.shown.jumped();
             self.doubt = if end > before || jumped { 1.0 } else { (DOUBT * self.doubt).min(MOST_DOUBT) };
-            if end > self.start || jumped || !changed {
+            if end > self.shown.start || jumped || !changed {
                 break;
             }
         }
-        if self.time >= self.next_mark() {
-            self.marks += 1;
-        }
-        for (impulse, jump) in self.impulse.iter_mut().zip(&self.jump) {
-            *impulse += jump;
-        }
+        self.clock.pass(self.time);
+        self.shown.add_jumps();
         self.set_forces();
-        self.check_guard()
+        self.clock.check(self.time, &self.barriers)
     }
 
     fn check(&self) -> Result<()> {
@@ -201,16 +178,5 @@ impl StructureEvent {
             return Ok(());
         }
         Err(Error::NotFinite { time: self.time, step: self.steps, what: "state" })
-    }
-
-    fn counters_mut(&mut self) -> &mut Counters {
-        &mut self.guard.total
-    }
-
-    fn check_guard(&mut self) -> Result<()> {
-        let (time, window) = (self.time, self.window);
-        let Some(count) = self.guard.exceeded(time, window) else { return Ok(()) };
-        let wall = self.last_wall.and_then(|i| self.barriers.get(i)).or(self.barriers.first());
-        Err(Error::TooManyEvents { time, wall: wall.map_or_else(String::new, |b| b.name.clone()), count, window })
     }
 }

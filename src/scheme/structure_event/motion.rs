@@ -3,19 +3,12 @@
 use super::StructureEvent;
 use super::rows::{Place, Sizes, size};
 use crate::flow::{SeriesStart, Touching};
-use crate::scheme::event::Phase;
+use crate::scheme::exact::Phase;
 
 impl StructureEvent {
-    /// The next multiple of the stride, s; the end of the scene where only rounding would separate the two.
-    pub(super) fn next_mark(&self) -> f64 {
-        let mark = (self.marks + 1) as f64 * self.stride;
-        if (self.duration - mark).abs() < 1e-9 * self.stride { self.duration } else { mark }
-    }
-
     /// How far the next series can reach: a mark, a row of a table, a blow, the end if it is still ahead; s.
     pub(super) fn limit(&self) -> f64 {
-        let mark = self.next_mark();
-        let mut limit = if self.time < self.duration { mark.min(self.duration) } else { mark };
+        let mut limit = self.clock.limit(self.time);
         if let Some(&time) = self.blows.get(self.blow) {
             limit = limit.min(time);
         }
@@ -36,17 +29,18 @@ impl StructureEvent {
             hold.place(body, &mut self.q, &mut self.scratch);
             hold.stop(body, &mut self.v, &mut self.scratch);
         }
-        let from = SeriesStart { time: self.time, q: &self.q, v: &self.v, extra: &self.extra, span: limit - self.time };
+        let from =
+            SeriesStart { time: self.time, q: &self.q, v: &self.v, extra: &self.shown.extra, span: limit - self.time };
         series.begin(body, &from, touching, hold, carriers.iter().copied(), &mut self.scratch);
         self.sizes.known = false;
     }
 
     /// Adds the impulses of the stretch just run through to the step and to the episodes under way.
     pub(super) fn gather_impulses(&mut self) {
-        let Self { series, barriers, impulse, .. } = self;
+        let Self { series, barriers, shown, .. } = self;
         for (wall, ..) in series.acting() {
             let p = series.contact_impulse(wall, series.start(), series.end());
-            if let (Some(total), Some(b)) = (impulse.get_mut(wall), barriers.get_mut(wall)) {
+            if let (Some(total), Some(b)) = (shown.impulse.get_mut(wall), barriers.get_mut(wall)) {
                 *total += p;
                 if let Some(open) = &mut b.open {
                     open.impulse += p;
@@ -64,8 +58,8 @@ impl StructureEvent {
         rhs_size.fill(0.0);
         let Sizes { derivative: size_of, .. } = sizes;
         if order == 0 {
-            rhs.copy_from_slice(&self.extra);
-            rhs_size.iter_mut().zip(&self.extra).for_each(|(size, f)| *size = f.abs());
+            rhs.copy_from_slice(&self.shown.extra);
+            rhs_size.iter_mut().zip(&self.shown.extra).for_each(|(size, f)| *size = f.abs());
             for (sizes, x) in size_of.iter_mut().zip(&*derivatives).take(2) {
                 sizes.iter_mut().zip(x).for_each(|(size, x)| *size = x.abs());
             }
@@ -127,7 +121,7 @@ impl StructureEvent {
 
     /// The force of each wall now.
     pub(super) fn set_forces(&mut self) {
-        self.force.fill(0.0);
+        self.shown.force.fill(0.0);
         if !self.hold.rows().is_empty() {
             self.derivatives[0].copy_from_slice(&self.q);
             self.derivatives[1].copy_from_slice(&self.v);
@@ -137,14 +131,16 @@ impl StructureEvent {
             pushes.resize(hold.rows().len(), 0.0);
             hold.balance(body, rhs, scratch, |k, push| pushes[k] += push);
             for &(wall, k, share) in &self.carriers {
-                let (Some(force), Some(held)) = (self.force.get_mut(wall), self.hold.rows().get(k)) else { continue };
+                let (Some(force), Some(held)) = (self.shown.force.get_mut(wall), self.hold.rows().get(k)) else {
+                    continue;
+                };
                 *force = share * held.sign * (held.sign * self.pushes[k]).max(0.0);
             }
         }
         for (wall, b) in self.barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching) {
             let row = self.body.row_of[wall];
             let sum = b.sum(self.body.rows.dot(row, &self.q), self.body.rows.dot(row, &self.v));
-            self.force[wall] = b.sign * sum.max(0.0);
+            self.shown.force[wall] = b.sign * sum.max(0.0);
         }
     }
 }

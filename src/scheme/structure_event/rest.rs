@@ -10,7 +10,7 @@ use super::rows::{SIGNS, Zeros};
 use super::seat::{Fate, Seat, side_of};
 use crate::error::Result;
 use crate::flow::Held;
-use crate::scheme::event::noise;
+use crate::scheme::exact::noise;
 
 /// Derivatives of the acceleration that are asked, with itself.
 const LEVELS: usize = 3;

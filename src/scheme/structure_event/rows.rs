@@ -2,7 +2,7 @@
 
 use crate::flow::{Body, TERMS};
 use crate::scene::{Scene, Side};
-use crate::scheme::event::noise;
+use crate::scheme::exact::noise;
 
 /// The side of the structure on which a wall stands: the sign of its force.
 pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];

@@ -5,7 +5,7 @@ use super::root::highest;
 use super::rows::{Rounding, SIGNS, Seen, Watched, Zeros, size};
 use super::seat::Cause;
 use crate::flow::TERMS;
-use crate::scheme::event::{Phase, noise};
+use crate::scheme::exact::{Phase, noise};
 
 /// When, in the stretch's x, and with what.
 #[derive(Debug, Clone, Copy, PartialEq)]

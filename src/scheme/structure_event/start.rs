@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::flow::{Body, Hold, Series};
 use crate::qp::{self, Backend};
 use crate::scene::{Loads, Scene};
-use crate::scheme::event::{Guard, WINDOWS, barriers, known_loads, marks};
+use crate::scheme::exact::{Clock, Shown, barriers, known_loads};
 use std::sync::Arc;
 
 /// The programme's signs are tested relative to the motion at hand, so any positive length will do.
@@ -52,26 +52,20 @@ impl StructureEvent {
             fastest_row: 0.0,
             fastest_weighed: 0.0,
             sizes: Sizes::new(n),
-            duration: scene.duration,
-            window: scene.duration / WINDOWS,
-            stride,
+            clock: Clock::new(scene.duration, stride),
             length: if walls > 0 { scene.gap_scale() } else { 0.0 },
             time: 0.0,
             q: scene.initial.q.clone(),
-            velocity_before: v.clone(),
+            shown: Shown::new(&v, walls, 3 * walls + 2),
             v,
-            extra: zero(),
             doubt: 1.0,
             decided: f64::NEG_INFINITY,
-            marks: 0,
             blows,
             blow: 0,
-            guard: Guard::default(),
             crowd: Crowd::default(),
             stretch: None,
             handed: None,
             scene: scene.clone(),
-            last_wall: None,
             steps: 0,
             derivatives: std::array::from_fn(|_| zero()),
             rhs: zero(),
@@ -82,11 +76,6 @@ impl StructureEvent {
             pushes: Vec::with_capacity(rows),
             lo: vec![f64::NEG_INFINITY; rows],
             hi: vec![f64::INFINITY; rows],
-            start: 0.0,
-            impulse: vec![0.0; walls],
-            jump: vec![0.0; walls],
-            force: vec![0.0; walls],
-            closed: Vec::with_capacity(3 * walls + 2),
             body,
         };
         if rows > 1 && event.body.is_small() {
@@ -109,19 +98,18 @@ impl StructureEvent {
 
     /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each: the state after whatever happened at that instant.
     pub fn restart(&mut self, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
-        let mut event = Self::new(&self.scene, self.stride)?;
-        (event.time, event.start) = (time, time);
+        let mut event = Self::new(&self.scene, self.clock.stride)?;
+        event.time = time;
         event.q.copy_from_slice(q);
         event.v.copy_from_slice(v);
-        event.velocity_before.copy_from_slice(v);
-        event.marks = marks(time, self.stride);
+        event.shown.begin(time, &event.v);
         event.blow = event.blows.iter().filter(|&&blow| blow <= time).count();
-        (event.guard, event.steps) = (self.guard, self.steps);
-        event.guard.restart(time);
+        (event.clock, event.steps) = (self.clock.clone(), self.steps);
+        event.clock.restart(time);
         event.crowd = std::mem::take(&mut self.crowd);
-        event.crowd.restart(time, event.guard.total.events);
+        event.crowd.restart(time, event.clock.total().events);
         event.reclassify();
-        event.closed.clear();
+        event.shown.closed.clear();
         event.set_forces();
         event.solver = self.solver.take();
         *self = event;

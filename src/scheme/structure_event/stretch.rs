@@ -1,17 +1,14 @@
 //! A stretch that moreau-jean steps, and the count of events that calls for one.
 
-use crate::contact::Episodes;
-use crate::scene::Scene;
 use crate::scheme::Handed;
-use crate::scheme::structure::Structure;
+use crate::scheme::grid::Grid;
+use crate::scheme::matrices::Matrices;
 use crate::step::Contract;
 
 /// A stretch under way.
 #[derive(Debug)]
 pub(super) struct Stretch {
-    pub kernel: Structure,
-    pub episodes: Episodes,
-    pub scene: Scene,
+    pub grid: Grid<Matrices>,
     pub from: f64,
     pub to: f64,
     /// Its step, s.

@@ -1,55 +1,49 @@
 //! What a run shows of itself after each step.
 
 use super::StructureEvent;
-use crate::scheme::Handed;
-use crate::scheme::event::Counters;
+use crate::error::Result;
+use crate::qp::Backend;
+use crate::scene::Scene;
+use crate::scheme::motion::Motion;
+use crate::scheme::{Counters, Handed};
 use crate::step::{Contact, Path, Step};
 
-impl StructureEvent {
-    /// The last step, number `index`.
-    pub fn step(&self, index: u64) -> Step<'_> {
-        Step {
-            index,
-            start: self.start,
-            end: self.time,
-            q: &self.q,
-            v: &self.v,
-            velocity_before: &self.velocity_before,
-            velocity_after: &self.v,
-            impulse: &self.impulse,
-            jump: &self.jump,
-            force: &self.force,
-            extra: &self.extra,
-            closed: &self.closed,
-            path: match self.handed {
-                Some((ref contract, step)) => Path::Handed { contract, step },
-                None => Path::Series(&self.series),
-            },
-        }
+impl Motion for StructureEvent {
+    fn advance(&mut self, _: u64, extra: Option<&[f64]>) -> Result<()> {
+        self.advance(extra)
     }
 
-    /// Time reached, s.
-    pub fn end(&self) -> f64 {
+    fn step(&self, index: u64) -> Step<'_> {
+        let path = match self.handed {
+            Some((ref contract, step)) => Path::Handed { contract, step },
+            None => Path::Series(&self.series),
+        };
+        self.shown.step(index, self.time, (&self.q, &self.v), path)
+    }
+
+    fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+        self.restart(time, q, v)
+    }
+
+    fn end(&self) -> f64 {
         self.time
     }
 
-    /// Displacement and velocity there, m and m/s, n entries each.
-    pub fn state(&self) -> (&[f64], &[f64]) {
+    fn state(&self) -> (&[f64], &[f64]) {
         (&self.q, &self.v)
     }
 
-    /// Contact episodes under way.
-    pub fn open_contacts(&self) -> impl Iterator<Item = &Contact> {
-        self.barriers.iter().filter_map(|b| b.open.as_ref())
+    fn open_contacts(&self) -> Vec<Contact> {
+        self.barriers.iter().filter_map(|b| b.open.as_ref()).copied().collect()
     }
 
-    /// Stretches handed to moreau-jean so far.
-    pub fn stretches(&self) -> &[Handed] {
+    fn handed(&self) -> &[Handed] {
         &self.crowd.stretches
     }
 
-    /// Programmes solved, and steps handed over.
-    pub fn count(&self, counters: &mut crate::scheme::Counters) {
+    fn count(&self, counters: &mut Counters) {
+        counters.events = self.clock.total().events;
+        counters.flow_evaluations = self.clock.total().evaluations;
         counters.handed_steps = self.crowd.steps;
         if let Some(solver) = &self.solver {
             let inner = solver.counters();
@@ -59,8 +53,7 @@ impl StructureEvent {
         }
     }
 
-    /// Work done so far.
-    pub fn counters(&self) -> Counters {
-        self.guard.total
+    fn backend(&self) -> Option<Backend> {
+        None
     }
 }

@@ -8,6 +8,7 @@
 
 use super::body::Body;
 use super::programme::Programme;
+use super::space::Space;
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
@@ -17,45 +18,45 @@ const REST_UNITS: f64 = 4.0;
 
 /// Forces at the start, N.
 #[derive(Debug)]
-pub(super) struct StartForce {
+pub(super) struct StartForce<S: Space> {
     /// Smooth force and wall forces together, n entries.
-    pub total: Vec<f64>,
+    pub total: S::Vector,
     /// Force of each wall, signed.
     pub wall: Vec<f64>,
 }
 
-impl StartForce {
+impl<S: Space> StartForce<S> {
     /// Without the rigid walls, at displacement `q` and velocity `v`, those after any blow at that instant.
-    pub fn smooth(body: &Body, q: &[f64], v: &[f64]) -> Self {
-        let mut total = vec![0.0; body.n];
-        body.loads.add_force(body.since(), 1.0, &mut total);
-        body.damping.add_product(-1.0, v, &mut total);
-        body.stiffness.add_product(-1.0, q, &mut total);
+    pub fn smooth(body: &Body<S>, q: &S::Vector, v: &S::Vector) -> Self {
+        let mut total = body.load.clone();
+        S::add_product(&body.damping, -1.0, v, &mut total);
+        S::add_product(&body.stiffness, -1.0, q, &mut total);
         let mut wall = vec![0.0; body.walls.len()];
         for (index, (stop, r)) in body.walls.iter().zip(&mut wall).enumerate() {
-            let (w, rate) = (body.rows.dot(index, q), body.rows.dot(index, v));
-            *r = stop.sign * stop.law.pressure(stop.depth(w), -stop.sign * rate);
+            *r = stop.sign * stop.law.pressure(stop.depth(body.seen(index, q)), -stop.sign * body.seen(index, v));
         }
         body.push(1.0, &wall, &mut total);
         Self { total, wall }
     }
 
     /// All of it.
-    pub fn new(scene: &Scene, body: &Body, q: &[f64], v: &[f64]) -> Result<Self> {
+    pub fn new(scene: &Scene, body: &Body<S>, q: &S::Vector, v: &S::Vector) -> Result<Self> {
         let Self { mut total, mut wall } = Self::smooth(body, q, v);
         let rests = |index: usize| {
-            let terms: f64 = body.rows.row(index).iter().map(|&(i, weight)| (weight * v[i]).abs()).sum();
-            let still = body.rows.dot(index, v).abs() <= REST_UNITS * f64::EPSILON * terms;
+            let row = scene.walls.get(index).map(|wall| wall.at.entries()).unwrap_or_default();
+            let speed = |i: usize| v.as_ref().get(i).copied().unwrap_or(0.0);
+            let terms: f64 = row.iter().map(|&(i, weight)| (weight * speed(i)).abs()).sum();
+            let still = body.seen(index, v).abs() <= REST_UNITS * f64::EPSILON * terms;
             let stop = body.walls[index];
-            stop.law.is_rigid() && stop.depth(body.rows.dot(index, q)) >= -body.touch && still
+            stop.law.is_rigid() && stop.depth(body.seen(index, q)) >= -body.touch && still
         };
         let resting: Vec<usize> = (0..body.walls.len()).filter(|&index| rests(index)).collect();
         if !resting.is_empty() {
             let mass = body.matrices.mass.clone();
             let scale = scene.gap_scale() / (body.h * body.h);
-            let mut programme = Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, Backend::Auto)?;
+            let mut programme: Programme<S> =
+                Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, Backend::Auto)?;
             for row in 0..programme.count_rows() {
-                programme.free(row);
                 for seat in programme.seats(row) {
                     if resting.contains(&programme.seat(seat).wall) {
                         programme.bind(row, seat, 0.0);

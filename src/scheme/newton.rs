@@ -6,7 +6,8 @@
 //! doi:10.1007/BF01581275) on the forces with a line search on that function's derivative settles for any start, and without the search in a
 //! handful of iterations. For laws that are linear by pieces it ends.
 
-use crate::linear::{Factor, Rows};
+use super::body::Body;
+use super::space::{Space, zero};
 
 /// Newton's method needs a handful of iterations; more than this many means that numbers are not finite.
 const LIMIT: usize = 200;
@@ -54,17 +55,17 @@ pub(super) struct Walls {
 }
 
 impl Walls {
-    /// The walls of `rows` behind the factored A.
-    pub fn new(a: &mut Factor, rows: &Rows, scale: f64) -> Self {
-        let (n, m) = (rows.columns(), rows.count());
+    /// The walls of `body` behind the factored A.
+    pub fn new<S: Space>(a: &mut S::Factor, body: &Body<S>, scale: f64) -> Self {
+        let m = body.walls.len();
         let mut s = vec![0.0; m * m];
-        let mut response = vec![0.0; n];
+        let mut response = zero::<S>(body.n);
         for j in 0..m {
-            response.fill(0.0);
-            rows.add_transposed(j, scale, &mut response);
-            a.solve(&mut response);
+            response.as_mut().fill(0.0);
+            S::add_transposed(&body.rows, j, scale, &mut response);
+            S::solve(a, &mut response);
             for i in 0..m {
-                s[i * m + j] = rows.dot(i, &response);
+                s[i * m + j] = body.seen(i, &response);
             }
         }
         for i in 0..m {

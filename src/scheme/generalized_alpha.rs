@@ -33,22 +33,23 @@
 //! M⁻¹J and the displacement by (t⁺ − t_b) of that, outside of a. The rule has the damper feel J from the middle of the step on (the sum
 //! over all later steps counts, and γ = ½ + α_f − α_m makes it so): −C d with M d = (t⁺ − h/2 − t_b)J is added to the momentum.
 
+use super::Counters;
 use super::body::Body;
-use super::factor::{factor, mass_factor};
 use super::frame::Frame;
 use super::programme::{Programme, Seat};
+use super::rule::Rule;
+use super::space::{Space, zero};
 use super::start::StartForce;
+use super::stop::Stop;
 use crate::error::{Error, Result};
-use crate::linear::{Factor, Symmetric};
+use crate::linear::Symmetric;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
-use crate::scheme::Counters;
-use crate::scheme::stop::Stop;
 use crate::step::Balance;
 
 #[derive(Debug)]
-pub(super) struct GeneralizedAlpha {
-    body: Body,
+pub(super) struct GeneralizedAlpha<S: Space> {
+    body: Body<S>,
     /// α_m, α_f, β, γ.
     alpha: [f64; 4],
     /// h(1−γ/2β), s: the share of a that the damper does not feel where a wall is met; 0 without damping.
@@ -56,153 +57,98 @@ pub(super) struct GeneralizedAlpha {
     /// True if a rigid wall is closed at the step's start.
     closed: bool,
     /// a, m/s².
-    a: Vec<f64>,
+    a: S::Vector,
     /// F at the step's start, N.
-    force: Vec<f64>,
+    force: S::Vector,
     /// Force of each elastic wall at the step's start, N, and the walls where it is not zero.
     held: Vec<f64>,
     holding: Vec<usize>,
     /// All walls, in Δ, m.
-    place: Programme,
+    place: Programme<S>,
     /// The rigid walls, in v⁺ − v_c, m/s.
-    rate: Programme,
-    mass: Factor,
+    rate: Programme<S>,
+    mass: S::Factor,
     /// T.
-    drag: Factor,
-    /// α_f F − α_m M a, over 1 − α_f; f⁺; and b, N.
-    past: Vec<f64>,
-    load: Vec<f64>,
-    b: Vec<f64>,
+    drag: S::Factor,
+    /// α_f F − α_m M a, over 1 − α_f; and b, N.
+    past: S::Vector,
+    b: S::Vector,
     /// q̂ and v̂, and the velocity change by the extra force, m/s.
-    q: Vec<f64>,
-    v: Vec<f64>,
-    given: Vec<f64>,
-    zero: Vec<f64>,
+    q: S::Vector,
+    v: S::Vector,
+    given: S::Vector,
+    zero: S::Vector,
     /// Multipliers of the programmes, and the walls where they are not zero.
     multiplier: Vec<f64>,
     pushing: Vec<usize>,
 }
 
-impl GeneralizedAlpha {
-    pub fn new(scene: &Scene, balance: Balance, h: f64, backend: Backend, frame: &Frame) -> Result<Self> {
+impl<S: Space> GeneralizedAlpha<S> {
+    pub fn new(scene: &Scene, balance: Balance, h: f64, backend: Backend) -> Result<Self> {
         let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = balance else {
             return Err(Error::invalid("scheme", "another balance", "generalized-alpha"));
         };
-        let body = Body::new(scene, h);
-        let StartForce { total: force, wall: held } = StartForce::smooth(&body, &frame.q, &frame.v);
-        let mut holding = Vec::with_capacity(held.len());
-        holding.extend((0..held.len()).filter(|&wall| held[wall] != 0.0));
+        let body = Body::<S>::new(scene, h)?;
         let m = &body.matrices;
-        let mut mass = mass_factor(m)?;
-        let mut a = force.clone();
-        mass.solve(&mut a);
         let (mu, scale) = ((1.0 - alpha_m) / (1.0 - alpha_f), h * h * beta);
         let matrix = Symmetric::sum(&[(mu / scale, &m.mass), (gamma / (h * beta), &m.damping), (1.0, &m.stiffness)]);
         let drag = Symmetric::sum(&[(mu, &m.mass), (h * gamma, &m.damping)]);
         let gap = scene.gap_scale();
         let place = Programme::new(scene, matrix, gap, |k, c| 1.0 / (k + c / h), backend)?;
         let rate = Programme::over(scene, WallLaw::is_rigid, drag.clone(), gap / h, |_, _| 0.0, backend)?;
-        let zero = vec![0.0; body.n];
+        let (zero, walls) = (zero::<S>(body.n), body.walls.len());
         Ok(Self {
             alpha: [alpha_m, alpha_f, beta, gamma],
             unfelt: if body.damped { h * (1.0 - gamma / (2.0 * beta)) } else { 0.0 },
-            closed: closed(&body, &frame.q),
-            a,
-            force,
-            held,
-            holding,
+            closed: false,
+            a: zero.clone(),
+            force: zero.clone(),
+            held: vec![0.0; walls],
+            holding: Vec::with_capacity(walls),
             place,
             rate,
-            mass,
-            drag: factor(&drag)?,
+            mass: S::mass(m)?,
+            drag: S::factor(&drag)?,
             past: zero.clone(),
-            load: zero.clone(),
             b: zero.clone(),
             q: zero.clone(),
             v: zero.clone(),
             given: zero.clone(),
             zero,
-            multiplier: vec![0.0; body.walls.len()],
-            pushing: Vec::with_capacity(body.walls.len()),
+            multiplier: vec![0.0; walls],
+            pushing: Vec::with_capacity(walls),
             body,
         })
     }
 
-    /// Takes the motion up anew at `time` (s), as from a start in the frame's state.
-    pub fn restart(&mut self, time: f64, frame: &Frame) {
-        self.body.restart(time);
-        let StartForce { total, wall } = StartForce::smooth(&self.body, &frame.q, &frame.v);
-        self.holding.clear();
-        self.holding.extend((0..wall.len()).filter(|&index| wall[index] != 0.0));
-        self.a.copy_from_slice(&total);
-        self.mass.solve(&mut self.a);
-        (self.force, self.held) = (total, wall);
-        self.closed = closed(&self.body, &frame.q);
-        for wall in self.pushing.drain(..) {
-            self.multiplier[wall] = 0.0;
-        }
-    }
-
-    pub fn advance(&mut self, step: u64, frame: &mut Frame) -> Result<()> {
-        frame.begin(step, self.body.h);
-        frame.before.copy_from_slice(&frame.v);
-        self.predict(frame);
-        let met = self.displace(step, frame)?;
-        self.press(frame);
-        let answered = frame.blown && self.body.damped && self.answers(frame);
-        if answered {
-            self.damp_blows(-1.0, frame);
-        }
-        if met || answered {
-            self.free_velocity(frame);
-        }
-        let pushed = self.correct_velocity(frame, step)?;
-        // F⁺, and with it a⁺ where the walls have changed it.
-        let Self { body, alpha: [alpha_m, alpha_f, ..], force, load, past, a, mass, .. } = self;
-        force.copy_from_slice(load);
-        body.damping.add_product(-1.0, &frame.v, force);
-        body.stiffness.add_product(-1.0, &frame.q, force);
-        for &wall in &self.holding {
-            body.rows.add_transposed(wall, self.held[wall], force);
-        }
-        if met || pushed || answered {
-            let mu = (1.0 - *alpha_m) / (1.0 - *alpha_f);
-            a.iter_mut().zip(past.iter()).zip(force.iter()).for_each(|((a, past), force)| *a = (past + force) / mu);
-            mass.solve(a);
-        }
-        frame.after.copy_from_slice(&frame.v);
-        Ok(())
-    }
-
     /// q̂, v̂, f⁺ and what the last step leaves of the rule.
-    fn predict(&mut self, frame: &mut Frame) {
-        let Self { body, alpha: [alpha_m, alpha_f, beta, gamma], a, force, past, given, load, q, v, .. } = self;
+    fn predict(&mut self, frame: &mut Frame<S>) {
+        let Self { body, alpha: [alpha_m, alpha_f, beta, gamma], a, force, past, given, q, v, .. } = self;
         let (h, alpha_m, alpha_f) = (body.h, *alpha_m, *alpha_f);
         let (first, second) = (h * h * (0.5 - *beta), h * (1.0 - *gamma));
-        for i in 0..q.len() {
+        for i in 0..body.n {
             q[i] = frame.q[i] + h * frame.v[i] + first * a[i];
             v[i] = frame.v[i] + second * a[i];
             past[i] = alpha_f / (1.0 - alpha_f) * force[i];
         }
-        body.mass.add_product(-alpha_m / (1.0 - alpha_f), a, past);
-        load.fill(0.0);
-        body.loads.add_force(frame.end, 1.0, load);
-        given.iter_mut().zip(&frame.extra).for_each(|(given, extra)| *given = h * extra);
-        if given.iter().any(|&p| p != 0.0) {
-            self.mass.solve(given);
-            for i in 0..q.len() {
+        S::add_product(&body.mass, -alpha_m / (1.0 - alpha_f), a, past);
+        body.load_at(frame.end);
+        (0..body.n).for_each(|i| given[i] = h * frame.extra[i]);
+        if given.as_ref().iter().any(|&p| p != 0.0) {
+            S::solve(&mut self.mass, given);
+            for i in 0..body.n {
                 q[i] += 0.5 * h * given[i];
                 v[i] += given[i];
             }
         }
         frame.blown = body.find_blows(&[(frame.start, frame.end, frame.end)]);
-        if frame.blown {
-            for i in 0..q.len() {
-                q[i] += body.shift[i];
-                v[i] += body.given[i];
-                frame.struck[i] = frame.v[i] + body.given[i];
+        if let (true, Some(blows)) = (frame.blown, &body.blows) {
+            for i in 0..body.n {
+                q[i] += blows.shift[i];
+                v[i] += blows.given[i];
+                frame.struck[i] = frame.v[i] + blows.given[i];
             }
-            if self.body.damped {
+            if body.damped {
                 self.damp_blows(1.0, frame);
             }
         }
@@ -210,7 +156,7 @@ impl GeneralizedAlpha {
 
     /// q⁺, v⁺ without the rigid walls' impulses unless one was met, a⁺ likewise, and the elastic walls' forces. Returns whether a rigid
     /// wall was met.
-    fn displace(&mut self, step: u64, frame: &mut Frame) -> Result<bool> {
+    fn displace(&mut self, step: u64, frame: &mut Frame<S>) -> Result<bool> {
         let met = if self.unfelt == 0.0 {
             self.place(step, frame, 0.0)?
         } else if self.closed {
@@ -222,7 +168,7 @@ impl GeneralizedAlpha {
         };
         let Self { body, alpha: [.., beta, gamma], place, a, q, v, .. } = self;
         let h = body.h;
-        for (i, delta) in place.x().iter().enumerate() {
+        for (i, delta) in place.x().as_ref().iter().enumerate() {
             frame.q[i] = q[i] + delta;
             if !met {
                 a[i] = delta / (h * h * *beta);
@@ -233,22 +179,24 @@ impl GeneralizedAlpha {
     }
 
     /// Solves for Δ, the damper not feeling a and the extra force over `unfelt` (s). Returns whether a rigid wall pushes.
-    fn place(&mut self, step: u64, frame: &Frame, unfelt: f64) -> Result<bool> {
+    fn place(&mut self, step: u64, frame: &Frame<S>, unfelt: f64) -> Result<bool> {
         let h = self.body.h;
         for wall in self.pushing.drain(..) {
             self.multiplier[wall] = 0.0;
         }
-        let Self { body, place, past, load, b, q, v, .. } = self;
-        b.iter_mut().zip(past.iter()).zip(load.iter()).for_each(|((b, past), load)| *b = past + load);
-        body.damping.add_product(-1.0, v, b);
-        if unfelt != 0.0 {
-            body.damping.add_product(unfelt, &self.a, b);
-            body.damping.add_product(unfelt / h, &self.given, b);
+        let Self { body, place, past, b, q, v, .. } = self;
+        for i in 0..body.n {
+            b[i] = past[i] + body.load[i];
         }
-        body.stiffness.add_product(-1.0, q, b);
+        S::add_product(&body.damping, -1.0, v, b);
+        if unfelt != 0.0 {
+            S::add_product(&body.damping, unfelt, &self.a, b);
+            S::add_product(&body.damping, unfelt / h, &self.given, b);
+        }
+        S::add_product(&body.stiffness, -1.0, q, b);
+        place.free();
         for row in 0..place.count_rows() {
             let ahead = place.seen(row, q);
-            place.free(row);
             for seat in place.seats(row) {
                 let wall = place.seat(seat).stop;
                 let bound = match wall.law {
@@ -268,7 +216,7 @@ impl GeneralizedAlpha {
     }
 
     /// The elastic walls' forces, and their impulses ½h(r + r⁺), of those that push at either end.
-    fn press(&mut self, frame: &mut Frame) {
+    fn press(&mut self, frame: &mut Frame<S>) {
         let h = self.body.h;
         for wall in self.holding.drain(..) {
             frame.impulse[wall] = 0.5 * h * self.held[wall];
@@ -288,49 +236,50 @@ impl GeneralizedAlpha {
     }
 
     /// v_c = v̂ + hγa⁺ at q⁺, with T a⁺ = past + f⁺ − K q⁺ + Gᵀr − C v̂.
-    fn free_velocity(&mut self, frame: &mut Frame) {
-        let Self { body, alpha: [.., gamma], past, load, b, v, drag, .. } = self;
-        b.iter_mut().zip(past.iter()).zip(load.iter()).for_each(|((b, past), load)| *b = past + load);
-        body.damping.add_product(-1.0, v, b);
-        body.stiffness.add_product(-1.0, &frame.q, b);
-        for &wall in &self.holding {
-            body.rows.add_transposed(wall, self.held[wall], b);
+    fn free_velocity(&mut self, frame: &mut Frame<S>) {
+        let Self { body, alpha: [.., gamma], past, b, v, drag, .. } = self;
+        for i in 0..body.n {
+            b[i] = past[i] + body.load[i];
         }
-        drag.solve(b);
-        for (i, a) in b.iter().enumerate() {
-            frame.v[i] = v[i] + body.h * *gamma * a;
+        S::add_product(&body.damping, -1.0, v, b);
+        S::add_product(&body.stiffness, -1.0, &frame.q, b);
+        for &wall in &self.holding {
+            S::add_transposed(&body.rows, wall, self.held[wall], b);
+        }
+        S::solve(drag, b);
+        for i in 0..body.n {
+            frame.v[i] = v[i] + body.h * *gamma * b[i];
         }
     }
 
     /// Adds −`share` M⁻¹C d to v̂, with d the way on which the blows take the body beside the half step that the rule gives their velocity.
-    fn damp_blows(&mut self, share: f64, frame: &Frame) {
+    fn damp_blows(&mut self, share: f64, frame: &Frame<S>) {
         let Self { body, b, v, mass, .. } = self;
         if body.find_blows(&[(frame.start, frame.end, frame.end - 0.5 * body.h)]) {
-            b.fill(0.0);
+            b.as_mut().fill(0.0);
             body.damp_shift(share, b);
-            mass.solve(b);
-            v.iter_mut().zip(b.iter()).for_each(|(v, change)| *v += change);
+            S::solve(mass, b);
+            (0..body.n).for_each(|i| v[i] += b[i]);
         }
     }
 
     /// True if a rigid wall that is closed at q⁺ is what the blows drive into: it keeps the body from that way, and what they would lose to the
     /// damper on it is the wall's.
-    fn answers(&self, frame: &Frame) -> bool {
+    fn answers(&self, frame: &Frame<S>) -> bool {
         let Self { body, multiplier, .. } = self;
-        let closed = |wall: usize| {
-            multiplier[wall] != 0.0 || body.walls[wall].depth(body.rows.dot(wall, &frame.q)) >= -body.touch
-        };
+        let closed =
+            |wall: usize| multiplier[wall] != 0.0 || body.walls[wall].depth(body.seen(wall, &frame.q)) >= -body.touch;
         (0..body.walls.len()).any(|wall| body.drives(wall) && closed(wall))
     }
 
     /// v⁺ and the impulses, at the rigid walls that are closed. Returns whether one pushes.
-    fn correct_velocity(&mut self, frame: &mut Frame, step: u64) -> Result<bool> {
+    fn correct_velocity(&mut self, frame: &mut Frame<S>, step: u64) -> Result<bool> {
         let (h, rate) = (self.body.h, &mut self.rate);
         let mut approaches = false;
         self.closed = false;
+        rate.free();
         for row in 0..rate.count_rows() {
             let w = rate.seen(row, &frame.q);
-            rate.free(row);
             if rate.is_clear(row, w) && self.pushing.is_empty() {
                 continue;
             }
@@ -355,7 +304,7 @@ impl GeneralizedAlpha {
             let [alpha_m, alpha_f, ..] = self.alpha;
             let mu = (1.0 - alpha_m) / (1.0 - alpha_f);
             self.rate.solve(&self.zero, (frame.start, step), &mut self.multiplier, &mut self.pushing)?;
-            frame.v.iter_mut().zip(self.rate.x()).for_each(|(v, d)| *v += d);
+            frame.v.as_mut().iter_mut().zip(self.rate.x().as_ref()).for_each(|(v, d)| *v += d);
             for &wall in &self.pushing {
                 frame.impulse[wall] = self.multiplier[wall] / mu;
                 frame.force[wall] = frame.impulse[wall] / h;
@@ -364,19 +313,67 @@ impl GeneralizedAlpha {
         }
         Ok(approaches)
     }
+}
 
-    pub fn backend(&self) -> Backend {
-        self.rate.backend()
+impl<S: Space> Rule<S> for GeneralizedAlpha<S> {
+    fn restart(&mut self, _: &Scene, time: f64, frame: &Frame<S>) -> Result<()> {
+        self.body.restart(time);
+        let StartForce { total, wall } = StartForce::smooth(&self.body, &frame.q, &frame.v);
+        self.holding.clear();
+        self.holding.extend((0..wall.len()).filter(|&index| wall[index] != 0.0));
+        self.a.clone_from(&total);
+        S::solve(&mut self.mass, &mut self.a);
+        (self.force, self.held) = (total, wall);
+        self.closed = closed(&self.body, &frame.q);
+        for wall in self.pushing.drain(..) {
+            self.multiplier[wall] = 0.0;
+        }
+        Ok(())
     }
 
-    pub fn count(&self, counters: &mut Counters) {
+    fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        frame.begin(step, self.body.h);
+        frame.before.clone_from(&frame.v);
+        self.predict(frame);
+        let met = self.displace(step, frame)?;
+        self.press(frame);
+        let answered = frame.blown && self.body.damped && self.answers(frame);
+        if answered {
+            self.damp_blows(-1.0, frame);
+        }
+        if met || answered {
+            self.free_velocity(frame);
+        }
+        let pushed = self.correct_velocity(frame, step)?;
+        // F⁺, and with it a⁺ where the walls have changed it.
+        let Self { body, alpha: [alpha_m, alpha_f, ..], force, past, a, mass, .. } = self;
+        force.clone_from(&body.load);
+        S::add_product(&body.damping, -1.0, &frame.v, force);
+        S::add_product(&body.stiffness, -1.0, &frame.q, force);
+        for &wall in &self.holding {
+            S::add_transposed(&body.rows, wall, self.held[wall], force);
+        }
+        if met || pushed || answered {
+            let mu = (1.0 - *alpha_m) / (1.0 - *alpha_f);
+            (0..body.n).for_each(|i| a[i] = (past[i] + force[i]) / mu);
+            S::solve(mass, a);
+        }
+        frame.after.clone_from(&frame.v);
+        Ok(())
+    }
+
+    fn count(&self, counters: &mut Counters) {
         self.rate.count(counters);
         self.place.count(counters);
+    }
+
+    fn backend(&self) -> Option<Backend> {
+        Some(self.rate.backend())
     }
 }
 
 /// True if a rigid wall is closed at `q` (m).
-fn closed(body: &Body, q: &[f64]) -> bool {
-    let rests = |(wall, stop): (usize, &Stop)| stop.law.is_rigid() && stop.depth(body.rows.dot(wall, q)) >= -body.touch;
+fn closed<S: Space>(body: &Body<S>, q: &S::Vector) -> bool {
+    let rests = |(wall, stop): (usize, &Stop)| stop.law.is_rigid() && stop.depth(body.seen(wall, q)) >= -body.touch;
     body.walls.iter().enumerate().any(rests)
 }

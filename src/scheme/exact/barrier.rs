@@ -1,7 +1,8 @@
 //! A wall as the exact scheme sees it: its law, whether it touches, and the episode under way.
 
+use crate::error::{Error, Result, Subject};
 use crate::flow::Touch;
-use crate::scene::{Side, Wall, WallLaw};
+use crate::scene::{Scene, Side, Wall, WallLaw};
 use crate::step::Contact;
 
 /// Where the body is with respect to one wall.
@@ -15,6 +16,17 @@ pub(in crate::scheme) enum Phase {
     Touching,
     /// In it but let go: k_a s + c_a ṡ ≤ 0 < s.
     Detached,
+}
+
+/// The walls of `scene`; refuses a law under which the motion is not known.
+pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<Barrier>> {
+    let barrier = |wall: &Wall| {
+        Barrier::new(wall).ok_or_else(|| {
+            let key = Subject::wall(&wall.name).part("law");
+            Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
+        })
+    };
+    scene.walls.iter().map(barrier).collect()
 }
 
 /// One wall of a run.
@@ -86,6 +98,30 @@ impl Barrier {
         } else {
             Phase::Outside
         };
+    }
+
+    /// Moves an elastic wall into its next phase at `time` (s), with the body on its surface or within. Returns whether the surface was crossed.
+    pub fn cross(&mut self, at_surface: bool, time: f64) -> bool {
+        let next = match self.phase {
+            Phase::Rigid(_) => return false,
+            Phase::Outside => Phase::Touching,
+            Phase::Touching if at_surface || self.damping == 0.0 => Phase::Outside,
+            Phase::Touching => Phase::Detached,
+            Phase::Detached if at_surface => Phase::Outside,
+            Phase::Detached => Phase::Touching,
+        };
+        let crossed = next == Phase::Outside || self.phase == Phase::Outside;
+        (self.phase, self.changed) = (next, time);
+        crossed
+    }
+
+    /// Opens or closes the episode of an elastic wall as its phase asks, at the velocity `v` (m/s).
+    pub fn settle(&mut self, wall: usize, time: f64, v: f64, closed: &mut Vec<Contact>) {
+        match self.phase {
+            Phase::Touching => self.open(wall, time, -self.sign * v),
+            Phase::Outside | Phase::Detached => closed.extend(self.close(time, self.sign * v)),
+            Phase::Rigid(_) => {}
+        }
     }
 
     /// Begins an episode unless one is under way.

@@ -1,29 +1,28 @@
 //! The state that a scheme carries, and what it shows of each step.
 
-use super::factor::mass_factor;
+use super::space::{Space, zero};
 use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
-use crate::scheme::grid::all_finite;
 use crate::step::{Contact, Path, Step};
 
-/// What a kernel reads and writes of each step; lent out as a [`Step`]. Vectors over degrees of freedom have n entries, those over walls as
+/// What a scheme reads and writes of each step; lent out as a [`Step`]. Vectors over degrees of freedom have n entries, those over walls as
 /// many as there are.
 #[derive(Debug)]
-pub(super) struct Frame {
+pub(super) struct Frame<S: Space> {
     pub start: f64,
     pub end: f64,
     /// The state: at the end of the last step, m and m/s.
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
+    pub q: S::Vector,
+    pub v: S::Vector,
     /// Velocities that enter and leave the momentum balance, m/s.
-    pub before: Vec<f64>,
-    pub after: Vec<f64>,
+    pub before: S::Vector,
+    pub after: S::Vector,
     /// Velocity that a wall answers, m/s: `before` and the blows of the step; good where there are blows.
-    pub struck: Vec<f64>,
+    pub struck: S::Vector,
     /// True if the step had a blow.
     pub blown: bool,
     /// The caller's extra force, N, as it enters the balance.
-    pub extra: Vec<f64>,
+    pub extra: S::Vector,
     /// Impulse (N s) and force (N) of each wall, signed.
     pub impulse: Vec<f64>,
     pub force: Vec<f64>,
@@ -34,27 +33,26 @@ pub(super) struct Frame {
     pub pushing: Vec<usize>,
 }
 
-impl Frame {
+impl<S: Space> Frame<S> {
     /// The start of `scene`, after any blow at t = 0.
     pub fn new(scene: &Scene) -> Result<Self> {
         let (n, walls) = (scene.initial.q.len(), scene.walls.len());
-        let mut v = scene.initial.v.clone();
-        let loads = Loads::new(&scene.loads);
-        let mut blow = vec![0.0; n];
-        if loads.initial_blow(&mut blow) {
-            mass_factor(&scene.system.structure())?.solve(&mut blow);
-            v.iter_mut().zip(&blow).for_each(|(v, change)| *v += change);
+        let mut v = S::vector(&scene.initial.v);
+        let mut blow = zero::<S>(n);
+        if Loads::new(&scene.loads).initial_blow(blow.as_mut()) {
+            S::solve(&mut S::mass(&scene.system.structure())?, &mut blow);
+            v.as_mut().iter_mut().zip(blow.as_ref()).for_each(|(v, change)| *v += change);
         }
         Ok(Self {
             start: 0.0,
             end: 0.0,
-            q: scene.initial.q.clone(),
+            q: S::vector(&scene.initial.q),
             before: v.clone(),
             after: v.clone(),
             struck: v.clone(),
             v,
             blown: false,
-            extra: vec![0.0; n],
+            extra: zero::<S>(n),
             impulse: vec![0.0; walls],
             force: vec![0.0; walls],
             jump: vec![0.0; walls],
@@ -66,15 +64,12 @@ impl Frame {
     /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each.
     pub fn restart(&mut self, time: f64, q: &[f64], v: &[f64]) {
         (self.start, self.end, self.blown) = (time, time, false);
-        self.q.copy_from_slice(q);
+        self.q.as_mut().copy_from_slice(q);
         for kept in [&mut self.v, &mut self.before, &mut self.after, &mut self.struck] {
-            kept.copy_from_slice(v);
+            kept.as_mut().copy_from_slice(v);
         }
-        self.extra.fill(0.0);
-        for wall in self.pushing.drain(..) {
-            self.impulse[wall] = 0.0;
-            self.force[wall] = 0.0;
-        }
+        self.extra.as_mut().fill(0.0);
+        self.let_go();
     }
 
     /// Begins a step of `h` seconds, number `step`: its times, and no wall touched yet.
@@ -82,10 +77,13 @@ impl Frame {
     pub fn begin(&mut self, step: u64, h: f64) {
         self.start = step as f64 * h;
         self.end = (step + 1) as f64 * h;
-        self.let_go();
+        if !self.pushing.is_empty() {
+            self.let_go();
+        }
     }
 
-    /// Forgets the walls of a step that is solved once more.
+    /// Forgets the walls of the last step, or of one that is solved once more. Out of line: most steps touch none.
+    #[inline(never)]
     pub fn let_go(&mut self) {
         for wall in self.pushing.drain(..) {
             self.impulse[wall] = 0.0;
@@ -103,35 +101,45 @@ impl Frame {
 
     /// Velocity that a wall answers, m/s.
     #[inline]
-    pub fn struck(&self) -> &[f64] {
+    pub fn struck(&self) -> &S::Vector {
         if self.blown { &self.struck } else { &self.before }
     }
 
     /// Refuses a state that is not finite.
     #[inline]
     pub fn check(&self, step: u64) -> Result<()> {
-        if all_finite(&self.q) && all_finite(&self.v) {
-            return Ok(());
-        }
-        let what = if all_finite(&self.q) { "velocity" } else { "displacement" };
-        Err(Error::NotFinite { time: self.end, step, what })
+        if all_finite(self.q.as_ref()) && all_finite(self.v.as_ref()) { Ok(()) } else { Err(self.refusal(step)) }
     }
 
+    #[cold]
+    fn refusal(&self, step: u64) -> Error {
+        let what = if all_finite(self.q.as_ref()) { "velocity" } else { "displacement" };
+        Error::NotFinite { time: self.end, step, what }
+    }
+
+    /// Step number `index`, with the contacts that it closed. Inlined, so that a caller pays for the fields it reads only.
+    #[inline(always)]
     pub fn step<'a>(&'a self, index: u64, closed: &'a [Contact]) -> Step<'a> {
         Step {
             index,
             start: self.start,
             end: self.end,
-            q: &self.q,
-            v: &self.v,
-            velocity_before: &self.before,
-            velocity_after: &self.after,
+            q: self.q.as_ref(),
+            v: self.v.as_ref(),
+            velocity_before: self.before.as_ref(),
+            velocity_after: self.after.as_ref(),
             impulse: &self.impulse,
             jump: &self.jump,
             force: &self.force,
-            extra: &self.extra,
+            extra: self.extra.as_ref(),
             closed,
             path: if self.one_restitution { Path::OneRestitution } else { Path::Grid },
         }
     }
+}
+
+/// True if every number is finite. Without a branch an entry, so that the compiler looks at several at once.
+#[inline]
+pub(super) fn all_finite(x: &[f64]) -> bool {
+    x.iter().fold(true, |all, x| all & x.is_finite())
 }

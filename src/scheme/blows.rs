@@ -1,0 +1,92 @@
+//! The blows of a scene as a step takes them: momentum, the velocity that it makes, and where it takes the structure within the step.
+
+use super::frame::Frame;
+use super::space::{Space, zero};
+use crate::error::Result;
+use crate::scene::{Loads, Scene, SharedStructure};
+
+/// The blows, and what those last looked for amount to. All out of line: most scenes have none.
+#[derive(Debug)]
+pub(super) struct Blows<S: Space> {
+    loads: Loads,
+    /// M.
+    inertia: S::Factor,
+    blow: S::Vector,
+    /// Where they take the displacement beside the rule of the step, m, and what they make of the velocity, m/s.
+    pub shift: S::Vector,
+    pub given: S::Vector,
+}
+
+impl<S: Space> Blows<S> {
+    /// Those of `scene`; none if it has none.
+    pub fn new(scene: &Scene, structure: &SharedStructure) -> Result<Option<Self>> {
+        let (loads, n) = (Loads::new(&scene.loads), structure.mass.size());
+        if !loads.has_blows() {
+            return Ok(None);
+        }
+        let [blow, shift, given] = [zero::<S>(n), zero::<S>(n), zero::<S>(n)];
+        Ok(Some(Self { loads, inertia: S::mass(structure)?, blow, shift, given }))
+    }
+
+    /// As [`Body::strike`](super::body::Body::strike).
+    #[inline(never)]
+    pub fn strike(&mut self, (from, to): (f64, f64), scale: f64, b: &mut S::Vector, frame: &mut Frame<S>) -> bool {
+        let any = self.loads.blow(from, to, self.blow.as_mut());
+        if any {
+            self.apply(scale, b, frame);
+        }
+        any
+    }
+
+    /// As [`Body::strike_about`](super::body::Body::strike_about), with the time at which the motion began.
+    #[inline(never)]
+    pub fn strike_about(
+        &mut self,
+        (since, step, h): (f64, u64, f64),
+        scale: f64,
+        b: &mut S::Vector,
+        frame: &mut Frame<S>,
+    ) -> bool {
+        let any = self.loads.blow_about_since(since, step, h, self.blow.as_mut());
+        if any {
+            self.apply(scale, b, frame);
+        }
+        any
+    }
+
+    fn apply(&mut self, scale: f64, b: &mut S::Vector, frame: &mut Frame<S>) {
+        let Self { blow, inertia, .. } = self;
+        b.as_mut().iter_mut().zip(blow.as_ref()).for_each(|(b, blow)| *b += scale * blow);
+        S::solve(inertia, blow);
+        let after = frame.before.as_ref().iter().zip(blow.as_ref()).map(|(v, change)| v + change);
+        frame.struck.as_mut().iter_mut().zip(after).for_each(|(struck, v)| *struck = v);
+    }
+
+    /// As [`Body::find_blows`](super::body::Body::find_blows).
+    #[inline(never)]
+    pub fn find(&mut self, spans: &[(f64, f64, f64)]) -> bool {
+        let Self { loads, inertia, blow, shift, given } = self;
+        let mut any = false;
+        shift.as_mut().fill(0.0);
+        given.as_mut().fill(0.0);
+        for &(from, to, about) in spans {
+            any |= loads.blow(from, to, blow.as_mut());
+            given.as_mut().iter_mut().zip(blow.as_ref()).for_each(|(sum, blow)| *sum += blow);
+            any |= loads.blow_moment(from, to, about, blow.as_mut());
+            shift.as_mut().iter_mut().zip(blow.as_ref()).for_each(|(sum, blow)| *sum += blow);
+        }
+        if any {
+            S::solve(inertia, shift);
+            S::solve(inertia, given);
+        }
+        any
+    }
+
+    /// Adds what the blows in (from, to] (s) make of the velocity to `v`.
+    pub fn kick(&mut self, from: f64, to: f64, v: &mut S::Vector) {
+        if self.loads.blow(from, to, self.blow.as_mut()) {
+            S::solve(&mut self.inertia, &mut self.blow);
+            v.as_mut().iter_mut().zip(self.blow.as_ref()).for_each(|(v, change)| *v += change);
+        }
+    }
+}

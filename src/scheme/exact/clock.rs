@@ -1,0 +1,71 @@
+//! When steps end beside events, and when a run is given up.
+
+use super::Barrier;
+use super::guard::{Counters, Guard, WINDOWS};
+use crate::error::{Error, Result};
+
+/// The marks at which steps end, multiples of a stride and the end of the scene, and the work done so far.
+#[derive(Debug, Clone)]
+pub(in crate::scheme) struct Clock {
+    /// The end of the scene, s.
+    pub duration: f64,
+    /// s.
+    pub stride: f64,
+    /// Multiples of the stride passed.
+    marks: u64,
+    guard: Guard,
+    /// The wall of the last event.
+    pub last_wall: Option<usize>,
+}
+
+impl Clock {
+    pub fn new(duration: f64, stride: f64) -> Self {
+        Self { duration, stride, marks: 0, guard: Guard::default(), last_wall: None }
+    }
+
+    /// Goes on from `time` (s); work counts on.
+    pub fn restart(&mut self, time: f64) {
+        // One that only rounding puts ahead is passed.
+        self.marks = (time / self.stride + 1e-9).floor() as u64;
+        self.last_wall = None;
+        self.guard.restart(time);
+    }
+
+    /// The next multiple of the stride, s; the end of the scene where only rounding would separate the two.
+    fn next_mark(&self) -> f64 {
+        let mark = (self.marks + 1) as f64 * self.stride;
+        if (self.duration - mark).abs() < 1e-9 * self.stride { self.duration } else { mark }
+    }
+
+    /// How far a step from `time` (s) can reach: to a mark, or to the end of the scene if it is still ahead; s.
+    pub fn limit(&self, time: f64) -> f64 {
+        let mark = self.next_mark();
+        if time < self.duration { mark.min(self.duration) } else { mark }
+    }
+
+    /// A step has ended at `time` (s).
+    pub fn pass(&mut self, time: f64) {
+        if time >= self.next_mark() {
+            self.marks += 1;
+        }
+    }
+
+    /// Work done so far.
+    pub fn total(&self) -> Counters {
+        self.guard.total
+    }
+
+    /// The same, to count on.
+    pub fn count(&mut self) -> &mut Counters {
+        &mut self.guard.total
+    }
+
+    /// # Errors
+    /// [`Error::TooManyEvents`], or evaluations, in the window that `time` (s) is in.
+    pub fn check(&mut self, time: f64, barriers: &[Barrier]) -> Result<()> {
+        let window = self.duration / WINDOWS;
+        let Some(count) = self.guard.exceeded(time, window) else { return Ok(()) };
+        let wall = self.last_wall.and_then(|i| barriers.get(i)).or(barriers.first());
+        Err(Error::TooManyEvents { time, wall: wall.map_or_else(String::new, |b| b.name.clone()), count, window })
+    }
+}

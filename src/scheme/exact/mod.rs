@@ -1,0 +1,36 @@
+//! What the exact schemes share, of one degree of freedom and of several: when steps end and when a run is given up, the walls and their
+//! phases, and what a step shows.
+
+mod barrier;
+mod clock;
+mod guard;
+mod shown;
+
+pub(super) use barrier::{Barrier, Phase, barriers};
+pub(super) use clock::Clock;
+pub use guard::{Counters, EVENTS_PER_WINDOW, WINDOWS};
+pub(super) use shown::Shown;
+
+use crate::error::{Error, Result, Subject};
+use crate::scene::{LoadKind, Scene};
+
+/// Mode changes that take no time, within one step: beyond them the step is handed over with no length, and the guard counts.
+pub(super) const CHANGES_AT_ONCE: usize = 16;
+
+/// What a sum of terms of this size may err by: four units in the last place.
+pub(crate) fn noise(size: f64) -> f64 {
+    4.0 * f64::EPSILON * size
+}
+
+/// Refuses a load under which the exact motion is not known.
+pub(super) fn known_loads(scene: &Scene) -> Result<()> {
+    match scene.loads.iter().position(|load| matches!(load.kind, LoadKind::Function(_))) {
+        Some(index) => Err(Error::invalid(
+            Subject::nth("load", index),
+            "a function of time",
+            "for the exact scheme, which has to know the motion in closed form: a constant, a sine, an impulse or a table (one of the \
+             function, with a stated error, is Table::sampled); or a stepping scheme",
+        )),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,75 @@
+//! What a step of the exact motion shows beside the state at its end.
+
+use super::super::space::{Space, zero};
+use crate::step::{Contact, Path, Step};
+
+/// The last step. Vectors over walls have an entry for each.
+#[derive(Debug, Clone)]
+pub(in crate::scheme) struct Shown<S: Space> {
+    pub start: f64,
+    /// Velocity at the start, m/s, from the right.
+    pub before: S::Vector,
+    /// The caller's extra force, N.
+    pub extra: S::Vector,
+    /// Impulse of each wall (N s, signed), its part in the instant at the end, and its force there (N, signed).
+    pub impulse: Vec<f64>,
+    pub jump: Vec<f64>,
+    pub force: Vec<f64>,
+    /// Contact episodes that the step closed.
+    pub closed: Vec<Contact>,
+}
+
+impl<S: Space> Shown<S> {
+    /// Nothing yet, at the velocity `v` (m/s); a step closes `contacts` episodes at most, or allocates.
+    pub fn new(v: &S::Vector, walls: usize, contacts: usize) -> Self {
+        Self {
+            start: 0.0,
+            before: v.clone(),
+            extra: zero::<S>(v.as_ref().len()),
+            impulse: vec![0.0; walls],
+            jump: vec![0.0; walls],
+            force: vec![0.0; walls],
+            closed: Vec::with_capacity(contacts),
+        }
+    }
+
+    /// Begins a step at `time` (s) with the velocity `v` (m/s).
+    pub fn begin(&mut self, time: f64, v: &S::Vector) {
+        self.closed.clear();
+        self.impulse.fill(0.0);
+        self.jump.fill(0.0);
+        self.start = time;
+        self.before.clone_from(v);
+    }
+
+    /// True if a wall has struck in the instant at the end.
+    pub fn jumped(&self) -> bool {
+        self.jump.iter().any(|&p| p != 0.0)
+    }
+
+    /// Adds what came in the instant at the end to the impulses.
+    pub fn add_jumps(&mut self) {
+        for (impulse, jump) in self.impulse.iter_mut().zip(&self.jump) {
+            *impulse += jump;
+        }
+    }
+
+    /// Step number `index`, which has ended at `end` (s) in the state `q` (m), `v` (m/s).
+    pub fn step<'a>(&'a self, index: u64, end: f64, (q, v): (&'a [f64], &'a [f64]), path: Path<'a>) -> Step<'a> {
+        Step {
+            index,
+            start: self.start,
+            end,
+            q,
+            v,
+            velocity_before: self.before.as_ref(),
+            velocity_after: v,
+            impulse: &self.impulse,
+            jump: &self.jump,
+            force: &self.force,
+            extra: self.extra.as_ref(),
+            closed: &self.closed,
+            path,
+        }
+    }
+}

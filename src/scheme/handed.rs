@@ -1,0 +1,13 @@
+//! What the exact scheme did not follow itself.
+
+/// A stretch that the exact scheme handed to moreau-jean: more impacts crowd there than it follows one by one.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct Handed {
+    /// From when, s.
+    pub from: f64,
+    /// Until when, s.
+    pub to: f64,
+    /// With which step at most, s.
+    pub step: f64,
+}

@@ -1,0 +1,150 @@
+//! One degree of freedom: numbers, and a clamp for every programme.
+//!
+//! Walls stand on the degree of freedom itself: behind a lever an oscillator is [`Matrices`](super::matrices::Matrices) of one row.
+
+use super::space::{Solve, Space, indefinite};
+use crate::error::Result;
+use crate::linear::Symmetric;
+use crate::qp::{self, Backend, Failure, Problem, Rhs, ScalarRow};
+use crate::scene::{Forcing, Load, Row, SharedStructure};
+
+/// Vectors of one number.
+#[derive(Debug, Clone)]
+pub(super) struct Line;
+
+impl Space for Line {
+    type Vector = [f64; 1];
+    type Operator = f64;
+    type Factor = f64;
+    type Rows = ();
+    type Forces = Forcing;
+    type Solver = Clamp;
+
+    fn vector(values: &[f64]) -> [f64; 1] {
+        [values.first().copied().unwrap_or(0.0)]
+    }
+
+    fn operator(a: &Symmetric) -> f64 {
+        a.get(0, 0)
+    }
+
+    fn factor(a: &Symmetric) -> Result<f64> {
+        let a = a.get(0, 0);
+        if a > 0.0 { Ok(a) } else { Err(indefinite(a)) }
+    }
+
+    fn mass(structure: &SharedStructure) -> Result<f64> {
+        Self::factor(&structure.mass)
+    }
+
+    fn rows<'a>(_: usize, _: impl Iterator<Item = &'a Row>) {}
+
+    fn forces(loads: &[Load]) -> Forcing {
+        Forcing::on(0, loads)
+    }
+
+    #[inline]
+    fn add_product(a: &f64, scale: f64, x: &[f64; 1], out: &mut [f64; 1]) {
+        out[0] += scale * a * x[0];
+    }
+
+    #[inline]
+    fn solve(a: &mut f64, x: &mut [f64; 1]) {
+        x[0] /= *a;
+    }
+
+    #[inline]
+    fn dot((): &(), _: usize, x: &[f64; 1]) -> f64 {
+        x[0]
+    }
+
+    #[inline]
+    fn add_transposed((): &(), _: usize, force: f64, out: &mut [f64; 1]) {
+        out[0] += force;
+    }
+
+    #[inline]
+    fn force(forces: &Forcing, time: f64, out: &mut [f64; 1]) {
+        out[0] = forces.force(time);
+    }
+}
+
+/// The programme in one unknown: the clamp, or the solver that was asked for in its place.
+#[derive(Debug)]
+pub(super) struct Clamp {
+    a: f64,
+    x: [f64; 1],
+    rows: Vec<ScalarRow>,
+    multiplier: Vec<f64>,
+    /// True if the minimiser is not the free one.
+    met: bool,
+    other: Option<Box<qp::Solver>>,
+    solves: u64,
+}
+
+impl Solve<[f64; 1]> for Clamp {
+    fn new(problem: Problem, backend: Backend, scale: f64) -> std::result::Result<Self, Failure> {
+        let row = |&compliance: &f64| ScalarRow { lo: f64::NEG_INFINITY, hi: f64::INFINITY, compliance };
+        let rows: Vec<_> = problem.compliance.iter().map(row).collect();
+        let (a, multiplier) = (problem.a.get(0, 0), vec![0.0; rows.len()]);
+        let other = match backend {
+            Backend::Auto | Backend::Clamp => None,
+            Backend::Condensed | Backend::Clarabel => Some(Box::new(qp::Solver::new(problem, backend, scale)?)),
+        };
+        Ok(Self { a, x: [0.0], rows, multiplier, met: false, other, solves: 0 })
+    }
+
+    #[inline]
+    fn solve(&mut self, b: &[f64; 1], lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
+        let free = b[0] / self.a;
+        self.x[0] = free;
+        // A free motion that is no number is for the state's check to refuse.
+        self.met = lo.iter().zip(hi).any(|(&lo, &hi)| free < lo || free > hi);
+        if self.met { self.meet(b[0], lo, hi) } else { Ok(()) }
+    }
+
+    #[inline]
+    fn release(&mut self, b: &[f64; 1], _: &[f64], _: &[f64]) -> std::result::Result<(), Failure> {
+        self.x[0] = b[0] / self.a;
+        self.met = false;
+        Ok(())
+    }
+
+    #[inline]
+    fn x(&self) -> &[f64; 1] {
+        &self.x
+    }
+
+    #[inline]
+    fn multiplier(&self) -> Option<&[f64]> {
+        self.met.then_some(&self.multiplier)
+    }
+
+    fn backend(&self) -> Backend {
+        self.other.as_ref().map_or(Backend::Clamp, |other| other.backend())
+    }
+
+    fn counters(&self) -> qp::Counters {
+        let inner = self.other.as_ref().map(|other| other.counters()).unwrap_or_default();
+        qp::Counters { solves: self.solves, free: 0, ..inner }
+    }
+}
+
+impl Clamp {
+    /// A programme whose free motion passes a bound. Out of line: most do not.
+    #[inline(never)]
+    fn meet(&mut self, b: f64, lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
+        self.solves += 1;
+        if let Some(other) = &mut self.other {
+            let solution = other.solve(&Rhs { b: &[b], lo, hi })?;
+            self.x.copy_from_slice(&solution.x);
+            self.multiplier.copy_from_slice(&solution.multiplier);
+            return Ok(());
+        }
+        for ((row, &lo), &hi) in self.rows.iter_mut().zip(lo).zip(hi) {
+            (row.lo, row.hi) = (lo, hi);
+        }
+        self.x[0] = qp::clamp(self.a, b, &self.rows, &mut self.multiplier)?;
+        Ok(())
+    }
+}

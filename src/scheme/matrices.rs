@@ -1,0 +1,109 @@
+//! Several degrees of freedom: vectors, matrices and their factors, and programmes condensed onto the walls.
+
+use super::space::{Solve, Space, indefinite};
+use crate::error::Result;
+use crate::linear::{Factor, Operator, Rows, Symmetric};
+use crate::qp::{self, Backend, Failure, Problem, Rhs};
+use crate::scene::{Load, Loads, Row, SharedStructure};
+
+/// Vectors of n numbers.
+#[derive(Debug, Clone)]
+pub(super) struct Matrices;
+
+impl Space for Matrices {
+    type Vector = Vec<f64>;
+    type Operator = Operator;
+    type Factor = Factor;
+    type Rows = Rows;
+    type Forces = Loads;
+    type Solver = qp::Solver;
+
+    fn vector(values: &[f64]) -> Vec<f64> {
+        values.to_vec()
+    }
+
+    fn operator(a: &Symmetric) -> Operator {
+        Operator::new(a)
+    }
+
+    fn factor(a: &Symmetric) -> Result<Factor> {
+        Factor::new(a).map_err(indefinite)
+    }
+
+    fn mass(structure: &SharedStructure) -> Result<Factor> {
+        structure.mass_factor().map_err(indefinite)
+    }
+
+    fn rows<'a>(n: usize, rows: impl Iterator<Item = &'a Row>) -> Rows {
+        Rows::new(n, rows.map(Row::entries))
+    }
+
+    fn forces(loads: &[Load]) -> Loads {
+        Loads::new(loads)
+    }
+
+    #[inline]
+    fn add_product(a: &Operator, scale: f64, x: &Vec<f64>, out: &mut Vec<f64>) {
+        a.add_product(scale, x, out);
+    }
+
+    #[inline]
+    fn solve(a: &mut Factor, x: &mut Vec<f64>) {
+        a.solve(x);
+    }
+
+    #[inline]
+    fn dot(rows: &Rows, i: usize, x: &Vec<f64>) -> f64 {
+        rows.dot(i, x)
+    }
+
+    #[inline]
+    fn add_transposed(rows: &Rows, i: usize, force: f64, out: &mut Vec<f64>) {
+        rows.add_transposed(i, force, out);
+    }
+
+    #[inline]
+    fn force(forces: &Loads, time: f64, out: &mut Vec<f64>) {
+        // All others are 0 since the beginning.
+        for &(i, _) in forces.parts().iter().flat_map(|(row, _)| row.entries()) {
+            if let Some(force) = out.get_mut(i) {
+                *force = 0.0;
+            }
+        }
+        forces.add_force(time, 1.0, out);
+    }
+}
+
+impl Solve<Vec<f64>> for qp::Solver {
+    fn new(problem: Problem, backend: Backend, scale: f64) -> std::result::Result<Self, Failure> {
+        Self::new(problem, backend, scale)
+    }
+
+    #[inline]
+    fn solve(&mut self, b: &Vec<f64>, lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
+        self.solve(&Rhs { b, lo, hi }).map(|_| ())
+    }
+
+    #[inline]
+    fn release(&mut self, b: &Vec<f64>, lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
+        self.solve(&Rhs { b, lo, hi }).map(|_| ())
+    }
+
+    #[inline]
+    fn x(&self) -> &Vec<f64> {
+        &self.solution().x
+    }
+
+    #[inline]
+    fn multiplier(&self) -> Option<&[f64]> {
+        Some(&self.solution().multiplier)
+    }
+
+    fn backend(&self) -> Backend {
+        self.backend()
+    }
+
+    fn counters(&self) -> qp::Counters {
+        self.counters()
+    }
+}

@@ -1,0 +1,149 @@
+//! What the staggered schemes share, which carry the velocity half a step behind the displacement: its start, where they count blows and
+//! extra forces, and the velocity that they report at t⁺, from v₊ at t⁺ − ½h.
+//!
+//! Half a step under the smooth force, v⁺ = v₊ + δ, is the minimiser of
+//!
+//! ½ δᵀ(M + ½hC)δ − ½h(f⁺ − K q⁺ − C v₊ + Gᵀ r⁺)ᵀδ   subject to   G δ ≥ 0 (lower), ≤ 0 (upper)
+//!
+//! over the rigid walls that q⁺ touches: the structure is not accelerated further into them. At an elastic wall too stiff for the step v₊ is all that
+//! is known: there G δ = 0. A blow since t⁺ − ½h is not in v₊ yet, and is added.
+
+use super::body::Body;
+use super::frame::Frame;
+use super::programme::{Programme, Seat};
+use super::space::{Space, zero};
+use crate::error::Result;
+use crate::linear::Symmetric;
+use crate::qp::Backend;
+use crate::scene::Scene;
+
+/// What carries a staggered scheme from one step to the next, and ends its steps.
+#[derive(Debug)]
+pub(super) struct Staggered<S: Space> {
+    /// v₋ = (q − q⁻)/h, m/s.
+    pub v: S::Vector,
+    /// The caller's extra force in the last step, N; 0 before the first.
+    extra: S::Vector,
+    programme: Programme<S>,
+    /// M + ½hC.
+    half_step: S::Factor,
+    /// Mass that each wall feels, kg.
+    masses: Vec<f64>,
+    b: S::Vector,
+    held: Vec<f64>,
+    holding: Vec<usize>,
+}
+
+impl<S: Space> Staggered<S> {
+    pub fn new(scene: &Scene, body: &Body<S>) -> Result<Self> {
+        let m = &body.matrices;
+        let a = Symmetric::sum(&[(1.0, &m.mass), (0.5 * body.h, &m.damping)]);
+        let half_step = S::factor(&a)?;
+        let programme = Programme::new(scene, a, scene.gap_scale() / body.h, |_, _| 0.0, Backend::Auto)?;
+        let (n, walls) = (body.n, body.walls.len());
+        Ok(Self {
+            v: zero::<S>(n),
+            extra: zero::<S>(n),
+            programme,
+            half_step,
+            masses: scene.wall_masses(),
+            b: zero::<S>(n),
+            held: vec![0.0; walls],
+            holding: Vec::with_capacity(walls),
+        })
+    }
+
+    /// Starts from the velocity `v` (m/s) under the force `force` (N), walls included: v₋ = v − ½h a, with the damping that a contains
+    /// divided as an implicit half step would, (M + ½hC)a = F: h² apart, and a heavy damper does not throw v₋.
+    pub fn restart(&mut self, h: f64, v: &S::Vector, force: &S::Vector) {
+        self.b.clone_from(force);
+        S::solve(&mut self.half_step, &mut self.b);
+        for ((back, v), a) in self.v.as_mut().iter_mut().zip(v.as_ref()).zip(self.b.as_ref()) {
+            *back = v - 0.5 * h * a;
+        }
+        self.extra.as_mut().fill(0.0);
+        for wall in self.holding.drain(..) {
+            self.held[wall] = 0.0;
+        }
+    }
+
+    /// Begins step number `step`: the frame's extra force, constant over the step, becomes that over t ± ½h, and v₋ the velocity before. At
+    /// t = 0 the first half acts before the start, on nothing: v₋ is extrapolated without it.
+    #[inline]
+    pub fn begin(&mut self, step: u64, h: f64, frame: &mut Frame<S>) {
+        frame.begin(step, h);
+        for (last, felt) in self.extra.as_mut().iter_mut().zip(frame.extra.as_mut()) {
+            let extra = *felt;
+            *felt = 0.5 * (*last + extra);
+            *last = extra;
+        }
+        frame.before.clone_from(&self.v);
+    }
+
+    /// Ends step number `step`, which has moved the frame's displacement with the velocity `self.v` = v₊: shows that, moves the loads on and
+    /// writes the velocity at the end, under the caller's extra force and after the blows since.
+    pub fn finish(&mut self, body: &mut Body<S>, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        let h = body.h;
+        frame.after.clone_from(&self.v);
+        // The blows come half a step about the instants in the momentum balance, which counts each from one of them.
+        let (start, middle, end) = (step as f64 * h, (step as f64 + 0.5) * h, (step + 1) as f64 * h);
+        body.land(&[(start, middle, start), (middle, end, end)], frame);
+        body.load_at(frame.end);
+        self.arrive(body, (step, frame.end), frame)?;
+        if let Some(blows) = &mut body.blows {
+            blows.kick(middle, frame.end, &mut frame.v);
+        }
+        Ok(())
+    }
+
+    /// Writes v⁺ at the frame's displacement.
+    fn arrive(&mut self, body: &Body<S>, (step, time): (u64, f64), frame: &mut Frame<S>) -> Result<()> {
+        let Self { programme, masses, b, held, holding, v: v_half, extra, .. } = self;
+        let (h, q) = (body.h, &frame.q);
+        for (b, (load, extra)) in b.as_mut().iter_mut().zip(body.load.as_ref().iter().zip(extra.as_ref())) {
+            *b = 0.5 * h * (load + extra);
+        }
+        S::add_product(&body.stiffness, -0.5 * h, q, b);
+        S::add_product(&body.damping, -0.5 * h, v_half, b);
+        programme.free();
+        for row in 0..programme.count_rows() {
+            let w = programme.seen(row, q);
+            if programme.is_clear(row, w) {
+                continue;
+            }
+            for seat in programme.seats(row) {
+                let Seat { wall: index, stop: wall } = programme.seat(seat);
+                let depth = wall.depth(w);
+                if depth < -body.touch {
+                    continue;
+                }
+                if wall.law.is_rigid() {
+                    programme.bind(row, seat, 0.0);
+                } else if h * h * wall.law.tangent(depth) > masses[index] {
+                    programme.hold(row);
+                } else {
+                    let rate = programme.seen(row, v_half);
+                    let force = wall.sign * wall.law.pressure(depth, -wall.sign * rate);
+                    S::add_transposed(&body.rows, index, 0.5 * h * force, b);
+                }
+            }
+        }
+        for wall in holding.drain(..) {
+            held[wall] = 0.0;
+        }
+        programme.solve(b, (time, step), held, holding)?;
+        let change = programme.x().as_ref();
+        for ((v, v_half), d) in frame.v.as_mut().iter_mut().zip(v_half.as_ref()).zip(change) {
+            *v = v_half + d;
+        }
+        Ok(())
+    }
+}
+
+/// The blows that the momentum balance of step number `step` counts as at its start, and that instant: (from, to, t), s.
+#[inline]
+pub(super) fn counted_blows(step: u64, h: f64) -> (f64, f64, f64) {
+    // The edges of `Forcing::impulse_about`.
+    let edge = |half_steps: f64| (half_steps * h).max(0.0);
+    (edge(step as f64 - 0.5), edge(step as f64 + 0.5), step as f64 * h)
+}
