@@ -1,20 +1,24 @@
 //! The programme on its rows, solved exactly from a guess of the rows in play.
 //!
-//! Find r with lᵢ ≤ yᵢ ≤ uᵢ, y = y_free + W r, and rᵢ of the sign of the bound it stands on. A dual active set (Goldfarb
-//! and Idnani 1983, doi:10.1007/BF02591962) written on W: the multipliers always have their sign, each pivot raises the
-//! dual objective, so no set returns and the method ends for any positive semidefinite W — also where several rows see
-//! the same motion (duplicate walls): a row that depends on those in play is left out if they already satisfy it,
-//! exchanged for one of them if not, and reported as infeasible if none can give way. One row at a time, and W in full: where there
-//! are more rows than the motion has freedoms (see [`super::crowd`]), and the last resort behind [`super::pivoting`], for rows so nearly
-//! dependent that rounding decides its signs.
+//! Find r with lᵢ ≤ yᵢ ≤ uᵢ, y = y_free + W r, and rᵢ of the sign of the bound that row i stands
+//! on. This is a dual active-set method (Goldfarb and Idnani 1983, doi:10.1007/BF02591962) written
+//! on W: the multipliers always have the right sign and each pivot raises the dual objective, so no
+//! active set occurs twice and the method ends for any positive semidefinite W. That includes rows
+//! that see the same motion (duplicate walls): a row that depends on those in play is left out if
+//! they already satisfy it, exchanged for one of them if not, and reported as infeasible if none
+//! can be dropped for it. It changes one row at a time and stores the factor of W in full. It
+//! serves where there are more rows than the motion has degrees of freedom (see [`super::crowd`]),
+//! and as the last resort after [`super::pivoting`], for rows so nearly dependent that rounding
+//! decides the signs there.
 
 use super::delassus::Delassus;
 use super::pivoting::Side;
 use super::sums::dot;
 use super::{Failure, NOISE, ROUNDING, ULPS};
 
-/// Pivot of the factor, relative to Wᵢᵢ, under which a row is taken to depend on those before it (dimensionless; the
-/// pivot is sin² of the angle between them, so this is an angle of 1e-6, and 1e4 times its rounding error).
+/// A pivot of the factor below this share of Wᵢᵢ means that the row depends on those before it
+/// (dimensionless; the pivot is sin² of the angle between them, so this is an angle of 1e-6, and
+/// 1e4 times its rounding error).
 const DEPENDENT: f64 = 1e-12;
 
 /// The rows in play, the factor of W on them, and work space for all m rows.
@@ -24,7 +28,7 @@ pub(super) struct ActiveSet {
     sides: Vec<Side>,
     /// Lower Cholesky factor of W on `rows`, row by row with stride m.
     factor: Vec<f64>,
-    /// Forces of `rows`, and the change of them per unit of force on an entering row.
+    /// Forces of `rows`, and their change per unit of force on an entering row.
     force: Vec<f64>,
     change: Vec<f64>,
     /// y of all rows under these forces.
@@ -44,12 +48,13 @@ impl ActiveSet {
         }
     }
 
-    /// Rows in play, in no order.
+    /// Rows in play, in no particular order.
     pub(super) fn rows(&self) -> impl Iterator<Item = (usize, Side)> {
         self.rows.iter().copied().zip(self.sides.iter().copied())
     }
 
-    /// Calls a row in play; one that depends on those already there stays out. W is positive on what is in play.
+    /// Puts a row in play, unless it depends on those already there: W restricted to the rows in
+    /// play stays positive definite.
     pub(super) fn push(&mut self, system: &Delassus, row: usize, side: Side) {
         if self.rows.len() < self.m && !self.rows.contains(&row) && self.extend_factor(system, self.rows.len(), row) {
             self.rows.push(row);
@@ -57,8 +62,9 @@ impl ActiveSet {
         }
     }
 
-    /// Starts from the rows in play and ends with the exact r (m entries). `scale` is the length that signs of gaps are
-    /// tested against, or the row's free motion where that is larger. Fails after `limit` pivots. Returns their number.
+    /// Starts from the rows in play and ends with the exact r (m entries). Signs of gaps are tested
+    /// relative to `scale`, or to the row's free motion where that is larger. Fails after `limit`
+    /// pivots. Returns their number.
     pub(super) fn solve(
         &mut self,
         system: &Delassus,
@@ -70,9 +76,10 @@ impl ActiveSet {
     ) -> Result<u64, Failure> {
         let bounds = |row: usize| super::clamp::meet(lo[row], hi[row]);
         let mut pivots = 0;
-        // A bound of the guess may be none of this programme.
+        // A bound of the last active set may be infinite in this programme.
         self.keep(system, |row, side, _| (if side == Side::Lower { lo[row] } else { hi[row] }).is_finite());
-        // A guess is a valid start once no force has the wrong sign; each round removes a row, so this ends.
+        // The start is valid once no force has the wrong sign; each round removes a row, so this
+        // ends.
         loop {
             self.balance(system, bounds);
             let before = self.rows.len();
@@ -90,7 +97,7 @@ impl ActiveSet {
             let Some((row, side)) = self.worst(system, bounds, scale, r) else { return Ok(pivots) };
             self.enter(system, bounds, row, side, r, &mut pivots, limit)?;
             self.balance(system, bounds);
-            // Only rounding gives a wrong sign here: a force that is zero. It is made so.
+            // Only rounding gives a wrong sign here, to a force that is zero: set it to 0.
             for (force, side) in self.force.iter_mut().zip(&self.sides) {
                 if side.sign() * *force < 0.0 {
                     *force = 0.0;
@@ -99,7 +106,8 @@ impl ActiveSet {
         }
     }
 
-    /// The row, not in play, whose bound is violated most in units of √Wᵢᵢ, if one is by more than rounding.
+    /// The row not in play with the largest violation in units of √Wᵢᵢ, if any is violated by more
+    /// than rounding.
     fn worst(
         &mut self,
         system: &Delassus,
@@ -128,8 +136,8 @@ impl ActiveSet {
         worst.1
     }
 
-    /// Rounding of a row's motion: each row in play stands where it should within ulps of the largest motion, `reach` √Wᵢᵢ, that a force
-    /// causes at its own row.
+    /// Rounding error of the motion of `row`: each row in play stands on its bound to within some
+    /// ulps of the largest motion that a force causes at its own row, `reach` √Wᵢᵢ for row i.
     fn rounding(&mut self, system: &Delassus, row: usize, reach: f64) -> f64 {
         for (change, &j) in self.change.iter_mut().zip(&self.rows) {
             *change = system.entry(j, row);
@@ -171,7 +179,8 @@ impl ActiveSet {
                     blocking = (self.force[i].abs() / -rate, Some(i));
                 }
             }
-            // Push that brings the row onto its bound: its violation over the Schur complement of W.
+            // Push that brings the row onto its bound: its violation over the Schur complement of
+            // W.
             let full = if independent {
                 let y =
                     self.rows.iter().zip(&self.force).fold(system.y[row], |y, (&j, f)| y + system.entry(row, j) * f)
@@ -218,7 +227,7 @@ impl ActiveSet {
         }
     }
 
-    /// The row in play that resists an impossible push most.
+    /// The row in play whose reaction to an impossible push is largest.
     fn strongest(&self, system: &Delassus) -> Option<usize> {
         let resistance = |i: usize| self.change[i].abs() * system.weight[self.rows[i]];
         (0..self.rows.len())
@@ -261,7 +270,8 @@ impl ActiveSet {
         }
     }
 
-    /// Row k of the Cholesky factor, for `row` behind the first k rows in play. False where it depends on them.
+    /// Computes row k of the Cholesky factor, for `row` behind the first k rows in play. False
+    /// where it depends on them.
     fn extend_factor(&mut self, system: &Delassus, k: usize, row: usize) -> bool {
         let m = self.m;
         let (done, line) = self.factor.split_at_mut(k * m);
@@ -272,7 +282,7 @@ impl ActiveSet {
             pivot -= line[j] * line[j];
         }
         let independent = pivot > DEPENDENT * system.entry(row, row);
-        // Kept positive so that a refactored row divides by a number whatever rounding did.
+        // Kept positive so that nothing is ever divided by zero, whatever rounding did.
         line[k] = pivot.max(f64::MIN_POSITIVE).sqrt();
         independent
     }

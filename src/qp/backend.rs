@@ -4,7 +4,7 @@ use crate::error::Error;
 use std::fmt;
 use std::str::FromStr;
 
-/// Who solves the programme.
+/// The solver of the programme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Backend {
@@ -15,7 +15,7 @@ pub enum Backend {
     Clamp,
     /// Block principal pivoting on the Delassus operator: exact, warm-started.
     Condensed,
-    /// The interior-point solver Clarabel, polished to rounding.
+    /// The interior-point solver Clarabel, whose active set is then solved for exactly.
     Clarabel,
 }
 

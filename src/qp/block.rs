@@ -1,30 +1,36 @@
-//! The rows in play: W on them factored, and the forces that put each on its bound.
+//! The Delassus operator W restricted to the rows in play, factored, and the forces that put each
+//! of them on its bound.
 //!
-//! With S the rows in play in increasing order, W_SS = L D Lᵀ row by row within its envelope (George and Liu 1981, Computer Solution of
-//! Large Sparse Positive Definite Systems, ch. 4): row k of L begins where row k of W_SS does. A change of S keeps all rows before the
-//! first one changed. A row k that depends on rows before it, NᵀW N ≤ 1e-12 NᵀD N with N = eₖ − Σ cⱼ eⱼ and D = diag(Wᵢᵢ), stays out
-//! of L (see [`super::relations`]). Where a dependent row has large cⱼ — neighbouring walls on a smooth motion — the order of rows is a bad
-//! one, and S is factored again with the largest pivot first.
+//! With S the rows in play in increasing order, W_SS = L D Lᵀ row by row within its envelope
+//! (George and Liu 1981, Computer Solution of Large Sparse Positive Definite Systems, ch. 4): row k
+//! of L begins where row k of W_SS does. When S changes, the lines of all rows before the first
+//! change are kept. A row k that depends on rows before it, NᵀW N ≤ 1e-12 NᵀD N with N = eₖ − Σ cⱼ
+//! eⱼ and D = diag(Wᵢᵢ), stays out of L (see [`super::relations`]). Where a dependent row has large
+//! cⱼ (neighbouring walls on a smooth motion), the increasing order amplifies rounding, and S is
+//! factored again with the largest pivot first.
 
 use super::ULPS;
 use super::delassus::Delassus;
 use super::relations::{Relations, SPREAD};
 use super::sums::dot;
 
-/// NᵀW N over NᵀD N below which rows are dependent (dimensionless, the square of an angle: 1e-6, and 1e4 times its rounding error).
+/// Rows with NᵀW N over NᵀD N below this are dependent (dimensionless, the square of an angle:
+/// 1e-6, and 1e4 times its rounding error).
 const DEPENDENT: f64 = 1e-12;
 
-/// A pivot below this share of Wₖₖ has the quotient above computed. Rounding in a pivot is 1e-16 over the least pivot accepted.
+/// Only for a pivot below this share of Wₖₖ is the quotient above computed. The rounding error of a
+/// pivot is 1e-16 over the least pivot accepted.
 const SUSPICIOUS: f64 = 1e-3;
 
-/// NᵀD N over Wₖₖ from which the order of rows is a bad one: rounding of a dependent row's combination is 1e-16 of it.
+/// With NᵀD N over Wₖₖ above this, S is factored again in another order: the rounding error of a
+/// dependent row's combination is 1e-16 of NᵀD N.
 const SPREAD_OUT: f64 = 1e3;
 
 /// W on the rows in play.
 pub(super) struct Block {
     /// Rows in play, increasing.
     rows: Vec<usize>,
-    /// Those of them in the factor, in its order.
+    /// The independent ones, which make up the factor, in its order.
     basis: Vec<usize>,
     /// L below its unit diagonal, row after row; row k begins at `starts[k]` with column `from[k]`.
     lower: Vec<f64>,
@@ -35,19 +41,20 @@ pub(super) struct Block {
     /// True while the factor is in the order of rows.
     ordered: bool,
     relations: Relations,
-    /// Rows of which none depends on the others, of all m; as many as m where no set of rows can depend on one another.
+    /// Number of linearly independent rows among all m; m where no set of rows can be dependent.
     rank: usize,
     /// m.
     count: usize,
     /// Forces of the basis, or a combination.
     work: Vec<f64>,
-    /// L D of all rows in play, and what is left of their Wᵢᵢ, while the largest pivot is sought.
+    /// Work space of the factorisation with pivoting: L D of all rows in play, and the remainder of
+    /// each Wᵢᵢ.
     panel: Vec<f64>,
     left: Vec<f64>,
 }
 
 impl Block {
-    /// No row in play, and room for all of them.
+    /// No row in play, with room for all of them.
     pub(super) fn new(system: &Delassus) -> Self {
         let m = system.count();
         let room = (0..m).map(|i| i - system.row(i).0.min(i)).sum();
@@ -67,7 +74,8 @@ impl Block {
             left: Vec::new(),
         };
         block.starts.push(0);
-        // All rows at once show whether any may ever depend on others; room for those is made here, not in a step.
+        // Putting all rows in play shows whether any can be dependent; room for those is made here,
+        // not in a step.
         let well = (0..m).fold(true, |well, row| {
             block.rows.push(row);
             block.extend(system, row) & well
@@ -91,23 +99,24 @@ impl Block {
         &self.rows
     }
 
-    /// True if some rows, in play or not, depend on one another.
+    /// True if some rows, in play or not, are linearly dependent.
     pub(super) fn singular(&self) -> bool {
         self.rank < self.count
     }
 
-    /// How many rows can be independent of one another, of all there are.
+    /// Number of linearly independent rows among all rows.
     pub(super) fn rank(&self) -> usize {
         self.rank
     }
 
-    /// What grows without limit as δ → 0: rows that cannot be met together, if the programme was solved with them.
+    /// The forces that grow without limit as δ → 0: their rows cannot be met together. `None` if
+    /// there are none.
     #[inline]
     pub(super) fn escape(&self) -> Option<&[f64]> {
         self.relations.escape()
     }
 
-    /// Puts `rows`, increasing, in play instead of those that were.
+    /// Makes `rows`, in increasing order, the rows in play.
     pub(super) fn set(&mut self, system: &Delassus, rows: &[usize]) {
         let same = self.rows.iter().zip(rows).take_while(|(a, b)| a == b).count();
         if same == self.rows.len() && same == rows.len() {
@@ -145,7 +154,8 @@ impl Block {
         self.ordered = true;
     }
 
-    /// Appends a row to the factor, or to the rows that depend on it; false if it does in a way that rounding spoils.
+    /// Appends a row to the factor, or to the dependent rows. False if its combination is so large
+    /// that the order must change.
     fn extend(&mut self, system: &Delassus, row: usize) -> bool {
         let own = system.own(row);
         let (from, pivot) = self.eliminate(system, row);
@@ -162,7 +172,7 @@ impl Block {
         true
     }
 
-    /// Appends the line of L of one more row to `lower`; returns its first column and the pivot.
+    /// Appends the line of L for one more row to `lower`; returns its first column and the pivot.
     fn eliminate(&mut self, system: &Delassus, row: usize) -> (usize, f64) {
         let (first, w) = system.row(row);
         let (k, at) = (self.basis.len(), self.lower.len());
@@ -191,12 +201,13 @@ impl Block {
     fn admit(&mut self, row: usize, from: usize, pivot: f64) {
         self.basis.push(row);
         self.from.push(from);
-        // Positive whatever rounding did, so that nothing is divided by zero.
+        // Kept positive, whatever rounding did, so that nothing is divided by zero.
         self.inverse.push(1.0 / pivot.max(f64::MIN_POSITIVE));
         self.starts.push(self.lower.len());
     }
 
-    /// c, left in `work`, of the row whose line stands last in `lower` and begins at column `from`.
+    /// Computes into `work` the combination c of the row whose line stands last in `lower` and
+    /// begins at column `from`.
     fn combine(&mut self, from: usize) {
         self.work.clear();
         self.work.resize(from, 0.0);
@@ -209,8 +220,8 @@ impl Block {
         self.work.iter().zip(&self.basis).fold(system.square(row), |sum, (c, &j)| sum + c * c * system.square(j))
     }
 
-    /// Factors the rows in play again, each time the one with the largest share of its Wᵢᵢ left (Higham 2002, Accuracy and Stability of
-    /// Numerical Algorithms, §10.3).
+    /// Factors the rows in play again, taking at each stage the row with the largest remaining
+    /// share of its Wᵢᵢ (Higham 2002, Accuracy and Stability of Numerical Algorithms, §10.3).
     fn reorder(&mut self, system: &Delassus) {
         let rows = std::mem::take(&mut self.rows);
         let (mut panel, mut left) = (std::mem::take(&mut self.panel), std::mem::take(&mut self.left));
@@ -226,7 +237,7 @@ impl Block {
             if share(p).is_nan() || share(p) <= DEPENDENT {
                 break;
             }
-            // Column by column: entry i of column q is L D of row i there.
+            // `panel` is stored by columns: entry i of column q is L D of row i there.
             let (rank, pivot) = (self.basis.len(), left[p]);
             let line = |q: usize| panel[q * count + p] * self.inverse[q];
             self.lower.extend((0..rank).map(line));
@@ -256,9 +267,10 @@ impl Block {
         (self.rows, self.panel, self.left) = (rows, panel, left);
     }
 
-    /// Forces r of the rows in play that move each of them by `shift(row)` (entries of other rows are left alone), and the escape where
-    /// that cannot be. What dependent rows may miss for rounding, of states and bounds, is `slack(row)`, and of forces `ulps` of what
-    /// the largest moves.
+    /// Writes to `r` the forces that move each row in play by `shift(row)` (entries of other rows
+    /// are not touched), and sets the escape where no forces can. A dependent row counts as met if
+    /// it misses by no more than rounding: `slack(row)` for states and bounds, and `ulps` of the
+    /// motion that the largest force causes.
     pub(super) fn forces(
         &mut self,
         system: &Delassus,
@@ -287,8 +299,9 @@ impl Block {
         }
     }
 
-    /// Rounding of the motion of a row that is not in play, the largest force moving its own row by `reach` √Wᵢᵢ: each row in play stands
-    /// where it should within ulps of that, and c tells what comes of it here.
+    /// Rounding error of the motion of a row that is not in play, where the largest force moves its
+    /// own row by `reach` √Wᵢᵢ: each row in play stands where it should to within ulps of that, and
+    /// the combination c passes those errors on to this row.
     pub(super) fn rounding(&mut self, system: &Delassus, row: usize, reach: f64) -> f64 {
         let (from, _) = self.eliminate(system, row);
         self.combine(from);
@@ -298,8 +311,9 @@ impl Block {
         ULPS * reach * all
     }
 
-    /// Motion, per δ, of a row that is not in play if it depends on those in play and would be met with them, its bound being `gap` away:
-    /// they yield by δ D r, and it with them. `None` for other rows, and for a motion of 0.
+    /// Motion per δ of a row that is not in play, depends on those in play, and would be met
+    /// together with them, its bound being `gap` away: the rows in play yield by δ D r, and this
+    /// row moves with them. `None` for other rows, and where the motion is 0.
     pub(super) fn yielding(
         &mut self,
         system: &Delassus,

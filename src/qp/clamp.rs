@@ -1,6 +1,6 @@
 //! One unknown: the programme is a monotone, piecewise linear scalar equation, solved exactly.
 //!
-//! a x = b + Σ rᵢ(x),   rᵢ(x) = (lᵢ − x)/cᵢ below lᵢ, (uᵢ − x)/cᵢ above uᵢ, 0 between (elastic rows),
+//! a x = b + Σ rᵢ(x), rᵢ(x) = (lᵢ − x)/cᵢ below lᵢ, (uᵢ − x)/cᵢ above uᵢ, 0 between (elastic rows),
 //! and x held within the rigid rows' bounds, whose force takes up what is left of the balance.
 
 use super::{Failure, Problem, ROUNDING, Rhs, Solution};
@@ -16,10 +16,12 @@ pub struct ScalarRow {
     pub compliance: f64,
 }
 
-/// Minimises ½ a x² − b x over `rows` and writes the signed force of each row to `r`, so that a x = b + Σ r.
+/// Minimises ½ a x² − b x over `rows` and writes the signed force of each row to `r`, so that a x =
+/// b + Σ r.
 ///
-/// If several rigid rows bind at one place (bounds that differ by 1e-12 of their size at most), they share the force equally. Rigid bounds that cross by rounding
-/// only (1e-12 of the largest of |l|, |u| and |b/a|) count as one place, their midpoint.
+/// If several rigid rows bind at one place (bounds that differ by at most 1e-12 of their size),
+/// they share the force equally. Rigid bounds that cross by rounding only (1e-12 of the largest of
+/// |l|, |u| and |b/a|) count as one place, their midpoint.
 ///
 /// ```
 /// use signorini::qp::{clamp, ScalarRow};
@@ -30,12 +32,14 @@ pub struct ScalarRow {
 /// ```
 ///
 /// # Errors
-/// [`Failure::NotPositiveDefinite`] unless a > 0; [`Failure::NotFinite`] if a, b or a row is NaN, or b/a is infinite;
-/// [`Failure::Infeasible`] if rigid bounds cross; [`Failure::Shape`] unless `rows` and `r` are equally long.
+/// [`Failure::NotPositiveDefinite`] unless a > 0; [`Failure::NotFinite`] if a, b or a row is NaN,
+/// or b/a is infinite; [`Failure::Infeasible`] if rigid bounds cross; [`Failure::Shape`] unless
+/// `rows` and `r` are equally long.
 #[inline]
 pub fn clamp(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> Result<f64, Failure> {
     let free = b / a;
-    // One pass settles the steps that touch nothing; NaN anywhere makes a comparison false and goes on to be named.
+    // One pass settles the steps without contact. A NaN anywhere makes a comparison false, and the
+    // slower path names it.
     let mut inside = a > 0.0 && free.is_finite() && rows.len() == r.len();
     for row in rows {
         inside &= row.lo <= free && free <= row.hi;
@@ -47,7 +51,7 @@ pub fn clamp(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> Result<f64, F
     contact(a, b, rows, r)
 }
 
-/// The step that meets a wall, or is at fault.
+/// The remaining cases: a bound is violated, or an argument is invalid.
 #[inline]
 fn contact(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> Result<f64, Failure> {
     let free = b / a;
@@ -57,7 +61,8 @@ fn contact(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> Result<f64, Fai
     if !(a > 0.0 && free.is_finite()) {
         return Err(fault(a, b));
     }
-    // The narrowest rigid interval and the first row on each of its ends; the elastic rows the free motion violates.
+    // The narrowest rigid interval and the first row on each of its ends; the elastic rows the free
+    // motion violates.
     let (mut lo, mut first_lo) = (f64::NEG_INFINITY, 0);
     let (mut hi, mut first_hi) = (f64::INFINITY, 0);
     let (mut yielding, mut sound) = (false, true);
@@ -117,11 +122,13 @@ fn contact(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> Result<f64, Fai
     Ok(x)
 }
 
-/// The balance of the elastic rows alone: finds the linear piece that holds the root, then solves it.
+/// Solves the balance of the elastic rows alone: finds the linear piece that holds the root, then
+/// its x and forces.
 fn yield_to(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> f64 {
     let free = b / a;
     let elastic = || rows.iter().filter(|row| row.compliance > 0.0);
-    // The residual a x − b − Σ r(x) increases with x, so its signs at the breakpoints bracket the piece.
+    // The residual a x − b − Σ r(x) increases with x, so its signs at the breakpoints bracket the
+    // piece.
     let (mut left, mut right) = (f64::NEG_INFINITY, f64::INFINITY);
     for place in elastic().flat_map(|row| [row.lo, row.hi]).filter(|place| place.is_finite()) {
         let pull: f64 = elastic().map(|row| row.elastic(place)).sum();
@@ -145,7 +152,8 @@ fn yield_to(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> f64 {
     }
     let shift = pull / slope;
     let x = free + shift;
-    // (bound − x)/c cancels when c is small, so the stiffest row takes what the balance a δ = Σ r leaves.
+    // (bound − x)/c loses digits to cancellation when c is small, so the stiffest row takes what
+    // the balance a δ = Σ r leaves.
     let Some((stiffest, _)) = stiffest else { return free };
     let mut rest = a * shift;
     for (i, (force, row)) in r.iter_mut().zip(rows).enumerate() {
@@ -199,8 +207,9 @@ impl ScalarRow {
     }
 }
 
-/// The scalar programme behind the matrices of [`Problem`]: coefficients gᵢ other than 1 are taken into bounds and
-/// compliances, x-row i being lᵢ/gᵢ ≤ x ≤ uᵢ/gᵢ with compliance cᵢ/gᵢ² and force gᵢ rᵢ.
+/// The scalar programme behind the matrices of [`Problem`]: coefficients gᵢ other than 1 are taken
+/// into bounds and compliances, x-row i being lᵢ/gᵢ ≤ x ≤ uᵢ/gᵢ with compliance cᵢ/gᵢ² and force gᵢ
+/// rᵢ.
 #[derive(Debug, Clone)]
 pub(super) struct Clamp {
     a: f64,
@@ -253,7 +262,7 @@ impl Clamp {
     }
 }
 
-/// A row's own bounds, made one where they cross by rounding.
+/// A row's own bounds; where they cross by rounding, both become their midpoint.
 pub(super) fn meet(lo: f64, hi: f64) -> (f64, f64) {
     if lo > hi {
         let middle = 0.5 * (lo + hi);
@@ -263,7 +272,7 @@ pub(super) fn meet(lo: f64, hi: f64) -> (f64, f64) {
     }
 }
 
-/// The force of a row that sees nothing (g = 0): its displacement is 0 whatever happens.
+/// The force of a row with g = 0: its displacement is 0 whatever x is.
 fn blind(row: usize, lo: f64, hi: f64, compliance: f64, tolerance: f64) -> Result<f64, Failure> {
     if compliance > 0.0 {
         Ok((0.0_f64.max(lo).min(hi)) / compliance)

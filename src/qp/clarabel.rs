@@ -1,13 +1,15 @@
-//! The interior-point solver Clarabel: finds which rows are in play. The only file that names it.
+//! The interior-point solver Clarabel, which finds the rows in play. No other file names it.
 //!
-//! What it is given is dimensionless and free of the free motion. With x = x_free + v D x̂, D = diag(A)^(−1/2),
-//! ρᵢ = √Wᵢᵢ and v the largest violation (l − y)/ρ or (y − u)/ρ of the free motion,
+//! Clarabel is given a dimensionless programme relative to the free motion. With x = x_free + v D
+//! x̂, D = diag(A)^(−1/2), ρᵢ = √Wᵢᵢ and v the largest violation (l − y)/ρ or (y − u)/ρ of the free
+//! motion,
 //!
 //! minimise ½ x̂ᵀ D A D x̂   subject to   ±(ρ⁻¹ G D) x̂ ≤ ±(bound − y_free)/(ρ v),
 //!
-//! so that every diagonal of the matrix and of its Delassus operator is 1, the largest violation is 1 whatever the
-//! units (its stopping test compares with 1), the linear term is 0 and only `update_b` is needed. An elastic row is a
-//! rigid one with an unknown yield s of cost s²/(2c) added to g·x.
+//! so that every diagonal entry of the matrix and of its Delassus operator is 1, the largest
+//! violation is 1 whatever the units (the stopping test compares with 1), the linear term is 0 and
+//! only `update_b` is needed between programmes. An elastic row is stated as a rigid one with one
+//! more unknown, the yield s, added to g·x at a cost of s²/(2c).
 
 use super::clamp::meet;
 use super::delassus::Delassus;
@@ -16,34 +18,39 @@ use super::{Failure, NOISE, Problem, Rhs};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 
-/// Stopping tolerance of gap and feasibility (dimensionless). It has to tell force from gap, which polishing then makes
-/// exact; beyond 1e-12 the solver stalls.
+/// Stopping tolerance of duality gap and feasibility (dimensionless). The solution only has to tell
+/// rows in play from free ones, since the forces are then solved for exactly; below 1e-12 the
+/// solver stalls.
 const TOLERANCE: f64 = 1e-9;
 
-/// A bound further than this from the free motion, in largest violations, is brought here: infinite and distant bounds
-/// would set the scale of the stopping test. The polishing checks the true bounds of every row afterwards.
+/// A bound further than this from the free motion, in units of the largest violation, is moved to
+/// this distance: infinite and distant bounds would set the scale of the stopping test. Pivoting
+/// afterwards checks the true bounds of every row.
 const DISTANT: f64 = 1e2;
 
-/// Every bound is opened by this many largest violations, so that walls at one place leave an interior; far above
-/// [`TOLERANCE`], far below what tells a touching row from a free one. The polishing returns to the true bounds.
+/// Every bound is moved outwards by this much, in units of the largest violation, so that walls at
+/// one place leave an interior: far above [`TOLERANCE`], far below what separates a touching row
+/// from a free one. Pivoting afterwards uses the true bounds.
 const OPENING: f64 = 1e-7;
 
-/// Longest step, as a fraction of the way to the boundary: Clarabel's default, and shorter ones for the few programmes in
-/// 1e5 on which the default's predictor and corrector go round in a cycle of four iterates for ever.
+/// Longest step, as a fraction of the way to the boundary: Clarabel's default, then shorter ones
+/// for the few programmes in 1e5 on which the predictor and corrector cycle through four iterates
+/// for ever with the default.
 const STEPS: [f64; 3] = [0.99, 0.9, 0.7];
 
-/// Iterations before such a cycle is recognised; 8 is usual, and 23 the most that 2e5 random programmes took.
+/// Maximum number of iterations, after which a cycle is assumed; 8 is usual, and 23 the most that
+/// 2e5 random programmes took.
 const ITERATIONS: u32 = 40;
 
-/// One persistent solver over the sides of rows that have been finite so far.
+/// One persistent solver over all bounds that have been finite so far.
 pub(super) struct Clarabel {
     /// D A D with the yields of elastic rows behind it; upper triangle.
     cost: CscMatrix<f64>,
     /// ρ⁻¹ [G D, yields], m rows.
     rows: Vec<Vec<(usize, f64)>>,
-    /// Inequality ↔ side of a row, in the solver's order.
+    /// Row and side of each inequality, in the solver's order.
     sides: Vec<(usize, Side)>,
-    /// Whether a side is among them: lower and upper of each row.
+    /// Whether each row's lower and upper bound is among them.
     known: Vec<[bool; 2]>,
     bound: Vec<f64>,
     solver: Option<Box<DefaultSolver<f64>>>,
@@ -76,8 +83,9 @@ impl Clarabel {
         }
     }
 
-    /// Solves for the free motion held in `system`, whose largest violation is `violation` > 0, and puts on their bounds
-    /// the rows whose multiplier exceeds their gap, all others free. Returns the number of iterations.
+    /// Solves for the free motion held in `system`, whose largest violation is `violation` > 0. In
+    /// `play` it puts on their bounds the rows whose multiplier exceeds their gap (both
+    /// dimensionless), and frees all others. Returns the number of iterations.
     pub(super) fn find(
         &mut self,
         system: &Delassus,
@@ -92,7 +100,8 @@ impl Clarabel {
             let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
             let gap = if side == Side::Lower { system.y[row] - lo } else { hi - system.y[row] };
             let unit = system.weight[row] * violation;
-            // Rounding is opened too: at a violation of its size the bounds of walls at one place cross by as much.
+            // Bounds are also moved outwards by their rounding error: where the violation is that
+            // small, the bounds of walls at one place may cross by as much.
             self.bound.push((gap / unit).min(DISTANT) + OPENING + NOISE * scale / unit);
         }
         match &mut self.solver {
@@ -113,7 +122,8 @@ impl Clarabel {
         Ok(iterations)
     }
 
-    /// Adds sides that are finite for the first time; a side once seen stays, at most [`DISTANT`] away when absent.
+    /// Adds bounds that are finite for the first time; a bound once added stays, [`DISTANT`] away
+    /// when it is infinite.
     fn learn(&mut self, rhs: &Rhs) {
         for (row, known) in self.known.iter_mut().enumerate() {
             let finite = [rhs.lo[row].is_finite(), rhs.hi[row].is_finite()];
@@ -140,7 +150,7 @@ impl Clarabel {
             max_threads: 1,
             max_iter: ITERATIONS,
             max_step_fraction: STEPS[0],
-            // Updates are refused where presolve may have removed something.
+            // Clarabel refuses updates where presolve may have removed something.
             presolve_enable: false,
             tol_gap_abs: TOLERANCE,
             tol_gap_rel: TOLERANCE,
@@ -160,7 +170,7 @@ impl Clarabel {
     }
 }
 
-/// Solves, with shorter steps if the usual ones go round in a cycle or stall. Returns the number of iterations.
+/// Solves, with shorter steps if the default ones cycle or stall. Returns the number of iterations.
 fn run(solver: &mut DefaultSolver<f64>) -> Result<u64, Failure> {
     let mut iterations = 0;
     for (attempt, step) in STEPS.into_iter().enumerate() {
@@ -177,7 +187,7 @@ fn run(solver: &mut DefaultSolver<f64>) -> Result<u64, Failure> {
         shorten(solver, STEPS[0])?;
     }
     match solver.solution.status {
-        // Polishing tests every condition, so less accuracy will do where that is all there is.
+        // Pivoting afterwards tests every condition, so reduced accuracy will do.
         SolverStatus::Solved | SolverStatus::AlmostSolved => Ok(iterations),
         status => Err(Failure::NotSolved { status: words(status) }),
     }
@@ -188,7 +198,7 @@ fn shorten(solver: &mut DefaultSolver<f64>, step: f64) -> Result<(), Failure> {
     solver.update_settings(settings).map_err(|_| Failure::NotSolved { status: "settings refused" })
 }
 
-/// Compressed columns, without the zeros, entries of one place added up.
+/// Compressed columns without zeros; entries at one place are added up.
 fn by_columns(height: usize, columns: &[Vec<(usize, f64)>]) -> CscMatrix<f64> {
     let (mut starts, mut rows, mut values) = (vec![0], Vec::<usize>::new(), Vec::<f64>::new());
     for column in columns {

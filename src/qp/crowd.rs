@@ -1,14 +1,18 @@
-//! Programmes with more rows than the motion has freedoms.
+//! Programmes with more rows than the motion has degrees of freedom.
 //!
-//! Where many more rows are violated than can be independent, exchanging all of them at once brings far too many into play, and goes on doing
-//! so. Here a dual active set, which never has more rows in play than the motion has freedoms, finds the motion from the rows of the
-//! last programme. Its forces are some of many that do the same; those of least Σ Wᵢᵢ rᵢ² over all rows T that touch follow from
+//! Where many more rows are violated than can be linearly independent, exchanging all of them at
+//! once brings far too many into play, pass after pass. Here a dual active-set method, which never
+//! has more rows in play than the motion has degrees of freedom, finds the motion, starting from
+//! its rows of the last programme. Its forces are one of many sets that cause the same motion;
+//! those of least Σ Wᵢᵢ rᵢ² over all touching rows follow from
 //!
-//! minimise ½ Σ Wᵢᵢ rᵢ²   subject to   Σ rᵢ pᵢ = z,  sᵢ rᵢ ≥ 0,   W = P Pᵀ,  pᵢ row i of P,  z = Pᵀ r,
+//! minimise ½ Σ Wᵢᵢ rᵢ² subject to Σ rᵢ pᵢ = z, sᵢ rᵢ ≥ 0, W = P Pᵀ, pᵢ row i of P, z = Pᵀ r,
 //!
-//! whose dual is a piecewise quadratic function of as many unknowns w as there are freedoms: Wᵢᵢ sᵢ rᵢ = max(0, sᵢ pᵢ·w). Newton's
-//! method with an exact line search ends at its minimum (Hintermüller, Ito and Kunisch 2002, doi:10.1137/S1052623401383558, for the method;
-//! its steps are exact where no row changes). It only tells which rows share: [`super::pivoting`] solves for their forces and tests them.
+//! whose dual is a piecewise quadratic function of as many unknowns w as there are degrees of
+//! freedom: Wᵢᵢ sᵢ rᵢ = max(0, sᵢ pᵢ·w). Newton's method with an exact line search ends at its
+//! minimum (Hintermüller, Ito and Kunisch 2002, doi:10.1137/S1052623401383558, for the method; its
+//! steps are exact where no row changes its state). The result is used only to tell which rows
+//! share the force: [`super::pivoting`] solves for their forces and tests them.
 
 use super::active_set::ActiveSet;
 use super::delassus::Delassus;
@@ -16,20 +20,25 @@ use super::pivoting::{Pivoting, Side};
 use super::sums::{add, dot};
 use super::{Failure, ROUNDING, Rhs};
 
-/// Share of Wᵢᵢ below which nothing is left of a row in P (dimensionless): rounding of the elimination.
+/// The factorisation W = P Pᵀ ends when no row has more than this share of its Wᵢᵢ left
+/// (dimensionless): its rounding error.
 const LEFT: f64 = 1e-14;
 
-/// Passes of pivoting from the rows found: one is usual.
+/// Maximum number of passes of pivoting from the rows found; one is usual.
 const PASSES: usize = 20;
 
-/// Newton steps; some ten from nothing, one or two from the last programme's.
+/// Maximum number of Newton steps; about ten from a cold start, one or two from the last
+/// programme's w.
 const STEPS: usize = 60;
 
-/// What of z may remain, and which share of the largest force is none (dimensionless). Both only tell rows that share from those that do not.
+/// Newton's method stops when the residual falls to the share [`REMAINS`] of z; a force below the
+/// share [`NONE`] of the largest counts as zero (dimensionless). Both only separate rows that share
+/// the force from those that do not.
 const REMAINS: f64 = 1e-11;
 const NONE: f64 = 1e-9;
 
-/// What is added to the unit diagonals of the rows that share, per row, so that the matrix can be factored (dimensionless).
+/// Added to the Hessian's diagonal, times the number of sharing rows (each adds up to 1 there), so
+/// that it can be factored (dimensionless).
 const SHIFT: f64 = 1e-13;
 
 /// Finds the rows in play of such programmes.
@@ -40,14 +49,15 @@ pub(super) struct Crowd {
     rank: usize,
     /// Motion of all rows under the forces of the active set.
     y: Vec<f64>,
-    /// Rows that touch, on one side or both; s p·w of each, and its change along a step.
+    /// Touching rows with the side they touch (a row may touch both); s p·w of each, and its change
+    /// along a Newton step.
     touching: Vec<(usize, Side)>,
     along: Vec<f64>,
     change: Vec<f64>,
     breaks: Vec<(f64, f64)>,
     w: Vec<f64>,
     step: Vec<f64>,
-    /// z, and what of it is left.
+    /// z, and its residual.
     goal: Vec<f64>,
     fall: Vec<f64>,
     hessian: Vec<f64>,
@@ -74,8 +84,8 @@ impl Crowd {
         }
     }
 
-    /// Solves for the free motion held in `system`: leaves the rows in play in `pivoting`, and the exact r (m entries). Returns the number
-    /// of exchanges.
+    /// Solves for the free motion held in `system`: leaves the active set in `pivoting`, and writes
+    /// the exact r (m entries). Returns the number of exchanges.
     pub(super) fn solve(
         &mut self,
         system: &Delassus,
@@ -84,7 +94,8 @@ impl Crowd {
         scale: f64,
         r: &mut [f64],
     ) -> Result<u64, Failure> {
-        // Ten exchanges for each row that can be in play: beyond, rounding goes round in circles.
+        // Ten exchanges for each row that can be in play: beyond that, rounding makes the method
+        // cycle.
         let limit = 100 + 10 * self.rank as u64;
         let pivots = self.play.solve(system, rhs.lo, rhs.hi, scale, limit, r)?;
         self.touch(system, rhs, scale, r);
@@ -121,7 +132,8 @@ impl Crowd {
         }
     }
 
-    /// Divides the forces r among the rows that touch: √Wᵢᵢ |rᵢ| is left in `along`, negative where a row carries nothing.
+    /// Divides the forces r among the touching rows: leaves √Wᵢᵢ |rᵢ| in `along`, negative for a
+    /// row that carries no force.
     fn share(&mut self, system: &Delassus, r: &[f64]) {
         let Self { play, direction, rank, touching, along, change, breaks, w, step, goal, fall, hessian, .. } = self;
         let n = *rank;
@@ -165,7 +177,8 @@ impl Crowd {
     }
 }
 
-/// The length of a step at which ½ Σ max(0, aᵢ + length bᵢ)² less what it gains is least: `fall` is its gain per length at the start.
+/// The step length that minimises ½ Σ max(0, aᵢ + length bᵢ)² minus a term linear in the length;
+/// `fall` is the rate at which that difference falls at length 0.
 fn line_search(a: &[f64], b: &[f64], fall: f64, breaks: &mut Vec<(f64, f64)>) -> f64 {
     let (mut rate, mut slope, mut length) = (-fall, 0.0, 0.0);
     breaks.clear();
@@ -189,7 +202,8 @@ fn line_search(a: &[f64], b: &[f64], fall: f64, breaks: &mut Vec<(f64, f64)>) ->
     if slope > 0.0 { length - rate / slope } else { length }
 }
 
-/// Rows of P over their lengths, the largest pivot first, and how many columns it has.
+/// The rows of P divided by their norms, from a factorisation with the largest pivot first, and the
+/// number of columns of P.
 fn directions(system: &Delassus) -> (Vec<f64>, usize) {
     let m = system.count();
     let mut left: Vec<f64> = (0..m).map(|i| system.own(i)).collect();

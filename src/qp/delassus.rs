@@ -1,25 +1,29 @@
 //! The programme condensed onto its rows.
 //!
-//! W = G A⁻¹ Gᵀ + diag(c) says how far row i moves per unit of force on row j. In a chain, a bar or a tube that is stepped through
-//! time the answer to a force dies away from it, so only the entries of a row that matter are kept: from the first to the
-//! last column with |Wᵢⱼ| > 1e-17 √(Wᵢᵢ Wⱼⱼ). What is left out is below a fifth of half an ulp of the motion that the same force causes at
-//! its own row, and dies away from there: less than the rounding of W itself.
+//! W = G A⁻¹ Gᵀ + diag(c) holds how far row i moves per unit of force on row j. In one time step of
+//! a chain, a bar or a tube, the response to a force decays with distance from it, so only part of
+//! each row is stored: from the first to the last column with |Wᵢⱼ| > 1e-17 √(Wᵢᵢ Wⱼⱼ). What is
+//! left out is below a fifth of half an ulp of the motion that the same force causes at its own
+//! row, and decays from there: less than the rounding error of W itself.
 
 use super::{Failure, Problem, Rhs};
 use crate::linear::{Factor, Rows};
 use std::ops::Range;
 
-/// Share of a force's own motion below which its motion elsewhere is nothing (dimensionless; see above).
+/// Motion below this share of the motion that the same force causes at its own row is dropped
+/// (dimensionless; see above).
 const NOTHING: f64 = 1e-17;
 
-/// Most entries of A⁻¹Gᵀ that are kept, 32 MB of them: beyond, x is found by solving with A again.
+/// Maximum number of entries of A⁻¹Gᵀ that are stored (32 MB); beyond it, x is found by solving
+/// with A again.
 const MOST_COLUMNS: usize = 1 << 22;
 
-/// A row takes what others push it by for rounding of its own if they add up to less than this share (dimensionless). It only chooses
-/// the guess that pivoting starts from.
+/// If, in every row, the couplings to the other rows add up to less than this share of the row's
+/// own entry (dimensionless), pivoting starts from the rows that the free motion violates. It
+/// affects only the starting active set.
 const LOOSE: f64 = 0.1;
 
-/// Slices of different lengths, each a run of entries of a longer row that begins at its first column.
+/// Sparse rows, each stored as one contiguous run of entries with the column that it begins at.
 #[derive(Default)]
 struct Runs {
     starts: Vec<usize>,
@@ -32,7 +36,8 @@ impl Runs {
         Self { starts: vec![0], first: Vec::with_capacity(rows), values: Vec::new() }
     }
 
-    /// Adds the run of `row` from its first to its last entry within `near` that is wanted; empty where none is.
+    /// Appends the run of `row` from the first to the last entry within `near` that is `wanted`; an
+    /// empty run if none is.
     fn push(&mut self, row: &[f64], near: Range<usize>, wanted: impl Fn(usize, f64) -> bool) {
         let keep = |&i: &usize| wanted(i, row[i]);
         let first = near.clone().find(keep).unwrap_or(0);
@@ -63,7 +68,7 @@ impl Runs {
     }
 }
 
-/// The first and the last row that sees each unknown; (m, 0) where none does.
+/// The first and the last row that sees each unknown; (m, 0) where no row does.
 struct Seen(Vec<(usize, usize)>);
 
 impl Seen {
@@ -90,17 +95,21 @@ impl Seen {
 pub(super) struct Delassus {
     factor: Factor,
     g: Rows,
-    /// Column and value of each row where every row has one entry, as walls on degrees of freedom have: read without searching.
+    /// `Some` if every row has one entry, as walls on degrees of freedom have: the column and value
+    /// of each, read without searching.
     single: Option<Vec<(usize, f64)>>,
     /// W by rows, m of them.
     w: Runs,
-    /// A⁻¹Gᵀ by columns, m of them, each a run over the n unknowns; `None` where they would be too many.
+    /// A⁻¹Gᵀ by columns, m of them, each a run over the n unknowns; `None` above [`MOST_COLUMNS`]
+    /// entries.
     columns: Option<Runs>,
-    /// Multiplications and additions that solving with A costs, against those of adding one entry of a column.
+    /// Cost of solving with A, in units of adding one entry of a column.
     solving: usize,
-    /// √Wᵢᵢ, m entries: a row's displacement over it is comparable with any other row's; 1 where Wᵢᵢ = 0.
+    /// √Wᵢᵢ, m entries, or 1 where Wᵢᵢ = 0: a row's displacement divided by it can be compared with
+    /// that of any other row.
     pub(super) weight: Vec<f64>,
-    /// True if every row answers to its own force almost alone: rows that the free motion violates are then the rows in play.
+    /// True if every row moves almost only under its own force: the rows that the free motion
+    /// violates are then the rows in play.
     pub(super) loose: bool,
     /// G x without any row, m entries.
     pub(super) y: Vec<f64>,
@@ -113,7 +122,8 @@ impl Delassus {
         let g = problem.g.clone();
         let unit: Vec<f64> = problem.a.diagonal_entries().iter().map(|d| d.sqrt()).collect();
         let mut response = vec![0.0; n];
-        // Writes A⁻¹gⱼᵀ into zeros, and returns the unknowns outside of which it is nothing.
+        // Writes A⁻¹gⱼᵀ into zeros, and returns the range of unknowns outside which it is
+        // negligible.
         let mut respond = |j: usize, response: &mut [f64]| {
             g.add_transposed(j, 1.0, response);
             let columns = || g.row(j).iter().map(|entry| entry.0);
@@ -122,7 +132,7 @@ impl Delassus {
                 _ => 0..0,
             }
         };
-        // Wⱼⱼ of all rows come first, since the others are measured by them.
+        // Wⱼⱼ of all rows come first, since the other entries are compared with them.
         let mut weight = vec![0.0; m];
         let mut columns = Some(Runs::with_capacity(m));
         for (j, weight) in weight.iter_mut().enumerate() {
@@ -172,7 +182,7 @@ impl Delassus {
         self.weight.len()
     }
 
-    /// Row i of W: the column that it begins at, and its entries; all others are nothing.
+    /// Row i of W: the column that it begins at, and its entries; all others are negligible.
     #[inline]
     pub(super) fn row(&self, i: usize) -> (usize, &[f64]) {
         self.w.row(i)
@@ -191,7 +201,7 @@ impl Delassus {
         row[i - first]
     }
 
-    /// Wᵢᵢ, or 1 where that is 0: the square of a row's weight.
+    /// Wᵢᵢ, or 1 where that is 0: the square of [`Self::weight`].
     #[inline]
     pub(super) fn square(&self, i: usize) -> f64 {
         self.weight[i] * self.weight[i]
@@ -203,7 +213,8 @@ impl Delassus {
         self.w.add(i, r, y);
     }
 
-    /// The free motion under b: fills x and y as if there were no rows. True if all of it is finite and within bounds.
+    /// Computes the free motion under b, x and y without any force on rows. True if all of it is
+    /// finite and within bounds.
     #[inline]
     pub(super) fn release(&mut self, rhs: &Rhs, x: &mut [f64]) -> bool {
         x.copy_from_slice(rhs.b);
@@ -216,7 +227,8 @@ impl Delassus {
             }
             None => self.g.product(x, &mut self.y),
         }
-        // Without branches, so that several are looked at at once; a NaN is within nothing.
+        // Without branches, so that several rows are compared at once; a NaN fails every
+        // comparison.
         let mut inside = true;
         for ((&y, &lo), &hi) in self.y.iter().zip(rhs.lo).zip(rhs.hi) {
             inside &= (lo <= y) & (y <= hi);
@@ -227,7 +239,7 @@ impl Delassus {
         inside
     }
 
-    /// Turns the free motion x into x = A⁻¹(b + Gᵀ r), r being 0 on all rows but `rows`.
+    /// Turns the free motion x into x = A⁻¹(b + Gᵀ r), where r is 0 on all rows but `rows`.
     pub(super) fn respond(&mut self, b: &[f64], rows: &[usize], r: &[f64], x: &mut [f64]) {
         if let Some(columns) = &self.columns
             && rows.iter().map(|&i| columns.row(i).1.len()).sum::<usize>() <= self.solving
@@ -241,7 +253,7 @@ impl Delassus {
     }
 }
 
-/// Makes W symmetric to the last bit, which the rounding of its columns is not.
+/// Makes W symmetric to the last bit, which rounding of its columns has spoilt.
 fn symmetrise(w: &mut Runs) {
     for j in 0..w.first.len() {
         for i in w.first[j]..j {

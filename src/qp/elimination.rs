@@ -1,32 +1,33 @@
-//! The programme on its unknowns, where A is a narrow band and every row sees one unknown of its own.
+//! The programme on its unknowns, where A is a narrow band and every row sees one unknown of its
+//! own.
 //!
 //! A row that stands on its bound then takes its unknown out of A x = b (cᵢ = 0: xⱼ = boundᵢ/gᵢ) or
-//! stiffens it (cᵢ > 0: gᵢ²/cᵢ is added to Aⱼⱼ and gᵢ boundᵢ/cᵢ to bⱼ), and what is left is still a
-//! band: a pass costs n(w+1)(w+4), however far a force reaches. The condensed matrix W is wide where
-//! the step is long beside the structure's own periods, and a pass over it costs the square of the
-//! rows in play.
+//! stiffens it (cᵢ > 0: gᵢ²/cᵢ is added to Aⱼⱼ and gᵢ boundᵢ/cᵢ to bⱼ), and the remaining matrix is
+//! still a band: a pass costs n(w+1)(w+4) operations, however far the response to a force reaches.
+//! The condensed matrix W is wide where the time step is long compared with the structure's own
+//! periods, and a pass over it costs the square of the number of rows in play.
 //!
 //! All rows whose state is wrong are exchanged at once, as a semismooth Newton method does (the
-//! primal-dual active set: Hintermüller, Ito and Kunisch 2003, doi:10.1137/S1052623401383558). For an
-//! M-matrix, as chains and bars have, that ends in finitely many passes; elsewhere it may go round in
-//! a circle, and what has not settled after [`PASSES`] is left to pivoting.
+//! primal-dual active set: Hintermüller, Ito and Kunisch 2002, doi:10.1137/S1052623401383558). For
+//! an M-matrix, as chains and bars have, that ends in finitely many passes; for others it may
+//! cycle, and what has not settled after [`PASSES`] is left to pivoting.
 
 use super::clamp::meet;
 use super::delassus::Delassus;
 use super::pivoting::{Pivoting, Side};
 use super::{Problem, ROUNDING, Rhs};
 
-/// Passes before the programme is left to pivoting. A warm start takes one or two, a cold one of 500
-/// rows up to a dozen.
+/// Maximum number of passes before the programme is left to pivoting. A warm start takes one or
+/// two, a cold one of 500 rows up to a dozen.
 const PASSES: usize = 30;
 
-/// Passes that a programme is expected to take when the work of the two ways is compared.
+/// Expected number of passes, when the work of the two ways is compared.
 const EXPECTED: usize = 2;
 
-/// Half bandwidth above which the band is not narrow.
+/// Largest half bandwidth for which this method is used.
 const WIDEST: usize = 16;
 
-/// A by rows of its band, and the row of G on each unknown.
+/// The band of A by rows, and the row of G on each unknown.
 pub(super) struct Elimination {
     width: usize,
     /// Entry i·w + k is A of row i and column i − w + k; those before column 0 are 0.
@@ -45,7 +46,8 @@ pub(super) struct Elimination {
 }
 
 impl Elimination {
-    /// `None` where A is no narrow band, or a row sees several unknowns or shares one with another row.
+    /// `None` where A is not a narrow band, or a row sees several unknowns or shares one with
+    /// another row.
     pub(super) fn new(problem: &Problem) -> Option<Self> {
         let (n, width) = (problem.a.size(), problem.a.half_bandwidth());
         let mut taken = vec![false; n];
@@ -78,16 +80,19 @@ impl Elimination {
         })
     }
 
-    /// True if a pass over W with the rows that pivoting starts from costs more than the passes expected here.
+    /// True if a pass over W with the rows that pivoting starts from costs more than the passes
+    /// expected here.
     pub(super) fn pays(&self, system: &Delassus, pivoting: &Pivoting) -> bool {
         let (n, w) = (self.diagonal.len(), self.width);
-        // Each row in play moves all that it reaches, and its line of the factor is used twice.
+        // Each row in play moves every row within its reach, and its line of the factor is used
+        // twice.
         let condensed: usize = pivoting.called().map(|(row, _)| 2 * system.row(row).1.len()).sum();
         condensed > EXPECTED * n * (w + 1) * (w + 4)
     }
 
-    /// Solves from the rows that pivoting has in play, for the free motion held in `system`: x (n entries), r (m entries), and
-    /// the rows in play in `pivoting`. Returns how many rows changed their state; `None` if it did not settle, with nothing changed.
+    /// Solves for the free motion held in `system`, starting from the active set of `pivoting`: x
+    /// (n entries), r (m entries), and the new active set in `pivoting`. Returns how many rows
+    /// changed their state; `None` if it did not settle, with nothing changed.
     pub(super) fn solve(
         &mut self,
         system: &Delassus,
@@ -120,7 +125,8 @@ impl Elimination {
         None
     }
 
-    /// x for the states of the rows; `None` if what is left of A is not positive definite to rounding.
+    /// Computes x for the current states of the rows; `None` if the remaining matrix is not
+    /// positive definite to rounding.
     fn pass(&mut self, rhs: &Rhs) -> Option<()> {
         let (n, w) = (self.diagonal.len(), self.width);
         self.x.copy_from_slice(rhs.b);
@@ -136,7 +142,7 @@ impl Elimination {
                 self.fixed[column] = true;
             }
         }
-        // What is known goes to the other side before anything is eliminated.
+        // Known unknowns move to the right-hand side before anything is eliminated.
         let known = |row: usize, side: &[Option<Side>]| {
             let (column, g, compliance) = self.rows[row];
             let side = side[row].filter(|_| compliance == 0.0)?;
@@ -200,7 +206,8 @@ impl Elimination {
         Some(())
     }
 
-    /// The force of a row: of a rigid one what its unknown lacks in A x = b + Gᵀ r, of an elastic one its law.
+    /// The force of a row: for a rigid row the residual of its unknown's equation in A x = b + Gᵀ
+    /// r, for an elastic one its force law.
     fn force(&self, row: usize, rhs: &Rhs) -> f64 {
         let Some(side) = self.side[row] else { return 0.0 };
         let (column, g, compliance) = self.rows[row];
@@ -217,7 +224,8 @@ impl Elimination {
         sum / g
     }
 
-    /// Changes the state of every row that pulls, or is free beyond a bound, and counts them.
+    /// Changes the state of every row whose force pulls and of every free row beyond a bound, and
+    /// counts the changes.
     fn exchange(&mut self, system: &Delassus, rhs: &Rhs, scale: f64) -> u64 {
         let mut changes = 0;
         for row in 0..self.rows.len() {
@@ -227,7 +235,7 @@ impl Elimination {
                 Some(side) => {
                     let force = self.force(row, rhs);
                     match side.sign() * force < 0.0 {
-                        // Both bounds are one: either sign will do.
+                        // Both bounds coincide: a force of either sign is allowed.
                         true if lo >= hi => Some(if force > 0.0 { Side::Lower } else { Side::Upper }),
                         true => None,
                         false => continue,
@@ -244,7 +252,7 @@ impl Elimination {
                 }
             };
             self.side[row] = wanted;
-            // Where both bounds are one, the other side of it is the same motion.
+            // Where both bounds coincide, a change of side changes no motion and is not counted.
             changes += u64::from(state.is_none() || wanted.is_none());
         }
         changes

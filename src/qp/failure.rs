@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// Why a programme was refused or not solved. Rows are numbered from 0; their names are the caller's.
+/// Why a programme was refused or not solved. Rows are numbered from 0; only the caller knows what
+/// they stand for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Failure {
@@ -12,10 +13,11 @@ pub enum Failure {
     Infeasible {
         /// The row that could not be met; its lower bound where two opposite bounds cross.
         row: usize,
-        /// The row that stands against it: the same one where a row's own lower bound lies above its upper bound.
+        /// The row whose bound it conflicts with: the same row where its own lower bound lies above
+        /// its upper bound.
         against: usize,
     },
-    /// A number that is NaN, or infinite or negative where that makes no sense.
+    /// A number is NaN, or infinite or negative where only finite or non-negative ones are allowed.
     NotFinite {
         /// Which array.
         what: &'static str,
@@ -24,10 +26,10 @@ pub enum Failure {
     },
     /// The solver gave up.
     NotSolved {
-        /// In its own words.
+        /// What the solver reported.
         status: &'static str,
     },
-    /// Arrays whose sizes do not fit together.
+    /// Sizes of arrays do not fit together.
     Shape {
         /// Which size.
         what: &'static str,

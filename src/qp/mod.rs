@@ -1,27 +1,34 @@
-//! The convex programme of a time step. This room knows no scene: only matrices, rows and bounds.
+//! The convex quadratic programme (QP) of a time step. This room knows no scene: only matrices,
+//! rows and bounds.
 //!
-//! minimise ½ xᵀA x − bᵀx + Σ sᵢ²/(2cᵢ)   subject to   lᵢ ≤ gᵢ·x ≤ uᵢ (cᵢ = 0),   lᵢ − sᵢ ≤ gᵢ·x ≤ uᵢ + sᵢ (cᵢ > 0).
+//! minimise ½ xᵀA x − bᵀx + Σ sᵢ²/(2cᵢ) subject to lᵢ ≤ gᵢ·x ≤ uᵢ (cᵢ = 0), lᵢ − sᵢ ≤ gᵢ·x ≤ uᵢ +
+//! sᵢ (cᵢ > 0).
 //!
-//! The multipliers r are signed so that A x = b + Gᵀ r: rᵢ ≥ 0 at a lower bound, rᵢ ≤ 0 at an upper bound.
-//! Written on the rows alone, with y = G x + diag(c) r = G A⁻¹ b + W r and the Delassus operator
-//! W = G A⁻¹ Gᵀ + diag(c), rigid and elastic rows obey one law:
+//! The multipliers r (forces or impulses on the rows) are signed so that A x = b + Gᵀ r: rᵢ ≥ 0 at
+//! a lower bound, rᵢ ≤ 0 at an upper bound. A row is *in play* if it stands on one of its bounds;
+//! the rows in play are the active set. Written on the rows alone, with y = G x + diag(c) r = G A⁻¹
+//! b + W r and the Delassus operator W = G A⁻¹ Gᵀ + diag(c), rigid and elastic rows obey one law:
 //!
 //! lᵢ ≤ yᵢ ≤ uᵢ,   rᵢ ≥ 0 only where yᵢ = lᵢ,   rᵢ ≤ 0 only where yᵢ = uᵢ.
 //!
 //! | solver | what it does |
 //! |---|---|
-//! | [`Backend::Clamp`] | one unknown: exact, finite, nanoseconds |
-//! | [`Backend::Condensed`] | any number: block principal pivoting on W from the last programme's rows in play, exact |
-//! | [`Backend::Clarabel`] | any number: an interior point finds the rows in play, then they are solved exactly |
+//! | [`Backend::Clamp`] | one unknown: exact, no iteration, some nanoseconds |
+//! | [`Backend::Condensed`] | any number: block principal pivoting on W, warm-started from the last programme's active set; exact |
+//! | [`Backend::Clarabel`] | any number: an interior-point method finds the active set, then its forces are solved for exactly |
 //!
-//! [`Backend::Auto`] takes the clamp for one unknown and the condensed solver for more: both are exact, and cost nothing where nothing is in
-//! contact but the free motion. Where rows depend on one another the multipliers are those of least Σ Wᵢᵢ rᵢ². If pivoting does
-//! not settle, Clarabel tells where to start, and a dual active set is the last resort. With more rows than the motion has
-//! freedoms a dual active set from the last programme's rows comes before Clarabel, and with more than twice as many it comes first.
-//! Where A is a narrow band and so many rows are in play that a pass over W costs more than one over the band, their unknowns are
-//! eliminated there.
+//! [`Backend::Auto`] takes the clamp for one unknown and the condensed solver for several: both are
+//! exact, and where the free motion violates no bound they compute nothing else. Where rows are
+//! linearly dependent, the multipliers are not unique, and those of least Σ Wᵢᵢ rᵢ² are returned.
+//! If pivoting does not settle, it starts again from the active set that Clarabel finds; if it does
+//! not settle from there either, a dual active-set method solves the programme. With more rows than
+//! the motion has degrees of freedom, a dual active-set method that starts from the last
+//! programme's rows is tried before Clarabel; with more than twice as many, after a single pass of
+//! pivoting. Where A is a narrow band and so many rows are in play that a pass over W costs more
+//! than one over the band, the unknowns of those rows are eliminated on the band instead.
 //!
-//! [`clamp()`] is the same scalar programme without matrices, for kernels that hold floats only.
+//! [`clamp()`] solves the same scalar programme without matrices, for schemes that hold plain
+//! floats.
 
 use crate::linear::{Rows, Symmetric};
 
@@ -51,11 +58,13 @@ pub struct Problem {
     pub a: Symmetric,
     /// G, m × n, one row per wall.
     pub g: Rows,
-    /// Compliance cᵢ of each row, m entries: 0 for a rigid row; above 0 the row yields, r = −(g·x − u)/c beyond its bound.
+    /// Compliance cᵢ of each row, m entries: 0 for a rigid row; above 0 the row yields, r = −(g·x −
+    /// u)/c beyond its bound.
     pub compliance: Vec<f64>,
 }
 
-/// What changes from step to step. Infinite bounds are rows without that side, in this step.
+/// What changes from step to step. An infinite bound means that the row has no bound on that side
+/// in this step.
 #[derive(Debug, Clone, Copy)]
 pub struct Rhs<'a> {
     /// b, n entries, finite.
@@ -75,18 +84,21 @@ pub struct Solution {
     pub multiplier: Vec<f64>,
 }
 
-/// How far bounds may cross, relative to the lengths in play, and still count as one place (dimensionless): walls at
-/// one place give bounds some ulps apart, 1e-16 each, after a scheme has combined them with states.
+/// How far a row's bounds may cross, relative to the lengths of the programme, and still count as
+/// equal (dimensionless): walls at one place give bounds that differ by some ulps, 1e-16 each,
+/// after a scheme has combined them with states.
 const ROUNDING: f64 = 1e-12;
 
-/// Rounding of bounds and free motion, relative to the lengths in play (dimensionless): some ulps.
+/// Rounding of bounds and free motion, relative to the lengths of the programme (dimensionless):
+/// some ulps.
 const NOISE: f64 = 16.0 * f64::EPSILON;
 
 /// Rounding of the motion that the largest force causes, relative to it (dimensionless).
 const ULPS: f64 = 4.0 * f64::EPSILON;
 
 impl Problem {
-    /// Sizes agree and every entry is a number: n ≥ 1, A n × n, G m × n, compliance m entries, none negative.
+    /// Checks that sizes agree and every entry is finite: n ≥ 1, A n × n, G m × n, compliance m
+    /// entries, none negative.
     fn check(&self) -> Result<(), Failure> {
         let n = self.a.size();
         shape("unknowns", 1, n.min(1))?;
@@ -104,7 +116,7 @@ impl Problem {
 }
 
 impl Rhs<'_> {
-    /// Sizes agree: n unknowns, m rows.
+    /// Checks that sizes agree: n unknowns, m rows.
     #[inline]
     fn shape(&self, n: usize, m: usize) -> Result<(), Failure> {
         shape("entries of b", n, self.b.len())?;
@@ -112,7 +124,8 @@ impl Rhs<'_> {
         shape("upper bounds", m, self.hi.len())
     }
 
-    /// b is finite, l < +∞, u > −∞, and no row's own bounds cross by more than rounding.
+    /// Checks that b is finite, l < +∞, u > −∞, and that no row's own bounds cross by more than
+    /// rounding.
     fn check(&self, scale: f64) -> Result<(), Failure> {
         finite("b", self.b, |v| v.is_finite())?;
         finite("lower bound", self.lo, |v| v < f64::INFINITY)?;
@@ -132,7 +145,7 @@ fn shape(what: &'static str, expected: usize, found: usize) -> Result<(), Failur
 
 #[inline]
 fn finite(what: &'static str, values: &[f64], sound: impl Fn(f64) -> bool) -> Result<(), Failure> {
-    // Several at once where all is well.
+    // Without branches, so that the usual case, all sound, checks several values at once.
     if values.iter().fold(true, |all, &v| all & sound(v)) {
         return Ok(());
     }

@@ -1,12 +1,16 @@
-//! The programme on its rows, solved exactly by block principal pivoting from a guess of the rows in play.
+//! The programme on its rows, solved exactly by block principal pivoting from a guess of the rows
+//! in play.
 //!
-//! Find r with lᵢ ≤ yᵢ ≤ uᵢ, y = y_free + W r, and rᵢ of the sign of the bound it stands on. Every row is free (rᵢ = 0), at its lower or
-//! at its upper bound. A pass solves for the rows that stand on a bound and looks for those whose state is wrong: a force that pulls, a
-//! free row beyond a bound. All of them are exchanged at once as long as their number falls, with [`PATIENCE`] passes in which it
-//! need not (Kostreva 1978, Linear Algebra Appl. 21, 207; Júdice and Pires 1994, doi:10.1016/0305-0548(94)90106-6); after these only the last of them,
-//! until their number has fallen below its least (Murty 1974, Opsearch 11, 123). The latter ends for every P-matrix: if
-//! the programme without row 0 is solved for each state of that row in turn, y₀ increases with r₀, so row 0 changes its state at most
-//! twice; and so on for all rows. A singular W counts as the limit of positive definite ones (see [`super::relations`]).
+//! Find r with lᵢ ≤ yᵢ ≤ uᵢ, y = y_free + W r, and rᵢ of the sign of the bound that row i stands
+//! on. Every row is free (rᵢ = 0), at its lower or at its upper bound. A pass solves for the rows
+//! that stand on a bound and looks for rows whose state is wrong: a force that pulls, a free row
+//! beyond a bound. As long as their number falls, all of them are exchanged at once, with
+//! [`PATIENCE`] passes in which it need not fall (Kostreva 1978, Linear Algebra Appl. 21, 207;
+//! Júdice and Pires 1994, doi:10.1016/0305-0548(94)90106-6). After these only the last wrong row is
+//! exchanged, until their number is below its least so far (Murty 1974, Opsearch 11, 123). Murty's
+//! rule ends for every P-matrix: if the programme without row 0 is solved for each state of that
+//! row in turn, y₀ increases with r₀, so row 0 changes its state at most twice; and so on for all
+//! rows. A singular W counts as the limit of positive definite ones (see [`super::relations`]).
 
 use super::block::Block;
 use super::clamp::meet;
@@ -34,21 +38,23 @@ impl Side {
     }
 }
 
-/// State of a row that is below its lower bound (1), above its upper one (2), neither or both.
+/// State of a row that is below its lower bound (entry 1), above its upper one (entry 2), neither
+/// or both.
 const STATES: [Option<Side>; 4] = [None, Some(Side::Lower), Some(Side::Upper), Some(Side::Lower)];
 
-/// Passes in which all wrong rows are exchanged although their number has not fallen.
+/// Number of passes in which all wrong rows are exchanged although their number has not fallen.
 const PATIENCE: u32 = 10;
 
-/// Times that rows which only touch are looked through for those that must share; 1 is usual.
+/// Maximum number of searches for free rows that touch and must share a force; 1 is usual.
 const JOINS: u32 = 10;
 
-/// Part of the sign test's tolerance by which dependent rows may miss their bounds and still be met: below 1, so that a row which then
-/// gives way to the others is within the tolerance.
+/// Fraction of the sign test's tolerance by which dependent rows may miss their bounds and still
+/// count as met: below 1, so that a row which then gives way to the others is within the tolerance.
 const MET: f64 = 0.9;
 
-/// A violation above this share of the motions in play is no rounding (dimensionless): 1e-16 over the least angle squared, 1e-12, is not
-/// reached by rows whose forces are of any use.
+/// A violation above this share of the motions of the programme is not rounding (dimensionless):
+/// rounding is 1e-16 over the least squared angle, 1e-12, and rows whose forces are of any use do
+/// not reach that.
 const SMALL: f64 = 1e-6;
 
 /// The state of every row, kept from programme to programme.
@@ -57,37 +63,38 @@ pub(super) struct Pivoting {
     block: Block,
     /// y under the forces of a pass.
     y: Vec<f64>,
-    /// Rows whose state is wrong, increasing, and the states that they shall have.
+    /// Rows whose state is wrong, in increasing order, with the states that they shall have.
     wrong: Vec<(usize, Option<Side>)>,
     /// Rows in play in the next pass.
     next: Vec<usize>,
 }
 
-/// Factor by which the sign test's tolerance grows when pivoting goes round in a circle, which only rounding can make it do: it then
-/// exceeds the tolerance, as it does where rows through one point are nearly dependent.
+/// Factor by which the sign test's tolerance grows when pivoting cycles. Only rounding can cause a
+/// cycle, and that rounding then exceeds the tolerance, as it does where rows through one point are
+/// nearly dependent.
 const LOOSER: f64 = 10.0;
 
-/// Times that it may grow.
+/// Maximum number of times that it grows.
 const LOOSENINGS: u32 = 3;
 
-/// Passes after which a programme of m rows counts as not settled. Most take one or two; the most are taken where
+/// Maximum number of passes for m rows. Most programmes take one or two; the most are taken where
 /// many more rows than unknowns are violated at once.
 pub(super) fn passes(m: usize) -> usize {
     100 + 10 * m
 }
 
-/// Tells a state that has been there before, by the method of Brent 1980 (doi:10.1007/BF01933190).
+/// Detects a repeated state by the method of Brent 1980 (doi:10.1007/BF01933190).
 #[derive(Default)]
 struct Circle {
     saved: u64,
     age: u64,
     life: u64,
-    /// How often it has been closed.
+    /// Number of repetitions found so far.
     closed: u32,
 }
 
 impl Circle {
-    /// True if wrong rows and rows in play, which tell the state, are those saved.
+    /// True if the state, given by wrong rows and rows in play, has the hash of the saved one.
     fn closes(&mut self, wrong: &[(usize, Option<Side>)], rows: &[usize]) -> bool {
         let mix = |hash: u64, word: u64| (hash.rotate_left(5) ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         let hash = wrong.iter().fold(1, |hash, &(row, side)| {
@@ -134,7 +141,8 @@ impl Pivoting {
         self.side.iter().enumerate().filter_map(|(row, side)| side.map(|side| (row, side)))
     }
 
-    /// Puts the rows that the free motion violates on the bounds they violate, and frees the others.
+    /// Puts the rows that the free motion violates on the bounds they violate, and frees the
+    /// others.
     pub(super) fn call_violated(&mut self, system: &Delassus, rhs: &Rhs) {
         for (((side, &y), &lo), &hi) in self.side.iter_mut().zip(&system.y).zip(rhs.lo).zip(rhs.hi) {
             // Looked up rather than branched on: which rows are violated cannot be predicted.
@@ -142,7 +150,7 @@ impl Pivoting {
         }
     }
 
-    /// How many rows can be independent of one another, of all there are.
+    /// Number of linearly independent rows among all rows.
     pub(super) fn rank(&self) -> usize {
         self.block.rank()
     }
@@ -152,8 +160,9 @@ impl Pivoting {
         self.block.rows()
     }
 
-    /// Starts from the states of the rows and ends with the exact r (m entries). `scale` is the length that signs of gaps are tested
-    /// against, or the row's free motion where that is larger. Returns the number of exchanges.
+    /// Starts from the states of the rows and ends with the exact r (m entries). Signs of gaps are
+    /// tested relative to `scale`, or to the row's free motion where that is larger. Returns the
+    /// number of exchanges.
     pub(super) fn solve(
         &mut self,
         system: &Delassus,
@@ -162,7 +171,8 @@ impl Pivoting {
         passes: usize,
         r: &mut [f64],
     ) -> Result<u64, Failure> {
-        // Each row is written and the place moved on only if it stays, for the same reason.
+        // Each row is written, and the count moved on only if the row stays: again without a
+        // branch.
         let mut count = 0;
         self.next.resize(self.side.len(), 0);
         for (row, ((side, &lo), &hi)) in self.side.iter_mut().zip(rhs.lo).zip(rhs.hi).enumerate() {
@@ -175,7 +185,8 @@ impl Pivoting {
         self.next.truncate(count);
         r.fill(0.0);
         let (mut least, mut patience, mut pivots, mut joins) = (usize::MAX, PATIENCE, 0, 0);
-        // Rounding of forces passed on between rows counts only where pivoting fails without: it would let sets of needlessly large forces pass.
+        // Rounding of forces passed on between rows is allowed for only where pivoting fails
+        // without that: it would accept active sets of needlessly large forces.
         let (mut tolerance, mut ulps, mut circle) = (ROUNDING, 0.0, Circle::default());
         for _ in 0..passes {
             self.block.set(system, &self.next);
@@ -230,13 +241,13 @@ impl Pivoting {
             reach = f64::max(reach, r[row].abs() * system.weight[row]);
         }
         for &row in self.block.rows() {
-            // It stands there exactly.
+            // A row in play stands exactly on its bound.
             self.y[row] = bound(row, side);
             let grows = self.block.escape().map_or(0.0, |escape| escape[row]);
             let force = if grows == 0.0 { r[row] } else { grows };
             if side[row].is_some_and(|side| side.sign() * force < 0.0) {
                 if rhs.lo[row] >= rhs.hi[row] {
-                    // Both bounds are one: either sign will do.
+                    // Both bounds coincide: a force of either sign is allowed.
                     side[row] = Some(if force > 0.0 { Side::Lower } else { Side::Upper });
                 } else {
                     self.wrong.push((row, None));
@@ -246,12 +257,13 @@ impl Pivoting {
         let pulling = self.wrong.len();
         for (row, ((&y, &lo), &hi)) in self.y.iter().zip(rhs.lo).zip(rhs.hi).enumerate() {
             if (y < lo) | (y > hi) {
-                // A force is a number of 16 digits: no row's motion is better than that of the largest.
+                // A force has 16 digits, so no row's motion is more accurate than ulps of the
+                // motion that the largest force causes.
                 let tolerance = f64::max(tolerance * length(row), ULPS * reach * system.weight[row]);
                 let (lo, hi) = meet(lo, hi);
                 let excess = (lo - y).max(y - hi);
                 if side[row].is_none() && excess > tolerance {
-                    // Nearly dependent rows pass their rounding on to the row, multiplied.
+                    // Nearly dependent rows pass their rounding errors on to this row, amplified.
                     let small = ulps > 0.0
                         && reach > 0.0
                         && excess <= SMALL * f64::max(length(row), reach * system.weight[row]);
@@ -267,7 +279,8 @@ impl Pivoting {
         }
     }
 
-    /// Free rows that touch a bound and depend on rows in play must share their force: they are wrong, too.
+    /// Adds to the wrong rows the free rows that touch a bound and depend on rows in play: they
+    /// must share the force.
     fn join(&mut self, system: &Delassus, rhs: &Rhs, scale: f64, tolerance: f64, r: &[f64]) {
         if !self.block.singular() || self.block.rows().is_empty() {
             return;
@@ -309,10 +322,12 @@ impl Pivoting {
         self.next.extend(stay);
     }
 
-    /// The two rows that resist each other most, if forces grow without limit: their bounds cannot be met together.
+    /// If forces grow without limit, the two rows with the largest opposing ones: their bounds
+    /// cannot be met together.
     ///
-    /// By Farkas's lemma they cannot if Gᵀe = 0 and Σ eᵢ · boundᵢ > 0, with eᵢ of the sign of its bound: so never where all bounds contain 0.
-    /// Anything less is rounding, and says nothing about bounds.
+    /// By Farkas's lemma they cannot if Gᵀe = 0 and Σ eᵢ · boundᵢ > 0, with eᵢ of the sign of its
+    /// bound: so never where all bounds contain 0. A sum within rounding of 0 proves nothing about
+    /// the bounds.
     fn crossing(&self, system: &Delassus, rhs: &Rhs) -> Option<Failure> {
         let escape = self.block.escape()?;
         let (mut sum, mut size) = (0.0, 0.0);

@@ -1,33 +1,38 @@
-//! Rows in play that follow from others in play.
+//! Rows in play that depend linearly on others in play.
 //!
-//! Walls that see the same motion make W singular on the rows S in play. A row k that follows from the rows B of the factor, W_BB c = W_Bk,
-//! gives the direction N = eₖ − Σ cⱼ eⱼ of forces that move nothing. W_SS r = q is then taken for the limit δ → 0 of (W_SS + δ D) r = q,
-//! D = diag(Wᵢᵢ), in which every matrix is positive definite and every solution unique:
+//! Walls that see the same motion make W singular on the rows S in play. A row k that depends on
+//! the rows B of the factor, W_BB c = W_Bk, gives the direction N = eₖ − Σ cⱼ eⱼ of forces that
+//! cause no motion. W_SS r = q is then taken for the limit δ → 0 of (W_SS + δ D) r = q, D =
+//! diag(Wᵢᵢ), in which every matrix is positive definite and every solution unique:
 //!
 //! r = e/δ + r₀ + O(δ),   e = N z,  NᵀD N z = Nᵀq,   W r₀ = q − D e,  NᵀD r₀ = 0.
 //!
-//! Where the bounds can all be met, Nᵀq = 0, e is 0, and r₀ is the solution of least Σ Wᵢᵢ rᵢ²: equal walls at one place share equally.
-//! Where they cannot, e is the escape: forces that grow without limit and move nothing.
+//! Where the bounds can all be met, Nᵀq = 0, e is 0, and r₀ is the solution of least Σ Wᵢᵢ rᵢ²:
+//! equal walls at one place share equally. Where they cannot, e is the escape: forces that grow
+//! without limit and cause no motion.
 
 use super::delassus::Delassus;
 use super::sums::dot;
 use super::{NOISE, ROUNDING};
 
-/// A row of less than this share in a combination gives way to none of the others (dimensionless).
+/// A row with less than this share in a combination is not moved to make room for the others
+/// (dimensionless).
 const PART: f64 = 1e-3;
 
-/// An escape, or a yielding, of this share of the largest one is its rounding (dimensionless).
+/// An escape or a yielding below this share of the largest one is rounding (dimensionless).
 pub(super) const SPREAD: f64 = 1e-9;
 
-/// Most room made beforehand for the relations of dependent rows among each other, 32 MB: more is made when it is needed.
+/// Maximum number of entries of NᵀD N for which room is made beforehand (32 MB): more is made when
+/// it is needed.
 const MOST_GRAM: usize = 1 << 22;
 
-/// The dependent rows, and what they have to do with those of the factor.
+/// The dependent rows, and their combinations of the rows of the factor.
 #[derive(Default)]
 pub(super) struct Relations {
-    /// The rows, in the order in which they were met.
+    /// The dependent rows, in the order in which they were found.
     rows: Vec<usize>,
-    /// c of each, one after the other, over the rows of the factor as far as it was then.
+    /// c of each, one after the other, each over the rows that the factor had when the row was
+    /// found.
     combination: Vec<f64>,
     ends: Vec<usize>,
     /// D c of one of them.
@@ -51,7 +56,8 @@ impl Relations {
         &self.rows
     }
 
-    /// Makes room for as many rows as there are now, and as long combinations as `m` rows can have.
+    /// Makes room for as many dependent rows as there are now, and for combinations as long as `m`
+    /// rows can have.
     pub(super) fn reserve(&mut self, m: usize) {
         let count = self.rows.len();
         self.combination.reserve(m);
@@ -90,12 +96,12 @@ impl Relations {
             self.weighed.extend(own.iter().zip(basis).map(|(c, &row)| c * system.square(row)));
             for j in 0..=i {
                 let start = j * (j + 1) / 2;
-                // A combination is as long as the factor was then.
+                // A combination is as long as the factor was when the row was found.
                 let other = self.combination(j);
                 let common = other.len().min(self.weighed.len());
                 let mut sum = dot(&other[..common], &self.weighed[..common]);
                 sum -= dot(&gram[start..start + j], &gram[at..at + j]);
-                // D of the row itself bounds the pivot from below.
+                // D of the row itself is a lower bound of the pivot.
                 gram.push(match i == j {
                     true => (sum.max(0.0) + system.square(self.rows[i])).sqrt(),
                     false => sum / gram[start + j],
@@ -122,8 +128,9 @@ impl Relations {
         }
     }
 
-    /// How far a row may miss its bound for rounding of states and bounds, and still be met with the rows of its combination. Whichever of
-    /// them gives way to the others misses its own bound by the miss over its part.
+    /// How far a row may miss its bound because of rounding of states and bounds, and still count
+    /// as met together with the rows of its combination. Whichever of those gives way to the others
+    /// misses its own bound by the miss over its coefficient.
     pub(super) fn allowed(
         system: &Delassus,
         row: usize,
@@ -137,7 +144,7 @@ impl Relations {
         })
     }
 
-    /// Forgets the escape.
+    /// Sets the escape to 0.
     pub(super) fn calm(&mut self) {
         if self.escapes {
             self.escape.fill(0.0);
@@ -150,7 +157,8 @@ impl Relations {
         self.escapes.then_some(&self.escape)
     }
 
-    /// True if the rows cannot all move by `shift`: e is then what is left of it. `force` holds W⁻¹q on the basis.
+    /// True if the rows cannot all move by `shift`: `share` then holds the misses of the dependent
+    /// rows. `force` holds W⁻¹q on the basis.
     pub(super) fn escapes(
         &mut self,
         system: &Delassus,
@@ -164,7 +172,8 @@ impl Relations {
         let reach = basis.iter().zip(force).fold(0.0, |reach, (&j, r)| f64::max(reach, r.abs() * system.weight[j]));
         for (i, &row) in self.rows.iter().enumerate() {
             let combination = &self.combination[self.ends[i]..self.ends[i + 1]];
-            // An entry of W is wrong by ulps, and the combination by what that moves the row under the forces of the basis.
+            // An entry of W has an error of some ulps, and the combination one of what that moves
+            // the row under the forces of the basis.
             let (mut miss, mut rounding) = (shift(row), ulps * reach * system.weight[row]);
             for (&c, &j) in combination.iter().zip(basis) {
                 let q = shift(j);
@@ -179,7 +188,7 @@ impl Relations {
         self.escapes
     }
 
-    /// Makes e of what is left, and puts q − D e in the place of q, which `asked` holds over the basis.
+    /// Computes e from the misses, and replaces q, which `asked` holds over the basis, by q − D e.
     pub(super) fn escape_by(&mut self, system: &Delassus, basis: &[usize], asked: &mut [f64]) {
         self.weigh();
         for (i, &row) in self.rows.iter().enumerate() {
@@ -201,7 +210,8 @@ impl Relations {
         }
     }
 
-    /// Of all forces that do the same as `force` on the basis, those of least Σ Wᵢᵢ rᵢ²; r of the dependent rows is written.
+    /// Replaces `force` on the basis by the forces of least Σ Wᵢᵢ rᵢ² among all that cause the same
+    /// motion, and writes r of the dependent rows.
     pub(super) fn divide(&mut self, system: &Delassus, basis: &[usize], force: &mut [f64], r: &mut [f64]) {
         self.share.clear();
         for i in 0..self.rows.len() {

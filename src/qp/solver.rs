@@ -1,4 +1,4 @@
-//! The solver in force, and what it has done.
+//! The solver of one programme after another, and counters of what it has done.
 
 use super::active_set::ActiveSet;
 use super::clamp::{Clamp, meet};
@@ -10,9 +10,9 @@ use super::pivoting::{Pivoting, Side, passes};
 use super::{Backend, Failure, NOISE, Problem, Rhs, Solution};
 use std::fmt;
 
-/// Solves one [`Problem`] for one [`Rhs`] after another. Allocates nothing after the first (what Clarabel allocates
-/// inside itself apart, its rebuilding when a bound that was always infinite becomes finite, and what is made where a method
-/// is first needed).
+/// Solves one [`Problem`] for one [`Rhs`] after another. It allocates nothing after the first, with
+/// two exceptions: Clarabel allocates internally and is rebuilt when a bound that was always
+/// infinite becomes finite, and a method's work space is made when that method is first needed.
 pub struct Solver {
     kind: Kind,
     n: usize,
@@ -28,18 +28,19 @@ pub struct Solver {
 pub struct Counters {
     /// Programmes solved or refused.
     pub solves: u64,
-    /// Those whose free motion met no bound: no solver was needed.
+    /// Programmes whose free motion violated no bound: no solver was needed.
     pub free: u64,
-    /// Iterations of the interior point.
+    /// Iterations of the interior-point method.
     pub iterations: u64,
-    /// Rows that pivoting brought into play or freed, beyond those that it started from.
+    /// Rows whose state pivoting changed (brought into play or freed), relative to its warm start.
     pub pivots: u64,
-    /// Programmes on which the condensed solver's pivoting did not settle, or found that bounds cross, so that Clarabel told it where to
-    /// start once more.
+    /// Programmes on which the condensed solver's pivoting did not settle, or found that bounds
+    /// cross, so that it started once more from the active set that Clarabel found.
     pub fallbacks: u64,
     /// Programmes with so many rows in play that their unknowns were eliminated on the band of A.
     pub eliminated: u64,
-    /// Programmes with more rows than the motion has freedoms that a dual active set took over from pivoting, whether or not it settled.
+    /// Programmes with more rows than the motion has degrees of freedom that a dual active-set
+    /// method took over from pivoting, whether or not it settled.
     pub crowded: u64,
 }
 
@@ -48,40 +49,44 @@ enum Kind {
     Condensed(Box<Condensed>),
 }
 
-/// The programme on its rows, solved by pivoting from the last programme's rows in play or from those that Clarabel finds.
+/// The programme on its rows, solved by pivoting from the last programme's active set or from the
+/// one that Clarabel finds.
 struct Condensed {
     system: Delassus,
     pivoting: Pivoting,
-    /// Where A is a narrow band and every row has an unknown of its own.
+    /// `Some` where A is a narrow band and every row sees one unknown that no other row sees.
     elimination: Option<Box<Elimination>>,
-    /// What the interior point is built from when it is needed.
+    /// What the interior-point solver is built from when it is needed.
     problem: Problem,
     interior: Option<Clarabel>,
-    /// Made where pivoting first leaves a programme with more rows than freedoms.
+    /// Made when pivoting first gives up on a programme with more rows than degrees of freedom.
     crowd: Option<Box<Crowd>>,
-    /// Rows that the interior point called.
+    /// The active set that the interior-point solver found.
     start: Vec<(usize, Side)>,
-    /// True if the interior point is asked every time.
+    /// True if the interior-point solver is run on every programme ([`Backend::Clarabel`]).
     always: bool,
-    /// Passes that pivoting has before another method is asked.
+    /// Maximum number of passes of pivoting before another method is tried.
     passes: usize,
 }
 
-/// Passes of pivoting where rows can depend on one another: most programmes take one or two, and what has not settled by then mostly
-/// brings ever more rows into play than are needed.
+/// Maximum number of passes of pivoting where rows can be linearly dependent: most programmes take
+/// one or two, and one that has not settled by then mostly brings ever more rows into play than are
+/// needed.
 const FEW: usize = 30;
 
-/// Rows per freedom of the motion from which on pivoting is asked only whether the last programme's rows still are those in play.
+/// With more rows than this per degree of freedom of the motion, pivoting gets one pass only, which
+/// tests whether the last programme's active set still holds.
 const CROWDED: usize = 2;
 
-/// Rows of a programme that pivoting is left with: all its passes cost little, and where nearly dependent rows close a cone it settles more
-/// often.
+/// Up to this many rows, pivoting gets all its passes: they cost little, and where nearly dependent
+/// rows close a cone it settles more often than the other methods.
 const SMALL: usize = 16;
 
-/// Most rows for which a dual active set is kept: its factor takes 32 MB.
+/// Maximum number of rows for which a dual active-set solver is kept: its factor then takes 32 MB.
 const MOST_ROWS: usize = 2048;
 
-/// Passes that pivoting has for m rows of which `rank` can be independent, before another method is asked.
+/// Maximum number of passes of pivoting for m rows of which `rank` can be linearly independent,
+/// before another method is tried.
 fn patience(m: usize, rank: usize) -> usize {
     match rank {
         _ if rank == m || m <= SMALL || m > MOST_ROWS => passes(m),
@@ -91,14 +96,15 @@ fn patience(m: usize, rank: usize) -> usize {
 }
 
 impl Solver {
-    /// Factors what stays the same. `scale` > 0 is a typical size of the bounds, in the unit of G x (a gap, where x is
-    /// a displacement; gap over step, where it is a velocity): signs of gaps are tested at 1e-12 of it, or of the
-    /// largest free G x where that is larger.
+    /// Factors what stays the same. `scale` > 0 is a typical size of the bounds, in the unit of G x
+    /// (a gap, where x is a displacement; gap over time step, where x is a velocity): signs of gaps
+    /// are tested with a tolerance of 1e-12 times `scale`, or times the row's free G x where that
+    /// is larger.
     ///
     /// # Errors
     /// [`Failure::Shape`] if sizes do not fit, or the clamp is asked for more than one unknown;
-    /// [`Failure::NotFinite`] for a NaN, an infinity, a negative compliance or a scale that is not positive;
-    /// [`Failure::NotPositiveDefinite`].
+    /// [`Failure::NotFinite`] for a NaN, an infinity, a negative compliance or a scale that is not
+    /// positive; [`Failure::NotPositiveDefinite`].
     pub fn new(problem: Problem, backend: Backend, scale: f64) -> Result<Self, Failure> {
         problem.check()?;
         super::finite("scale", &[scale], |v| v > 0.0 && v.is_finite())?;
@@ -137,16 +143,18 @@ impl Solver {
         Ok(Self { kind, n, m, scale, reason, solution, counters: Counters::default() })
     }
 
-    /// The minimiser and its multipliers for b and bounds of this step. After a failure the solver is as good as new,
-    /// and the solution it holds means nothing.
+    /// The minimiser and its multipliers for b and bounds of this step. After a failure the solver
+    /// can be used as before, but the solution it holds is meaningless.
     ///
-    /// Rigid rows that see the same motion (walls at one place, or more walls than the motion has freedoms) make the multipliers
-    /// ambiguous: of all that solve the programme, those of least Σ Wᵢᵢ rᵢ² are returned, W = G A⁻¹ Gᵀ + diag(c). Equal walls at one
-    /// place share equally.
+    /// Rigid rows that see the same motion (walls at one place, or more walls than the motion has
+    /// degrees of freedom) make the multipliers ambiguous: of all that solve the programme, those
+    /// of least Σ Wᵢᵢ rᵢ² are returned, W = G A⁻¹ Gᵀ + diag(c). Equal walls at one place share the
+    /// force equally.
     ///
     /// # Errors
-    /// [`Failure::Shape`]; [`Failure::NotFinite`]; [`Failure::Infeasible`] if bounds cross by more than rounding;
-    /// [`Failure::NotSolved`] if Clarabel was asked for and fails, or where no method settles.
+    /// [`Failure::Shape`]; [`Failure::NotFinite`]; [`Failure::Infeasible`] if bounds cross by more
+    /// than rounding; [`Failure::NotSolved`] if Clarabel was asked for and fails, or where no
+    /// method settles.
     pub fn solve(&mut self, rhs: &Rhs) -> Result<&Solution, Failure> {
         self.counters.solves += 1;
         match &mut self.kind {
@@ -167,7 +175,7 @@ impl Solver {
         Ok(&self.solution)
     }
 
-    /// The last solution; it means nothing before the first and after a failure.
+    /// The last solution; meaningless before the first solve and after a failure.
     #[must_use]
     pub fn solution(&self) -> &Solution {
         &self.solution
@@ -183,7 +191,7 @@ impl Solver {
         }
     }
 
-    /// Why this one: a sentence for a summary.
+    /// Why this solver was chosen: a sentence for a summary.
     #[must_use]
     pub fn reason(&self) -> &'static str {
         self.reason
@@ -208,7 +216,8 @@ impl fmt::Debug for Solver {
 }
 
 impl Condensed {
-    /// Solves for the free motion held in `system` and `solution`, which is not strictly inside the bounds, or at fault.
+    /// Solves for the free motion held in `system` and `solution`, which touches or violates a
+    /// bound or is not finite.
     fn solve(
         &mut self,
         rhs: &Rhs,
@@ -237,7 +246,8 @@ impl Condensed {
                     counters.pivots += pivots;
                     return self.answer(rhs, solution);
                 }
-                // That bounds cross is told after a second opinion only.
+                // Whatever the error (crossing bounds included), it is reported only if the next
+                // method fails too.
                 Err(_) if pivoting.rank() < r.len() && r.len() <= MOST_ROWS => {
                     counters.crowded += 1;
                     let crowd = self.crowd.get_or_insert_with(|| Box::new(Crowd::new(system)));
@@ -273,10 +283,12 @@ impl Condensed {
         } else {
             pivoting.clear();
         }
-        // What neither settles is left to a method that cannot go round in circles, and can say which bounds cross.
+        // What neither settles is left to a dual active-set method, which cannot cycle and can name
+        // the bounds that cross.
         let mut play = ActiveSet::new(r.len());
         pivoting.called().for_each(|(row, side)| play.push(system, row, side));
-        // Far above the few exchanges per row ever seen; a wrong bound here would hang, so it is a failure instead.
+        // Far above the few exchanges per row ever seen. Without a limit, a defect of the method
+        // would hang; with it, the solve fails.
         let limit = 100 + 50 * r.len() as u64;
         counters.pivots += play.solve(system, rhs.lo, rhs.hi, largest, limit, r)?;
         if self.always {
@@ -285,7 +297,7 @@ impl Condensed {
         let forces = r.clone();
         pivoting.clear();
         play.rows().for_each(|(row, side)| pivoting.call(row, side));
-        // From there the share of dependent rows, if pivoting can tell it.
+        // Pivoting from this active set divides the forces among dependent rows, if it settles.
         if pivoting.solve(system, rhs, scale, passes(r.len()), r).is_err() {
             r.copy_from_slice(&forces);
         }
@@ -300,7 +312,8 @@ impl Condensed {
     }
 }
 
-/// The largest violation of a bound by the free motion that is more than `noise`, in units of √Wᵢᵢ; 0 without one.
+/// The largest violation of a bound by the free motion above `noise`, in units of √Wᵢᵢ; 0 if there
+/// is none.
 fn violation(system: &Delassus, rhs: &Rhs, noise: f64) -> f64 {
     (0..system.y.len()).fold(0.0, |most, row| {
         let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);

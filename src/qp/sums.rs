@@ -1,6 +1,6 @@
 //! Sums over slices, written so that several terms are added at once.
 
-/// a · b, in four sums that do not wait for one another.
+/// a · b in four independent sums, so that their additions overlap.
 #[inline]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     if a.len() < 8 {
