@@ -11,7 +11,8 @@
 //!
 //! In the folder `examples/`, each run by `cargo run --release --example NAME`: `tube_contact_force` (the contact force of a tube in loose
 //! supports), `co_simulation` (a controller in another program, with repeated steps), `work_precision` (what an error costs, scheme by
-//! scheme), `poincare` (Poincaré points of an impact oscillator), `bifurcation` (the same of many at once, by [`batch`]).
+//! scheme), `poincare` (Poincaré points of an impact oscillator), `bifurcation` (the same of many at once, by [`batch`]),
+//! `hysteresis` (a sweep by rising and falling frequency).
 #![forbid(unsafe_code)]
 
 pub mod batch;
@@ -38,6 +39,8 @@ pub mod scheme;
 mod statistics;
 mod step;
 pub mod study;
+#[cfg(feature = "cli")]
+pub mod sweep;
 mod time;
 mod trajectory;
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms from the ground up: each may import those before it.
-const ROOMS: [&str; 18] = [
+const ROOMS: [&str; 19] = [
     "error",
     "linear",
     "scene",
@@ -22,17 +22,19 @@ const ROOMS: [&str; 18] = [
     "study",
     "case",
     "output",
+    "sweep",
     "cli",
 ];
 
 /// Rooms that must not meet although the order would let them.
-const STRANGERS: [(&str, &str); 6] = [
+const STRANGERS: [(&str, &str); 7] = [
     ("qp", "scene"),
     ("residual", "qp"),
     ("residual", "scheme"),
     ("flow", "qp"),
     ("study", "case"),
     ("study", "output"),
+    ("sweep", "qp"),
 ];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

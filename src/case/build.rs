@@ -5,6 +5,7 @@ use super::builder::{Builder, MOST_MASSES, TableReader};
 use super::file::{self, File};
 use super::model::{Model, Place};
 use super::report::Source;
+use super::start;
 use super::value::{Number, Section};
 use super::wording::written;
 use super::{Case, FileRead, PenaltyOptions, TimeOptions, Truncated, Written};
@@ -17,7 +18,10 @@ use std::path::Path;
 use toml::Spanned;
 
 /// Builds the case that `text` holds.
-pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>) -> Result<Case> {
+///
+/// Where a `start` is given the scene has it in place of the file's, as far as it has as many degrees of freedom; a rigid wall beyond which it
+/// lies takes it along.
+pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>, start: Option<&State>) -> Result<Case> {
     let source = Source { name, text };
     let file: File =
         toml::from_str(text).map_err(|error: toml::de::Error| source.toml(error.clone()).caused_by(error))?;
@@ -30,11 +34,11 @@ pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>) -> Result<Ca
         static_correction: false,
         written: Written::default(),
     };
-    builder.case(file)
+    builder.case(file, start)
 }
 
 impl Builder<'_> {
-    fn case(&mut self, file: File) -> Result<Case> {
+    fn case(&mut self, file: File, start: Option<&State>) -> Result<Case> {
         let modes = self.modes(&file.system.value)?;
         let built = self.system(file.system, modes.is_some())?;
         (self.model, self.n) = (built.model, built.system.degrees_of_freedom());
@@ -93,12 +97,18 @@ impl Builder<'_> {
             penalty,
             written: std::mem::take(&mut self.written),
         };
+        if let (Some(start), None) = (start, modes) {
+            start::carry_on(&mut case.scene, start);
+        }
         case.check().map_err(|error| self.locate(error, &case.scene))?;
         if let Some(modes) = modes {
             let ratios = built.pending.filter(|damping| matches!(damping, Damping::Modal(_)));
             let whole = Whole { scene: case.scene.clone(), damping: ratios, static_correction: self.static_correction };
             let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
             case.scene = reduction.scene.clone();
+            if let Some(start) = start {
+                start::carry_on(&mut case.scene, start);
+            }
             case.truncated = Some(Truncated { whole, reduction });
             case.check().map_err(|error| self.locate(error, &case.scene))?;
         }

@@ -5,6 +5,7 @@ use super::key_value::KeyValue;
 use super::text::{MOST_CASE_BYTES, MOST_TABLE_BYTES, read_text};
 use super::{Case, Embedded, build, changes, summary};
 use crate::error::{Error, Result, nearest};
+use crate::scene::State;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -143,6 +144,12 @@ impl CaseFile {
         }
     }
 
+    /// The same file with another text, in which `changes` were made.
+    pub(super) fn rewritten(&self, text: String, changes: Vec<String>) -> Self {
+        let (shown, files, read) = (self.shown.clone(), self.files.clone(), Arc::clone(&self.read));
+        Self { shown, text, changed: None, changes: self.changes.iter().cloned().chain(changes).collect(), files, read }
+    }
+
     /// Name of the case: that of the file without folder and extension.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -154,12 +161,26 @@ impl CaseFile {
     /// # Errors
     /// [`Error::Case`], which shows the place: file, line, column, key, and what would be accepted.
     pub fn case(&self) -> Result<Case> {
+        self.build(None)
+    }
+
+    /// Builds the case with `start` in place of its own start, if it has as many degrees of freedom (a case cut to modes has as many as modes, and
+    /// its own start must make sense, too). A rigid wall beyond which the start lies takes the body along, and leaves it its velocity.
+    ///
+    /// # Errors
+    /// As [`CaseFile::case`].
+    pub fn case_from(&self, start: &State) -> Result<Case> {
+        self.build(Some(start))
+    }
+
+    fn build(&self, start: Option<&State>) -> Result<Case> {
         let tables = |file: &str| self.open(file);
-        if self.changed.is_none() {
-            return build::case(&self.text, &self.shown, &tables);
+        if self.changes.is_empty() {
+            return build::case(&self.text, &self.shown, &tables, start);
         }
         let shown = format!("{}, changed by {}", self.shown, self.changes.join(", "));
-        let case = build::case(&self.text()?, &shown, &tables)?;
+        let text = if self.changed.is_some() { &self.text()? } else { &self.text };
+        let case = build::case(text, &shown, &tables, start)?;
         Ok(Case { name: self.name().to_owned(), ..case })
     }
 

@@ -18,6 +18,11 @@ use std::str::FromStr;
 pub struct KeyValue(pub(super) toml::Value);
 
 impl KeyValue {
+    /// A value of a TOML file.
+    pub(crate) fn from_toml(value: toml::Value) -> Self {
+        Self(value)
+    }
+
     /// It as a number; none for what is no number.
     #[must_use]
     pub fn number(&self) -> Option<f64> {
@@ -26,6 +31,12 @@ impl KeyValue {
             toml::Value::Integer(x) => Some(x as f64),
             _ => None,
         }
+    }
+
+    /// True for a whole number, written as one.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.0.is_integer()
     }
 
     /// It as a word; none for what is no word.

@@ -6,6 +6,7 @@ mod completions;
 mod drawing;
 mod explain;
 mod figures;
+mod merge;
 mod new;
 mod noted;
 mod pace;
@@ -13,6 +14,7 @@ mod refuted;
 mod request;
 mod run;
 mod stability;
+mod sweep;
 mod ui;
 mod values;
 mod verdicts;
@@ -31,6 +33,7 @@ Examples:
   signorini run elastic-wall --accuracy 1e-6         an error by name instead of a step
   signorini chart rigid-walls-sine --end 1           accuracy against speed
   signorini stability bouncing-ball                  where each scheme fails
+  signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=1:10:91 --measure contacts    curves and maps
   signorini explain elastic-wall                     what would be chosen, and why
   signorini new bouncing-ball                        a case file to start from
 
@@ -60,8 +63,10 @@ enum Command {
     Compare(compare::Args),
     Explain(explain::Args),
     Figures(figures::Args),
+    Merge(merge::Args),
     New(new::Args),
     Stability(stability::Args),
+    Sweep(sweep::Args),
     Completions(completions::Args),
 }
 
@@ -103,8 +108,10 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
         Command::Compare(args) => compare::execute(args, ui),
         Command::Explain(args) => explain::execute(args, ui),
         Command::Figures(args) => figures::execute(args, ui),
+        Command::Merge(args) => merge::execute(args, ui),
         Command::New(args) => new::execute(args, ui),
         Command::Stability(args) => stability::execute(args, ui),
+        Command::Sweep(args) => sweep::execute(args, ui),
         Command::Completions(args) => completions::execute(args, self::command(), ui),
     }
 }
@@ -127,7 +134,8 @@ mod tests {
         let out = folder.path().join("out").display().to_string();
         let words = ["signorini", "run", case, "--no-verdict", "--quiet", "--out", &out];
         let cli = Cli::try_parse_from(words).unwrap();
-        (checked::take(), factored::take());
+        checked::take();
+        factored::take();
         execute(&cli.command, &Ui::new(true, false, Stdout::Open)).unwrap();
         (checked::take(), factored::take())
     }

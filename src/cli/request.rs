@@ -3,7 +3,7 @@
 use super::drawing::Formats;
 use super::ui::Ui;
 use super::values;
-use crate::case::{Case, CaseFile, Embedded};
+use crate::case::{Case, CaseFile, Embedded, KeyValue};
 use crate::error::{Error, Result};
 use crate::output::results::Results;
 use crate::qp::Backend;
@@ -132,13 +132,24 @@ impl Changes {
             // What is wrong with the file itself is shown in its own lines.
             file.case()?;
         }
-        for text in &self.set {
-            let wrong =
-                || Error::invalid("--set", format_args!("{text:?}"), "KEY=VALUE, such as wall.upper.position=6e-3");
-            let (key, value) = text.split_once('=').ok_or_else(wrong)?;
-            file.set(&key.parse()?, &value.parse()?)?;
+        for (key, value) in self.pairs()? {
+            file.set(&key.parse()?, &value)?;
         }
         Ok(file)
+    }
+
+    /// The keys and values, as they were given.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for what is no KEY=VALUE.
+    pub fn pairs(&self) -> Result<Vec<(String, KeyValue)>> {
+        let pair = |text: &String| {
+            let expected = "KEY=VALUE, such as wall.upper.position=6e-3";
+            let wrong = || Error::invalid("--set", format_args!("{text:?}"), expected);
+            let (key, value) = text.split_once('=').ok_or_else(wrong)?;
+            Ok((key.to_owned(), value.parse()?))
+        };
+        self.set.iter().map(pair).collect()
     }
 
     /// The case of that file.
@@ -220,27 +231,10 @@ impl Request {
     pub fn method(&self, name: &str, case: &Case) -> Result<Method> {
         let name = name.trim();
         self.check_against(name)?;
-        let penalty = name == "penalty" || name.starts_with("penalty:");
-        let mut method: Method = if penalty && !name.contains("epsilon=") && !name.contains("stiffness=") {
-            let law = case.penalty.laws.first().ok_or_else(|| {
-                Error::invalid(
-                    "scheme",
-                    "penalty",
-                    "an --epsilon, or a case with a [penalty] table, or penalty:stiffness=…",
-                )
-            })?;
-            let settings = name.strip_prefix("penalty:").unwrap_or("");
-            format!("penalty:{law},{settings}").parse()?
-        } else {
-            name.parse()?
-        };
-        let names_integrator = name.contains("integrator=");
+        let mut method = case.method(name)?;
         match &mut method.scheme {
             Scheme::MoreauJean { theta } if !name.contains("theta=") => *theta = self.theta.unwrap_or(*theta),
             Scheme::GeneralizedAlpha { rho } if !name.contains("rho=") => *rho = self.rho.unwrap_or(*rho),
-            Scheme::Penalty { integrator, .. } if !names_integrator => {
-                *integrator = case.penalty.integrator.unwrap_or_default();
-            }
             _ => {}
         }
         if method.scheme.has_qp() {

@@ -113,6 +113,14 @@ impl Ui {
         let _ = writeln!(std::io::stderr(), "{text}");
     }
 
+    /// The same while `progress` shows a bar.
+    pub fn beside(&self, progress: &Progress, text: &str) {
+        match progress.bar.as_ref().filter(|bar| !bar.is_hidden()) {
+            Some(bar) => bar.suspend(|| self.message(text)),
+            None => self.message(text),
+        }
+    }
+
     /// An error on stderr, quiet or not; with `--json` also the document, where none was printed.
     pub fn error(&self, error: &Error) {
         let text = error.to_string();

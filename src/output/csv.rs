@@ -92,7 +92,7 @@ pub fn table(path: &Path, header: &[String], rows: impl Iterator<Item = Vec<Stri
 }
 
 /// 17 significant digits; an empty cell where there is no value.
-pub(super) fn digits(value: Option<f64>) -> String {
+pub(crate) fn digits(value: Option<f64>) -> String {
     value.map_or_else(String::new, |x| format!("{x:.16e}"))
 }
 

@@ -11,14 +11,21 @@ use std::path::{Component, Path, PathBuf};
 use std::time::SystemTime;
 
 /// The file that says what a folder holds.
-const MANIFEST: &str = "request.json";
+pub(crate) const MANIFEST: &str = "request.json";
 
 /// Largest such file that is read, bytes.
 const MOST_BYTES: u64 = 1 << 24;
 
 /// Files that results consist of: a folder with one of them, and without a manifest, holds results of an unknown request.
-const RESULTS: [&str; 6] =
-    ["summary.json", "trajectory.csv", "compare.csv", "work-precision.csv", "stability.csv", "impact-map.csv"];
+const RESULTS: [&str; 7] = [
+    "summary.json",
+    "trajectory.csv",
+    "compare.csv",
+    "work-precision.csv",
+    "stability.csv",
+    "impact-map.csv",
+    "sweep.csv",
+];
 
 /// A folder under way.
 #[derive(Debug)]
@@ -45,22 +52,10 @@ impl Results {
     /// # Errors
     /// [`Error::Io`], a wrong request, which says when the other results were made and what differs.
     pub fn open(folder: &Path, request: Map<String, Value>, force: bool, formats: Vec<Format>) -> Result<Self> {
-        let manifest = read(folder);
         if !force {
-            let refused = match &manifest {
-                Some(other) => differences(other.get("request"), &request).map(|what| {
-                    format!("holds results of another request, made {}:{what}", made(other).unwrap_or("at some time"))
-                }),
-                None => RESULTS
-                    .iter()
-                    .find(|name| folder.join(name).exists())
-                    .map(|name| format!("holds results ({name}) and no {MANIFEST} that says of which request")),
-            };
-            if let Some(reason) = refused {
-                let reason = format!("{reason}\nhelp: --force replaces them, --out DIR writes elsewhere");
-                return Err(Error::io(folder.display(), reason, true));
-            }
+            check(folder, &request)?;
         }
+        let manifest = read(folder);
         check_folder(folder)?;
         let unknown = || RESULTS.iter().any(|name| folder.join(name).exists()).then(Before::default);
         let before = manifest.as_ref().map_or_else(unknown, |manifest| {
@@ -156,8 +151,31 @@ impl Results {
     }
 }
 
+/// Makes sure that `folder` holds no results of another request than `request`.
+///
+/// # Errors
+/// [`Error::Io`], a wrong request, which says when the other results were made and what differs.
+pub(crate) fn check(folder: &Path, request: &Map<String, Value>) -> Result<()> {
+    let refused = match read(folder) {
+        Some(other) => differences(other.get("request"), request).map(|what| {
+            format!("holds results of another request, made {}:{what}", made(&other).unwrap_or("at some time"))
+        }),
+        None => RESULTS
+            .iter()
+            .find(|name| folder.join(name).exists())
+            .map(|name| format!("holds results ({name}) and no {MANIFEST} that says of which request")),
+    };
+    match refused {
+        Some(reason) => {
+            let reason = format!("{reason}\nhelp: --force replaces them, --out DIR writes elsewhere");
+            Err(Error::io(folder.display(), reason, true))
+        }
+        None => Ok(()),
+    }
+}
+
 /// The manifest in `folder`, if there is one that can be read.
-fn read(folder: &Path) -> Option<Value> {
+pub(crate) fn read(folder: &Path) -> Option<Value> {
     let path = folder.join(MANIFEST);
     let meta = fs::metadata(&path).ok().filter(|meta| meta.is_file() && meta.len() <= MOST_BYTES)?;
     let text = fs::read_to_string(&path).ok().filter(|_| meta.len() > 0)?;
@@ -169,7 +187,7 @@ fn made(manifest: &Value) -> Option<&str> {
 }
 
 /// What `request` asks otherwise than `other`, one line each; none where it asks the same.
-fn differences(other: Option<&Value>, request: &Map<String, Value>) -> Option<String> {
+pub(crate) fn differences(other: Option<&Value>, request: &Map<String, Value>) -> Option<String> {
     let empty = Map::new();
     let other = other.and_then(Value::as_object).unwrap_or(&empty);
     let keys = other.keys().chain(request.keys().filter(|key| !other.contains_key(*key)));

@@ -5,6 +5,7 @@
 //! | [`Figure`] | panels under one another sharing the horizontal axis: responses, phase plots, work–precision charts |
 //! | [`Panel`] | one frame: [`Curve`]s, [`Stems`] (impulses) and [`Mark`]s (walls, floors) |
 //! | [`HeatMap`] | classes or numbers over two axes |
+//! | [`Scatter`] | any number of points over two axes |
 //!
 //! One look throughout: 160 mm wide, any sans-serif font, legend below the frame, every curve told from its neighbours
 //! by dash pattern and lightness as well as by colour. The same data give the same bytes. Values that cannot be drawn
@@ -43,6 +44,7 @@ mod legend;
 mod look;
 mod panel;
 mod regions;
+mod scatter;
 mod sheet;
 mod svg;
 mod text;
@@ -54,4 +56,5 @@ pub use class::Class;
 pub use curve::{Curve, Mark, Stems};
 pub use heat::HeatMap;
 pub use panel::Panel;
+pub use scatter::Scatter;
 pub use sheet::Figure;

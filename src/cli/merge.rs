@@ -1,0 +1,59 @@
+//! `signorini merge`: shards of a sweep put together.
+
+use super::drawing::Formats;
+use super::ui::Ui;
+use crate::error::Result;
+use crate::sweep::{Merged, merge, write_summary};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Put the shards of a sweep together: the tables of the sweep that was never divided
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  signorini merge out/bifurcation/sweep --out out/bifurcation/whole")]
+pub struct Args {
+    /// Folders of shards, or folders that hold them
+    #[arg(required = true, value_hint = clap::ValueHint::DirPath)]
+    folders: Vec<PathBuf>,
+    /// Folder for the whole
+    #[arg(long, value_name = "DIR", value_hint = clap::ValueHint::DirPath)]
+    out: PathBuf,
+    /// Replace the results of another request
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    formats: Formats,
+}
+
+pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+    let formats = args.formats.usable()?;
+    let merged = merge(&args.folders, &args.out, args.force)?;
+    let Merged { rows, shards, tables, request, title, picture, differing_arithmetic } = merged;
+    let drawn = picture.draw(&args.out, &request, &title, &formats)?;
+    let counts: serde_json::Map<String, serde_json::Value> =
+        tables.counts.iter().map(|(status, count)| (status.clone(), json!(count))).collect();
+    let document = json!({
+        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+        "case": request.get("case"),
+        "rows": rows,
+        "shards": shards,
+        "status": counts,
+        "first_error": tables.first_error,
+        "differing_arithmetic": differing_arithmetic,
+        "request": request,
+        "pictures": drawn,
+        "results": args.out,
+    });
+    write_summary(&args.out, &document)?;
+    if differing_arithmetic {
+        ui.message(
+            "the shards come from machines whose sines and exponentials differ in their last digits: rows that are sensitive to them \
+             may differ from those of one machine",
+        );
+    }
+    ui.message(&format!("{rows} rows of {shards} shards in {}", args.out.display()));
+    drawn.iter().for_each(|path| ui.message(&format!("wrote {}", path.display())));
+    if ui.json() {
+        ui.document(&document)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,271 @@
+//! `signorini sweep`: one case, many values.
+
+use super::request::{Changes, Place, case_file};
+use super::ui::Ui;
+use super::values;
+use crate::error::{Error, Result};
+use crate::sweep::{
+    Axis, Design, Finished, Follow, Kernel, Manner, Measure, Plan, Progress, Random, Shard, Stretch, Sweep, Values,
+    write_summary,
+};
+use serde_json::{Value, json};
+use std::cell::Cell;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+const EXAMPLES: &str = "\
+Examples:
+  signorini sweep bifurcation.toml
+  signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=1:10:901 --measure contacts,displacement_max --keep 60 --settle 400
+  signorini sweep rigid-walls-sine --vary 'wall.*.restitution=0.5,0.8,1' --vary time.step=1e-5:1e-3:9:log --measure force_rms
+  signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=4:5:201 --follow both --scheme event --samples periods --keep 60 --settle 200
+  signorini sweep tube.toml --vary system.damping.ratio=0.005:0.02 --random sobol --points 256 --measure impact_power
+  signorini sweep bifurcation.toml --plan          how many rows, how long, how many bytes
+  signorini sweep bifurcation.toml --shard 3/128   one part of 128; `signorini merge` puts them together
+
+A sweep file is TOML with a key `case`; docs/sweep.md has its format, and all measures.
+Killed at any instant and started again with the same command it goes on, and ends with the same bytes.
+Results: sweep.csv, a row for each point, failed ones with the reason; samples.csv, its instants; a picture; summary.json.";
+
+/// Many runs of one case: curves, maps, bifurcation diagrams and random designs as one table
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// Sweep file; or case file, summary.json of a run, or the name of a built-in case, with --vary
+    #[arg(value_hint = clap::ValueHint::FilePath)]
+    file: String,
+    #[command(flatten)]
+    changes: Changes,
+    /// Vary a value by its key: FROM:TO:POINTS, FROM:TO:POINTS:log, a list A,B,C, or FROM:TO with --random; may be given several times
+    #[arg(long, value_name = "KEY=VALUES")]
+    vary: Vec<String>,
+    /// Pass through the first --vary in this direction, with the state carried on: up, down, both
+    #[arg(long, value_name = "WORD")]
+    follow: Option<Follow>,
+    /// Measures of every row, such as contacts, impulse, force_rms, impact_power, displacement_max, period
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
+    measure: Vec<Measure>,
+    /// Keep instants of every row: periods (once a forcing period) or impacts
+    #[arg(long, value_name = "WORD")]
+    samples: Option<crate::sweep::Samples>,
+    /// How many instants of a row are kept at most: the last ones [default: 200]
+    #[arg(long, value_name = "N")]
+    most_samples: Option<usize>,
+    /// Forcing periods before the window of the measures
+    #[arg(long, value_name = "N", requires = "keep")]
+    settle: Option<u32>,
+    /// Forcing periods in the window, in place of the case's end and statistics_from
+    #[arg(long, value_name = "N")]
+    keep: Option<u32>,
+    /// Scheme [default: chosen from the case; see `signorini explain`]
+    #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
+    scheme: Option<String>,
+    /// What computes rows: scalar, or batch (oscillators side by side, by event) [default: scalar]
+    #[arg(long, value_name = "WORD")]
+    kernel: Option<Kernel>,
+    /// Draw the values of all --vary at random: uniform, lhs (Latin hypercube), sobol
+    #[arg(long, value_name = "KIND", requires = "points")]
+    random: Option<Design>,
+    /// Points of the random design
+    #[arg(long, value_name = "N", requires = "random")]
+    points: Option<u64>,
+    /// What random values are drawn from; sobol without a seed is the plain sequence
+    #[arg(long, value_name = "N", requires = "random")]
+    seed: Option<u64>,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Compute part I of N, in DIR/shard-I-of-N
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Say how many rows there are, how long they will take and how many bytes; write nothing
+    #[arg(long)]
+    plan: bool,
+    /// Exit with code 1 if any row failed, not only if all did
+    #[arg(long)]
+    strict: bool,
+    #[command(flatten)]
+    place: Place,
+}
+
+/// How long the rows of `--plan` are tried.
+const TRIAL: Duration = Duration::from_secs(3);
+
+/// How often a line says how far it is where there is no bar.
+const SAY: Duration = Duration::from_secs(30);
+
+pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+    let formats = args.place.formats.usable()?;
+    let sweep = args.sweep(ui)?;
+    let name = sweep.title().to_owned();
+    let plan = sweep.plan()?;
+    if args.plan {
+        return tell_plan(&plan, ui);
+    }
+    let out = args.place.out.clone().unwrap_or_else(|| Path::new("out").join(&name).join("sweep"));
+    let threads = args.threads.map(usize::from);
+    let manner = Manner { threads, shard: args.shard.unwrap_or(Shard::WHOLE), force: args.place.force };
+    let finished = watched(&plan, &out, manner, ui)?;
+    let drawn = if manner.shard == Shard::WHOLE { plan.draw(&finished.folder, &formats)? } else { Vec::new() };
+    let document = document(&plan, &finished, &drawn);
+    write_summary(&finished.folder, &document)?;
+    report(&finished, &drawn, ui);
+    if ui.json() {
+        ui.document(&document)?;
+    }
+    finished.failure(args.strict).map_or(Ok(()), Err)
+}
+
+/// Runs the sweep under a bar; without one a line now and then says how far it is.
+fn watched(plan: &Plan, out: &Path, manner: Manner, ui: &Ui) -> Result<Finished> {
+    let bar = ui.progress("sweep", plan.count());
+    let said = Cell::new(Instant::now());
+    let finished = plan.run_into(out, manner, &|Progress { done, rows, rate }| {
+        bar.share(done as f64 / rows.max(1) as f64);
+        if said.get().elapsed() > SAY {
+            said.set(Instant::now());
+            let left = if rate > 0.0 { (rows - done) as f64 / rate } else { f64::INFINITY };
+            ui.beside(&bar, &format!("{done} of {rows} rows, {rate:.3} rows/s, {} left", span(left)));
+        }
+    });
+    bar.finish();
+    finished
+}
+
+impl Args {
+    /// What is asked.
+    fn sweep(&self, ui: &Ui) -> Result<Sweep> {
+        let path = Path::new(&self.file);
+        let is_sweep = std::fs::read_to_string(path).is_ok_and(|text| Sweep::is_file(&text));
+        let mut sweep = if is_sweep { Sweep::read(path)? } else { Sweep::new(case_file(&self.file, ui)?) };
+        for (key, value) in self.changes.pairs()? {
+            sweep = sweep.set(&key, value)?;
+        }
+        for (index, text) in self.vary.iter().enumerate() {
+            let axis = axis(text)?;
+            sweep = sweep.vary(if index == 0 { axis.followed(self.follow.unwrap_or_default()) } else { axis });
+        }
+        if let (Some(_), true) = (self.follow, self.vary.is_empty()) {
+            return Err(Error::invalid("--follow", "given", "a --vary beside it, the first of which is followed"));
+        }
+        if let (Some(design), Some(points)) = (self.random, self.points) {
+            sweep = sweep.drawn(Random { design, points, seed: self.seed });
+        }
+        if let Some(keep) = self.keep {
+            sweep = sweep.over(Stretch::Periods { settle: self.settle.unwrap_or(0), keep });
+        }
+        if let Some(kernel) = self.kernel {
+            sweep = sweep.kernel(kernel);
+        }
+        if let Some(scheme) = &self.scheme {
+            sweep = sweep.by(scheme);
+        }
+        sweep = sweep.measure(self.measure.iter().copied());
+        if let Some(samples) = self.samples {
+            sweep = sweep.sample(samples, self.most_samples.unwrap_or(crate::sweep::MOST_SAMPLES));
+        }
+        Ok(sweep)
+    }
+}
+
+/// What `--vary` says.
+fn axis(text: &str) -> Result<Axis> {
+    let wrong = || {
+        let expected = "KEY=FROM:TO:POINTS, KEY=FROM:TO:POINTS:log, KEY=A,B,C, or KEY=FROM:TO with --random";
+        Error::invalid("--vary", format_args!("{text:?}"), expected)
+    };
+    let (key, values) = text.split_once('=').ok_or_else(wrong)?;
+    let parts: Vec<&str> = values.split(':').map(str::trim).collect();
+    let number = |text: &str| text.parse::<f64>().map_err(|_| wrong());
+    let points = |text: &str| text.parse::<u64>().map_err(|_| wrong());
+    let values = match parts.as_slice() {
+        [from, to] if number(from).is_ok() => Values::Range { from: number(from)?, to: number(to)?, log: false },
+        [from, to, "log"] => Values::Range { from: number(from)?, to: number(to)?, log: true },
+        [from, to, count] if number(from).is_ok() => {
+            Values::Linear { from: number(from)?, to: number(to)?, points: points(count)? }
+        }
+        [from, to, count, "log"] => Values::Log { from: number(from)?, to: number(to)?, points: points(count)? },
+        // Words may have colons: penalty:epsilon=1e-9.
+        _ => Values::List(values.split(',').map(str::parse).collect::<Result<_>>()?),
+    };
+    Axis::new(key.trim(), values)
+}
+
+fn tell_plan(plan: &Plan, ui: &Ui) -> Result<()> {
+    let estimate = plan.estimate(TRIAL);
+    let chains = plan.count() / plan.chain_rows();
+    if ui.json() {
+        return ui.document(&json!({
+            "rows": plan.count(),
+            "chains": chains,
+            "columns": plan.header(),
+            "method": plan.method().to_string(),
+            "rows_tried": estimate.tried,
+            "rows_failed": estimate.failed,
+            "seconds": estimate.seconds,
+            "threads": estimate.threads,
+            "bytes": estimate.bytes,
+        }));
+    }
+    let mut lines = vec![format!("{} rows by {}, {} columns", plan.count(), plan.method(), plan.header().len())];
+    if plan.chain_rows() > 1 {
+        lines.push(format!("{chains} chains of {} rows, each on one thread", plan.chain_rows()));
+    }
+    lines.push(format!(
+        "about {} on {} threads, from {} rows tried{}",
+        span(estimate.seconds),
+        estimate.threads,
+        estimate.tried,
+        if estimate.failed > 0 { format!(", {} of which failed", estimate.failed) } else { String::new() }
+    ));
+    lines.push(format!("about {:.1e} bytes of tables, and as much again while it runs", estimate.bytes));
+    ui.answer(&lines.join("\n"))
+}
+
+/// The sweep as a document: `summary.json`.
+fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
+    let counts: serde_json::Map<String, Value> =
+        finished.tables.counts.iter().map(|(status, count)| (status.clone(), json!(count))).collect();
+    json!({
+        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+        "case": plan.case().name,
+        "title": plan.case().title,
+        "rows": finished.rows,
+        "rows_of_earlier_runs": finished.found,
+        "status": counts,
+        "first_error": finished.tables.first_error,
+        "threads": finished.threads,
+        "wall_clock_s": finished.seconds,
+        "request": plan.request(),
+        "pictures": drawn,
+        "results": finished.folder,
+    })
+}
+
+fn report(finished: &Finished, drawn: &[PathBuf], ui: &Ui) {
+    let found = match finished.found {
+        0 => String::new(),
+        found if found == finished.rows => ", all of them there already".to_owned(),
+        found => format!(", {found} of them there already"),
+    };
+    ui.message(&format!("{} rows in {}{found}", finished.rows, span(finished.seconds)));
+    for (status, count) in finished.tables.counts.iter().filter(|(status, _)| status != "ok") {
+        ui.message(&format!("{status}: {count} rows"));
+    }
+    if let Some(error) = &finished.tables.first_error {
+        ui.message(&format!("the first that failed: {error}"));
+    }
+    drawn.iter().for_each(|path| ui.message(&format!("wrote {}", path.display())));
+    ui.message(&format!("results in {}", finished.folder.display()));
+}
+
+/// A length of time in words.
+fn span(seconds: f64) -> String {
+    match seconds {
+        s if !s.is_finite() => "an unknown time".to_owned(),
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.1} days", s / 86_400.0),
+    }
+}

@@ -1,0 +1,427 @@
+//! What is varied: one or several keys, tied to one another, over a list, a grid or a random range.
+
+use super::random::Normal;
+use crate::case::{Key, KeyValue};
+use crate::error::{Error, Result};
+use std::fmt;
+use std::str::FromStr;
+
+/// What an axis changes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Target {
+    /// A value of the case file.
+    Case(Key),
+    /// The scheme: `run.scheme`.
+    Scheme,
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Case(key) => key.fmt(f),
+            Self::Scheme => f.write_str(SCHEME),
+        }
+    }
+}
+
+impl FromStr for Target {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        if text.trim() == SCHEME { Ok(Self::Scheme) } else { text.parse().map(Self::Case) }
+    }
+}
+
+/// The key of the scheme.
+const SCHEME: &str = "run.scheme";
+
+impl Target {
+    fn unit(&self) -> Option<&'static str> {
+        if let Self::Case(key) = self { key.unit() } else { None }
+    }
+
+    /// What a column of its values is called: the last word of the key, or all of it.
+    fn column(&self, whole: bool) -> String {
+        let name = match self {
+            Self::Case(key) if whole => key.to_string().replace('*', "all").replace(['.', '-'], "_"),
+            Self::Case(key) => key.word().to_owned(),
+            Self::Scheme => "scheme".to_owned(),
+        };
+        with_unit(&name, self.unit())
+    }
+}
+
+fn with_unit(name: &str, unit: Option<&str>) -> String {
+    unit.map_or_else(|| name.to_owned(), |unit| format!("{name}_{unit}"))
+}
+
+/// The values of an axis.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// One after another.
+    List(Vec<KeyValue>),
+    /// Equal differences from the first to the last.
+    Linear {
+        /// First.
+        from: f64,
+        /// Last.
+        to: f64,
+        /// How many, two or more.
+        points: u64,
+    },
+    /// Equal ratios from the first to the last, both above 0.
+    Log {
+        /// First.
+        from: f64,
+        /// Last.
+        to: f64,
+        /// How many, two or more.
+        points: u64,
+    },
+    /// Drawn evenly between two bounds, or evenly in the logarithm; with a [`Random`](super::Random) design.
+    Range {
+        /// Lower bound.
+        from: f64,
+        /// Upper bound.
+        to: f64,
+        /// True to draw the logarithm evenly.
+        log: bool,
+    },
+    /// Drawn from a normal distribution; with a [`Random`](super::Random) design.
+    Normal(Normal),
+}
+
+/// In which direction a followed axis is passed through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Follow {
+    /// Every row starts from the case's own start.
+    #[default]
+    No,
+    /// By rising values, every row from the state in which the last one ended.
+    Up,
+    /// The same by falling values.
+    Down,
+    /// Up, and from there down again.
+    Both,
+}
+
+impl Follow {
+    /// The words of a sweep file.
+    pub(super) const ALL: [(&'static str, Self); 4] =
+        [("no", Self::No), ("up", Self::Up), ("down", Self::Down), ("both", Self::Both)];
+}
+
+impl FromStr for Follow {
+    type Err = Error;
+
+    fn from_str(word: &str) -> Result<Self> {
+        Self::ALL.iter().find(|(name, _)| *name == word.trim()).map(|(_, follow)| *follow).ok_or_else(|| {
+            Error::Unknown {
+                kind: "direction to follow",
+                name: word.to_owned(),
+                known: Self::ALL.map(|(name, _)| name.to_owned()).to_vec(),
+            }
+        })
+    }
+}
+
+/// One dimension of a sweep.
+///
+/// ```
+/// use signorini::sweep::{Axis, Follow};
+///
+/// let axis = Axis::linear("load.1.harmonic.frequency", 1.0, 10.0, 901)?.followed(Follow::Both);
+/// let epsilon = Axis::log("penalty.epsilon.0", 1e-12, 1e-6, 7)?;
+/// let words = Axis::list("run.scheme", &["event".into(), "moreau-jean".into()])?;
+/// // Two walls, one gap: factors 1 and −1.
+/// let gap = Axis::linear("wall.upper.position", 1e-3, 5e-3, 9)?.tied("wall.lower.position", -1.0)?;
+/// # Ok::<(), signorini::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// What is changed, each to its factor times the value.
+    pub(super) targets: Vec<(Target, f64)>,
+    pub(super) name: Option<String>,
+    pub(super) values: Values,
+    pub(super) follow: Follow,
+}
+
+impl Axis {
+    /// `values` for `key`.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for what is no key.
+    pub fn new(key: &str, values: Values) -> Result<Self> {
+        Ok(Self { targets: vec![(key.parse()?, 1.0)], name: None, values, follow: Follow::No })
+    }
+
+    /// These values, one after another: numbers, words, or what else the key takes.
+    ///
+    /// # Errors
+    /// As [`Axis::new`].
+    pub fn list(key: &str, values: &[KeyValue]) -> Result<Self> {
+        Self::new(key, Values::List(values.to_vec()))
+    }
+
+    /// `points` values with equal differences.
+    ///
+    /// # Errors
+    /// As [`Axis::new`].
+    pub fn linear(key: &str, from: f64, to: f64, points: u64) -> Result<Self> {
+        Self::new(key, Values::Linear { from, to, points })
+    }
+
+    /// `points` values with equal ratios.
+    ///
+    /// # Errors
+    /// As [`Axis::new`].
+    pub fn log(key: &str, from: f64, to: f64, points: u64) -> Result<Self> {
+        Self::new(key, Values::Log { from, to, points })
+    }
+
+    /// The same, changing `key` too, to `factor` times the value.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for what is no key.
+    pub fn tied(mut self, key: &str, factor: f64) -> Result<Self> {
+        self.targets.push((key.parse()?, factor));
+        Ok(self)
+    }
+
+    /// The same, called `name` in tables and figures.
+    #[must_use]
+    pub fn named(mut self, name: &str) -> Self {
+        self.name = Some(name.to_owned());
+        self
+    }
+
+    /// The same, passed through in that direction with the state carried on.
+    #[must_use]
+    pub fn followed(mut self, follow: Follow) -> Self {
+        self.follow = follow;
+        self
+    }
+
+    /// How it goes by in messages and in a figure's `x` and `y`.
+    #[must_use]
+    pub fn label(&self) -> String {
+        let first = self.targets.first().map_or_else(String::new, |(target, _)| target.to_string());
+        self.name.clone().unwrap_or(first)
+    }
+
+    /// True where a random design draws its values.
+    pub(super) fn is_drawn(&self) -> bool {
+        matches!(self.values, Values::Range { .. } | Values::Normal(_))
+    }
+
+    /// How many values it has; 1 where they are drawn.
+    pub(super) fn count(&self) -> u64 {
+        match &self.values {
+            Values::List(list) => list.len() as u64,
+            Values::Linear { points, .. } | Values::Log { points, .. } => *points,
+            Values::Range { .. } | Values::Normal(_) => 1,
+        }
+    }
+
+    /// Value number `index`, before any factor; of a drawn axis that of `share`, from 0 to 1.
+    pub(super) fn value(&self, index: u64, share: f64) -> KeyValue {
+        let between = |from: f64, to: f64, points: u64| match index {
+            0 => from,
+            // Exact at both ends, whatever the rounding between them.
+            i if i + 1 >= points => to,
+            i => from + (to - from) * (i as f64 / (points - 1) as f64),
+        };
+        match &self.values {
+            Values::List(list) => list.get(index as usize).cloned().unwrap_or_else(|| KeyValue::from(f64::NAN)),
+            Values::Linear { from, to, points } => between(*from, *to, *points).into(),
+            Values::Log { from, to, points } if index == 0 || index + 1 >= *points => {
+                between(*from, *to, *points).into()
+            }
+            Values::Log { from, to, points } => between(from.ln(), to.ln(), *points).exp().into(),
+            Values::Range { from, to, log: false } => (from + (to - from) * share).into(),
+            Values::Range { from, to, log: true } => {
+                (from.ln() + (to.ln() - from.ln()) * share).exp().clamp(*from, *to).into()
+            }
+            Values::Normal(normal) => normal.at(share).into(),
+        }
+    }
+
+    /// The numbers of its values in the order in which a chain passes through them, with the direction of each.
+    pub(super) fn order(&self) -> Vec<(u64, Option<&'static str>)> {
+        let mut up: Vec<u64> = (0..self.count()).collect();
+        if self.follow == Follow::No {
+            return up.into_iter().map(|index| (index, None)).collect();
+        }
+        let number = |index: u64| self.value(index, 0.0).number().unwrap_or(0.0);
+        up.sort_by(|a, b| number(*a).total_cmp(&number(*b)));
+        let rising = up.iter().map(|&index| (index, Some("up")));
+        let falling = up.iter().rev().map(|&index| (index, Some("down")));
+        match self.follow {
+            Follow::Up => rising.collect(),
+            Follow::Down => falling.collect(),
+            _ => rising.chain(falling).collect(),
+        }
+    }
+
+    /// Names of its columns: its own, where several keys are tied under one name, then one a key. `whole` tells keys of one last word apart.
+    pub(super) fn columns(&self, whole: bool) -> Vec<String> {
+        let unit = self.targets.first().and_then(|(target, _)| target.unit());
+        match (&self.name, self.targets.as_slice()) {
+            (Some(name), [_]) => vec![with_unit(&name.replace('-', "_"), unit)],
+            (None, [(target, _)]) => vec![target.column(whole)],
+            (name, targets) => {
+                let own = name.as_ref().map(|name| with_unit(&name.replace('-', "_"), unit));
+                own.into_iter().chain(targets.iter().map(|(target, _)| target.column(true))).collect()
+            }
+        }
+    }
+
+    /// What stands in its columns for `value`.
+    pub(super) fn cells(&self, value: &KeyValue) -> Vec<KeyValue> {
+        let own = (self.name.is_some() && self.targets.len() > 1).then(|| value.clone());
+        own.into_iter().chain(self.settings(value).map(|(_, value)| value)).collect()
+    }
+
+    /// What is set where, for `value`.
+    pub(super) fn settings<'a>(&'a self, value: &'a KeyValue) -> impl Iterator<Item = (&'a Target, KeyValue)> {
+        self.targets.iter().map(move |(target, factor)| match value.number() {
+            Some(x) if *factor != 1.0 => (target, (factor * x).into()),
+            _ => (target, value.clone()),
+        })
+    }
+
+    /// Refuses what makes no sense by itself.
+    pub(super) fn validate(&self, random: bool) -> Result<()> {
+        let key = |what: &str| format!("[[vary]] {}: {what}", self.label());
+        if let Some(name) = &self.name {
+            let fits = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+            if name.is_empty() || !name.chars().all(fits) {
+                return Err(Error::invalid(key("name"), format_args!("{name:?}"), "letters, digits, - and _"));
+            }
+        }
+        let finite = |what: &str, x: f64| {
+            if x.is_finite() {
+                Ok(())
+            } else {
+                Err(Error::invalid(key(what), format_args!("{x:?}"), "a finite number"))
+            }
+        };
+        if let Some((target, _)) =
+            self.targets.iter().find(|(target, factor)| *factor != 1.0 && *target == Target::Scheme)
+        {
+            return Err(Error::invalid(key("factors"), target, "none for words"));
+        }
+        for (_, factor) in &self.targets {
+            finite("factors", *factor)?;
+        }
+        match &self.values {
+            Values::List(list) if list.is_empty() => {
+                return Err(Error::invalid(key("values"), "an empty list", "one value or more"));
+            }
+            Values::List(_) => {}
+            Values::Linear { from, to, points } | Values::Log { from, to, points } => {
+                finite("from", *from)?;
+                finite("to", *to)?;
+                if from == to {
+                    return Err(Error::invalid(
+                        key("to"),
+                        format_args!("{to:?}"),
+                        "another number than from: the range is empty",
+                    ));
+                }
+                if *points < 2 {
+                    return Err(Error::invalid(key("points"), points, "2 or more; a single value is a list"));
+                }
+            }
+            Values::Range { from, to, .. } => {
+                finite("from", *from)?;
+                finite("to", *to)?;
+                if from >= to {
+                    return Err(Error::invalid(key("to"), format_args!("{to:?}"), format!("more than from, {from:?}")));
+                }
+            }
+            Values::Normal(normal) => normal.validate(&key("normal"))?,
+        }
+        if let Values::Log { from, to, .. } | Values::Range { from, to, log: true } = &self.values {
+            let least = from.min(*to);
+            if least <= 0.0 {
+                return Err(Error::invalid(
+                    key("from"),
+                    format_args!("{least:?}"),
+                    "a number above 0 on a logarithmic scale",
+                ));
+            }
+        }
+        match (random, self.is_drawn()) {
+            (true, false) => {
+                return Err(Error::invalid(
+                    key("points"),
+                    "given",
+                    "a range or a normal distribution, without points: [random] says how many",
+                ));
+            }
+            (false, true) => {
+                let expected = "points or values beside it, or a table [random] that draws them";
+                return Err(Error::invalid(key("from and to"), "given alone", expected));
+            }
+            _ => {}
+        }
+        if self.follow == Follow::No {
+            return Ok(());
+        }
+        if random {
+            return Err(Error::invalid(key("follow"), "given", "none in a random design: its rows have no order"));
+        }
+        let words = if let Values::List(list) = &self.values {
+            list.iter().find(|value| value.number().is_none())
+        } else {
+            None
+        };
+        words.map_or(Ok(()), |word| {
+            Err(Error::invalid(key("follow"), format_args!("given for {word}"), "numbers: words have no order"))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(axis: &Axis) -> Vec<f64> {
+        (0..axis.count()).map(|index| axis.value(index, 0.0).number().unwrap()).collect()
+    }
+
+    #[test]
+    fn grids_are_exact_at_both_ends_and_even_between() {
+        let axis = Axis::linear("time.step", 0.1, 0.7, 7).unwrap();
+        let values = numbers(&axis);
+        assert_eq!((values[0], values[6]), (0.1, 0.7));
+        assert!(values.windows(2).all(|pair| (pair[1] - pair[0] - 0.1).abs() < 1e-15));
+        let values = numbers(&Axis::log("time.step", 1e-6, 1e-2, 5).unwrap());
+        assert_eq!((values[0], values[4]), (1e-6, 1e-2));
+        assert!(values.windows(2).all(|pair| (pair[1] / pair[0] / 10.0 - 1.0).abs() < 1e-13));
+    }
+
+    #[test]
+    fn a_followed_axis_goes_up_and_down_whatever_the_order_of_the_file() {
+        let list = [3.0, 1.0, 2.0].map(KeyValue::from);
+        let axis = Axis::list("time.step", &list).unwrap().followed(Follow::Both);
+        let order: Vec<_> = axis
+            .order()
+            .into_iter()
+            .map(|(index, direction)| (list[index as usize].number().unwrap(), direction.unwrap()))
+            .collect();
+        assert_eq!(order, [(1.0, "up"), (2.0, "up"), (3.0, "up"), (3.0, "down"), (2.0, "down"), (1.0, "down")]);
+    }
+
+    #[test]
+    fn tied_keys_have_a_column_each_and_a_factor() {
+        let axis =
+            Axis::linear("wall.upper.position", 1.0, 2.0, 2).unwrap().tied("wall.lower-2.position", -1.0).unwrap();
+        assert_eq!(axis.columns(false), ["wall_upper_position_m", "wall_lower_2_position_m"]);
+        assert_eq!(axis.cells(&1.5.into()), [1.5.into(), (-1.5).into()]);
+        let named = axis.named("gap");
+        assert_eq!(named.columns(false)[0], "gap_m");
+        assert_eq!(named.cells(&1.5.into()).len(), 3);
+    }
+}

@@ -1,0 +1,91 @@
+//! What a picture can be drawn from: the axes of a sweep, and the columns of its tables by name.
+
+use super::measure::Measure;
+use super::table::{TABLE, Table};
+use crate::output::figure::Scale;
+use serde_json::{Map, Value};
+use std::path::Path;
+
+/// An axis as the request remembers it.
+pub(super) struct Along {
+    pub column: String,
+    pub key: String,
+    pub scale: Scale,
+    pub follows: bool,
+    /// How many values it has.
+    pub count: u64,
+}
+
+/// What a picture is drawn from.
+pub(super) struct Source<'a> {
+    pub folder: &'a Path,
+    pub title: &'a str,
+    pub axes: Vec<Along>,
+    pub random: bool,
+    pub columns: Vec<String>,
+    pub sample_columns: Vec<String>,
+}
+
+impl<'a> Source<'a> {
+    pub fn new(folder: &'a Path, request: &Map<String, Value>, title: &'a str) -> Self {
+        let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+        let list = |key: &str| {
+            let list = request.get(key).and_then(Value::as_array);
+            list.map_or_else(Vec::new, |list| list.iter().map(text).collect::<Vec<_>>())
+        };
+        let along = |axis: &Value| {
+            let values = text(&axis["values"]);
+            let log = values.starts_with("Log") || values.contains("log: true");
+            Along {
+                column: text(&axis["column"]),
+                key: text(&axis["keys"][0]["key"]),
+                scale: if log { Scale::Log } else { Scale::Linear },
+                follows: axis["follow"] != "No",
+                count: axis["count"].as_u64().unwrap_or(0),
+            }
+        };
+        Self {
+            folder,
+            title,
+            axes: request
+                .get("vary")
+                .and_then(Value::as_array)
+                .map_or_else(Vec::new, |axes| axes.iter().map(along).collect()),
+            random: request.get("random").is_some_and(|random| !random.is_null()),
+            columns: list("columns"),
+            sample_columns: list("sample_columns"),
+        }
+    }
+}
+
+impl Along {
+    /// True if its values are numbers.
+    pub fn is_numeric(&self, source: &Source<'_>) -> bool {
+        let Ok(table) = Table::open(&source.folder.join(TABLE)) else { return false };
+        let Ok(index) = table.column(&self.column) else { return false };
+        table.first(|row| row.number(index).is_some()).unwrap_or(false)
+    }
+}
+
+/// True if `column` is that name with a wall, a probe or a unit behind it.
+pub(super) fn of(column: &str, name: &str) -> bool {
+    column == name || column.strip_prefix(name).is_some_and(|rest| rest.starts_with('_'))
+}
+
+/// The wall or probe in the name of a column of `measure`.
+pub(super) fn place_of(column: &str, measure: &str) -> String {
+    place_suffix(column, measure).trim_start_matches('_').to_owned()
+}
+
+/// The same with the sign before it.
+pub(super) fn place_suffix(column: &str, measure: &str) -> String {
+    let unit =
+        measure.parse::<Measure>().ok().and_then(Measure::unit).map_or_else(String::new, |unit| format!("_{unit}"));
+    let rest = column.strip_prefix(measure).unwrap_or_default();
+    rest.strip_suffix(&unit).unwrap_or(rest).to_owned()
+}
+
+/// A cell without more digits than a label needs.
+pub(super) fn short(cell: &str) -> String {
+    cell.parse::<f64>().map_or_else(|_| cell.to_owned(), |x| format!("{x:.4e}").parse::<f64>().unwrap_or(x).to_string())
+}

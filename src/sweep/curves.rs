@@ -1,0 +1,150 @@
+//! Curves and maps of measures.
+
+use super::columns::{Along, Source, place_of, place_suffix, short};
+use super::picture::Picture;
+use super::table::{TABLE, Table, label};
+use crate::error::{Error, Result};
+use crate::output::figure::{Curve, Figure, HeatMap, Panel, Scale, Scatter};
+
+/// Most curves of one panel.
+const MOST_CURVES: usize = 8;
+
+/// Most cells along one side of a heat map.
+const MOST_CELLS: usize = 160;
+
+/// Points of one curve, and its label.
+type Labelled = (String, Vec<(f64, f64)>);
+
+impl Picture {
+    pub(super) fn line(&self, source: &Source<'_>) -> Result<Option<String>> {
+        let x = Self::axis(self.x.as_ref(), source)?;
+        let groups = self.measures(self.y.as_ref(), source)?;
+        if !x.is_numeric(source) || groups.is_empty() {
+            return Ok(None);
+        }
+        let table = Table::open(&source.folder.join(TABLE))?;
+        let own = table.column(&x.column)?;
+        let others: Vec<usize> = source
+            .axes
+            .iter()
+            .filter(|axis| axis.column != x.column)
+            .map(|axis| table.column(&axis.column))
+            .collect::<Result<_>>()?;
+        let direction = table.column("direction").ok();
+        let wanted: Vec<Vec<usize>> = groups
+            .iter()
+            .map(|(_, columns)| columns.iter().map(|c| table.column(c)).collect())
+            .collect::<Result<_>>()?;
+        // By panel, then by column and group of rows: points.
+        let mut curves: Vec<Vec<Labelled>> = vec![Vec::new(); groups.len()];
+        let mut left_out = false;
+        table.each(|row| {
+            let Some(at) = row.number(own) else { return };
+            let mut words: Vec<String> =
+                direction.map(|index| row.text(index).to_owned()).into_iter().filter(|d| !d.is_empty()).collect();
+            if !source.random {
+                words.extend(others.iter().map(|&index| short(row.text(index))));
+            }
+            for ((curves, columns), (measure, names)) in curves.iter_mut().zip(&wanted).zip(&groups) {
+                for (&index, name) in columns.iter().zip(names) {
+                    let place = place_of(name, measure);
+                    let label = [(!place.is_empty()).then_some(place), (!words.is_empty()).then(|| words.join(", "))];
+                    let label = label.into_iter().flatten().collect::<Vec<_>>().join(": ");
+                    let point = (at, row.number(index).unwrap_or(f64::NAN));
+                    match curves.iter().position(|(known, _)| *known == label) {
+                        Some(known) => curves[known].1.push(point),
+                        None if curves.len() < MOST_CURVES => curves.push((label, vec![point])),
+                        None => left_out = true,
+                    }
+                }
+            }
+        })?;
+        let title = if left_out { format!("{}: the first curves", source.title) } else { source.title.to_owned() };
+        if source.random {
+            return Ok(cloud(&title, x, &groups, &curves));
+        }
+        let mut figure = Figure::new(title, label(&x.column));
+        if x.scale == Scale::Log {
+            figure = figure.log();
+        }
+        for (curves, (measure, columns)) in curves.into_iter().zip(&groups) {
+            let unit = columns
+                .first()
+                .map_or_else(|| measure.clone(), |column| label(&column.replace(&place_suffix(column, measure), "")));
+            let mut panel = Panel::new(unit);
+            for (label, mut points) in curves {
+                points.sort_by(|a, b| a.0.total_cmp(&b.0));
+                let few = points.len() <= 60;
+                let curve = Curve::new(label, points);
+                panel = panel.curve(if few { curve.marked() } else { curve });
+            }
+            figure = figure.panel(panel);
+        }
+        Ok(Some(figure.to_svg()))
+    }
+
+    pub(super) fn heat(&self, source: &Source<'_>) -> Result<Option<String>> {
+        let [x, y] = self.sides(source)?;
+        if x.column == y.column {
+            return Err(Error::invalid("[figure] y", &y.column, "another varied value than x"));
+        }
+        if !x.is_numeric(source) || !y.is_numeric(source) || source.random {
+            return Err(Error::invalid("[figure] kind", "heat", "two axes of numbers, without [random]"));
+        }
+        let groups = self.measures(self.z.as_ref(), source)?;
+        let Some(column) = groups.first().and_then(|(_, columns)| columns.first()) else { return Ok(None) };
+        let table = Table::open(&source.folder.join(TABLE))?;
+        let (xi, yi, zi) = (table.column(&x.column)?, table.column(&y.column)?, table.column(column)?);
+        let direction = table.column("direction").ok();
+        let mut found: Vec<(f64, f64, f64)> = Vec::new();
+        table.each(|row| {
+            // Of a followed axis the way up.
+            if direction.is_some_and(|index| row.text(index) == "down") {
+                return;
+            }
+            if let (Some(x), Some(y)) = (row.number(xi), row.number(yi)) {
+                found.push((x, y, row.number(zi).unwrap_or(f64::NAN)));
+            }
+        })?;
+        let centres = |pick: fn(&(f64, f64, f64)) -> f64| {
+            let mut all: Vec<f64> = found.iter().map(pick).collect();
+            all.sort_by(f64::total_cmp);
+            all.dedup();
+            let every = all.len().div_ceil(MOST_CELLS).max(1);
+            all.into_iter().step_by(every).collect::<Vec<f64>>()
+        };
+        let (xs, ys) = (centres(|p| p.0), centres(|p| p.1));
+        let mut cells = vec![f64::NAN; xs.len() * ys.len()];
+        let place = |list: &[f64], value: f64| list.binary_search_by(|other| other.total_cmp(&value)).ok();
+        for (px, py, value) in &found {
+            if let (Some(i), Some(j)) = (place(&xs, *px), place(&ys, *py))
+                && let Some(cell) = cells.get_mut(j * xs.len() + i)
+            {
+                *cell = *value;
+            }
+        }
+        let (x_label, y_label) = (label(&x.column), label(&y.column));
+        let map = HeatMap::new(source.title, (&x_label, x.scale, &xs), (&y_label, y.scale, &ys));
+        Ok(Some(map.numbers(label(column), Scale::Linear, cells).to_svg()))
+    }
+}
+
+/// A measure of random points over one of their coordinates.
+fn cloud(title: &str, x: &Along, groups: &[(String, Vec<String>)], curves: &[Vec<Labelled>]) -> Option<String> {
+    let (curves, (measure, columns)) = (curves.first()?, groups.first()?);
+    let labels: Vec<&str> = curves.iter().take(2).map(|(label, _)| label.as_str()).collect();
+    let points = || curves.iter().take(2).flat_map(|(_, points)| points).filter(|p| p.0.is_finite() && p.1.is_finite());
+    let extent = |pick: fn(&(f64, f64)) -> f64| {
+        points().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
+    };
+    let column = columns.first()?;
+    let y_label = label(&column.replace(&place_suffix(column, measure), ""));
+    points().next()?;
+    let x_label = label(&x.column);
+    let mut scatter =
+        Scatter::new(title, (&x_label, x.scale, extent(|p| p.0)), (&y_label, Scale::Linear, extent(|p| p.1)), &labels);
+    for (group, (_, points)) in curves.iter().take(2).enumerate() {
+        points.iter().for_each(|(x, y)| scatter.add(group, *x, *y));
+    }
+    Some(scatter.to_svg())
+}

@@ -1,0 +1,350 @@
+//! Sweep files: what is varied and asked, as TOML beside the case.
+
+use super::axis::{Axis, Follow, Values};
+use super::measure::Measure;
+use super::picture::{Kind, Picture};
+use super::random::{Normal, Random};
+use super::request::{JUDGED, Kernel, MOST_SAMPLES, Stretch, Sweep};
+use crate::case::{CaseFile, Embedded, KeyValue};
+use crate::error::{Error, Result};
+use serde::Deserialize;
+use std::path::Path;
+
+/// Largest sweep file, bytes.
+const MOST_BYTES: u64 = 1 << 22;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    case: String,
+    #[serde(default)]
+    set: toml::Table,
+    #[serde(default)]
+    vary: Vec<Vary>,
+    random: Option<RandomTable>,
+    #[serde(default)]
+    run: RunTable,
+    measure: Option<MeasureTable>,
+    figure: Option<FigureTable>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Vary {
+    key: Option<String>,
+    keys: Option<Vec<String>>,
+    factors: Option<Vec<f64>>,
+    name: Option<String>,
+    values: Option<Vec<toml::Value>>,
+    from: Option<f64>,
+    to: Option<f64>,
+    points: Option<u64>,
+    scale: Option<String>,
+    normal: Option<NormalTable>,
+    follow: Option<String>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NormalTable {
+    mean: f64,
+    deviation: f64,
+    least: Option<f64>,
+    most: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RandomTable {
+    kind: String,
+    points: u64,
+    seed: Option<u64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RunTable {
+    scheme: Option<String>,
+    settle: Option<Length>,
+    keep: Option<Length>,
+    judged: Option<u64>,
+    kernel: Option<String>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Length {
+    periods: Option<u32>,
+    seconds: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MeasureTable {
+    #[serde(default)]
+    columns: Vec<String>,
+    samples: Option<String>,
+    most_samples: Option<usize>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FigureTable {
+    kind: Option<String>,
+    x: Option<String>,
+    y: Option<String>,
+    z: Option<String>,
+    wall: Option<String>,
+}
+
+impl Sweep {
+    /// True if the text is that of a sweep file: TOML with a key `case`, which case files do not have.
+    #[must_use]
+    pub fn is_file(text: &str) -> bool {
+        toml::from_str::<toml::Table>(text).is_ok_and(|table| table.contains_key("case"))
+    }
+
+    /// Reads the sweep file at `path`; its case is a file relative to it, or a built-in case.
+    ///
+    /// ```no_run
+    /// use signorini::sweep::{Manner, Shard, Sweep};
+    ///
+    /// let sweep = Sweep::read("bifurcation.toml".as_ref())?;
+    /// let manner = Manner { threads: None, shard: Shard::WHOLE, force: false };
+    /// sweep.plan()?.run_into("out/bifurcation".as_ref(), manner, &|_| ())?;
+    /// # Ok::<(), signorini::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Io`] where it cannot be read, [`Error::Case`] for what is no sweep file, with line and column, and what the parts of a sweep refuse.
+    pub fn read(path: &Path) -> Result<Self> {
+        let failed = |reason: String| Error::io(path.display(), reason, true);
+        let length = std::fs::metadata(path).map_err(|error| failed(error.to_string()))?.len();
+        if length > MOST_BYTES {
+            return Err(failed(format!("more than {MOST_BYTES} bytes")));
+        }
+        let text = std::fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
+        Self::parse(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// The same from its text, which messages call `name`; the case is looked for in `folder`.
+    ///
+    /// # Errors
+    /// As [`Sweep::read`].
+    pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Self> {
+        let file: File = toml::from_str(text).map_err(|error| Error::Case { report: format!("error: {name}: {error}"), cause: None })?;
+        let mut case = case_file(&file.case, folder)?;
+        for (key, value) in &file.set {
+            case.set(&key.parse()?, &KeyValue::from_toml(value.clone()))?;
+        }
+        let mut sweep = Self::new(case);
+        for vary in file.vary {
+            sweep = sweep.vary(axis(vary)?);
+        }
+        if let Some(RandomTable { kind, points, seed }) = file.random {
+            sweep = sweep.drawn(Random { design: kind.parse()?, points, seed });
+        }
+        sweep.stretch = stretch(file.run.settle, file.run.keep)?;
+        sweep.scheme = file.run.scheme;
+        sweep.kernel = file.run.kernel.map_or(Ok(Kernel::Scalar), |word| word.parse())?;
+        sweep.judged = file.run.judged.unwrap_or(JUDGED);
+        if let Some(measure) = file.measure {
+            let measures = measure.columns.iter().map(|name| name.parse::<Measure>()).collect::<Result<Vec<_>>>()?;
+            sweep = sweep.measure(measures);
+            if let Some(word) = measure.samples.filter(|word| word != "no") {
+                sweep = sweep.sample(word.parse()?, measure.most_samples.unwrap_or(MOST_SAMPLES));
+            }
+        }
+        sweep.picture = file.figure.map(picture).transpose()?.unwrap_or_default();
+        if let Some(stem) = Path::new(name).file_stem() {
+            sweep.title = stem.to_string_lossy().into_owned();
+        }
+        Ok(sweep)
+    }
+}
+
+/// The case that a sweep file calls `name`.
+fn case_file(name: &str, folder: &Path) -> Result<CaseFile> {
+    let path = folder.join(name);
+    let beside = folder.join(format!("{name}.toml"));
+    let bare = Path::new(name).extension().is_none();
+    match Embedded::named(name) {
+        _ if path.is_file() => CaseFile::read(path),
+        _ if bare && beside.is_file() => CaseFile::read(beside),
+        Ok(embedded) => CaseFile::embedded(embedded.name),
+        Err(_) => CaseFile::read(path),
+    }
+}
+
+fn axis(vary: Vary) -> Result<Axis> {
+    let keys = match (vary.key, vary.keys) {
+        (Some(key), None) => vec![key],
+        (None, Some(keys)) if !keys.is_empty() => keys,
+        _ => {
+            return Err(Error::invalid(
+                "[[vary]]",
+                "no key, or both key and keys",
+                "key = \"…\", or keys = [\"…\", \"…\"] that are tied",
+            ));
+        }
+    };
+    let label = format!("[[vary]] {}", vary.name.as_ref().unwrap_or(&keys[0]));
+    let refuse =
+        |what: &str, found: &str, expected: &str| Err(Error::invalid(format!("{label}: {what}"), found, expected));
+    let log = match vary.scale.as_deref() {
+        None | Some("linear") => false,
+        Some("log") => true,
+        Some(other) => return refuse("scale", &format!("{other:?}"), "\"linear\" or \"log\""),
+    };
+    let values = match (vary.values, vary.from, vary.to, vary.points, vary.normal) {
+        (Some(values), None, None, None, None) => Values::List(values.into_iter().map(KeyValue::from_toml).collect()),
+        (None, Some(from), Some(to), Some(points), None) if log => Values::Log { from, to, points },
+        (None, Some(from), Some(to), Some(points), None) => Values::Linear { from, to, points },
+        (None, Some(from), Some(to), None, None) => Values::Range { from, to, log },
+        (None, None, None, None, Some(NormalTable { mean, deviation, least, most })) => {
+            Values::Normal(Normal { mean, deviation, least, most })
+        }
+        _ => {
+            let expected =
+                "values = [..]; or from, to and points; with [random] from and to, or normal = { mean, deviation }";
+            return refuse("values", "none, or several kinds of them", expected);
+        }
+    };
+    let factors = vary.factors.unwrap_or_else(|| vec![1.0; keys.len()]);
+    if factors.len() != keys.len() {
+        return refuse("factors", &format!("{} for {} keys", factors.len(), keys.len()), "one factor a key");
+    }
+    let targets =
+        keys.iter().zip(factors).map(|(key, factor)| Ok((key.parse()?, factor))).collect::<Result<Vec<_>>>()?;
+    let follow = vary.follow.map_or(Ok(Follow::No), |word| word.parse())?;
+    Ok(Axis { targets, name: vary.name, values, follow })
+}
+
+fn stretch(settle: Option<Length>, keep: Option<Length>) -> Result<Stretch> {
+    let refuse = |found: &str| {
+        let expected = "settle and keep, both as { periods = N } or both as { seconds = T }";
+        Err(Error::invalid("[run] settle and keep", found, expected))
+    };
+    let none = Length { periods: None, seconds: None };
+    let (first, Some(last)) = (settle.unwrap_or(none), keep) else {
+        return if settle.is_some() { refuse("settle without keep") } else { Ok(Stretch::Case) };
+    };
+    match (first.periods, first.seconds, last.periods, last.seconds) {
+        (settle, None, Some(keep), None) => Ok(Stretch::Periods { settle: settle.unwrap_or(0), keep }),
+        (None, settle, None, Some(keep)) => Ok(Stretch::Seconds { settle: settle.unwrap_or(0.0), keep }),
+        _ => refuse("both units, or neither"),
+    }
+}
+
+fn picture(table: FigureTable) -> Result<Picture> {
+    let kind = table.kind.map(|word| word.parse::<Kind>()).transpose()?;
+    Ok(Picture { kind, x: table.x, y: table.y, z: table.z, wall: table.wall })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = r#"
+case = "rigid-walls-sine"
+[set]
+"wall.*.restitution" = 0.8
+[[vary]]
+key = "load.1.harmonic.frequency"
+name = "frequency"
+from = 4.0
+to = 5.0
+points = 11
+follow = "both"
+[[vary]]
+keys = ["wall.upper.position", "wall.lower.position"]
+factors = [1.0, -1.0]
+values = [4e-3, 5e-3]
+[run]
+scheme = "event"
+settle = { periods = 4 }
+keep = { periods = 6 }
+[measure]
+columns = ["contacts", "displacement_max", "period"]
+samples = "impacts"
+most_samples = 12
+[figure]
+kind = "bifurcation"
+x = "frequency"
+y = "approach_speed"
+wall = "upper"
+"#;
+
+    fn read(text: &str) -> Result<Sweep> {
+        Sweep::parse(text, "sweep.toml", Path::new(""))
+    }
+
+    #[test]
+    fn a_file_says_what_the_library_would() {
+        let plan = read(FILE).unwrap().plan().unwrap();
+        let built = Sweep::new(CaseFile::embedded("rigid-walls-sine").unwrap())
+            .set("wall.*.restitution", 0.8)
+            .unwrap()
+            .vary(
+                Axis::linear("load.1.harmonic.frequency", 4.0, 5.0, 11)
+                    .unwrap()
+                    .named("frequency")
+                    .followed(Follow::Both),
+            )
+            .vary(
+                Axis::list("wall.upper.position", &[4e-3.into(), 5e-3.into()])
+                    .unwrap()
+                    .tied("wall.lower.position", -1.0)
+                    .unwrap(),
+            )
+            .by("event")
+            .over(Stretch::Periods { settle: 4, keep: 6 })
+            .measure([Measure::Contacts, Measure::DisplacementMax, Measure::Period])
+            .sample(super::super::Samples::Impacts, 12);
+        let built = built.plan().unwrap();
+        assert_eq!(plan.request(), built.request());
+        assert_eq!((plan.count(), plan.chain_rows()), (44, 22));
+        assert_eq!(
+            plan.header()[..5],
+            ["row", "direction", "frequency_Hz", "wall_upper_position_m", "wall_lower_position_m"]
+        );
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_what_would_do() {
+        for (from, to, words) in [
+            ("points = 11", "points = 1", "2 or more"),
+            ("to = 5.0", "to = 4.0", "the range is empty"),
+            ("from = 4.0", "from = \"four\"", "line 8, column"),
+            ("points = 11", "pionts = 11", "unknown field `pionts`"),
+            ("frequency\"\nname", "frequancy\"\nname", "did you mean load.1.harmonic.frequency?"),
+            ("load.1.harm", "load.3.harm", "no load is named \"3\"; there is 1"),
+            ("follow = \"both\"", "follow = \"back\"", "no direction to follow is named \"back\""),
+            (
+                "values = [4e-3, 5e-3]",
+                "from = 4e-3\nto = 5e-3\npoints = 2\nfollow = \"up\"",
+                "one followed [[vary]] at most",
+            ),
+            ("values = [4e-3, 5e-3]", "values = [\"a\", \"b\"]", "takes a number"),
+            ("values = [4e-3, 5e-3]", "values = []", "one value or more"),
+            ("values = [4e-3, 5e-3]", "values = [4e-3]\nfrom = 1.0", "several kinds"),
+            ("values = [4e-3, 5e-3]", "from = 1e-3\nto = 2e-3", "a table [random] that draws them"),
+            ("factors = [1.0, -1.0]", "factors = [1.0]", "one factor a key"),
+            ("\"period\"]", "\"perod\"]", "did you mean period?"),
+            ("samples = \"impacts\"", "samples = \"impact\"", "did you mean impacts?"),
+            ("keep = { periods = 6 }", "keep = { periods = 0 }", "one forcing period or more"),
+            ("keep = { periods = 6 }", "keep = { seconds = 6 }", "both units"),
+            ("keep = { periods = 6 }\n", "", "settle without keep"),
+            ("scheme = \"event\"", "scheme = \"evnt\"", "did you mean event?"),
+            ("case = \"rigid-walls-sine\"", "case = \"rigid-wals-sine\"", "did you mean rigid-walls-sine?"),
+            ("kind = \"bifurcation\"", "kind = \"bifurcaton\"", "did you mean bifurcation?"),
+            ("\"wall.*.restitution\" = 0.8", "\"wall.*.restitution\" = 1.8", "expected a number from 0 to 1"),
+            ("\"wall.upper.position\", \"wall.low", "\"load.1.harmonic.frequency\", \"wall.low", "each key once"),
+        ] {
+            let text = FILE.replacen(from, to, 1);
+            assert_ne!(text, FILE, "{from}");
+            let error = read(&text).and_then(Sweep::plan).unwrap_err();
+            assert!(error.is_request() && error.to_string().contains(words), "{to}: {error}");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The tables of a sweep, in the order of their rows.
+
+use super::journal::Journal;
+use super::plan::Plan;
+use super::record::line;
+use super::table::{SAMPLES, TABLE};
+use crate::error::{Error, Result};
+use crate::output::atomic::WholeFile;
+use std::io::Write;
+use std::path::Path;
+
+/// What the rows of a table came to.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tables {
+    /// Number of rows by their status, in the order in which these first appear.
+    pub counts: Vec<(String, u64)>,
+    /// The first row that failed, with its number.
+    pub first_error: Option<String>,
+}
+
+impl Tables {
+    /// Counts a row.
+    pub(super) fn count(&mut self, number: &str, status: &str, error: &str) {
+        match self.counts.iter_mut().find(|(known, _)| known == status) {
+            Some((_, count)) => *count += 1,
+            None => self.counts.push((status.to_owned(), 1)),
+        }
+        if !["ok", "handed"].contains(&status) && self.first_error.is_none() {
+            self.first_error = Some(format!("row {number}: {error}"));
+        }
+    }
+
+    /// Rows that failed.
+    #[must_use]
+    pub fn bad(&self) -> u64 {
+        let bad = self.counts.iter().filter(|(status, _)| !["ok", "handed"].contains(&status.as_str()));
+        bad.map(|(_, count)| count).sum()
+    }
+
+    /// Those of a table that is there.
+    ///
+    /// # Errors
+    /// [`Error::Io`] for a file that cannot be read.
+    pub fn read(path: &Path) -> Result<Self> {
+        let failed = |error: csv::Error| Error::io(path.display(), error.to_string(), false);
+        let mut reader = csv::Reader::from_path(path).map_err(failed)?;
+        let columns = Columns::of(reader.headers().map_err(failed)?);
+        let mut tables = Self::default();
+        let mut record = csv::StringRecord::new();
+        while reader.read_record(&mut record).map_err(failed)? {
+            columns.count(&record, &mut tables);
+        }
+        Ok(tables)
+    }
+}
+
+/// Where status and error stand in a table.
+pub(super) struct Columns {
+    status: usize,
+    error: usize,
+}
+
+impl Columns {
+    pub fn of(header: &csv::StringRecord) -> Self {
+        let find = |name: &str| header.iter().position(|column| column == name).unwrap_or(usize::MAX);
+        Self { status: find("status"), error: find("error") }
+    }
+
+    pub fn count(&self, record: &csv::StringRecord, tables: &mut Tables) {
+        let cell = |index: usize| record.get(index).unwrap_or_default();
+        tables.count(cell(0), cell(self.status), cell(self.error));
+    }
+}
+
+/// Writes both tables from the journal, each whole or not at all.
+pub(super) fn write_tables(plan: &Plan, folder: &Path, journal: &mut Journal, rows: u64) -> Result<Tables> {
+    let failed = |path: &Path, error: &std::io::Error| Error::io(path.display(), format!("{error}\nhelp: all rows are kept in the journal; make room and give the same command again"), false);
+    let mut table = WholeFile::create(&folder.join(TABLE))?;
+    let mut samples = plan.sweep.samples.map(|_| WholeFile::create(&folder.join(SAMPLES))).transpose()?;
+    let put = |file: &mut WholeFile, bytes: &[u8]| {
+        let written = file.write_all(bytes);
+        written.map_err(|error| failed(file.path(), &error))
+    };
+    put(&mut table, &line(plan.header()))?;
+    if let Some(samples) = &mut samples {
+        put(samples, &line(plan.sample_header()))?;
+    }
+    let mut tables = Tables::default();
+    let columns = Columns::of(&csv::StringRecord::from(plan.header().to_vec()));
+    for place in 0..rows {
+        let block = journal.read(place as usize)?.ok_or_else(|| Error::io(folder.display(), "a row is missing in the journal".to_owned(), false))?;
+        put(&mut table, &block.line)?;
+        if let Some(samples) = &mut samples {
+            put(samples, &block.samples)?;
+        }
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(block.line.as_slice());
+        if let Some(Ok(record)) = reader.records().next() {
+            columns.count(&record, &mut tables);
+        }
+    }
+    if let Some(samples) = samples {
+        samples.finish()?;
+    }
+    table.finish()?;
+    Ok(tables)
+}

@@ -1,0 +1,185 @@
+//! Measures: what is asked of every row, by name.
+
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+use std::fmt;
+use std::str::FromStr;
+
+/// What a measure is told of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scope {
+    /// Each wall.
+    Wall,
+    /// Each probe.
+    Probe,
+    /// The whole row.
+    Row,
+}
+
+/// One measure of a row: a column for each wall, each probe, or the row.
+///
+/// All of them are of one window, from `statistics_from`, or the end of `settle`, to the end; they are those of
+/// [`Statistics`](crate::Statistics) where it has them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// Number of contact episodes that began in the window.
+    Contacts,
+    /// Number of them that are impacts: without length.
+    Impacts,
+    /// Contacts per second.
+    ContactRate,
+    /// Share of the window in contact.
+    ContactTimeRatio,
+    /// Impulse of the wall on the body over the window, N s, signed.
+    Impulse,
+    /// Mean, largest and root mean square of |impulse| over episodes, N s.
+    ImpulseMean,
+    /// Largest |impulse| of an episode, N s.
+    ImpulseMax,
+    /// Root mean square of the impulse over episodes, N s.
+    ImpulseRms,
+    /// Mean of |force| over time, N.
+    ForceMean,
+    /// Root mean square of the force over time, N; see [`ForceStatistics`](crate::ForceStatistics).
+    ForceRms,
+    /// Mean over episodes of the largest |force|, N, of those whose force is finite.
+    PeakForceMean,
+    /// Largest of them, N.
+    PeakForceMax,
+    /// Kinetic energy that arrived per time, W.
+    ImpactPower,
+    /// The same less what left, W.
+    ArrivedLessDepartedPower,
+    /// Mean speed towards the wall at the start of an episode, m/s.
+    ApproachSpeedMean,
+    /// Largest of them, m/s.
+    ApproachSpeedMax,
+    /// Smallest of them, m/s: 0 at a graze.
+    ApproachSpeedLeast,
+    /// Largest |u|, m.
+    DisplacementMax,
+    /// Highest u, m.
+    DisplacementHighest,
+    /// Lowest u, m.
+    DisplacementLowest,
+    /// Root mean square of u over time, m.
+    DisplacementRms,
+    /// Largest |u̇|, m/s.
+    VelocityMax,
+    /// Impacts at all walls over forcing periods.
+    ImpactsPerPeriod,
+    /// The least number of forcing periods after which the motion repeats itself; none up to 32 leaves the cell empty.
+    Period,
+    /// Growth of a change of the start over the window, 1/s: the largest Lyapunov exponent of a long one; by the batch engine alone.
+    Lyapunov,
+}
+
+/// Name, scope, and unit as column names write it.
+const MEASURES: [(Measure, &str, Scope, Option<&str>); 25] = [
+    (Measure::Contacts, "contacts", Scope::Wall, None),
+    (Measure::Impacts, "impacts", Scope::Wall, None),
+    (Measure::ContactRate, "contact_rate", Scope::Wall, Some("per_s")),
+    (Measure::ContactTimeRatio, "contact_time_ratio", Scope::Wall, None),
+    (Measure::Impulse, "impulse", Scope::Wall, Some("N_s")),
+    (Measure::ImpulseMean, "impulse_mean", Scope::Wall, Some("N_s")),
+    (Measure::ImpulseMax, "impulse_max", Scope::Wall, Some("N_s")),
+    (Measure::ImpulseRms, "impulse_rms", Scope::Wall, Some("N_s")),
+    (Measure::ForceMean, "force_mean", Scope::Wall, Some("N")),
+    (Measure::ForceRms, "force_rms", Scope::Wall, Some("N")),
+    (Measure::PeakForceMean, "peak_force_mean", Scope::Wall, Some("N")),
+    (Measure::PeakForceMax, "peak_force_max", Scope::Wall, Some("N")),
+    (Measure::ImpactPower, "impact_power", Scope::Wall, Some("W")),
+    (Measure::ArrivedLessDepartedPower, "arrived_less_departed_power", Scope::Wall, Some("W")),
+    (Measure::ApproachSpeedMean, "approach_speed_mean", Scope::Wall, Some("m_per_s")),
+    (Measure::ApproachSpeedMax, "approach_speed_max", Scope::Wall, Some("m_per_s")),
+    (Measure::ApproachSpeedLeast, "approach_speed_least", Scope::Wall, Some("m_per_s")),
+    (Measure::DisplacementMax, "displacement_max", Scope::Probe, Some("m")),
+    (Measure::DisplacementHighest, "displacement_highest", Scope::Probe, Some("m")),
+    (Measure::DisplacementLowest, "displacement_lowest", Scope::Probe, Some("m")),
+    (Measure::DisplacementRms, "displacement_rms", Scope::Probe, Some("m")),
+    (Measure::VelocityMax, "velocity_max", Scope::Probe, Some("m_per_s")),
+    (Measure::ImpactsPerPeriod, "impacts_per_period", Scope::Row, None),
+    (Measure::Period, "period", Scope::Row, None),
+    (Measure::Lyapunov, "lyapunov", Scope::Row, Some("per_s")),
+];
+
+impl Measure {
+    /// Every measure, in the order of the documentation.
+    pub fn all() -> impl Iterator<Item = Self> {
+        MEASURES.iter().map(|entry| entry.0)
+    }
+
+    fn entry(self) -> (&'static str, Scope, Option<&'static str>) {
+        let entry = MEASURES.iter().find(|entry| entry.0 == self);
+        entry.map_or(("", Scope::Row, None), |&(_, name, scope, unit)| (name, scope, unit))
+    }
+
+    /// Its name, `impulse_mean`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.entry().0
+    }
+
+    /// What it is told of.
+    #[must_use]
+    pub fn scope(self) -> Scope {
+        self.entry().1
+    }
+
+    /// Its unit as column names write it, `N_s`; none for a number without one.
+    #[must_use]
+    pub fn unit(self) -> Option<&'static str> {
+        self.entry().2
+    }
+
+    /// Its columns in a table of rows of `scene`: `impulse_mean_upper_N_s`.
+    #[must_use]
+    pub fn columns(self, scene: &Scene) -> Vec<String> {
+        let walls: Vec<&str> = scene.walls.iter().map(|wall| wall.name.as_str()).collect();
+        let probes: Vec<&str> = scene.probes.iter().map(|probe| probe.name.as_str()).collect();
+        let names = match self.scope() {
+            Scope::Wall => crate::output::csv::words(&walls),
+            Scope::Probe => crate::output::csv::words(&probes),
+            Scope::Row => vec![String::new()],
+        };
+        let unit = self.unit().map_or_else(String::new, |unit| format!("_{unit}"));
+        let column = |name: &String| {
+            let of = if name.is_empty() { String::new() } else { format!("_{name}") };
+            format!("{}{of}{unit}", self.name())
+        };
+        names.iter().map(column).collect()
+    }
+
+    /// True for a measure of the motion between contacts.
+    pub(super) fn sees_motion(self) -> bool {
+        self.scope() == Scope::Probe
+    }
+
+    /// True for a measure that counts forcing periods.
+    pub(super) fn needs_period(self) -> bool {
+        matches!(self, Self::ImpactsPerPeriod | Self::Period)
+    }
+
+    /// True for a measure of the force over time.
+    pub(super) fn sees_force(self) -> bool {
+        matches!(self, Self::Impulse | Self::ForceMean | Self::ForceRms)
+    }
+}
+
+impl fmt::Display for Measure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Measure {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self> {
+        MEASURES.iter().find(|entry| entry.1 == name.trim()).map(|entry| entry.0).ok_or_else(|| Error::Unknown {
+            kind: "measure",
+            name: name.to_owned(),
+            known: MEASURES.iter().map(|entry| entry.1.to_owned()).collect(),
+        })
+    }
+}

@@ -1,0 +1,213 @@
+//! Shards put together: the bytes of the sweep that was never divided.
+
+use super::finish::{Columns, Tables};
+use super::folder::{self, Study, wrong};
+use super::picture::Picture;
+use super::shard::Shard;
+use super::table::{SAMPLES, TABLE};
+use crate::error::{Error, Result};
+use crate::output::atomic::{WholeFile, check_folder};
+use crate::output::results;
+use serde_json::{Map, Value};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+
+/// What a merged sweep amounts to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Merged {
+    /// Rows in all.
+    pub rows: u64,
+    /// How many shards there were.
+    pub shards: usize,
+    /// Rows by what became of them.
+    pub tables: Tables,
+    /// The request of the whole.
+    pub request: Map<String, Value>,
+    /// Its title, and its picture.
+    pub title: String,
+    /// What it shows.
+    pub picture: Picture,
+    /// True if the shards were computed with mathematical libraries that differ in their last bits.
+    pub differing_arithmetic: bool,
+}
+
+/// One shard on disk.
+struct Part {
+    folder: PathBuf,
+    shard: Shard,
+    request: Map<String, Value>,
+    arithmetic: Value,
+    study: Study,
+    finished: bool,
+}
+
+impl Part {
+    fn read(folder: &Path) -> Result<Self> {
+        let manifest = results::read(folder)
+            .ok_or_else(|| wrong(folder, "no shard of a sweep: it has no request.json".to_owned()))?;
+        let mut request = manifest["request"].as_object().cloned().unwrap_or_default();
+        if request.get("command").and_then(Value::as_str) != Some("sweep") {
+            return Err(wrong(folder, "no shard of a sweep: it holds results of another command".to_owned()));
+        }
+        let shard: Shard = match request.remove("shard") {
+            Some(shard) => shard.as_str().unwrap_or_default().parse()?,
+            None => Shard::WHOLE,
+        };
+        let finished = manifest["files"].as_array().is_some_and(|files| files.iter().any(|file| file == TABLE));
+        Ok(Self {
+            folder: folder.to_owned(),
+            shard,
+            request,
+            arithmetic: manifest["arithmetic"].clone(),
+            study: Study::read(&manifest),
+            finished: finished && folder.join(TABLE).exists(),
+        })
+    }
+}
+
+/// The folders of shards that `folders` name: each is one, or has them within.
+fn expanded(folders: &[PathBuf]) -> Result<Vec<PathBuf>> {
+    let mut all = Vec::new();
+    for folder in folders {
+        if results::read(folder).is_some() {
+            all.push(folder.clone());
+            continue;
+        }
+        let entries = std::fs::read_dir(folder).map_err(|error| wrong(folder, error.to_string()))?;
+        let mut within: Vec<PathBuf> = entries
+            .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("shard-")))
+            .collect();
+        if within.is_empty() {
+            return Err(wrong(folder, "no shard of a sweep, and none within".to_owned()));
+        }
+        within.sort();
+        all.append(&mut within);
+    }
+    Ok(all)
+}
+
+/// Puts the shards in `folders` together in `out`.
+///
+/// # Errors
+/// [`Error::Io`], a wrong request: a shard that is missing, not finished, there twice, or of another request; an `out` with other results.
+pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged> {
+    let mut parts = expanded(folders)?.iter().map(|folder| Part::read(folder)).collect::<Result<Vec<_>>>()?;
+    parts.sort_by_key(|part| part.shard.index());
+    let first = parts.first().ok_or_else(|| Error::invalid("merge", "nothing", "the folders of shards"))?;
+    let of = first.shard.of();
+    for part in &parts {
+        if let Some(what) = results::differences(Some(&Value::Object(first.request.clone())), &part.request) {
+            return Err(wrong(
+                &part.folder,
+                format!("a shard of another request than {}:{what}", first.folder.display()),
+            ));
+        }
+        if part.shard.of() != of {
+            let reason = format!("a shard of {}, where {} is one of {of}", part.shard.of(), first.folder.display());
+            return Err(wrong(&part.folder, reason));
+        }
+        if !part.finished {
+            let reason = format!("shard {} is not finished: the command that began it goes on with it", part.shard);
+            return Err(wrong(&part.folder, reason));
+        }
+    }
+    if let Some(twice) = parts.windows(2).find(|pair| matches!(pair, [a, b] if a.shard == b.shard)) {
+        let folders: Vec<_> = twice.iter().map(|part| part.folder.display().to_string()).collect();
+        return Err(wrong(
+            &twice[0].folder,
+            format!("shard {} is there twice: {}", twice[0].shard, folders.join(" and ")),
+        ));
+    }
+    let missing: Vec<String> = (1..=of)
+        .filter(|index| parts.iter().all(|part| part.shard.index() != *index))
+        .map(|index| format!("{index}/{of}"))
+        .collect();
+    if !missing.is_empty() {
+        let shown = missing.iter().take(20).cloned().collect::<Vec<_>>().join(", ");
+        let more = if missing.len() > 20 { ", …" } else { "" };
+        return Err(wrong(out, format!("{} of {of} shards are missing: {shown}{more}", missing.len())));
+    }
+    let request = first.request.clone();
+    if !force {
+        results::check(out, &request)?;
+    }
+    check_folder(out)?;
+    let number = |key: &str| request.get(key).and_then(Value::as_u64).filter(|x| *x > 0);
+    let (Some(rows), Some(length)) = (number("rows"), number("rows_of_a_chain")) else {
+        return Err(wrong(&first.folder, "its request.json does not say how many rows there are".to_owned()));
+    };
+    let sampled = request.get("sample_columns").is_some_and(Value::is_array);
+    let tables = tables(&parts, out, rows, length, sampled)?;
+    folder::say(out, &request, &first.study, Shard::WHOLE, true)?;
+    let differing_arithmetic = parts.iter().any(|part| part.arithmetic != first.arithmetic);
+    let Study { title, picture, .. } = first.study.clone();
+    Ok(Merged { rows, shards: parts.len(), tables, request, title, picture, differing_arithmetic })
+}
+
+/// Lines of one file, with the number of the row that each is of.
+struct Lines {
+    path: PathBuf,
+    reader: BufReader<File>,
+    line: Vec<u8>,
+}
+
+impl Lines {
+    /// Opens the file; the header is the first line.
+    fn open(path: PathBuf) -> Result<Self> {
+        let file = File::open(&path).map_err(|error| wrong(&path, error.to_string()))?;
+        let mut lines = Self { path, reader: BufReader::with_capacity(1 << 16, file), line: Vec::new() };
+        lines.next()?;
+        Ok(lines)
+    }
+
+    fn next(&mut self) -> Result<()> {
+        self.line.clear();
+        let read = self.reader.read_until(b'\n', &mut self.line);
+        read.map(drop).map_err(|error| wrong(&self.path, error.to_string()))
+    }
+
+    /// The row of the line at hand; none at the end.
+    fn row(&self) -> Option<u64> {
+        let cell = self.line.split(|&b| b == b',').next()?;
+        std::str::from_utf8(cell).ok()?.parse().ok()
+    }
+}
+
+fn tables(parts: &[Part], out: &Path, rows: u64, length: u64, sampled: bool) -> Result<Tables> {
+    let failed = |path: &Path, error: &std::io::Error| Error::io(path.display(), error.to_string(), false);
+    let open = |name: &str| parts.iter().map(|part| Lines::open(part.folder.join(name))).collect::<Result<Vec<_>>>();
+    let mut tables = Tables::default();
+    for name in [Some(TABLE), sampled.then_some(SAMPLES)].into_iter().flatten() {
+        let mut sources = open(name)?;
+        let mut file = WholeFile::create(&out.join(name))?;
+        let header = sources.first().map(|lines| lines.line.clone()).unwrap_or_default();
+        let columns = Columns::of(&record(&header));
+        file.write_all(&header).map_err(|error| failed(file.path(), &error))?;
+        sources.iter_mut().try_for_each(Lines::next)?;
+        for row in 0..rows {
+            let shard = (row / length) % parts.len() as u64;
+            let Some(lines) = sources.get_mut(shard as usize) else { continue };
+            let mut found = 0;
+            while lines.row() == Some(row) {
+                file.write_all(&lines.line).map_err(|error| failed(file.path(), &error))?;
+                if name == TABLE {
+                    columns.count(&record(&lines.line), &mut tables);
+                }
+                found += 1;
+                lines.next()?;
+            }
+            if name == TABLE && found != 1 {
+                return Err(wrong(&lines.path, format!("row {row} is there {found} times")));
+            }
+        }
+        file.finish()?;
+    }
+    Ok(tables)
+}
+
+fn record(line: &[u8]) -> csv::StringRecord {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(line);
+    reader.records().next().and_then(std::result::Result::ok).unwrap_or_default()
+}

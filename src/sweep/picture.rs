@@ -1,0 +1,219 @@
+//! The picture of a sweep, from its tables: which one, and of which columns.
+
+use super::columns::{Along, Source, of};
+use super::measure::Measure;
+use crate::error::{Error, Result};
+use crate::output::format::Format;
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// What a picture shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A measure over one axis, a curve for each wall or probe, each direction and each value of other axes; points in a random design.
+    Line,
+    /// A measure over two axes, as colours.
+    Heat,
+    /// Instants over one axis, up and down in two colours.
+    Bifurcation,
+    /// Instants over one another: a Poincaré section of all rows.
+    Section,
+}
+
+impl Kind {
+    const ALL: [(&'static str, Self); 4] =
+        [("line", Self::Line), ("heat", Self::Heat), ("bifurcation", Self::Bifurcation), ("section", Self::Section)];
+}
+
+impl FromStr for Kind {
+    type Err = Error;
+
+    fn from_str(word: &str) -> Result<Self> {
+        Self::ALL.iter().find(|(name, _)| *name == word.trim()).map(|(_, kind)| *kind).ok_or_else(|| Error::Unknown {
+            kind: "kind of figure",
+            name: word.to_owned(),
+            known: Self::ALL.map(|(name, _)| name.to_owned()).to_vec(),
+        })
+    }
+}
+
+/// Which picture is drawn; what is left out follows from the sweep. Columns go by their names, or by these without wall and unit:
+/// `approach_speed`.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Picture {
+    /// What it shows.
+    pub kind: Option<Kind>,
+    /// What runs along the horizontal axis.
+    pub x: Option<String>,
+    /// What runs along the vertical axis.
+    pub y: Option<String>,
+    /// What the colours of a heat map tell.
+    pub z: Option<String>,
+    /// The wall whose instants or measures are drawn; all of them where none is named.
+    pub wall: Option<String>,
+}
+/// Most panels.
+const MOST_PANELS: usize = 4;
+
+/// Fewer values than this are curves of their own rather than a side of a map.
+const FEW: u64 = 6;
+
+impl Picture {
+    /// Refuses what the tables of `request` do not have.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for a column, [`Error::Invalid`] for a kind that they do not hold.
+    pub(super) fn check(&self, request: &Map<String, Value>) -> Result<()> {
+        let source = Source::new(Path::new(""), request, "");
+        if let (Some(wall), false) = (&self.wall, self.kind == Some(Kind::Heat)) {
+            let walls = request.get("wall_names").and_then(Value::as_array).cloned().unwrap_or_default();
+            if walls.iter().all(|known| known != wall) {
+                let known = walls.iter().filter_map(|name| name.as_str().map(str::to_owned)).collect();
+                return Err(Error::Unknown { kind: "wall", name: wall.clone(), known });
+            }
+        }
+        let x = || Self::axis(self.x.as_ref(), &source).map(drop);
+        let sampled = source.sample_columns.len() > 1;
+        match self.kind {
+            Some(Kind::Bifurcation | Kind::Section) if !sampled => Err(Error::invalid(
+                "[figure] kind",
+                "of samples",
+                "samples = \"impacts\" or \"periods\" in [measure] beside it",
+            )),
+            Some(Kind::Section) => {
+                self.sampled(self.x.as_ref(), 0, &source)?;
+                self.sampled(self.y.as_ref(), 1, &source).map(drop)
+            }
+            Some(Kind::Bifurcation) => x().and_then(|()| self.sampled(self.y.as_ref(), 0, &source).map(drop)),
+            None if sampled => x().and_then(|()| self.sampled(self.y.as_ref(), 0, &source).map(drop)),
+            Some(Kind::Heat) => {
+                self.sides(&source)?;
+                self.measures(self.z.as_ref(), &source).map(drop)
+            }
+            Some(Kind::Line) => x().and_then(|()| self.measures(self.y.as_ref(), &source).map(drop)),
+            None => x(),
+        }
+    }
+
+    /// What it is as JSON, and from there again.
+    pub(super) fn document(&self) -> Value {
+        let kind = self.kind.and_then(|kind| Kind::ALL.iter().find(|entry| entry.1 == kind)).map(|entry| entry.0);
+        json!({ "kind": kind, "x": self.x, "y": self.y, "z": self.z, "wall": self.wall })
+    }
+
+    pub(super) fn from_document(document: &Value) -> Self {
+        let word = |key: &str| document[key].as_str().map(str::to_owned);
+        let kind = word("kind").and_then(|word| word.parse().ok());
+        Self { kind, x: word("x"), y: word("y"), z: word("z"), wall: word("wall") }
+    }
+
+    /// Draws the picture of the tables in `folder`, which `request` is of, in each of `formats`; gives the paths. A table of which there is nothing
+    /// to draw has none.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for a column that the tables do not have, [`Error::Io`] where they cannot be read or the picture cannot be written.
+    pub fn draw(
+        &self,
+        folder: &Path,
+        request: &Map<String, Value>,
+        title: &str,
+        formats: &[Format],
+    ) -> Result<Vec<PathBuf>> {
+        let source = Source::new(folder, request, title);
+        let sampled = source.sample_columns.len() > 1;
+        let kind = self.kind.unwrap_or(match source.axes.len() {
+            _ if sampled => Kind::Bifurcation,
+            2 if !source.random && source.axes.iter().all(|axis| axis.count >= FEW && axis.is_numeric(&source)) => {
+                Kind::Heat
+            }
+            _ => Kind::Line,
+        });
+        if !sampled && matches!(kind, Kind::Bifurcation | Kind::Section) {
+            return Err(Error::invalid(
+                "[figure] kind",
+                "of samples",
+                "samples = \"impacts\" or \"periods\" in [measure] beside it",
+            ));
+        }
+        let svg = match kind {
+            Kind::Line => self.line(&source)?,
+            Kind::Heat => self.heat(&source)?,
+            Kind::Bifurcation => self.bifurcation(&source)?,
+            Kind::Section => self.section(&source)?,
+        };
+        let Some(svg) = svg else { return Ok(Vec::new()) };
+        let mut paths = Vec::new();
+        for format in formats {
+            let path = folder.join(format!("sweep.{format}"));
+            format.write(&path, &svg)?;
+            paths.push(path);
+        }
+        Ok(paths)
+    }
+
+    /// The axis that `asked` names, or the one to draw over where nothing is asked.
+    pub(super) fn axis<'a>(asked: Option<&String>, source: &'a Source<'_>) -> Result<&'a Along> {
+        let axes = &source.axes;
+        let found = match asked {
+            Some(name) => axes.iter().find(|axis| axis.column == *name || axis.key == *name || of(&axis.column, name)),
+            // The followed one, or else the one of most values.
+            None => axes.iter().rev().max_by_key(|axis| (axis.follows, axis.count)),
+        };
+        found.ok_or_else(|| Error::Unknown {
+            kind: "varied value",
+            name: asked.cloned().unwrap_or_default(),
+            known: axes.iter().map(|axis| axis.column.clone()).collect(),
+        })
+    }
+
+    /// The two axes of a map: those asked for, else in the order of the file.
+    pub(super) fn sides<'a>(&self, source: &'a Source<'_>) -> Result<[&'a Along; 2]> {
+        let named = |asked: &Option<String>| asked.as_ref().map(|name| Self::axis(Some(name), source)).transpose();
+        let other = |than: Option<&Along>| {
+            let found = source.axes.iter().find(|axis| than.is_none_or(|than| than.column != axis.column));
+            found.ok_or_else(|| Error::invalid("[figure] kind", "heat", "two varied values"))
+        };
+        Ok(match (named(&self.x)?, named(&self.y)?) {
+            (Some(x), Some(y)) => [x, y],
+            (Some(x), None) => [x, other(Some(x))?],
+            (None, Some(y)) => [other(Some(y))?, y],
+            (None, None) => {
+                let x = other(None)?;
+                [x, other(Some(x))?]
+            }
+        })
+    }
+
+    /// The columns that `asked` means, or all of the first measures, a list for each.
+    pub(super) fn measures(&self, asked: Option<&String>, source: &Source<'_>) -> Result<Vec<(String, Vec<String>)>> {
+        let from = source.columns.iter().position(|column| column == "error").map_or(0, |index| index + 1);
+        let all = source.columns.get(from..).unwrap_or_default();
+        let mut groups: Vec<(String, Vec<String>)> = Vec::new();
+        for column in all {
+            let measure =
+                Measure::all().map(Measure::name).filter(|name| of(column, name)).max_by_key(|name| name.len());
+            let measure = measure.unwrap_or(column).to_owned();
+            let fits = self.wall.as_ref().is_none_or(|wall| column.contains(&format!("_{}", wall.replace('-', "_"))));
+            match groups.iter_mut().find(|(name, _)| *name == measure) {
+                Some((_, columns)) if fits => columns.push(column.clone()),
+                None if fits => groups.push((measure, vec![column.clone()])),
+                _ => {}
+            }
+        }
+        let Some(asked) = asked else {
+            groups.truncate(MOST_PANELS);
+            return Ok(groups);
+        };
+        if let Some(column) = all.iter().find(|column| *column == asked) {
+            return Ok(vec![(asked.clone(), vec![column.clone()])]);
+        }
+        let known = groups.iter().map(|(name, _)| name.clone()).collect();
+        let found = groups.into_iter().find(|(name, _)| name == asked);
+        found.map(|group| vec![group]).ok_or_else(|| Error::Unknown {
+            kind: "measure in the table",
+            name: asked.clone(),
+            known,
+        })
+    }
+}

@@ -1,0 +1,388 @@
+//! The rows of a sweep: which values each has, and what it leaves behind. Everything of a row follows from its number.
+
+use super::axis::{Axis, Follow, Target};
+use super::forcing;
+use super::measure::Measure;
+use super::request::{Kernel, Stretch, Sweep};
+use super::sample::Samples;
+use crate::case::{Case, Key, KeyValue, Template};
+use crate::error::{Error, Result};
+use crate::output::format::Format;
+use crate::scene::{Scene, State};
+use crate::scheme::{Method, Scheme};
+use crate::study::choice::choose;
+use std::path::{Path, PathBuf};
+
+/// Most rows: their places in the journal are kept in memory, 16 bytes each.
+const MOST_ROWS: u64 = 100_000_000;
+
+/// Most rows of one chain: they run one after another.
+const MOST_CHAIN: u64 = 10_000_000;
+
+/// A sweep that has been checked.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    pub(super) sweep: Sweep,
+    /// The case of all rows, but for what is varied.
+    pub(super) base: Case,
+    /// What rows run by that do not vary it.
+    pub(super) method: Method,
+    /// Of the followed axis, or of one row: number of the value, and direction.
+    pub(super) order: Vec<(u64, Option<&'static str>)>,
+    pub(super) chains: u64,
+    /// The case with gaps for what is varied, in the order of the axes.
+    template: Template,
+    header: Vec<String>,
+    sample_header: Vec<String>,
+    /// Names of the columns of each axis.
+    axis_columns: Vec<Vec<String>>,
+}
+
+/// What one row is made of.
+#[derive(Debug, Clone)]
+pub(super) struct Point {
+    pub row: u64,
+    pub direction: Option<&'static str>,
+    /// One value an axis.
+    pub values: Vec<KeyValue>,
+}
+
+impl Sweep {
+    /// The rows of this sweep, after everything has been checked that can be before they run.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`], [`Error::Unknown`] or [`Error::Case`] for what makes no sense, naming it and what would be accepted.
+    pub fn plan(self) -> Result<Plan> {
+        if self.axes.is_empty() {
+            let expected = "one [[vary]] or more (--vary KEY=FROM:TO:POINTS)";
+            return Err(Error::invalid("what is varied", "nothing", expected));
+        }
+        if self.measures.is_empty() && self.samples.is_none() {
+            let known = Measure::all().map(Measure::name).collect::<Vec<_>>().join(", ");
+            return Err(Error::invalid("[measure] columns", "none", format!("one measure or more of {known}")));
+        }
+        for axis in &self.axes {
+            axis.validate(self.random.is_some())?;
+        }
+        if let Some(random) = &self.random {
+            random.validate(self.axes.len())?;
+        }
+        let followed: Vec<String> =
+            self.axes.iter().filter(|axis| axis.follow != Follow::No).map(Axis::label).collect();
+        if followed.len() > 1 {
+            return Err(Error::invalid("follow", followed.join(" and "), "one followed [[vary]] at most"));
+        }
+        self.unique()?;
+        let base = self.case.case()?;
+        let scheme = |name: &str| base.method(name);
+        let method = match &self.scheme {
+            Some(name) => scheme(name)?,
+            None if self.kernel == Kernel::Batch => Method::new(Scheme::Event),
+            None => choose(&base.scene).method,
+        };
+        let order = match self.followed().and_then(|index| self.axes.get(index)) {
+            Some(axis) if axis.count() > MOST_CHAIN => {
+                return Err(Error::invalid(
+                    "points",
+                    axis.count(),
+                    format!("at most {MOST_CHAIN} along a followed axis"),
+                ));
+            }
+            Some(axis) => axis.order(),
+            None => vec![(0, None)],
+        };
+        let free = self.axes.iter().enumerate().filter(|(index, _)| Some(*index) != self.followed());
+        let grid = free.fold(1u64, |count, (_, axis)| count.saturating_mul(axis.count()));
+        let chains = self.random.map_or(grid, |random| random.points);
+        if chains.saturating_mul(order.len() as u64) > MOST_ROWS {
+            return Err(Error::invalid(
+                "rows",
+                chains.saturating_mul(order.len() as u64),
+                format!("at most {MOST_ROWS}"),
+            ));
+        }
+        self.times(&base)?;
+        let axis_columns = self.columns();
+        let mut header = vec!["row".to_owned()];
+        if self.followed().is_some() {
+            header.push("direction".to_owned());
+        }
+        header.extend(axis_columns.iter().flatten().cloned());
+        header.extend(["status", "error"].map(str::to_owned));
+        header.extend(self.measures.iter().flat_map(|measure| measure.columns(&base.scene)));
+        let mut seen = std::collections::HashSet::new();
+        if let Some(twice) = header.iter().find(|name| !seen.insert(name.as_str())) {
+            return Err(Error::invalid("[[vary]] name", twice, "a name that no other column has"));
+        }
+        let mut sample_header = vec!["row".to_owned()];
+        sample_header.extend(self.samples.iter().flat_map(|samples| samples.columns(&base.scene)));
+        let case_key =
+            |(target, _): &(Target, f64)| if let Target::Case(key) = target { Some(key.clone()) } else { None };
+        let keys: Vec<Key> = self.axes.iter().flat_map(|axis| &axis.targets).filter_map(case_key).collect();
+        let template = Template::new(&self.case, &keys)?;
+        let plan = Plan { template, sweep: self, base, method, order, chains, header, sample_header, axis_columns };
+        if plan.sweep.kernel == Kernel::Batch {
+            plan.check_batch()?;
+        } else if plan.sweep.measures.contains(&Measure::Lyapunov) {
+            return Err(Error::invalid(
+                "[measure] columns",
+                Measure::Lyapunov,
+                "kernel = \"batch\" in [run] (--kernel batch) beside it",
+            ));
+        }
+        plan.try_values()?;
+        plan.sweep.picture.check(&plan.request())?;
+        Ok(plan)
+    }
+
+    /// Refuses a key that is varied twice, or set by two axes in different words.
+    fn unique(&self) -> Result<()> {
+        let all: Vec<String> =
+            self.axes.iter().flat_map(|axis| &axis.targets).map(|(target, _)| target.to_string()).collect();
+        let twice =
+            all.iter().enumerate().find(|(index, target)| all.iter().take(*index).any(|other| other == *target));
+        twice.map_or(Ok(()), |(_, target)| {
+            Err(Error::invalid("[[vary]] key", format!("{target}, twice"), "each key once"))
+        })
+    }
+
+    /// Refuses settings of time that do not go together.
+    fn times(&self, base: &Case) -> Result<()> {
+        let axes = || self.axes.iter().flat_map(|axis| &axis.targets);
+        let varies = |key: &str| axes().any(|(target, _)| target.to_string() == key);
+        if self.stretch != Stretch::Case
+            && let Some(key) = ["time.end", "time.statistics_from"].into_iter().find(|key| varies(key))
+        {
+            return Err(Error::invalid("[[vary]] key", key, "no settle and keep beside it: they set the same"));
+        }
+        match self.stretch {
+            Stretch::Case => {}
+            Stretch::Periods { keep: 0, .. } => {
+                return Err(Error::invalid("[run] keep", 0, "one forcing period or more"));
+            }
+            Stretch::Periods { .. } => {
+                forcing::period(&base.scene)?;
+            }
+            Stretch::Seconds { settle, keep } => {
+                if !(settle.is_finite() && settle >= 0.0) {
+                    return Err(Error::invalid(
+                        "[run] settle",
+                        format_args!("{settle:?} s"),
+                        "a finite time, 0 or more",
+                    ));
+                }
+                if !(keep.is_finite() && keep > 0.0) {
+                    return Err(Error::invalid("[run] keep", format_args!("{keep:?} s"), "a finite time above 0"));
+                }
+            }
+        }
+        let periods = matches!(self.stretch, Stretch::Periods { .. });
+        if let Some(measure) = self.measures.iter().find(|measure| measure.needs_period()).filter(|_| !periods) {
+            let expected = "settle and keep in forcing periods ([run] keep = { periods = N }, --keep N) beside it";
+            return Err(Error::invalid("[measure] columns", measure, expected));
+        }
+        if self.samples == Some(Samples::Periods) && !periods {
+            let expected = "settle and keep in forcing periods ([run] keep = { periods = N }, --keep N) beside it";
+            return Err(Error::invalid("[measure] samples", "\"periods\"", expected));
+        }
+        let Some(followed) = self.followed().and_then(|index| self.axes.get(index)) else { return Ok(()) };
+        if !periods && forcing::has_sine(&base.scene) {
+            let expected = "settle and keep in forcing periods beside it, so that the load goes on at the phase at which the last row ended";
+            return Err(Error::invalid("follow", followed.label(), expected));
+        }
+        let shapes = |(target, _): &(Target, f64)| matches!(target, Target::Case(key) if key.shapes_system());
+        if base.truncated.is_some() && followed.targets.iter().any(shapes) {
+            let expected = "a key outside [system]: the state of a case cut to modes is that of its modes, which change with the system";
+            return Err(Error::invalid("follow", followed.label(), expected));
+        }
+        Ok(())
+    }
+
+    /// Columns of the axes: the last word of each key where that tells them apart.
+    fn columns(&self) -> Vec<Vec<String>> {
+        let short: Vec<Vec<String>> = self.axes.iter().map(|axis| axis.columns(false)).collect();
+        let twice = |name: &String| short.iter().flatten().filter(|other| *other == name).count() > 1;
+        let whole = |(axis, columns): (&Axis, &Vec<String>)| {
+            if columns.iter().any(twice) { axis.columns(true) } else { columns.clone() }
+        };
+        self.axes.iter().zip(&short).map(whole).collect()
+    }
+}
+
+impl Plan {
+    /// How many rows there are.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        self.chains * self.order.len() as u64
+    }
+
+    /// How many rows follow one another with the state carried on: 1 where none does.
+    #[must_use]
+    pub fn chain_rows(&self) -> u64 {
+        self.order.len() as u64
+    }
+
+    /// Draws its picture from the tables in `folder`, in each of `formats`; gives the paths.
+    ///
+    /// # Errors
+    /// As [`Picture::draw`](super::Picture::draw).
+    pub fn draw(&self, folder: &Path, formats: &[Format]) -> Result<Vec<PathBuf>> {
+        self.sweep.picture.draw(folder, &self.request(), &self.sweep.title, formats)
+    }
+
+    /// The case without what is varied.
+    #[must_use]
+    pub fn case(&self) -> &Case {
+        &self.base
+    }
+
+    /// What rows run by that do not vary it.
+    #[must_use]
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    /// Names of the columns of `sweep.csv`.
+    #[must_use]
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// Names of the columns of `samples.csv`.
+    #[must_use]
+    pub fn sample_header(&self) -> &[String] {
+        &self.sample_header
+    }
+
+    /// The axes with the name of the first column of each.
+    pub(super) fn axis_columns(&self) -> impl Iterator<Item = (&Axis, &str)> {
+        self.sweep.axes.iter().zip(self.axis_columns.iter().map(|columns| columns.first().map_or("", String::as_str)))
+    }
+
+    /// Row number `place` of chain number `chain`.
+    pub(super) fn point(&self, chain: u64, place: u64) -> Point {
+        let (along, direction) = self.order.get(place as usize).copied().unwrap_or((0, None));
+        let followed = self.sweep.followed();
+        let mut rest = chain;
+        let mut values = Vec::with_capacity(self.sweep.axes.len());
+        for (index, axis) in self.sweep.axes.iter().enumerate().rev() {
+            values.push(match self.sweep.random {
+                Some(random) => axis.value(0, random.share(chain, index)),
+                None if Some(index) == followed => axis.value(along, 0.0),
+                None => {
+                    let number = rest % axis.count();
+                    rest /= axis.count();
+                    axis.value(number, 0.0)
+                }
+            });
+        }
+        values.reverse();
+        Point { row: chain * self.chain_rows() + place, direction, values }
+    }
+
+    /// True for a row of the judge's sample.
+    pub(super) fn is_judged(&self, row: u64) -> bool {
+        let judged = self.sweep.judged.min(self.count());
+        // The rows ⌈k n/j⌉, k from 0 to j − 1: evenly spread, the first among them.
+        judged > 0 && {
+            let k = u128::from(row) * u128::from(judged) / u128::from(self.count());
+            (k * u128::from(self.count())).div_ceil(u128::from(judged)) == u128::from(row)
+        }
+    }
+
+    /// The case of `point`, from the state `start` where it follows another row, and what it runs by.
+    pub(super) fn build(&self, point: &Point, start: Option<&State>) -> Result<(Case, Method)> {
+        let mut values = Vec::new();
+        let mut scheme = None;
+        for (axis, value) in self.sweep.axes.iter().zip(&point.values) {
+            for (target, value) in axis.settings(value) {
+                match target {
+                    Target::Case(_) => values.push(value),
+                    Target::Scheme => scheme = Some(value.to_string()),
+                }
+            }
+        }
+        let file = self.template.filled(&values);
+        let mut case = match start {
+            Some(start) => file.case_from(start)?,
+            None => file.case()?,
+        };
+        if let Some(start) = start.filter(|start| start.q.len() != case.scene.system.degrees_of_freedom()) {
+            let found = format!(
+                "a key that takes {} degrees of freedom to {}",
+                start.q.len(),
+                case.scene.system.degrees_of_freedom()
+            );
+            return Err(Error::invalid("follow", found, "a key that leaves them as they are"));
+        }
+        let method = match (&scheme, &self.sweep.scheme) {
+            (Some(name), _) | (None, Some(name)) => case.method(name)?,
+            (None, None) => self.method,
+        };
+        same_names(&case.scene, &self.base.scene)?;
+        let [from, end] = match self.sweep.stretch {
+            Stretch::Case => return Ok((case, method)),
+            Stretch::Periods { settle, keep } => {
+                let period = forcing::period(&case.scene)?;
+                [f64::from(settle) * period, f64::from(settle + keep) * period]
+            }
+            Stretch::Seconds { settle, keep } => [settle, settle + keep],
+        };
+        case.scene.duration = end;
+        case.time.statistics_from = from;
+        case.time.sample = case.time.sample.filter(|sample| *sample <= end);
+        Ok((case, method))
+    }
+
+    /// Refuses an axis of which no value makes a case: better now than as a table of failed rows.
+    fn try_values(&self) -> Result<()> {
+        let middle = |count: u64| count / 2;
+        for axis in &self.sweep.axes {
+            let tries = [(0, 0.001), (middle(axis.count()), 0.5), (axis.count() - 1, 0.999)];
+            let mut failure = None;
+            for (number, share) in tries {
+                let mut file = self.sweep.case.clone();
+                let value = axis.value(number, share);
+                let set = axis.settings(&value).try_for_each(|(target, value)| match target {
+                    Target::Case(key) => file.set(key, &value),
+                    Target::Scheme => self.base.method(&value.to_string()).map(drop),
+                });
+                match set.and_then(|()| file.case()) {
+                    Ok(_) => {
+                        failure = None;
+                        break;
+                    }
+                    Err(error) => failure = failure.or(Some(error)),
+                }
+            }
+            // Values that go together with those of another axis alone, such as both walls moved past the body, are judged row by row.
+            if let Some(error) = failure.filter(|_| self.sweep.axes.len() == 1 || !self.any_works()) {
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// True if one of a few rows makes a case.
+    fn any_works(&self) -> bool {
+        let last = self.chains - 1;
+        let places = [0, self.chain_rows() / 2];
+        [0, last / 3, last / 2, last]
+            .iter()
+            .any(|&chain| places.iter().any(|&place| self.build(&self.point(chain, place), None).is_ok()))
+    }
+}
+
+/// Rows of one table have the same columns.
+fn same_names(scene: &Scene, base: &Scene) -> Result<()> {
+    let walls = |scene: &Scene| scene.walls.iter().map(|wall| wall.name.clone()).collect::<Vec<_>>();
+    let probes = |scene: &Scene| scene.probes.iter().map(|probe| probe.name.clone()).collect::<Vec<_>>();
+    for (what, found, expected) in [("walls", walls(scene), walls(base)), ("probes", probes(scene), probes(base))] {
+        if found != expected {
+            let expected =
+                format!("{}, as in the case itself: rows of one table have one set of columns", expected.join(", "));
+            return Err(Error::invalid(what, found.join(", "), expected));
+        }
+    }
+    Ok(())
+}

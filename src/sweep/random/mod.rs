@@ -1,0 +1,89 @@
+//! Random designs: every coordinate of every point is a function of seed, point and dimension alone, so that rows can be computed in any
+//! order, on any machine, and again.
+
+mod hash;
+mod latin;
+mod normal;
+mod sobol;
+
+pub use normal::Normal;
+pub use sobol::MOST_DIMENSIONS;
+
+use crate::error::{Error, Result};
+use std::str::FromStr;
+
+/// How points are spread over the ranges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Design {
+    /// Independent of one another.
+    Uniform,
+    /// Latin hypercube: each range is cut into as many slices as there are points, and each slice has one.
+    LatinHypercube,
+    /// Sobol's sequence, up to [`MOST_DIMENSIONS`] dimensions.
+    Sobol,
+}
+
+impl Design {
+    const ALL: [(&'static str, Self); 3] =
+        [("uniform", Self::Uniform), ("lhs", Self::LatinHypercube), ("sobol", Self::Sobol)];
+
+    /// The word of a sweep file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|entry| entry.1 == self).map_or("", |entry| entry.0)
+    }
+}
+
+impl FromStr for Design {
+    type Err = Error;
+
+    fn from_str(word: &str) -> Result<Self> {
+        Self::ALL.iter().find(|entry| entry.0 == word.trim()).map(|entry| entry.1).ok_or_else(|| Error::Unknown {
+            kind: "random design",
+            name: word.to_owned(),
+            known: Self::ALL.map(|entry| entry.0.to_owned()).to_vec(),
+        })
+    }
+}
+
+/// A random design over all axes of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Random {
+    /// How its points are spread.
+    pub design: Design,
+    /// How many there are.
+    pub points: u64,
+    /// What they are drawn from. Sobol's sequence without a seed is the plain one; with a seed it is scrambled.
+    pub seed: Option<u64>,
+}
+
+/// Most points: those of a sequence of 32 bits.
+const MOST_POINTS: u64 = 1 << 32;
+
+impl Random {
+    /// Coordinate `dimension` of point `point`, from 0 to below 1.
+    #[must_use]
+    pub fn share(&self, point: u64, dimension: usize) -> f64 {
+        let seed = self.seed.unwrap_or(0);
+        match self.design {
+            Design::Uniform => hash::unit(hash::mix(seed, point, dimension as u64)),
+            Design::LatinHypercube => latin::share(seed, self.points, point, dimension as u64),
+            Design::Sobol => sobol::share(self.seed, point, dimension),
+        }
+    }
+
+    pub(super) fn validate(&self, dimensions: usize) -> Result<()> {
+        if self.points == 0 || self.points > MOST_POINTS {
+            return Err(Error::invalid(
+                "[random] points",
+                self.points,
+                format!("a whole number from 1 to {MOST_POINTS}"),
+            ));
+        }
+        if self.design == Design::Sobol && dimensions > MOST_DIMENSIONS {
+            let expected = format!("at most {MOST_DIMENSIONS} [[vary]]; lhs takes any number");
+            return Err(Error::invalid("[random] kind", format!("sobol over {dimensions} dimensions"), expected));
+        }
+        Ok(())
+    }
+}

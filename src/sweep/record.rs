@@ -1,0 +1,65 @@
+//! A row as the lines of its tables.
+
+use super::plan::Plan;
+use super::row::Row;
+use super::sample::Sample;
+use crate::output::csv::digits;
+
+impl Plan {
+    /// The line of `row` in `sweep.csv`, with its end of line.
+    pub(super) fn line(&self, row: &Row) -> Vec<u8> {
+        let mut cells = vec![row.number.to_string()];
+        cells.extend(row.direction.map(str::to_owned));
+        // Whole numbers and words as they are, others with all their digits.
+        cells.extend(row.values.iter().map(|value| match value.number() {
+            Some(x) if value.is_whole() => format!("{x}"),
+            Some(x) => digits(Some(x)),
+            None => flat(&value.to_string()),
+        }));
+        cells.extend([row.status.to_string(), flat(&row.error)]);
+        cells.extend(row.measures.iter().map(|value| digits(*value)));
+        line(&cells)
+    }
+
+    /// The lines of its instants in `samples.csv`.
+    pub(super) fn sample_lines(&self, row: &Row) -> Vec<u8> {
+        let mut lines = Vec::new();
+        for sample in &row.samples {
+            let mut cells = vec![row.number.to_string()];
+            match sample {
+                Sample::Impact { wall, start, phase, approach, departure, impulse } => {
+                    cells.push(wall.clone());
+                    let numbers = [Some(*start), *phase, Some(*approach), *departure, Some(*impulse)];
+                    cells.extend(numbers.map(digits));
+                }
+                Sample::Strobe { time, seen } => {
+                    cells.push(digits(Some(*time)));
+                    cells.extend(seen.iter().flatten().map(|x| digits(Some(*x))));
+                }
+            }
+            lines.extend(line(&cells));
+        }
+        lines
+    }
+}
+
+/// One record of a CSV file. It has no line breaks but at its end.
+pub(super) fn line(cells: &[String]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for (index, cell) in cells.iter().enumerate() {
+        if index > 0 {
+            bytes.push(b',');
+        }
+        if cell.contains([',', '"']) {
+            bytes.extend(format!("\"{}\"", cell.replace('"', "\"\"")).into_bytes());
+        } else {
+            bytes.extend(cell.as_bytes());
+        }
+    }
+    bytes.push(b'\n');
+    bytes
+}
+
+fn flat(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
+}

@@ -1,0 +1,222 @@
+//! What a sweep asks.
+
+use super::axis::{Axis, Follow, Target};
+use super::measure::Measure;
+use super::picture::Picture;
+use super::random::Random;
+use super::sample::Samples;
+use crate::case::{CaseFile, KeyValue};
+use crate::error::{Error, Result};
+use std::str::FromStr;
+
+/// How long a row lasts, and the window of its measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stretch {
+    /// The case's `time.end` and `time.statistics_from`.
+    Case,
+    /// So many forcing periods before the window, and so many in it.
+    Periods {
+        /// Before the window.
+        settle: u32,
+        /// In the window, one or more.
+        keep: u32,
+    },
+    /// So many seconds before the window, and so many in it.
+    Seconds {
+        /// Before the window, s.
+        settle: f64,
+        /// In the window, s, above 0.
+        keep: f64,
+    },
+}
+
+/// What computes rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Kernel {
+    /// A stepper a row: every case and scheme.
+    #[default]
+    Scalar,
+    /// [`batch`](crate::batch): oscillators side by side, by the scheme `event`, many times as fast. Its digits differ from the scalar ones in
+    /// the last places, which chaos makes all places; so it is asked for, and never taken by itself.
+    Batch,
+}
+
+impl FromStr for Kernel {
+    type Err = Error;
+
+    fn from_str(word: &str) -> Result<Self> {
+        match word.trim() {
+            "scalar" => Ok(Self::Scalar),
+            "batch" => Ok(Self::Batch),
+            other => Err(Error::Unknown {
+                kind: "kernel",
+                name: other.to_owned(),
+                known: ["scalar", "batch"].map(str::to_owned).to_vec(),
+            }),
+        }
+    }
+}
+
+/// How many instants of a row are kept where nothing else is said: the last ones.
+pub const MOST_SAMPLES: usize = 200;
+
+/// How many rows are judged where nothing else is said.
+pub const JUDGED: u64 = 16;
+
+/// A sweep: one case, what of it is varied, and what is asked of every row.
+///
+/// ```
+/// use signorini::case::CaseFile;
+/// use signorini::sweep::{Axis, Follow, Measure, Stretch, Sweep};
+///
+/// // The largest displacement over the frequency of the load, by rising frequencies, the state carried on.
+/// let sweep = Sweep::new(CaseFile::embedded("rigid-walls-sine")?)
+///     .set("wall.*.restitution", 0.8)?
+///     .vary(Axis::linear("load.1.harmonic.frequency", 4.0, 5.0, 3)?.followed(Follow::Up))
+///     .over(Stretch::Periods { settle: 20, keep: 10 })
+///     .by("event")
+///     .measure([Measure::DisplacementMax, Measure::Contacts]);
+/// let plan = sweep.plan()?;
+/// let rows = plan.rows(2)?; // on two threads; the numbers do not depend on that
+/// assert_eq!(rows.len(), 3);
+/// assert_eq!(plan.header()[..4], ["row", "direction", "frequency_Hz", "status"]);
+/// assert!(rows.iter().all(|row| row.measures[0].is_some_and(|u| u <= 5e-3 * (1.0 + 1e-12))));
+/// # Ok::<(), signorini::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    pub(super) case: CaseFile,
+    pub(super) axes: Vec<Axis>,
+    pub(super) random: Option<Random>,
+    pub(super) stretch: Stretch,
+    pub(super) scheme: Option<String>,
+    pub(super) measures: Vec<Measure>,
+    pub(super) samples: Option<Samples>,
+    pub(super) most_samples: usize,
+    pub(super) judged: u64,
+    pub(super) kernel: Kernel,
+    pub(super) title: String,
+    pub(super) picture: Picture,
+}
+
+impl Sweep {
+    /// A sweep of `case` over nothing yet.
+    #[must_use]
+    pub fn new(case: CaseFile) -> Self {
+        Self {
+            title: case.name().to_owned(),
+            picture: Picture::default(),
+            kernel: Kernel::Scalar,
+            case,
+            axes: Vec::new(),
+            random: None,
+            stretch: Stretch::Case,
+            scheme: None,
+            measures: Vec::new(),
+            samples: None,
+            most_samples: MOST_SAMPLES,
+            judged: JUDGED,
+        }
+    }
+
+    /// The same with a value of the case changed for all rows.
+    ///
+    /// # Errors
+    /// As [`CaseFile::set`], and for what is no key.
+    pub fn set(mut self, key: &str, value: impl Into<KeyValue>) -> Result<Self> {
+        self.case.set(&key.parse()?, &value.into())?;
+        Ok(self)
+    }
+
+    /// The same over one dimension more. Of several, the last one turns fastest, but for the followed one, which turns faster still.
+    #[must_use]
+    pub fn vary(mut self, axis: Axis) -> Self {
+        self.axes.push(axis);
+        self
+    }
+
+    /// The same with values drawn at random from the ranges of all its axes.
+    #[must_use]
+    pub fn drawn(mut self, random: Random) -> Self {
+        self.random = Some(random);
+        self
+    }
+
+    /// The same with rows of that length.
+    #[must_use]
+    pub fn over(mut self, stretch: Stretch) -> Self {
+        self.stretch = stretch;
+        self
+    }
+
+    /// The same by a scheme, written as on the command line: `event`, `moreau-jean:theta=0.6`, `penalty:epsilon=1e-9`. Without, the scheme
+    /// is the one that `run` would choose for the case.
+    #[must_use]
+    pub fn by(mut self, scheme: &str) -> Self {
+        self.scheme = Some(scheme.to_owned());
+        self
+    }
+
+    /// The same with these measures too.
+    #[must_use]
+    pub fn measure(mut self, measures: impl IntoIterator<Item = Measure>) -> Self {
+        for measure in measures {
+            if !self.measures.contains(&measure) {
+                self.measures.push(measure);
+            }
+        }
+        self
+    }
+
+    /// The same with the last `most` of such instants of each row.
+    #[must_use]
+    pub fn sample(mut self, samples: Samples, most: usize) -> Self {
+        (self.samples, self.most_samples) = (Some(samples), most);
+        self
+    }
+
+    /// The same with so many rows judged step by step, evenly spread over all of them; a row that breaks what its scheme promises has
+    /// the status `refuted`.
+    #[must_use]
+    pub fn judged(mut self, rows: u64) -> Self {
+        self.judged = rows;
+        self
+    }
+
+    /// The same computed by `kernel`.
+    #[must_use]
+    pub fn kernel(mut self, kernel: Kernel) -> Self {
+        self.kernel = kernel;
+        self
+    }
+
+    /// True if the scheme is varied.
+    pub(super) fn varies_scheme(&self) -> bool {
+        self.axes.iter().flat_map(|axis| &axis.targets).any(|(target, _)| *target == Target::Scheme)
+    }
+
+    /// The same under another title: the case's name, where none is given.
+    #[must_use]
+    pub fn titled(mut self, title: &str) -> Self {
+        title.clone_into(&mut self.title);
+        self
+    }
+
+    /// The same with that picture: what is drawn changes nothing of the rows.
+    #[must_use]
+    pub fn pictured(mut self, picture: Picture) -> Self {
+        self.picture = picture;
+        self
+    }
+
+    /// The title.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// The number of the axis that is followed.
+    pub(super) fn followed(&self) -> Option<usize> {
+        self.axes.iter().position(|axis| axis.follow != Follow::No)
+    }
+}

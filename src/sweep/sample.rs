@@ -1,0 +1,90 @@
+//! Instants of a row: which are kept, and what is told of each.
+
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+use std::fmt;
+use std::str::FromStr;
+
+/// One instant of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Sample {
+    /// A contact episode, when it begins.
+    Impact {
+        /// Name of the wall.
+        wall: String,
+        /// When it began, s after the start of the row.
+        start: f64,
+        /// The same in forcing periods, without the whole ones; none without a forcing period.
+        phase: Option<f64>,
+        /// Speed towards the wall, m/s.
+        approach: f64,
+        /// Speed away from it, m/s; none for an episode that has not ended.
+        departure: Option<f64>,
+        /// Impulse on the body, N s, signed.
+        impulse: f64,
+    },
+    /// What the probes see at the end of a forcing period.
+    Strobe {
+        /// s after the start of the row.
+        time: f64,
+        /// Displacement (m) and velocity (m/s) of each probe.
+        seen: Vec<[f64; 2]>,
+    },
+}
+
+/// What is kept of single instants of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Samples {
+    /// The probes once every forcing period: a Poincaré section.
+    Periods,
+    /// Every contact episode that began in the window.
+    Impacts,
+}
+
+impl Samples {
+    /// Columns after the row's number.
+    #[must_use]
+    pub fn columns(self, scene: &Scene) -> Vec<String> {
+        match self {
+            Self::Impacts => {
+                ["wall", "start_s", "phase_cycles", "approach_speed_m_per_s", "departure_speed_m_per_s", "impulse_N_s"]
+                    .map(str::to_owned)
+                    .to_vec()
+            }
+            Self::Periods => {
+                let probes: Vec<&str> = scene.probes.iter().map(|probe| probe.name.as_str()).collect();
+                let of = |word: &String| if word.is_empty() { String::new() } else { format!("_{word}") };
+                let both =
+                    |word: &String| [format!("displacement{}_m", of(word)), format!("velocity{}_m_per_s", of(word))];
+                std::iter::once("time_s".to_owned())
+                    .chain(crate::output::csv::words(&probes).iter().flat_map(both))
+                    .collect()
+            }
+        }
+    }
+}
+
+impl fmt::Display for Samples {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Periods => "periods",
+            Self::Impacts => "impacts",
+        })
+    }
+}
+
+impl FromStr for Samples {
+    type Err = Error;
+
+    fn from_str(word: &str) -> Result<Self> {
+        match word.trim() {
+            "periods" => Ok(Self::Periods),
+            "impacts" => Ok(Self::Impacts),
+            other => Err(Error::Unknown {
+                kind: "kind of samples",
+                name: other.to_owned(),
+                known: ["no", "periods", "impacts"].map(str::to_owned).to_vec(),
+            }),
+        }
+    }
+}

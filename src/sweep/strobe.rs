@@ -1,0 +1,117 @@
+//! The state once every forcing period.
+
+use crate::scene::State;
+use crate::step::{Path, Step};
+
+/// Most forcing periods after which a motion is looked at for repeating itself.
+const MOST_PERIODS: usize = 32;
+
+/// How near it must come, in gaps, and in gaps times the forcing's angular frequency.
+const NEAR: f64 = 1e-3;
+
+/// How often it must have come back.
+const REPEATS: usize = 3;
+
+/// Keeps the state at the end of every period of the window.
+#[derive(Debug, Clone)]
+pub(super) struct Strobe {
+    /// Number of the next instant, from the start of the row, and of the last one.
+    next: u32,
+    last: u32,
+    period: f64,
+    /// The state at the end of the last step.
+    before: State,
+    /// Time (s) and state of each instant.
+    pub taken: Vec<(f64, State)>,
+}
+
+impl Strobe {
+    /// For the ends of `keep` periods (s) after `settle` of them, of a row that begins at `start`.
+    pub fn new(period: f64, settle: u32, keep: u32, start: &State) -> Self {
+        Self { next: settle + 1, last: settle + keep, period, before: start.clone(), taken: Vec::new() }
+    }
+
+    fn due(&self) -> f64 {
+        f64::from(self.next) * self.period
+    }
+
+    fn take(&mut self, time: f64, state: State) {
+        self.taken.push((time, state));
+        self.next += 1;
+    }
+
+    pub fn see(&mut self, step: &Step<'_>) {
+        while self.next <= self.last && self.due() <= step.end {
+            let due = self.due();
+            // From the right: at the end of a step the state is that after what happened there.
+            if due == step.end {
+                self.take(due, State { q: step.q.to_vec(), v: step.v.to_vec() });
+                break;
+            }
+            let mut state = State { q: step.q.to_vec(), v: step.v.to_vec() };
+            match step.path {
+                Path::Exact(_) | Path::Series(_) => step.path.state(due, &mut state.q, &mut state.v),
+                Path::Grid | Path::OneRestitution | Path::Handed { .. } => {
+                    // A line between the instants of the grid.
+                    let share = (due - step.start) / (step.end - step.start);
+                    for (q, before) in state.q.iter_mut().zip(&self.before.q) {
+                        *q = before + (*q - before) * share;
+                    }
+                }
+            }
+            self.take(due, state);
+        }
+        self.before.q.copy_from_slice(step.q);
+        self.before.v.copy_from_slice(step.v);
+    }
+
+    /// After how many periods the motion repeats itself; see [`repeats`].
+    pub fn repeats(&self, length: f64) -> Option<usize> {
+        repeats(&self.taken.iter().map(|(_, state)| state).collect::<Vec<_>>(), self.period, length)
+    }
+}
+
+/// The least number of periods N up to 32 for which the last 3 N of `states`, one a `period` (s), are those N before, to 1e-3 of `length` (m)
+/// and of the speed that it makes with the period; none where there is none. An N of which fewer were kept is not looked at.
+pub(super) fn repeats(states: &[&State], period: f64, length: f64) -> Option<usize> {
+    let omega = std::f64::consts::TAU / period;
+    let near = |a: &State, b: &State| {
+        let apart = |x: &[f64], y: &[f64], scale: f64| x.iter().zip(y).all(|(x, y)| (x - y).abs() < NEAR * scale);
+        apart(&a.q, &b.q, length) && apart(&a.v, &b.v, length * omega)
+    };
+    let count = states.len();
+    (1..=MOST_PERIODS).find(|&n| {
+        count >= (REPEATS + 1) * n
+            && (count - REPEATS * n..count).all(|j| match (states.get(j), states.get(j - n)) {
+                (Some(a), Some(b)) => near(a, b),
+                _ => false,
+            })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn strobe(states: &[f64]) -> Strobe {
+        let state = |x: f64| State { q: vec![x], v: vec![-x] };
+        let mut strobe = Strobe::new(1.0, 1, states.len() as u32, &state(0.0));
+        for &x in states {
+            strobe.take(strobe.due(), state(x));
+        }
+        strobe
+    }
+
+    #[test]
+    fn the_least_period_is_found_and_none_where_there_is_none() {
+        assert_eq!(strobe(&[1.0; 10]).repeats(1.0), Some(1));
+        let two = [1.0, 2.0].repeat(6);
+        assert_eq!(strobe(&two).repeats(1.0), Some(2));
+        let three: Vec<f64> = [1.0, 2.0, 1.0].repeat(5);
+        assert_eq!(strobe(&three).repeats(1.0), Some(3));
+        let rising: Vec<f64> = (0..40).map(f64::from).collect();
+        assert_eq!(strobe(&rising).repeats(1.0), None);
+        // Too few instants tell nothing.
+        assert_eq!(strobe(&[1.0, 1.0]).repeats(1.0), None);
+    }
+}

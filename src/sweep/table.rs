@@ -1,0 +1,114 @@
+//! Tables read again, line by line.
+
+use crate::error::{Error, Result};
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+/// The table of the rows, and that of their instants.
+pub(super) const TABLE: &str = "sweep.csv";
+pub(super) const SAMPLES: &str = "samples.csv";
+
+/// A CSV file with a header.
+pub(super) struct Table {
+    path: PathBuf,
+    reader: csv::Reader<File>,
+    header: csv::StringRecord,
+}
+
+/// One line.
+pub(super) struct Line<'a>(&'a csv::StringRecord);
+
+impl Line<'_> {
+    pub fn text(&self, index: usize) -> &str {
+        self.0.get(index).unwrap_or_default()
+    }
+
+    /// The number in that cell; none where there is none that is finite.
+    pub fn number(&self, index: usize) -> Option<f64> {
+        self.text(index).parse().ok().filter(|x: &f64| x.is_finite())
+    }
+}
+
+impl Table {
+    pub fn open(path: &Path) -> Result<Self> {
+        let mut reader = csv::Reader::from_path(path).map_err(|error| failed(path, &error))?;
+        let header = reader.headers().map_err(|error| failed(path, &error))?.clone();
+        Ok(Self { path: path.to_owned(), reader, header })
+    }
+
+    /// Where the column of that name stands.
+    pub fn column(&self, name: &str) -> Result<usize> {
+        self.header.iter().position(|column| column == name).ok_or_else(|| Error::Unknown {
+            kind: "column of the table",
+            name: name.to_owned(),
+            known: self.header.iter().map(str::to_owned).collect(),
+        })
+    }
+
+    /// Tells `take` every line.
+    pub fn each(mut self, mut take: impl FnMut(Line<'_>)) -> Result<()> {
+        let mut record = csv::StringRecord::new();
+        while self.reader.read_record(&mut record).map_err(|error| failed(&self.path, &error))? {
+            take(Line(&record));
+        }
+        Ok(())
+    }
+
+    /// What `of` says of the first line; none of an empty table.
+    pub fn first<T>(mut self, of: impl Fn(Line<'_>) -> T) -> Option<T> {
+        let mut record = csv::StringRecord::new();
+        matches!(self.reader.read_record(&mut record), Ok(true)).then(|| of(Line(&record)))
+    }
+}
+
+fn failed(path: &Path, error: &csv::Error) -> Error {
+    Error::io(path.display(), error.to_string(), false)
+}
+
+/// Units as column names end, and as people write them; longer ones first.
+const UNITS: [(&str, &str); 20] = [
+    ("_kg_per_m3", "kg/m³"),
+    ("_N_m_per_rad", "N m/rad"),
+    ("_N_s_per_m", "N s/m"),
+    ("_rad_per_s", "rad/s"),
+    ("_m3_per_N", "m³/N"),
+    ("_kg_per_m", "kg/m"),
+    ("_N_per_m", "N/m"),
+    ("_m_per_s", "m/s"),
+    ("_per_s", "1/s"),
+    ("_cycles", "cycles"),
+    ("_N_s", "N s"),
+    ("_rad", "rad"),
+    ("_kg", "kg"),
+    ("_Hz", "Hz"),
+    ("_Pa", "Pa"),
+    ("_m2", "m²"),
+    ("_m", "m"),
+    ("_s", "s"),
+    ("_N", "N"),
+    ("_W", "W"),
+];
+
+/// A column's name as the label of an axis: `Displacement max (m)`.
+pub(super) fn label(column: &str) -> String {
+    let found = UNITS.iter().find_map(|(end, unit)| Some((column.strip_suffix(end)?, *unit)));
+    let (name, unit) = found.unwrap_or((column, "–"));
+    let mut letters = name.replace('_', " ");
+    if let Some(first) = letters.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    format!("{letters} ({unit})")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::label;
+
+    #[test]
+    fn labels_say_quantity_and_unit() {
+        assert_eq!(label("frequency_Hz"), "Frequency (Hz)");
+        assert_eq!(label("approach_speed_max_upper_m_per_s"), "Approach speed max upper (m/s)");
+        assert_eq!(label("contacts_upper"), "Contacts upper (–)");
+        assert_eq!(label("impulse_upper_N_s"), "Impulse upper (N s)");
+    }
+}

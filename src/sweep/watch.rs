@@ -1,0 +1,176 @@
+//! One row under way: what its measures and samples need of its steps, and nothing more.
+
+use super::forcing;
+use super::measure::Measure;
+use super::motion::Motion;
+use super::request::{Stretch, Sweep};
+use super::sample::Sample;
+use super::sample::Samples;
+use super::strobe::Strobe;
+use crate::error::Result;
+use crate::scene::{Checked, Scene, State};
+use crate::statistics::{Forces, Statistics, WallStatistics};
+use crate::step::{Contact, Step};
+use crate::time::TimeOptions;
+
+/// Watches the steps of a row.
+pub(super) struct Watch {
+    from: f64,
+    /// Episodes that reach into the window.
+    contacts: Vec<Contact>,
+    forces: Option<Forces>,
+    motion: Option<Motion>,
+    strobe: Option<Strobe>,
+}
+
+impl Watch {
+    /// For the row of `scene`, as the scheme sees it, that begins at `start`.
+    pub fn new(sweep: &Sweep, scene: &Scene, time: &TimeOptions, start: &State) -> Result<Self> {
+        let any = |test: fn(Measure) -> bool| sweep.measures.iter().any(|measure| test(*measure));
+        let from = time.statistics_from;
+        let strobe = match sweep.stretch {
+            Stretch::Periods { settle, keep }
+                if sweep.samples == Some(Samples::Periods) || sweep.measures.contains(&Measure::Period) =>
+            {
+                Some(Strobe::new(forcing::period(scene)?, settle, keep, start))
+            }
+            _ => None,
+        };
+        let speeds = sweep.measures.contains(&Measure::VelocityMax);
+        Ok(Self {
+            from,
+            contacts: Vec::new(),
+            forces: any(Measure::sees_force).then(|| Forces::new(scene, from, time.force_averaging)),
+            motion: any(Measure::sees_motion).then(|| Motion::new(scene, from, start, speeds)),
+            strobe,
+        })
+    }
+
+    #[inline]
+    pub fn see(&mut self, step: &Step<'_>) {
+        if !step.closed.is_empty() {
+            let here = |contact: &&Contact| contact.end.is_none_or(|end| end >= self.from);
+            self.contacts.extend(step.closed.iter().filter(here));
+        }
+        if let Some(forces) = &mut self.forces {
+            forces.see(step);
+        }
+        if let Some(motion) = &mut self.motion {
+            motion.see(step);
+        }
+        if let Some(strobe) = &mut self.strobe {
+            strobe.see(step);
+        }
+    }
+
+    /// The measures and samples of the row, with the episodes `open` at its end.
+    pub fn finish(mut self, sweep: &Sweep, scene: &Checked, open: &[Contact]) -> (Vec<Option<f64>>, Vec<Sample>) {
+        self.contacts.extend_from_slice(open);
+        self.contacts.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.wall.cmp(&b.wall)));
+        let statistics = Statistics::of(scene, scene.wall_masses(), &self.contacts, self.from);
+        let statistics = match &self.forces {
+            Some(forces) => statistics.with_forces(forces),
+            None => statistics,
+        };
+        let mut values = Vec::new();
+        for &measure in &sweep.measures {
+            self.tell(measure, sweep, scene, &statistics, &mut values);
+        }
+        let samples = sweep.samples.map_or_else(Vec::new, |samples| self.samples(samples, sweep.most_samples, scene));
+        (values, samples)
+    }
+
+    fn began_here(&self) -> impl Iterator<Item = &Contact> {
+        self.contacts.iter().filter(|contact| contact.start >= self.from)
+    }
+
+    fn tell(
+        &self,
+        measure: Measure,
+        sweep: &Sweep,
+        scene: &Scene,
+        statistics: &Statistics,
+        values: &mut Vec<Option<f64>>,
+    ) {
+        let length = scene.duration - self.from;
+        let mut of_walls = |value: &dyn Fn(usize, &WallStatistics) -> Option<f64>| {
+            values.extend(statistics.walls.iter().enumerate().map(|(index, wall)| value(index, wall)));
+        };
+        let impulses = |index: usize| self.began_here().filter(move |c| c.wall == index).map(|c| c.impulse);
+        let speeds = |index: usize| self.began_here().filter(move |c| c.wall == index).map(|c| c.approach_speed);
+        match measure {
+            Measure::Contacts => of_walls(&|_, wall| Some(wall.contacts as f64)),
+            Measure::Impacts => of_walls(&|index, _| {
+                Some(self.began_here().filter(|c| c.wall == index && c.end == Some(c.start)).count() as f64)
+            }),
+            Measure::ContactRate => of_walls(&|_, wall| Some(wall.contact_rate_per_s)),
+            Measure::ContactTimeRatio => of_walls(&|_, wall| Some(wall.contact_time_ratio)),
+            Measure::Impulse => of_walls(&|_, wall| wall.force.map(|force| force.impulse_n_s)),
+            Measure::ImpulseMean => of_walls(&|_, wall| wall.episode_impulse_n_s.mean),
+            Measure::ImpulseMax => of_walls(&|_, wall| wall.episode_impulse_n_s.max),
+            Measure::ImpulseRms => of_walls(&|index, wall| {
+                let square: f64 = impulses(index).map(|p| p * p).sum();
+                (wall.contacts > 0).then(|| (square / wall.contacts as f64).sqrt())
+            }),
+            Measure::ForceMean => of_walls(&|_, wall| wall.force.map(|force| force.mean_n)),
+            Measure::ForceRms => of_walls(&|_, wall| wall.force.map(|force| force.rms_n)),
+            Measure::PeakForceMean => of_walls(&|_, wall| wall.episode_peak_force_n.mean),
+            Measure::PeakForceMax => of_walls(&|_, wall| wall.episode_peak_force_n.max),
+            Measure::ImpactPower => of_walls(&|_, wall| Some(wall.impact_power_w)),
+            Measure::ArrivedLessDepartedPower => of_walls(&|_, wall| Some(wall.arrived_less_departed_power_w)),
+            Measure::ApproachSpeedMean => {
+                of_walls(&|index, wall| (wall.contacts > 0).then(|| speeds(index).sum::<f64>() / wall.contacts as f64))
+            }
+            Measure::ApproachSpeedMax => of_walls(&|index, _| speeds(index).reduce(f64::max)),
+            Measure::ApproachSpeedLeast => of_walls(&|index, _| speeds(index).reduce(f64::min)),
+            Measure::DisplacementMax => self.of_probes(values, |seen| seen.highest.abs().max(seen.lowest.abs())),
+            Measure::DisplacementHighest => self.of_probes(values, |seen| seen.highest),
+            Measure::DisplacementLowest => self.of_probes(values, |seen| seen.lowest),
+            Measure::DisplacementRms => self.of_probes(values, |seen| (seen.square / length).sqrt()),
+            Measure::VelocityMax => self.of_probes(values, |seen| seen.speed),
+            Measure::ImpactsPerPeriod => values.push(match sweep.stretch {
+                Stretch::Periods { keep, .. } => {
+                    Some(self.began_here().filter(|c| c.end == Some(c.start)).count() as f64 / f64::from(keep))
+                }
+                _ => None,
+            }),
+            // Refused for what is not run by the batch engine.
+            Measure::Lyapunov => values.push(None),
+            Measure::Period => {
+                let repeats = self.strobe.as_ref().and_then(|strobe| strobe.repeats(scene.gap_scale()));
+                values.push(repeats.map(|periods| periods as f64));
+            }
+        }
+    }
+
+    fn of_probes(&self, values: &mut Vec<Option<f64>>, value: impl Fn(&super::motion::Seen) -> f64) {
+        values.extend(self.motion.iter().flat_map(|motion| &motion.seen).map(|seen| Some(value(seen))));
+    }
+
+    /// The last `most` instants.
+    fn samples(&self, samples: Samples, most: usize, scene: &Scene) -> Vec<Sample> {
+        let mut all: Vec<Sample> = match samples {
+            Samples::Impacts => {
+                let period = forcing::period(scene).ok();
+                let of = |contact: &Contact| Sample::Impact {
+                    wall: scene.walls.get(contact.wall).map_or_else(String::new, |wall| wall.name.clone()),
+                    start: contact.start,
+                    phase: period.map(|period| (contact.start / period).fract()),
+                    approach: contact.approach_speed,
+                    departure: contact.departure_speed,
+                    impulse: contact.impulse,
+                };
+                self.began_here().map(of).collect()
+            }
+            Samples::Periods => {
+                let of = |(time, state): &(f64, State)| Sample::Strobe {
+                    time: *time,
+                    seen: scene.probes.iter().map(|probe| [probe.at.dot(&state.q), probe.at.dot(&state.v)]).collect(),
+                };
+                self.strobe.iter().flat_map(|strobe| &strobe.taken).map(of).collect()
+            }
+        };
+        all.drain(..all.len().saturating_sub(most));
+        all
+    }
+}
