@@ -32,7 +32,7 @@ const KNOWN: [Measure; 9] = [
 impl Plan {
     /// Refuses what the lanes do not hold, or cannot tell.
     pub(super) fn check_batch(&self) -> Result<()> {
-        let refuse = |key: &str, found: String, expected: &str| {
+        let refuse = |key: &'static str, found: String, expected: &str| {
             Err(Error::invalid(key, found, format!("{expected} beside kernel = \"batch\"")))
         };
         let Stretch::Periods { .. } = self.sweep.stretch else {

@@ -2,7 +2,7 @@
 
 use super::columns::{Along, Source, place_of, place_suffix, short};
 use super::picture::Picture;
-use super::table::{TABLE, Table, label};
+use super::table::{TABLE, Table, label, quantity};
 use crate::error::{Error, Result};
 use crate::output::figure::{Curve, Figure, HeatMap, Panel, Scale, Scatter};
 
@@ -30,6 +30,9 @@ impl Picture {
             .filter(|axis| axis.column != x.column)
             .map(|axis| table.column(&axis.column))
             .collect::<Result<_>>()?;
+        let name = |axis: &&Along| axis.column != x.column;
+        let names_of_others: Vec<String> =
+            source.axes.iter().filter(name).map(|axis| quantity(&axis.column).to_lowercase()).collect();
         let direction = table.column("direction").ok();
         let wanted: Vec<Vec<usize>> = groups
             .iter()
@@ -43,7 +46,12 @@ impl Picture {
             let mut words: Vec<String> =
                 direction.map(|index| row.text(index).to_owned()).into_iter().filter(|d| !d.is_empty()).collect();
             if !source.random {
-                words.extend(others.iter().map(|&index| short(row.text(index))));
+                words.extend(
+                    others
+                        .iter()
+                        .zip(&names_of_others)
+                        .map(|(&index, name)| format!("{name} {}", short(row.text(index)))),
+                );
             }
             for ((curves, columns), (measure, names)) in curves.iter_mut().zip(&wanted).zip(&groups) {
                 for (&index, name) in columns.iter().zip(names) {

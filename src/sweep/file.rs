@@ -132,7 +132,9 @@ impl Sweep {
     /// # Errors
     /// As [`Sweep::read`].
     pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Self> {
-        let file: File = toml::from_str(text).map_err(|error| Error::Case { report: format!("error: {name}: {error}"), cause: None })?;
+        let file: File = toml::from_str(text).map_err(|error: toml::de::Error| {
+            Error::Case { report: format!("error: {name}: {error}"), cause: None }.caused_by(error)
+        })?;
         let mut case = case_file(&file.case, folder)?;
         for (key, value) in &file.set {
             case.set(&key.parse()?, &KeyValue::from_toml(value.clone()))?;

@@ -11,6 +11,7 @@ use std::path::Path;
 
 /// What the rows of a table came to.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Tables {
     /// Number of rows by their status, in the order in which these first appear.
     pub counts: Vec<(String, u64)>,
@@ -74,7 +75,13 @@ impl Columns {
 
 /// Writes both tables from the journal, each whole or not at all.
 pub(super) fn write_tables(plan: &Plan, folder: &Path, journal: &mut Journal, rows: u64) -> Result<Tables> {
-    let failed = |path: &Path, error: &std::io::Error| Error::io(path.display(), format!("{error}\nhelp: all rows are kept in the journal; make room and give the same command again"), false);
+    let failed = |path: &Path, error: &std::io::Error| {
+        Error::io(
+            path.display(),
+            format!("{error}\nhelp: all rows are kept in the journal; make room and give the same command again"),
+            false,
+        )
+    };
     let mut table = WholeFile::create(&folder.join(TABLE))?;
     let mut samples = plan.sweep.samples.map(|_| WholeFile::create(&folder.join(SAMPLES))).transpose()?;
     let put = |file: &mut WholeFile, bytes: &[u8]| {
@@ -88,7 +95,9 @@ pub(super) fn write_tables(plan: &Plan, folder: &Path, journal: &mut Journal, ro
     let mut tables = Tables::default();
     let columns = Columns::of(&csv::StringRecord::from(plan.header().to_vec()));
     for place in 0..rows {
-        let block = journal.read(place as usize)?.ok_or_else(|| Error::io(folder.display(), "a row is missing in the journal".to_owned(), false))?;
+        let block = journal
+            .read(place as usize)?
+            .ok_or_else(|| Error::io(folder.display(), "a row is missing in the journal".to_owned(), false))?;
         put(&mut table, &block.line)?;
         if let Some(samples) = &mut samples {
             put(samples, &block.samples)?;

@@ -29,8 +29,7 @@ pub(super) enum State {
 
 impl Plan {
     /// What is asked, as the folder remembers it: rows of two requests that are equal here have the same bits on one machine.
-    #[must_use]
-    pub fn request(&self) -> Map<String, Value> {
+    pub(crate) fn request(&self) -> Map<String, Value> {
         let sweep = &self.sweep;
         let axes: Vec<Value> = self.axis_columns().map(|(axis, column)| described(axis, column)).collect();
         let random = sweep
@@ -168,7 +167,7 @@ pub(super) fn of_shard(mut request: Map<String, Value>, shard: Shard) -> Map<Str
 ///
 /// # Errors
 /// [`Error::Io`] where it cannot be written.
-pub fn write_summary(folder: &Path, document: &Value) -> Result<()> {
+pub(crate) fn write_summary(folder: &Path, document: &Value) -> Result<()> {
     write_whole(&folder.join("summary.json"), json::text(document).as_bytes())
 }
 

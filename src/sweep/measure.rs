@@ -21,6 +21,7 @@ pub enum Scope {
 /// All of them are of one window, from `statistics_from`, or the end of `settle`, to the end; they are those of
 /// [`Statistics`](crate::Statistics) where it has them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Measure {
     /// Number of contact episodes that began in the window.
     Contacts,

@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 
 /// What a merged sweep amounts to.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Merged {
     /// Rows in all.
     pub rows: u64,
@@ -23,7 +24,7 @@ pub struct Merged {
     /// Rows by what became of them.
     pub tables: Tables,
     /// The request of the whole.
-    pub request: Map<String, Value>,
+    pub(crate) request: Map<String, Value>,
     /// Its title, and its picture.
     pub title: String,
     /// What it shows.

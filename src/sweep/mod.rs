@@ -56,7 +56,7 @@ mod watch;
 
 pub use axis::{Axis, Follow, Target, Values};
 pub use finish::Tables;
-pub use folder::write_summary;
+pub(crate) use folder::write_summary;
 pub use measure::{Measure, Scope};
 pub use merge::{Merged, merge};
 pub use picture::{Kind, Picture};

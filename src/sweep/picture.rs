@@ -10,6 +10,7 @@ use std::str::FromStr;
 
 /// What a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Kind {
     /// A measure over one axis, a curve for each wall or probe, each direction and each value of other axes; points in a random design.
     Line,
@@ -113,7 +114,7 @@ impl Picture {
     ///
     /// # Errors
     /// [`Error::Unknown`] for a column that the tables do not have, [`Error::Io`] where they cannot be read or the picture cannot be written.
-    pub fn draw(
+    pub(crate) fn draw(
         &self,
         folder: &Path,
         request: &Map<String, Value>,

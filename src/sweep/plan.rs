@@ -222,11 +222,8 @@ impl Plan {
         self.order.len() as u64
     }
 
-    /// Draws its picture from the tables in `folder`, in each of `formats`; gives the paths.
-    ///
-    /// # Errors
-    /// As [`Picture::draw`](super::Picture::draw).
-    pub fn draw(&self, folder: &Path, formats: &[Format]) -> Result<Vec<PathBuf>> {
+    /// Draws its picture from the tables in `folder`, as `sweep.svg`, `sweep.pdf` or `sweep.png`; gives the paths.
+    pub(crate) fn draw(&self, folder: &Path, formats: &[Format]) -> Result<Vec<PathBuf>> {
         self.sweep.picture.draw(folder, &self.request(), &self.sweep.title, formats)
     }
 

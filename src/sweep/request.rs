@@ -32,6 +32,7 @@ pub enum Stretch {
 
 /// What computes rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Kernel {
     /// A stepper a row: every case and scheme.
     #[default]

@@ -13,6 +13,7 @@ use std::fmt;
 
 /// What became of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Status {
     /// It ran to its end.
     Ok,
@@ -74,6 +75,7 @@ impl fmt::Display for Status {
 
 /// A row of a sweep.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Row {
     /// Its number, from 0.
     pub number: u64,

@@ -37,6 +37,7 @@ pub struct Manner {
 
 /// How far a sweep has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Progress {
     /// Rows that are done, those of earlier processes among them.
     pub done: u64,
@@ -48,6 +49,7 @@ pub struct Progress {
 
 /// What a finished sweep amounts to.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Finished {
     /// Where its tables are.
     pub folder: PathBuf,
@@ -287,6 +289,7 @@ impl Found {
 
 /// What a sweep will take.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Estimate {
     /// Rows that were tried, and how many of them failed.
     pub tried: u64,
@@ -311,11 +314,7 @@ impl Finished {
         let worst = self.tables.first_error.clone().unwrap_or_default();
         let refuted = self.tables.counts.iter().any(|(status, _)| status == Status::Refuted.name());
         let runs = vec![format!("{bad} of {} rows failed: {worst}", self.rows)];
-        Some(if refuted {
-            Error::Refuted { runs }
-        } else {
-            Error::io(TABLE.to_owned(), runs.concat(), false)
-        })
+        Some(if refuted { Error::Refuted { runs } } else { Error::io(TABLE.to_owned(), runs.concat(), false) })
     }
 }
 

@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 /// One instant of a row.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Sample {
     /// A contact episode, when it begins.
     Impact {
@@ -34,6 +35,7 @@ pub enum Sample {
 
 /// What is kept of single instants of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Samples {
     /// The probes once every forcing period: a Poincaré section.
     Periods,

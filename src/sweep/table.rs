@@ -89,10 +89,19 @@ const UNITS: [(&str, &str); 20] = [
     ("_W", "W"),
 ];
 
+/// A column's name without its unit, in words.
+pub(super) fn quantity(column: &str) -> String {
+    parts(column).0.replace('_', " ")
+}
+
+fn parts(column: &str) -> (&str, &'static str) {
+    let found = UNITS.iter().find_map(|(end, unit)| Some((column.strip_suffix(end)?, *unit)));
+    found.unwrap_or((column, "–"))
+}
+
 /// A column's name as the label of an axis: `Displacement max (m)`.
 pub(super) fn label(column: &str) -> String {
-    let found = UNITS.iter().find_map(|(end, unit)| Some((column.strip_suffix(end)?, *unit)));
-    let (name, unit) = found.unwrap_or((column, "–"));
+    let (name, unit) = parts(column);
     let mut letters = name.replace('_', " ");
     if let Some(first) = letters.get_mut(..1) {
         first.make_ascii_uppercase();

@@ -14,6 +14,7 @@ use std::str::FromStr;
 
 /// How points are spread over the ranges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Design {
     /// Independent of one another.
     Uniform,
