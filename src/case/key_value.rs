@@ -19,6 +19,7 @@ pub struct KeyValue(pub(super) toml::Value);
 
 impl KeyValue {
     /// A value of a TOML file.
+    #[cfg(feature = "cli")]
     pub(crate) fn from_toml(value: toml::Value) -> Self {
         Self(value)
     }

@@ -121,6 +121,18 @@ impl Picture {
         title: &str,
         formats: &[Format],
     ) -> Result<Vec<PathBuf>> {
+        let Some(svg) = self.svg(folder, request, title)? else { return Ok(Vec::new()) };
+        let mut paths = Vec::new();
+        for format in formats {
+            let path = folder.join(format!("sweep.{format}"));
+            format.write(&path, &svg)?;
+            paths.push(path);
+        }
+        Ok(paths)
+    }
+
+    /// The picture as SVG text; none of a table of which there is nothing to draw.
+    pub(super) fn svg(&self, folder: &Path, request: &Map<String, Value>, title: &str) -> Result<Option<String>> {
         let source = Source::new(folder, request, title);
         let sampled = source.sample_columns.len() > 1;
         let kind = self.kind.unwrap_or(match source.axes.len() {
@@ -137,20 +149,12 @@ impl Picture {
                 "samples = \"impacts\" or \"periods\" in [measure] beside it",
             ));
         }
-        let svg = match kind {
-            Kind::Line => self.line(&source)?,
-            Kind::Heat => self.heat(&source)?,
-            Kind::Bifurcation => self.bifurcation(&source)?,
-            Kind::Section => self.section(&source)?,
-        };
-        let Some(svg) = svg else { return Ok(Vec::new()) };
-        let mut paths = Vec::new();
-        for format in formats {
-            let path = folder.join(format!("sweep.{format}"));
-            format.write(&path, &svg)?;
-            paths.push(path);
+        match kind {
+            Kind::Line => self.line(&source),
+            Kind::Heat => self.heat(&source),
+            Kind::Bifurcation => self.bifurcation(&source),
+            Kind::Section => self.section(&source),
         }
-        Ok(paths)
     }
 
     /// The axis that `asked` names, or the one to draw over where nothing is asked.

@@ -227,6 +227,14 @@ impl Plan {
         self.sweep.picture.draw(folder, &self.request(), &self.sweep.title, formats)
     }
 
+    /// Its picture, as SVG text, from the tables in `folder`, to which [`Plan::run_into`] has written them; none where there is nothing to draw.
+    ///
+    /// # Errors
+    /// [`Error::Io`] for tables that cannot be read.
+    pub fn svg(&self, folder: &Path) -> Result<Option<String>> {
+        self.sweep.picture.svg(folder, &self.request(), &self.sweep.title)
+    }
+
     /// The case without what is varied.
     #[must_use]
     pub fn case(&self) -> &Case {
