@@ -1,4 +1,4 @@
-//! The walls that touch during an arc: their forces and impulses.
+//! Forces and impulses of the walls that touch during an arc.
 
 use super::Arc;
 use crate::scene::Side;
@@ -33,7 +33,7 @@ impl Arc {
         if touches { self.force_at(wall, t, self.state(t)) } else { 0.0 }
     }
 
-    /// The same where the state (m, m/s) at `t` is at hand.
+    /// As [`Arc::contact_force`], where the state (m, m/s) at `t` is known already.
     pub(crate) fn force_at(&self, wall: usize, t: f64, (q, v): (f64, f64)) -> f64 {
         if let Some(support) = self.support.filter(|s| s.wall == wall) {
             return support.side.sign() * self.pressing(support, self.since(t))[0].max(0.0);
@@ -44,8 +44,8 @@ impl Arc {
 
     /// Impulse of wall `wall` on the body over [from, to] within the arc, N s, in closed form.
     ///
-    /// For an elastic wall from the balance of momentum, K ∫q = ∫f + Σk_a g T − mΔv − CΔq with K and C the sums with
-    /// the touching walls; since k_a ≤ K nothing is amplified.
+    /// For an elastic wall it follows from the momentum balance, K ∫q = ∫f + Σk_a g T − mΔv − CΔq,
+    /// where K and C include the touching walls; since k_a ≤ K, no rounding error is amplified.
     #[must_use]
     pub fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
         let (span, load) = (self.since(to) - self.since(from), self.load_impulse(from, to));
@@ -61,7 +61,8 @@ impl Arc {
             return -touch.stiffness * (self.initial[0] - touch.position) * span;
         }
         let ((q0, v0), (q1, v1)) = (self.state(from), self.state(to));
-        // Shifted to this wall's position, x = q − g, so that a stiff wall far from the origin cancels nothing.
+        // Shifted to this wall's position, x = q − g, so that a stiff wall far from the origin
+        // causes no cancellation.
         let (mut k, mut c) = (self.body.stiffness, self.body.damping);
         let mut push = load - self.body.stiffness * touch.position * span;
         for a in &self.touching {
@@ -73,7 +74,8 @@ impl Arc {
         -touch.stiffness * area - touch.damping * (q1 - q0)
     }
 
-    /// The pressing force R ≥ 0 of the supporting wall and three derivatives, N, N/s …
+    /// The force R ≥ 0 with which the supporting wall pushes, and its first three derivatives, N,
+    /// N/s …
     pub(crate) fn pressing(&self, support: Support, tau: f64) -> [f64; 4] {
         let (f, sign) = (self.force.jet(tau), support.side.sign());
         let steady = self.body.stiffness * self.initial[0] - self.elastic_at_rest();

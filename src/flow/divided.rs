@@ -1,18 +1,21 @@
-//! Divided differences of the exponential: the response to an exponential load, without a singular case.
+//! Divided differences of the exponential function: the response to an exponential load, without
+//! singular cases.
 
 use nalgebra::Complex;
 
-/// Within this diameter the power series is used. Beyond it the quotient loses at most the ratio of the exponential to
-/// its divided difference, n! / 2 for n + 1 nodes: two or three units in the last place for the four nodes used here.
+/// Up to this distance between nodes the power series is used. Beyond it, the difference quotient
+/// amplifies rounding by at most the ratio of the exponential to its divided difference, n! / 2 for
+/// n + 1 nodes: two or three units in the last place for the four nodes used here.
 const SERIES_DIAMETER: f64 = 2.0;
 
-/// Terms after which the series stops in any case: 2ⁿ/n! < 1e-16 from n = 24 on.
+/// Maximum number of terms of the series: 2ⁿ/n! < 1e-16 from n = 24 on.
 const SERIES_TERMS: usize = 30;
 
 /// exp[z₀, …, z_n] for two to four nodes in the left half plane.
 ///
-/// The response from rest of (d/dt − λ₁)(d/dt − λ₂) x = e^{μt} is t² exp[λ₁t, λ₂t, μt]: a resonance, a double root and
-/// a vanishing stiffness are coinciding nodes, and nothing happens there.
+/// The response from rest of (d/dt − λ₁)(d/dt − λ₂) x = e^{μt} is t² exp[λ₁t, λ₂t, μt]: resonance,
+/// a double root and vanishing stiffness are coinciding nodes, where the divided difference stays
+/// regular.
 ///
 /// Far nodes: exp[z₀ … z_n] = (exp[z₀ … z_{n−1}] − exp[z₁ … z_n])/(z₀ − z_n) with the farthest pair at the ends. Near
 /// nodes: e^{z̄} Σ_k h_k(z − z̄)/(k + n)! with h_k the complete symmetric polynomials.
@@ -69,7 +72,8 @@ fn series(nodes: &[Complex<f64>]) -> Complex<f64> {
         factor /= (k + count - 1) as f64;
         let term = before * factor;
         sum += term;
-        // h₁ vanishes by the choice of the mean, so a small first term says nothing.
+        // h₁ vanishes since the series is about the mean, so a small first term is no sign of
+        // convergence.
         if k > 1 && term.norm() <= 1e-18 * sum.norm() && symmetric[0].norm() * factor <= 1e-18 * sum.norm() {
             break;
         }

@@ -2,7 +2,7 @@
 
 use crate::scene::Forcing;
 
-/// One sine, A sin(ω τ + θ), with its phase at the arc's start.
+/// One sine, A sin(ω τ + θ), with θ its phase at the arc's start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wave {
     /// A, N.
@@ -15,7 +15,7 @@ pub(super) struct Wave {
     pub cos: f64,
 }
 
-/// f(τ) = f₀ + f₁ τ + Σ A sin(ωτ + θ), N, for τ from the arc's start (s).
+/// f(τ) = f₀ + f₁ τ + Σ A sin(ωτ + θ), N, where τ is the time since the arc's start (s).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct LocalForce {
     /// f₀, N.
@@ -29,8 +29,9 @@ pub(super) struct LocalForce {
 }
 
 impl LocalForce {
-    /// Takes the loads as they are just after `start` + `late`, plus `extra` (N); valid up to the next row of a table. `late` is what
-    /// the time `start` has lost to rounding.
+    /// Sets the loads as they are just after `start` + `late`, plus the constant force `extra` (N);
+    /// valid up to the next row of a table. `late` is what rounding has taken from the time
+    /// `start`.
     pub fn set(&mut self, forcing: &Forcing, [start, late]: [f64; 2], extra: f64) {
         self.constant = forcing.constant + extra;
         self.slope = 0.0;
@@ -81,12 +82,13 @@ impl LocalForce {
         f
     }
 
-    /// A bound on how far f strays from f(0) within `span` (s), N.
+    /// A bound on |f(τ) − f(0)| for τ up to `span` (s), N.
     pub fn variation(&self, span: f64) -> f64 {
         self.slope.abs() * span + 2.0 * self.waves.iter().map(|w| w.amplitude.abs()).sum::<f64>()
     }
 
-    /// ∫ f over [from, to], N s: A Δ sin(ω mid + θ) sinc(ωΔ/2) for a sine, which knows no small ω.
+    /// ∫ f over [from, to], N s. For a sine it is A Δ sin(ω mid + θ) sinc(ωΔ/2), which stays
+    /// accurate as ω → 0.
     pub fn integral(&self, from: f64, to: f64) -> f64 {
         let (span, mid) = (to - from, 0.5 * (from + to));
         let mut sum = (self.constant + self.slope * mid) * span;

@@ -1,4 +1,5 @@
-//! The exact motion between two events: of one degree of freedom in closed form, of a structure by its Taylor series.
+//! The exact motion between two events: in closed form for one degree of freedom, by its Taylor
+//! series for a structure.
 
 mod contact;
 mod divided;
@@ -20,19 +21,21 @@ use response::Response;
 /// Either the body flows, m q̈ + (c + Σc_a) q̇ + (k + Σk_a) q = f(t) + Σk_a g over the touching elastic walls a, or it
 /// rests against a rigid wall, where q̇ = 0 and r = k q − f(t) − Σr_a.
 ///
-/// Times are the scene's, and good from [`Arc::start`] to [`Arc::end`]. With τ = t − start the flow is
+/// Times are those of the scene, valid from [`Arc::start`] to [`Arc::end`]. With τ = t − start the
+/// flow is
 ///
 /// q(τ) = Re(Z e^{λτ}) + p₀ + p₁τ + Σ Im(P e^{iωτ}),
 ///
-/// or, for a load whose steady solution would be much larger than the motion (near resonance, for a vanishing
-/// stiffness), the same load's response from rest by divided differences of exp.
+/// or, for a load whose steady solution would be much larger than the motion (near resonance, or as
+/// the stiffness vanishes), the response to that load from rest, by divided differences of exp.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Arc {
     start: f64,
-    /// How much later than `start` it starts, s: what the sum of the times of many arcs loses to rounding.
+    /// How much later than `start` it really starts, s: the rounding error of a sum of the times of
+    /// many arcs.
     late: f64,
     end: f64,
-    /// Its length, s, free of the rounding of both ends.
+    /// Its length, s, without the rounding errors of both ends.
     span: f64,
     body: Oscillator,
     /// 1/m, 1/kg.
@@ -49,7 +52,7 @@ pub struct Arc {
 pub(crate) struct Start<'a> {
     /// When, s.
     pub time: f64,
-    /// What `time` has lost to rounding, s: the arc starts this much later.
+    /// The rounding error of `time`, s: the arc starts this much later.
     pub late: f64,
     /// Displacement, m, and velocity, m/s.
     pub state: [f64; 2],
@@ -59,12 +62,13 @@ pub(crate) struct Start<'a> {
     pub extra: f64,
     /// How far the arc may reach, s.
     pub span: f64,
-    /// A displacement of ordinary size, m.
+    /// A typical displacement of the scene, m.
     pub length: f64,
 }
 
 impl Arc {
-    /// An arc of no length for `body` under up to `waves` sines; [`Arc::begin`] fills it, again and again without allocating.
+    /// An arc of length 0 for `body`, with room for `walls` touching walls and `waves` sines;
+    /// [`Arc::begin`] refills it again and again without allocating.
     pub(crate) fn new(body: Oscillator, walls: usize, waves: usize) -> Self {
         Self {
             start: 0.0,
@@ -81,7 +85,7 @@ impl Arc {
         }
     }
 
-    /// Starts anew: in flight, or at rest against `support`.
+    /// Starts a new arc: in flight, or at rest against `support`.
     pub(crate) fn begin(&mut self, from: &Start, touching: impl Iterator<Item = Touch>, support: Option<Support>) {
         (self.start, self.late) = (from.time, from.late);
         (self.end, self.span) = (from.time + from.span, from.span);
@@ -133,7 +137,7 @@ impl Arc {
         self.end
     }
 
-    /// The rigid wall it rests against; none in flight.
+    /// The rigid wall that the body rests against; `None` in flight.
     #[must_use]
     pub fn rests_on(&self) -> Option<usize> {
         self.support.map(|s| s.wall)
@@ -182,8 +186,8 @@ impl Arc {
         self.body.damping + self.touching.iter().map(|w| w.damping).sum::<f64>()
     }
 
-    /// ∂(q, q̇ at the end)/∂(q, q̇ at the start), rows by rows: the free flow; zero for a body at rest on a wall, whose start is
-    /// forgotten.
+    /// ∂(q, q̇ at the end)/∂(q, q̇ at the start), row by row, for the free flow; zero for a body at
+    /// rest on a wall, since its motion does not depend on its state at the start.
     #[must_use]
     pub fn propagator(&self) -> [[f64; 2]; 2] {
         if self.support.is_some() {
@@ -211,8 +215,9 @@ impl Arc {
         self.response.jet(tau)
     }
 
-    /// The same at the start, from the differential equation: free of the rounding of large terms that cancel, which the closed form
-    /// has near resonance, where the steady motion is far larger than the motion.
+    /// As [`Arc::jet`], at the start, from the differential equation. It lacks the closed form's
+    /// rounding error near resonance, where the steady motion is far larger than the motion and
+    /// large terms cancel.
     #[inline]
     pub(crate) fn start_jet(&self) -> Jet {
         let [q, v] = self.initial;
@@ -232,13 +237,14 @@ impl Arc {
         [q, v, a, jerk, (second - c * jerk - k * a) * inverse]
     }
 
-    /// A size of the acceleration whose rounding the closed form adds to that of the forces, m/s²: of steady motions, which
-    /// cancel against the free one near resonance.
+    /// The size of the steady motions' acceleration, m/s². Near resonance they cancel against the
+    /// free motion, so the closed form has their rounding error beside that of the forces.
     pub(crate) fn steady_size(&self) -> f64 {
         if self.is_rest() { 0.0 } else { self.response.steady }
     }
 
-    /// True if the forces on a body at rest stay within `noise` (N) of one another: its wall does not push.
+    /// True if the forces on a body at rest balance within `noise` (N) over the whole arc without
+    /// its wall, which then does not push.
     pub(crate) fn is_unpressed(&self, noise: f64) -> bool {
         let Some(support) = self.support else { return false };
         self.pressing(support, 0.0)[0].abs() <= noise && self.force.variation(self.span) <= noise
@@ -254,7 +260,7 @@ impl Arc {
         let reach = kappa * window.min(self.response.longest);
         let load = self.force.bounds.map(|b| b * inverse);
         let fourth = jet[4].abs() + reach * jet[3].abs() + window * load[1];
-        // The fifth at τ from the equation itself.
+        // The fifth derivative at τ follows from the equation itself.
         let fifth_now = load[1] + rub * jet[4].abs() + kappa * jet[3].abs();
         let fifth = fifth_now + reach * jet[4].abs() + window * load[2];
         [fourth, fifth]
@@ -265,7 +271,8 @@ impl Arc {
         self.force.fastest()
     }
 
-    /// The fastest lasting oscillation, rad/s: of the load, or the body's own if it oscillates; 0 if nothing does.
+    /// The largest circular frequency in the motion, rad/s: of the load, or of the body if it
+    /// oscillates; 0 if neither does.
     pub(crate) fn fastest_motion(&self) -> f64 {
         self.fastest().max(self.response.oscillation())
     }
@@ -276,12 +283,13 @@ impl Arc {
         !self.touching.is_empty()
     }
 
-    /// An interval that the flow never leaves, m.
+    /// An interval that the motion does not leave during the arc, m.
     pub(crate) fn extent(&self) -> [f64; 2] {
         self.response.extent
     }
 
-    /// Sizes whose rounding limits displacement (m), velocity (m/s), force (N) and its rate (N/s).
+    /// Sizes of the terms of displacement (m), velocity (m/s), force (N) and its rate (N/s): their
+    /// rounding limits the accuracy of these.
     pub(crate) fn sizes(&self) -> [f64; 4] {
         let span = self.span;
         let elastic: f64 = self.touching.iter().map(|a| a.stiffness * (self.initial[0] - a.position).abs()).sum();

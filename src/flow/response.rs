@@ -15,7 +15,7 @@ pub(super) enum Roots {
         /// Damped circular frequency √(κ − σ²), rad/s; above 0.
         omega: f64,
     },
-    /// −σ ± δ, both real; the slow one is −κ/(σ + δ), free of cancellation at any damping.
+    /// λ = −σ ± δ, both real; the slow one is −κ/(σ + δ), free of cancellation at any damping.
     Real {
         /// The root nearer to 0, 1/s.
         slow: f64,
@@ -35,8 +35,9 @@ struct Part {
 
 /// q(τ) from a state at τ = 0: free motion plus one particular solution per piece of the load.
 ///
-/// A piece enters as its steady solution (one sine and cosine to evaluate) where that is not much larger than the
-/// motion it explains, and else as the response from rest by divided differences, which is never larger.
+/// A piece of the load contributes its steady solution (one sine and cosine to evaluate) where that
+/// is not much larger than the motion, and otherwise its response from rest by divided differences,
+/// which is never larger than the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Response {
     /// σ = c/2m, 1/s.
@@ -48,25 +49,30 @@ pub(super) struct Response {
     free: Complex<f64>,
     /// Steady solution p₀ + p₁τ of the constant and ramp, m and m/s; zero where they enter from rest.
     line: [f64; 2],
-    /// The constant and ramp that enter from rest, m/s² and m/s³.
+    /// The constant and ramp that contribute by their response from rest, m/s² and m/s³.
     rest: [f64; 2],
     parts: Vec<Part>,
-    /// True if a sine enters from rest.
+    /// True if a sine contributes by its response from rest.
     resonant: bool,
-    /// Σ of the sizes of the terms at τ = 0: displacement (m) and velocity (m/s). Their rounding is the motion's.
+    /// Σ of the sizes of the terms at τ = 0: displacement (m) and velocity (m/s). The motion has
+    /// their rounding error.
     pub size: [f64; 2],
-    /// Σ (ω² + κ)|P| over the steady sines, m/s²: where it exceeds the force over the mass, its rounding is the acceleration's.
+    /// Σ (ω² + κ)|P| over the steady sines, m/s²: where it exceeds force over mass, it determines
+    /// the rounding error of the acceleration.
     pub steady: f64,
     /// The largest |S|: min(1/√κ, 1/2δ), s; infinite for a free body.
     pub longest: f64,
-    /// The motion never leaves this interval within the span, m; infinite where no bound is at hand.
+    /// An interval that the motion does not leave within the span, m; infinite where no bound is
+    /// known.
     pub extent: [f64; 2],
 }
 
-/// A steady solution up to this many times the scene's own length is accepted: its rounding then costs four bits at most.
+/// A steady solution up to this many times the scene's own length is accepted: its rounding then
+/// costs at most four bits.
 const STEADY_SIZE: f64 = 16.0;
 
-/// A steady solution is also accepted where the arc is long enough for the response from rest to reach this share of it.
+/// A steady solution is also accepted where the arc is so long that the response from rest reaches
+/// this share of it.
 const STEADY_SHARE: f64 = 0.25;
 
 impl Default for Response {
@@ -89,13 +95,14 @@ impl Default for Response {
 }
 
 impl Response {
-    /// A motion that will be under up to `waves` sines.
+    /// A response with room for `waves` sines.
     pub fn with_room(waves: usize) -> Self {
         Self { parts: Vec::with_capacity(waves), ..Self::default() }
     }
 
-    /// Solves for mass (kg), damping c (N s/m) and stiffness k (N/m) under `force` from the state (`q`, `v`).
-    /// `span` (s) is how far it will be asked for, `length` (m) what counts as a displacement of ordinary size.
+    /// Solves for mass (kg), damping c (N s/m) and stiffness k (N/m) under `force` from the state
+    /// (`q`, `v`). `span` (s) is the length of the arc, `length` (m) a typical displacement of the
+    /// scene.
     pub fn set(&mut self, [mass, c, k]: [f64; 3], force: &LocalForce, [q, v]: [f64; 2], span: f64, length: f64) {
         let (sigma, kappa) = (0.5 * c / mass, k / mass);
         (self.sigma, self.kappa) = (sigma, kappa);
@@ -110,7 +117,8 @@ impl Response {
             Roots::Real { slow, fast: -(sigma + delta) }
         };
         let length = length.max(q.abs());
-        // From rest a load of acceleration φ and rate ω moves the body by about φ min(τ², τ/(ω + √κ + σ)); steady by φ/|D|.
+        // From rest, a load of acceleration φ and circular frequency ω moves the body by about φ
+        // min(τ², τ/(ω + √κ + σ)); the steady motion is φ/|D|.
         let natural = kappa.sqrt() + sigma;
         let steady = |amplitude: f64, d: f64, omega: f64| {
             let reached = span.min(1.0 / (omega + natural)) * span;
@@ -156,7 +164,7 @@ impl Response {
         self.bound_extent(span);
     }
 
-    /// √κ of a body that oscillates, rad/s; 0 of one that creeps.
+    /// √κ of a body that oscillates, rad/s; 0 of one that is critically or more damped.
     pub fn oscillation(&self) -> f64 {
         if matches!(self.roots, Roots::Pair { .. }) { self.kappa.sqrt() } else { 0.0 }
     }
@@ -176,7 +184,7 @@ impl Response {
         self.extent = [ends[0].min(ends[1]) - reach, ends[0].max(ends[1]) + reach];
     }
 
-    /// The motion and four derivatives at `tau` ≥ 0.
+    /// The displacement and its first four derivatives at `tau` ≥ 0.
     #[inline]
     pub fn jet(&self, tau: f64) -> Jet {
         let (mut x, impulse) = self.free_jet(tau);
@@ -209,7 +217,8 @@ impl Response {
         x
     }
 
-    /// Free motion, and S with its derivatives (not computed where nothing enters from rest).
+    /// Free motion, and S with its derivatives (not computed where no piece of the load responds
+    /// from rest).
     #[inline]
     fn free_jet(&self, tau: f64) -> (Jet, Jet) {
         let wanted = self.resonant || self.rest != [0.0; 2];
@@ -265,7 +274,8 @@ impl Response {
         }
     }
 
-    /// The constant and the ramp from rest: ∬S and ∭S are τ² exp[λ₁τ, λ₂τ, 0] and τ³ exp[λ₁τ, λ₂τ, 0, 0].
+    /// Adds the response from rest to the constant and the ramp: ∬S and ∭S are τ² exp[λ₁τ, λ₂τ, 0]
+    /// and τ³ exp[λ₁τ, λ₂τ, 0, 0].
     fn add_rest(&self, tau: f64, impulse: &Jet, x: &mut Jet) {
         let [phi, ramp] = self.rest;
         let ([a, b], zero) = (self.nodes(tau), Complex::new(0.0, 0.0));

@@ -1,38 +1,39 @@
-//! The structure, its loads and the rows of its walls, made ready for series.
+//! The structure, its loads and the rows of its walls, prepared for Taylor series.
 
 use crate::linear::{Factor, Operator, Rows, Symmetric};
 use crate::scene::{Forcing, Loads, Row, Scene, Structure, distinct};
 use std::cell::{OnceCell, RefCell};
 
-/// M, C and K as operators, the loads by row, and what a force behind each wall's row does.
+/// M, C and K as operators, the loads by row, and the response to a force on each wall's row.
 #[derive(Debug)]
 pub(crate) struct Body {
     /// n.
     pub n: usize,
-    /// Shared, for columns are made where they are first asked for.
+    /// Behind a cell, since a column is computed when it is first needed.
     mass: RefCell<Factor>,
     inertia: Operator,
     /// √Mᵢᵢ, n entries.
     root_mass: Vec<f64>,
-    /// C; none where it is zero.
+    /// C; `None` where it is zero.
     pub(super) damping: Option<Operator>,
     /// K.
     pub(super) stiffness: Operator,
     /// |C| and |K|, entry by entry: what products may err by.
     sizes: [Operator; 2],
-    /// The rows of the loads, and what acts behind each.
+    /// The rows of the loads, each with the loads that act on it.
     pub(super) loads: Vec<(Row, Forcing)>,
     /// The distinct rows of the walls.
     pub rows: Rows,
     /// Which of them each wall has, in the scene's order.
     pub row_of: Vec<usize>,
-    /// yᵣ = M⁻¹ gᵣᵀ of the rows that have come into play.
+    /// yᵣ = M⁻¹ gᵣᵀ of each row, once it has been needed.
     columns: Vec<OnceCell<Column>>,
     /// Bounds on the free motion: ω² (1/s²), the rate of its damping (1/s) and the fastest load (rad/s).
     rates: [f64; 3],
 }
 
-/// What a unit force behind a row does, as far as it is anything: entries `first` and those after it.
+/// The acceleration that a unit force on a row causes, without its negligible ends: entry `first`
+/// and those after it.
 #[derive(Debug)]
 struct Column {
     first: usize,
@@ -41,23 +42,27 @@ struct Column {
     own: f64,
 }
 
-/// Entries of all columns up to which they are made at once, so that steps need no memory (512 kB).
+/// Up to this many entries in all, the columns are computed at once, so that steps allocate nothing
+/// (512 kB).
 const AT_ONCE: usize = 1 << 16;
 
-/// Share of a force's own motion below which its motion elsewhere is nothing, in the metric of the mass (as in the programmes of impacts).
+/// Motion below this share of the motion that a force causes at its own row is dropped, in the
+/// metric of the mass (as in the programmes of impacts).
 const NOTHING: f64 = 1e-17;
 
-/// The power method finds the largest ratio from within; this share covers what it may miss, and each series looks at its last terms besides.
+/// The power method approaches the largest ratio from below; this factor covers what it may miss.
+/// Each series checks its last terms besides.
 const MARGIN: f64 = 1.05;
 
-/// A force of this share of the largest is nothing: rounding of rounding.
+/// Sizes of forces are at least this share of the largest: the rounding error of a rounding error.
 const FLOOR: f64 = f64::EPSILON;
 
-/// Iterations of it for the damping.
+/// Iterations of the power method.
 const ITERATIONS: usize = 40;
 
 impl Body {
-    /// `scene` made ready; none if its mass cannot be factored, which the scene itself refuses.
+    /// Prepares `scene`; `None` if its mass matrix cannot be factored, an error that the scene
+    /// itself reports.
     pub fn new(scene: &Scene) -> Option<Self> {
         let structure = scene.system.structure();
         let Structure { mass, damping, stiffness } = &*structure;
@@ -93,7 +98,7 @@ impl Body {
         Some(body)
     }
 
-    /// True if all that its rows may need is made at once.
+    /// True if all columns are computed at once.
     pub fn is_small(&self) -> bool {
         self.n * self.rows.count() <= AT_ONCE
     }
@@ -113,14 +118,14 @@ impl Body {
         })
     }
 
-    /// yᵣ · x: what a force x does at row r.
+    /// yᵣ · x: the acceleration that the forces x cause at row r.
     #[inline]
     pub fn answer(&self, row: usize, x: &[f64]) -> f64 {
         let Column { first, values, .. } = self.column(row);
         values.iter().zip(&x[*first..]).map(|(y, x)| y * x).sum()
     }
 
-    /// Σ |yᵣ| |x|: the size of that.
+    /// Σ |yᵣ| |x|: the size of the terms of [`Self::answer`].
     #[inline]
     pub fn answer_size(&self, row: usize, x: &[f64]) -> f64 {
         let Column { first, values, .. } = self.column(row);
@@ -158,8 +163,9 @@ impl Body {
         self.inertia.add_product(1.0, x, out);
     }
 
-    /// A rate (1/s) that nothing in the motion exceeds by much, with springs and dashpots (rows, N/m, N s/m) at the walls: for z̈ + 2δż + ω²z = 0 no
-    /// eigenvalue is beyond δ + √(δ² + ω²).
+    /// A rate (1/s) that bounds the motion's own rates up to a small factor, with springs and
+    /// dashpots (rows, N/m, N s/m) at the walls: for z̈ + 2δż + ω²z = 0 no eigenvalue exceeds δ +
+    /// √(δ² + ω²).
     pub(super) fn rate(&self, walls: impl Iterator<Item = (usize, f64, f64)>) -> f64 {
         let [mut square, mut rub, load] = self.rates;
         for (row, stiffness, damping) in walls {
@@ -167,20 +173,22 @@ impl Body {
             rub += damping * self.delassus(row, row);
         }
         let oscillation = square.sqrt();
-        // An oscillation below its critical damping is no faster than without it.
+        // An underdamped oscillation is no faster than the undamped one.
         let own = if rub < 2.0 * oscillation { oscillation } else { rub };
         own.max(load)
     }
 
-    /// Adds |C| v + |K| q to `out`, N: with the sizes of displacement and velocity those of the terms whose sum is the force.
+    /// Adds |C| v + |K| q to `out`, N: given the sizes of displacement and velocity, the size of
+    /// the terms that add up to the force.
     pub fn add_sizes(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
         for (operator, x) in self.sizes.iter().zip([v, q]) {
             operator.add_product(1.0, x, out);
         }
     }
 
-    /// Raises sizes of forces that are nothing beside the largest in the metric of the mass: what reaches a degree of freedom from others is
-    /// no better known than they are.
+    /// Raises to a floor the sizes of forces that are negligible beside the largest in the metric
+    /// of the mass: forces that reach a degree of freedom from others are no more accurate than
+    /// those.
     pub fn level_sizes(&self, sizes: &mut [f64]) {
         let largest = sizes.iter().zip(&self.root_mass).fold(0.0, |most, (f, m)| f64::max(most, f / m));
         let floor = FLOOR * largest;
@@ -195,7 +203,7 @@ impl Body {
         self.stiffness.add_product(-1.0, q, out);
     }
 
-    /// Times of the blows, s, increasing, each once.
+    /// Times of the blows (impulsive loads), s, increasing, each once.
     pub fn blow_times(&self) -> Vec<f64> {
         let blows = self.loads.iter().flat_map(|(_, forcing)| &forcing.impulses);
         let mut times: Vec<f64> = blows.map(|&(time, _)| time).collect();
@@ -212,7 +220,8 @@ impl Body {
         tables.filter_map(next).reduce(f64::min)
     }
 
-    /// Adds the `order`-th derivative of the loads at `t`, from the right, to `out` (N/sᵏ), and to `size` what it may be large of.
+    /// Adds the `order`-th derivative of the loads at `t`, from the right, to `out` (N/sᵏ), and the
+    /// size of its terms to `size`.
     pub fn add_load(&self, order: u32, t: f64, out: &mut [f64], size: &mut [f64]) {
         for (row, forcing) in &self.loads {
             let (mut value, mut large) =
@@ -227,7 +236,7 @@ impl Body {
                 let amplitude = wave.amplitude * wave.omega.powi(order as i32);
                 let (sin, cos) = (wave.omega * t + wave.phase).sin_cos();
                 value += amplitude * [sin, cos, -sin, -cos][order as usize % 4];
-                // The instant itself is known to an ulp of the time only.
+                // The instant itself is known only to an ulp of the time.
                 large += amplitude.abs() * (1.0 + wave.omega * t);
             }
             for &(i, weight) in row.entries() {
@@ -240,10 +249,10 @@ impl Body {
     }
 }
 
-/// The largest λ of B x = λ M x, by the power method.
+/// The largest λ of B x = λ M x, by the power method (a lower bound that approaches it).
 fn largest_ratio(mass: &Symmetric, factor: &mut Factor, b: &Symmetric) -> f64 {
     let n = mass.size();
-    // A diagonal pencil is known at once.
+    // Where both matrices are diagonal, so is the problem.
     if mass.half_bandwidth() == 0 && b.half_bandwidth() == 0 {
         let pairs = mass.diagonal_entries().into_iter().zip(b.diagonal_entries());
         return pairs.map(|(m, b)| b / m).fold(0.0, f64::max);

@@ -12,11 +12,13 @@ pub(crate) struct Held {
     pub position: f64,
 }
 
-/// The rows that lasting contact holds, and the forces that hold them.
+/// The rows held in lasting contact, and the forces that hold them.
 ///
-/// λ = −W⁻¹ G M⁻¹ F makes G q̈ = 0, and the same holds for every derivative. Where rows depend on one another, W_jI = C W_II for rows j
-/// beyond an independent set I, the share of least Σ Wᵢᵢ λᵢ² is taken, as the quadratic programme does: (D_J + C D_I Cᵀ) λ_J = C D_I λ*,
-/// λ_I = λ* − Cᵀ λ_J with λ* = −W_II⁻¹ b_I and D the diagonal of W. All of it is linear in b_I, and is kept as one matrix.
+/// λ = −W⁻¹ G M⁻¹ F makes G q̈ = 0, and the same holds for every derivative. Where rows are
+/// linearly dependent, W_jI = C W_II for rows j beyond an independent set I, the solution of least
+/// Σ Wᵢᵢ λᵢ² is taken, as in the quadratic programme: (D_J + C D_I Cᵀ) λ_J = C D_I λ*, λ_I = λ* −
+/// Cᵀ λ_J with λ* = −W_II⁻¹ b_I and D the diagonal of W. All of it is linear in b_I, and is kept as
+/// one matrix.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Hold {
     /// The independent rows, then those that depend on them.
@@ -28,21 +30,23 @@ pub(crate) struct Hold {
     factor: Vec<f64>,
     relations: Vec<f64>,
     work: Vec<f64>,
-    /// How often forces are found: each time but the first for what rounding has left of the last.
+    /// Number of passes that find the forces: each after the first removes what rounding has left
+    /// of the last.
     passes: usize,
 }
 
-/// A pivot below this share of Wᵢᵢ is none: the row sees what those before it see.
+/// With a pivot below this share of Wᵢᵢ a row depends on those before it.
 const DEPENDENT: f64 = 1e-10;
 
-/// Rows for which there is room from the start.
+/// Number of rows for which room is made at the start.
 const ROOM: usize = 64;
 
-/// Below this share of Wᵢᵢ a pivot has lost digits that the forces must not lose: a light mass that is held, for one, and that a wall
-/// between it and a heavy one presses on.
+/// A pivot below this share of Wᵢᵢ has lost digits that the forces need. One example is a light
+/// mass that is held, with a held wall between it and a heavy mass.
 const COARSE: f64 = 1e-3;
 
-/// Passes where there is such a pivot: the first leaves 1e-16/1e-10 at most, the others as much of that.
+/// Number of passes where there is such a pivot: the first leaves at most 1e-16/1e-10, each further
+/// one the same share of that.
 const PASSES: usize = 3;
 
 impl Hold {
@@ -61,7 +65,8 @@ impl Hold {
         }
     }
 
-    /// Holds `rows`, and those of `idle` that are independent of them and of one another: the others carry nothing.
+    /// Holds `rows`, and those of `idle` that are independent of them and of one another; the other
+    /// rows of `idle` carry no force.
     pub fn set(&mut self, body: &Body, rows: impl Iterator<Item = Held> + Clone, idle: impl Iterator<Item = Held>) {
         self.rows.clear();
         self.factor.clear();
@@ -81,7 +86,7 @@ impl Hold {
         }
     }
 
-    /// One more row of the Cholesky factor of W, if it is independent of those before.
+    /// Appends a row to the Cholesky factor of W, if it is independent of those before.
     fn extend(&mut self, body: &Body, held: Held) {
         let (k, whole) = (self.rows.len(), body.delassus(held.row, held.row));
         let (mut pivot, start) = (whole, self.factor.len());
@@ -120,7 +125,7 @@ impl Hold {
         }
     }
 
-    /// The share of the rows that depend on others.
+    /// Computes the forces' share on the dependent rows.
     fn share(&mut self, body: &Body) {
         let Self { rows, independent, inverse, factor, relations, work, .. } = self;
         let k = *independent;
@@ -173,7 +178,7 @@ impl Hold {
         &self.rows
     }
 
-    /// The rows that are independent of one another.
+    /// The independent rows.
     #[inline]
     pub fn independent(&self) -> &[Held] {
         &self.rows[..self.independent]
@@ -186,7 +191,8 @@ impl Hold {
         &self.inverse[i * k..(i + 1) * k]
     }
 
-    /// Adds to `force` (N, n entries; or a derivative of it) what holds the rows, and tells it row by row, once a pass.
+    /// Adds to `force` (N, n entries; or a derivative of it) the forces that hold the rows, and
+    /// passes each to `tell`, row by row, once per pass.
     pub fn balance(&self, body: &Body, force: &mut [f64], scratch: &mut [f64], mut tell: impl FnMut(usize, f64)) {
         for _ in 0..self.passes {
             for (b, held) in scratch.iter_mut().zip(self.independent()) {
@@ -200,12 +206,13 @@ impl Hold {
         }
     }
 
-    /// Puts displacements that are there to rounding exactly where the rows are held, by the nearest change in the metric of M.
+    /// Moves displacements that are within rounding of the held positions exactly onto them, by the
+    /// smallest change in the metric of M.
     pub fn place(&self, body: &Body, q: &mut [f64], scratch: &mut [f64]) {
         self.change(body, q, scratch, |held| held.position);
     }
 
-    /// Takes from velocities what the rows still see of them, in the same way.
+    /// Removes from velocities what the held rows still see of them, in the same way.
     pub fn stop(&self, body: &Body, v: &mut [f64], scratch: &mut [f64]) {
         self.change(body, v, scratch, |_| 0.0);
     }

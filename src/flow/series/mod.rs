@@ -1,12 +1,15 @@
 //! The exact motion of a structure over a short stretch: its Taylor series, down to rounding.
 //!
-//! Between events M q̈ + C q̇ + K q = f(t) + Gᵀ r with r linear in the state. From (q, q̇) at the start every derivative follows,
+//! Between events M q̈ + C q̇ + K q = f(t) + Gᵀ r with r linear in the state. From (q, q̇) at the
+//! start all derivatives follow,
 //!
 //! M q⁽ᵏ⁺²⁾ = f⁽ᵏ⁾ − C q⁽ᵏ⁺¹⁾ − K q⁽ᵏ⁾ + Gᵀ r⁽ᵏ⁾,
 //!
-//! which is the action of the exponential of the first-order system on its state (Al-Mohy and Higham 2011, doi:10.1137/100788860): products
-//! with M⁻¹, C and K only, whatever the structure. A stretch is no longer than two radians of the fastest motion, so that no term is much
-//! larger than the motion itself and nothing cancels, and the series goes on until its terms are below rounding. Nothing is discretised.
+//! which is the action of the exponential of the first-order system on its state (Al-Mohy and
+//! Higham 2011, doi:10.1137/100788860): it takes products with M⁻¹, C and K only, for any
+//! structure. A stretch is no longer than two radians of the fastest motion, so that no term is
+//! much larger than the motion itself and no digits cancel, and the series goes on until its terms
+//! are below rounding. There is no discretisation error.
 //!
 //! An elastic wall that touches gives r⁽ᵏ⁾ = −k_a (w − g)⁽ᵏ⁾ − c_a w⁽ᵏ⁺¹⁾. Rigid walls in lasting contact give the r⁽ᵏ⁾ for which G q⁽ᵏ⁺²⁾ = 0.
 
@@ -20,7 +23,7 @@ pub(crate) use hold::{Held, Hold};
 pub(crate) use terms::{Start, Touching};
 use wave::Wave;
 
-/// Terms of the longest series, and the stride of a polynomial.
+/// Number of terms of the longest series, and the stride of a polynomial.
 pub(crate) const TERMS: usize = 32;
 
 /// A stretch of exact motion of a structure on which the set of touching walls does not change.
@@ -37,26 +40,27 @@ pub struct Series {
     terms: usize,
     /// aₖ one after the other, n entries each.
     motion: Vec<f64>,
-    /// Displacements seen by the rows of the walls, m: a polynomial in x each.
+    /// Displacements at the rows of the walls, m: a polynomial in x each.
     seen: Vec<f64>,
-    /// Force polynomials of what acts, N: of the touching elastic walls, then of the held rows.
+    /// Force polynomials, N: of the touching elastic walls, then of the held rows.
     forces: Vec<f64>,
-    /// By wall, increasing.
+    /// The acting walls, by increasing index.
     acting: Vec<Acting>,
     waves: Vec<Wave>,
     /// The fastest rate that the stretch was made for, 1/s.
     rate: f64,
 }
 
-/// A wall that acts on a stretch.
+/// A wall that exerts a force during a stretch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Acting {
     wall: usize,
-    /// Which force polynomial.
+    /// Index of its force polynomial.
     slot: usize,
-    /// Its share of it: walls at one place carry it equally.
+    /// Its share of that force: walls at one place carry it equally.
     share: f64,
-    /// For a rigid wall the sign of its force, which only rounding turns round.
+    /// For a rigid wall the sign of its force; the opposite sign can only be rounding, and is cut
+    /// to 0.
     sign: Option<f64>,
 }
 
@@ -88,7 +92,7 @@ impl Series {
         self.state_at((t - self.start) / self.unit, q, v);
     }
 
-    /// The same at x.
+    /// As [`Series::state`], at x.
     pub(crate) fn state_at(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
         let n = self.n;
         let (q, v) = (&mut q[..n], &mut v[..n]);
@@ -126,7 +130,7 @@ impl Series {
         let Some(acting) = self.of_wall(wall) else { return 0.0 };
         let force = self.force(acting.slot);
         let (a, b) = ((from - self.start) / self.unit, (to - self.start) / self.unit);
-        // ∫ xᵏ over [a, b] is (b − a) Σ aʲ bᵏ⁻ʲ/(k + 1): no difference of large powers.
+        // ∫ xᵏ over [a, b] is (b − a) Σ aʲ bᵏ⁻ʲ/(k + 1), which avoids a difference of large powers.
         let (mut sum, mut mixed, mut power) = (0.0, 1.0, 1.0);
         for (k, c) in force.iter().enumerate() {
             sum += c * mixed / (k + 1) as f64;
@@ -136,12 +140,12 @@ impl Series {
         acting.keep(sum * (b - a) * self.unit)
     }
 
-    /// Walls that act, each with the polynomial of its force in x before its share.
+    /// Walls that act, each with the force polynomial in x of its row and its share of it.
     pub(crate) fn acting(&self) -> impl Iterator<Item = (usize, &[f64], f64)> {
         self.acting.iter().map(|a| (a.wall, self.force(a.slot), a.share))
     }
 
-    /// The force polynomial of held row number `held`, N: positive for a lower wall's side.
+    /// The force polynomial of held row number `held`, N: positive where lower walls push.
     pub(crate) fn held_force(&self, held: usize) -> &[f64] {
         let touching = self.acting.iter().filter(|a| a.sign.is_none()).count();
         self.force(touching + held)

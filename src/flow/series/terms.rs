@@ -1,4 +1,4 @@
-//! The terms of a series, one from the other.
+//! The terms of a series, by recurrence.
 
 use super::wave::Wave;
 use super::{Acting, Body, Hold, Series, TERMS};
@@ -29,20 +29,22 @@ pub(crate) struct Touching {
     pub damping: f64,
 }
 
-/// The longest stretch, in radians of the fastest motion: no term of its series is more than twice the motion.
+/// Length of the longest stretch, in radians of the fastest motion: no term of its series is more
+/// than twice the motion.
 const RADIANS: f64 = 2.0;
 
-/// A term of the acceleration below this share of the first is none.
+/// The series ends where a term of the acceleration is below this share of the first.
 const LAST: f64 = 1e-18;
 
-/// Terms of the shortest series: beside constants and ramps of the load they leave room for its own oscillations.
+/// Minimum number of terms: beside constants and ramps of the load they leave room for the load's
+/// own oscillations.
 const FEWEST: usize = 8;
 
 /// If the last term is above this share of the largest, the fastest rate was underestimated and the stretch is cut.
 const TRUNCATION: f64 = 1e-16;
 
 impl Series {
-    /// A series of no length.
+    /// A series of length 0, to be filled by [`Series::begin`].
     pub(crate) fn new(body: &Body) -> Self {
         let (n, rows, walls) = (body.n, body.rows.count(), body.row_of.len());
         let waves = body.loads.iter().map(|(_, forcing)| forcing.harmonics.len()).sum();
@@ -66,8 +68,8 @@ impl Series {
         self.rate
     }
 
-    /// Starts anew, as far as two radians of the fastest motion and the span let it. `carriers` are the walls behind the held rows: wall,
-    /// number of the held row, share.
+    /// Starts a new stretch, as long as two radians of the fastest motion and `from.span` allow.
+    /// `carriers` are the walls behind the held rows: wall, number of the held row, share.
     pub(crate) fn begin(
         &mut self,
         body: &mut Body,
@@ -142,7 +144,7 @@ impl Series {
         self.check();
     }
 
-    /// What the rows see of term k.
+    /// Computes term k of the displacements at the rows.
     #[inline]
     fn look(&mut self, body: &Body, k: usize) {
         let term = &self.motion[k * self.n..(k + 1) * self.n];
@@ -151,7 +153,7 @@ impl Series {
         }
     }
 
-    /// Cuts the stretch to where its last terms are below rounding, should they not be.
+    /// Shortens the stretch to where its last terms are below rounding, if they are not.
     fn check(&mut self) {
         let n = self.n;
         let size = |k: usize| self.motion[k * n..(k + 1) * n].iter().fold(0.0_f64, |a, x| a.max(x.abs()));
@@ -164,7 +166,8 @@ impl Series {
     }
 }
 
-/// How many terms leave none above rounding at x = 1 for a motion of `radians`: of the acceleration, xᵏ⁻²/(k − 2)!.
+/// The number of terms after which all are below rounding at x = 1, for a motion of `radians`:
+/// terms of the acceleration go as xᵏ⁻²/(k − 2)!.
 fn terms_for(radians: f64) -> usize {
     let (mut term, mut k) = (1.0, 0);
     while term > LAST && k + 3 < TERMS {

@@ -2,7 +2,7 @@
 
 use super::body::Body;
 
-/// A sine of the loads on its way from order to order.
+/// A sine of the loads, with its amplitude at the current order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wave {
     /// A (ω unit)ᵏ/k!, N.
