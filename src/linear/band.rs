@@ -4,12 +4,12 @@ use super::Symmetric;
 use super::definite::NotDefinite;
 use std::ops::Range;
 
-/// A band is stored by diagonals if that takes at most this many times the room of the entries alone.
+/// A band is stored by diagonals if that takes at most this many times the room of its entries …
 const FILL: usize = 4;
 /// … or if it is this narrow.
 const NARROW: usize = 8;
 
-/// True if `matrix` is best taken for a band.
+/// True if `matrix` is best stored and factored as a band.
 pub(super) fn is_band(matrix: &Symmetric) -> bool {
     let width = matrix.half_bandwidth();
     width <= NARROW || (width + 1) * matrix.size() <= FILL * matrix.stored()
@@ -19,7 +19,8 @@ pub(super) fn is_band(matrix: &Symmetric) -> bool {
 #[derive(Debug, Clone)]
 pub struct Band {
     n: usize,
-    /// Diagonals that are not all 0, each with its distance d from the main one; entry i is that of row i + d and column i.
+    /// Diagonals that are not all 0, each with its distance d from the main one; entry i is that of
+    /// row i + d and column i.
     diagonals: Vec<(usize, Vec<f64>)>,
 }
 
@@ -67,7 +68,8 @@ impl Band {
 pub(super) struct BandFactor {
     n: usize,
     width: usize,
-    /// L below its unit diagonal, by rows: entry i·width + k is that of row i and column i − width + k. Of a tridiagonal matrix: see [`twist`].
+    /// L below its unit diagonal, by rows: entry i·width + k is that of row i and column i − width
+    /// + k. For a tridiagonal matrix, see [`twist`].
     lower: Vec<f64>,
     /// 1/D.
     inverse: Vec<f64>,
@@ -76,8 +78,9 @@ pub(super) struct BandFactor {
 /// A pivot below this share of its diagonal entry is rounding: the matrix is not positive definite.
 const LEAST_PIVOT: f64 = 1e-14;
 
-/// What is left of an answer below this share is nothing: rounding (1e-16) even if it should grow by the √cond A < 1e8 of a matrix that has
-/// a factor.
+/// Entries of a solution below this share of the largest are dropped: even if their effect should
+/// grow by √cond A < 1e8 (the limit for a matrix that has a factor), it stays below rounding
+/// (1e-16).
 const NOTHING: f64 = 1e-26;
 
 impl BandFactor {
@@ -116,7 +119,8 @@ impl BandFactor {
         }
         if width == 1 {
             twist(matrix, &diagonal, &mut lower, &mut pivots);
-            // Close to singular, rounding may turn a pivot of this order round that the other order left positive.
+            // Close to singular, rounding may make a pivot negative in this order although the
+            // other order found it positive.
             if let Some(row) = pivots.iter().position(|pivot| pivot.is_nan() || *pivot <= 0.0) {
                 return Err(NotDefinite { row });
             }
@@ -158,10 +162,12 @@ impl BandFactor {
         }
     }
 
-    /// Solves A x = b in place for a b that is zero outside `span`, as far as x is anything: returns the rows outside of which x is zero.
+    /// Solves A x = b in place for a b that is zero outside `span`, dropping negligible entries:
+    /// returns the rows outside of which x is zero.
     ///
-    /// Both substitutions end where what is left is below [`NOTHING`] of the largest so far, in the metric of D. With y = L⁻¹b, the norm of
-    /// what is left out of y is in that metric the error of x in the norm of A, and what follows a row can outgrow it by √cond A at most.
+    /// Both substitutions end where the entries are below [`NOTHING`] of the largest so far, in the
+    /// metric of D. With y = L⁻¹b, the norm of the dropped part of y is in that metric the error of
+    /// x in the norm of A, and what follows a row can outgrow it by at most √cond A.
     pub(super) fn solve_near(&self, x: &mut [f64], span: Range<usize>) -> Range<usize> {
         let (n, middle) = (self.n, self.n / 2);
         let x = &mut x[..n];
@@ -170,7 +176,8 @@ impl BandFactor {
                 span.clone().for_each(|i| x[i] *= self.inverse[i]);
                 Some(span.clone())
             }
-            // A tridiagonal matrix is eliminated from both ends: rows are counted from the one at hand.
+            // A tridiagonal matrix is eliminated from both ends: rows are counted from the nearer
+            // end.
             1 if span.end <= middle => self.follow(x, span.clone(), middle, |i| i, |i| self.lower[i]),
             1 if span.start > middle => {
                 let turned = n - span.end..n - span.start;
@@ -186,8 +193,9 @@ impl BandFactor {
         })
     }
 
-    /// The same along one of the two chains of a tridiagonal matrix, whose row i is `at(i)` and whose entry of rows i and i − 1 is `lower(i)`,
-    /// i < `limit`. None where the answer reaches the limit, with x as it was.
+    /// The same along one of the two halves of a tridiagonal matrix, whose row i is `at(i)` and
+    /// whose entry of rows i and i − 1 is `lower(i)`, i < `limit`. `None`, with x unchanged, where
+    /// the solution reaches the limit.
     fn follow(
         &self,
         x: &mut [f64],
@@ -231,7 +239,7 @@ impl BandFactor {
 
     fn solve_band_near(&self, x: &mut [f64], span: Range<usize>, width: usize) -> Range<usize> {
         let row = |i: usize| &self.lower[i * width + i.saturating_sub(width) + width - i..(i + 1) * width];
-        // As many rows of nothing as the band is wide end a substitution.
+        // A substitution ends after as many negligible rows as the band is wide.
         let (mut largest, mut still, mut end) = (0.0_f64, 0, span.start);
         while end < self.n && (end < span.end || still < width) {
             let first = end.saturating_sub(width);
@@ -260,7 +268,8 @@ impl BandFactor {
         first..end
     }
 
-    /// Two chains of operations, one from either end, that do not wait for one another: waiting is all that this costs.
+    /// Eliminates from both ends at once: two independent chains of operations, which overlap;
+    /// waiting for results is the whole cost of one chain.
     fn solve_tridiagonal(&self, x: &mut [f64]) {
         let (n, middle) = (self.n, self.n / 2);
         let (x, lower, inverse) = (&mut x[..n], &self.lower[..n], &self.inverse[..n]);
@@ -271,7 +280,8 @@ impl BandFactor {
             bottom = x[j] - lower[j + 1] * bottom;
             (x[k], x[j]) = (top, bottom);
         }
-        // The upper half is one longer where n is even; with two unknowns the lower one is the middle.
+        // The upper half is one longer where n is even; with two unknowns the lower one is the
+        // middle.
         for k in (n - middle - 1).max(1)..middle {
             top = x[k] - lower[k] * top;
             x[k] = top;
@@ -295,8 +305,9 @@ impl BandFactor {
     }
 }
 
-/// The factor of a tridiagonal matrix that is eliminated from both ends at once towards row n/2 (the twisted factorisation): entry k
-/// of `lower` is that of rows k and k − 1, over the pivot of the one further from the middle.
+/// The factor of a tridiagonal matrix that is eliminated from both ends at once towards row n/2
+/// (the twisted factorisation): entry k of `lower` is that of rows k and k − 1, over the pivot of
+/// the one further from the middle.
 fn twist(matrix: &Symmetric, diagonal: &[f64], lower: &mut [f64], pivots: &mut [f64]) {
     let (n, middle) = (diagonal.len(), diagonal.len() / 2);
     lower.fill(0.0);

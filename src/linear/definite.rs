@@ -1,4 +1,4 @@
-//! What is said of a matrix that has no factor.
+//! The error of a matrix that has no factor.
 
 use std::fmt;
 

@@ -9,8 +9,9 @@ use std::sync::Arc;
 
 /// A = L D Lᵀ, factored once and solved many times.
 ///
-/// A narrow band, a diagonal and a full matrix are factored as bands, in their own order, with cost n · width² once and 4 n · width a solve; any
-/// other sparse matrix with an order that keeps its factor sparse. A clone shares the factor, and has room of its own to solve in.
+/// A narrow band, a diagonal and a full matrix are factored as bands, without reordering, at a cost
+/// of n · width² once and 4 n · width per solve; any other sparse matrix is factored in an order
+/// that keeps its factor sparse. A clone shares the factor, and has its own work space for solving.
 #[derive(Debug, Clone)]
 pub struct Factor {
     n: usize,
@@ -52,8 +53,9 @@ impl Factor {
         }
     }
 
-    /// The same for a b that is zero outside the rows `span`: returns the rows outside of which x is zero, or too small to be told from
-    /// zero beside the rest (1e-16 of it at most, in the norm of A). Of a band, where the answer to a force dies away, that costs nothing of n.
+    /// As [`Factor::solve`], for a b that is zero outside the rows `span`: returns the rows outside
+    /// of which x is zero, or negligible beside the rest (1e-16 of it at most, in the norm of A).
+    /// For a band in which the response to a force decays, the cost does not depend on n.
     pub(crate) fn solve_near(&mut self, x: &mut [f64], span: Range<usize>) -> Range<usize> {
         if let (Kind::Band(factor), true) =
             (&self.kind, x.len() == self.n && span.start < span.end && span.end <= self.n)
@@ -73,7 +75,7 @@ impl Factor {
         }
     }
 
-    /// What kind of factor it is: a word or two for a summary.
+    /// The kind of factor: a word or two for a summary.
     #[must_use]
     pub fn describe(&self) -> String {
         match &self.kind {
@@ -82,14 +84,14 @@ impl Factor {
         }
     }
 
-    /// The same of the factor that `matrix` would have.
+    /// The kind of factor that `matrix` would have.
     #[must_use]
     pub fn described(matrix: &Symmetric) -> String {
         describe(matrix.size(), is_band(matrix).then(|| matrix.half_bandwidth()))
     }
 }
 
-/// Of n rows and, for a band, its half bandwidth.
+/// The kind of a factor of n rows and, for a band, of this half bandwidth.
 fn describe(n: usize, width: Option<usize>) -> String {
     match width {
         Some(0) => "diagonal".to_owned(),
@@ -100,7 +102,7 @@ fn describe(n: usize, width: Option<usize>) -> String {
     }
 }
 
-/// How many matrices this thread has factored: what tests count.
+/// Records the matrices that this thread has factored, for tests.
 #[cfg(test)]
 pub(crate) mod counted {
     use std::cell::RefCell;
@@ -161,7 +163,7 @@ mod tests {
     fn a_solution_near_a_row_is_the_whole_one() {
         let mut seed = 7;
         for (n, width) in [(300, 0), (301, 1), (300, 1), (4, 1), (300, 3), (90, 5)] {
-            // From one in which an answer dies away at once to one in which it reaches everywhere.
+            // From a matrix whose response decays at once to one whose response reaches every row.
             for stiff in [0.1, 3.0, 1e3] {
                 let mut entries: Vec<(usize, usize, f64)> =
                     (0..n).map(|i| (i, i, 1.0 + stiff * width as f64)).collect();
@@ -185,8 +187,8 @@ mod tests {
                         );
                         assert!(rows.contains(&i) || *near == 0.0);
                     }
-                    // Where little couples rows the answer to a force stays near it, but for those that the middle of a tridiagonal matrix
-                    // divides.
+                    // Where the coupling is weak, the response to a force stays near it, except for
+                    // rows near the middle of a tridiagonal matrix, where both halves meet.
                     let divided = width == 1 && start.abs_diff(n / 2) < 60;
                     assert!(stiff > 1.0 || divided || rows.len() < 120.min(n + 1), "{} rows of {n}", rows.len());
                 }

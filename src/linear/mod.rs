@@ -1,4 +1,5 @@
-//! Symmetric matrices, rows and factors, as structures bring them: diagonal, banded, sparse or dense. Knows nothing else of the crate.
+//! Symmetric matrices, rows and factors of structures: diagonal, banded, sparse or dense. This room
+//! uses nothing else of the crate.
 //!
 //! | type | what it holds |
 //! |---|---|

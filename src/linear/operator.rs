@@ -1,9 +1,10 @@
-//! A symmetric matrix made ready for many products.
+//! A symmetric matrix prepared for many products.
 
 use super::Symmetric;
 use super::band::{Band, is_band};
 
-/// A symmetric matrix stored for products: by diagonals where it is a band (diagonal, tridiagonal, a beam's, dense), else by rows.
+/// A symmetric matrix stored for products: by diagonals where it is a band (diagonal, tridiagonal,
+/// a beam's, dense), else by rows.
 #[derive(Debug, Clone)]
 pub enum Operator {
     /// By diagonals.
@@ -15,7 +16,7 @@ pub enum Operator {
 }
 
 impl Operator {
-    /// Makes `matrix` ready.
+    /// Prepares `matrix`.
     #[must_use]
     pub fn new(matrix: &Symmetric) -> Self {
         if is_band(matrix) { Self::Band(Band::new(matrix)) } else { Self::Sparse(matrix.clone()) }

@@ -32,7 +32,7 @@ impl Rows {
         self.starts.len() - 1
     }
 
-    /// The entries (column, value) of row `i`; none beyond the last.
+    /// The entries (column, value) of row `i`; empty beyond the last row.
     #[inline]
     #[must_use]
     pub fn row(&self, i: usize) -> &[(usize, f64)] {

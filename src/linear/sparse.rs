@@ -1,4 +1,4 @@
-//! The sparse factor: QDLDL with an approximate-minimum-degree order, as Clarabel carries it.
+//! The sparse factor: QDLDL with an approximate-minimum-degree order, as bundled with Clarabel.
 
 use super::Symmetric;
 use super::definite::NotDefinite;
@@ -20,7 +20,7 @@ pub(super) struct SparseFactor {
 impl SparseFactor {
     pub(super) fn new(matrix: &Symmetric) -> Result<Self, NotDefinite> {
         let factor = factorise(matrix).ok_or(NotDefinite { row: 0 })?;
-        // Which row gives way is known in the order of the elimination only.
+        // The failing row is known by its place in the elimination only.
         match factor.D.iter().position(|d| d.is_nan() || *d <= 0.0) {
             Some(at) => Err(NotDefinite { row: factor.perm.get(at).copied().unwrap_or(at) }),
             None => Ok(Self {
@@ -59,7 +59,7 @@ impl SparseFactor {
     }
 }
 
-/// L D Lᵀ with D of any signs, without pivoting; none where a pivot vanishes.
+/// L D Lᵀ with D of any signs, without pivoting; `None` where a pivot vanishes.
 fn factorise(matrix: &Symmetric) -> Option<QDLDLFactorisation<f64>> {
     let n = matrix.size();
     // The rows of the lower triangle are the columns of the upper one.
@@ -80,7 +80,8 @@ fn factorise(matrix: &Symmetric) -> Option<QDLDLFactorisation<f64>> {
     QDLDLFactorisation::new(&upper, Some(settings)).ok()
 }
 
-/// The number of negative eigenvalues of `matrix`, by Sylvester's law of inertia: that of the negative pivots of L D Lᵀ. None where a pivot vanishes.
+/// The number of negative eigenvalues of `matrix`, which by Sylvester's law of inertia is the
+/// number of negative pivots of L D Lᵀ. `None` where a pivot vanishes.
 #[must_use]
 pub fn negative_pivots(matrix: &Symmetric) -> Option<usize> {
     if matrix.size() == 0 {

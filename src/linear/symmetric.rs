@@ -1,6 +1,7 @@
 //! A symmetric matrix by the rows of its lower triangle.
 
-/// A symmetric n × n matrix; entries below the diagonal stand for both triangles. The diagonal is always stored.
+/// A symmetric n × n matrix; entries below the diagonal stand for both triangles. The diagonal is
+/// always stored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symmetric {
     /// Where each row starts in the two arrays below; n + 1 entries.
@@ -11,15 +12,15 @@ pub struct Symmetric {
 }
 
 impl Default for Symmetric {
-    /// The matrix without rows.
+    /// The 0 × 0 matrix.
     fn default() -> Self {
         Self::zeros(0)
     }
 }
 
 impl Symmetric {
-    /// The n × n matrix of the sum of `entries` (row, column, value). An entry off the diagonal is given once, in either triangle, and stands
-    /// for both; entries beyond n are left out.
+    /// The n × n matrix whose entries are sums of `entries` (row, column, value). An off-diagonal
+    /// entry is given once, in either triangle, and stands for both; entries beyond n are ignored.
     #[must_use]
     pub fn from_entries(n: usize, entries: impl IntoIterator<Item = (usize, usize, f64)>) -> Self {
         let mut rows: Vec<Vec<(usize, f64)>> = (0..n).map(|i| vec![(i, 0.0)]).collect();
@@ -101,19 +102,20 @@ impl Symmetric {
         self.starts.iter().skip(1).map(|&end| self.values[end - 1]).collect()
     }
 
-    /// The largest distance of an entry that is not 0 from the diagonal: 0 for a diagonal matrix, 1 for a tridiagonal one.
+    /// The largest distance of an entry that is not 0 from the diagonal: 0 for a diagonal matrix, 1
+    /// for a tridiagonal one.
     #[must_use]
     pub fn half_bandwidth(&self) -> usize {
         self.entries().filter(|e| e.2 != 0.0).map(|(i, j, _)| i - j).max().unwrap_or(0)
     }
 
-    /// The first entry that is no finite number, as (row, column, value).
+    /// The first entry that is not finite, as (row, column, value).
     #[must_use]
     pub fn not_finite(&self) -> Option<(usize, usize, f64)> {
         self.entries().find(|entry| !entry.2.is_finite())
     }
 
-    /// Σ factor · matrix, of one size or more: the size of the largest.
+    /// Σ factor · matrix; where sizes differ, the result has the largest.
     #[must_use]
     pub fn sum(terms: &[(f64, &Self)]) -> Self {
         let n = terms.iter().map(|term| term.1.size()).max().unwrap_or(0);
