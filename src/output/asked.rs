@@ -1,4 +1,5 @@
-//! What a request asked for, as its results remember it: by it the folder of another request is told from one of the same.
+//! What a request asked for, as recorded beside its results: it tells whether a folder holds the
+//! results of this request or of another one.
 
 use super::results::FINGERPRINT;
 use crate::case::{Case, sha256};
@@ -6,8 +7,8 @@ use crate::scheme::{Method, Scheme};
 use serde_json::{Map, Value, json};
 use std::fmt::Debug;
 
-/// The request of `command` for `methods` on `case`: times and settings as they are, what is too long to tell as
-/// fingerprints. Titles and comments of a case file are not in it.
+/// The request of `command` for `methods` on `case`: times and settings as values, the rest of the
+/// case (walls, loads and so on) as fingerprints. Titles and comments of a case file are left out.
 #[must_use]
 pub fn asked(command: &str, case: &Case, methods: &[Method]) -> Map<String, Value> {
     let whole = case.whole();
@@ -40,7 +41,7 @@ pub fn asked(command: &str, case: &Case, methods: &[Method]) -> Map<String, Valu
     request
 }
 
-/// A request with further settings: keys of `more` beside its own.
+/// Adds the keys of `more` to a request.
 #[must_use]
 pub fn with(mut request: Map<String, Value>, more: Value) -> Map<String, Value> {
     request.extend(object(more));
@@ -54,7 +55,7 @@ fn object(value: Value) -> Map<String, Value> {
     }
 }
 
-/// A digest of a value: of its Debug form, in which floats have all their digits.
+/// A digest of the value's Debug form, which shows all digits of a float.
 fn fingerprint(value: &dyn Debug) -> Value {
     json!(sha256(format!("{value:?}").as_bytes()))
 }

@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::error::{Error, Result};
 
-/// Writes `bytes` to `path`, creating its folders; a reader sees the old file or the whole new one, never a part.
+/// Writes `bytes` to `path` and creates the folders that lead there. A reader sees the old file or
+/// the whole new one, never a part.
 ///
 /// # Errors
 /// [`Error::Io`] with the path and what the operating system said; nothing is left behind then.
@@ -26,18 +27,20 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     file.finish()
 }
 
-/// Makes sure that files can be written into `folder`, creating it: asked before a long run rather than after.
+/// Checks that files can be written into `folder`, and creates it. Call it before a long run rather
+/// than find out afterwards.
 ///
 /// # Errors
-/// [`Error::Io`] marked as a wrong request.
+/// [`Error::Io`], marked as a wrong request.
 pub fn check_folder(folder: &Path) -> Result<()> {
-    // Opened beside its place and dropped: nothing stays.
+    // Opened beside its final place and dropped at once: no file remains.
     WholeFile::create(&folder.join("summary.json")).map(drop)
 }
 
-/// A long file being written: [`finish`](Self::finish) puts it in its place, dropping it before that removes it.
+/// A long file that is being written under a temporary name. [`finish`](Self::finish) renames it
+/// into place; dropping it before that removes the temporary file.
 ///
-/// Writes are buffered. The place itself is untouched until `finish`.
+/// Writes are buffered. The file at the final place is untouched until `finish`.
 #[derive(Debug)]
 pub struct WholeFile {
     /// Where the file will stand.
@@ -58,7 +61,7 @@ struct Partial {
 impl Drop for Partial {
     fn drop(&mut self) {
         if !self.kept {
-            // Nobody is left to tell; the name says what it is.
+            // A failure to remove it cannot be reported from `drop`; its name says what it is.
             let _ = fs::remove_file(&self.path);
         }
     }
@@ -68,10 +71,10 @@ impl WholeFile {
     /// Opens a temporary sibling of `path`, creating the folders that lead there.
     ///
     /// # Errors
-    /// [`Error::Io`] marked as a wrong request: the place asked for cannot be written.
+    /// [`Error::Io`], marked as a wrong request: the path asked for cannot be written.
     pub fn create(path: &Path) -> Result<Self> {
         let wrong = |reason: &str| Error::io(shown(path), reason, true);
-        let name = path.file_name().ok_or_else(|| wrong("this is no file name"))?;
+        let name = path.file_name().ok_or_else(|| wrong("this is not a file name"))?;
         if path.is_dir() {
             return Err(wrong("this is a folder, where a file is to be written"));
         }
@@ -100,7 +103,8 @@ impl WholeFile {
     /// Writes what is buffered and renames the file into its place.
     ///
     /// # Errors
-    /// [`Error::Io`] when the disk refuses; nothing is left behind then, and an older file stays as it was.
+    /// [`Error::Io`] when the write or the rename fails; the temporary file is then removed, and an
+    /// older file stays as it was.
     pub fn finish(mut self) -> Result<()> {
         if let Some(writer) = self.writer.take() {
             let file = writer.into_inner().map_err(|e| failure(&self.path, e.into_error(), false))?;
@@ -122,7 +126,8 @@ impl Write for WholeFile {
     }
 }
 
-/// A new sibling `.NAME.PROCESS-NUMBER.partial`; no file where that name is taken (by a run that was killed).
+/// A new sibling `.NAME.PROCESS-NUMBER.partial`; `None` in place of the file where that name is
+/// taken (by a run that was killed).
 fn open_sibling(path: &Path, name: &std::ffi::OsStr) -> io::Result<(PathBuf, Option<File>)> {
     static NUMBER: AtomicU64 = AtomicU64::new(0);
     let mut sibling = std::ffi::OsString::from(".");

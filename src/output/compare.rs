@@ -1,4 +1,5 @@
-//! What a comparison leaves behind: the files of every run, figures of all, `compare.csv` and `compare-walls.csv`, a table, JSON.
+//! Files of a comparison: those of every run, figures of all runs together, `compare.csv`,
+//! `compare-walls.csv`; also its table and JSON.
 
 use super::Span;
 use super::csv::{self, digits};
@@ -16,7 +17,8 @@ use crate::study::compare::{Comparison, Row};
 use crate::study::verdict::Verdict;
 use serde_json::{Value, json};
 
-/// Walls that a person reads one by one, at most: beyond, the table shows sums over all.
+/// Most walls that get rows of their own in the table for the terminal; above that it shows sums
+/// over all walls.
 const MOST_WALLS: usize = 4;
 
 /// A method's name as a folder: `penalty-epsilon-1e-9-integrator-trapezoidal`.
@@ -25,8 +27,10 @@ pub fn folder_name(method: &Method) -> String {
     method.to_string().replace([':', ',', '='], "-")
 }
 
-/// Writes all files of a comparison: pictures of each run show the first of the two stretches, those of all together the second. Gives its rows as JSON: the summary of each run without the scene, which all share, and beside it what
-/// the comparison found; of a method that failed why.
+/// Writes all files of a comparison. Pictures of a single run show the first of the two stretches,
+/// pictures of all runs together the second. Returns the comparison's rows as JSON: for each run
+/// its summary (without the scene, which all share) and what the comparison found; for a method
+/// that failed, the reason.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where a file cannot be written.
@@ -105,7 +109,7 @@ fn figures(results: &mut Results, case: &Case, comparison: &Comparison, span: Sp
     Ok(())
 }
 
-/// `compare.csv`: a row a method.
+/// `compare.csv`: one row per method.
 fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
     let header = [
         "method",
@@ -154,7 +158,7 @@ fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Resul
     csv::table(&results.place("compare.csv")?, &header.map(str::to_owned), comparison.rows.iter().map(line))
 }
 
-/// `compare-walls.csv`: a row for each method and wall, however many walls there are.
+/// `compare-walls.csv`: one row per method and wall, for any number of walls.
 fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
     let header = ["method", "wall", "impulse_N_s", "contacts", "peak_force_N"];
     let runs = comparison.rows.iter().filter_map(|row| Some((row.method.to_string(), row.outcome.as_ref().ok()?)));
@@ -200,7 +204,8 @@ fn peak(run: &Run, wall: Option<usize>) -> Option<f64> {
     here.filter_map(|(_, wall)| wall.episode_peak_force_n.max).reduce(f64::max)
 }
 
-/// The comparison for people: a column a method, since there are more quantities than methods.
+/// The comparison as a table for the terminal: one column per method, since there are more
+/// quantities than methods.
 #[must_use]
 pub fn table(case: &Case, comparison: &Comparison) -> Table {
     let methods: Vec<String> = comparison.rows.iter().map(|row| row.method.to_string()).collect();
@@ -261,7 +266,7 @@ pub fn table(case: &Case, comparison: &Comparison) -> Table {
     Table::new(&header, rows).in_blocks()
 }
 
-/// What must be said beside the table.
+/// What the reader must be told beside the table.
 #[must_use]
 pub fn remark(case: &Case) -> Option<String> {
     let count = case.scene.walls.len();

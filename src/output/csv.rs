@@ -1,4 +1,5 @@
-//! `trajectory.csv` and `contacts.csv`: 17 significant digits, so that what is read back is what was computed.
+//! `trajectory.csv` and `contacts.csv`, with 17 significant digits, so that reading a number back
+//! gives the same float.
 
 use super::atomic::WholeFile;
 use crate::error::{Error, Result};
@@ -6,9 +7,10 @@ use crate::trajectory::Trajectory;
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Writes the rows of `trajectory`: time, displacement and velocity of each probe, force and impulse of each wall. Forces are signed (lower
-/// ≥ 0, upper ≤ 0); an impulse is all of it since the previous row, so that the column sums to the run's. Columns carry the
-/// names of probes and walls as [`words`] writes them.
+/// Writes the rows of `trajectory`: time, displacement and velocity of each probe, force and
+/// impulse of each wall. Forces are signed (lower wall ≥ 0, upper wall ≤ 0). The impulse in a row
+/// is that since the row before it, so that a column sums to the impulse of the run. Columns carry
+/// the names of probes and walls as [`words`] writes them.
 ///
 /// # Errors
 /// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
@@ -29,8 +31,9 @@ pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
     table(path, &header, rows)
 }
 
-/// Writes the contact episodes of `trajectory`, one a row, in time order. A rigid impact has no peak force, an episode
-/// still open at the end of the run no end: those cells are empty.
+/// Writes the contact episodes of `trajectory`, one per row, in order of time. A rigid impact has
+/// no peak force, and an episode still open at the end of the run has no end: those cells are
+/// empty.
 ///
 /// # Errors
 /// As [`trajectory`].
@@ -58,8 +61,9 @@ pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
     table(path, &header.map(str::to_owned), rows)
 }
 
-/// Names as parts of column names: `_` for every `-`, so that a column is a word in the languages that read it (`support-upper`
-/// gives `contact_force_support_upper_N`). Names that this makes equal are told apart by a number: `_2`, `_3`.
+/// Names as parts of column names: `_` for every `-`, so that a column name is an identifier in the
+/// languages that read it (`support-upper` gives `contact_force_support_upper_N`). Names that this
+/// makes equal get a number: `_2`, `_3`.
 #[must_use]
 pub fn words<S: AsRef<str>>(names: &[S]) -> Vec<String> {
     let mut taken = HashSet::new();

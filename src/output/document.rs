@@ -1,4 +1,5 @@
-//! A chart and a stability study as JSON documents: what `--json` prints. A number that is not there, or not finite, is null.
+//! A chart and a stability study as the JSON documents that `--json` prints. A number that is
+//! missing or not finite is null.
 
 use crate::case::Case;
 use crate::scheme::Scheme;
@@ -16,7 +17,7 @@ fn head(case: &Case) -> Value {
     })
 }
 
-/// `value` with the keys that every document has, before its own.
+/// `value`, preceded by the keys that every document has.
 fn under_head(case: &Case, value: Value) -> Value {
     let mut document = head(case);
     if let (Some(document), Value::Object(own)) = (document.as_object_mut(), value) {
@@ -87,8 +88,9 @@ fn errors(errors: &Errors, walls: &[&str]) -> Value {
     })
 }
 
-/// Where each scheme fails: its largest safe step, the first failure beyond, the restitution of one free impact over all phases (as `range`
-/// gives it), and what it does to energy and to a lasting contact. All cells of the maps are in the CSV.
+/// Where each scheme fails: its largest safe step, the first failure beyond that step, the
+/// restitution of one free impact over all phases (as `range` returns it), and what the scheme does
+/// to the energy and to a lasting contact. The CSV has every cell of the maps.
 #[must_use]
 pub fn stability(case: &Case, maps: &Maps, quality: &Quality, range: &dyn Fn(&Scheme) -> Option<(f64, f64)>) -> Value {
     let row = |row: &Row| {

@@ -1,8 +1,8 @@
-//! Pictures as files: SVG, which is what they are made as, and from it PDF and PNG.
+//! File formats of pictures: SVG, which this crate writes itself, and PDF and PNG made from it.
 //!
-//! PDF and PNG come from `svg2pdf` and `resvg`, which a build has with the feature `pictures`. Their texts are set in a
-//! cut of DejaVu Sans (Latin, Greek, Cyrillic) that the program brings along, so that files do not depend on the fonts of
-//! the machine.
+//! PDF and PNG are made by `svg2pdf` and `resvg`, with the feature `pictures`. Text is set in a
+//! subset of DejaVu Sans (Latin, Greek, Cyrillic) that is built into the program, so that files do
+//! not depend on the fonts of the machine.
 
 use super::atomic::write_whole;
 use crate::error::{Error, Result};
@@ -10,12 +10,12 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// What a picture is written as.
+/// The file format of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Scalable, 160 mm wide, texts as texts.
+    /// Scalable, 160 mm wide; text remains text.
     Svg,
-    /// Scalable, 160 mm wide, texts as texts with their font.
+    /// Scalable, 160 mm wide; text remains text, and the font is embedded.
     Pdf,
     /// 160 mm wide at 300 dots an inch: 1890 pixels.
     Png,
@@ -25,7 +25,7 @@ impl Format {
     /// Every format.
     pub const ALL: [Self; 3] = [Self::Svg, Self::Pdf, Self::Png];
 
-    /// Its name, which is the ending of its files, too.
+    /// The name of the format, which is also the extension of its files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -35,10 +35,11 @@ impl Format {
         }
     }
 
-    /// Refuses what this build cannot write.
+    /// Refuses a format that this build cannot write.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a format other than SVG without the feature `pictures`; it says how to install with it.
+    /// [`Error::Invalid`] for a format other than SVG without the feature `pictures`; the message
+    /// says how to install with it.
     pub fn check(self) -> Result<()> {
         if self == Self::Svg || cfg!(feature = "pictures") {
             return Ok(());
@@ -53,7 +54,7 @@ impl Format {
     /// Writes the picture `svg` to `path`, whole or not at all.
     ///
     /// # Errors
-    /// As [`Format::check`] and [`write_whole`]; [`Error::Io`] for a text that is no SVG.
+    /// As [`Format::check`] and [`write_whole`]; [`Error::Io`] for a text that is not valid SVG.
     pub fn write(self, path: &Path, svg: &str) -> Result<()> {
         self.check()?;
         let failed = |reason: String| Error::io(path.display(), reason, false);
@@ -83,7 +84,7 @@ impl FromStr for Format {
     }
 }
 
-/// Without the feature: [`Format::check`] has refused before.
+/// Without the feature this is not reached: [`Format::check`] has refused before.
 #[cfg(not(feature = "pictures"))]
 mod convert {
     pub fn pdf(_: &str) -> Result<Vec<u8>, String> {
@@ -100,7 +101,7 @@ mod convert {
     use svg2pdf::usvg::{Options, Tree, fontdb::Database};
     use svg2pdf::{ConversionOptions, PageOptions};
 
-    /// Dots an inch of a PNG, and of the pixels that SVG lengths are told in.
+    /// Dots per inch of a PNG; the SVG lengths are converted to pixels at the same resolution.
     const DOTS: f32 = 300.0;
     const SVG_DOTS: f32 = 96.0;
     const INCHES_A_METRE: f32 = 1.0 / 0.0254;
@@ -128,15 +129,16 @@ mod convert {
         let pixels = |length: f32| (length * scale).ceil() as u32;
         let (width, height) = (pixels(tree.size().width()), pixels(tree.size().height()));
         let mut picture =
-            Pixmap::new(width, height).ok_or_else(|| format!("{width} by {height} pixels are no picture"))?;
-        // On an opaque ground, so that colours are not multiplied by their opacity.
+            Pixmap::new(width, height).ok_or_else(|| format!("cannot make a picture of {width} by {height} pixels"))?;
+        // Painted on an opaque background, so that colours stay as they are and no alpha channel is
+        // written.
         picture.fill(Color::WHITE);
         resvg::render(&tree, Transform::from_scale(scale, scale), &mut picture.as_mut());
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, width, height);
         encoder.set_color(png::ColorType::Rgba);
         encoder.set_depth(png::BitDepth::Eight);
-        // So that a text processor sets it 160 mm wide.
+        // The resolution is stored in the file, so that a text processor shows it 160 mm wide.
         let dots = (DOTS * INCHES_A_METRE).round() as u32;
         encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: dots, yppu: dots, unit: png::Unit::Meter }));
         let written = encoder.write_header().and_then(|mut image| {

@@ -1,11 +1,12 @@
-//! JSON that a person can read too: lists of numbers run on, and 0 has no sign.
+//! JSON formatted to be read by people too: a list of numbers stays on one line where it fits, and
+//! −0 is written as 0.
 
 use serde_json::Value;
 
-/// Lists go on the next line beyond this many characters.
+/// A list is broken over lines beyond this many characters.
 const WIDTH: usize = 100;
 
-/// `value` as text that ends with a line.
+/// `value` as text that ends with a newline.
 pub fn text(value: &Value) -> String {
     let mut out = String::new();
     write(value, 0, &mut out);
@@ -63,7 +64,7 @@ fn has_objects(value: &Value) -> bool {
     }
 }
 
-/// On one line.
+/// `value` on one line.
 fn plain(value: &Value) -> String {
     match value {
         Value::Array(items) => format!("[{}]", items.iter().map(plain).collect::<Vec<_>>().join(", ")),

@@ -1,4 +1,4 @@
-//! What a run leaves behind: tables, a summary and pictures, written whole.
+//! What a run leaves behind: tables, a summary and pictures, each file written whole or not at all.
 //!
 //! | module | what it holds |
 //! |---|---|

@@ -1,9 +1,10 @@
-//! A recorded motion as a picture shows it: through the contact instants, and curved between the rows.
+//! A recorded motion prepared for drawing: it includes the contact instants, and is curved between
+//! the rows.
 //!
-//! Rows are spaced evenly and pass over the instants of impacts: drawn alone, they stop short of the wall.
-//! The contact episodes say when and how fast a body arrived at a wall and left it; with them and the velocity
-//! at every row, each piece between two of these points is the cubic through both displacements with both
-//! velocities.
+//! Rows are evenly spaced and skip the instants of impacts: a curve through the rows alone stops
+//! short of the wall. The contact episodes hold when, and how fast, a body arrived at a wall and
+//! left it. Each piece between two neighbouring points, rows or contact instants, is the cubic
+//! (Hermite) through both displacements with both velocities.
 
 use super::window::Span;
 use crate::run::Run;
@@ -11,28 +12,30 @@ use crate::scene::Scene;
 use crate::scheme::Scheme;
 use crate::step::Contact;
 
-/// Points over a stretch below which pieces are divided, and into how many at most.
+/// Points wanted in a stretch: where there are fewer, its pieces are divided, each into at most
+/// [`MOST_PARTS`].
 const ENOUGH: usize = 4000;
 const MOST_PARTS: usize = 16;
-/// A piece is curved where the mean of the velocities at its ends is that of its chord to this share of the two:
-/// elsewhere the rows do not resolve the motion, and a cubic would invent one.
+/// Relative tolerance for dividing a piece: the mean of the velocities at its ends must agree with
+/// the slope of its chord. Where it does not, the rows do not resolve the motion, and a cubic would
+/// invent one.
 const RESOLVED: f64 = 0.15;
 
 /// An instant of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Instant {
-    /// s.
+    /// Time, s.
     pub t: f64,
-    /// m.
+    /// Displacement, m.
     pub q: f64,
-    /// m/s.
+    /// Velocity, m/s.
     pub v: f64,
-    /// False for a contact, which a scheme on a grid knows to within its step.
+    /// False for a contact instant, which a scheme on a grid knows only to within its step.
     row: bool,
 }
 
-/// The motion of probe number `probe` within `whole`, divided within `fine`. With `corners` impacts on rigid walls
-/// are put in even where the rows are the steps themselves.
+/// The motion of probe number `probe` within `whole`, with its pieces divided within `fine`. With
+/// `corners`, impacts on rigid walls are inserted even where every step is a row.
 pub(super) fn motion(scene: &Scene, run: &Run, probe: usize, whole: Span, fine: Span, corners: bool) -> Vec<Instant> {
     let knots = knots(scene, run, probe, whole, corners);
     let count = knots.iter().filter(|k| fine.holds(k.t)).count().max(1);
@@ -58,7 +61,8 @@ fn knots(scene: &Scene, run: &Run, probe: usize, span: Span, corners: bool) -> V
     let rows = t.time().iter().zip(displacement).zip(velocity).map(|((&t, &q), &v)| Instant { t, q, v, row: true });
     let spacing = t.time().get(1).copied().unwrap_or(0.0);
     let sparse = run.scheme == Scheme::Event || spacing > 1.5 * run.grid.step;
-    // The rows show contacts that last; a scheme on a grid adds those that they pass over.
+    // The rows show contacts that last. On a grid only the contacts that fit between rows are
+    // inserted.
     let short = |c: &Contact| c.end.is_some_and(|end| end - c.start < 3.0 * spacing);
     let wanted =
         |c: &Contact| run.scheme == Scheme::Event || (corners && c.peak_force.is_none()) || (sparse && short(c));
@@ -66,7 +70,8 @@ fn knots(scene: &Scene, run: &Run, probe: usize, span: Span, corners: bool) -> V
     instants.sort_by(|a, b| a.t.total_cmp(&b.t));
     let mut instants = instants.into_iter().peekable();
     let mut out = Vec::new();
-    // Rows are right-continuous: at one time the corners of an impact come before the row.
+    // The row at the time of an impact holds the state after it, so the corners of the impact are
+    // inserted before the row.
     for row in rows {
         while let Some(instant) = instants.next_if(|c| c.t <= row.t) {
             out.push(instant);
@@ -77,7 +82,7 @@ fn knots(scene: &Scene, run: &Run, probe: usize, span: Span, corners: bool) -> V
     out
 }
 
-/// Arrival at and departure from the walls that stand where the probe looks, of the contacts asked for.
+/// Arrival and departure instants of the wanted contacts, at the walls on the probe's row.
 fn contact_instants(scene: &Scene, run: &Run, probe: usize, wanted: impl Fn(&Contact) -> bool) -> Vec<Instant> {
     let place = scene.probes.get(probe).map(|p| &p.at);
     let springs = matches!(run.scheme, Scheme::Penalty { .. });
@@ -86,19 +91,21 @@ fn contact_instants(scene: &Scene, run: &Run, probe: usize, wanted: impl Fn(&Con
         let Some(wall) = scene.walls.get(c.wall).filter(|w| Some(&w.at) == place) else { continue };
         let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid() && !springs);
         let at = |t: f64, v: f64| Instant { t, q: wall.position, v, row: false };
-        // A contact that the run began in has no arrival.
+        // A contact that exists at the start of the run has no arrival.
         if c.start > 0.0 || c.approach_speed > 0.0 {
             out.push(at(c.start, -sign * c.approach_speed));
         }
         match (c.end, c.departure_speed) {
             (Some(end), Some(departure)) if rigid && end <= c.start => out.push(at(end, sign * departure)),
-            // The body stays at the wall; of a scheme that rests behind it the rows say where.
+            // The body stays at the wall. For a scheme that lets it rest behind the wall, the rows
+            // show where.
             (end, departure) if rigid => {
                 out.push(at(c.start, 0.0));
                 let end = end.filter(|_| run.scheme == Scheme::Event);
                 out.extend(end.map(|end| at(end, sign * departure.unwrap_or(0.0))));
             }
-            // A spring without damping lets go where it was met; a damped one earlier, at a place not recorded.
+            // A spring without damping releases the body where it met it; with a damper it does so
+            // earlier, at a position that is not recorded.
             (Some(end), Some(departure)) if springs => out.push(at(end, sign * departure)),
             _ => {}
         }
@@ -106,7 +113,7 @@ fn contact_instants(scene: &Scene, run: &Run, probe: usize, wanted: impl Fn(&Con
     out
 }
 
-/// Puts `parts − 1` instants between two, on the cubic through both.
+/// Inserts `parts − 1` instants between two, on the cubic through both.
 fn divide(a: &Instant, b: &Instant, parts: usize, out: &mut Vec<Instant>) {
     let h = b.t - a.t;
     let chord = (b.q - a.q) / h;
@@ -131,7 +138,8 @@ mod tests {
     use crate::scene::{Load, Wall};
     use crate::time::TimeOptions;
 
-    /// A ball of 1 kg from 1 m onto a floor at 0, e = 0.5, recorded in rows of 0.1 s: its path is known in closed form.
+    /// A ball of 1 kg falls from 1 m onto a floor at 0, e = 0.5, recorded in rows of 0.1 s: its
+    /// path is known in closed form.
     #[test]
     fn the_drawn_path_of_a_ball_is_its_parabolas_and_meets_the_floor() {
         let scene = Scene::oscillator(1.0, 0.0, 0.0)
@@ -153,13 +161,14 @@ mod tests {
             let before = 1.0 - 0.5 * g * t * t;
             let after = 0.5 * g * fall * bounced - 0.5 * g * bounced * bounced;
             let expected = if bounced <= 0.0 { before } else { after };
-            // A cubic through a parabola is that parabola: rounding only.
+            // A cubic fitted to a parabola is that parabola: only rounding remains.
             assert!((k.q - expected).abs() < 1e-12, "{k:?} is not {expected}");
         }
         assert!(drawn.len() > 100);
     }
 
-    /// A scheme on a grid meets a soft spring somewhere within its step: no corner of that may stand out of the orbit.
+    /// On a grid a soft spring is met somewhere within a step: the orbit drawn must show no
+    /// spurious corner there.
     #[test]
     fn a_soft_wall_leaves_the_velocity_of_a_stepping_scheme_smooth() {
         let scene = Scene::oscillator(1.0, 0.0, 100.0)
@@ -171,8 +180,9 @@ mod tests {
         let run = run(&scene, &Scheme::MoreauJean { theta: 0.5 }, &options).unwrap();
         let whole = Span { from: 0.0, to: 2.0 };
         let drawn = motion(&scene, &run, 0, whole, whole, true);
-        // From one point to the next the speed changes by no more than the acceleration does it in the time between:
-        // at most ω² u = 100 · 0.03 m/s² outside and, with the spring, twice as much inside; the points are 0.6 ms apart.
+        // Between two points the speed changes by at most the acceleration times the time between
+        // them: the acceleration is at most ω² u = 100 · 0.03 m/s² outside and, with the spring,
+        // twice as much inside; the points are 0.6 ms apart.
         for pair in drawn.windows(2) {
             let [a, b] = pair else { continue };
             assert!((b.v - a.v).abs() < 6.0 * (b.t - a.t) + 1e-3, "{a:?} to {b:?}");

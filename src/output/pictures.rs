@@ -1,7 +1,8 @@
 //! The figures of one run, or of several laid over one another.
 //!
-//! One degree of freedom has one panel a figure. Of several, each probe has its panel, and in the figure of forces each place at which
-//! walls stand; where there are more than a page holds, those with the most contact are drawn, and the title says of how many.
+//! With one degree of freedom each figure has one panel. With several, each probe has a panel, and
+//! in the figure of forces each place at which walls stand. Where there are more than a page holds,
+//! those with the most contact are drawn, and the title says how many there are.
 
 use super::figure::{Curve, Figure, Mark, Panel, Stems};
 use super::motion::{Instant, motion};
@@ -12,25 +13,25 @@ use crate::run::Run;
 use crate::scene::{Row, Scene, Side};
 use crate::step::Contact;
 
-/// Rows of the CSV are SI; figures of vibrations read better in millimetres.
+/// Millimetres per metre: the CSV is in SI units, the figures are in millimetres.
 const MM: f64 = 1e3;
-/// A probe that moves by less than this share of the largest motion is drawn as the flat line that it is.
+/// A probe that moves by less than this share of the largest motion is drawn as a flat line.
 const STILL: f64 = 1e-9;
 
-/// A run with the label its curves carry.
+/// A run with the label of its curves.
 #[derive(Debug, Clone, Copy)]
 pub struct Labelled<'a> {
-    /// What the legend says.
+    /// Label in the legend.
     pub label: &'a str,
     /// The run.
     pub run: &'a Run,
     /// True for the reference, drawn wide and pale beneath the others.
     pub reference: bool,
-    /// Number of its colour and dashes, the same in all figures of one command.
+    /// Index of its colour and dash pattern, the same in all figures of one command.
     pub look: usize,
 }
 
-/// What is drawn: a title, the walls, the runs and how much of their time.
+/// What is drawn: a title, the walls, the runs and the stretch of time.
 #[derive(Debug, Clone, Copy)]
 pub struct Sheet<'a> {
     /// Title of every figure.
@@ -44,9 +45,10 @@ pub struct Sheet<'a> {
 }
 
 impl Sheet<'_> {
-    /// The four figures by file name without its ending: displacement, velocity, phase plot, contact force (the last
-    /// only where there are walls). Of a run of many periods the first two and the last show the whole and, beside it,
-    /// the last periods; the phase plot shows the last periods alone.
+    /// The four figures, each with its file name without extension: displacement, velocity, phase
+    /// plot, contact force (the last only where there are walls). For a run of many periods the
+    /// figures over time show the whole run and, beside it, the last periods; the phase plot shows
+    /// the last periods only.
     ///
     /// # Errors
     /// None beyond those of a trajectory asked for its own walls.
@@ -74,7 +76,7 @@ impl Sheet<'_> {
         Chosen::probes(self.scene, self.leading().map(|run| &run.trajectory), self.span)
     }
 
-    /// The title, with the method where there is one alone, and what is left out.
+    /// The title, with the method where there is only one run, and with what is left out.
     fn title(&self, remarks: impl IntoIterator<Item = String>) -> String {
         let mut title = self.title.to_owned();
         if let [only] = self.runs {
@@ -84,14 +86,14 @@ impl Sheet<'_> {
         if remarks.is_empty() { title } else { format!("{title} ({})", remarks.join("; ")) }
     }
 
-    /// A panel for a probe: with its name, where there are several.
+    /// A panel for a probe, headed by its name where there are several.
     fn panel(&self, label: &str, probe: usize) -> Panel {
         let name = self.scene.probes.get(probe).map_or("", |p| p.name.as_str());
         let panel = Panel::new(label);
         if self.scene.probes.len() > 1 { panel.heading(name) } else { panel }
     }
 
-    /// The walls that stand where the probe looks: its panel alone shows them.
+    /// The walls on the probe's row; they are marked in its panel only.
     fn marks(&self, probe: usize) -> impl Iterator<Item = Mark> {
         let place: Option<&Row> = self.scene.probes.get(probe).map(|p| &p.at);
         let seen = self.scene.walls.iter().filter(move |wall| Some(&wall.at) == place);
@@ -112,8 +114,8 @@ impl Sheet<'_> {
         motion(self.scene, run, probe, window.whole, window.detail(), false)
     }
 
-    /// The panel of a probe, told from which range on a motion counts: a share of the largest of any probe of the
-    /// leading run.
+    /// The panel of a probe, told the smallest range that counts as motion: a share of the largest
+    /// motion of any probe in the leading run.
     fn moving(&self, label: &str, probe: usize, columns: impl Fn(&Run) -> &[Vec<f64>]) -> Panel {
         let largest = |run: &Run| columns(run).iter().flatten().fold(0.0_f64, |a, x| a.max(x.abs()));
         let largest = MM * self.leading().map_or(0.0, largest);
@@ -146,7 +148,7 @@ impl Sheet<'_> {
         figure.to_svg()
     }
 
-    /// Orbits of the last periods, with the corners of rigid impacts at the wall and upright.
+    /// Orbits of the last periods. A rigid impact is a vertical line at the wall.
     fn phase(&self, probes: &Chosen<usize>, window: &Window) -> String {
         let remarks = probes.left_out("probes").into_iter().chain(window.words());
         let mut figure = Figure::new(self.title(remarks), "Displacement (mm)");
@@ -170,7 +172,8 @@ impl Sheet<'_> {
         figure.to_svg()
     }
 
-    /// Of each place, finite forces as curves in N, impulses of impacts as stems in N s, each in a panel of its own where it occurs.
+    /// For each place: finite forces as curves in N and impulses of impacts as stems in N s, in
+    /// separate panels, each drawn only where it occurs.
     fn contact_force(&self, window: &Window) -> Result<String> {
         let places = Chosen::places(self.scene, self.leading().map(|run| &run.trajectory), self.span);
         let mut figure = window.over_time(Figure::new(self.title(places.left_out("places")), "Time (s)"));
@@ -207,13 +210,13 @@ impl Sheet<'_> {
         Ok(figure.to_svg())
     }
 
-    /// True for a contact of which some lies in the stretch drawn.
+    /// True for a contact that overlaps the stretch drawn.
     fn shows(&self, contact: &Contact) -> bool {
         contact.start <= self.span.to && contact.end.is_none_or(|end| end >= self.span.from)
     }
 
-    /// Sum of the forces of a place's walls at the rows, without rigid impacts, and with the peak of every contact too
-    /// short for the rows to show.
+    /// Sum of the forces of a place's walls at the rows, without rigid impacts, plus the peak of
+    /// each contact too short for the rows to show.
     fn force_points(&self, run: &Run, place: &Place) -> Vec<(f64, f64)> {
         let t = &run.trajectory;
         let spacing = t.time().get(1).copied().unwrap_or(0.0);
@@ -224,10 +227,11 @@ impl Sheet<'_> {
             }
         }
         points.retain(|point| self.span.holds(point.0));
-        // An exact run knows its forces at every row; a step that met a rigid wall reports impulse/h, which is none.
+        // The exact scheme knows its forces at every row. A step that met a rigid wall reports
+        // impulse/h, which is not a force to draw.
         let exact = run.scheme == crate::scheme::Scheme::Event;
         let blur = if exact { 0.0 } else { 1.5 * spacing.max(2.0 * run.grid.step) };
-        // A penalty's walls are springs, whatever the scene calls them.
+        // In a penalty run the walls are springs, also those that the scene calls rigid.
         let springs = matches!(run.scheme, crate::scheme::Scheme::Penalty { .. });
         let rigid = |c: &Contact| !springs && self.scene.walls.get(c.wall).is_some_and(|w| w.law.is_rigid());
         let here = |c: &&Contact| place.walls.contains(&c.wall) && self.shows(c);
@@ -256,7 +260,8 @@ fn is_impact(contact: &Contact) -> bool {
     contact.peak_force.is_none()
 }
 
-/// True if an orbit moves by less than `limit` in displacement and velocity: a point, which no line shows.
+/// True if an orbit moves by less than `limit` in displacement and velocity: it would be drawn as a
+/// point, which a line does not show.
 fn stays(orbit: &[(f64, f64)], limit: (f64, f64)) -> bool {
     let range = |of: fn(&(f64, f64)) -> f64| {
         let ends = orbit.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));

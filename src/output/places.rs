@@ -1,13 +1,13 @@
-//! Where walls stand and probes look, and which of them a page has room for.
+//! The places where walls stand and probes look, and which of them fit on a page.
 
 use super::window::Span;
 use crate::scene::Scene;
 use crate::trajectory::Trajectory;
 
-/// Panels under one another that a page holds.
+/// Most panels on one page, one below the other.
 const MOST: usize = 4;
 
-/// A place at which walls stand: all that see one row.
+/// A place at which walls stand: all walls with the same row.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Place {
     /// Indices of the walls, in the scene's order.
@@ -36,7 +36,7 @@ impl Place {
         places
     }
 
-    /// Impulse of its walls over a stretch of a run, as magnitudes, N s.
+    /// Sum of the impulses of its walls over a stretch of a run, as magnitudes, N s.
     fn impulse(&self, motion: Option<&Trajectory>, span: Span) -> f64 {
         let Some(motion) = motion else { return 0.0 };
         let columns = self.walls.iter().filter_map(|&wall| motion.contact_impulses().get(wall));
@@ -48,23 +48,23 @@ impl Place {
     }
 }
 
-/// What is drawn of several.
+/// A selection of items to draw.
 #[derive(Debug)]
 pub(super) struct Chosen<T> {
-    /// In the scene's order.
+    /// The items selected, in the scene's order.
     pub shown: Vec<T>,
-    /// How many there are.
+    /// Number of items there are in all.
     pub count: usize,
 }
 
 impl<T> Chosen<T> {
-    /// What the title says, if some are left out.
+    /// Text for the title where some are left out.
     pub fn left_out(&self, what: &str) -> Option<String> {
         (self.shown.len() < self.count)
             .then(|| format!("the {} of {} {what} with the most contact", self.shown.len(), self.count))
     }
 
-    /// Those of the largest weight, in their order; of equal weight the first.
+    /// The items of the largest weight, in their order; of equal weights, the first ones.
     fn heaviest(weighted: Vec<(f64, T)>) -> Self {
         let count = weighted.len();
         let mut numbered: Vec<(usize, (f64, T))> = weighted.into_iter().enumerate().collect();
@@ -84,7 +84,7 @@ impl Chosen<Place> {
 }
 
 impl Chosen<usize> {
-    /// The probes that look at these places.
+    /// The probes on the rows of these places; their weights are the impulses of the places.
     pub fn probes(scene: &Scene, motion: Option<&Trajectory>, span: Span) -> Self {
         let places = Place::all(scene);
         let weight = |index: usize| {

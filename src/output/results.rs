@@ -1,6 +1,8 @@
-//! The folder of a request's results. It is never filled over the results of another request, unless that is asked for.
+//! The folder that holds the results of a request. Results of another request are not overwritten
+//! unless that is asked for.
 //!
-//! `request.json` in the folder says what was asked, when it was done, and which files belong to it.
+//! `request.json` in the folder says what was asked, when it was done, and which files belong to
+//! it.
 
 use super::atomic::{check_folder, write_whole};
 use super::format::Format;
@@ -13,10 +15,11 @@ use std::time::SystemTime;
 /// The file that says what a folder holds.
 pub(crate) const MANIFEST: &str = "request.json";
 
-/// Largest such file that is read, bytes.
+/// Largest manifest that is read, bytes.
 const MOST_BYTES: u64 = 1 << 24;
 
-/// Files that results consist of: a folder with one of them, and without a manifest, holds results of an unknown request.
+/// Files that results consist of: a folder with one of them but no manifest holds results of an
+/// unknown request.
 const RESULTS: [&str; 7] = [
     "summary.json",
     "trajectory.csv",
@@ -27,14 +30,14 @@ const RESULTS: [&str; 7] = [
     "sweep.csv",
 ];
 
-/// A folder under way.
+/// A folder of results that is being written.
 #[derive(Debug)]
 pub struct Results {
     folder: PathBuf,
     request: Map<String, Value>,
-    /// What pictures are written as.
+    /// File formats of pictures.
     formats: Vec<Format>,
-    /// When what stands in the folder was made, and its files.
+    /// When the results already in the folder were made, and their files.
     before: Option<Before>,
     files: Vec<String>,
 }
@@ -46,11 +49,13 @@ struct Before {
 }
 
 impl Results {
-    /// Makes sure that `folder` can be written and holds no results of another request than `request`: asked before a
-    /// long run rather than after. With `force` it may hold anything. Pictures are written in each of `formats`.
+    /// Checks that `folder` can be written and holds no results of another request than `request`.
+    /// Call it before a long run rather than find out afterwards. With `force` the folder may hold
+    /// anything. Pictures are written in each of `formats`.
     ///
     /// # Errors
-    /// [`Error::Io`], a wrong request, which says when the other results were made and what differs.
+    /// [`Error::Io`], marked as a wrong request; it says when the other results were made and what
+    /// differs.
     pub fn open(folder: &Path, request: Map<String, Value>, force: bool, formats: Vec<Format>) -> Result<Self> {
         if !force {
             check(folder, &request)?;
@@ -72,16 +77,17 @@ impl Results {
         &self.folder
     }
 
-    /// Names of the files so far, relative to the folder.
+    /// Paths of the files written so far, relative to the folder.
     #[must_use]
     pub fn files(&self) -> &[String] {
         &self.files
     }
 
-    /// The place of a file that belongs to the results; `name` may have folders before it.
+    /// The path for a file that belongs to the results; `name` may include folders.
     ///
     /// # Errors
-    /// [`Error::Io`] where the older manifest cannot be taken away: once a file is replaced it would no longer be true.
+    /// [`Error::Io`] where the older manifest cannot be removed: once a file is replaced it would
+    /// no longer be true.
     pub fn place(&mut self, name: &str) -> Result<PathBuf> {
         if self.files.is_empty() {
             let manifest = self.folder.join(MANIFEST);
@@ -94,8 +100,8 @@ impl Results {
         Ok(self.folder.join(name))
     }
 
-    /// Writes the picture `svg` in each format asked for, as `name` with the ending of the format; `name` may have folders
-    /// before it. Gives the paths.
+    /// Writes the picture `svg` in each format asked for, as `name` with the extension of the
+    /// format; `name` may include folders. Returns the paths.
     ///
     /// # Errors
     /// As [`Results::place`] and [`Format::write`].
@@ -109,8 +115,8 @@ impl Results {
         Ok(paths)
     }
 
-    /// Says what the folder now holds, and takes away what is left there of the results before. Gives the sentence that
-    /// tells what was replaced, if something was.
+    /// Writes the manifest and removes what is left of the earlier results. Returns the sentence
+    /// that says what was replaced, if anything was.
     ///
     /// # Errors
     /// [`Error::Io`] where the manifest cannot be written.
@@ -132,8 +138,9 @@ impl Results {
         Ok(self.before.as_ref().map(replaced))
     }
 
-    /// Removes a file of the results before, and the folder that it leaves empty. A manifest is only text: nothing outside
-    /// the folder is touched, whatever it names. What cannot be removed stays.
+    /// Removes a file of the earlier results, and its folder if that is then empty. The manifest
+    /// may name any path, so nothing outside the folder is touched. A file that cannot be removed
+    /// stays.
     fn take_away(&self, name: &str) {
         let path = Path::new(name);
         if name.is_empty() || !path.components().all(|part| matches!(part, Component::Normal(_))) {
@@ -145,16 +152,17 @@ impl Results {
         }
         let _ = fs::remove_file(self.folder.join(path));
         for folder in path.ancestors().skip(1).filter(|folder| !folder.as_os_str().is_empty()) {
-            // Only empty folders go.
+            // This removes empty folders only.
             let _ = fs::remove_dir(self.folder.join(folder));
         }
     }
 }
 
-/// Makes sure that `folder` holds no results of another request than `request`.
+/// Checks that `folder` holds no results of another request than `request`.
 ///
 /// # Errors
-/// [`Error::Io`], a wrong request, which says when the other results were made and what differs.
+/// [`Error::Io`], marked as a wrong request; it says when the other results were made and what
+/// differs.
 pub(crate) fn check(folder: &Path, request: &Map<String, Value>) -> Result<()> {
     let refused = match read(folder) {
         Some(other) => differences(other.get("request"), request).map(|what| {
@@ -163,7 +171,7 @@ pub(crate) fn check(folder: &Path, request: &Map<String, Value>) -> Result<()> {
         None => RESULTS
             .iter()
             .find(|name| folder.join(name).exists())
-            .map(|name| format!("holds results ({name}) and no {MANIFEST} that says of which request")),
+            .map(|name| format!("holds results ({name}) but no {MANIFEST} that says which request made them")),
     };
     match refused {
         Some(reason) => {
@@ -186,7 +194,7 @@ fn made(manifest: &Value) -> Option<&str> {
     manifest.get("made").and_then(Value::as_str)
 }
 
-/// What `request` asks otherwise than `other`, one line each; none where it asks the same.
+/// How `request` differs from `other`, one line per difference; `None` where both ask the same.
 pub(crate) fn differences(other: Option<&Value>, request: &Map<String, Value>) -> Option<String> {
     let empty = Map::new();
     let other = other.and_then(Value::as_object).unwrap_or(&empty);
@@ -198,7 +206,7 @@ pub(crate) fn differences(other: Option<&Value>, request: &Map<String, Value>) -
     };
     let mut text = String::new();
     for key in keys.filter(|key| other.get(*key).unwrap_or(&Value::Null) != request.get(*key).unwrap_or(&Value::Null)) {
-        // A fingerprint says that something differs; its digits say nothing.
+        // A fingerprint shows that something differs; its digits mean nothing to the reader.
         match key.strip_suffix(FINGERPRINT) {
             Some(what) => text.push_str(&format!("\n  another {what}")),
             None => {
@@ -209,7 +217,7 @@ pub(crate) fn differences(other: Option<&Value>, request: &Map<String, Value>) -
     if text.is_empty() { None } else { Some(text) }
 }
 
-/// How the keys of fingerprints end.
+/// Suffix of the keys that hold fingerprints.
 pub const FINGERPRINT: &str = "_fingerprint";
 
 fn failure(path: &Path, error: std::io::Error) -> Error {

@@ -1,4 +1,4 @@
-//! What one run leaves behind: its files, and the table of its walls. `run`, `compare` and any other caller share them.
+//! Files of one run, and the table of its walls; shared by `run`, `compare` and any other caller.
 
 use super::pictures::{Labelled, Sheet};
 use super::results::Results;
@@ -12,20 +12,21 @@ use crate::scheme::{Method, Scheme};
 use crate::statistics::{ForceStatistics, WallStatistics};
 use serde_json::Value;
 
-/// Most walls of a table that a person reads.
+/// Most rows of the table in the terminal.
 const MOST_ROWS: usize = 24;
 
-/// What the pictures of one run show, and the number of its look among the runs of the command.
+/// What the pictures of one run show, and the index of its look among the runs of the command.
 #[derive(Debug, Clone, Copy)]
 pub struct Picture {
     /// The stretch of time that is drawn.
     pub span: Span,
-    /// The number of the look.
+    /// Index of its colour and dash pattern.
     pub look: usize,
 }
 
-/// Writes the files of one run: `trajectory.csv`, `contacts.csv`, the figures and `summary.json`, into the folder of `results`
-/// or, where `prefix` is not empty, a folder of that name in it. Gives the summary.
+/// Writes the files of one run: `trajectory.csv`, `contacts.csv`, the figures and `summary.json`,
+/// into the folder of `results` or, where `prefix` is not empty, into a folder of that name in it.
+/// Returns the summary.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
@@ -52,10 +53,11 @@ pub fn write(
     summary::document(case, run, reasons, checks)
 }
 
-/// The walls of a run, for people: those of the largest impulses where there are many. None without walls.
+/// The table of walls for the terminal; where there are many, the walls of the largest impulses.
+/// `None` without walls.
 ///
 /// # Errors
-/// None beyond those of a trajectory asked for its own walls.
+/// Never in practice: only walls of the trajectory itself are looked up.
 pub fn table(run: &Run) -> Result<Option<Table>> {
     let headers = [
         "wall",
@@ -89,7 +91,7 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
     Ok((!rows.is_empty()).then(|| Table::new(&headers, rows)))
 }
 
-/// What must be said beside the table of the walls.
+/// What the reader must be told beside the table of walls.
 #[must_use]
 pub fn remarks(run: &Run) -> Vec<String> {
     let all = run.statistics.walls.len();
@@ -122,7 +124,7 @@ pub fn remarks(run: &Run) -> Vec<String> {
     remarks
 }
 
-/// What a run cost and how well it kept its promises, in a line.
+/// One line: what a run cost and how well it kept its scheme's contract.
 #[must_use]
 pub fn line(case: &Case, run: &Run, method: &Method) -> String {
     let r = &run.residuals;
@@ -138,7 +140,7 @@ pub fn line(case: &Case, run: &Run, method: &Method) -> String {
     )
 }
 
-/// `x` with so many decimals, and 0 instead of what would be shown as −0.
+/// `x` with `digits` decimals; 0 where rounding would show −0.
 fn fixed(x: f64, digits: usize) -> String {
     let x = if x.abs() < 0.5 * 10f64.powi(-(digits as i32)) { 0.0 } else { x };
     format!("{x:.digits$}")
@@ -155,7 +157,7 @@ fn busiest(run: &Run) -> Vec<&WallStatistics> {
     order.into_iter().filter_map(|(i, _)| walls.get(i)).collect()
 }
 
-/// What solved the steps that met a wall, and how often.
+/// What solved the steps that met a wall, and how many there were.
 fn solved(run: &Run) -> String {
     let counters = &run.counters;
     match run.scheme {

@@ -11,7 +11,7 @@ use crate::study::stability::lasting::{Lasting, Line, Quality};
 use crate::study::stability::plan::{Maps, Row};
 use std::path::Path;
 
-/// Writes one row for every scheme and phase.
+/// Writes one row per scheme and phase.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written.
@@ -54,7 +54,7 @@ pub fn impacts(path: &Path, maps: &[ImpactMap]) -> Result<()> {
     csv::table(path, &header.map(str::to_owned), rows)
 }
 
-/// Writes one row for every cell of every map, failed ones with the reason.
+/// Writes one row per cell of every map; a failed cell gives the reason.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written.
@@ -119,8 +119,8 @@ pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
     csv::table(path, &header.map(str::to_owned), rows.map(line))
 }
 
-/// Writes one row for every scheme and step of [`Quality`]: energies as shares of the reference's largest, and the largest lasting contact;
-/// failed ones with the reason.
+/// Writes one row per scheme and step of [`Quality`]: energies as shares of the reference's largest
+/// energy, and the largest lasting contact; a failed run gives the reason.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written.
@@ -157,17 +157,18 @@ pub fn quality(path: &Path, quality: &Quality) -> Result<()> {
     csv::table(path, &header.map(str::to_owned), quality.lines.iter().map(line))
 }
 
-/// Nine significant digits, enough for what is a measurement; empty where there is none.
+/// Nine significant digits, enough for a measurement; empty where there is no value.
 fn number(value: Option<f64>) -> String {
     value.map_or_else(String::new, |x| format!("{x:.8e}"))
 }
 
-/// Empty cells, then why.
+/// Empty cells, then the reason.
 fn failure(empty: usize, reason: String) -> impl Iterator<Item = String> {
     std::iter::repeat_n(String::new(), empty).chain([reason])
 }
 
-/// The restitution over the phase of the impact: the schemes that take walls as they are, then the penalty at each κ.
+/// The restitution over the phase of the impact: one panel for the schemes that treat walls as
+/// constraints, then one for the penalty at each κ.
 #[must_use]
 pub fn impact_figure(maps: &[ImpactMap], e: f64) -> String {
     let points = |map: &ImpactMap| map.measured().map(|i| (i.phase, i.restitution)).collect::<Vec<_>>();
@@ -193,7 +194,7 @@ pub fn impact_figure(maps: &[ImpactMap], e: f64) -> String {
     figure.to_svg()
 }
 
-/// One map of classes for each family: file name without its ending, and SVG text.
+/// One map of classes per family: file name without extension, and SVG text.
 #[must_use]
 pub fn maps_figures(maps: &Maps, title: &str) -> Vec<(String, String)> {
     Family::all()

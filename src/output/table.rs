@@ -1,11 +1,11 @@
-//! Tables for people: as wide as the terminal has room, no number broken over two lines.
+//! Tables for the terminal: as wide as it allows, with no number broken over two lines.
 
 use comfy_table::{CellAlignment, ContentArrangement, Table as Grid, presets};
 
 /// Space between two columns.
 const BETWEEN: usize = 2;
 
-/// Text shorter than this is not broken, where there is little room.
+/// Text shorter than this is not broken where space is short.
 const TEXT: usize = 16;
 
 /// Headings, and rows of cells; the first column names what a row is about.
@@ -16,32 +16,33 @@ pub struct Table {
     whole: bool,
 }
 
-/// A table as it fits.
+/// A table laid out for a width.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fitted {
     /// Its lines.
     pub text: String,
-    /// Headings of the columns that had no room.
+    /// Headings of the columns that did not fit.
     pub left_out: Vec<String>,
 }
 
 impl Table {
-    /// A table under `header`. Where it is too wide its last columns are left out.
+    /// A table under `header`. Where it is too wide, its last columns are left out.
     #[must_use]
     pub fn new(header: &[&str], rows: Vec<Vec<String>>) -> Self {
         Self { header: header.iter().map(|&text| text.to_owned()).collect(), rows, whole: false }
     }
 
-    /// The same, of which nothing is left out: columns that have no room stand in a second block below the first, again
-    /// behind the column of names.
+    /// The same table with nothing left out: columns that do not fit stand in a second block below
+    /// the first, again after the column of names.
     #[must_use]
     pub fn in_blocks(mut self) -> Self {
         self.whole = true;
         self
     }
 
-    /// The table in at most `width` columns of text (as wide as it is, where there is none). Where that is too narrow, text is broken
-    /// between its words; numbers never are. Two columns stand even where they are wider than that.
+    /// The table in at most `width` characters (as wide as needed where `width` is `None`). Where
+    /// that is too narrow, text is broken between words; numbers never are. Two columns are always
+    /// shown, even where they are wider.
     #[must_use]
     pub fn fit(&self, width: Option<usize>) -> Fitted {
         let room = width.unwrap_or(usize::MAX);
@@ -70,7 +71,8 @@ impl Table {
         Fitted { text: text.join("\n\n"), left_out }
     }
 
-    /// Width of a column: of its heading broken wherever it may be, and of its cells; of text that is broken, too, where `broken` is true.
+    /// Width of a column: of its heading, broken wherever it may be, and of its cells; text cells
+    /// are broken too where `broken` is true.
     fn widest(&self, column: usize, broken: bool) -> usize {
         let parts = |text: &str| pieces(text).map(wide).max().unwrap_or(0);
         let cell = |text: &String| if broken && !is_number(text) { parts(text) } else { wide(text) };
@@ -100,7 +102,7 @@ impl Table {
         grid.trim_fmt()
     }
 
-    /// True for a column of numbers, which are read along their last digit.
+    /// True for a column of numbers, which is aligned at the right.
     fn is_numeric(&self, column: usize) -> bool {
         let cells = self.rows.iter().filter_map(|row| row.get(column)).filter(|cell| !cell.is_empty());
         let numbers = cells.clone().filter(|cell| is_number(cell)).count();
@@ -108,7 +110,7 @@ impl Table {
     }
 }
 
-/// True for a number, and for the dash that stands where there is none.
+/// True for a number, and for the dash that stands for a missing one.
 fn is_number(text: &str) -> bool {
     text == "-" || text.parse::<f64>().is_ok()
 }
@@ -117,8 +119,9 @@ fn wide(text: &str) -> usize {
     text.chars().count()
 }
 
-/// The parts of a heading that stay together: `largest force (N)` is `largest`, `force`, `(N)`, and
-/// `penalty:epsilon=1e-9,integrator=trapezoidal` breaks behind `:` and `,`. A unit in brackets stays whole.
+/// The parts of a heading that are not broken: `largest force (N)` is `largest`, `force`, `(N)`,
+/// and `penalty:epsilon=1e-9,integrator=trapezoidal` breaks after `:` and `,`. A unit in brackets
+/// stays whole.
 fn pieces(text: &str) -> impl Iterator<Item = &str> {
     let mut depth = 0_usize;
     let breaks = move |c: char| {

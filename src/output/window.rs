@@ -1,14 +1,16 @@
-//! Which stretch of a run a picture shows: the whole, and of a long run its last periods beside it.
+//! Which stretch of a run a picture shows: the whole and, of a long run, also its last periods.
 
 use super::figure::Figure;
 use crate::run::Run;
 use crate::scene::{LoadKind, Scene};
 
-/// Periods that one frame can show apart: of more, a second frame shows the last ones.
+/// Most periods that one frame can show so that they can be told apart; beyond that a second frame
+/// shows the last ones.
 const MOST_PERIODS: f64 = 40.0;
 /// Periods of that second frame.
 const LAST_PERIODS: f64 = 10.0;
-/// A response this many times faster than the load sets the period instead of the load.
+/// Where the response is this many times faster than the load, its period is used instead of the
+/// load's.
 const FASTER: f64 = 4.0;
 
 /// A stretch of time, s.
@@ -21,14 +23,15 @@ pub struct Span {
 }
 
 impl Span {
-    /// True if it holds `time`; both ends belong to it, and so does what rounding puts beside them.
+    /// True if `time` lies in the stretch; both ends belong to it, and so does a time beyond them
+    /// by rounding.
     pub(super) fn holds(&self, time: f64) -> bool {
         let slack = 1e-12 * self.to.abs();
         (self.from - slack..=self.to + slack).contains(&time)
     }
 }
 
-/// What is shown, and what of it a second time.
+/// The stretch shown, and the part of it that is shown a second time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Window {
     pub whole: Span,
@@ -37,7 +40,8 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The window over `whole` of a motion like that of `run`, as the probe number `probe` sees it.
+    /// The window over `whole` for a motion like that of `run`, seen at the probe with index
+    /// `probe`.
     pub fn new(scene: &Scene, run: Option<&Run>, probe: Option<usize>, whole: Span) -> Self {
         let length = whole.to - whole.from;
         let response = run.zip(probe).and_then(|(run, probe)| response_period(run, probe, whole));
@@ -55,7 +59,7 @@ impl Window {
         self.last.unwrap_or(self.whole)
     }
 
-    /// `figure` over time, with the last periods beside the whole where there are many.
+    /// `figure` over time, with the last periods drawn beside the whole where there are many.
     pub fn over_time(&self, figure: Figure) -> Figure {
         match self.last {
             Some(last) => {
@@ -66,7 +70,8 @@ impl Window {
         }
     }
 
-    /// What a picture that shows the last periods alone says of them; numbers stay with their units.
+    /// Remark for a picture that shows only the last periods; no-break spaces keep numbers with
+    /// their units.
     pub fn words(&self) -> Option<String> {
         self.last.map(|last| {
             let words = self.last_words().replace("Last", "last").replace(" Hz", "\u{a0}Hz");
@@ -99,7 +104,7 @@ fn response_period(run: &Run, probe: usize, span: Span) -> Option<f64> {
     (passages > 1).then(|| (span.to - span.from) / passages as f64)
 }
 
-/// Four digits, without zeros at the end.
+/// At most four digits, without trailing zeros.
 pub(super) fn short(x: f64) -> String {
     format!("{x:.3e}").parse::<f64>().map_or_else(|_| x.to_string(), |x| x.to_string())
 }

@@ -8,12 +8,13 @@ use crate::scheme::{Method, PenaltyLaw, Scheme};
 use crate::study::work_precision::{Errors, Measured, Outcome, Peer, Point, Quantity, Series, WorkPrecision, pareto};
 use std::path::Path;
 
-/// Errors below this ask nothing more of a method: off the chart.
+/// Errors below this are negligible and are not shown on the chart.
 const NEGLIGIBLE: f64 = 1e-8;
-/// An error beyond the gap is no answer, however cheap: it is not on the front.
+/// An error beyond the gap makes a result useless, however cheap: it is not on the front.
 const NO_ANSWER: f64 = 1.0;
 
-/// Writes one row a point: errors, times, counters, and the reason where there is none.
+/// Writes one row per point: errors, times, counters, and the reason where a run failed or was left
+/// out.
 ///
 /// # Errors
 /// As [`csv::table`].
@@ -23,8 +24,8 @@ pub fn table(path: &Path, chart: &WorkPrecision) -> Result<()> {
     csv::table(path, &header(), rows.map(|(method, point)| row(chart, method, point, &front)))
 }
 
-/// Writes one row for each point that ran and each wall, however many walls there are: the errors of impulses, against the scene and of
-/// a penalty against its own springs.
+/// Writes one row per point that ran and per wall, for any number of walls: the errors of impulses
+/// against the scene and, for a penalty, also against its own springs.
 ///
 /// # Errors
 /// As [`csv::table`].
@@ -119,15 +120,16 @@ fn row(chart: &WorkPrecision, method: &Method, point: &Point, front: &[(f64, f64
     row
 }
 
-/// The points, other programs' too, that none beats in both error and time.
+/// The points, including those of other programs, that no other point beats in both error and time.
 fn front(chart: &WorkPrecision, peers: &[Peer]) -> Vec<(f64, f64)> {
     let own = chart.series.iter().flat_map(|s| s.measured().map(|(_, m)| (m.errors.displacement, m.seconds)));
     pareto(own.chain(peers.iter().map(|p| (p.error, p.seconds))).filter(|p| p.0 <= NO_ANSWER))
 }
 
-/// The figures by file name without its ending: error across, time up, both logarithmic. `work-precision` has a panel for
-/// each error against the scene, with the floor of each penalty and one integrator of it, since below the floor they all
-/// end alike; `work-precision-penalties` holds all of them against their own springs.
+/// The figures, each with its file name without extension: error across, time up, both logarithmic.
+/// `work-precision` has a panel for each error against the scene; for each penalty it shows the
+/// modelling error (its floor) and one integrator, since all integrators end at the same floor.
+/// `work-precision-penalties` shows all of them against their own springs.
 #[must_use]
 pub fn charts(title: &str, chart: &WorkPrecision, peers: &[Peer]) -> Vec<(&'static str, String)> {
     let title = format!("{title}, t ≤ {} s", significant(chart.horizon.end));
@@ -178,7 +180,7 @@ fn heading(quantity: Quantity) -> &'static str {
     }
 }
 
-/// The series of the first figure with their numbers: of each penalty the first integrator.
+/// The series of the first figure with their indices: for each penalty only the first integrator.
 fn shown(chart: &WorkPrecision) -> impl Iterator<Item = (usize, &Series)> {
     let mut laws = Vec::new();
     chart.series.iter().enumerate().filter(move |(_, series)| match series.method.scheme {
@@ -211,7 +213,8 @@ fn programs(peers: &[Peer]) -> Vec<(String, Vec<(f64, f64)>)> {
     programs
 }
 
-/// Whole decades that hold the errors between [`NEGLIGIBLE`] and [`NO_ANSWER`]; what lies beyond is told at the edge.
+/// Whole decades that hold the errors between [`NEGLIGIBLE`] and [`NO_ANSWER`]; values beyond are
+/// marked at the edge.
 fn range(errors: &[f64]) -> (f64, f64) {
     let within = errors.iter().copied().filter(|e| (NEGLIGIBLE..=NO_ANSWER).contains(e));
     let least = within.fold(0.1, f64::min);
@@ -223,7 +226,7 @@ fn against_their_springs(title: &str, chart: &WorkPrecision) -> String {
     let penalties = chart.series.iter().filter(|s| matches!(s.method.scheme, Scheme::Penalty { .. }));
     let mut all = Vec::new();
     for (number, series) in penalties.enumerate() {
-        // Below what its reference is known to, an error says nothing.
+        // An error below the uncertainty of its reference is meaningless.
         let known = chart.known(&series.method.scheme);
         let own = |m: &Measured| m.own.as_ref().map(|e| e.displacement).filter(|e| *e > known);
         let points: Vec<_> = series.measured().filter_map(|(_, m)| Some((own(m)?, m.seconds))).collect();
@@ -235,7 +238,7 @@ fn against_their_springs(title: &str, chart: &WorkPrecision) -> String {
     figure.range(low, high).to_svg()
 }
 
-/// A method in few characters: `ε = 1e-9, trapezoidal`.
+/// A short label of a method: `ε = 1e-9, trapezoidal`.
 #[must_use]
 pub fn label(method: &Method) -> String {
     match method.scheme {
@@ -252,7 +255,7 @@ fn law_label(law: PenaltyLaw) -> String {
     }
 }
 
-/// Four digits at most.
+/// At most four digits.
 fn significant(x: f64) -> String {
     format!("{x:.3e}").parse::<f64>().map_or_else(|_| x.to_string(), |x| x.to_string())
 }

@@ -1,4 +1,4 @@
-//! An axis: its range, its ticks, and where a value falls.
+//! An axis: its range, its ticks, and the position of a value on it.
 
 use super::look::SMALL;
 use super::text;
@@ -6,18 +6,19 @@ use super::text;
 /// How values are spread along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Scale {
-    /// Equal differences, equal lengths.
+    /// Linear: equal differences have equal lengths.
     #[default]
     Linear,
-    /// Equal ratios, equal lengths; values that are not positive cannot be drawn.
+    /// Logarithmic: equal ratios have equal lengths; values that are not positive cannot be drawn.
     Log,
 }
 
 impl Scale {
-    /// The value in the units in which the axis is even, where it can be drawn.
+    /// The value, or its logarithm on a logarithmic axis: lengths on the page are proportional to
+    /// it. `None` if it cannot be drawn.
     pub(super) fn even(self, value: f64) -> Option<f64> {
         match self {
-            // What is too small to be numbered is zero.
+            // A magnitude below 1e-290 counts as zero: it is too small to divide into ticks.
             Self::Linear if value.abs() < 1e-290 => Some(0.0),
             Self::Linear => (value.abs() <= 1e300).then_some(value),
             Self::Log => (1e-300..=1e300).contains(&value).then(|| value.log10()),
@@ -25,7 +26,7 @@ impl Scale {
     }
 }
 
-/// Smallest and largest of what was included, in even units.
+/// Smallest and largest value included so far; as logarithms on a logarithmic axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Extent {
     pub low: f64,
@@ -48,7 +49,8 @@ impl Extent {
         (self.high - self.low).max(0.0)
     }
 
-    /// Widened by a share of itself at both ends; a constant gets room to be seen, nothing at all a range of one.
+    /// Widened by a share of its length at both ends; a constant gets a visible range, an empty
+    /// extent a range of one.
     pub(super) fn padded(self, share: f64, scale: Scale) -> Self {
         if self.is_empty() {
             return match scale {
@@ -67,7 +69,7 @@ impl Extent {
     }
 }
 
-/// A tick: where it stands, in even units, and what stands beside it.
+/// A tick: its position (a logarithm on a logarithmic axis) and its label.
 #[derive(Debug, Clone)]
 pub(super) struct Tick {
     pub even: f64,
@@ -123,7 +125,7 @@ impl Axis {
         })
     }
 
-    /// Share of the length at which a value stands.
+    /// Position of a value as a share of the axis length.
     pub(super) fn share(&self, value: f64) -> Option<f64> {
         self.scale.even(value).map(|even| self.share_of_even(even))
     }
@@ -132,7 +134,7 @@ impl Axis {
         (even - self.extent.low) / self.extent.span().max(f64::MIN_POSITIVE)
     }
 
-    /// One number tells no scale: then twice as many are wanted.
+    /// A single number does not define a scale: in that case twice as many ticks are wanted.
     fn number_evenly(&mut self, wanted: usize) {
         for times in [1, 2, 4] {
             self.ticks.clear();
@@ -213,7 +215,7 @@ mod tests {
 
     #[test]
     fn an_axis_about_zero_has_more_than_one_number() {
-        // A step of 100 would leave 0 alone.
+        // With a step of 100 the only number would be 0.
         let axis = Axis::new(Scale::Linear, Extent { low: -90.0, high: 90.0 }, 3);
         let numbers: Vec<&str> = axis.ticks.iter().map(|tick| tick.body.as_str()).collect();
         assert_eq!(numbers, ["−50", "0", "50"]);

@@ -3,9 +3,9 @@
 /// One class of a map: its name in the legend, its letter on the map.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Class {
-    /// What the legend says.
+    /// Name in the legend.
     pub name: String,
-    /// What stands in its regions on the map where they are large enough.
+    /// Letter drawn on its regions where they are large enough.
     pub letter: char,
 }
 

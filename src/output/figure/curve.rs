@@ -4,11 +4,12 @@ use super::look::Role;
 
 /// A line through points, broken where a point cannot be drawn.
 ///
-/// Curves of one label look the same in all panels of a figure and share one legend entry; an empty label has none.
+/// Curves of one label look the same in all panels of a figure and share one legend entry; an empty
+/// label has none.
 #[derive(Debug, Clone)]
 pub struct Curve {
     pub(super) label: String,
-    /// Pairs (x, y) in the units of the axes; whoever makes the figure writes them.
+    /// Pairs (x, y) in the units of the axes.
     pub(super) points: Vec<(f64, f64)>,
     pub(super) role: Role,
     pub(super) marked: bool,
@@ -23,37 +24,39 @@ impl Curve {
         Self { label: label.into(), points, role: Role::Ordinary, marked: false, oscillates: false, look: None }
     }
 
-    /// Also draws a marker at every point (of very many, at some 200 evenly chosen ones).
+    /// Also draws a marker at every point (at some 200 evenly chosen points where there are more).
     #[must_use]
     pub fn marked(mut self) -> Self {
         self.marked = true;
         self
     }
 
-    /// Says that it oscillates: where it does so too fast for the page, a filled envelope between its lowest and highest
-    /// values is drawn in its place.
+    /// Says that the curve oscillates: where it does so too fast for the page, a filled envelope
+    /// between its lowest and highest values is drawn instead.
     #[must_use]
     pub fn oscillating(mut self) -> Self {
         self.oscillates = true;
         self
     }
 
-    /// Draws it wide and pale beneath the others: the reference that they are held against.
+    /// Draws the curve wide and pale beneath the others, as the reference that they are compared
+    /// with.
     #[must_use]
     pub fn backdrop(mut self) -> Self {
         self.role = Role::Backdrop;
         self
     }
 
-    /// Draws it as the front of best points: a wide pale line beneath the others and a ring round each of its points.
+    /// Draws the curve as the front of best points: a wide pale line beneath the others and a ring
+    /// round each point.
     #[must_use]
     pub fn front(mut self) -> Self {
         self.role = Role::Front;
         self
     }
 
-    /// Fixes the look by number (0 is black and solid) instead of by the order of labels, so that one method looks the
-    /// same in several figures.
+    /// Sets the look by index (0 is black and solid) instead of by the order of labels, so that a
+    /// method looks the same in several figures.
     #[must_use]
     pub fn look(mut self, number: usize) -> Self {
         self.look = Some(number);
@@ -65,14 +68,15 @@ impl Curve {
 #[derive(Debug, Clone)]
 pub struct Stems {
     pub(super) label: String,
-    /// Pairs (x, y) in the units of the axes; whoever makes the figure writes them.
+    /// Pairs (x, y) in the units of the axes.
     pub(super) points: Vec<(f64, f64)>,
     pub(super) role: Role,
     pub(super) look: Option<usize>,
 }
 
 impl Stems {
-    /// One stroke for each of `points`. Forces and impulses have different units: give each its own panel.
+    /// One stroke for each of `points`. Forces and impulses have different units: give each its own
+    /// panel.
     pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self { label: label.into(), points: points.into_iter().collect(), role: Role::Ordinary, look: None }
     }
@@ -84,7 +88,7 @@ impl Stems {
         self
     }
 
-    /// Fixes the look by number, as [`Curve::look`] does.
+    /// Sets the look by index, as [`Curve::look`] does.
     #[must_use]
     pub fn look(mut self, number: usize) -> Self {
         self.look = Some(number);
@@ -94,8 +98,9 @@ impl Stems {
 
 /// A labelled straight line across the panel.
 ///
-/// The range grows to show it, unless that would leave less than a fifth of the panel to the curves; then its label
-/// stands at the edge with an arrow towards it.
+/// The range of the axis grows to include the line, unless that would leave less than a fifth of
+/// the panel to the curves; in that case its label stands at the edge, with an arrow towards the
+/// line.
 #[derive(Debug, Clone)]
 pub struct Mark {
     pub(super) value: f64,
@@ -104,7 +109,7 @@ pub struct Mark {
     pub(super) kind: MarkKind,
 }
 
-/// What a mark stands for, hence how it is drawn.
+/// What a mark stands for, which decides how it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum MarkKind {
     Wall,
@@ -122,7 +127,7 @@ impl Mark {
         Self { value, label: label.into(), upright: false, kind: MarkKind::Floor }
     }
 
-    /// The same line upright, at x = `value`: a wall of a phase plot.
+    /// The same line vertical, at x = `value`: a wall in a phase plot.
     #[must_use]
     pub fn upright(mut self) -> Self {
         self.upright = true;

@@ -1,11 +1,12 @@
-//! The envelope of a curve that oscillates too fast for the page: between its lowest and its highest values.
+//! The envelope, between lowest and highest values, of a curve that oscillates too fast for the
+//! page.
 
 use super::thin::Spot;
 
-/// Reversals of a curve on a page this wide above which single oscillations run together: a period
-/// of 12 units, 3 mm.
+/// Reversals per unit of page width above which single oscillations can no longer be told apart: a
+/// period of 12 units, 3 mm.
 const REVERSALS_PER_UNIT: f64 = 1.0 / 6.0;
-/// Rises and falls of less than this on the page are not counted as oscillations.
+/// A rise or fall smaller than this on the page is not counted as an oscillation.
 const NOISE: f64 = 4.0;
 /// Narrowest column, and columns per oscillation: narrower ones would show the oscillation itself.
 const NARROWEST: f64 = 2.0;
@@ -19,7 +20,7 @@ pub(super) struct Envelope {
 }
 
 impl Envelope {
-    /// The envelope of `spots`, which never go back in x and stand between `left` and `right`; none
+    /// The envelope of `spots`, which never go back in x and lie between `left` and `right`; `None`
     /// where the page can show every oscillation.
     pub(super) fn of(spots: &[Spot], left: f64, right: f64) -> Option<Self> {
         let points: Vec<(f64, f64)> = spots.iter().flatten().copied().collect();
@@ -33,7 +34,7 @@ impl Envelope {
         let count = (length / column).ceil().max(2.0) as usize;
         let column = length / count as f64;
         let edges = |k: usize| first + k as f64 * column;
-        // The edge stands at a border of columns and takes in the column on either side of it.
+        // An edge point stands at the border between two columns and includes the extremes of both.
         let mut columns: Vec<(f64, f64, f64)> =
             (0..=count).map(|k| (edges(k), f64::INFINITY, f64::NEG_INFINITY)).collect();
         for &(x, y) in points.iter().filter(|p| (first..=last).contains(&p.0)) {
@@ -47,7 +48,7 @@ impl Envelope {
         Some(Self { columns })
     }
 
-    /// Its outline, once around.
+    /// Its outline, as one closed loop.
     pub(super) fn outline(&self) -> Vec<(f64, f64)> {
         let top = self.columns.iter().map(|c| (c.0, c.1));
         top.chain(self.columns.iter().rev().map(|c| (c.0, c.2))).collect()
@@ -59,7 +60,7 @@ impl Envelope {
     }
 }
 
-/// How often a curve turns from rising to falling or back, by more than [`NOISE`].
+/// How often a curve turns from rising to falling or back by more than [`NOISE`].
 fn reversals(points: &[(f64, f64)]) -> usize {
     let mut count = 0;
     let mut rising = None;
@@ -93,7 +94,8 @@ mod tests {
         assert_eq!(Envelope::of(&wave(10.0), 0.0, 300.0), None);
         let envelope = Envelope::of(&wave(100.0), 0.0, 300.0).unwrap();
         for (_, top, bottom) in &envelope.columns {
-            // 200 samples a period: an extreme is met to 40 (1 − cos(π/200)) = 5e-3.
+            // 200 samples per period: a sample lies within 40 (1 − cos(π/200)) = 5e-3 of each
+            // extreme.
             assert!((top - 10.0).abs() < 6e-3 && (bottom - 90.0).abs() < 6e-3, "{top} to {bottom}");
         }
         assert_eq!((envelope.columns[0].0, envelope.columns.last().unwrap().0), (0.0, 300.0));

@@ -16,7 +16,7 @@ pub(super) struct Frame<'a> {
     pub height: f64,
     pub x_axis: &'a Axis,
     pub y_axis: &'a Axis,
-    /// False for a detail: it shows every oscillation.
+    /// False for a detail, which shows every oscillation.
     pub envelopes: bool,
 }
 
@@ -33,7 +33,7 @@ impl Frame<'_> {
         Some((self.across(self.x_axis.share(point.0)?), self.up(self.y_axis.share(point.1)?)))
     }
 
-    /// Lines of the marks that lie in the frame.
+    /// Draws the lines of the marks that lie in the frame.
     pub(super) fn draw_marks(&self, canvas: &mut Canvas, marks: &[Mark]) {
         for mark in marks {
             let stroke = match mark.kind {
@@ -52,8 +52,8 @@ impl Frame<'_> {
         }
     }
 
-    /// Points on the page from the last one before the frame to the first one behind it; all of them for a
-    /// curve that goes back.
+    /// Points on the page, from the last one before the frame to the first one after it; all points
+    /// of a curve that goes back in x.
     fn spots(&self, points: &[(f64, f64)]) -> Vec<Spot> {
         let spots: Vec<Spot> = points.iter().map(|p| self.spot(*p)).collect();
         if !never_goes_back(&spots) {
@@ -66,8 +66,8 @@ impl Frame<'_> {
         spots.get(first..last).unwrap_or_default().to_vec()
     }
 
-    /// A curve of at most about `budget` points, and at most a hundredth as many markers; as its envelope
-    /// where it oscillates too fast for the frame.
+    /// Draws a curve with at most about `budget` points and a hundredth as many markers; as an
+    /// envelope where it oscillates too fast for the frame.
     pub(super) fn draw_curve(&self, canvas: &mut Canvas, curve: &Curve, look: Look, budget: usize) {
         let spots = self.spots(&curve.points);
         let may = self.envelopes && curve.oscillates && never_goes_back(&spots);
@@ -86,8 +86,8 @@ impl Frame<'_> {
         }
     }
 
-    /// What marked curves have beyond the sides of the frame: an arrow for every point, and the value of the
-    /// farthest of each curve where there is room for it.
+    /// For points of a marked curve that lie beside the frame: draws an arrow for each, and the
+    /// value of the farthest point of each curve where there is room.
     pub(super) fn draw_beyond(&self, canvas: &mut Canvas, curve: &Curve, look: Look, taken: &mut Vec<f64>) {
         let outside = |side: fn(f64) -> bool| {
             let shares = curve.points.iter().filter_map(|p| Some((self.x_axis.share(p.0)?, p)));
@@ -120,7 +120,7 @@ impl Frame<'_> {
         }
     }
 
-    /// Stems from zero; of those that share a column of the page the lowest and the highest.
+    /// Draws stems from zero; of those in one column of the page only the lowest and the highest.
     pub(super) fn draw_stems(&self, canvas: &mut Canvas, stems: &Stems, look: Look, budget: usize) {
         let columns = (budget as f64 / (4.0 * self.width)).min(2.0);
         let foot = self.up(self.y_axis.share(0.0).unwrap_or(0.0).clamp(0.0, 1.0));
@@ -169,8 +169,8 @@ pub(super) fn draw_grid(canvas: &mut Canvas, frame: &Frame<'_>) {
     canvas.path(&lines, GRID);
 }
 
-/// Frame, ticks and numbers: of the vertical axis beside the first frame of a row, of the horizontal one under
-/// the last of a column.
+/// Draws frame, ticks and numbers. The numbers of the vertical axis stand beside the first frame of
+/// a row, those of the horizontal axis under the last frame of a column.
 pub(super) fn draw_axes(canvas: &mut Canvas, frame: &Frame<'_>, beside: bool, below: bool) {
     let bottom = frame.y + frame.height;
     let end = frame.x + frame.width;

@@ -1,4 +1,4 @@
-//! A heat map: classes or numbers over two axes, readable in grey.
+//! A heat map: classes or numbers over two axes, readable in greyscale.
 
 use super::axis::{Axis, Extent, Scale};
 use super::class::Class;
@@ -14,8 +14,9 @@ const HEIGHT: f64 = 300.0;
 
 /// A grid of cells over two axes, each a class or a number.
 ///
-/// Classes differ in lightness and carry a letter on the map; numbers have a bar whose lightness falls steadily. Equal
-/// neighbours along a row are drawn as one; a map of 40 × 40 different numbers takes 110 kB.
+/// Classes differ in lightness and have a letter on the map; numbers have a colour bar whose
+/// lightness decreases steadily. Equal neighbours in a row are drawn as one rectangle; a map of 40
+/// × 40 different numbers takes 110 kB.
 ///
 /// ```
 /// use signorini::output::figure::{Class, HeatMap, Scale};
@@ -48,14 +49,15 @@ struct Side {
 #[derive(Debug, Clone)]
 enum Cells {
     Empty,
-    /// Number of the class of each cell, row by row from the first `y`.
+    /// Class index of each cell, row by row from the first `y`.
     Classes(Vec<Class>, Vec<usize>),
     /// Value of each cell, row by row from the first `y`.
     Numbers(String, Scale, Vec<f64>),
 }
 
 impl HeatMap {
-    /// An empty map over cell centres `x` and `y`, both rising; labels say quantity and unit.
+    /// An empty map over cell centres `x` and `y`, both increasing; the labels give quantity and
+    /// unit.
     pub fn new(
         title: impl Into<String>,
         (x_label, x_scale, x): (&str, Scale, &[f64]),
@@ -65,15 +67,17 @@ impl HeatMap {
         Self { title: title.into(), axes: [side(x_label, x_scale, x), side(y_label, y_scale, y)], cells: Cells::Empty }
     }
 
-    /// Fills the cells with classes, row by row from the first `y`; up to six classes, given from harmless to worst
-    /// (drawn from light to dark). A number beyond the list, or a missing cell, is drawn as no value.
+    /// Fills the cells with classes, row by row from the first `y`; up to six classes, listed from
+    /// harmless to worst (drawn from light to dark). An index beyond the list, or a missing cell,
+    /// is drawn as no value.
     #[must_use]
     pub fn classes(mut self, classes: Vec<Class>, cells: Vec<usize>) -> Self {
         self.cells = Cells::Classes(classes, cells);
         self
     }
 
-    /// Fills the cells with numbers, row by row from the first `y`, and adds a bar that says `label`.
+    /// Fills the cells with numbers, row by row from the first `y`, and adds a colour bar labelled
+    /// `label`.
     #[must_use]
     pub fn numbers(mut self, label: impl Into<String>, scale: Scale, cells: Vec<f64>) -> Self {
         self.cells = Cells::Numbers(label.into(), scale, cells);
@@ -129,7 +133,7 @@ impl HeatMap {
         canvas.finish()
     }
 
-    /// True where one of `count` cells has nothing that could be drawn.
+    /// True where one of `count` cells has no value that can be drawn.
     fn has_missing(&self, count: usize) -> bool {
         let drawn = match &self.cells {
             Cells::Empty => 0,
@@ -147,7 +151,7 @@ impl HeatMap {
         if columns == 0 || rows == 0 {
             return;
         }
-        // No value: white with a stroke through it.
+        // No value: white with a diagonal line.
         let fills: Vec<Option<String>> = match &self.cells {
             Cells::Empty => vec![None; columns * rows],
             Cells::Classes(classes, cells) => {
@@ -168,7 +172,7 @@ impl HeatMap {
                 column += run.len();
                 let (Some(from), Some(to)) = ends else { continue };
                 match run.first().and_then(Option::as_ref) {
-                    // A little overlap hides the seams that renderers leave between neighbours.
+                    // A slight overlap hides the seams that renderers leave between neighbours.
                     Some(fill) => {
                         let (over_x, over_y) =
                             (if column < columns { 0.5 } else { 0.0 }, if row > 0 { 0.5 } else { 0.0 });
@@ -201,7 +205,8 @@ impl HeatMap {
 }
 
 impl Side {
-    /// Edges between the cells, in even units: midway between centres, one more than there are centres.
+    /// Edges between the cells (logarithms on a logarithmic axis): midway between centres, one more
+    /// than there are centres.
     fn edges(&self) -> Vec<f64> {
         let centres: Vec<f64> = self.centres.iter().filter_map(|c| self.scale.even(*c)).collect();
         let (Some(first), Some(last)) = (centres.first(), centres.last()) else { return Vec::new() };

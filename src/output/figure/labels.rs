@@ -1,4 +1,4 @@
-//! Where the names of marks stand, so that none covers another.
+//! Where the names of marks are placed, so that none covers another.
 
 use super::axis::Axis;
 use super::frame::Frame;
@@ -11,11 +11,11 @@ use super::text;
 const LINE: f64 = SMALL + 1.0;
 /// Space between two names on one line.
 const SPACE: f64 = 6.0;
-/// Longest names beside and above a frame.
+/// Longest name beside or above a frame.
 const BESIDE: f64 = 144.0;
 const ABOVE: f64 = 180.0;
 
-/// A name, or several marks' names in one, with the place that it belongs to.
+/// A name, or the joined names of several marks, with the position that it belongs to.
 #[derive(Debug, Clone, PartialEq)]
 struct Name {
     place: f64,
@@ -42,7 +42,7 @@ impl Name {
     }
 }
 
-/// Joins neighbours, the nearest first, until `size` of them all fits into `room`.
+/// Joins neighbours, the nearest first, until the sum of `size` over all names fits into `room`.
 fn fitted(mut names: Vec<Name>, room: f64, size: impl Fn(&Name) -> f64) -> Vec<Name> {
     names.sort_by(|a, b| a.place.total_cmp(&b.place));
     while names.len() > 1 && names.iter().map(&size).sum::<f64>() > room {
@@ -57,8 +57,8 @@ fn fitted(mut names: Vec<Name>, room: f64, size: impl Fn(&Name) -> f64) -> Vec<N
     names
 }
 
-/// Beginnings of intervals of the lengths given, in their order and without overlap within `low`..`high`, each as near
-/// to its wish as the others let it.
+/// Starts of intervals with the given lengths, in their order and without overlap within
+/// `low`..`high`, each as near to its wished position as the others allow.
 fn spread(wishes: &[(f64, f64)], low: f64, high: f64) -> Vec<f64> {
     let mut out = Vec::with_capacity(wishes.len());
     let mut free = low;
@@ -75,7 +75,7 @@ fn spread(wishes: &[(f64, f64)], low: f64, high: f64) -> Vec<f64> {
     out
 }
 
-/// A mark outside the frame is named at its edge, with an arrow towards it.
+/// A mark outside the frame is named at the edge of the frame, with an arrow towards it.
 fn arrowed(share: f64, label: &str, arrows: [&str; 2]) -> (f64, String) {
     let [below, above] = arrows;
     if share < 0.0 {
@@ -87,7 +87,8 @@ fn arrowed(share: f64, label: &str, arrows: [&str; 2]) -> (f64, String) {
     }
 }
 
-/// Names of the level marks of a panel, as many as fit beside a frame `height` high that begins at `y`.
+/// Names of the horizontal marks of a panel, as many as fit beside a frame of that `height` that
+/// begins at `y`.
 fn beside(panel: &Panel, axis: &Axis, (y, height): (f64, f64)) -> Vec<Name> {
     let name = |(value, label): (f64, &str)| {
         let (share, first) = arrowed(axis.share(value)?, label, ["↓ ", "↑ "]);
@@ -97,13 +98,13 @@ fn beside(panel: &Panel, axis: &Axis, (y, height): (f64, f64)) -> Vec<Name> {
     fitted(level.filter_map(name).collect(), height + LINE, |_| LINE)
 }
 
-/// Width that these names take.
+/// Width that these names need.
 pub(super) fn room_beside(panel: &Panel, axis: &Axis, height: f64) -> f64 {
     let names = beside(panel, axis, (0.0, height));
     names.iter().map(|name| text::width(&name.text(BESIDE), SMALL) + 8.0).fold(0.0, f64::max)
 }
 
-/// Names of the level marks, to the right of the frame.
+/// Draws the names of the horizontal marks to the right of the frame.
 pub(super) fn draw_beside(canvas: &mut Canvas, panel: &Panel, frame: &Frame<'_>) {
     let names = beside(panel, frame.y_axis, (frame.y, frame.height));
     let wishes: Vec<_> = names.iter().map(|n| (n.place - 0.5 * LINE, LINE)).collect();
@@ -116,7 +117,7 @@ pub(super) fn draw_beside(canvas: &mut Canvas, panel: &Panel, frame: &Frame<'_>)
     }
 }
 
-/// Names of the upright marks, above the frame and right of `free`.
+/// Draws the names of the vertical marks above the frame, right of `free`.
 pub(super) fn draw_above(canvas: &mut Canvas, panel: &Panel, frame: &Frame<'_>, free: f64) {
     let name = |(value, label): (f64, &str)| {
         let (share, first) = arrowed(frame.x_axis.share(value)?, label, ["← ", "→ "]);

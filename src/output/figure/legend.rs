@@ -1,4 +1,4 @@
-//! The legend: below the frame, in columns of one width.
+//! The legend: below the frame, in columns of equal width.
 
 use super::look::{LABEL, Look};
 use super::svg::{Anchor, Canvas, Text};
@@ -8,7 +8,7 @@ const SAMPLE: f64 = 34.0;
 const GAP: f64 = 6.0;
 const ROW: f64 = 16.0;
 
-/// Labels with their samples, arranged for a width.
+/// Labels with their samples, arranged for a given width.
 #[derive(Debug)]
 pub(super) struct Legend {
     entries: Vec<(String, Look)>,
@@ -22,7 +22,7 @@ impl Legend {
         let longest = entries.iter().map(|(label, _)| text::width(label, LABEL)).fold(0.0, f64::max);
         let column = (SAMPLE + GAP + longest + 16.0).min(room);
         let columns = ((room / column) as usize).clamp(1, entries.len().max(1));
-        // As few columns as the number of rows allows: no ragged last row.
+        // As few columns as this number of rows allows, so that the last row is nearly full.
         let columns = entries.len().div_ceil(entries.len().div_ceil(columns).max(1)).max(1);
         Self { entries, column, columns }
     }

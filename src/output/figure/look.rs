@@ -1,4 +1,4 @@
-//! The one look: what tells a curve from its neighbours, in colour and in grey.
+//! The look of curves: what distinguishes a curve from its neighbours, in colour and in greyscale.
 
 use super::svg::{Canvas, Stroke};
 
@@ -31,7 +31,7 @@ const MARKERS: [Marker; 10] = [
     Marker::Plus,
 ];
 
-/// Shapes told apart without colour.
+/// Marker shapes, distinguishable without colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Marker {
     Disc,
@@ -46,19 +46,19 @@ pub(super) enum Marker {
     Plus,
 }
 
-/// Part that a curve plays in its figure.
+/// The role of a curve in its figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Role {
-    /// One of several.
+    /// One of several curves.
     #[default]
     Ordinary,
-    /// What the others are held against: a wide pale line beneath them.
+    /// The reference that others are compared with: a wide pale line beneath them.
     Backdrop,
-    /// The best of all: a wide pale line and a ring round every point.
+    /// The front of best points: a wide pale line and a ring round every point.
     Front,
 }
 
-/// Everything needed to draw a curve and its legend sample.
+/// All that is needed to draw a curve and its legend sample.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Look {
     pub stroke: Stroke,
@@ -66,7 +66,7 @@ pub(super) struct Look {
     pub role: Role,
 }
 
-/// The look of the `number`-th label of a figure; 80 of them before one comes back.
+/// The look of label number `number` in a figure; looks repeat after 80.
 pub(super) fn look(number: usize, role: Role, marked: bool) -> Look {
     let nth = |list: &[&'static str; 8], n: usize| list.get(n % 8).copied().unwrap_or_default();
     let stroke = match role {
@@ -83,7 +83,7 @@ pub(super) fn look(number: usize, role: Role, marked: bool) -> Look {
 }
 
 impl Look {
-    /// One marker at its place.
+    /// Draws one marker.
     pub(super) fn mark(&self, canvas: &mut Canvas, x: f64, y: f64) {
         let Some(marker) = self.marker else { return };
         if self.role == Role::Front {
@@ -93,7 +93,7 @@ impl Look {
         marker.draw(canvas, x, y, 2.8, self.stroke.colour);
     }
 
-    /// The sample of the legend: from `x` to `x + length` at height `y`.
+    /// Draws the sample of the legend, from `x` to `x + length` at height `y`.
     pub(super) fn sample(&self, canvas: &mut Canvas, x: f64, y: f64, length: f64) {
         canvas.line((x, y), (x + length, y), self.stroke);
         self.mark(canvas, x + length / 2.0, y);
@@ -101,7 +101,7 @@ impl Look {
 }
 
 impl Marker {
-    /// Draws the shape, `r` from its middle to its edge.
+    /// Draws the shape with half-width `r`.
     pub(super) fn draw(self, canvas: &mut Canvas, x: f64, y: f64, r: f64, colour: &'static str) {
         let solid = Stroke::solid(colour, 0.8);
         let open = Stroke::solid(colour, 1.1);

@@ -1,4 +1,4 @@
-//! Figures for a paper: data in, SVG text out. This room knows no scene and no scheme.
+//! Figures for a paper: data in, SVG text out. This module depends on no scene and no scheme.
 //!
 //! | type | what it draws |
 //! |---|---|
@@ -7,16 +7,18 @@
 //! | [`HeatMap`] | classes or numbers over two axes |
 //! | [`Scatter`] | any number of points over two axes |
 //!
-//! One look throughout: 160 mm wide, any sans-serif font, legend below the frame, every curve told from its neighbours
-//! by dash pattern and lightness as well as by colour. The same data give the same bytes. Values that cannot be drawn
-//! (NaN, infinite, not positive on a logarithmic axis) break a line and leave the axes alone; long curves are thinned
-//! to what the width can show, extremes kept.
+//! All figures have the same look: 160 mm wide, any sans-serif font, legend below the frame, curves
+//! distinguished by dash pattern and lightness as well as by colour. The same data give the same
+//! bytes. Values that cannot be drawn (NaN, infinite, not positive on a logarithmic axis) break a
+//! line and do not affect the axes; long curves are thinned to what the width can show, with their
+//! extremes kept.
 //!
-//! The SVG is written directly. kuva 0.6 was tried: it swallows `$` in titles as mathematics, numbers its clip paths by
-//! a process-wide counter (two runs differ), has no legend entry with line and marker together, shows dashes too short
-//! to tell apart, puts wall labels over the curves, knows no logarithmic heat map, and doubles the build. plotters draws
-//! each dash as an element of its own and leaves legends, panels and hatching to the caller. What remains to be written
-//! by hand is a page of axes and a page of tags.
+//! The SVG is written directly. kuva 0.6 was tried: it interprets `$` in titles as mathematics,
+//! numbers its clip paths by a process-wide counter (two runs differ), has no legend entry with
+//! line and marker together, shows dashes too short to distinguish, puts wall labels over the
+//! curves, has no logarithmic heat map, and doubles the build time. plotters draws each dash as an
+//! element of its own and leaves legends, panels and hatching to the caller. What is written by
+//! hand instead is small: axes and SVG elements.
 //!
 //! ```
 //! use signorini::output::figure::{Curve, Figure, Mark, Panel};

@@ -1,4 +1,4 @@
-//! One frame of a figure: its vertical axis and what it shows.
+//! One frame of a figure: its vertical axis and its contents.
 
 use super::axis::{Axis, Extent, Scale};
 use super::curve::{Curve, Mark, Stems};
@@ -15,17 +15,17 @@ pub struct Panel {
     pub(super) curves: Vec<Curve>,
     pub(super) stems: Vec<Stems>,
     pub(super) marks: Vec<Mark>,
-    /// Smallest range that is shown as such, and what is shown of a smaller one.
+    /// Smallest range that is drawn as such, and the range drawn instead of a smaller one.
     pub(super) still: (f64, f64),
 }
 
 impl Panel {
-    /// An empty frame whose vertical axis says `y_label`, for example `Displacement (mm)`.
+    /// An empty frame whose vertical axis is labelled `y_label`, for example `Displacement (mm)`.
     pub fn new(y_label: impl Into<String>) -> Self {
         Self { y_label: y_label.into(), ..Self::default() }
     }
 
-    /// A heading above the frame: the method or the wall that the panel is about.
+    /// A heading above the frame: the method or the wall that the panel shows.
     #[must_use]
     pub fn heading(mut self, heading: impl Into<String>) -> Self {
         self.heading = heading.into();
@@ -39,15 +39,15 @@ impl Panel {
         self
     }
 
-    /// Fixes the vertical range; what lies outside is cut off at the frame.
+    /// Sets the vertical range; what lies outside is cut off at the frame.
     #[must_use]
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.y_range = Some((low, high));
         self
     }
 
-    /// Draws what varies by less than `limit` on a linear vertical axis as the flat line that it is, on an axis of at
-    /// least `span`: a motion of 1e-81 m has not begun.
+    /// Draws data that vary by less than `limit` on a linear vertical axis as a flat line, on an
+    /// axis of at least `span`: a motion of 1e-81 m is rounding, not a motion to be magnified.
     #[must_use]
     pub fn still_below(mut self, limit: f64, span: f64) -> Self {
         self.still = (limit, span);
@@ -75,7 +75,7 @@ impl Panel {
         self
     }
 
-    /// What the legend has to tell apart, in the order of drawing.
+    /// The labels of the legend, in the order of drawing.
     pub(super) fn entries(&self) -> Vec<Entry<'_>> {
         let curve = |c: &Curve| (c.role, c.marked, c.look);
         let curves = self.curves.iter().map(|c| (c.label.as_str(), curve(c), true));
@@ -84,7 +84,7 @@ impl Panel {
         curves.chain(stems).map(entry).collect()
     }
 
-    /// Range of what is drawn: (horizontal, vertical), before padding and without marks.
+    /// Range of the contents: (horizontal, vertical), before padding and without marks.
     pub(super) fn extents(&self, x_scale: Scale) -> (Extent, Extent) {
         let (mut xs, mut ys) = (Extent::EMPTY, Extent::EMPTY);
         let points = self.curves.iter().map(|c| &c.points).chain(self.stems.iter().map(|s| &s.points));
@@ -98,7 +98,8 @@ impl Panel {
         (xs, ys)
     }
 
-    /// True where every curve goes steadily forward: time runs from edge to edge, everything else gets a margin.
+    /// True where no curve has markers and x never decreases along any: the axis then ends where
+    /// the data end; otherwise it gets a margin.
     pub(super) fn goes_forward(&self) -> bool {
         self.curves.iter().all(|curve| {
             let spots: Vec<Spot> = curve.points.iter().map(|p| p.0.is_finite().then_some(*p)).collect();
@@ -106,7 +107,7 @@ impl Panel {
         })
     }
 
-    /// The vertical axis of a frame `height` high.
+    /// The vertical axis of a frame of that `height`.
     pub(super) fn y_axis(&self, x_scale: Scale, height: f64) -> Axis {
         let wanted = ((height / 34.0) as usize).max(3);
         let given = self.y_range.and_then(|(a, b)| Some((self.y_scale.even(a)?, self.y_scale.even(b)?)));
@@ -130,7 +131,7 @@ impl Panel {
     }
 }
 
-/// One label of a panel and how what bears it is drawn.
+/// One label of a panel and how its curves or stems are drawn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry<'a> {
     pub label: &'a str,
@@ -141,7 +142,7 @@ pub(super) struct Entry<'a> {
     pub look: Option<usize>,
 }
 
-/// Grows a range to hold the marks, as long as a fifth of it is left to the data.
+/// Grows a range to include the marks, as long as the data keep a fifth of it.
 pub(super) fn include_marks(data: Extent, marks: impl Iterator<Item = f64>, scale: Scale) -> Extent {
     let mut grown = data;
     let mut evens: Vec<f64> = marks.filter_map(|mark| scale.even(mark)).collect();

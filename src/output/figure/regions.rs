@@ -1,8 +1,10 @@
 //! Where a letter fits: the largest square within each connected region of a grid of classes.
 
-/// Squares of cells: (class, column, row, side), the column and row of their middle, at most one in each region.
+/// Squares of cells, at most one per region: (class, column, row, side), with the column and row of
+/// the middle.
 ///
-/// `classes` is row by row, `columns` cells each. Squares are found by side[i][j] = 1 + min of the three cells before.
+/// `classes` is row by row, `columns` cells each. Squares are found by side[i][j] = 1 + min over
+/// the three cells before.
 pub(super) fn letter_places(classes: &[usize], columns: usize) -> Vec<(usize, f64, f64, usize)> {
     let at = |column: usize, row: usize| classes.get(row * columns + column).copied();
     let mut sides = vec![0_usize; classes.len()];
@@ -25,7 +27,7 @@ pub(super) fn letter_places(classes: &[usize], columns: usize) -> Vec<(usize, f6
             *side = least + 1;
         }
     }
-    // The largest square of every region, the first of equals.
+    // The largest square of every region; of equals, the first.
     let mut best: std::collections::BTreeMap<usize, (usize, usize)> = std::collections::BTreeMap::new();
     for (i, side) in sides.iter().enumerate() {
         let entry = best.entry(root(&mut region, i)).or_insert((*side, i));
@@ -41,7 +43,7 @@ pub(super) fn letter_places(classes: &[usize], columns: usize) -> Vec<(usize, f6
     best.into_values().map(place).collect()
 }
 
-/// The smallest cell of a region, shortening the way to it.
+/// The smallest cell index of a region, with path compression (union–find).
 fn root(region: &mut [usize], mut cell: usize) -> usize {
     while let Some(parent) = region.get(cell).copied().filter(|parent| *parent != cell) {
         let grandparent = region.get(parent).copied().unwrap_or(parent);

@@ -1,4 +1,4 @@
-//! The sheet: title, panels under one another, one horizontal axis, one legend.
+//! A whole figure: title, panels one below the other, one horizontal axis, one legend.
 
 use super::axis::{Axis, Extent, Scale};
 use super::frame::{Frame, draw_axes, draw_grid};
@@ -9,10 +9,10 @@ use super::panel::{Entry, Panel, include_marks};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 
-/// Points in one figure, whatever it is given: about 250 kB.
+/// Most points in one figure, whatever the length of its data: about 250 kB.
 const BUDGET: usize = 22_000;
 
-/// A figure: panels under one another that share the horizontal axis.
+/// A figure: panels one below the other that share the horizontal axis.
 #[derive(Debug, Clone)]
 pub struct Figure {
     title: String,
@@ -32,21 +32,21 @@ struct Detail {
     headings: [String; 2],
 }
 
-/// Frames under one another with one horizontal axis.
+/// Frames one below the other with one horizontal axis.
 struct Column {
     x: f64,
     width: f64,
     axis: Axis,
 }
 
-/// Share of the width that the whole gets beside a detail, and the space between the two.
+/// Share of the width for the whole beside a detail, and the space between the two.
 const WHOLE: f64 = 0.42;
 /// How much wider bold letters are.
 const BOLD: f64 = 1.1;
 const BETWEEN: f64 = 26.0;
 
 impl Figure {
-    /// A figure without panels; `x_label` says quantity and unit, for example `Time (s)`.
+    /// A figure without panels; `x_label` gives quantity and unit, for example `Time (s)`.
     pub fn new(title: impl Into<String>, x_label: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -65,16 +65,17 @@ impl Figure {
         self
     }
 
-    /// Fixes the horizontal range: lines are cut off at the frame, and points of marked curves beyond it are told at
-    /// its edge.
+    /// Sets the horizontal range: lines are cut off at the frame, and points of marked curves
+    /// beyond it are marked at its edge.
     #[must_use]
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.x_range = Some((low, high));
         self
     }
 
-    /// Draws every panel twice, side by side with one vertical axis: the whole, where fast oscillations become
-    /// their envelope, and the stretch from `from` to `to`. `headings` say what the two columns show.
+    /// Draws every panel twice, side by side with one vertical axis: the whole, in which fast
+    /// oscillations become their envelope, and the stretch from `from` to `to`. `headings` name the
+    /// two columns.
     #[must_use]
     pub fn detail(mut self, from: f64, to: f64, headings: [&str; 2]) -> Self {
         self.detail = Some(Detail { from, to, headings: headings.map(str::to_owned) });
@@ -99,13 +100,13 @@ impl Figure {
             _ => 130.0,
         };
         let entries = self.entries();
-        // What is alone needs no legend: the title says what it is.
+        // A single label needs no legend: the title names it.
         let labelled = entries.iter().filter(|(label, _)| !label.is_empty());
         let shown: Vec<_> = labelled.filter(|_| entries.len() > 1).cloned().collect();
         let legend = Legend::new(shown, WIDTH - 20.0);
         let y_axes: Vec<Axis> = self.panels.iter().map(|p| p.y_axis(self.x_scale, height)).collect();
 
-        // Margins, the same for all panels so that their frames stand under one another.
+        // The same margins for all panels, so that their frames are aligned.
         let y_labels: Vec<_> = self.panels.iter().map(|p| text::wrap(&p.y_label, LABEL, height + 10.0, 2)).collect();
         let label_lines = y_labels.iter().map(Vec::len).max().unwrap_or(0) as f64;
         let left = 12.0 + 14.0 * label_lines + y_axes.iter().map(widest).fold(0.0, f64::max) + 8.0;
@@ -118,7 +119,7 @@ impl Figure {
         let heads: Vec<f64> = self.panels.iter().zip(&y_axes).map(|(p, axis)| head_height(p, axis)).collect();
         let top = 12.0 + 17.0 * title.len() as f64 + if self.detail.is_some() { 15.0 } else { 0.0 };
         let frames = heads.iter().sum::<f64>() + (height + 10.0) * self.panels.len() as f64;
-        // A power of ten stands on a line of its own between the numbers and the label.
+        // A power of ten has a line of its own between the numbers and the label.
         let factor = if columns.iter().any(|c| c.axis.factor.is_some()) { 13.0 } else { 0.0 };
         let below = if legend.height() > 0.0 { 46.0 } else { 36.0 } + factor;
         let total = top + frames + below + legend.height();
@@ -169,7 +170,7 @@ impl Figure {
         canvas.finish()
     }
 
-    /// The columns that share `width` from `left` on: the whole, and the detail if there is one.
+    /// The columns that share `width` from `left` on: the whole and, if there is one, the detail.
     fn columns(&self, left: f64, width: f64) -> Vec<Column> {
         let Some(detail) = &self.detail else {
             return vec![Column { x: left, width, axis: self.x_axis(width) }];
@@ -204,7 +205,7 @@ impl Figure {
         Axis::across(self.x_scale, extent, width)
     }
 
-    /// Distinct labels in the order of appearance, each with its look.
+    /// Distinct labels in order of appearance, each with its look.
     fn entries(&self) -> Vec<(String, Look)> {
         let mut known: Vec<Entry<'_>> = Vec::new();
         let mut next = 0;

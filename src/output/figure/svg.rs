@@ -19,7 +19,7 @@ impl Stroke {
     }
 }
 
-/// Which point of a text its position names.
+/// Which point of a text its position refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -27,7 +27,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// A text: upright or read upwards, with an optional raised exponent.
+/// A text: horizontal or rotated to read upwards, with an optional raised exponent.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Text<'a> {
     pub x: f64,
@@ -54,7 +54,7 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    /// A white page; `name` is what a screen reader says.
+    /// A white page; `name` is the title that screen readers announce.
     pub(super) fn new(width: f64, height: f64, name: &str) -> Self {
         let mut out = String::with_capacity(1 << 14);
         let _ = write!(
@@ -69,7 +69,7 @@ impl Canvas {
         escape_into(&mut out, name);
         out.push_str("</title>\n");
         let mut canvas = Self { out };
-        // A little beyond the edge: renderers round the page up to whole pixels.
+        // Slightly larger than the page, since renderers round the page up to whole pixels.
         canvas.rect(0.0, 0.0, width + 4.0, height + 4.0, "#fff");
         canvas
     }
@@ -78,7 +78,7 @@ impl Canvas {
         self.path(&[vec![from, to]], stroke);
     }
 
-    /// Several separate lines as one element; a run of one point becomes a dot.
+    /// Several separate lines as one element; a line of one point becomes a dot.
     pub(super) fn path(&mut self, runs: &[Vec<(f64, f64)>], stroke: Stroke) {
         if runs.iter().all(Vec::is_empty) {
             return;
@@ -118,7 +118,7 @@ impl Canvas {
             writeln!(self.out, "Z\" fill=\"{fill}\" stroke=\"{}\" stroke-width=\"{}\"/>", stroke.colour, stroke.width);
     }
 
-    /// A closed outline filled with a translucent colour, so that several show through one another.
+    /// A closed outline filled with a translucent colour, so that overlapping areas remain visible.
     pub(super) fn area(&mut self, corners: &[(f64, f64)], fill: &str, opacity: f64) {
         self.out.push_str("<path d=\"");
         for (i, &(x, y)) in corners.iter().enumerate() {
@@ -145,7 +145,7 @@ impl Canvas {
         let _ = writeln!(self.out, " fill=\"{fill}\"/>");
     }
 
-    /// A rectangle with an outline and nothing inside.
+    /// A rectangle with an outline and no filling.
     pub(super) fn frame(&mut self, x: f64, y: f64, width: f64, height: f64, stroke: Stroke) {
         self.rect_open(x, y, width, height);
         let _ = writeln!(self.out, " stroke=\"{}\" stroke-width=\"{}\"/>", stroke.colour, stroke.width);
@@ -190,8 +190,9 @@ impl Canvas {
         self.out.push_str("</text>\n");
     }
 
-    /// Opens a window: coordinates stay those of the page, what lies outside is cut. No name is needed for it, so that
-    /// figures can be put together on one page.
+    /// Opens a clipping window: coordinates stay those of the page, what lies outside is cut off.
+    /// It is a nested `svg` element, which needs no identifier, so that figures can be combined on
+    /// one page.
     pub(super) fn open_window(&mut self, x: f64, y: f64, width: f64, height: f64) {
         for (name, value) in [("<svg x=\"", x), ("\" y=\"", y), ("\" width=\"", width), ("\" height=\"", height)] {
             self.out.push_str(name);
@@ -221,7 +222,7 @@ impl Canvas {
         self.number(y);
     }
 
-    /// A length to a tenth, the shortest way.
+    /// Writes a length with at most one decimal, as short as possible.
     fn number(&mut self, value: f64) {
         let tenths = (value.clamp(-1e5, 1e5) * 10.0).round();
         if tenths % 10.0 == 0.0 {

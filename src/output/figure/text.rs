@@ -1,6 +1,7 @@
-//! Text that fits: escaped for XML, measured without a font, wrapped and shortened.
+//! Text: escaped for XML, its width estimated without a font, wrapped and shortened.
 
-/// Escapes `text` for element content and attribute values; characters that XML 1.0 forbids become spaces.
+/// Escapes `text` for element content and attribute values; characters that XML 1.0 forbids become
+/// spaces.
 pub(super) fn escape_into(out: &mut String, text: &str) {
     for c in text.chars() {
         match c {
@@ -15,7 +16,8 @@ pub(super) fn escape_into(out: &mut String, text: &str) {
     }
 }
 
-/// Width of `text` at font size `size`, from above: as wide as in DejaVu Sans, the widest common sans-serif.
+/// Upper estimate of the width of `text` at font size `size`: that in DejaVu Sans, the widest
+/// common sans-serif font.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     let em = |c: char| match c {
         'i' | 'j' | 'l' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' | ' ' | '\u{a0}' => 0.34,
@@ -29,7 +31,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
     text.chars().map(em).sum::<f64>() * size
 }
 
-/// `text`, or its beginning and an ellipsis, no wider than `room`.
+/// `text`, or its beginning with an ellipsis, no wider than `room`.
 pub(super) fn shorten(text: &str, size: f64, room: f64) -> String {
     if width(text, size) <= room {
         return text.to_owned();
@@ -47,7 +49,8 @@ pub(super) fn shorten(text: &str, size: f64, room: f64) -> String {
     kept
 }
 
-/// `text` broken at spaces, no-break ones excepted, into at most `lines` lines no wider than `room`; what does not fit is cut with an ellipsis.
+/// `text` broken at spaces (not at no-break spaces) into at most `lines` lines no wider than
+/// `room`; what does not fit is replaced by an ellipsis.
 pub(super) fn wrap(text: &str, size: f64, room: f64, lines: usize) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
     let mut current = String::new();

@@ -1,20 +1,21 @@
-//! Long curves reduced to what the page can show, extremes kept.
+//! Long curves reduced to what the page can show, with their extremes kept.
 
 use std::collections::HashSet;
 
 /// A point on the page, or a break in the line.
 pub(super) type Spot = Option<(f64, f64)>;
 
-/// Reduces `spots` to about `budget` points, as separate runs.
+/// Reduces `spots` to about `budget` points, as separate lines.
 ///
-/// A curve that never goes back in x keeps, of each of `budget`/4 columns, its first, lowest, highest and last point
-/// (Jugel and others, doi:10.14778/2732951.2732953: no pixel changes); any other curve loses points that lie on the
-/// line between their neighbours and strokes drawn before.
+/// A curve that never goes back in x keeps the first, lowest, highest and last point of each of
+/// `budget`/4 columns (Jugel and others, doi:10.14778/2732951.2732953: no pixel changes). Any other
+/// curve loses the points that lie on the line between their neighbours, and the strokes that
+/// repeat earlier ones.
 pub(super) fn thin(spots: &[Spot], budget: usize) -> Vec<Vec<(f64, f64)>> {
     let drawn = spots.iter().flatten().count();
     match never_goes_back(spots) {
         true if drawn > budget => columns(spots, budget / 4),
-        // An orbit drawn over and over fills the gaps of its own dashes.
+        // An orbit drawn many times over fills the gaps of its own dashes.
         false if drawn > budget.min(1000) => strokes(spots, budget),
         _ => runs(spots.iter().copied()),
     }
@@ -50,7 +51,7 @@ fn runs(spots: impl Iterator<Item = Spot>) -> Vec<Vec<(f64, f64)>> {
 struct Column {
     number: i64,
     after_break: bool,
-    /// First, lowest, highest, last, each with its place in the curve.
+    /// First, lowest, highest, last point, each with its index in the curve.
     kept: [(usize, (f64, f64)); 4],
 }
 
@@ -84,7 +85,7 @@ fn columns(spots: &[Spot], columns: usize) -> Vec<Vec<(f64, f64)>> {
         };
         let number = ((point.0 - low) * per_unit) as i64;
         match &mut current {
-            // A break within one column cannot be seen.
+            // A break within one column is not visible.
             Some(column) if column.number == number => {
                 let [_, lowest, highest, last] = &mut column.kept;
                 if point.1 < lowest.1.1 {
@@ -110,7 +111,7 @@ fn columns(spots: &[Spot], columns: usize) -> Vec<Vec<(f64, f64)>> {
     runs(out.into_iter())
 }
 
-/// Coarser and coarser until the budget is met.
+/// Coarsens the curve step by step until the budget is met.
 fn strokes(spots: &[Spot], budget: usize) -> Vec<Vec<(f64, f64)>> {
     let extremes = extremes(spots);
     let mut grain = 0.25;
@@ -123,7 +124,7 @@ fn strokes(spots: &[Spot], budget: usize) -> Vec<Vec<(f64, f64)>> {
     }
 }
 
-/// Places of the leftmost, rightmost, lowest and highest point.
+/// Indices of the leftmost, rightmost, lowest and highest point.
 fn extremes(spots: &[Spot]) -> [usize; 4] {
     let mut best = [(f64::INFINITY, 0); 4];
     for (place, spot) in spots.iter().enumerate() {
@@ -138,7 +139,8 @@ fn extremes(spots: &[Spot]) -> [usize; 4] {
     best.map(|(_, place)| place)
 }
 
-/// Drops points within `grain` of the last one kept, and points that continue its direction to within `grain`.
+/// Drops points within `grain` of the last one kept, and points that continue its direction to
+/// within `grain`.
 fn straightened(spots: &[Spot], grain: f64, always: &[usize; 4]) -> Vec<Spot> {
     let mut out: Vec<Spot> = Vec::new();
     let mut anchor: Spot = None;
@@ -188,7 +190,7 @@ fn straightened(spots: &[Spot], grain: f64, always: &[usize; 4]) -> Vec<Spot> {
     out
 }
 
-/// Drops strokes whose ends fall where those of an earlier stroke fell, on a mesh of `grain`.
+/// Drops strokes whose ends coincide, on a mesh of `grain`, with those of an earlier stroke.
 fn drawn_once(spots: &[Spot], grain: f64) -> Vec<Vec<(f64, f64)>> {
     let cell = |(x, y): (f64, f64)| ((x / grain).round() as i32, (y / grain).round() as i32);
     let mut seen = HashSet::new();

@@ -1,4 +1,4 @@
-//! Tones of a heat map and what explains them: boxes with letters for classes, a bar for numbers.
+//! Tones of a heat map and their legend: boxes with letters for classes, a colour bar for numbers.
 
 use super::axis::Axis;
 use super::class::Class;
@@ -6,7 +6,8 @@ use super::look::{FRAME, LABEL, SMALL};
 use super::svg::{Anchor, Canvas, Text};
 use super::text;
 
-/// Fillings of the classes in their order, from light to dark in even steps of grey, and the ink of letters upon them.
+/// Fill of the classes in their order, from light to dark in even steps of grey, and the colour of
+/// letters on it.
 pub(super) const TONES: [(&str, &str); 6] = [
     ("#f7f7f7", "#000"),
     ("#b5cfe6", "#000"),
@@ -16,7 +17,8 @@ pub(super) const TONES: [(&str, &str); 6] = [
     ("#111111", "#fff"),
 ];
 
-/// Colours of numbers from small to large: lightness falls steadily, so that grey copies keep the order.
+/// Colours of numbers from small to large: lightness decreases steadily, so that the order survives
+/// in greyscale.
 const RAMP: [(f64, f64, f64); 5] =
     [(247.0, 247.0, 235.0), (190.0, 215.0, 190.0), (100.0, 165.0, 185.0), (45.0, 90.0, 150.0), (20.0, 20.0, 70.0)];
 
@@ -30,7 +32,7 @@ pub(super) fn ramp(share: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
 }
 
-/// The bar that says what a tone means.
+/// Draws the colour bar.
 pub(super) fn draw_bar(canvas: &mut Canvas, label: &str, axis: &Axis, (x, top): (f64, f64), height: f64) {
     const STEPS: u32 = 60;
     let slice = height / f64::from(STEPS);
@@ -55,7 +57,7 @@ pub(super) fn draw_bar(canvas: &mut Canvas, label: &str, axis: &Axis, (x, top): 
     canvas.text(Text { upwards: true, ..text });
 }
 
-/// The legend of classes: filled boxes with their letters.
+/// Draws the legend of classes: filled boxes with their letters.
 pub(super) fn draw_keys(canvas: &mut Canvas, classes: &[Class], x: f64, y: f64, width: f64) {
     let column = width / 3.0;
     for (i, (class, (fill, ink))) in classes.iter().zip(TONES).enumerate() {

@@ -1,4 +1,5 @@
-//! The case that was run, in the keys of a case file: what a summary needs to be run again.
+//! The case of a run in the keys of a case file: what a summary needs so that the run can be
+//! repeated.
 
 use crate::case::{Case, Model, Place};
 use crate::scene::{BarEnd, BeamEnd, Damping, Load, LoadKind, MassMatrix, Row, Side, System, Wall, WallLaw};
@@ -6,7 +7,8 @@ use crate::scheme::PenaltyLaw;
 use crate::time::TimeOptions;
 use serde_json::{Map, Value, json};
 
-/// The whole of it; null in place of what no case file can say, such as a load that is a function of a program.
+/// The whole case; null where a case file cannot express it, such as a load that is a function of a
+/// program.
 pub(super) fn case_file(case: &Case) -> Value {
     let whole = case.whole();
     let several = !matches!(case.model, Model::Oscillator);
@@ -66,7 +68,7 @@ fn system(case: &Case) -> Value {
         (Model::Oscillator, _) => Value::Null,
         (Model::Chain(chain), _) => {
             let mut inner = Map::new();
-            // As many equal masses in a word.
+            // Equal masses are written as a count and one value.
             match chain.masses.split_first() {
                 Some((first, rest)) if rest.iter().all(|mass| mass == first) => {
                     inner.insert("masses".to_owned(), json!(chain.masses.len()));
@@ -163,7 +165,7 @@ fn wall(case: &Case, wall: &Wall, place: Option<&Place>, several: bool) -> Value
     out.insert("side".to_owned(), json!(if wall.side == Side::Upper { "upper" } else { "lower" }));
     out.insert("position".to_owned(), json!(wall.position));
     match wall.law {
-        // Where the modes' compliance takes the place of restitution the file may not name one.
+        // Where a static correction replaces the restitution, the file must not name one.
         WallLaw::Rigid { restitution } => {
             put(&mut out, "restitution", (restitution != 1.0).then(|| json!(restitution)));
         }
@@ -203,7 +205,8 @@ fn load(case: &Case, index: usize, load: &Load, several: bool) -> Value {
     Value::Object(out)
 }
 
-/// Where something sits that the scene sees through `row`: as the file said it, or by its row where that was changed or condensed.
+/// The location that the scene has as `row`: as the file gave it, or as the row itself where the
+/// location was changed or condensed.
 fn at(case: &Case, place: Option<&Place>, row: &Row) -> Value {
     match place.filter(|place| case.sees(place).is_some_and(|seen| seen == *row)) {
         Some(Place::Dof(i)) => json!({ "dof": i }),
@@ -221,7 +224,8 @@ fn at(case: &Case, place: Option<&Place>, row: &Row) -> Value {
     }
 }
 
-/// A start: a number for one degree of freedom, else pairs of those that are not 0; none at rest.
+/// An initial field: a number for one degree of freedom, else pairs for the entries that are not 0;
+/// `None` at rest.
 fn field(case: &Case, values: &[f64]) -> Option<Value> {
     let pairs: Vec<(usize, f64)> =
         values.iter().enumerate().filter(|(_, x)| **x != 0.0).map(|(i, &x)| (case.numbered(i), x)).collect();

@@ -19,7 +19,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The whole of it; every number in SI units.
+/// All of `summary.json`; every number in SI units.
 #[derive(Debug, Serialize)]
 struct Summary<'a> {
     program: String,
@@ -49,7 +49,7 @@ struct Summary<'a> {
     notes: Vec<String>,
 }
 
-/// How the run was held against others; each is null where it was not.
+/// The checks of the run against other runs; each is null where it was not made.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub struct Checks<'a> {
     /// Against the same run with half the step.
@@ -62,7 +62,7 @@ pub struct Checks<'a> {
     pub modes: Option<&'a ChosenModes>,
 }
 
-/// Why the scheme and the solver were chosen, in a sentence each.
+/// Why the scheme and the solver were chosen, one sentence each.
 #[derive(Debug, Clone)]
 pub struct Reasons {
     /// Of the scheme.
@@ -71,7 +71,7 @@ pub struct Reasons {
     pub qp: String,
 }
 
-/// The scene of `case` as JSON, as the summary tells it.
+/// The scene of `case` as JSON, in the form used in the summary.
 #[must_use]
 pub fn scene(case: &Case) -> Value {
     scene::scene(case)
@@ -86,10 +86,11 @@ pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Che
     write_whole(path, json::text(&document).as_bytes())
 }
 
-/// The summary as JSON: what the file holds, and what `run --json` prints. A number that is not finite is null.
+/// The summary as JSON: what the file holds, and what `run --json` prints. A number that is not
+/// finite is null.
 ///
 /// # Errors
-/// None beyond those of a trajectory asked for its own walls.
+/// Never in practice: only walls of the trajectory itself are looked up.
 pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -> Result<Value> {
     let exact = run.scheme == crate::scheme::Scheme::Event;
     let mut impulse_whole_run_n_s = BTreeMap::new();

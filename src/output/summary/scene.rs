@@ -1,4 +1,4 @@
-//! What became of a case: its structure, and its walls with the mass that each feels.
+//! The structure that is run, and its walls with the mass that each feels.
 
 use crate::case::{Case, Model, Place};
 use crate::scene::{BarEnd, BeamEnd, Damping, Side, System, Wall, WallLaw};
@@ -36,7 +36,7 @@ pub(super) fn scene(case: &Case) -> Value {
     Value::Object(out)
 }
 
-/// What the file says vibrates.
+/// The system as the case file describes it.
 fn system(case: &Case) -> Value {
     match (&case.model, &case.scene.system) {
         (_, System::Oscillator(o)) => {
@@ -97,7 +97,7 @@ fn beam_end(end: BeamEnd) -> Value {
     }
 }
 
-/// What is run of it, and how.
+/// The system as it is run, and how it was obtained.
 fn structure(case: &Case) -> Value {
     let [slowest, fastest] = case.scene.system.frequencies().map(|omega| omega / TAU);
     let mut out = json!({
