@@ -40,13 +40,18 @@ fn each_row_is_the_state_after_the_steps_before_it_whatever_their_number() {
 
 /// A step that fits no scene of one mass and two walls, whichever of its slices does not.
 fn misfits<'a>(good: &Step<'a>, long: &'a [f64]) -> Vec<Step<'a>> {
+    let with = |change: fn(&mut Step<'a>, &'a [f64])| {
+        let mut step = *good;
+        change(&mut step, long);
+        step
+    };
     vec![
-        Step { impulse: long, ..*good },
-        Step { jump: long, ..*good },
-        Step { force: long, ..*good },
-        Step { q: long, ..*good },
-        Step { v: long, ..*good },
-        Step { velocity_before: long, ..*good },
+        with(|step, long| step.impulse = long),
+        with(|step, long| step.jump = long),
+        with(|step, long| step.force = long),
+        with(|step, long| step.q = long),
+        with(|step, long| step.v = long),
+        with(|step, long| step.velocity_before = long),
     ]
 }
 

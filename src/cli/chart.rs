@@ -69,7 +69,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     with: Option<PathBuf>,
     #[command(flatten)]
-    place: request::Place,
+    place: request::Destination,
 }
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {

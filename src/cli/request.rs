@@ -56,12 +56,12 @@ pub struct Request {
     pub integrator: Option<Integrator>,
     /// Where the results go
     #[command(flatten)]
-    pub place: Place,
+    pub place: Destination,
 }
 
 /// Where results go, and what their pictures are written as.
 #[derive(Debug, Clone, Default, clap::Args)]
-pub struct Place {
+pub struct Destination {
     /// Folder for the results [default: out/CASE/COMMAND]
     #[arg(long, value_name = "DIR", value_hint = clap::ValueHint::DirPath)]
     pub out: Option<PathBuf>,
@@ -73,7 +73,7 @@ pub struct Place {
     pub formats: Formats,
 }
 
-impl Place {
+impl Destination {
     /// The folder of what `command` makes of `case`: `--out`, or `out/CASE/COMMAND`. It is checked that it can be written and holds no
     /// results of another request than `request`.
     ///
@@ -304,7 +304,7 @@ impl Request {
     /// The folder for what `command` makes of the case, asked for by `request`.
     ///
     /// # Errors
-    /// As [`Place::results`].
+    /// As [`Destination::results`].
     pub fn results(&self, case: &Case, command: &str, request: Map<String, Value>) -> Result<Results> {
         self.place.results(&case.name, command, request)
     }

@@ -52,7 +52,7 @@ pub struct Args {
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     restitution: Option<f64>,
     #[command(flatten)]
-    place: request::Place,
+    place: request::Destination,
 }
 
 /// Runs the command.

@@ -1,6 +1,6 @@
 //! `signorini sweep`: one case, many values.
 
-use super::request::{Changes, Place, case_file};
+use super::request::{Changes, Destination, case_file};
 use super::ui::Ui;
 use super::values;
 use crate::error::{Error, Result};
@@ -85,7 +85,7 @@ pub struct Args {
     #[arg(long)]
     strict: bool,
     #[command(flatten)]
-    place: Place,
+    place: Destination,
 }
 
 /// How long the rows of `--plan` are tried.

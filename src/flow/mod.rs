@@ -10,7 +10,7 @@ mod series;
 pub(crate) use contact::{Support, Touch};
 pub(crate) use response::Jet;
 pub use series::Series;
-pub(crate) use series::{Body, Held, Hold, Start as SeriesStart, TERMS, Touching, value};
+pub(crate) use series::{Held, Hold, SeriesBody, Start as SeriesStart, TERMS, Touching, value};
 
 use crate::scene::{Forcing, Oscillator};
 use force::LocalForce;

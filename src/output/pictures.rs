@@ -6,7 +6,7 @@
 
 use super::figure::{Curve, Figure, Mark, Panel, Stems};
 use super::motion::{Instant, motion};
-use super::places::{Chosen, Place};
+use super::places::{Chosen, WallPlace};
 use super::window::{Span, Window};
 use crate::error::Result;
 use crate::run::Run;
@@ -177,7 +177,7 @@ impl Sheet<'_> {
     fn contact_force(&self, window: &Window) -> Result<String> {
         let places = Chosen::places(self.scene, self.leading().map(|run| &run.trajectory), self.span);
         let mut figure = window.over_time(Figure::new(self.title(places.left_out("places")), "Time (s)"));
-        let headed = |label: &str, place: &Place| {
+        let headed = |label: &str, place: &WallPlace| {
             let panel = Panel::new(label);
             if places.count > 1 { panel.heading(place.name(self.scene)) } else { panel }
         };
@@ -217,7 +217,7 @@ impl Sheet<'_> {
 
     /// Sum of the forces of a place's walls at the rows, without rigid impacts, plus the peak of
     /// each contact too short for the rows to show.
-    fn force_points(&self, run: &Run, place: &Place) -> Vec<(f64, f64)> {
+    fn force_points(&self, run: &Run, place: &WallPlace) -> Vec<(f64, f64)> {
         let t = &run.trajectory;
         let spacing = t.time().get(1).copied().unwrap_or(0.0);
         let mut points: Vec<(f64, f64)> = t.time().iter().map(|&time| (time, 0.0)).collect();

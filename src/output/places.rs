@@ -9,12 +9,12 @@ const MOST: usize = 4;
 
 /// A place at which walls stand: all walls with the same row.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Place {
+pub(super) struct WallPlace {
     /// Indices of the walls, in the scene's order.
     pub walls: Vec<usize>,
 }
 
-impl Place {
+impl WallPlace {
     /// The names of its walls.
     pub fn name(&self, scene: &Scene) -> String {
         let names = self.walls.iter().filter_map(|&wall| scene.walls.get(wall)).map(|wall| wall.name.as_str());
@@ -75,10 +75,10 @@ impl<T> Chosen<T> {
     }
 }
 
-impl Chosen<Place> {
+impl Chosen<WallPlace> {
     /// The places with the largest impulses in `motion` within `span`.
     pub fn places(scene: &Scene, motion: Option<&Trajectory>, span: Span) -> Self {
-        let weighted = Place::all(scene).into_iter().map(|place| (place.impulse(motion, span), place));
+        let weighted = WallPlace::all(scene).into_iter().map(|place| (place.impulse(motion, span), place));
         Self::heaviest(weighted.collect())
     }
 }
@@ -86,11 +86,11 @@ impl Chosen<Place> {
 impl Chosen<usize> {
     /// The probes on the rows of these places; their weights are the impulses of the places.
     pub fn probes(scene: &Scene, motion: Option<&Trajectory>, span: Span) -> Self {
-        let places = Place::all(scene);
+        let places = WallPlace::all(scene);
         let weight = |index: usize| {
             let at = scene.probes.get(index).map(|p| &p.at);
             let seen =
-                |place: &&Place| place.walls.first().and_then(|&wall| scene.walls.get(wall)).map(|w| &w.at) == at;
+                |place: &&WallPlace| place.walls.first().and_then(|&wall| scene.walls.get(wall)).map(|w| &w.at) == at;
             places.iter().find(seen).map_or(0.0, |place| place.impulse(motion, span))
         };
         Self::heaviest((0..scene.probes.len()).map(|index| (weight(index), index)).collect())
@@ -110,8 +110,8 @@ mod tests {
             .with_wall(Wall::upper("upper", 1.0))
             .with_wall(there)
             .with_wall(Wall::lower("lower", -1.0));
-        let places = Place::all(&scene);
-        assert_eq!(places, [Place { walls: vec![0, 2] }, Place { walls: vec![1] }]);
+        let places = WallPlace::all(&scene);
+        assert_eq!(places, [WallPlace { walls: vec![0, 2] }, WallPlace { walls: vec![1] }]);
         assert_eq!(places[0].name(&scene), "upper, lower");
     }
 

@@ -49,7 +49,7 @@ mod sums;
 pub use backend::Backend;
 pub use clamp::{ScalarRow, clamp};
 pub use failure::Failure;
-pub use solver::{Counters, Solver};
+pub use solver::{Solver, SolverCounters};
 
 /// What stays the same over all steps of a run.
 #[derive(Debug, Clone)]

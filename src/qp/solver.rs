@@ -20,12 +20,12 @@ pub struct Solver {
     scale: f64,
     reason: &'static str,
     solution: Solution,
-    counters: Counters,
+    counters: SolverCounters,
 }
 
 /// What a solver has done since it was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Counters {
+pub struct SolverCounters {
     /// Programmes solved or refused.
     pub solves: u64,
     /// Programmes whose free motion violated no bound: no solver was needed.
@@ -140,7 +140,7 @@ impl Solver {
             }))
         };
         let solution = Solution { x: vec![0.0; n], multiplier: vec![0.0; m] };
-        Ok(Self { kind, n, m, scale, reason, solution, counters: Counters::default() })
+        Ok(Self { kind, n, m, scale, reason, solution, counters: SolverCounters::default() })
     }
 
     /// The minimiser and its multipliers for b and bounds of this step. After a failure the solver
@@ -199,7 +199,7 @@ impl Solver {
 
     /// What it has done so far.
     #[must_use]
-    pub fn counters(&self) -> Counters {
+    pub fn counters(&self) -> SolverCounters {
         self.counters
     }
 }
@@ -223,7 +223,7 @@ impl Condensed {
         rhs: &Rhs,
         scale: f64,
         solution: &mut Solution,
-        counters: &mut Counters,
+        counters: &mut SolverCounters,
     ) -> Result<(), Failure> {
         let Solution { x, multiplier: r } = solution;
         rhs.check(scale)?;

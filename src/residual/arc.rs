@@ -1,20 +1,10 @@
 //! The judge on the exact motion of one degree of freedom.
 
-use super::energy::{Along, is_damped, stored};
+use super::energy::{Along, Instant, is_damped, stored};
 use super::quadrature::{nodes, panels};
 use super::{Judge, PLACE_UNITS, most};
 use crate::flow::Arc;
 use crate::step::Step;
-
-/// An instant of an arc: displacement (m), velocity (m/s), load (N), and its weight in integrals over the arc, s.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Instant {
-    pub t: f64,
-    pub weight: f64,
-    pub q: f64,
-    pub v: f64,
-    pub load: f64,
-}
 
 impl Judge {
     /// A stretch between two events, or an instant.

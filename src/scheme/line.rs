@@ -124,9 +124,9 @@ impl Solve<[f64; 1]> for Clamp {
         self.other.as_ref().map_or(Backend::Clamp, |other| other.backend())
     }
 
-    fn counters(&self) -> qp::Counters {
+    fn counters(&self) -> qp::SolverCounters {
         let inner = self.other.as_ref().map(|other| other.counters()).unwrap_or_default();
-        qp::Counters { solves: self.solves, free: 0, ..inner }
+        qp::SolverCounters { solves: self.solves, free: 0, ..inner }
     }
 }
 

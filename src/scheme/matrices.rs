@@ -103,7 +103,7 @@ impl Solve<Vec<f64>> for qp::Solver {
         self.backend()
     }
 
-    fn counters(&self) -> qp::Counters {
+    fn counters(&self) -> qp::SolverCounters {
         self.counters()
     }
 }

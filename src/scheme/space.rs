@@ -62,7 +62,7 @@ pub(super) trait Solve<Vector>: Debug + Sized + Send {
     fn multiplier(&self) -> Option<&[f64]>;
     /// The solver in force.
     fn backend(&self) -> Backend;
-    fn counters(&self) -> qp::Counters;
+    fn counters(&self) -> qp::SolverCounters;
 }
 
 /// A vector of n zeros.

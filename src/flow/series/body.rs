@@ -6,7 +6,7 @@ use std::cell::{OnceCell, RefCell};
 
 /// M, C and K as operators, the loads by row, and the response to a force on each wall's row.
 #[derive(Debug)]
-pub(crate) struct Body {
+pub(crate) struct SeriesBody {
     /// n.
     pub n: usize,
     /// Behind a cell, since a column is computed when it is first needed.
@@ -60,7 +60,7 @@ const FLOOR: f64 = f64::EPSILON;
 /// Iterations of the power method.
 const ITERATIONS: usize = 40;
 
-impl Body {
+impl SeriesBody {
     /// Prepares `scene`; `None` if its mass matrix cannot be factored, an error that the scene
     /// itself reports.
     pub fn new(scene: &Scene) -> Option<Self> {

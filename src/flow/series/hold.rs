@@ -1,6 +1,6 @@
 //! Rows that are held: rigid walls in lasting contact.
 
-use super::Body;
+use super::SeriesBody;
 
 /// A row held in place, and the side whose walls carry it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,7 +67,12 @@ impl Hold {
 
     /// Holds `rows`, and those of `idle` that are independent of them and of one another; the other
     /// rows of `idle` carry no force.
-    pub fn set(&mut self, body: &Body, rows: impl Iterator<Item = Held> + Clone, idle: impl Iterator<Item = Held>) {
+    pub fn set(
+        &mut self,
+        body: &SeriesBody,
+        rows: impl Iterator<Item = Held> + Clone,
+        idle: impl Iterator<Item = Held>,
+    ) {
         self.rows.clear();
         self.factor.clear();
         self.passes = 1;
@@ -87,7 +92,7 @@ impl Hold {
     }
 
     /// Appends a row to the Cholesky factor of W, if it is independent of those before.
-    fn extend(&mut self, body: &Body, held: Held) {
+    fn extend(&mut self, body: &SeriesBody, held: Held) {
         let (k, whole) = (self.rows.len(), body.delassus(held.row, held.row));
         let (mut pivot, start) = (whole, self.factor.len());
         for (j, other) in self.rows.iter().enumerate() {
@@ -126,7 +131,7 @@ impl Hold {
     }
 
     /// Computes the forces' share on the dependent rows.
-    fn share(&mut self, body: &Body) {
+    fn share(&mut self, body: &SeriesBody) {
         let Self { rows, independent, inverse, factor, relations, work, .. } = self;
         let k = *independent;
         let (first, rest) = rows.split_at(k);
@@ -193,7 +198,7 @@ impl Hold {
 
     /// Adds to `force` (N, n entries; or a derivative of it) the forces that hold the rows, and
     /// passes each to `tell`, row by row, once per pass.
-    pub fn balance(&self, body: &Body, force: &mut [f64], scratch: &mut [f64], mut tell: impl FnMut(usize, f64)) {
+    pub fn balance(&self, body: &SeriesBody, force: &mut [f64], scratch: &mut [f64], mut tell: impl FnMut(usize, f64)) {
         for _ in 0..self.passes {
             for (b, held) in scratch.iter_mut().zip(self.independent()) {
                 *b = body.answer(held.row, force);
@@ -208,16 +213,16 @@ impl Hold {
 
     /// Moves displacements that are within rounding of the held positions exactly onto them, by the
     /// smallest change in the metric of M.
-    pub fn place(&self, body: &Body, q: &mut [f64], scratch: &mut [f64]) {
+    pub fn place(&self, body: &SeriesBody, q: &mut [f64], scratch: &mut [f64]) {
         self.change(body, q, scratch, |held| held.position);
     }
 
     /// Removes from velocities what the held rows still see of them, in the same way.
-    pub fn stop(&self, body: &Body, v: &mut [f64], scratch: &mut [f64]) {
+    pub fn stop(&self, body: &SeriesBody, v: &mut [f64], scratch: &mut [f64]) {
         self.change(body, v, scratch, |_| 0.0);
     }
 
-    fn change(&self, body: &Body, x: &mut [f64], scratch: &mut [f64], wanted: impl Fn(&Held) -> f64) {
+    fn change(&self, body: &SeriesBody, x: &mut [f64], scratch: &mut [f64], wanted: impl Fn(&Held) -> f64) {
         for _ in 0..self.passes {
             for (b, held) in scratch.iter_mut().zip(self.independent()) {
                 *b = wanted(held) - body.rows.dot(held.row, x);

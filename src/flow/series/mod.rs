@@ -18,7 +18,7 @@ mod hold;
 mod terms;
 mod wave;
 
-pub(crate) use body::Body;
+pub(crate) use body::SeriesBody;
 pub(crate) use hold::{Held, Hold};
 pub(crate) use terms::{Start, Touching};
 use wave::Wave;

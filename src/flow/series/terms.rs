@@ -1,7 +1,7 @@
 //! The terms of a series, by recurrence.
 
 use super::wave::Wave;
-use super::{Acting, Body, Hold, Series, TERMS};
+use super::{Acting, Hold, Series, SeriesBody, TERMS};
 
 /// What a series starts from.
 pub(crate) struct Start<'a> {
@@ -45,7 +45,7 @@ const TRUNCATION: f64 = 1e-16;
 
 impl Series {
     /// A series of length 0, to be filled by [`Series::begin`].
-    pub(crate) fn new(body: &Body) -> Self {
+    pub(crate) fn new(body: &SeriesBody) -> Self {
         let (n, rows, walls) = (body.n, body.rows.count(), body.row_of.len());
         let waves = body.loads.iter().map(|(_, forcing)| forcing.harmonics.len()).sum();
         Self {
@@ -72,7 +72,7 @@ impl Series {
     /// `carriers` are the walls behind the held rows: wall, number of the held row, share.
     pub(crate) fn begin(
         &mut self,
-        body: &mut Body,
+        body: &mut SeriesBody,
         from: &Start,
         touching: &[Touching],
         hold: &Hold,
@@ -146,7 +146,7 @@ impl Series {
 
     /// Computes term k of the displacements at the rows.
     #[inline]
-    fn look(&mut self, body: &Body, k: usize) {
+    fn look(&mut self, body: &SeriesBody, k: usize) {
         let term = &self.motion[k * self.n..(k + 1) * self.n];
         for row in 0..body.rows.count() {
             self.seen[row * TERMS + k] = body.rows.dot(row, term);

@@ -1,6 +1,6 @@
 //! The loads of a series, order by order.
 
-use super::body::Body;
+use super::body::SeriesBody;
 
 /// A sine of the loads, with its amplitude at the current order.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +15,7 @@ pub(super) struct Wave {
 
 impl Wave {
     /// The sines of the loads at `start` (s), for a series whose unit is `unit` (s).
-    pub(super) fn wind(waves: &mut Vec<Self>, body: &Body, start: f64, unit: f64) {
+    pub(super) fn wind(waves: &mut Vec<Self>, body: &SeriesBody, start: f64, unit: f64) {
         waves.clear();
         for wave in body.loads.iter().flat_map(|(_, forcing)| &forcing.harmonics) {
             let (sin, cos) = (wave.omega * start + wave.phase).sin_cos();
@@ -25,7 +25,7 @@ impl Wave {
     }
 
     /// Adds the Taylor coefficients in x of the loads, order `k`, to `force`; k goes up by one each time.
-    pub(super) fn push(waves: &mut [Self], body: &Body, (start, unit): (f64, f64), k: usize, force: &mut [f64]) {
+    pub(super) fn push(waves: &mut [Self], body: &SeriesBody, (start, unit): (f64, f64), k: usize, force: &mut [f64]) {
         let mut waves = waves.iter_mut();
         for (row, forcing) in &body.loads {
             let mut value = if k == 0 { forcing.constant } else { 0.0 };

@@ -2,8 +2,8 @@
 
 use super::axis::{Axis, Extent, Scale};
 use super::class::Class;
-use super::frame::{Frame, draw_axes};
 use super::look::{LABEL, SMALL, TITLE, WIDTH};
+use super::plot_area::{PlotArea, draw_axes};
 use super::regions::letter_places;
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
@@ -108,7 +108,7 @@ impl HeatMap {
             canvas.text(Text { bold: true, ..Text::new(left + width / 2.0, y, line, TITLE, Anchor::Middle) });
         }
         let frame =
-            Frame { x: left, y: top, width, height: HEIGHT, x_axis: &x_axis, y_axis: &y_axis, envelopes: false };
+            PlotArea { x: left, y: top, width, height: HEIGHT, x_axis: &x_axis, y_axis: &y_axis, envelopes: false };
         self.draw_cells(&mut canvas, &frame, &x_edges, &y_edges);
         draw_axes(&mut canvas, &frame, true, true);
         let label = text::shorten(&x_side.label, LABEL, width - 150.0);
@@ -143,7 +143,7 @@ impl HeatMap {
         drawn < count
     }
 
-    fn draw_cells(&self, canvas: &mut Canvas, frame: &Frame<'_>, x_edges: &[f64], y_edges: &[f64]) {
+    fn draw_cells(&self, canvas: &mut Canvas, frame: &PlotArea<'_>, x_edges: &[f64], y_edges: &[f64]) {
         let columns = x_edges.len().saturating_sub(1);
         let rows = y_edges.len().saturating_sub(1);
         let xs: Vec<f64> = x_edges.iter().map(|e| frame.across(frame.x_axis.share_of_even(*e))).collect();

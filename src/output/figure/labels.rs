@@ -1,9 +1,9 @@
 //! Where the names of marks are placed, so that none covers another.
 
 use super::axis::Axis;
-use super::frame::Frame;
 use super::look::{SMALL, WIDTH};
 use super::panel::Panel;
+use super::plot_area::PlotArea;
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 
@@ -105,7 +105,7 @@ pub(super) fn room_beside(panel: &Panel, axis: &Axis, height: f64) -> f64 {
 }
 
 /// Draws the names of the horizontal marks to the right of the frame.
-pub(super) fn draw_beside(canvas: &mut Canvas, panel: &Panel, frame: &Frame<'_>) {
+pub(super) fn draw_beside(canvas: &mut Canvas, panel: &Panel, frame: &PlotArea<'_>) {
     let names = beside(panel, frame.y_axis, (frame.y, frame.height));
     let wishes: Vec<_> = names.iter().map(|n| (n.place - 0.5 * LINE, LINE)).collect();
     let begins = spread(&wishes, frame.y - 0.5 * LINE, frame.y + frame.height + 0.5 * LINE);
@@ -118,7 +118,7 @@ pub(super) fn draw_beside(canvas: &mut Canvas, panel: &Panel, frame: &Frame<'_>)
 }
 
 /// Draws the names of the vertical marks above the frame, right of `free`.
-pub(super) fn draw_above(canvas: &mut Canvas, panel: &Panel, frame: &Frame<'_>, free: f64) {
+pub(super) fn draw_above(canvas: &mut Canvas, panel: &Panel, frame: &PlotArea<'_>, free: f64) {
     let name = |(value, label): (f64, &str)| {
         let (share, first) = arrowed(frame.x_axis.share(value)?, label, ["← ", "→ "]);
         Some(Name { place: frame.across(share), last: first.clone(), first, count: 1 })

@@ -1,9 +1,9 @@
 //! Many points over two axes, binned as fast as they come: the size of the picture is bounded whatever their number.
 
 use super::axis::{Axis, Extent, Scale};
-use super::frame::{Frame, draw_axes, draw_grid};
 use super::legend::Legend;
 use super::look::{LABEL, Look, Role, TITLE, WIDTH, look};
+use super::plot_area::{PlotArea, draw_axes, draw_grid};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 
@@ -108,7 +108,7 @@ impl Scatter {
             canvas.text(Text { bold: true, ..Text::new(WIDTH / 2.0, y, line, TITLE, Anchor::Middle) });
         }
         let [x_axis, y_axis] = &self.axes;
-        let frame = Frame { x: LEFT, y: top, width, height: HEIGHT, x_axis, y_axis, envelopes: false };
+        let frame = PlotArea { x: LEFT, y: top, width, height: HEIGHT, x_axis, y_axis, envelopes: false };
         draw_grid(&mut canvas, &frame);
         canvas.open_window(LEFT, top, width, HEIGHT);
         for (bits, colour) in self.colours() {

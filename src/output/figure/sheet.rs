@@ -1,11 +1,11 @@
 //! A whole figure: title, panels one below the other, one horizontal axis, one legend.
 
 use super::axis::{Axis, Extent, Scale};
-use super::frame::{Frame, draw_axes, draw_grid};
 use super::labels;
 use super::legend::Legend;
 use super::look::{LABEL, Look, Role, SMALL, TITLE, WIDTH, look};
 use super::panel::{Entry, Panel, include_marks};
+use super::plot_area::{PlotArea, draw_axes, draw_grid};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 
@@ -140,7 +140,7 @@ impl Figure {
             let last = i + 1 == self.panels.len();
             for (k, column) in columns.iter().enumerate() {
                 let (x, width, x_axis) = (column.x, column.width, &column.axis);
-                let frame = Frame { x, y, width, height, x_axis, y_axis, envelopes: k == 0 };
+                let frame = PlotArea { x, y, width, height, x_axis, y_axis, envelopes: k == 0 };
                 self.draw_frame(&mut canvas, panel, &frame, &entries, k == 0);
                 draw_axes(&mut canvas, &frame, k == 0, last);
                 let free = match y_axis.factor.filter(|_| k == 0) {
@@ -232,7 +232,7 @@ impl Figure {
         &self,
         canvas: &mut Canvas,
         panel: &Panel,
-        frame: &Frame<'_>,
+        frame: &PlotArea<'_>,
         entries: &[(String, Look)],
         first: bool,
     ) {

@@ -1,6 +1,5 @@
 //! The ledger of exact motion: powers integrated along an arc, and what happens in the instant that ends it.
 
-use super::super::arc::Instant;
 use super::{Flows, Ledger, stored};
 use crate::flow::Arc;
 use crate::scene::{Scene, System, WallLaw};
@@ -11,6 +10,16 @@ const MOMENTUM_UNITS: f64 = 2.0;
 
 /// Units in the last place by which the instants of an arc are not known: of the arc's own clock and of the load's.
 const CLOCK_UNITS: f64 = 2.0;
+
+/// An instant of an arc: displacement (m), velocity (m/s), load (N), and its weight in integrals over the arc, s.
+#[derive(Debug, Clone, Copy)]
+pub(in super::super) struct Instant {
+    pub t: f64,
+    pub weight: f64,
+    pub q: f64,
+    pub v: f64,
+    pub load: f64,
+}
 
 /// What an arc sums up to.
 #[derive(Debug, Default)]

@@ -6,9 +6,9 @@ mod root;
 mod search;
 mod view;
 
-pub use super::exact::{Counters, EVENTS_PER_WINDOW, WINDOWS};
+pub use super::exact::{EVENTS_PER_WINDOW, EventCounters, WINDOWS};
 
-use super::exact::{Barrier, CHANGES_AT_ONCE, Clock, Shown, barriers, known_loads, noise};
+use super::exact::{CHANGES_AT_ONCE, Clock, ExactWall, Shown, barriers, known_loads, noise};
 use super::line::Line;
 use crate::error::{Error, Result};
 use crate::flow::Arc;
@@ -41,7 +41,7 @@ use crate::step::{Balance, Conserves, Contract, Promise, Tolerances};
 pub struct Event {
     body: Oscillator,
     forcing: Forcing,
-    barriers: Vec<Barrier>,
+    barriers: Vec<ExactWall>,
     clock: Clock,
     /// A displacement of ordinary size, m.
     length: f64,

@@ -4,7 +4,7 @@ use super::Event;
 use super::root::{Below, Step};
 use crate::error::Result;
 use crate::flow::{Jet, Support};
-use crate::scheme::exact::{Barrier, Phase, noise};
+use crate::scheme::exact::{ExactWall, Phase, noise};
 
 /// Where the search ended.
 #[derive(Debug, Clone, Copy)]
@@ -239,7 +239,7 @@ impl Event {
 
 /// The gap, seen with `sign`.
 #[inline]
-fn gap(b: &Barrier, sign: f64, passes_touch: bool, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Below {
+fn gap(b: &ExactWall, sign: f64, passes_touch: bool, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Below {
     Below {
         c: [sign * (jet[0] - b.position), sign * jet[1], sign * jet[2], sign * jet[3]],
         fourth: sign * jet[4],
@@ -251,7 +251,7 @@ fn gap(b: &Barrier, sign: f64, passes_touch: bool, jet: &Jet, bounds: &[f64; 2],
 
 /// The sum of spring and dashpot, seen with `sign`.
 #[inline(never)]
-fn sum(b: &Barrier, sign: f64, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Below {
+fn sum(b: &ExactWall, sign: f64, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Below {
     let at = |n: usize| -sign * (b.stiffness * jet[n] + b.damping * jet[n + 1]);
     let at0 = -sign * (b.stiffness * (jet[0] - b.position) + b.damping * jet[1]);
     let scale = |n: usize| b.stiffness * noise[n] + b.damping * noise[(n + 1).min(3)];

@@ -1,6 +1,6 @@
 //! What a run shows of itself after each step.
 
-use super::{Counters, Event};
+use super::{Event, EventCounters};
 use crate::error::Result;
 use crate::flow::Arc;
 use crate::qp::Backend;
@@ -101,7 +101,7 @@ impl Event {
 
     /// Work done so far.
     #[must_use]
-    pub fn counters(&self) -> Counters {
+    pub fn counters(&self) -> EventCounters {
         self.clock.total()
     }
 }

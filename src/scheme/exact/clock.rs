@@ -1,7 +1,7 @@
 //! When steps end beside events, and when a run is given up.
 
-use super::Barrier;
-use super::guard::{Counters, Guard, WINDOWS};
+use super::ExactWall;
+use super::guard::{EventCounters, Guard, WINDOWS};
 use crate::error::{Error, Result};
 
 /// The marks at which steps end, multiples of a stride and the end of the scene, and the work done so far.
@@ -51,18 +51,18 @@ impl Clock {
     }
 
     /// Work done so far.
-    pub fn total(&self) -> Counters {
+    pub fn total(&self) -> EventCounters {
         self.guard.total
     }
 
     /// The same, to count on.
-    pub fn count(&mut self) -> &mut Counters {
+    pub fn count(&mut self) -> &mut EventCounters {
         &mut self.guard.total
     }
 
     /// # Errors
     /// [`Error::TooManyEvents`], or evaluations, in the window that `time` (s) is in.
-    pub fn check(&mut self, time: f64, barriers: &[Barrier]) -> Result<()> {
+    pub fn check(&mut self, time: f64, barriers: &[ExactWall]) -> Result<()> {
         let window = self.duration / WINDOWS;
         let Some(count) = self.guard.exceeded(time, window) else { return Ok(()) };
         let wall = self.last_wall.and_then(|i| barriers.get(i)).or(barriers.first());

@@ -8,7 +8,7 @@ pub const WINDOWS: f64 = 20.0;
 
 /// Work done since the start of a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Counters {
+pub struct EventCounters {
     /// Changes of contact: impacts, entries, releases.
     pub events: u64,
     /// Impacts on rigid walls.
@@ -20,9 +20,9 @@ pub struct Counters {
 /// Counts within the current window.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::scheme) struct Guard {
-    pub total: Counters,
+    pub total: EventCounters,
     since: f64,
-    at_since: Counters,
+    at_since: EventCounters,
 }
 
 impl Guard {

@@ -1,15 +1,15 @@
 //! What the exact schemes share, of one degree of freedom and of several: when steps end and when a run is given up, the walls and their
 //! phases, and what a step shows.
 
-mod barrier;
 mod clock;
 mod guard;
 mod shown;
+mod wall;
 
-pub(super) use barrier::{Barrier, Phase, barriers};
 pub(super) use clock::Clock;
-pub use guard::{Counters, EVENTS_PER_WINDOW, WINDOWS};
+pub use guard::{EVENTS_PER_WINDOW, EventCounters, WINDOWS};
 pub(super) use shown::Shown;
+pub(super) use wall::{ExactWall, Phase, barriers};
 
 use crate::error::{Error, Result, Subject};
 use crate::scene::{LoadKind, Scene};

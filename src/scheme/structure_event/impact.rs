@@ -10,7 +10,7 @@
 //! in each pass p · (ẇ⁺ + ẇ) ≤ 0 at every wall with an impulse.
 
 use super::rows::size;
-use super::{StructureEvent, seat::side_of};
+use super::{StructureEvent, closed_row::side_of};
 use crate::error::{Error, Result};
 use crate::qp::{Failure, Rhs};
 use crate::scheme::exact::noise;

@@ -1,11 +1,11 @@
 //! What happens in an instant: blows, impacts, lasting contact and its end, entry into elastic walls and letting go.
 
 use super::StructureEvent;
+use super::closed_row::{Cause, ClosedRow, Fate, side_of};
 use super::rows::SIGNS;
-use super::seat::{Cause, Fate, Seat, side_of};
 use crate::error::Result;
 use crate::flow::Held;
-use crate::scheme::exact::{Barrier, Phase};
+use crate::scheme::exact::{ExactWall, Phase};
 use crate::step::Contact;
 
 impl StructureEvent {
@@ -137,7 +137,7 @@ impl StructureEvent {
                     }
                 }
             };
-            self.seats.push(Seat {
+            self.seats.push(ClosedRow {
                 row,
                 sign,
                 both,
@@ -153,9 +153,9 @@ impl StructureEvent {
             return;
         }
         let Self { surface, body, seats, places, q, scratch, .. } = self;
-        let held = |s: &Seat| Held { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
+        let held = |s: &ClosedRow| Held { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
         // A row that is just leaving would be put back for ever.
-        let leaves = |s: &Seat| {
+        let leaves = |s: &ClosedRow| {
             let gap = places[s.row].gap(side_of(s.sign), body.rows.dot(s.row, q));
             gap >= 0.0 && s.arrived > 0.0 && s.was == 0.0 && !s.both
         };
@@ -179,7 +179,7 @@ impl StructureEvent {
     }
 
     /// Calls `of` for each rigid wall that stands nearest on one side of a row.
-    fn each_wall(&mut self, row: usize, sign: f64, mut of: impl FnMut(&mut Barrier, usize, &mut Vec<Contact>, f64)) {
+    fn each_wall(&mut self, row: usize, sign: f64, mut of: impl FnMut(&mut ExactWall, usize, &mut Vec<Contact>, f64)) {
         let bound = self.places[row].bound[side_of(sign)];
         for &wall in &self.walls_of[row] {
             let b = &mut self.barriers[wall];
@@ -208,7 +208,7 @@ impl StructureEvent {
     }
 
     /// An impulse: the walls of the largest restitution share it.
-    fn tell_impact(&mut self, s: Seat, side: usize, stays: bool, rate: f64) {
+    fn tell_impact(&mut self, s: ClosedRow, side: usize, stays: bool, rate: f64) {
         let (place, sign) = (self.places[s.row], SIGNS[side]);
         let (e, arrived) = (place.restitution[side], s.sign * sign * s.arrived);
         let impulse = sign * s.push[side] / place.strikers[side] as f64;

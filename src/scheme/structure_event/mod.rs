@@ -9,10 +9,11 @@
 //! | `instant.rs` | what happens in an instant, and the episodes of contact |
 //! | `impact.rs` | impacts, at several walls at once |
 //! | `rest.rs` | which walls carry what touches without speed |
-//! | `seat.rs` | what is told of an instant |
+//! | `closed_row.rs` | what is told of an instant |
 //! | `hand.rs`, `stretch.rs` | what is handed to moreau-jean |
 //! | `view.rs` | what a run shows of itself |
 
+mod closed_row;
 mod hand;
 mod impact;
 mod instant;
@@ -21,21 +22,20 @@ mod rest;
 mod root;
 mod rows;
 mod search;
-mod seat;
 mod start;
 mod stretch;
 mod view;
 
-use super::exact::{Barrier, CHANGES_AT_ONCE, Clock, Shown};
+use super::exact::{CHANGES_AT_ONCE, Clock, ExactWall, Shown};
 use super::frame::all_finite;
 use super::matrices::Matrices;
 use crate::error::{Error, Result};
-use crate::flow::{Body, Hold, Series, Touching};
+use crate::flow::{Hold, Series, SeriesBody, Touching};
 use crate::qp;
 use crate::scene::{Loads, Scene};
 use crate::step::Contract;
-use rows::{DERIVATIVES, Place, Sizes};
-use seat::Seat;
+use closed_row::ClosedRow;
+use rows::{DERIVATIVES, Sizes, WallRow};
 use std::sync::Arc;
 use stretch::{Crowd, Stretch};
 
@@ -53,11 +53,11 @@ use stretch::{Crowd, Stretch};
 #[derive(Debug)]
 pub(super) struct StructureEvent {
     scene: Arc<Scene>,
-    body: Body,
+    body: SeriesBody,
     loads: Loads,
-    barriers: Vec<Barrier>,
+    barriers: Vec<ExactWall>,
     /// One for each row of the body.
-    places: Vec<Place>,
+    places: Vec<WallRow>,
     /// Walls of each row.
     walls_of: Vec<Vec<usize>>,
     solver: Option<qp::Solver>,
@@ -70,7 +70,7 @@ pub(super) struct StructureEvent {
     /// Walls behind held rows: wall, number of the held row, share.
     carriers: Vec<(usize, usize, f64)>,
     touching: Vec<Touching>,
-    seats: Vec<Seat>,
+    seats: Vec<ClosedRow>,
     /// The largest speed of a row that touches at the present instant, m/s, and in the metric of the mass, √J.
     fastest_row: f64,
     fastest_weighed: f64,

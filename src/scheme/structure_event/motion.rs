@@ -1,7 +1,7 @@
 //! What drives the structure: the series it follows, the forces on it, and the impulses of the walls.
 
 use super::StructureEvent;
-use super::rows::{Place, Sizes, size};
+use super::rows::{Sizes, WallRow, size};
 use crate::flow::{SeriesStart, Touching};
 use crate::scheme::exact::Phase;
 
@@ -18,7 +18,7 @@ impl StructureEvent {
     /// The series from here on, with the walls that touch and the rows that are held.
     pub(super) fn begin_series(&mut self, limit: f64) {
         if self.decided != self.time {
-            self.places.iter_mut().for_each(Place::forget);
+            self.places.iter_mut().for_each(WallRow::forget);
         }
         let Self { body, series, barriers, touching, hold, carriers, .. } = self;
         touching.clear();

@@ -6,8 +6,8 @@
 //! so it is not in contact, and the search for events sees which way it goes.
 
 use super::StructureEvent;
+use super::closed_row::{ClosedRow, Fate, side_of};
 use super::rows::{SIGNS, Zeros};
-use super::seat::{Fate, Seat, side_of};
 use crate::error::Result;
 use crate::flow::Held;
 use crate::scheme::exact::noise;
@@ -45,7 +45,7 @@ impl StructureEvent {
 
     /// One level: the derivative of the acceleration, and of the forces.
     fn decide(&mut self, level: usize, released: Option<usize>) -> Result<()> {
-        let resting = |s: &&Seat| matches!(s.fate, Fate::Open | Fate::Held(_));
+        let resting = |s: &&ClosedRow| matches!(s.fate, Fate::Open | Fate::Held(_));
         if let (1, Some(at)) = (self.seats.iter().filter(resting).count(), self.seats.iter().position(|s| resting(&s)))
         {
             return self.decide_one(level, at, released);
@@ -102,7 +102,7 @@ impl StructureEvent {
     }
 
     /// A seat after the verdict of one level: `push` is its force's share of the acceleration, `away` the acceleration that is left.
-    fn judged(&self, mut s: Seat, level: usize, push: f64, away: f64, released: Option<usize>) -> Seat {
+    fn judged(&self, mut s: ClosedRow, level: usize, push: f64, away: f64, released: Option<usize>) -> ClosedRow {
         let large = self.body.answer_size(s.row, &self.rhs_size);
         let vanished = level == 0 && released == Some(s.row) && push.abs() <= VANISHED * large;
         let little = if vanished { VANISHED * large } else { noise(large) };
@@ -124,7 +124,7 @@ impl StructureEvent {
             place.held = 0.0;
             place.forget();
         }
-        let held = |s: &Seat| {
+        let held = |s: &ClosedRow| {
             let position = places.get(s.row).map_or(0.0, |place| place.bound[side_of(s.sign)]);
             matches!(s.fate, Fate::Held(_)).then_some(Held { row: s.row, sign: s.sign, position })
         };

@@ -1,6 +1,6 @@
 //! The rows of the walls, as contact sees them: bounds, what is held, and what roundings are worth there.
 
-use crate::flow::{Body, TERMS};
+use crate::flow::{SeriesBody, TERMS};
 use crate::scene::{Scene, Side};
 use crate::scheme::exact::noise;
 
@@ -9,7 +9,7 @@ pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
 
 /// A row with rigid walls behind it. Index 0 is the lower side, 1 the upper.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct WallRow {
     /// Where the nearest rigid wall of each side stands, m; infinite without one.
     pub bound: [f64; 2],
     /// The largest restitution of the walls that stand there.
@@ -27,7 +27,7 @@ pub(super) struct Place {
     pub force_zeros: Option<Zeros>,
 }
 
-impl Place {
+impl WallRow {
     /// The row that the walls of these numbers share.
     pub fn new(scene: &Scene, walls: &[usize]) -> Self {
         let mut place = Self {
@@ -103,7 +103,7 @@ impl Sizes {
 }
 
 /// Σ |gⱼ| |xⱼ|.
-pub(super) fn size(body: &Body, row: usize, x: &[f64]) -> f64 {
+pub(super) fn size(body: &SeriesBody, row: usize, x: &[f64]) -> f64 {
     body.rows.row(row).iter().map(|&(j, g)| (g * x[j]).abs()).sum()
 }
 

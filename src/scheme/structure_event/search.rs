@@ -1,9 +1,9 @@
 //! The search for the first event of a stretch.
 
 use super::StructureEvent;
+use super::closed_row::Cause;
 use super::root::highest;
 use super::rows::{Rounding, SIGNS, Seen, Watched, Zeros, size};
-use super::seat::Cause;
 use crate::flow::TERMS;
 use crate::scheme::exact::{Phase, noise};
 

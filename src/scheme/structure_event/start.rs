@@ -1,10 +1,10 @@
 //! The exact scheme at the start of a scene.
 
 use super::StructureEvent;
-use super::rows::{Place, Sizes};
+use super::rows::{Sizes, WallRow};
 use super::stretch::Crowd;
 use crate::error::{Error, Result};
-use crate::flow::{Body, Hold, Series};
+use crate::flow::{Hold, Series, SeriesBody};
 use crate::qp::{self, Backend};
 use crate::scene::{Loads, Scene};
 use crate::scheme::exact::{Clock, Shown, barriers, known_loads};
@@ -22,11 +22,11 @@ impl StructureEvent {
         known_loads(scene)?;
         let barriers = barriers(scene)?;
         let singular = || Error::invalid(("system", "mass matrix"), "singular", "a positive definite matrix");
-        let mut body = Body::new(scene).ok_or_else(singular)?;
+        let mut body = SeriesBody::new(scene).ok_or_else(singular)?;
         let (n, rows, walls) = (body.n, body.rows.count(), barriers.len());
         let mut walls_of = vec![Vec::new(); rows];
         body.row_of.iter().enumerate().for_each(|(wall, &row)| walls_of[row].push(wall));
-        let places = walls_of.iter().map(|walls| Place::new(scene, walls)).collect();
+        let places = walls_of.iter().map(|walls| WallRow::new(scene, walls)).collect();
         let loads = Loads::new(&scene.loads);
         let (mut v, mut blow) = (scene.initial.v.clone(), vec![0.0; n]);
         if loads.initial_blow(&mut blow) {

@@ -13,7 +13,7 @@ pub(super) enum Cause {
 
 /// A closed row at an instant.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Seat {
+pub(super) struct ClosedRow {
     pub row: usize,
     /// The sign of the force of the walls that are touched.
     pub sign: f64,

@@ -19,9 +19,9 @@ pub(in crate::scheme) enum Phase {
 }
 
 /// The walls of `scene`; refuses a law under which the motion is not known.
-pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<Barrier>> {
+pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<ExactWall>> {
     let barrier = |wall: &Wall| {
-        Barrier::new(wall).ok_or_else(|| {
+        ExactWall::new(wall).ok_or_else(|| {
             let key = Subject::wall(&wall.name).part("law");
             Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
         })
@@ -31,7 +31,7 @@ pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<Barrier>> {
 
 /// One wall of a run.
 #[derive(Debug, Clone)]
-pub(in crate::scheme) struct Barrier {
+pub(in crate::scheme) struct ExactWall {
     pub name: String,
     pub side: Side,
     /// Away from the wall: +1 at a lower wall, −1 at an upper one.
@@ -48,7 +48,7 @@ pub(in crate::scheme) struct Barrier {
     pub open: Option<Contact>,
 }
 
-impl Barrier {
+impl ExactWall {
     /// None for a law that the exact scheme does not follow.
     pub fn new(wall: &Wall) -> Option<Self> {
         let (stiffness, damping, phase) = match wall.law {

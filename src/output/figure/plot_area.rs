@@ -9,7 +9,7 @@ use super::thin::{Spot, never_goes_back, thin};
 
 /// The rectangle of a panel on the page, with both axes.
 #[derive(Debug)]
-pub(super) struct Frame<'a> {
+pub(super) struct PlotArea<'a> {
     pub x: f64,
     pub y: f64,
     pub width: f64,
@@ -20,7 +20,7 @@ pub(super) struct Frame<'a> {
     pub envelopes: bool,
 }
 
-impl Frame<'_> {
+impl PlotArea<'_> {
     pub(super) fn across(&self, share: f64) -> f64 {
         self.x + share * self.width
     }
@@ -161,7 +161,7 @@ impl Frame<'_> {
     }
 }
 
-pub(super) fn draw_grid(canvas: &mut Canvas, frame: &Frame<'_>) {
+pub(super) fn draw_grid(canvas: &mut Canvas, frame: &PlotArea<'_>) {
     let upright = frame.x_axis.ticks.iter().map(|t| frame.across(frame.x_axis.share_of_even(t.even)));
     let level = frame.y_axis.ticks.iter().map(|t| frame.up(frame.y_axis.share_of_even(t.even)));
     let mut lines: Vec<_> = upright.map(|x| vec![(x, frame.y), (x, frame.y + frame.height)]).collect();
@@ -171,7 +171,7 @@ pub(super) fn draw_grid(canvas: &mut Canvas, frame: &Frame<'_>) {
 
 /// Draws frame, ticks and numbers. The numbers of the vertical axis stand beside the first frame of
 /// a row, those of the horizontal axis under the last frame of a column.
-pub(super) fn draw_axes(canvas: &mut Canvas, frame: &Frame<'_>, beside: bool, below: bool) {
+pub(super) fn draw_axes(canvas: &mut Canvas, frame: &PlotArea<'_>, beside: bool, below: bool) {
     let bottom = frame.y + frame.height;
     let end = frame.x + frame.width;
     let mut ticks = Vec::new();
