@@ -10,12 +10,13 @@ use std::time::Instant;
 mod support;
 use support::race;
 
-/// Oscillators, periods of each, and rounds of which the best counts.
-const LANES: usize = 1024;
-const PERIODS: u32 = 200;
-const ROUNDS: usize = 5;
+/// Oscillators, periods of each, and rounds of which the best counts: a round is short enough to
+/// find a quiet moment on a busy machine.
+const LANES: usize = 256;
+const PERIODS: u32 = 100;
+const ROUNDS: usize = 60;
 
-/// Every so manieth oscillator is timed by the scheme `event`.
+/// One oscillator in so many is timed by the scheme `event`.
 const EVERY: usize = 32;
 
 /// The source oscillator at restitution `e`, under sines of 1 to 6 N.

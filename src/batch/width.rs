@@ -8,6 +8,10 @@ use pulp::{Arch, Scalar, Simd, WithSimd};
 /// Those with fused products (AVX2, AVX-512, and what [`Width::Widest`] is on other processors with
 /// them, such as NEON) give the same bits as one another. Plain lanes round products before they
 /// add and differ from those in the last places, which chaos makes all places.
+///
+/// The lanes use no function of the system's mathematics library, whose last digit may hang on the
+/// processor, but the logarithm of an exponent; the scheme `event`, which follows what lanes do not
+/// hold, does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Width {
     /// The widest that this machine has.
