@@ -1,4 +1,5 @@
-//! A scheme's word as data: the momentum balance of a step, what holds at the walls, and within which tolerances.
+//! The contract of a scheme: the momentum balance of a step, what holds at the walls, and within
+//! which tolerances.
 
 use super::Promise;
 #[cfg(doc)]
@@ -6,35 +7,46 @@ use super::{Bound, Step};
 #[cfg(doc)]
 use crate::flow::{Arc, Series};
 
-/// The momentum balance that every step of a scheme fulfils. With it a judge can hold a step to its word without
-/// knowing the scheme. F(t, q, v) = f(t) − C v − K q is the smooth force, f_x the extra force of the step ([`Step::extra`]), J the sum of
-/// the loads' impulses that fall to the step, p the contact impulse of the step, and v₋, v₊ are [`Step::velocity_before`] and
+/// The momentum balance that every step of a scheme fulfils; with it a judge can check a step
+/// without knowing the scheme. F(t, q, v) = f(t) − C v − K q is the smooth force, f_x the extra
+/// force of the step ([`Step::extra`]), J the sum of the loads' impulses assigned to the step, p
+/// the contact impulse of the step, and v₋, v₊ are [`Step::velocity_before`] and
 /// [`Step::velocity_after`].
 ///
-/// An impulse at t = 0 is part of the start and of no step. Between steps the displacement goes on by d from where the rule takes it: a
-/// blow J_b acts at its instant t_b, not where the rule counts it, so that it takes a free body to the very place. The smooth forces and
-/// the elastic walls of the step are those without d, but for a damper: it takes −C d of the momentum, so that over any time it feels the
-/// whole way. Where a rigid wall that pushes in the step is what its blows drive into, blow and answer stay together and d is 0 (unless the
-/// wall pushes for −C d alone); but not where the promise bounds the displacement at the step's end ([`Bound::End`]), which the blows
-/// are in: there d stays, and under [`Balance::GeneralizedAlpha`] −C d is left out where such a wall is closed.
+/// An impulse at t = 0 is part of the initial state and belongs to no step. A blow (a load's
+/// impulse) J_b acts at its own instant t_b, not where the rule counts it. So the displacement at
+/// the step's end is that of the rule plus d, which takes a free body exactly where the blow would.
+/// Smooth forces and elastic walls are taken without d, except for dampers: the term −C d makes
+/// them feel the whole displacement over any time.
+///
+/// Where blows drive the body into a rigid wall that pushes in the step, blow and answer take
+/// effect together and d is 0 (unless the wall pushes only because of −C d). This does not hold
+/// where the promise bounds the displacement at the step's end ([`Bound::End`]), which includes d:
+/// there d stays, and under [`Balance::GeneralizedAlpha`] −C d is left out where such a wall is
+/// closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Balance {
-    /// M(v₊ − v₋) = h[(1−θ)F(t, q, v₋) + θF(t⁺, q⁺, v₊) + f_x] + J − C d + p and q⁺ − q = h[(1−θ)v₋ + θv₊] + d; to J belongs what falls in (t, t⁺],
-    /// and M d = Σ(t⁺ − θh − t_b)J_b over that.
+    /// M(v₊ − v₋) = h[(1−θ)F(t, q, v₋) + θF(t⁺, q⁺, v₊) + f_x] + J − C d + p and q⁺ − q =
+    /// h[(1−θ)v₋ + θv₊] + d; J sums the blows in (t, t⁺], and M d = Σ(t⁺ − θh − t_b)J_b over the
+    /// same.
     Theta(f64),
-    /// M(v₊ − v₋) = h[f(t) + f_x − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + J − C d_J + p with v₋ = (q − q⁻)/h, v₊ = (q⁺ − d − q)/h, and b this
-    /// number: ¼ averages the stiffness, 0 takes it at t. To J belongs what falls in (t − h/2, t + h/2], after t = 0; M d sums
-    /// (t − t_b)J_b over (t, t + h/2] and (t⁺ − t_b)J_b over (t + h/2, t⁺], and M d_J the (t − t_b)J_b of J.
+    /// M(v₊ − v₋) = h[f(t) + f_x − C(v₋ + v₊)/2 − K(b q⁻ + (1−2b) q + b q⁺)] + J − C d_J + p with
+    /// v₋ = (q − q⁻)/h, v₊ = (q⁺ − d − q)/h, and b the number given: ¼ averages the stiffness
+    /// force, 0 takes it at t. J sums the blows in (t − h/2, t + h/2], after t = 0; M d sums (t −
+    /// t_b)J_b over (t, t + h/2] and (t⁺ − t_b)J_b over (t + h/2, t⁺], and M d_J the (t − t_b)J_b
+    /// of J.
     Staggered(f64),
     /// With s = M a of an auxiliary acceleration a, and s⁺ at the step's end:
     ///
-    /// M(v₊ − v₋) = h[(1−γ)s + γs⁺ + f_x] + J − C d + p,   M(q⁺ − q − hv₋ − U) = h²[(½−β)s + βs⁺ + ½f_x] + Σ(t⁺ − t_b)J_b,
+    /// M(v₊ − v₋) = h[(1−γ)s + γs⁺ + f_x] + J − C d + p, M(q⁺ − q − hv₋ − U) = h²[(½−β)s + βs⁺ +
+    /// ½f_x] + Σ(t⁺ − t_b)J_b,
     ///
-    /// where (1−α_m)s⁺ + α_m s = (1−α_f)F⁺ + α_f F with F = F(t, q, v₋) and F⁺ = F(t⁺, q⁺, v₊), each with the elastic walls' forces
-    /// [`Step::force`] there; at the start s = F. p is that of the rigid walls, and U, by which they correct the displacement, is 0 unless
-    /// one is closed after the step. To J belong the blows J_b at t_b in (t, t⁺], and M d = Σ(t⁺ − h/2 − t_b)J_b: from the middle of the step on
-    /// the rule has the damper feel J.
+    /// where (1−α_m)s⁺ + α_m s = (1−α_f)F⁺ + α_f F with F = F(t, q, v₋) and F⁺ = F(t⁺, q⁺, v₊),
+    /// each with the elastic walls' forces [`Step::force`] there; at the start s = F. p is the
+    /// impulse of the rigid walls, and U, by which they correct the displacement, is 0 unless one
+    /// is closed after the step. To J belong the blows J_b at t_b in (t, t⁺], and M d = Σ(t⁺ − h/2
+    /// − t_b)J_b: under this rule the damper feels J from the middle of the step on.
     GeneralizedAlpha {
         /// α_m.
         alpha_m: f64,
@@ -45,18 +57,19 @@ pub enum Balance {
         /// γ.
         gamma: f64,
     },
-    /// The differential equation itself over the step's [`Arc`] or [`Series`], M q̈ = F(t, q, q̇) + f_x + r; at the instant t⁺ that ends it
-    /// the velocity jumps by M(v₊ − v) = J + p⁺, with v the arc's last, J what falls in (t, t⁺] (an arc ends at each impulse), and p⁺ the
+    /// The differential equation itself over the step's [`Arc`] or [`Series`], M q̈ = F(t, q, q̇) +
+    /// f_x + r; at the instant t⁺ that ends it the velocity jumps by M(v₊ − v) = J + p⁺, with v the
+    /// last velocity of the arc, J the blows in (t, t⁺] (an arc ends at each impulse), and p⁺ the
     /// [`Step::jump`] of the walls.
     Exact,
 }
 
-/// How far a run may stray from a promise, beyond rounding, before it is refuted, and why.
+/// How far a run may miss a promise, beyond rounding, before that becomes a finding, and why.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// Largest residual, dimensionless.
     pub limit: f64,
-    /// Why as much as this and no more.
+    /// Why this limit was chosen.
     pub reason: &'static str,
 }
 
@@ -64,34 +77,39 @@ pub struct Tolerance {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Conserves {
-    /// None: what it makes or loses is the scheme's known error, which the ledger tells and a note says.
+    /// None: the energy that the scheme creates or loses is its known error, which the ledger shows
+    /// and a note states.
     Nothing,
-    /// Those whose walls are all rigid.
+    /// Scenes whose walls are all rigid.
     RigidWalls,
-    /// Those whose walls have no dashpot.
+    /// Scenes whose walls have no dashpot.
     UndampedWalls,
-    /// All.
+/// All scenes.
     Everything,
 }
 
-/// What a run may stray by and still keep its scheme's word. What a scheme does not promise (the depth behind the walls of moreau-jean, the
-/// energy of newmark) is not here.
+/// Tolerances of a scheme's promises. What a scheme does not promise (the depth behind the walls of
+/// moreau-jean, the energy of newmark) has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
-    /// Of the conditions at the walls ([`Promise`]), over the scales of gap, speed and contact force.
+    /// For the conditions at the walls ([`Promise`]), relative to the scales of gap, speed and
+    /// contact force.
     pub walls: Tolerance,
-    /// Of the momentum balance over the largest force in it, and of the displacement from what the velocities make of it.
+    /// For the momentum balance, relative to the largest force in it, and for the displacement
+    /// against what the velocities give.
     pub balance: Tolerance,
-    /// Of the momentum that the walls' impulses leave open over the run, over the momentum exchanged.
+    /// For the momentum of the run that the walls' impulses do not account for, relative to the
+    /// momentum exchanged.
     pub impulses: Tolerance,
-    /// Of the energy ledger over the energy exchanged.
+    /// For the energy ledger, relative to the energy exchanged.
     pub energy: Tolerance,
-    /// Where that ledger is promised to close.
+    /// The scenes on which the ledger is promised to close.
     pub conserves: Conserves,
 }
 
 impl Tolerances {
-    /// Those of every scheme of the crate, with the scenes on which it conserves energy.
+    /// The tolerances of every scheme of the crate, with the scenes on which the scheme conserves
+    /// energy.
     #[must_use]
     pub const fn of(conserves: Conserves) -> Self {
         Self {
@@ -107,7 +125,7 @@ impl Tolerances {
     }
 }
 
-/// A scheme's word: constant over a run.
+/// What a scheme promises of every step; constant over a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contract {
     /// The momentum balance of a step.
@@ -116,6 +134,6 @@ pub struct Contract {
     pub promise: Promise,
     /// Where in the step a contact impulse belongs, as a fraction of it (0: its start, 1: its end).
     pub instant: f64,
-    /// How far a run may stray from all that.
+    /// How far a run may miss these promises.
     pub tolerances: Tolerances,
 }

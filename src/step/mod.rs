@@ -1,4 +1,4 @@
-//! One step of time as data: what a scheme hands to whoever records or judges it.
+//! One time step as data: what a scheme passes to the recorder and the judge.
 
 mod contract;
 mod promise;
@@ -15,42 +15,46 @@ pub struct Contact {
     pub wall: usize,
     /// When it began, s.
     pub start: f64,
-    /// When it ended, s: equal to `start` for an instantaneous impact; none if still open at the end of the run.
+    /// When it ended, s: equal to `start` for an instantaneous impact; `None` if still open at the
+    /// end of the run.
     pub end: Option<f64>,
-    /// Impulse of the wall on the body over the episode, N s; signed as the force (lower ≥ 0, upper ≤ 0).
+    /// Impulse of the wall on the body over the episode, N s; signed as the force (lower ≥ 0, upper
+    /// ≤ 0).
     pub impulse: f64,
-    /// Largest |force| in the episode, N; none where the force was not finite (an impact).
+    /// Largest |force| in the episode, N; `None` where the force was not finite (an impact).
     pub peak_force: Option<f64>,
     /// Speed towards the wall just before, m/s, ≥ 0.
     pub approach_speed: f64,
-    /// Speed away from the wall just after, m/s, ≥ 0; none if still open.
+    /// Speed away from the wall just after, m/s, ≥ 0; `None` if still open.
     pub departure_speed: Option<f64>,
 }
 
-/// What lies between the two ends of a step.
+/// The motion between the two ends of a step.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub enum Path<'a> {
-    /// Nothing is known between the grid's instants.
+    /// The motion is known only at the grid's instants.
     Grid,
-    /// The same, of a step in which no displacement keeps all the bounds of [`Bound::Reflected`] with each wall's own e: all of
-    /// them take the smallest e of the scene's rigid walls.
+    /// As [`Path::Grid`], in a step where no displacement satisfies all the bounds of
+    /// [`Bound::Reflected`] with each wall's own e: all of them take the smallest e of the scene's
+    /// rigid walls.
     OneRestitution,
     /// The exact motion and wall forces of one degree of freedom.
     Exact(&'a Arc),
-    /// The same of several.
+    /// The exact motion and wall forces of several degrees of freedom.
     Series(&'a Series),
     /// A step of the exact scheme over a stretch that it hands to a scheme on a grid.
     Handed {
-        /// What the step keeps, in place of the run's contract.
+        /// The contract of this step, in place of the run's.
         contract: &'a Contract,
-        /// Its length, s: that of the step's times but for their rounding.
+        /// Its length, s: end minus start of the step, without their rounding.
         step: f64,
     },
 }
 
 impl Path<'_> {
-    /// Displacement (m) and velocity (m/s) at `t` within the step, into slices over degrees of freedom. Nothing is written for a step on a grid.
+    /// Displacement (m) and velocity (m/s) at `t` within the step, into slices over degrees of
+    /// freedom. Nothing is written for a step on a grid.
     pub(crate) fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
         match self {
             Self::Grid | Self::OneRestitution | Self::Handed { .. } => {}
@@ -84,11 +88,12 @@ impl Path<'_> {
 
 /// One step, lent by the stepper until the next one.
 ///
-/// Slices over degrees of freedom have length n, slices over walls the number of walls, in the scene's order.
+/// Slices over degrees of freedom have length n, slices over walls the number of walls, in the
+/// scene's order.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Step<'a> {
-    /// Number of the step, from 0.
+    /// Index of the step, from 0.
     pub index: u64,
     /// Time at its start, s.
     pub start: f64,
@@ -98,19 +103,23 @@ pub struct Step<'a> {
     pub q: &'a [f64],
     /// Velocity at the end, m/s, right-continuous: after an impact at that instant.
     pub v: &'a [f64],
-    /// Velocity that enters the momentum balance, m/s: (q − q⁻)/h for a staggered scheme, else that of the step's start.
+    /// Velocity that enters the momentum balance, m/s: (q − q⁻)/h for a staggered scheme, else that
+    /// of the step's start.
     pub velocity_before: &'a [f64],
     /// Velocity that leaves the momentum balance, m/s: (q⁺ − q)/h for a staggered scheme, else `v`.
     pub velocity_after: &'a [f64],
     /// Impulse of each wall on the body over the step, N s, signed.
     pub impulse: &'a [f64],
-    /// The part of `impulse` that acted in the instant `end`, N s; all zero for schemes on a grid, which know no instants.
+    /// The part of `impulse` that acted at the instant `end`, N s; all zero for schemes on a grid,
+    /// which do not resolve instants.
     pub jump: &'a [f64],
-    /// Force of each wall: at the instant `end` for the exact scheme, else the multiplier the scheme computed, which is
-    /// impulse/h unless the scheme's impulse averages two of them; N, signed.
+    /// Force of each wall: at the instant `end` for the exact scheme, else the multiplier the
+    /// scheme computed, which is impulse/h unless the scheme's impulse averages two of them; N,
+    /// signed.
     pub force: &'a [f64],
-    /// Extra force given by the caller, N, as it enters the momentum balance: constant over the step, or for a staggered scheme, whose
-    /// balance is centred at `start`, the mean of the last step's and this one's; length n.
+    /// Extra force given by the caller, N, as it enters the momentum balance: constant over the
+    /// step, or for a staggered scheme, whose balance is centred at `start`, the mean of the last
+    /// step's and this one's; length n.
     pub extra: &'a [f64],
     /// Contact episodes that ended in this step.
     pub closed: &'a [Contact],

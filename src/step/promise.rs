@@ -1,8 +1,9 @@
 //! What a scheme promises of the contact forces of a step.
 //!
-//! A promise is made of parts, and the judge holds a step to each part: a new scheme that keeps some of them says so here, and needs no
-//! judge of its own. Depth s = −gap, s₊ = max(s, 0), |r| = pressure; w, s and ẇ are at the step's start, w⁺, s⁺ and ẇ⁺ at its end, and ẇ is
-//! taken after the step's load impulses, which come first. w⁻ = w − hẇ is where the body was a step before, and s⁻ its depth.
+//! A promise is made of parts, and the judge checks each part: a new scheme states the parts that
+//! it keeps, and needs no judge of its own. Depth s = −gap, s₊ = max(s, 0), |r| = pressure; w, s
+//! and ẇ are at the step's start, w⁺, s⁺ and ẇ⁺ at its end, and ẇ is taken after the step's load
+//! impulses, which come first. w⁻ = w − hẇ is the position one step before, and s⁻ its depth.
 
 #[cfg(doc)]
 use super::Step;
@@ -14,31 +15,35 @@ use crate::flow::{Arc, Series};
 pub struct Promise {
     /// At rigid walls.
     pub rigid: Rigid,
-    /// At walls whose force follows a law of the depth: elastic ones, and what a penalty puts in place of rigid ones.
+    /// At walls whose force follows a law of the depth: elastic ones, and what a penalty puts in
+    /// place of rigid ones.
     pub elastic: Elastic,
 }
 
-/// What holds at rigid walls. Neither a bound nor an impact law means that they give no force: so it is where a penalty has replaced them.
+/// What holds at rigid walls. With neither a bound nor an impact law they give no force, as where a
+/// penalty has replaced them by springs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rigid {
-    /// The force r, or the impulse p per step, that the conditions are made on.
+    /// The force r, or the impulse p of the step, that the conditions refer to.
     pub force: PromisedForce,
     /// The bound on the displacement, complementary to that force.
     pub displacement: Option<Bound>,
-    /// The impact law on the velocity, 0 ≤ rebound ⟂ |p| ≥ 0 with rebound = ±(ẇ⁺ + ε ẇ) away from the wall, ε = e if approaching or at rest
-    /// and 1 if separating, of the walls that are reached. A wall that is not, and has no bound, gives no force.
+    /// The impact law on the velocity, 0 ≤ rebound ⟂ |p| ≥ 0 with rebound = ±(ẇ⁺ + ε ẇ) away from
+    /// the wall, ε = e if approaching or at rest and 1 if separating, at the walls that are
+    /// reached. A wall that is neither reached nor has a bound gives no force.
     pub velocity: Option<Reached>,
 }
 
-/// Which force of a wall a condition is made on.
+/// The force of a wall that a condition refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PromisedForce {
     /// The mean of the step, [`Step::impulse`]/h.
     Mean,
-    /// That at its end, [`Step::force`].
+/// The force at its end, [`Step::force`].
     End,
-    /// The same, of which the mean is that of both ends of the step: [`Step::impulse`] = h(r + r⁺)/2.
+    /// The force at its end, [`Step::force`], where the impulse takes the mean of both ends of the
+    /// step: [`Step::impulse`] = h(r + r⁺)/2.
     Trapezoid,
 }
 
@@ -46,58 +51,65 @@ pub enum PromisedForce {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Bound {
-    /// The slack is the gap at the step's end, with all that blows add to the displacement.
+    /// The slack is the gap at the step's end, including the displacement that blows add.
     End,
-    /// The bound has the restitution in it: the slack of (1+e_l)g_l − e_l w⁻ ≤ w⁺ ≤ (1+e_u)g_u − e_u w⁻, the smaller e in both where unequal
-    /// ones would make them cross (or [`Path::OneRestitution`](super::Path::OneRestitution)).
+    /// The bound includes the restitution: the slack is that of (1+e_l)g_l − e_l w⁻ ≤ w⁺ ≤
+    /// (1+e_u)g_u − e_u w⁻, with the smaller e in both where unequal ones would make them cross (or
+    /// [`Path::OneRestitution`](super::Path::OneRestitution)).
     Reflected,
     /// The gap at every instant of the step's [`Arc`] or [`Series`].
     Throughout,
 }
 
-/// Which rigid walls keep the impact law in a step. A wall counts as touched within 1e-12 of the gap scale
-/// ([`Scene::touching_distance`](crate::Scene::touching_distance)).
+/// Which rigid walls keep the impact law in a step. A wall counts as touched within 1e-12 of the
+/// gap scale ([`Scene::touching_distance`](crate::Scene::touching_distance)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Reached {
-    /// Those which w + φ h ẇ reaches, at this fraction φ of the step.
+    /// The walls that w + φ h ẇ reaches, at this fraction φ of the step.
     Ahead(f64),
-    /// Those which w⁺ touches, or which push.
+    /// The walls that w⁺ touches, or which push.
     Closed,
 }
 
-/// What holds at walls with a law.
+/// What holds at walls whose force follows a law of the depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elastic {
     /// The force that follows the law.
     pub force: PromisedForce,
-    /// Where in the step it does.
+    /// Where in the step it follows the law.
     pub law: Law,
 }
 
-/// Where in a step a wall's force is the one of its law.
+/// Where in a step a wall's force follows its law.
 ///
-/// Wherever a step stands for a stretch of time, a dashpot c_a feels the mean rate of penetration, (s⁺₊ − s₊)/h, which
-/// makes its impulse exact, and the sum of spring and dashpot is never negative: a wall does not pull.
+/// Where a law covers the whole step, a dashpot c_a feels the mean rate of penetration, (s⁺₊ −
+/// s₊)/h, which makes its impulse exact, and the sum of spring and dashpot is never negative: a
+/// wall does not pull.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Law {
-    /// At one depth: |r| = (k_a s_θ + c_a(s_θ − s₊)/θh)₊ with s_θ = (1−θ)s + θs⁺, at this θ; 1 is the step's end.
+    /// At one depth: |r| = (k_a s_θ + c_a(s_θ − s₊)/θh)₊ with s_θ = (1−θ)s + θs⁺, at this θ; 1 is
+    /// the step's end.
     Depth(f64),
-    /// At the mean depth of three instants: |r| = (k_a s̄ + c_a(s⁺ − s⁻₊)/2h)₊ with s̄ = b s⁻ + (1−2b)s + b s⁺, and b this number.
+    /// At the mean depth of three instants: |r| = (k_a s̄ + c_a(s⁺ − s⁻₊)/2h)₊ with s̄ = b s⁻ +
+    /// (1−2b)s + b s⁺, and b the number given.
     MeanDepth(f64),
-    /// The mean of both ends: |r| = ((1−θ)|r|(s) + θ|r|(s⁺) + c_a(s⁺₊ − s₊)/h)₊ with the wall's spring |r|(s), and this θ.
+    /// The mean of both ends: |r| = ((1−θ)|r|(s) + θ|r|(s⁺) + c_a(s⁺₊ − s₊)/h)₊ with |r|(s) the
+    /// force of the wall's spring, and θ the number given.
     Ends(f64),
-    /// At the step's start: |r| = (|r|(s) + c_a ṡ)₊ while s > 0, with the mean of [`Step::velocity_before`] and [`Step::velocity_after`] for ṡ.
+    /// At the step's start: |r| = (|r|(s) + c_a ṡ)₊ while s > 0, with the mean of
+    /// [`Step::velocity_before`] and [`Step::velocity_after`] for ṡ.
     Start,
-    /// The discrete gradient of the wall's energy U between both ends: |r| = (ΔU/Δs + c_a(s⁺₊ − s₊)/h)₊.
+    /// The discrete gradient of the wall's energy U between both ends: |r| = (ΔU/Δs + c_a(s⁺₊ −
+    /// s₊)/h)₊.
     Gradient,
     /// At every instant of the step's [`Arc`] or [`Series`].
     Throughout,
 }
 
 impl Promise {
-    /// Complementarity and laws at every instant: what exact motion keeps.
+    /// Complementarity and laws at every instant, as exact motion keeps them.
     #[must_use]
     pub const fn throughout() -> Self {
         Self {
@@ -106,7 +118,7 @@ impl Promise {
         }
     }
 
-    /// Springs in place of rigid walls: all walls follow `law` in the mean of the step.
+    /// Springs in place of rigid walls: the mean force of every wall over the step follows `law`.
     #[must_use]
     pub const fn springs(law: Law) -> Self {
         Self {
