@@ -101,7 +101,7 @@ impl LocalForce {
         sum
     }
 
-    /// |f₀| + |f₁| `span` + Σ|A|: what the force does not exceed, N.
+    /// |f₀| + |f₁| `span` + Σ|A|: a bound on |f|, N.
     pub fn size(&self, span: f64) -> f64 {
         self.constant.abs() + self.slope.abs() * span + self.waves.iter().map(|w| w.amplitude.abs()).sum::<f64>()
     }

@@ -28,7 +28,8 @@ pub(super) enum Roots {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Part {
     omega: f64,
-    /// Steady: u = e^{iωτ} and gain = A e^{iθ}/(m D), D = κ − ω² + 2iσω. From rest: u = τ² exp[λ₁τ, λ₂τ, iωτ], gain = A e^{iθ}/m.
+    /// Steady: u = e^{iωτ} and gain = A e^{iθ}/(m D), D = κ − ω² + 2iσω. From rest: u = τ² exp[λ₁τ,
+    /// λ₂τ, iωτ], gain = A e^{iθ}/m.
     gain: Complex<f64>,
     steady: bool,
 }
@@ -47,7 +48,8 @@ pub(super) struct Response {
     roots: Roots,
     /// Free motion. Pair: Re(Z e^{λτ}). Real: re e^{slow τ} + im S(τ), S the impulse response.
     free: Complex<f64>,
-    /// Steady solution p₀ + p₁τ of the constant and ramp, m and m/s; zero where they enter from rest.
+    /// Steady solution p₀ + p₁τ of the constant and ramp, m and m/s; zero where they enter from
+    /// rest.
     line: [f64; 2],
     /// The constant and ramp that contribute by their response from rest, m/s² and m/s³.
     rest: [f64; 2],
@@ -246,7 +248,8 @@ impl Response {
                 let (gap, lasting) = (slow - fast, (slow * tau).exp());
                 let mut fading = (fast * tau).exp();
                 let spread = gap * tau;
-                // S = (e^{slow τ} − e^{fast τ})/(slow − fast), and S⁽ⁿ⁺¹⁾ = slow S⁽ⁿ⁾ + fastⁿ e^{fast τ}.
+                // S = (e^{slow τ} − e^{fast τ})/(slow − fast), and S⁽ⁿ⁺¹⁾ = slow S⁽ⁿ⁾ + fastⁿ
+                // e^{fast τ}.
                 impulse[0] = lasting * if spread == 0.0 { tau } else { -(-spread).exp_m1() / gap };
                 for n in 1..5 {
                     impulse[n] = slow * impulse[n - 1] + fading;
@@ -294,7 +297,7 @@ impl Response {
     }
 }
 
-/// |z| without the care of `hypot`, which the sizes met here do not need.
+/// |z| without the guard of `hypot` against overflow, which these sizes do not need.
 #[inline]
 fn size_of(z: Complex<f64>) -> f64 {
     z.norm_sqr().sqrt()

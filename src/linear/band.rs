@@ -68,8 +68,8 @@ impl Band {
 pub(super) struct BandFactor {
     n: usize,
     width: usize,
-    /// L below its unit diagonal, by rows: entry i·width + k is that of row i and column i − width
-    /// + k. For a tridiagonal matrix, see [`twist`].
+    /// L below its unit diagonal, by rows: entry i·width + k is that of row i and column i −
+    /// width + k. For a tridiagonal matrix, see [`twist`].
     lower: Vec<f64>,
     /// 1/D.
     inverse: Vec<f64>,

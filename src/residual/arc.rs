@@ -1,4 +1,4 @@
-//! The judge on the exact motion of one degree of freedom.
+//! Checks of the exact motion of one degree of freedom.
 
 use super::energy::{Along, Instant, is_damped, stored};
 use super::quadrature::{nodes, panels};
@@ -7,18 +7,19 @@ use crate::flow::Arc;
 use crate::step::Step;
 
 impl Judge {
-    /// A stretch between two events, or an instant.
+    /// Checks an exact step: a stretch between two events, or an instant.
     pub(super) fn see_arc(&mut self, step: &Step<'_>, arc: &Arc) {
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.tension = self.tension.max(-wall.side.sign() * step.jump[index]);
         }
         let mut along = Along::default();
-        // An instant knows no forces.
+        // An instant has impulses, but no forces.
         let lasts = step.end > step.start;
         if lasts {
             let (rate, fastest) = (arc.damping() / arc.mass(), arc.fastest_motion());
             for panel in panels(step.start, step.end, rate, fastest) {
-                // Tables jump at their ends: the arc stops there, so a load read just inside is the load of the arc.
+                // Tables jump at their ends, where an arc ends: a load read just inside is that of
+                // the arc.
                 for (t, weight) in nodes(panel) {
                     let (q, v) = arc.state(t);
                     let mut load = [step.extra.first().copied().unwrap_or(0.0)];
@@ -40,7 +41,7 @@ impl Judge {
         self.doubt_balance(balance / weight);
     }
 
-    /// What acts at an instant of an arc, and whether the walls keep their laws there.
+    /// Adds up what acts at an instant of an arc, and checks the force laws of the walls there.
     fn look(&mut self, arc: &Arc, at: Instant, along: &mut Along) {
         let Instant { t, q, v, .. } = at;
         let force = self.energy.look(&self.scene, at, along);
@@ -68,7 +69,8 @@ impl Judge {
                 let rounding = PLACE_UNITS * f64::EPSILON * size;
                 let law = |s: f64| wall.law.pressure(s, -sign * wdot);
                 let (low, high) = (law(-gap - rounding), law(-gap + rounding));
-                // Between the two, which differ by the wall's stiffness times the rounding, but at a damped wall's face.
+                // Any force between the two is right. They differ by the wall's stiffness times the
+                // rounding of the place, except at the face of a damped wall, where its law jumps.
                 let error = (low - pressure).max(pressure - high);
                 self.law_error = self.law_error.max(error);
                 self.doubt_law(index, error, 0.0);

@@ -1,17 +1,17 @@
-//! Residuals less what rounding may leave of them, with the place where each was worst.
+//! Residuals minus their rounding error, with the place where each was worst.
 
 use super::most::most;
 use crate::scene::Scene;
 
-/// Units in the last place that a sum of a step may be off by, times √n for sums over n degrees of freedom (tests of extreme scenes
-/// hold every scheme of one degree of freedom to 32).
+/// Rounding error of a sum in a step, in units in the last place, times √n for sums over n degrees
+/// of freedom (tests of extreme scenes allow every scheme of one degree of freedom 32).
 const UNITS: f64 = 64.0;
 
-/// A solver on several unknowns takes a bound for met that is missed by this share of the gap scale, or of a gap a step; twice that,
-/// since the judge computes it again.
+/// A solver with several unknowns counts a bound as met that is missed by 1e-12 of the gap scale
+/// (or of the gap scale over a time step); twice that, since the judge computes it again.
 const MET: f64 = 2e-12;
 
-/// The worst seen so far: how much, at which time (s), at which wall. What is not a number is worse than anything.
+/// The worst residual so far: its value, time (s) and wall. NaN is worse than any number.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Worst {
     pub value: f64,
@@ -31,20 +31,21 @@ impl Worst {
     }
 }
 
-/// Pairs (γ, |r|) beyond rounding; see [`Pairs`](super::complementarity::Pairs).
+/// Pairs (γ, |r|), each minus its rounding error; see [`Pairs`](super::complementarity::Pairs).
 #[derive(Debug, Clone, Default)]
 pub(super) struct Doubts {
     pub outside: Worst,
     pub pull: Worst,
-    /// Pairs positive in both that no other exceeds in both, with their places.
+    /// Pairs with both values positive, none of which another pair exceeds in both, with their
+    /// places.
     stairs: Vec<(f64, f64, Worst)>,
 }
 
-/// Stairs that are kept; a run with more violates complementarity in any case, and the rest would tell no more.
+/// Maximum number of such pairs: a run with more violates complementarity in any case.
 const STAIRS: usize = 64;
 
 impl Doubts {
-    /// `slack` and `pressure` with what rounding may leave of either.
+    /// Adds a pair of `slack` and `pressure`, each with its rounding error.
     pub fn add(&mut self, (slack, gap_noise): (f64, f64), (pressure, force_noise): (f64, f64), time: f64, wall: usize) {
         self.outside.see(-slack - gap_noise, time, Some(wall));
         self.pull.see(-pressure - force_noise, time, Some(wall));
@@ -58,7 +59,7 @@ impl Doubts {
         }
     }
 
-    /// The largest min(γ/γ₀, r/r₀), in its place.
+    /// The largest min(γ/γ₀, r/r₀), with its place.
     pub fn both(&self, gap_scale: f64, force_scale: f64) -> Worst {
         let mut worst = Worst::default();
         for (slack, pressure, at) in &self.stairs {
@@ -68,7 +69,8 @@ impl Doubts {
     }
 }
 
-/// The largest terms of the balances so far, in the metric of the mass, and what rounding makes of them.
+/// The largest terms of the balances so far, in the metric of the mass, and the rounding errors
+/// that follow from them.
 #[derive(Debug)]
 pub(super) struct Rounding {
     /// UNITS · ε · √n.
@@ -79,7 +81,7 @@ pub(super) struct Rounding {
     per_root: Vec<f64>,
     /// Largest √(Kᵢᵢ/Mᵢᵢ) and √(Cᵢᵢ/Mᵢᵢ).
     rates: [f64; 2],
-    /// √m that each wall feels.
+    /// √m, with m the mass that each wall feels.
     wall: Vec<f64>,
     /// Largest |vᵢ|√Mᵢᵢ, |qᵢ|√Mᵢᵢ, |qᵢ|√Kᵢᵢ, |vᵢ|√Cᵢᵢ.
     speed: f64,
@@ -89,7 +91,7 @@ pub(super) struct Rounding {
     /// Largest force of loads and of walls that are not rigid, N/√kg, and of all walls.
     load: f64,
     push: f64,
-    /// What the ledger may have lost to rounding, J.
+    /// Rounding error of the energy ledger so far, J.
     pub energy: f64,
 }
 
@@ -117,7 +119,8 @@ impl Rounding {
         }
     }
 
-    /// Takes in a state on the way: displacement (m) and velocity (m/s), and a stretch of time (s) over which that velocity moves it.
+    /// Notes the sizes of a state: displacement (m) and velocity (m/s), and a time (s) over which
+    /// that velocity moves it.
     pub fn state(&mut self, q: &[f64], v: &[f64], span: f64) {
         for ((q, v), [mass, spring, dashpot]) in q.iter().zip(v).zip(&self.root) {
             let (q, v) = (q.abs() + span * v.abs(), v.abs());
@@ -128,7 +131,7 @@ impl Rounding {
         }
     }
 
-    /// The same of two velocities at once.
+    /// As [`Self::state`], with two velocities.
     pub fn step(&mut self, q: &[f64], before: &[f64], after: &[f64], span: f64) {
         for (((q, before), after), [mass, spring, dashpot]) in q.iter().zip(before).zip(after).zip(&self.root) {
             let v = before.abs().max(after.abs());
@@ -140,7 +143,7 @@ impl Rounding {
         }
     }
 
-    /// The same for n degrees of freedom of a step on a grid, in one go.
+    /// As [`Self::step`], for n degrees of freedom of a step on a grid, in one pass.
     #[inline(always)]
     pub fn step_of(&mut self, (q, before, after): (&[f64], &[f64], &[f64]), span: f64, n: usize) {
         let (q, before, after, root) = (&q[..n], &before[..n], &after[..n], &self.root[..n]);
@@ -157,7 +160,8 @@ impl Rounding {
         (self.speed, self.reach, self.strain, self.rub) = (speed, reach, strain, rub);
     }
 
-    /// Takes in the loads of a step on a grid, its mean, that at its end and the extra force, N, and its blows, N s.
+    /// Notes the sizes of the loads of a step on a grid: its mean, its load at the end and the
+    /// extra force, N, and its blows, N s.
     #[inline(always)]
     pub fn loads_of(&mut self, (mean, end, extra, blow): (&[f64], &[f64], &[f64], &[f64]), per_h: f64, n: usize) {
         let (mean, end, extra, blow) = (&mean[..n], &end[..n], &extra[..n], &blow[..n]);
@@ -169,12 +173,12 @@ impl Rounding {
         self.load = load;
     }
 
-    /// Takes in a load on a degree of freedom, N.
+    /// Notes the size of a load on a degree of freedom, N.
     pub fn load(&mut self, i: usize, force: f64) {
         self.load = self.load.max(force.abs() * self.per_root.get(i).copied().unwrap_or(1.0));
     }
 
-    /// Takes in a wall's force, N.
+    /// Notes the size of a wall's force, N.
     pub fn push(&mut self, wall: usize, force: f64, rigid: bool) {
         if force == 0.0 {
             return;
@@ -186,33 +190,34 @@ impl Rounding {
         }
     }
 
-    /// What a balance over `span` seconds may be off by, N/√kg; `clock` is 1 plus what the ends of the span are off by over it, in ulps.
+    /// Rounding error of a momentum balance over `span` seconds, N/√kg; `clock` is 1 plus the error
+    /// of the span's ends over the span, in ulps.
     pub fn force(&self, span: f64, clock: f64) -> f64 {
         let [spring, dashpot] = self.rates;
         self.unit * (self.speed / span + clock * (spring * self.strain + dashpot * self.rub + self.load + self.push))
     }
 
-    /// The same of a wall's force, N.
+    /// Rounding error of a wall's force, N.
     pub fn wall_force(&self, wall: usize, span: f64, clock: f64) -> f64 {
         self.force(span, clock) * self.wall.get(wall).copied().unwrap_or(1.0)
     }
 
-    /// What a length made of these sizes may be off by, in their unit.
+    /// Rounding error of a sum of terms of this `size`, in its unit.
     pub fn of(&self, size: f64) -> f64 {
         self.unit * size
     }
 
-    /// The same with the gap scale by which solvers measure.
+    /// As [`Self::of`], plus the tolerance of the solvers, which is relative to the gap scale.
     pub fn met(&self, size: f64, gap_scale: f64) -> f64 {
         self.unit * size + MET * gap_scale
     }
 
-    /// What the path may be off by, m√kg.
+    /// Rounding error of a displacement, m√kg.
     pub fn path(&self) -> f64 {
         self.unit * self.reach
     }
 
-    /// Books what one step may add to the ledger's rounding.
+    /// Adds the rounding error of one step to that of the energy ledger.
     pub fn book(&mut self) {
         let bodies = self.root.len() as f64;
         self.energy += self.unit * (bodies * (self.speed.powi(2) + self.strain.powi(2)) + self.load * self.reach);

@@ -1,10 +1,10 @@
-//! What a wall may do, read off the positions and velocities of a step.
+//! What contact laws demand of a wall's force, from the positions and velocities of a step.
 
 use crate::scene::{Scene, Side, Wall, WallLaw};
 use crate::step::{Bound, Law, Path};
 
-/// Pairs (γ, |r|) that should be complementary, kept so that the scales may come at the end of the run: of the
-/// positive pairs only those that no other exceeds in both.
+/// Pairs (γ, |r|) that should be complementary, kept because their scales are known only at the end
+/// of the run: of the pairs with both values positive, those that no other pair exceeds in both.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Pairs {
     /// Largest −γ and largest −|r| (a pull).
@@ -13,7 +13,8 @@ pub(super) struct Pairs {
     staircase: Vec<(f64, f64)>,
 }
 
-/// A run whose pairs violate complementarity in more ways than this is merged into fewer, upwards.
+/// Maximum number of such pairs: beyond it, two are replaced by one that is at least as large as
+/// both.
 const STAIRS: usize = 64;
 
 impl Pairs {
@@ -45,7 +46,8 @@ impl Pairs {
     }
 }
 
-/// γ of a rigid wall at the bound that the scheme promises, from the displacements at both ends of a step and the velocity after its blows.
+/// γ of a rigid wall at the bound that the scheme promises, from the displacements at both ends of
+/// a step and the velocity after its blows.
 pub(super) fn slack(
     scene: &Scene,
     index: usize,
@@ -65,7 +67,8 @@ pub(super) fn slack(
     wall.side.sign() * ((w1 - wall.position) + e * (back - wall.position))
 }
 
-/// The speed of rebound of a rigid wall, m/s, from the velocities after the step's blows and after the step.
+/// The speed of rebound of a rigid wall, m/s, from the velocities after the step's blows and after
+/// the step.
 pub(super) fn rebound(wall: &Wall, struck: f64, after: f64) -> f64 {
     let sign = wall.side.sign();
     let epsilon = if sign * struck <= 0.0 { wall.law.restitution().unwrap_or(0.0) } else { 1.0 };
@@ -77,7 +80,8 @@ fn least_restitution(scene: &Scene) -> Option<f64> {
     scene.walls.iter().filter_map(|wall| wall.law.restitution()).reduce(f64::min)
 }
 
-/// The smallest restitution of the rigid walls on the row of `wall`, if with each its own the bounds (1+e)g − e w⁻ would cross.
+/// The smallest restitution of the rigid walls on the row of `wall`, if with each its own the
+/// bounds (1+e)g − e w⁻ would cross.
 fn shared_restitution(scene: &Scene, wall: &Wall, back: f64) -> Option<f64> {
     let (mut lo, mut hi, mut least) = (f64::NEG_INFINITY, f64::INFINITY, 1.0_f64);
     for other in scene.walls.iter().filter(|other| other.at == wall.at) {
@@ -125,12 +129,13 @@ pub(super) fn expected_pressure(
     pressure.max(0.0)
 }
 
-/// The mean of |r|(s) over depths from `s0` to `s1`: ΔU/Δs, by Simpson's rule, which is exact for these polynomials.
+/// ΔU/Δs, the mean of |r|(s) over depths from `s0` to `s1`: ΔU/Δs, by Simpson's rule, which is
+/// exact for these polynomials.
 fn mean_pressure(law: &WallLaw, s0: f64, s1: f64) -> f64 {
     let (a, b) = (s0.max(0.0), s1.max(0.0));
     let p = |s: f64| law.pressure(s, 0.0);
     let mean = (p(a) + 4.0 * p(0.5 * (a + b)) + p(b)) / 6.0;
-    // Both ends inside, or at one place: the whole way is inside.
+    // Both depths are ≥ 0: the whole way is inside the wall.
     if a == s0 && b == s1 { mean } else { mean * (b - a) / (s1 - s0) }
 }
 
@@ -138,7 +143,7 @@ fn mean_pressure(law: &WallLaw, s0: f64, s1: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The definition, over all pairs.
+    /// The largest violation by definition, over all pairs.
     fn worst(pairs: &[(f64, f64)], gap_scale: f64, force_scale: f64) -> f64 {
         pairs.iter().map(|&(s, p)| (s / gap_scale).min(p / force_scale).abs()).fold(0.0, f64::max)
     }

@@ -1,4 +1,4 @@
-//! A step that predicts and then corrects, held to its balance: [`Balance::GeneralizedAlpha`].
+//! Checks of a step that predicts and then corrects: [`Balance::GeneralizedAlpha`].
 
 use super::memory::{Memory, smooth};
 use super::{Judge, divide};
@@ -6,7 +6,7 @@ use crate::scene::Wall;
 use crate::step::{Balance, Step};
 
 impl Judge {
-    /// A step of a grid whose displacement and velocity its walls corrected.
+    /// Checks a step on a grid whose displacement and velocity its walls corrected.
     pub(super) fn see_corrected(&mut self, step: &Step<'_>) {
         let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = self.contract.balance else { return };
         let Some(mut memory) = self.memory.take() else { return };
@@ -16,14 +16,15 @@ impl Judge {
         let scratch = &mut self.scratch;
         force_end.copy_from_slice(&scratch.load_end);
         smooth(&self.scene, step.q, step.v, step.force, force_end);
-        // Where the blows take the body in the step, over h, N s.
+        // The displacement that the blows cause within the step, times M/h, N s.
         self.loads.blow_moment(step.start, step.end, step.end, &mut scratch.mean_v);
         let (before, after) = (step.velocity_before, step.velocity_after);
         for i in 0..s.len() {
             s_end[i] = ((1.0 - alpha_f) * force_end[i] + alpha_f * force[i] - alpha_m * s[i]) / (1.0 - alpha_m);
             let pushed = h * step.extra[i];
             scratch.load[i] = 0.5 * (self.load[i] + scratch.load_end[i]) + step.extra[i];
-            // What M(v₊ − v₋) and M(q⁺ − q − hv₋)/h should be, N s, taken off what they are.
+            // What M(v₊ − v₋) and M(q⁺ − q − hv₋)/h should be, N s, with the opposite sign; what
+            // they are is added below.
             scratch.residual[i] = -h * ((1.0 - gamma) * s[i] + gamma * s_end[i]) - pushed - scratch.blow[i];
             scratch.inertia[i] = -h * ((0.5 - beta) * s[i] + beta * s_end[i]) - 0.5 * pushed - scratch.mean_v[i] / h;
             scratch.mean_v[i] = after[i] - before[i];
@@ -41,7 +42,7 @@ impl Judge {
                 self.balance_scale = self.balance_scale.max((weight * p).abs() / (h * self.scales.root_mass[i]));
             }
         }
-        // The rule has the damper feel a blow from the middle of the step on.
+        // Under this rule the damper feels a blow from the middle of the step on.
         let (from, to) = (step.start, step.end);
         if self.loads.has_blows() && self.loads.blow_moment(from, to, to - 0.5 * h, &mut scratch.felt) {
             divide(&self.scene, self.mass.as_mut(), &mut scratch.felt);
@@ -54,7 +55,8 @@ impl Judge {
             let residual = self.scratch.residual[i].abs();
             self.balance = self.balance.max(residual / h);
             worst = worst.max(residual / (h * weight));
-            // The displacement's own balance is one of lengths: over h² it would be the rounding of q.
+            // The balance of the displacement is checked as a length: divided by h² it would be
+            // dominated by the rounding error of q.
             if !closed {
                 path = path.max(h * self.scratch.inertia[i].abs() / weight);
             }

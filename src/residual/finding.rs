@@ -1,4 +1,4 @@
-//! What the judge refutes of a run: a promise of its scheme that the steps did not keep.
+//! A finding: a promise of a scheme's contract that the steps of a run did not keep.
 
 use serde::Serialize;
 use std::fmt;
@@ -8,17 +8,19 @@ use std::fmt;
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Refuted {
-    /// The body stands behind a rigid wall whose scheme keeps it in front.
+    /// The body is behind a rigid wall although the scheme promises gaps ≥ 0.
     Penetration,
     /// A wall pulls.
     Tension,
-    /// A rigid wall pushes where it is open, or the bound or the law of impact that the scheme states is passed.
+    /// A rigid wall pushes where its gap is open, or the bound or impact law of the scheme's
+    /// contract is violated.
     Complementarity,
     /// The force of an elastic wall is not the one its law gives.
     WallLaw,
-    /// Momentum changes by something else than the forces.
+    /// The change of momentum is not the impulse of the forces.
     MomentumBalance,
-    /// The impulses recorded of the walls do not carry the momentum of the run from its start to its end.
+    /// The recorded impulses of the walls do not account for the change of momentum from the start
+    /// of the run to its end.
     Impulses,
     /// The displacement does not follow from the velocities.
     Kinematics,
@@ -26,22 +28,24 @@ pub enum Refuted {
     Energy,
 }
 
-/// A broken promise: what, by how much, when and where. A run with a finding is wrong; its numbers are not to be used.
+/// A broken promise: which, by how much, when and where. A run with a finding is wrong; do not use
+/// its numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Finding {
     /// Which promise.
     pub refuted: Refuted,
-    /// The residual at its worst less what rounding may leave there; dimensionless, over the scales of
+    /// The largest residual minus its rounding error; dimensionless, relative to the scales of
     /// [`Residuals`](super::Residuals).
     pub residual: f64,
-    /// What the scheme's [`Tolerances`](crate::step::Tolerances) allow.
+    /// The limit in the scheme's [`Tolerances`](crate::step::Tolerances).
     pub tolerance: f64,
-    /// Why they allow that much and no more.
+    /// Why that limit was chosen.
     pub reason: &'static str,
-    /// End of the step in which it was worst, s; of ledgers, which are sums, the end of the run so far.
+    /// End of the step with the largest residual, s; for sums over the run (energy ledger,
+    /// impulses), the end of the run so far.
     pub time_s: f64,
-    /// Name of the wall; none where the promise is not one of a wall.
+    /// Name of the wall; `None` where the promise is not about a wall.
     pub wall: Option<String>,
 }
 

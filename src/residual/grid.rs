@@ -1,4 +1,4 @@
-//! A step on a grid, held to its word.
+//! Checks of a step on a grid against its scheme's contract.
 
 use super::matrices::Part;
 use super::most::most;
@@ -6,8 +6,10 @@ use super::{Judge, divide};
 use crate::scene::{Scene, Wall};
 use crate::step::{Balance, Bound, Promise, Step};
 
-/// True if a rigid wall that pushes is what the blows, which give the velocity `given`, drive into, where a promise keeps the two together:
-/// a bound at the step's end does not, for it holds where the blows leave the displacement.
+/// True if the blows, which give the velocity `given`, drive the body into a rigid wall that pushes
+/// in this step, under a promise by which blow and answer take effect together. Under a bound on
+/// the displacement at the step's end they do not, since that bound includes the displacement by
+/// the blows.
 fn answered(scene: &Scene, promise: Promise, impulse: &[f64], given: &[f64]) -> bool {
     let drives =
         |(wall, &p): (&Wall, &f64)| wall.law.is_rigid() && p != 0.0 && wall.side.sign() * wall.at.dot(given) < 0.0;
@@ -15,10 +17,10 @@ fn answered(scene: &Scene, promise: Promise, impulse: &[f64], given: &[f64]) -> 
 }
 
 impl Judge {
-    /// A step between two instants of a grid.
+    /// Checks a step between two instants of a grid.
     pub(super) fn see_grid(&mut self, step: &Step<'_>) {
         match self.q.len() {
-            // The same code over one number is compiled without loops.
+            // With n constant the compiler removes the loops.
             1 => self.see_grid_of(step, 1),
             n => self.see_grid_of(step, n),
         }
@@ -62,8 +64,9 @@ impl Judge {
         self.go_on(step, n);
     }
 
-    /// Mean load, displacement and velocity of a step, what they add to its balance, and the sizes of all these; returns by how much
-    /// the displacement misses what the velocities make of it, m√kg.
+    /// Computes the mean load, displacement and velocity of a step and their terms in its balance,
+    /// and notes the sizes of all these. Returns the difference of the displacement and the one
+    /// that follows from the velocities, m√kg.
     #[inline(always)]
     fn terms_of(&mut self, step: &Step<'_>, beyond: bool, per_h: f64, n: usize) -> f64 {
         (self.now, self.span, self.clock) = (step.end, self.h, 1.0);
@@ -109,7 +112,7 @@ impl Judge {
         path
     }
 
-    /// Adds the structure's own terms to the balance.
+    /// Adds the terms of inertia, damping and stiffness to the balance.
     #[inline(always)]
     fn products_of(&mut self, per_h: f64, n: usize) {
         let h = self.h;
@@ -129,8 +132,9 @@ impl Judge {
         self.balance_scale = scale;
     }
 
-    /// What the blows of the step add to the displacement, and the displacement without, in `arrived`; returns whether they add anything: if
-    /// not, the displacement is the step's, and `arrived` is not set.
+    /// Computes the displacement that the blows of the step add to that of the rule (`beyond`), and
+    /// the step's displacement without it (`arrived`). Returns whether they add any; if not,
+    /// `arrived` is not to be read.
     #[inline(never)]
     fn find_beyond(&mut self, step: &Step<'_>) -> bool {
         let s = &mut self.scratch;
@@ -143,7 +147,7 @@ impl Judge {
                 [(start, middle, start), (middle, end, end)]
             }
         };
-        // The velocity that the blows give, for a while.
+        // Work space for the velocity that the blows give.
         let given = &mut s.mean_v;
         s.beyond.fill(0.0);
         let mut any = false;
@@ -158,7 +162,8 @@ impl Judge {
         divide(&self.scene, self.mass.as_mut(), &mut s.beyond);
         divide(&self.scene, self.mass.as_mut(), given);
         if answered(&self.scene, self.contract.promise, step.impulse, given) {
-            // The wall may push because the damper felt the blow, and only then: which of the two it is shows in the displacement.
+            // The wall may push only because the damper felt the blow, so both cases are possible:
+            // take the one that the displacement fits better.
             let mut apart = [0.0, 0.0];
             for i in 0..s.beyond.len() {
                 let mean = match self.contract.balance {
@@ -179,7 +184,8 @@ impl Judge {
         true
     }
 
-    /// Takes −C d into the balance: what the damper feels of the way on which the blows take the body beside the rule's.
+    /// Adds the term −C d to the balance: the impulse of the damper over the displacement d that
+    /// the blows add to that of the rule.
     #[inline(never)]
     fn feel_blows(&mut self, step: &Step<'_>, beyond: bool) {
         let s = &mut self.scratch;
@@ -201,7 +207,8 @@ impl Judge {
         self.take_felt(either, step);
     }
 
-    /// Adds C times what the damper felt of blows to the residual, unless a wall answered these (`either`) and without it less is left.
+    /// Adds C times the displacement `felt` to the residual, unless a wall answered the blows
+    /// (`either`) and the residual is smaller without it.
     pub(super) fn take_felt(&mut self, either: bool, step: &Step<'_>) {
         let s = &mut self.scratch;
         let felt = &mut s.mean_v;

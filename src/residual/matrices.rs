@@ -1,11 +1,10 @@
-//! M, C and K as the judge multiplies by them: numbers for one degree of freedom, else bands or
-//! sparse rows.
+//! M, C and K prepared for products: numbers for one degree of freedom, else bands or sparse rows.
 
 use crate::linear::Operator;
 use crate::scene::System;
 use std::sync::Arc;
 
-/// Which of the three.
+/// One of the three matrices.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Part {
     Mass = 0,

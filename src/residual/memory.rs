@@ -1,20 +1,21 @@
-//! What the judge of a step that predicts and corrects remembers from step to step.
+//! Quantities of the generalized-α rule that carry over from step to step.
 
 use crate::scene::Scene;
 use crate::step::{Balance, Contract};
 
-/// What the rule remembers from step to step: M a and F at the step's start, N, n entries each.
+/// Quantities that carry over from step to step: M a and F at the step's start, N, n entries each.
 #[derive(Debug)]
 pub(super) struct Memory {
     pub s: Vec<f64>,
     pub force: Vec<f64>,
-    /// s⁺ and F⁺ of the step at hand.
+    /// s⁺ and F⁺ of the current step.
     pub s_end: Vec<f64>,
     pub force_end: Vec<f64>,
 }
 
 impl Memory {
-    /// At the start of a run under such a contract: there M a = F is what acts, `load` (N) and `walls` (N) that are springs.
+    /// Values at the start of a run, where M a = F with the forces of `load` (N) and of the walls
+    /// that are springs, `walls` (N). `None` under the contract of another rule.
     pub fn new(
         scene: &Scene,
         contract: Contract,

@@ -1,4 +1,5 @@
-//! The judge: sees every step as it is made, and knows the scene and the step only — no scheme and no QP.
+//! The judge: checks every step of a run against the contract of its scheme. It uses the scene and
+//! the steps only, no scheme and no QP.
 
 mod arc;
 mod beyond;
@@ -39,10 +40,11 @@ use sight::Sight;
 use std::sync::Arc;
 use sums::Sums;
 
-/// Units in the last place by which the place of a body is not known: its terms' and those of the time.
+/// Rounding error of the position of a body along exact motion, in units in the last place of its
+/// terms and of the time.
 const PLACE_UNITS: f64 = 32.0;
 
-/// Watches a run.
+/// Checks every step of a run, and keeps its residuals.
 #[derive(Debug)]
 pub struct Judge {
     scene: Arc<Scene>,
@@ -50,28 +52,30 @@ pub struct Judge {
     h: f64,
     loads: Loads,
     matrices: Matrices,
-    /// The walls, in the scene's order, and those of them that are rigid and see several degrees of freedom.
+    /// The walls, in the scene's order, and the indices of the rigid ones that see several degrees
+    /// of freedom.
     sights: Vec<Sight>,
     wide: Vec<usize>,
-    /// Largest weight with which a rigid wall sees each degree of freedom alone, n entries.
+    /// Largest weight of a rigid wall that sees this degree of freedom alone, n entries.
     seen: Vec<f64>,
     mass: Option<Factor>,
     q: Vec<f64>,
     /// Load at the end of the last step, N.
     load: Vec<f64>,
     scratch: Scratch,
-    /// Gaps and what bears on them, m; speeds of rebound and what bears on them, m/s.
+    /// Pairs of gap (m) and pressure (N), and of speed of rebound (m/s) and pressure (N).
     pairs: Pairs,
     rebounds: Pairs,
     law_error: f64,
     depth: Vec<f64>,
     tension: f64,
     balance: f64,
-    /// The same and the largest force in it, N/√kg, and the mismatch of q⁺ − q, m √kg.
+    /// The largest residual of the momentum balance and the largest force in it, in the metric of
+    /// the mass, N/√kg, and the largest difference of q⁺ − q from what the velocities give, m √kg.
     normal_balance: f64,
     balance_scale: f64,
     kinematics: f64,
-    /// Largest |q|, m, and in the metric of the mass, m √kg.
+    /// Largest |q|, m, and its value in the metric of the mass, m √kg.
     reach: f64,
     normal_reach: f64,
     force_scale: f64,
@@ -79,25 +83,26 @@ pub struct Judge {
     /// Largest velocity in the metric of the mass along exact motion, √J.
     normal_speed: f64,
     scales: Scales,
-    /// What a generalized-α run remembers from step to step.
+    /// Quantities of a generalized-α run that carry over from step to step.
     memory: Option<Box<Memory>>,
     /// Force of each elastic wall at the end of the last step, N.
     held: Vec<f64>,
     /// Distance within which a wall counts as touched, m.
     touch: f64,
     energy: energy::Ledger,
-    /// The step at hand: the time at its end and its length, s, and 1 + t ε over that length for exact motion, whose ends are known to an ulp.
+    /// The current step: the time at its end and its length, s, and `clock`, which for exact
+    /// motion, whose ends are known to an ulp, is 1 plus the end time over the length, else 1.
     now: f64,
     span: f64,
     clock: f64,
     rounding: Rounding,
-    /// The residuals beyond rounding.
+    /// The residuals minus their rounding errors.
     doubts: Residue,
     /// The momentum of the whole run.
     sums: Sums,
 }
 
-/// What is left of the residuals beyond what rounding explains, each with its place.
+/// Residuals minus their rounding errors, each with its place.
 #[derive(Debug, Default)]
 struct Residue {
     gaps: Doubts,
@@ -118,11 +123,11 @@ struct Scratch {
     blow: Vec<f64>,
     /// Change of velocity by the blows, m/s.
     struck: Vec<f64>,
-    /// Where the blows take the displacement beside the rule of the step, m, and where that rule itself takes it; the first is all zero
-    /// but for steps with a blow.
+    /// The displacement that the blows of a step add to that of its rule, m, zero in steps without
+    /// a blow; and the displacement at the step's end without it.
     beyond: Vec<f64>,
     arrived: Vec<f64>,
-    /// The part of that, or of what a staggered balance makes of it, that the damper feels, m.
+    /// The displacement by blows whose velocity the damper feels in the step's balance, m.
     felt: Vec<f64>,
     mean_q: Vec<f64>,
     mean_v: Vec<f64>,
@@ -135,14 +140,15 @@ struct Scratch {
 }
 
 impl Judge {
-    /// A judge of a run on `scene` (the scene as the scheme sees it) under `contract` with steps of `h` seconds, started
-    /// from the state `q` (m), `v` (m/s), one value of each per degree of freedom; what is missing is 0, what is left over is not read.
+    /// A judge of a run on `scene` (the scene as the scheme sees it) under `contract` with steps of
+    /// `h` seconds, started from the state `q` (m), `v` (m/s), one value of each per degree of
+    /// freedom. Missing values count as 0, surplus ones are ignored.
     #[must_use]
     pub fn new(scene: &Scene, contract: Contract, h: f64, q: &[f64], v: &[f64]) -> Self {
         Self::over(&Arc::new(scene.clone()), &scene.wall_masses(), contract, h, (q, v))
     }
 
-    /// The same of a shared scene, whose walls feel `masses` (kg).
+    /// As [`Judge::new`], for a shared scene whose walls feel `masses` (kg).
     pub(crate) fn over(
         scene: &Arc<Scene>,
         masses: &[f64],
@@ -155,7 +161,8 @@ impl Judge {
         let zero = || vec![0.0; n];
         let mut load = zero();
         loads.add_force(0.0, 1.0, &mut load);
-        // What a blow does to the velocities; a mass that cannot be factored is refused long before.
+        // The factor of M, for the velocities that blows give. A mass matrix without a factor is an
+        // error of the scene, reported earlier.
         let mass = match &scene.system {
             System::Structure(s) if loads.has_blows() => s.mass_factor().ok(),
             _ => None,
@@ -229,8 +236,8 @@ impl Judge {
         }
     }
 
-    /// Takes in one step. Steps must come in order, none left out. A step of another scene, one with other numbers of walls or degrees of
-    /// freedom than the judge was made for, is passed over.
+    /// Checks one step. Steps must come in order, none left out. A step of another scene, with
+    /// another number of walls or degrees of freedom than the judge was made for, is ignored.
     pub fn see(&mut self, step: &Step<'_>) {
         let (n, walls) = (self.q.len(), self.depth.len());
         let moved = [step.q, step.v, step.velocity_before, step.velocity_after, step.extra];
@@ -247,12 +254,12 @@ impl Judge {
             return;
         }
         match &mut self.scratch.load_end[..] {
-            // One number is not worth a call.
+            // A single store, without a call.
             [load] => *load = 0.0,
             loads => loads.fill(0.0),
         }
         self.loads.add_force(step.end, 1.0, &mut self.scratch.load_end);
-        // Without blows these are zero, and stay so.
+        // Without blows these vectors stay zero.
         if self.loads.has_blows() {
             let struck = match self.contract.balance {
                 Balance::Staggered(_) => self.loads.blow_about(step.index, self.h, &mut self.scratch.blow),
@@ -294,7 +301,8 @@ impl Judge {
         std::mem::swap(&mut self.load, &mut self.scratch.load_end);
     }
 
-    /// Takes the state at the end of a step for that at the start of the next.
+    /// Updates the depths behind the walls, and makes the state at the end of a step that at the
+    /// start of the next.
     fn arrive(&mut self, step: &Step<'_>) {
         for (wall, depth) in self.scene.walls.iter().zip(&mut self.depth) {
             *depth = depth.max(-wall.gap(wall.at.dot(step.q)));
@@ -302,7 +310,7 @@ impl Judge {
         self.go_on(step, self.q.len());
     }
 
-    /// The same but for the depths behind the walls.
+    /// As [`Self::arrive`], without the depths behind the walls.
     #[inline(always)]
     fn go_on(&mut self, step: &Step<'_>, n: usize) {
         for &index in &self.wide {
@@ -322,12 +330,12 @@ impl Judge {
         (self.speed_scale, self.reach, self.normal_reach) = (speed, reach, normal);
     }
 
-    /// By which speeds of rebound are measured, m/s.
+    /// The scale of speeds of rebound, m/s.
     fn rebound_scale(&self) -> f64 {
         self.speed_scale.max(self.energy.gap_scale / self.scene.duration)
     }
 
-    /// The verdict so far.
+    /// The residuals of the steps so far.
     #[must_use]
     pub fn residuals(&self) -> Residuals {
         let speed_scale = self.rebound_scale();
@@ -336,7 +344,8 @@ impl Judge {
         let speeds_only = rigid.displacement.is_none() && rigid.velocity.is_some();
         let gap_scale = if speeds_only { speed_scale } else { self.energy.gap_scale };
         let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
-        // Where no wall ever pushed, an elastic one is measured by what it would make of a gap.
+        // Where no wall ever pushed, the force error of an elastic wall is measured by its force
+        // over the gap scale.
         let law = over(self.law_error, if force_scale > 0.0 { force_scale } else { self.scales.wall });
         let walls = self.pairs.worst(self.energy.gap_scale, force_scale);
         let rebounds = self.rebounds.worst(speed_scale, force_scale);
@@ -358,7 +367,7 @@ impl Judge {
     }
 }
 
-/// M⁻¹x in place: what impulses (N s) make of velocities, m/s.
+/// M⁻¹x in place: the velocities (m/s) that the impulses x (N s) give.
 fn divide(scene: &Scene, mass: Option<&mut Factor>, x: &mut [f64]) {
     if let Some(mass) = mass {
         mass.solve(x);

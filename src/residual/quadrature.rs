@@ -1,14 +1,18 @@
-//! Integrals along exact motion, by Gauss's rule on panels whose length is known beforehand.
+//! Integrals along exact motion, by Gauss's rule on panels whose length is chosen beforehand.
 //!
-//! What is integrated are products of two functions of the motion and its load, and each of those is a sum of sines and of
-//! exponentials whose rates are known. So the panels need no search for an accuracy: a sine of rate ω enters products at 2ω at
-//! most, and the rule of n points errs by (2ωL)²ⁿ L (n!)⁴/((2n+1)(2n)!³) of its size over a panel of length L. A tolerance on
-//! halved panels would meet the rounding of the load's phase instead, ε·ωt, which grows with the time, and halve for nothing.
+//! The integrands are products of two functions of the motion and its load, and each of those is a
+//! sum of sines and exponentials with known rates. So the panels need no adaptive refinement: a
+//! sine of rate ω enters products with at most 2ω, and the rule of n points has an error of (2ωL)²ⁿ
+//! L (n!)⁴/((2n+1)(2n)!³) of the integrand's size over a panel of length L. Refinement to a
+//! tolerance would run into the rounding error of the load's phase, ε·ωt, which grows with the
+//! time, and halve panels in vain.
 //!
-//! The integrals are not taken from the coefficients of the closed-form motion: those are what is judged here.
+//! The integrals do not use the coefficients of the closed-form motion: those are what is checked
+//! here.
 
-/// A Gauss–Legendre rule: the radians of the fastest rate on a panel up to which it errs by 2e-18 at most (relative; see above), and its
-/// nodes and weights on [−1, 1], the positive half.
+/// A Gauss–Legendre rule: the radians of the fastest rate on a panel up to which its error is at
+/// most 2e-18 (relative; see above), and the positive half of its nodes on [−1, 1] with their
+/// weights.
 type Rule = (f64, &'static [(f64, f64)]);
 
 const RULES: [Rule; 4] = [
@@ -60,11 +64,11 @@ const RULES: [Rule; 4] = [
 /// Radians of the fastest oscillation on one panel.
 const RADIANS: f64 = 6.5;
 
-/// A panel is at most this much longer than the time since the arc's start: over [x, 3x/2] of a decay e⁻ˣ the rule of ten points has its
-/// largest error at x = 20, 3e-19.
+/// A panel is at most this many times as long as the time from the arc's start to the panel's: over
+/// [x, 3x/2] of a decay e⁻ˣ the rule of ten points has its largest error at x = 20, 3e-19.
 const GROWTH: f64 = 0.5;
 
-/// A stretch over which is integrated, s, and the rule for it.
+/// A panel: an interval of time, s, and the rule for it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Panel {
     from: f64,
@@ -73,7 +77,8 @@ pub(super) struct Panel {
 }
 
 impl Panel {
-    /// A panel on which what oscillates or decays does so at `fastest` (1/s) at most; beyond 6.5 radians the error is no longer rounding.
+    /// A panel on which no rate of oscillation or decay exceeds `fastest` (1/s); beyond 6.5 radians
+    /// the error exceeds rounding.
     pub fn new(from: f64, to: f64, fastest: f64) -> Self {
         let radians = fastest * (to - from);
         let fits = RULES.iter().find(|(longest, _)| radians <= *longest);
@@ -82,15 +87,16 @@ impl Panel {
     }
 }
 
-/// Instants of a panel at which it is looked at, inside it and never at its ends, and their weights, s.
+/// The nodes of a panel, all inside it, and their weights, s.
 pub(super) fn nodes(panel: Panel) -> impl Iterator<Item = (f64, f64)> {
     let (middle, half) = (0.5 * (panel.from + panel.to), 0.5 * (panel.to - panel.from));
     panel.rule.iter().flat_map(|&(x, w)| [(-x, w), (x, w)]).map(move |(x, w)| (middle + half * x, half * w))
 }
 
-/// The panels of an arc. What oscillates on it does so at `fastest` (rad/s) at most. What decays does so from the start, at `rate`
-/// (1/s) at most: the first panel is no longer than 1/rate and those that follow grow with the time since the start, or a few nodes over
-/// the whole arc would miss it.
+/// The panels of an arc on which oscillations have rates up to `fastest` (rad/s), and decays from
+/// the arc's start have rates up to `rate` (1/s). The first panel is no longer than 1/rate, and the
+/// following ones grow with the time since the start: a few nodes over the whole arc would miss the
+/// decay.
 pub(super) fn panels(start: f64, end: f64, rate: f64, fastest: f64) -> impl Iterator<Item = Panel> {
     let longest = if fastest > 0.0 { RADIANS / fastest } else { f64::INFINITY };
     let mut from = start;
@@ -100,7 +106,7 @@ pub(super) fn panels(start: f64, end: f64, rate: f64, fastest: f64) -> impl Iter
         }
         let fading = if rate > 0.0 { (1.0 / rate).max(GROWTH * (from - start)) } else { f64::INFINITY };
         let to = from + longest.min(fading);
-        // Too short a panel for the clock is none that it can see.
+        // A panel shorter than an ulp of the time is replaced by the rest of the arc.
         let to = if to > from { to.min(end) } else { end };
         Some(Panel::new(std::mem::replace(&mut from, to), to, fastest.max(rate)))
     })
@@ -121,7 +127,8 @@ mod tests {
 
     #[test]
     fn products_of_sines_and_decays_are_integrated_to_rounding() {
-        // ∫ sin²: against the closed form, over 0.3 to 3000 radians. A sum of n terms may round by n ulp.
+        // ∫ sin²: against the closed form, over 0.3 to 3000 radians. A sum of n terms has a
+        // rounding error of n ulp.
         for end in [0.3, 0.9, 2.0, 3.4, 6.4, 31.0, 3000.0] {
             let (found, evaluations) = integral(end, 0.0, 1.0, |t| t.sin() * t.sin());
             let exact = 0.5 * (end - end.sin() * end.cos());

@@ -1,9 +1,9 @@
-//! The momentum of a whole run, from what was recorded of it.
+//! The momentum balance of a whole run, from its recorded trajectory.
 
 use crate::scene::{Loads, Row, Scene};
 use crate::trajectory::Trajectory;
 
-/// What the recorded impulses of the walls leave open of a run's momentum balance,
+/// The residual of a run's momentum balance with the recorded impulses of the walls,
 ///
 /// M(v_end − v_start) + C(q_end − q_start) = ∫(f − K q) dt + Σ J + Gᵀ Σ p,
 ///
@@ -13,18 +13,21 @@ use crate::trajectory::Trajectory;
 pub struct Momentum {
     /// The largest difference of the two sides over the degrees of freedom, N s.
     pub residual_n_s: f64,
-    /// What a step between two rows moves at most: the largest force of the right-hand side, walls included, times the rows' spacing, N s.
+    /// Error of the trapezoid rule at the ends, as a bound: the largest force of the right-hand
+    /// side, walls included, times the spacing of the rows, N s.
     pub step_n_s: f64,
-    /// The largest momentum handed to and fro on a degree of freedom: Σ|p| and ∫|f − K q| dt, N s.
+    /// The largest momentum exchanged on a degree of freedom: Σ|p| and ∫|f − K q| dt, N s.
     pub exchanged_n_s: f64,
 }
 
-/// The momentum balance of a whole run, from the rows of `trajectory` alone: whatever a scheme's own balance says of its steps, the
-/// impulses in the table must carry the structure from its first row to its last. `scene` is the one that the scheme saw (a penalty's
-/// walls are springs, whose impulses are in the table all the same).
+/// The momentum balance of a whole run, from the rows of `trajectory` alone: whatever balance a
+/// scheme fulfils in each step, the recorded impulses must account for the change of momentum from
+/// the first row to the last. `scene` is the one that the scheme saw (under a penalty scheme rigid
+/// walls have become springs, whose impulses are recorded all the same).
 ///
-/// Every step must be recorded, for the trapezoid rule to count what a scheme counts: sums of one rule's weights and those of another differ
-/// at the two ends only, by a step or so, however long the run. `None` unless every degree of freedom has a probe of its own.
+/// Every step must be recorded, so that the trapezoid rule sums the same instants as the scheme:
+/// sums with the weights of two such rules differ at the two ends only, by a step or so, however
+/// long the run. `None` unless every degree of freedom has a probe of its own.
 #[must_use]
 pub fn momentum(scene: &Scene, trajectory: &Trajectory) -> Option<Momentum> {
     let n = scene.system.degrees_of_freedom();
@@ -36,7 +39,8 @@ pub fn momentum(scene: &Scene, trajectory: &Trajectory) -> Option<Momentum> {
     let time = trajectory.time();
     let (first, last) = (*time.first()?, *time.last()?);
     let loads = Loads::new(&scene.loads);
-    // What is left of each balance; the blows, and what they make of the velocity at the start, are in the states.
+    // The residual of each balance. Loads' impulses are summed here, except the one at the start,
+    // which is in the state there.
     let (mut open, mut exchanged) = (vec![0.0; n], vec![0.0_f64; n]);
     let (mut q, mut force, mut before) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     let (mut largest, mut spacing) = (0.0_f64, 0.0_f64);

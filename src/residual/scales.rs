@@ -1,7 +1,8 @@
-//! What residuals are measured by: sizes that the scene knows of itself, in the metric of its mass.
+//! Scales of the residuals: reference sizes of the scene, in the metric of its mass.
 //!
-//! Degrees of freedom may differ in unit: metres beside radians, or modal coordinates. A force over √Mᵢᵢ and a displacement times it may be compared
-//! with any other, and for one degree of freedom nothing changes.
+//! Degrees of freedom may differ in unit: metres beside radians, or modal coordinates. Forces over
+//! √Mᵢᵢ can be compared with one another, and so can displacements times √Mᵢᵢ; for one degree of
+//! freedom this changes nothing.
 
 use crate::scene::Scene;
 
@@ -11,14 +12,15 @@ pub(super) struct Scales {
     pub root_mass: Vec<f64>,
     /// 1/√Mᵢᵢ.
     pub per_root_mass: Vec<f64>,
-    /// √m of the lightest wall, by the mass it feels; without walls of the heaviest degree of freedom.
+    /// √m, with m the smallest mass that a wall feels; without walls that of the heaviest degree of
+    /// freedom.
     root_wall_mass: f64,
     /// The gap scale, m √kg.
     pub gap: f64,
-    /// What its springs would exert over the gap scale, N/√kg, so that a run without loads and contacts has a scale too: the largest term
-    /// of K q, of which the sum is known to rounding only.
+    /// The force of the structure's springs over the gap scale, N/√kg: the largest term of K q,
+    /// whose sum is known to rounding only. It gives a scale to a run without loads and contacts.
     pub spring: f64,
-    /// What the stiffest elastic wall makes of the gap scale, N.
+    /// The force of the stiffest elastic wall over the gap scale, N.
     pub wall: f64,
 }
 
@@ -31,7 +33,7 @@ impl Scales {
         let gap = scene.gap_scale() * root_wall_mass;
         let stiffness = structure.stiffness.diagonal_entries();
         let fastest = stiffness.iter().zip(&root_mass).map(|(k, m)| k / (m * m)).fold(0.0, f64::max);
-        // Its tangent at the face; 0 for a rigid wall.
+        // The tangent stiffness at the face; 0 for a rigid wall.
         let stiffest = scene.walls.iter().map(|wall| wall.law.tangent(f64::MIN_POSITIVE)).fold(0.0, f64::max);
         let per_root_mass: Vec<f64> = root_mass.iter().map(|root| 1.0 / root).collect();
         Self {
@@ -49,7 +51,7 @@ impl Scales {
         force * self.root_wall_mass
     }
 
-    /// A wall's force (N) as what it makes of the mass it feels, N/√kg.
+    /// A wall's force (N) over √m, with m the smallest mass that a wall feels, N/√kg.
     pub fn normal_force(&self, force: f64) -> f64 {
         force / self.root_wall_mass
     }

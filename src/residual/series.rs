@@ -1,7 +1,8 @@
-//! The judge on a structure's exact motion.
+//! Checks of a structure's exact motion.
 //!
-//! A stretch lasts two radians of its fastest motion at most, so that Gauss's rule of ten points integrates powers, which have twice that
-//! rate, to 1e-20 of their size; were a stretch longer than it says, the ledger would not close.
+//! A stretch lasts at most two radians of its fastest motion, so that Gauss's rule of ten points
+//! integrates powers, which have twice that rate, to 1e-20 of their size. If the fastest rate were
+//! underestimated, the energy ledger would not close.
 
 use super::energy::{Ledger, Moved};
 use super::quadrature::{Panel, nodes};
@@ -10,7 +11,8 @@ use crate::flow::Series;
 use crate::scene::WallLaw;
 use crate::step::Step;
 
-/// Units in the last place of the largest momentum by which those at the ends of a stretch are not known.
+/// Rounding error of the momenta at the ends of a stretch, in units in the last place of the run's
+/// largest momentum.
 const MOMENTUM_UNITS: f64 = 4.0;
 
 impl Judge {
@@ -35,7 +37,8 @@ impl Judge {
         self.energy.see_series(&self.scene, step, moved, &s.blow, &s.damper, &s.spring);
     }
 
-    /// Integrates over the stretch, and holds the walls to their laws on the way. Leaves ∫ of the net force in `residual`, N s.
+    /// Integrates over the stretch, and checks the walls' laws at the nodes. Leaves ∫ of the net
+    /// force in `residual`, N s.
     fn follow(&mut self, step: &Step<'_>, series: &Series, moved: &mut Moved) {
         let s = &mut self.scratch;
         s.residual.fill(0.0);
@@ -52,7 +55,7 @@ impl Judge {
             moved.damping += weight * system.damping_form(&s.mean_v, &s.mean_v);
             for i in 0..s.residual.len() {
                 s.residual[i] += weight * s.load[i];
-                // ∫q and ∫q̇: one product each at the end.
+                // ∫q and ∫q̇, which are multiplied by K and C once at the end.
                 s.inertia[i] += weight * s.mean_q[i];
                 s.spring[i] += weight * s.mean_v[i];
                 let weight = self.scales.root_mass[i];
@@ -102,11 +105,14 @@ impl Judge {
         system.add_stiffness(-1.0, &s.inertia, &mut s.residual);
     }
 
-    /// The momentum balance: M(v₁ − v₀) less the impulse of the net force over the stretch, and what is open before it begins.
+    /// Checks the momentum balance: M(v₁ − v₀) minus the impulse of the net force over the stretch,
+    /// and the change of momentum between the end of the last step and the start of the stretch.
     ///
-    /// A structure that comes to rest on a wall is stopped to the last digit, which takes a trace of momentum in no time: some thousand
-    /// units in the last place of the largest momentum were seen. Over a stretch as short as the clock can tell this would pass for a
-    /// force of any size, so that it is measured as an impulse: by the force that would give it in a radian of the fastest motion.
+    /// A structure that comes to rest on a wall is stopped exactly, which removes a small momentum
+    /// in no time: up to some thousand units in the last place of the largest momentum were seen.
+    /// Divided by the length of a stretch of some ulps of the time, it would give a force of any
+    /// size. So it is measured as an impulse: by the force that would give it within one radian of
+    /// the fastest motion.
     fn weigh(&mut self, step: &Step<'_>, series: &Series) {
         let s = &mut self.scratch;
         let span = step.end - step.start;
@@ -122,7 +128,7 @@ impl Judge {
         self.scene.system.add_mass(1.0, &s.mean_v, &mut s.inertia);
         s.mean_q.fill(0.0);
         self.scene.system.add_mass(1.0, &s.spring, &mut s.mean_q);
-        // Over such a stretch the rounding of the momentum would pass for a force, too.
+        // Over so short a stretch the rounding error of the momentum would count as a force, too.
         let rounding = MOMENTUM_UNITS * f64::EPSILON * self.normal_speed;
         let (mut worst, mut doubtful) = (0.0_f64, 0.0_f64);
         for (i, weight) in self.scales.root_mass.iter().enumerate() {

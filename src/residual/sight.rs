@@ -1,15 +1,16 @@
-//! How a wall sees the structure: its row ready for a product, and whether it is out of all reach.
+//! A wall's row, prepared for products, and a test whether the wall is out of reach in a step.
 
 use crate::scene::Wall;
 
-/// A row is kept with the zeros between its entries if that is at most this many times as long.
+/// A row is stored with the zeros between its entries if that makes it at most this many times as
+/// long.
 const FILL: usize = 4;
 
 /// One wall.
 #[derive(Debug, Clone)]
 pub(super) struct Sight {
-    /// First degree of freedom of the row and what follows it, zeros included; empty where the row is
-    /// too long for that.
+    /// First degree of freedom of the row, and its values from there on, zeros included; empty
+    /// where the row would be too long.
     first: usize,
     run: Vec<f64>,
     /// +1 of a lower wall, −1 of an upper one.
@@ -42,8 +43,9 @@ impl Sight {
         }
     }
 
-    /// True if the wall is rigid and both ends of a step, and whatever its first velocity reaches in `way` seconds before and after
-    /// the first of them, are further than `touch` (m) before the wall: it then has no say in the step.
+    /// True if the wall is rigid and cannot matter in the step: more than `touch` (m) away from the
+    /// displacements at both ends of the step, and from all that the body can reach from the first
+    /// with speed `rate` in `way` seconds.
     #[inline(always)]
     pub fn is_clear(&self, (w0, w1): (f64, f64), rate: f64, way: f64, touch: f64) -> bool {
         let gap = |w: f64| self.sign * (w - self.position);
@@ -51,7 +53,7 @@ impl Sight {
     }
 }
 
-/// a · b by four sums that do not wait for one another.
+/// a · b in four independent sums, so that their additions overlap.
 #[inline]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (mut a, mut b) = (a.chunks_exact(4), b.chunks_exact(4));

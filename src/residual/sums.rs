@@ -1,10 +1,11 @@
-//! What the check of a whole run's momentum sums up, step by step.
+//! Sums over steps, for the check of a whole run's momentum.
 
 use super::most::most;
 use crate::scene::Scene;
 
-/// Load and own force of the structure on one degree of freedom: those of the last step, N, the sum of the changes of both, the
-/// largest size of their sum, N, and the momentum handed over, N s.
+/// Load and own force of the structure on one degree of freedom: their values in the last step, N,
+/// the sum of the changes of both from step to step, N, the largest sum of sizes, N, and the
+/// momentum exchanged, N s.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Forces {
     pub load: f64,
@@ -14,30 +15,33 @@ pub(super) struct Forces {
     pub exchanged: f64,
 }
 
-/// Sums over the steps of a run on a grid; vectors over degrees of freedom have n entries, those over walls as many as there are.
+/// Sums over the steps of a run on a grid; vectors have one entry per degree of freedom or per
+/// wall.
 #[derive(Debug)]
 pub(super) struct Sums {
-    /// Displacement and velocity at the start of the run, m and m/s, and velocity at the end of the last step.
+    /// Displacement and velocity at the start of the run, m and m/s, and velocity at the end of the
+    /// last step.
     pub start: Vec<f64>,
     pub first: Vec<f64>,
     pub last: Vec<f64>,
-    /// ∫q dt (m s), ∫f dt (N s), and ∫v dt (m) of a rule whose walls correct the displacement beside the velocity: of all others it is the
-    /// way from start to end.
+    /// ∫q dt (m s), ∫v dt (m) and ∫f dt (N s). ∫v is used for a rule whose walls correct the
+    /// displacement besides the velocity; for all others it is the displacement from start to end.
     pub place: Vec<f64>,
     pub rate: Vec<f64>,
     pub load: Vec<f64>,
     /// The forces on each degree of freedom.
     pub forces: Vec<Forces>,
-    /// Impulse that each wall gave in the steps seen, N s, and the sum of its sizes.
+    /// Sum of each wall's impulses over the steps seen, N s, and the sum of their magnitudes.
     pub seen: Vec<f64>,
     pub sizes: Vec<f64>,
-    /// What the recorder has of it, once it has been heard.
+    /// The recorder's value of that sum, once [`Judge::hear`](super::Judge::hear) has been called.
     pub recorded: Option<Vec<f64>>,
     pub steps: u64,
     /// Start of the first step, s.
     pub from: f64,
-    /// True as long as every step was one of the run's own grid, and no wall answered a blow of a staggered rule, which then keeps the
-    /// blow's timing or leaves out what the damper feels of it: which of the two, the ends do not tell.
+    /// True as long as every step was one of the run's own grid, and no wall answered a blow under
+    /// a staggered rule. Such a rule then either keeps the blow's instant or leaves out what the
+    /// damper feels of it, and the ends of the run do not tell which.
     pub whole: bool,
 }
 
@@ -62,8 +66,8 @@ impl Sums {
         }
     }
 
-    /// Adds a step's load, own force and damper force on degree of freedom `i`, N, the first two of which count as changes; `first` of a
-    /// run, which has no step before it.
+    /// Adds a step's load, own force and damper force on degree of freedom `i`, N; the changes of
+    /// the first two from the last step are summed, except in the `first` step of a run.
     #[inline(always)]
     pub fn add(&mut self, i: usize, first: bool, h: f64, [load, own, damper]: [f64; 3]) {
         let Some(force) = self.forces.get_mut(i) else { return };

@@ -1,16 +1,17 @@
-//! From residuals beyond rounding to findings.
+//! Turns residuals, minus their rounding errors, into findings.
 
 use super::beyond::Worst;
 use super::{Finding, Judge, Refuted};
 use crate::scene::WallLaw;
 use crate::step::{Bound, Conserves, Path, Step, Tolerance};
 
-/// A contact force below this share of the largest force in the balance is measured by that share of it: what is left where forces
-/// cancel is rounding, and a share of rounding says nothing.
+/// Contact forces below this share of the largest force in the balance are measured by that share
+/// of it: where forces cancel, the remainder is rounding, and a residual relative to rounding means
+/// nothing.
 const LEAST_FORCE: f64 = 1e-6;
 
 impl Judge {
-    /// Notes the sizes of a step before it is held to anything.
+    /// Notes the sizes of a step's terms, before the step is checked.
     pub(super) fn prepare(&mut self, step: &Step<'_>) {
         self.now = step.end;
         (self.span, self.clock) = match step.path {
@@ -29,7 +30,8 @@ impl Judge {
         self.rounding.book();
     }
 
-    /// A gap (or a slack of one) whose terms are of this `size`, m.
+    /// Adds a gap (or the slack of a bound) whose terms are of this `size`, m, minus its rounding
+    /// error.
     pub(super) fn doubt_gap(&mut self, wall: usize, gap: f64, size: f64, pressure: f64) {
         if gap < 0.0 || pressure != 0.0 {
             let noise = self.rounding.met(size, self.energy.gap_scale);
@@ -38,7 +40,7 @@ impl Judge {
         }
     }
 
-    /// A speed of rebound.
+    /// Adds a speed of rebound, minus its rounding error.
     pub(super) fn doubt_rebound(&mut self, index: usize, slack: f64, step: &Step<'_>, pressure: f64) {
         if slack < 0.0 || pressure != 0.0 {
             let Some(wall) = self.scene.walls.get(index) else { return };
@@ -50,7 +52,8 @@ impl Judge {
         }
     }
 
-    /// A force of a wall off its law by `error`, of which the place of the body explains `place`, N.
+    /// Adds the `error` of a wall's force against its law, N, minus its rounding error and minus
+    /// `place`, the part that the rounding error of the body's position explains.
     pub(super) fn doubt_law(&mut self, wall: usize, error: f64, place: f64) {
         if error > 0.0 || error.is_nan() {
             let force = self.rounding.wall_force(wall, self.span, self.clock);
@@ -58,17 +61,18 @@ impl Judge {
         }
     }
 
-    /// The step's balance, N/√kg.
+    /// Adds the residual of a step's momentum balance, N/√kg, minus its rounding error.
     pub(super) fn doubt_balance(&mut self, residual: f64) {
         self.doubts.balance.see(residual - self.rounding.force(self.span, self.clock), self.now, None);
     }
 
-    /// What the displacement misses, m√kg.
+    /// Adds the residual of the displacement against the velocities, m√kg, minus its rounding
+    /// error.
     pub(super) fn doubt_path(&mut self, residual: f64) {
         self.doubts.path.see(residual - self.rounding.path(), self.now, None);
     }
 
-    /// r₀, with a floor where forces are rounding; 0 where no wall pushed.
+    /// r₀, with a lower limit where forces are rounding; 0 where no wall pushed.
     pub(super) fn contact_scale(&self) -> f64 {
         if self.force_scale == 0.0 {
             return 0.0;
@@ -77,8 +81,9 @@ impl Judge {
         self.force_scale.max(LEAST_FORCE * self.scales.wall_force(largest))
     }
 
-    /// The scheme's promises that the run so far has broken, the worst first; none of a run that kept its word. What rounding explains is
-    /// taken off first: of terms as large as the run's, over steps as short as its own.
+    /// The scheme's promises that the run so far has broken, the worst first; empty if it kept all
+    /// of them. Rounding errors, estimated from the largest terms of the run and the lengths of its
+    /// steps, have been subtracted from the residuals.
     #[must_use]
     pub fn findings(&self) -> Vec<Finding> {
         let (gap, speed) = (self.energy.gap_scale, self.rebound_scale());

@@ -1,27 +1,28 @@
-//! The walls of a step on a grid, held to what the scheme promises of them.
+//! Checks of the walls of a step on a grid against the scheme's promise.
 
 use super::Judge;
 use super::complementarity::{damping_of, expected_pressure, rebound, slack};
 use crate::scene::Wall;
 use crate::step::{Bound, PromisedForce, Reached, Step};
 
-/// What a wall sees of a step.
+/// The quantities of a step at one wall.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     index: usize,
-    /// |r| as the promise means it, N, negative where the wall pulls.
+    /// The force that the promise refers to, as a pressure, N: negative where the wall pulls.
     pressure: f64,
     /// Displacements at both ends, m.
     w: (f64, f64),
-    /// Velocities at both ends, m/s, the first without and with the blows of the step.
+    /// Velocities, m/s: before the step's blows, after them, and after the step.
     before: f64,
     struck: f64,
     after: f64,
 }
 
 impl Judge {
-    /// Holds every wall to its part of the promise; `beyond` says that blows add to the displacement beside the rule of the step. Returns
-    /// whether a rigid wall is closed after the step, where the promise speaks of that.
+    /// Checks every wall against its part of the promise; `beyond` says that blows add to the
+    /// displacement of the step's rule. Returns whether a rigid wall is closed after the step,
+    /// where the promise depends on that.
     pub(super) fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) -> bool {
         let mut closed = false;
         let blows = self.loads.has_blows();
@@ -42,14 +43,14 @@ impl Judge {
         closed
     }
 
-    /// Holds one wall to it, and returns whether it is closed after the step.
+    /// Checks one wall, and returns whether it is closed after the step.
     #[inline(never)]
     fn hold(&mut self, step: &Step<'_>, beyond: bool, index: usize) -> bool {
         let promise = self.contract.promise;
         let wall = &self.scene.walls[index];
         let (sign, is_rigid) = (wall.side.sign(), wall.law.is_rigid());
         let p = step.impulse[index];
-        // Most walls push in few steps.
+        // Most impulses are 0: avoid the division.
         let mean = if p == 0.0 { 0.0 } else { p / self.h };
         let force = match if is_rigid { promise.rigid.force } else { promise.elastic.force } {
             PromisedForce::Mean => mean,
@@ -60,7 +61,8 @@ impl Judge {
         self.force_scale = self.force_scale.max(largest);
         self.tension = self.tension.max(-pressure).max(-sign * mean);
         self.rounding.push(index, largest, is_rigid);
-        // A bound on the displacement at the end holds where the blows leave it, all else without.
+        // A bound on the displacement at the end includes what the blows add to it; everything else
+        // is without that.
         let bound_there = is_rigid && promise.rigid.displacement == Some(Bound::End);
         let end = if bound_there || !beyond { step.q } else { &self.scratch.arrived };
         let before = wall.at.dot(step.velocity_before);
@@ -82,7 +84,8 @@ impl Judge {
         }
     }
 
-    /// What rounding makes of the place of the body: of the terms that are summed, and of the way of a step, m.
+    /// Size of the terms that add up to the body's position, for its rounding error, and of its way
+    /// within a step, m.
     fn size(&self, step: &Step<'_>, wall: &Wall, seen: &Seen) -> f64 {
         let terms = wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * self.q[i]).abs());
         terms.sum::<f64>() + wall.position.abs() + self.h * (seen.before.abs() + seen.after.abs())
@@ -107,7 +110,8 @@ impl Judge {
         self.doubt_law(seen.index, error, slope * self.rounding.met(size, self.energy.gap_scale));
     }
 
-    /// Returns whether the wall is closed after the step, where the promise speaks of that.
+    /// Checks a rigid wall. Returns whether it is closed after the step, where the promise depends
+    /// on that.
     fn hold_rigid(&mut self, step: &Step<'_>, seen: Seen) -> bool {
         let Seen { index, pressure, w, struck, after, .. } = seen;
         let promise = self.contract.promise.rigid;
@@ -136,14 +140,16 @@ impl Judge {
             self.rebounds.add(slack, pressure);
         }
         if pressure == 0.0 && slack >= 0.0 {
-            // Nothing to doubt: nobody pushes, and nobody is where a wall is.
+            // Nothing to check: the wall does not push, and the body does not pass it.
         } else if promise.velocity == Some(Reached::Closed) {
-            // A wall that the gap's rounding alone calls closed promises nothing.
+            // The promise does not cover a wall that is closed only by the rounding error of its
+            // gap.
             if reached && (pressure != 0.0 || way <= 0.0) {
                 self.doubt_rebound(index, slack, step, pressure);
             }
         } else if reached || promise.displacement.is_none() {
-            // Whether the body reaches the wall within the step is a question that rounding may answer either way.
+            // Near the limit, rounding decides whether the body reaches the wall within the step:
+            // either is accepted.
             let edge = (way - self.touch).abs() <= self.rounding.of(self.size(step, wall, &seen));
             if !reached {
                 self.law_error = self.law_error.max(pressure.abs());

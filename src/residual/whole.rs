@@ -1,36 +1,43 @@
-//! The momentum of the whole run, which the walls' impulses must carry whatever a scheme's own balance says of its steps:
+//! Check of the momentum of the whole run: the walls' impulses must account for it, whatever
+//! balance a scheme fulfils in each step:
 //!
 //! M(v_T − v_0) = ∫(f − C v − K q) dt + Σ J + Gᵀ Σ p
 //!
-//! from the states at the ends of the steps and the impulses that were recorded. The integral is taken by the trapezoid rule over these
-//! ends. A scheme counts the same forces by weights of its own, or at an instant within the step: that is one step's change of the force a
-//! step, and one step's force at either end of the run. What is open beyond is momentum that no wall gave. Loads and the structure's forces
-//! count apart: where the two nearly balance, as under heavy damping, their sum changes little while each may change much.
+//! from the states at the ends of the steps and the recorded impulses. The integral is taken by the
+//! trapezoid rule over these ends. A scheme weights the same forces otherwise, or takes them at an
+//! instant within the step: the two sums differ by at most one step's change of the force per step,
+//! and by one step's force at either end of the run. What is open beyond that is momentum without a
+//! wall's impulse. Changes of loads and of the structure's forces are summed separately: where the
+//! two nearly balance, as under heavy damping, their sum changes little while each may change much.
 
 use super::Judge;
 use super::beyond::Worst;
 use super::sums::Forces;
 use crate::step::{Balance, Path, Step};
 
-/// A scheme's weights differ from the trapezoid's by no more than this many steps in all.
+/// The weights of a scheme differ from those of the trapezoid rule by at most this many steps in
+/// all.
 const STEPS: f64 = 2.0;
 
 impl Judge {
-    /// Takes in what the recorder has of each wall's impulse over the whole run, N s, in the scene's order: [`Judge::findings`] holds the run
-    /// to that in place of the steps that were seen. Another number of walls is not heard.
+    /// Takes the recorder's sum of each wall's impulses over the whole run, N s, in the scene's
+    /// order: [`Judge::findings`] then checks the run with these in place of the sums over the
+    /// steps seen. A list with another number of walls is ignored.
     pub fn hear(&mut self, impulses: &[f64]) {
         if impulses.len() == self.sums.seen.len() {
             self.sums.recorded = Some(impulses.to_vec());
         }
     }
 
-    /// Adds a step, whose mean forces are in the scratch: its state at the start is still the judge's own.
+    /// Adds a step, whose mean forces are in `scratch`; `self.q` still holds its state at the
+    /// start.
     #[inline(always)]
     pub(super) fn sum(&mut self, step: &Step<'_>, per_h: f64, n: usize) {
         let sums = &mut self.sums;
         if sums.steps == 0 {
             sums.from = step.start;
-            // A staggered rule balances from half a step before to half a step before the end, whatever it shows at these ends.
+            // A staggered rule balances momentum from half a step before the start to half a step
+            // before the end, whatever velocities it shows there.
             sums.first.copy_from_slice(step.velocity_before);
         }
         sums.steps += 1;
@@ -50,13 +57,15 @@ impl Judge {
         let (load_start, load_end, mean) = (&self.load[..n], &s.load_end[..n], &s.load[..n]);
         let (spring, damper) = (&s.spring[..n], &s.damper[..n]);
         if matches!(self.contract.balance, Balance::GeneralizedAlpha { .. }) {
-            // Of a rule with a memory, the force at the end of the step, which has dampers and the springs of walls in it.
+            // For generalized-α, the force at the end of the step, which includes dampers and the
+            // walls that are springs.
             for i in 0..n {
                 sums.rate[i] += half * (sums.last[i] + after[i]);
                 sums.add(i, first, h, [load_end[i], spring[i] - load_end[i], 0.0]);
             }
         } else {
-            // Of all others the mean, without dampers, whose impulse the way from start to end tells exactly.
+            // For all others the mean force, without dampers, whose impulse follows exactly from
+            // the displacement between start and end.
             for i in 0..n {
                 sums.add(i, first, h, [mean[i], -spring[i] * per_h, -damper[i] * per_h]);
             }
@@ -69,7 +78,8 @@ impl Judge {
         sums.last[..n].copy_from_slice(after);
     }
 
-    /// The worst of what the impulses leave open beyond what a step may miss and rounding, over the largest momentum handed to and fro.
+    /// The largest residual of the run's momentum, minus what a step's rule may miss and minus
+    /// rounding, over the largest momentum exchanged.
     pub(super) fn open_momentum(&self) -> Worst {
         let sums = &self.sums;
         let mut worst = Worst::default();
@@ -93,14 +103,15 @@ impl Judge {
         system.add_damping(1.0, &way, &mut open);
         system.add_stiffness(1.0, &sums.place, &mut open);
         let mut blows = vec![0.0; n];
-        // A staggered rule's last step has the blows up to its middle.
+        // The last step of a staggered rule contains the blows up to its middle.
         let until = match self.contract.balance {
             Balance::Staggered(_) => (sums.steps as f64 - 0.5).mul_add(self.h, sums.from),
             _ => self.now,
         };
         self.loads.blow(sums.from, until, &mut blows);
         let mut exchanged: Vec<f64> = sums.forces.iter().map(|force| force.exchanged).collect();
-        // The forces at both ends of the run, in which no step's mean has them: a staggered rule starts half a step before.
+        // The forces at both ends of the run, which no step's mean contains: a staggered rule
+        // starts half a step before.
         let mut begin = vec![0.0; n];
         self.loads.add_force(sums.from, 1.0, &mut begin);
         system.add_damping(-1.0, &sums.first, &mut begin);
@@ -118,7 +129,8 @@ impl Judge {
             for &(i, weight) in wall.at.entries() {
                 open[i] -= weight * p;
                 exchanged[i] += weight.abs() * size;
-                // A wall that is a spring pushes over the last half step too, and its force is not among the loads.
+                // A wall that is a spring also pushes over the last half step, and its force is not
+                // among the loads.
                 if !wall.law.is_rigid() {
                     let last = wall.law_force(wall.at.dot(&self.q), wall.at.dot(&sums.last));
                     ends[i] += weight.abs() * self.force_scale.max(last.abs());

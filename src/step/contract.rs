@@ -84,7 +84,7 @@ pub enum Conserves {
     RigidWalls,
     /// Scenes whose walls have no dashpot.
     UndampedWalls,
-/// All scenes.
+    /// All scenes.
     Everything,
 }
 

@@ -40,7 +40,7 @@ pub struct Rigid {
 pub enum PromisedForce {
     /// The mean of the step, [`Step::impulse`]/h.
     Mean,
-/// The force at its end, [`Step::force`].
+    /// The force at its end, [`Step::force`].
     End,
     /// The force at its end, [`Step::force`], where the impulse takes the mean of both ends of the
     /// step: [`Step::impulse`] = h(r + r⁺)/2.

@@ -18,7 +18,7 @@ pub(crate) struct SeriesBody {
     pub(super) damping: Option<Operator>,
     /// K.
     pub(super) stiffness: Operator,
-    /// |C| and |K|, entry by entry: what products may err by.
+    /// |C| and |K|, entry by entry: they give the sizes of the terms of products.
     sizes: [Operator; 2],
     /// The rows of the loads, each with the loads that act on it.
     pub(super) loads: Vec<(Row, Forcing)>,
@@ -28,7 +28,8 @@ pub(crate) struct SeriesBody {
     pub row_of: Vec<usize>,
     /// yᵣ = M⁻¹ gᵣᵀ of each row, once it has been needed.
     columns: Vec<OnceCell<Column>>,
-    /// Bounds on the free motion: ω² (1/s²), the rate of its damping (1/s) and the fastest load (rad/s).
+    /// Bounds on the free motion: ω² (1/s²), the rate of its damping (1/s) and the fastest load
+    /// (rad/s).
     rates: [f64; 3],
 }
 

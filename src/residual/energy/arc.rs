@@ -1,17 +1,21 @@
-//! The ledger of exact motion: powers integrated along an arc, and what happens in the instant that ends it.
+//! The energy ledger of the exact motion of one degree of freedom: powers integrated along an arc,
+//! and the jump at its end.
 
 use super::{Flows, Ledger, stored};
 use crate::flow::Arc;
 use crate::scene::{Scene, System, WallLaw};
 use crate::step::Step;
 
-/// Units in the last place of the run's largest momentum by which those at the ends of an arc are not known.
+/// Rounding error of the momenta at the ends of an arc, in units in the last place of the run's
+/// largest momentum.
 const MOMENTUM_UNITS: f64 = 2.0;
 
-/// Units in the last place by which the instants of an arc are not known: of the arc's own clock and of the load's.
+/// Rounding error of the instants of an arc, in units in the last place: of the arc's own time and
+/// of the load's.
 const CLOCK_UNITS: f64 = 2.0;
 
-/// An instant of an arc: displacement (m), velocity (m/s), load (N), and its weight in integrals over the arc, s.
+/// An instant of an arc: displacement (m), velocity (m/s), load (N), and its weight in integrals
+/// over the arc, s.
 #[derive(Debug, Clone, Copy)]
 pub(in super::super) struct Instant {
     pub t: f64,
@@ -21,18 +25,18 @@ pub(in super::super) struct Instant {
     pub load: f64,
 }
 
-/// What an arc sums up to.
+/// Integrals along an arc.
 #[derive(Debug, Default)]
 pub(in super::super) struct Along {
     flows: Flows,
     /// ∫ of the net force, N s.
     net: f64,
-    /// The largest force of the body's own, N.
+    /// The largest force on the body other than the walls' and the spring's, N.
     pub largest_force: f64,
-    /// The same of the panel under way, whose sums are added up apart: so many terms round less.
+    /// The same of the current panel, which is summed separately to reduce rounding.
     part: Flows,
     part_net: f64,
-    /// Net force (N) and energy (J) at the instant under way.
+    /// Net force (N) and energy (J) at the current instant.
     forces: f64,
     energy: f64,
 }
@@ -65,7 +69,7 @@ impl Along {
 }
 
 impl Ledger {
-    /// The body and its load at an instant of an arc; returns the largest of its own forces, N.
+    /// Starts an instant with the body and its load; returns the largest of their forces so far, N.
     pub fn look(&self, scene: &Scene, at: Instant, along: &mut Along) -> f64 {
         let [m, c, k] = numbers(scene);
         let Instant { weight, q, v, load, .. } = at;
@@ -79,16 +83,19 @@ impl Ledger {
         along.largest_force
     }
 
-    /// Takes in an energy on the way, J.
+    /// Updates the largest energy of the run, J.
     pub fn reach(&mut self, energy: f64) {
         self.report.largest_j = self.report.largest_j.max(energy);
     }
 
-    /// One exact arc and the instant at its end. Returns what its momentum balance leaves open beyond rounding, N s, ≥ 0.
+    /// Adds one exact arc and the jump at its end. Returns the residual of its momentum balance
+    /// beyond rounding, N s, ≥ 0.
     ///
-    /// What a damped wall takes is the work done on it, ∫|r|ṡ, less what it stores: so nothing hangs on the moment at which it lets go or
-    /// takes hold, which at a shared face is one of rounding. It stores only while it touches; what it holds when it lets go stays with it,
-    /// since spring and dashpot then relax against each other.
+    /// A damped wall dissipates the work done on it, ∫|r|ṡ, minus the change of what it stores. So
+    /// the result does not depend on the moment at which contact begins or ends, which at a shared
+    /// face is decided by rounding. The wall stores energy only while it touches; what it stores
+    /// when contact ends counts as dissipated, since spring and dashpot then relax against each
+    /// other.
     pub fn see_arc(&mut self, scene: &Scene, step: &Step<'_>, arc: &Arc, blow: &[f64], along: &Along) -> f64 {
         let [mass, _, stiffness] = numbers(scene);
         let mut flows = along.flows;
@@ -96,9 +103,11 @@ impl Ledger {
         let v_end = if step.end > step.start { arc.state(step.end).1 } else { first(step.velocity_before) };
         if step.end > step.start {
             let v_start = first(step.velocity_before);
-            // Over an arc as short as the clock can tell, the rounding of the momentum would pass for a force.
+            // Over an arc of some ulps of the time, the rounding error of the momentum would count
+            // as a force.
             let speed = (2.0 * self.report.largest_j / mass).sqrt().max(v_start.abs()).max(v_end.abs());
-            // The instants are known to an ulp of the time, and with them the phase of a load.
+            // The instants, and with them the phase of a load, are known only to an ulp of the
+            // time.
             let late = self.steepest * step.end * (step.end - step.start);
             let rounding = f64::EPSILON * (MOMENTUM_UNITS * mass * speed + CLOCK_UNITS * late);
             open = ((mass * (v_end - v_start) - along.net).abs() - rounding).max(0.0);

@@ -11,7 +11,8 @@ use crate::scene::{Forcing, Scene, Wall, WallLaw};
 use crate::step::{Balance, Contract, Step};
 use serde::Serialize;
 
-/// The ledger of a run, J. E is kinetic and strain energy plus what elastic and penalised walls store while they touch.
+/// The energy ledger of a run, J. E is kinetic and strain energy plus what elastic and penalised
+/// walls store while they touch.
 ///
 /// For a staggered scheme E is the energy at half steps, which is the one it conserves.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
@@ -21,20 +22,22 @@ pub struct Energy {
     pub initial_j: f64,
     /// E at the end.
     pub final_j: f64,
-    /// Largest E seen: after each step, and for exact motion inside it too.
+    /// Largest E: over the ends of all steps, and for exact motion inside them too.
     pub largest_j: f64,
     /// Work of the loads.
     pub load_work_j: f64,
-    /// Taken by the structure's damping.
+    /// Dissipated by the structure's damping.
     pub damping_j: f64,
-    /// Taken by impacts on rigid walls, −Σ p(ẇ⁻ + ẇ⁺)/2; negative if the scheme made energy there.
+    /// Dissipated by impacts on rigid walls, −Σ p(ẇ⁻ + ẇ⁺)/2; negative if the scheme created energy
+    /// there.
     pub impact_loss_j: f64,
-    /// Taken by the dashpots of elastic walls: of the work done on a wall what it does not store.
+    /// Dissipated by the dashpots of elastic walls: the work done on a wall minus what it stores.
     pub wall_damping_j: f64,
     /// E(t) − E(0) − work + damping + losses.
     pub residual_j: f64,
-    /// Energy exchanged: the largest E, and the magnitudes of all that flowed, to and fro: ∫|f q̇| of the loads for exact motion (to some
-    /// percent: it is a scale), the sum over steps of |work| on a grid.
+    /// Energy exchanged: the largest E plus the magnitudes of all flows. The work of loads counts
+    /// as ∫|f q̇| for exact motion (to some percent: it is a scale), and as the sum of |work| over
+    /// the steps on a grid.
     pub exchanged_j: f64,
     /// |residual| / exchanged.
     pub residual: f64,
@@ -50,9 +53,10 @@ pub(super) struct Ledger {
     /// Σ of the magnitudes of all flows, J.
     flowed: f64,
     started: bool,
-    /// The part of E that each wall stored after the last step, J.
+    /// The energy that each wall stored after the last step, J.
     held: Vec<f64>,
-    /// Σ of the steps' residuals, and what that sum has lost to rounding (Kahan): 1e7 steps are judged at rounding.
+    /// Σ of the steps' residuals, and the rounding error of that sum (Kahan), so that 1e7 steps can
+    /// be checked to rounding.
     residual: f64,
     lost: f64,
     /// The largest rate of the load on the first degree of freedom, N/s.
@@ -65,11 +69,11 @@ pub(super) struct Ledger {
     room: Vec<f64>,
 }
 
-/// What a step moves, J.
+/// Energy flows of a step, J.
 #[derive(Debug, Clone, Copy, Default)]
 struct Flows {
     work: f64,
-    /// The magnitudes of what the loads gave and took, of which `work` is the balance.
+    /// Σ of the magnitudes of the loads' work; `work` is its signed sum.
     passed: f64,
     damping: f64,
     impact: f64,
@@ -103,7 +107,8 @@ impl Ledger {
         }
     }
 
-    /// One step of `h` seconds (and 1/h) on a grid from `q0` to `q1`, with the mean load (N) and the blows (N s) that acted; n degrees of freedom.
+    /// Adds one step of `h` seconds (and 1/h) on a grid from `q0` to `q1`, with the mean load (N)
+    /// and the blows (N s) that acted; n degrees of freedom.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn see_grid(
@@ -148,7 +153,7 @@ impl Ledger {
         self.book(energy + walls, flows);
     }
 
-    /// The energy at the start of a staggered rule: half a step before the first.
+    /// Sets the energy at the start of a staggered rule: half a step before the first instant.
     #[cold]
     fn start(&mut self, scene: &Scene, matrices: &Matrices, (h, b): (f64, f64), q: &[f64], before: &[f64]) {
         for (wall, held) in scene.walls.iter().zip(&mut self.held) {
@@ -160,7 +165,7 @@ impl Ledger {
         (self.report.initial_j, self.report.largest_j) = (self.energy, self.energy);
     }
 
-    /// What flows at the walls; returns what they store after the step, J.
+    /// Adds the flows at the walls; returns the energy that they store after the step, J.
     #[inline(never)]
     fn see_walls(
         &mut self,
@@ -196,10 +201,12 @@ impl Ledger {
                     let plate = |w: f64| (-wall.gap(w)).max(0.0);
                     let rate = if staggered { rate } else { (plate(w1) - plate(w0)) / h };
                     flows.dashpot += damping * rate * rate * h;
-                    // Where it takes hold of a body behind its face, its law supplies what the spring holds there.
+                    // Where contact begins with the body already behind the face, the energy of the
+                    // spring there counts as supplied by the wall.
                     flows.dashpot -= if held == 0.0 { wall.law.energy(-wall.gap(w0)) } else { 0.0 };
                 } else {
-                    // A damped wall that lets go keeps its energy to itself: spring and dashpot relax against each other.
+                    // What a damped wall stores when contact ends is dissipated: spring and dashpot
+                    // relax against each other.
                     flows.dashpot += held;
                 }
             }
@@ -207,15 +214,17 @@ impl Ledger {
         walls
     }
 
-    /// Books as damping what the dampers take of the work of blows, which [`Ledger::see_grid`] is given without it, J.
+    /// Adds to load work and damping, J, the part of the blows' work that the dampers take:
+    /// [`Ledger::see_grid`] is given the blows without it.
     pub fn damp(&mut self, lost: f64) {
         self.report.load_work_j += lost;
         self.report.damping_j += lost;
         self.flowed += lost.abs();
     }
 
-    /// Books what the blows of the step just seen did beside its rule: their work is that at their own instants, where the velocity is not
-    /// the mean of the step's ends, and the difference is what the forces at rest with the displacement take from it on the way.
+    /// Adds the work of the blows of the last step beyond its rule: they work at their own
+    /// instants, where the velocity is not the mean of the step's ends, and the difference is the
+    /// work of the forces that depend on the displacement over the displacement that the blows add.
     pub fn displace(&mut self, scene: &Scene, matrices: &Matrices, h: f64, step: &Step<'_>) {
         let after = step.velocity_after;
         let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
@@ -238,8 +247,9 @@ impl Ledger {
         self.book(energy, Flows { work, passed: work.abs(), ..Flows::default() });
     }
 
-    /// Energy half a step from `q`, on the way to q + h v: ½vᵀMv + ½[x̄ᵀKx̄ − (1−4b)(½hv)ᵀK(½hv)] with x̄ = q + ½hv, conserved by the
-    /// staggered balance; without the walls. A negative `h` looks back.
+    /// Energy half a step from `q`, on the way to q + h v, without the walls: ½vᵀMv + ½[x̄ᵀKx̄ −
+    /// (1−4b)(½hv)ᵀK(½hv)] with x̄ = q + ½hv, which the staggered balance conserves. A negative `h`
+    /// looks back.
     #[inline(always)]
     fn half_step(&mut self, matrices: &Matrices, (h, b): (f64, f64), q: &[f64], v: &[f64], n: usize) -> f64 {
         let (q, v) = (&q[..n], &v[..n]);
@@ -280,7 +290,8 @@ impl Ledger {
     }
 }
 
-/// Energy in a wall at displacement `w`, J; a damped wall that has let go of the body holds none that the body can have.
+/// Energy stored in a wall at displacement `w`, J; 0 for a damped wall that does not touch the
+/// body.
 pub(super) fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
     match wall.law {
         WallLaw::Elastic { damping, .. } if damping > 0.0 && !touching => 0.0,
@@ -288,7 +299,7 @@ pub(super) fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
     }
 }
 
-/// The same half a step on the way from `w` to `w + shift`: the mean of both ends.
+/// Energy stored half a step on the way from `w` to `w + shift`: the mean of both ends.
 fn half(wall: &Wall, w: f64, shift: f64, touching: bool) -> f64 {
     0.5 * (stored(wall, w, touching) + stored(wall, w + shift, touching))
 }

@@ -1,10 +1,11 @@
-//! The ledger of a structure's exact motion: what its powers sum up to over a stretch, and what happens in the instant that ends it.
+//! The energy ledger of a structure's exact motion: integrals over a stretch, and the jump at its
+//! end.
 
 use super::{Flows, Ledger, stored};
 use crate::scene::{Scene, WallLaw};
 use crate::step::Step;
 
-/// What moves over a stretch, J.
+/// Energy flows over a stretch, J.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in super::super) struct Moved {
     /// ∫ f·q̇ and ∫ |f·q̇|.
@@ -14,7 +15,7 @@ pub(in super::super) struct Moved {
     pub damping: f64,
     /// ∫ −r ẇ over damped walls.
     pub push: f64,
-    /// The largest energy seen.
+    /// The largest energy at the nodes.
     pub largest: f64,
 }
 
@@ -26,7 +27,8 @@ impl Ledger {
         0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + held
     }
 
-    /// Books a stretch, and the instant at its end, at which the velocity goes from `left` by blows (N s) to `mid` and by impacts to the step's.
+    /// Adds a stretch and the jump at its end, where the velocity goes from `left` by blows (N s)
+    /// to `mid` and by impacts to the step's.
     pub fn see_series(
         &mut self,
         scene: &Scene,
