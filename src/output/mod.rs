@@ -22,7 +22,7 @@ pub mod atomic;
 pub mod compare;
 pub mod csv;
 pub mod document;
-pub mod figure;
+pub use signorini_figure as figure;
 pub mod format;
 pub(crate) mod json;
 mod motion;

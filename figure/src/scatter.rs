@@ -23,7 +23,7 @@ const BOTH: &str = "#000000";
 /// Points of up to two groups over two axes.
 ///
 /// ```
-/// use signorini::output::figure::{Scale, Scatter};
+/// use signorini_figure::{Scale, Scatter};
 ///
 /// let mut scatter = Scatter::new(
 ///     "Logistic map",

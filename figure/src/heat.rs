@@ -19,7 +19,7 @@ const HEIGHT: f64 = 300.0;
 /// × 40 different numbers takes 110 kB.
 ///
 /// ```
-/// use signorini::output::figure::{Class, HeatMap, Scale};
+/// use signorini_figure::{Class, HeatMap, Scale};
 ///
 /// let (steps, stiffnesses) = ([0.01, 0.1, 1.0], [1e2, 1e4]);
 /// let svg = HeatMap::new(

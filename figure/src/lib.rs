@@ -21,7 +21,7 @@
 //! hand instead is small: axes and SVG elements.
 //!
 //! ```
-//! use signorini::output::figure::{Curve, Figure, Mark, Panel};
+//! use signorini_figure::{Curve, Figure, Mark, Panel};
 //!
 //! let points = (0..=1000).map(|i| f64::from(i) * 1e-2).map(|t| (t, 4.0 * t.sin()));
 //! let svg = Figure::new("Free motion", "Time (s)")
@@ -34,6 +34,8 @@
 //!     .to_svg();
 //! assert!(svg.starts_with("<svg"));
 //! ```
+
+#![forbid(unsafe_code)]
 
 mod axis;
 mod class;
