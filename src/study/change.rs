@@ -1,4 +1,4 @@
-//! What differs between two runs of one scene, in the quantities that matter.
+//! The difference between two runs of one scene, in displacements and in contact quantities.
 
 use super::difference::{self, wall_speeds, worse};
 use crate::run::Run;
@@ -8,38 +8,41 @@ use crate::step::Contact;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
 
-/// Contacts slower than this share of the fastest at their wall are grazes, or the end of an accumulation.
+/// Contacts slower than this share of the fastest at their wall are grazes, or the end of an
+/// accumulation of impacts.
 const SLOW: f64 = 1e-2;
 
-/// How far two runs lie apart. Every number is dimensionless; zero where nothing differs.
+/// Difference between two runs. Every number is dimensionless, and zero where nothing differs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Change {
     /// Largest |Δu| of any probe over [`Scene::gap_scale`], at the rows up to the time asked for.
     pub displacement: f64,
-    /// One entry a wall, in the scene's order.
+    /// One entry per wall, in the scene's order.
     pub walls: Vec<WallChange>,
 }
 
-/// The part of one wall, over the window of the statistics. Each is relative to the largest value that a wall of the scene has, or to what one impact
-/// at the largest speed v at this wall would give where that is more, with the mass m that it feels ([`Scene::wall_masses`]): a wall that
-/// is hardly touched does not decide.
+/// Changes at one wall, over the window of the statistics. Each is relative to the largest value at
+/// any wall of the scene, or to the value of a single impact at the largest speed v at this wall if
+/// that is larger (with the mass m that the wall feels, [`Scene::wall_masses`]); so a wall that is
+/// hardly touched does not dominate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WallChange {
     /// The wall's name.
     pub wall: String,
-    /// Of its impulse; at least m v.
+    /// Change of its impulse; the reference is at least m v.
     pub impulse: f64,
-    /// Of its number of contacts; at least 1. None at a rigid wall where impacts accumulate (0 < e < 1, and contact lasts or some
-    /// impacts are slower than 1 % of the fastest): of infinitely many a stepping scheme makes as many as its step resolves, and their number has no limit to
-    /// converge to. Impulse, energy and time of contact have one.
+    /// Change of its number of contacts; the reference is at least 1. `None` at a rigid wall where
+    /// impacts accumulate (0 < e < 1, and a contact lasts or some impacts are slower than 1 % of
+    /// the fastest): of infinitely many impacts a stepping scheme makes as many as its step
+    /// resolves, so their number has no limit. Impulse, energy and time of contact do converge.
     pub contacts: Option<f64>,
-    /// Of the kinetic energy that arrived at it; at least ½ m v².
+    /// Change of the kinetic energy that arrived at it; the reference is at least ½ m v².
     pub impact_energy: f64,
-    /// Of its time in contact, as a share of the window.
+    /// Change of its time in contact, as a share of the window.
     pub contact_time: f64,
-    /// Of its largest force, if it is elastic; at least v √(k_a m).
+    /// Change of its largest force, if the wall is elastic; the reference is at least v √(k_a m).
     pub peak_force: f64,
 }
 
@@ -57,8 +60,9 @@ impl WallChange {
 }
 
 impl Change {
-    /// The change from `run` to `against`, both of `scene`, with the same rows and the same window of statistics, which hold the forces over
-    /// time; displacements up to the time `until` (s).
+    /// The change from `run` to `against`, both runs of `scene` with the same rows and the same
+    /// window of statistics; the statistics must hold the forces over time. Displacements are
+    /// compared up to the time `until` (s).
     #[must_use]
     pub fn between(
         scene: &Scene,
@@ -78,7 +82,7 @@ impl Change {
         let numbers = |index: usize| [run, against].map(|t| number(scene, t.contacts(), index, from));
         let part = |s: &Statistics, index: usize, of: fn(&WallStatistics) -> f64| s.walls.get(index).map_or(0.0, of);
         let [_, own] = statistics;
-        // The largest of any wall, in the motion that is the measure.
+        // Largest value of any wall, taken from the motion compared with.
         let mut most = Largest::default();
         for (index, wall) in scene.walls.iter().enumerate() {
             most.impulse = most.impulse.max(own.impulse(index).abs());
@@ -125,7 +129,7 @@ impl Change {
         Self::between(scene, (&run.trajectory, &run.statistics), against, until)
     }
 
-    /// The largest of all, and the quantity it belongs to.
+    /// The largest of all changes, and the quantity it belongs to.
     #[must_use]
     pub fn worst(&self) -> (f64, String) {
         let mut worst = (self.displacement, "displacement".to_owned());
@@ -145,34 +149,36 @@ pub(super) fn relative([a, b]: [f64; 2], least: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / b.abs().max(least) }
 }
 
-/// Largest values of any wall.
+/// Largest values at any wall.
 #[derive(Debug, Default)]
 struct Largest {
-    /// N s.
+    /// Impulse, N s.
     impulse: f64,
     number: f64,
-    /// W.
+    /// Power of impacts, W.
     power: f64,
-    /// N, of elastic walls.
+    /// Force of elastic walls, N.
     force: f64,
 }
 
-/// Contacts of a wall from the time `from` (s); none where impacts accumulate. Slow ones count in proportion to their speed: a graze
-/// that one of two runs has, and the other has not, changes little.
+/// Contacts of a wall that begin at or after `from` (s); `None` where impacts accumulate. Slow
+/// contacts count in proportion to their speed, so that a graze that only one of two runs has
+/// changes little.
 fn number(scene: &Scene, contacts: &[Contact], wall: usize, from: f64) -> Option<f64> {
     let here = contacts.iter().filter(|c| c.wall == wall && c.start >= from);
     let speeds = here.clone().map(|c| c.approach_speed);
     let slow = SLOW * speeds.clone().fold(0.0, f64::max);
     let bounces =
         |law: WallLaw| matches!(law, WallLaw::Rigid { restitution } if restitution > 0.0 && restitution < 1.0);
-    // Where the step is too long for slow impacts, they have become the lasting contact that ends them.
+    // Where the step is too long for slow impacts, they appear as the lasting contact at their end.
     let lasts = here.clone().any(|c| c.end != Some(c.start));
     let settles = lasts || speeds.clone().filter(|v| *v < slow).count() > 1;
     let accumulates = scene.walls.get(wall).is_some_and(|w| bounces(w.law)) && settles;
     (!accumulates).then(|| speeds.map(|v| if v >= slow { 1.0 } else { v / slow }).sum())
 }
 
-/// The time (s) up to which the displacements of two runs with the same rows agree at every probe to within `tolerance` of the gap scale.
+/// The time (s) up to which the displacements of two runs with the same rows agree at every probe
+/// to within `tolerance` of the gap scale.
 #[must_use]
 pub fn agree_until(scene: &Scene, run: &Trajectory, against: &Trajectory, tolerance: f64) -> f64 {
     let gap = scene.gap_scale();

@@ -1,4 +1,4 @@
-//! Which model, scheme and solver a scene needs, and no more.
+//! Chooses the simplest model, scheme and solver that a scene allows.
 
 use crate::error::Result;
 use crate::linear::{Factor, Symmetric};
@@ -7,21 +7,22 @@ use crate::run::Run;
 use crate::scene::{MOST_DENSE, Scene, Side, Structure, System, Wall, WallLaw};
 use crate::scheme::{Method, Scheme};
 
-/// A method and why.
+/// A method and the reason for it.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Choice {
-    /// What would be run.
+    /// The method to run.
     pub method: Method,
-    /// Why, in a sentence.
+    /// The reason, in one sentence.
     pub reason: String,
 }
 
-/// The constrained QP that honours every wall's restitution: moreau-jean with θ = ½.
+/// The default method: the constrained QP with every wall's restitution, moreau-jean with θ = ½.
 ///
-/// Of the two stepping schemes that honour e, it was ahead of paoli-schatzman on the source scene with impacts (error over the gap at
-/// h = 1e-4: 4e-3 against 3e-2 at e = 1 after 1 s, 8e-4 against 3e-3 at e = 0.8), conserves energy to rounding, takes unequal e wall by wall, and
-/// its velocities are those of the grid's instants. paoli-schatzman is ahead at e = 0 (order 2).
+/// Of the two stepping schemes that take e per wall, it was more accurate than paoli-schatzman on
+/// the source scene with impacts (error over the gap at h = 1e-4: 4e-3 against 3e-2 at e = 1 after
+/// 1 s, 8e-4 against 3e-3 at e = 0.8), it conserves energy to rounding, and its velocities are
+/// those at the grid's instants. paoli-schatzman is more accurate at e = 0 (order 2).
 #[must_use]
 pub fn choose(scene: &Scene) -> Choice {
     let method = Method::new(Scheme::MoreauJean { theta: 0.5 });
@@ -36,8 +37,9 @@ pub fn choose(scene: &Scene) -> Choice {
     Choice { method, reason: reason.into() }
 }
 
-/// What an error named beforehand needs, given the outcome of the exact scheme on `scene`: the exact motion where it can be had, since
-/// no step comes near its cost at any error; else the stepping scheme that converges fastest to these walls.
+/// The method for an error named beforehand, given the outcome of the exact scheme on `scene`: the
+/// exact scheme where it succeeds, since no stepping scheme is as cheap at any error; else the
+/// stepping scheme that converges fastest for these walls.
 #[must_use]
 pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     let run = match exact {
@@ -77,7 +79,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     Choice { method: Method::new(Scheme::Event), reason }
 }
 
-/// Why the solver of `method` on `scene` is what it is.
+/// Why `method` on `scene` uses its solver.
 #[must_use]
 pub fn qp_reason(method: &Method, scene: &Scene) -> String {
     let single = matches!(scene.system, System::Oscillator(_));
@@ -96,7 +98,7 @@ pub fn qp_reason(method: &Method, scene: &Scene) -> String {
     .into()
 }
 
-/// What vibrates, in words.
+/// The system in words.
 fn system(system: &System) -> String {
     let [slowest, fastest] = system.frequencies();
     match system {
@@ -120,7 +122,7 @@ fn system(system: &System) -> String {
     }
 }
 
-/// A share of damping that is rounding.
+/// A share of damping below this is rounding.
 const NOTHING: f64 = 1e-9;
 
 /// The damping of a structure in words, and whether it couples its modes.
@@ -129,7 +131,8 @@ fn damping(system: &System, structure: &Structure) -> String {
         return "no damping".into();
     }
     if let Some((mass, stiffness)) = structure.rayleigh() {
-        // What one term adds to a mode's damping beside the other may be rounding.
+        // The share of one Rayleigh term in a mode's damping may be rounding beside that of the
+        // other.
         let [slowest, fastest] = system.frequencies();
         let sum = match (
             mass.abs() > NOTHING * stiffness * slowest * slowest,
@@ -156,7 +159,8 @@ fn damping(system: &System, structure: &Structure) -> String {
     }
 }
 
-/// How the matrices of a step of `h` seconds are solved, in words; none for one degree of freedom, which needs no matrices.
+/// How the matrices of a step of `h` seconds are solved, in words; `None` for one degree of
+/// freedom, which has no matrices.
 #[must_use]
 pub fn path(scene: &Scene, h: f64) -> Option<String> {
     let System::Structure(s) = &scene.system else { return None };
@@ -164,7 +168,7 @@ pub fn path(scene: &Scene, h: f64) -> Option<String> {
     Some(format!("{}: factored once, solved in every step", Factor::described(&iteration)))
 }
 
-/// What vibrates and how it is damped, in words.
+/// The system and its damping in words.
 #[must_use]
 pub fn body(scene: &Scene) -> Vec<String> {
     let mut lines = vec![system(&scene.system)];

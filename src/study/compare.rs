@@ -1,4 +1,4 @@
-//! Several methods on one scene, held against the exact motion.
+//! Several methods on one scene, compared with the exact motion.
 
 use super::choice::choose;
 use super::difference;
@@ -15,17 +15,19 @@ use std::time::Instant;
 /// Error over the gap beyond which a run no longer agrees with the reference.
 pub const AGREEMENT: f64 = 0.1;
 
-/// Steps of the bare timing runs, at most, and how many of these runs.
+/// Most steps of the timing runs, and the number of these runs.
 const TIMED_STEPS: u64 = 20_000;
 const TIMED_RUNS: usize = 3;
 
-/// Where the exact scheme cannot go, the reference is the chosen stepping scheme with this many times finer steps.
+/// Where the exact scheme cannot follow the scene, the reference is the chosen stepping scheme with
+/// steps finer by this factor.
 pub const FINER: f64 = 8.0;
 
-/// Impacts slower than this share of the fastest say nothing about restitution: rounding and loads do.
+/// Impacts slower than this share of the fastest are left out of the restitution: rounding and
+/// loads falsify it there.
 const SLOW: f64 = 1e-2;
 
-/// Departure over approach speed at the rigid walls of a scene, as a run realised it.
+/// Departure speed over approach speed at the rigid walls of a scene, as a run realised it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Restitution {
@@ -37,20 +39,22 @@ pub struct Restitution {
     pub largest: f64,
 }
 
-/// One method's line of the comparison.
+/// One method of the comparison.
 #[derive(Debug, Clone)]
 pub struct Row {
     /// The method.
     pub method: Method,
     /// The run, or why there is none.
     pub outcome: Result<Run>,
-    /// Restitution at the rigid walls; none without impacts.
+    /// Restitution at the rigid walls; `None` without impacts.
     pub restitution: Option<Restitution>,
-    /// Largest |Δu| of any probe against the reference over the gap scale, up to the horizon; none without a probe.
+    /// Largest |Δu| of any probe against the reference over the gap scale, up to the horizon;
+    /// `None` without a probe.
     pub error: Option<f64>,
     /// Time up to which |Δu| stays below [`AGREEMENT`] of the gap scale, s.
     pub agrees_until: Option<f64>,
-    /// Nanoseconds a step takes: stepping alone, nothing recorded or judged, best of three; one exact step goes from event to event.
+    /// Nanoseconds per step: stepping only, without recorder or judge, best of three. One step of
+    /// the exact scheme goes from event to event.
     pub step_ns: Option<f64>,
 }
 
@@ -58,23 +62,25 @@ pub struct Row {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Comparison {
-    /// The methods in the order asked for, the exact one last.
+    /// The methods in the order asked for, the exact scheme last.
     pub rows: Vec<Row>,
-    /// The exact run, or why there is none; one that the judge has refuted is none.
+    /// The exact run, or why there is none; a run that the judge refutes counts as none.
     pub reference: Result<Run>,
-    /// What the methods are held against where there is no exact run: the chosen stepping scheme, [`FINER`] times finer.
+    /// The reference where there is no exact run: the chosen stepping scheme with steps finer by
+    /// [`FINER`].
     pub refined: Option<(Method, Run)>,
-    /// Time up to which a pointwise error means something, s.
+    /// Time up to which a pointwise error is meaningful, s.
     pub horizon: f64,
-    /// Growth of a small perturbation over the whole run; none where it is not known.
+    /// Growth of a small perturbation over the whole run; `None` where it is not known.
     pub growth: Option<f64>,
-    /// How that was found.
+    /// How the growth was found.
     pub growth_by: Option<Source>,
-    /// What differs and why, in sentences.
+    /// Explanations of the differences, in sentences.
     pub findings: Vec<String>,
 }
 
-/// The methods of the main comparison: the constrained QP by its own solver and through Clarabel, and every penalty.
+/// The methods of the main comparison: the constrained QP by its own solver and through Clarabel,
+/// and every penalty.
 #[must_use]
 pub fn default_methods(chosen: Method, penalties: impl Iterator<Item = Method>) -> Vec<Method> {
     let mut methods = vec![chosen];
@@ -85,12 +91,13 @@ pub fn default_methods(chosen: Method, penalties: impl Iterator<Item = Method>) 
     methods
 }
 
-/// Runs every method on `scene`, the reference first; `progress` hears how many runs are done, in parts of a run. A method that fails is a row with the reason in it.
+/// Runs every method on `scene`, the reference first. `progress` is told how many runs are done, as
+/// a fraction. A method that fails is a row that gives the reason.
 ///
 /// # Errors
-/// [`Error::Invalid`] for times that make no sense. What a method refuses or fails at is in its row.
+/// [`Error::Invalid`] for times that make no sense. Errors of a method are in its row.
 pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: &dyn Fn(f64)) -> Result<Comparison> {
-    // One set of rows for all, the exact run's too, so that they can be subtracted.
+    // All runs, the exact one too, share one set of rows, so that they can be subtracted.
     let grid = TimeGrid::stepping(scene.duration, time)?;
     let time = TimeOptions { sample: Some(grid.end / grid.rows as f64), ..*time };
     let structure = matches!(scene.system, System::Structure(_));
@@ -102,7 +109,8 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
     };
     let exact = Method::new(Scheme::Event);
     let reference = possible.and_then(|()| timed(0, &exact, time));
-    // Several degrees of freedom: where the exact scheme cannot go, a stepping scheme is refined, and shows what grows.
+    // With several degrees of freedom, where the exact scheme cannot follow the scene, a refined
+    // stepping scheme is the reference and also shows how perturbations grow.
     let stand_in = choose(scene).method;
     let finer = TimeOptions { step: grid.step / FINER, ..time };
     let refined = match &reference {
@@ -151,7 +159,7 @@ fn row(
     row
 }
 
-/// Largest error over the gap up to the horizon, and the time up to which the two agree.
+/// Largest error over the gap up to the horizon, and the time up to which run and reference agree.
 fn against(scene: &Scene, run: &Run, reference: &Run, horizon: f64) -> (Option<f64>, Option<f64>) {
     let gap = scene.gap_scale();
     let (mut error, mut until) = (None, None);
@@ -160,7 +168,7 @@ fn against(scene: &Scene, run: &Run, reference: &Run, horizon: f64) -> (Option<f
         if t <= horizon * (1.0 + 1e-12) {
             error = Some(difference::worse(error.unwrap_or(0.0), difference));
         }
-        // A difference that is no number is none that agrees.
+        // NaN counts as disagreement.
         if until.is_none() && (difference.is_nan() || difference > AGREEMENT) {
             until = Some(t);
         }
@@ -168,7 +176,8 @@ fn against(scene: &Scene, run: &Run, reference: &Run, horizon: f64) -> (Option<f
     (error, error.map(|_| until.unwrap_or(scene.duration)))
 }
 
-/// Restitution at the walls that are rigid in `scene`, whatever the method put in their place.
+/// Restitution at the walls that are rigid in `scene`, also where the method replaced them by
+/// springs.
 fn restitution(scene: &Scene, run: &Run) -> Option<Restitution> {
     let rigid = |wall: usize| scene.walls.get(wall).is_some_and(|w| w.law.is_rigid());
     let seen = run.trajectory.contacts().iter().filter(|c| rigid(c.wall));
@@ -249,7 +258,7 @@ fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     findings
 }
 
-/// What going through Clarabel changed, where a method was run both ways.
+/// How much solving through Clarabel changed, where a method was run both ways.
 fn clarabel_difference(scene: &Scene, comparison: &Comparison) -> Option<String> {
     let through = comparison.rows.iter().find(|r| r.method.backend == Backend::Clarabel)?;
     let own = comparison
@@ -271,7 +280,7 @@ fn clarabel_difference(scene: &Scene, comparison: &Comparison) -> Option<String>
     let pairs = walls.flat_map(|(x, y)| x.iter().zip(y).take(until));
     let force = pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
     let scale = a.residuals.force_scale_n.max(f64::MIN_POSITIVE);
-    // Clarabel's answer is made exact by the routine that condensed is.
+    // Clarabel's solution is polished by the same routine that the condensed solver uses.
     let both = if a.backend == Backend::Condensed {
         "; both end in one exact solve, so this tells which walls push"
     } else {
@@ -288,10 +297,10 @@ fn clarabel_difference(scene: &Scene, comparison: &Comparison) -> Option<String>
     ))
 }
 
-/// The first failure among the rows, if every method failed: then the comparison itself has.
+/// Checks that at least one method succeeded.
 ///
 /// # Errors
-/// That failure.
+/// The first failure among the rows, if every method failed.
 pub fn any_succeeded(comparison: &Comparison) -> Result<()> {
     let mut failures = comparison.rows.iter().map(|row| row.outcome.as_ref().err());
     match failures.clone().all(|failure| failure.is_some()) {

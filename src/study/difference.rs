@@ -1,10 +1,11 @@
-//! How far two recorded motions of one scene lie apart, row by row: what every study calls |Δu|.
+//! The difference |Δu| between two recorded motions of one scene, row by row; every study uses this
+//! definition.
 
 use crate::scene::Scene;
 use crate::trajectory::Trajectory;
 
-/// The rows of `run` and of `against`, which share them: time (s) and the largest |Δu| (m) over the probes. Nothing where no probe is common to both.
-/// A difference that is no number is kept as such.
+/// The common rows of `run` and `against`: time (s) and the largest |Δu| (m) over the probes. Empty
+/// where they have no probe in common. A NaN difference is kept.
 pub(crate) fn rows<'a>(run: &'a Trajectory, against: &'a Trajectory) -> impl Iterator<Item = (f64, f64)> + 'a {
     let probes = run.displacements().len().min(against.displacements().len());
     let (mine, others) = (run.displacements(), against.displacements());
@@ -17,18 +18,18 @@ pub(crate) fn rows<'a>(run: &'a Trajectory, against: &'a Trajectory) -> impl Ite
     against.time().iter().take(count).enumerate().map(move |(row, &t)| (t, largest(row)))
 }
 
-/// The larger of two, and NaN if either is: a run that left the numbers agrees with nothing.
+/// The larger of two, and NaN if either is: a run whose state became NaN agrees with nothing.
 pub(crate) fn worse(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
-/// The largest |value| of some columns.
+/// The largest |value| in several columns.
 pub(crate) fn largest(columns: &[Vec<f64>]) -> f64 {
     columns.iter().flatten().fold(0.0, |most, x| most.max(x.abs()))
 }
 
-/// The largest speed at each wall, m/s, in the scene's order: by the probe that looks where the wall stands; where there is none, the
-/// larger of the fastest contact and the fastest probe.
+/// The largest speed at each wall, m/s, in the scene's order: seen by the probe on the wall's row;
+/// where there is none, the larger of the fastest contact and the fastest probe.
 pub(crate) fn wall_speeds(scene: &Scene, motion: &Trajectory) -> Vec<f64> {
     let fastest = largest(motion.velocities());
     let speed = |(index, wall): (usize, &crate::scene::Wall)| {

@@ -1,4 +1,5 @@
-//! The exact motion as a reference: whether it can be afforded, and once more with another rounding.
+//! The exact motion as a reference: whether it can be afforded, and the same motion with other
+//! roundings.
 
 use crate::error::{Error, Result};
 use crate::residual::{Finding, Judge};
@@ -9,18 +10,21 @@ use crate::statistics::{Forces, Statistics};
 use crate::time::TimeOptions;
 use crate::trajectory::{Recorder, Trajectory};
 
-/// Steps from event to event that a reference may take: a second or so. The exact scheme itself follows far more before it gives up.
+/// Most events that a reference may take: about a second. The exact scheme itself follows many more
+/// before it gives up.
 const MOST_EVENTS: u64 = 1_000_000;
 
-/// What several degrees of freedom cost: each takes its part in every event, about a quarter of what one takes alone.
+/// The same limit for several degrees of freedom: each takes part in every event, at about a
+/// quarter of the cost of a single one.
 fn most_events(scene: &Scene) -> u64 {
     (4 * MOST_EVENTS / scene.system.degrees_of_freedom().max(1) as u64).clamp(1000, MOST_EVENTS)
 }
 
-/// Follows `scene` from event to event and keeps nothing.
+/// Follows `scene` from event to event without recording.
 ///
 /// # Errors
-/// What the exact scheme reports, and [`Error::TooManyEvents`] beyond a million steps of one degree of freedom, four million over n of n.
+/// Errors of the exact scheme, and [`Error::TooManyEvents`] beyond a million events for one degree
+/// of freedom, four million over n for n.
 pub fn affordable(scene: &Scene) -> Result<()> {
     let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
     let most = most_events(scene);
@@ -35,10 +39,12 @@ pub fn affordable(scene: &Scene) -> Result<()> {
     Err(Error::TooManyEvents { time, wall, count: most, window: time })
 }
 
-/// Stretches of the other run over the duration: no divisor of anything, so that its stops fall on no row and no period.
+/// Number of stretches of the other run in the duration; not a round number, so that its stops fall
+/// on no row and no period.
 const STRETCHES: f64 = 97.3;
 
-/// The stride of the other run, s: the exact scheme stops at its multiples and begins its closed form anew, with other roundings.
+/// The stride of the other run, s: the exact scheme stops at its multiples and starts its closed
+/// form anew, with other roundings.
 #[must_use]
 pub fn stride(scene: &Scene) -> f64 {
     scene.duration / STRETCHES
@@ -51,14 +57,15 @@ pub struct Replay {
     pub trajectory: Trajectory,
     /// Its statistics.
     pub statistics: Statistics,
-    /// What the judge refutes of it.
+    /// Findings of the judge.
     pub findings: Vec<Finding>,
 }
 
-/// The exact motion of `scene` at the rows of `run`, with stops at every multiple of [`stride`]; its statistics have the window of `time`.
+/// The exact motion of `scene` at the rows of `run`, with stops at every multiple of [`stride`];
+/// its statistics have the window of `time`.
 ///
 /// # Errors
-/// What the exact scheme reports.
+/// Errors of the exact scheme.
 pub fn replay(scene: &Scene, run: &Run, time: &TimeOptions) -> Result<Replay> {
     let mut stepper = Stepper::new(scene, &Scheme::Event, stride(scene))?;
     let state = stepper.state();

@@ -6,11 +6,11 @@ use std::fmt;
 /// How a growth was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Source {
-    /// By saltation matrices along the exact motion: exactly.
+    /// By saltation matrices along the exact motion: an exact value.
     Saltation,
-    /// By exact runs from starts beside the scene's: at least.
+    /// By exact runs from perturbed starts: a lower bound.
     ExactRuns,
-    /// By such runs of a stepping method: at least.
+    /// By runs of a stepping method from perturbed starts: a lower bound.
     Runs(Method),
 }
 
@@ -30,9 +30,10 @@ impl fmt::Display for Source {
 pub struct Growth {
     /// Ends of the exact run's steps, or rows of the perturbed runs, s.
     pub time: Vec<f64>,
-    /// Largest singular value of the derivative there, or the growth seen, in units of the gap scale and the largest speed; at least 1 at the start. No
-    /// number where perturbed runs have parted altogether.
+    /// Largest singular value of the derivative at these times, or the growth seen, in units of the
+    /// gap scale and the largest speed; at least 1. NaN where perturbed runs have separated
+    /// completely.
     pub factor: Vec<f64>,
-    /// How it was found.
+    /// How the growth was found.
     pub source: Source,
 }

@@ -1,13 +1,17 @@
-//! How long a pointwise comparison means anything: the growth of a small change of the start.
+//! The time up to which a pointwise comparison is meaningful, from the growth of a small change of
+//! the start.
 //!
-//! For one degree of freedom it is known exactly. Along an exact run the derivative of the state with respect to the start is a product of
-//! free flows and of jumps at events (saltation matrices; Leine & Nijmeijer 2004, doi:10.1007/978-3-540-44398-8, ch. 7). On (u, v), with
-//! accelerations a⁻, a⁺ before and after:
+//! For one degree of freedom the growth is exact. Along an exact run the derivative of the state
+//! with respect to the start is a product of free flows and of jumps at events (saltation matrices;
+//! Leine & Nijmeijer 2004, doi:10.1007/978-3-540-44398-8, ch. 7). On (u, v), with accelerations a⁻,
+//! a⁺ before and after:
 //!
-//! rigid impact [[−e, 0], [(a⁺ + e a⁻)/v⁻, −e]];   elastic entry and exit [[1, 0], [(a⁺ − a⁻)/v, 1]];   coming to rest 0.
+//! rigid impact [[−e, 0], [(a⁺ + e a⁻)/v⁻, −e]];   elastic entry and exit [[1, 0], [(a⁺ − a⁻)/v,
+//! 1]];   coming to rest 0.
 //!
-//! For several it is estimated from below, by exact runs from starts that differ by next to nothing; and where the exact scheme cannot go,
-//! by such runs of a stepping scheme.
+//! For several degrees of freedom the growth is estimated from below, by exact runs from slightly
+//! perturbed starts; where the exact scheme cannot follow the scene, by such runs of a stepping
+//! scheme.
 
 pub use super::growth::{Growth, Source};
 
@@ -17,15 +21,16 @@ use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::step::Path;
 
-/// A perturbation that has grown by this much turns an error of 1e-3 of the gap into a tenth of it: beyond, curves part for reasons that
-/// are the scene's, not the scheme's.
+/// A perturbation that has grown by this factor turns an error of 1e-3 of the gap into a tenth of
+/// the gap: beyond that time, curves differ because the motion is sensitive, not because a scheme
+/// is inaccurate.
 pub const LARGEST_GROWTH: f64 = 1e2;
 
 impl Growth {
     /// The growth along the exact run of `scene`.
     ///
     /// # Errors
-    /// What the exact scheme reports.
+    /// Errors of the exact scheme.
     pub fn of(scene: &Scene) -> Result<Self> {
         match scene.system {
             System::Oscillator(_) => Self::by_saltation(scene),
@@ -33,16 +38,17 @@ impl Growth {
         }
     }
 
-    /// The growth, at least, of a change as large as errors that are compared, a thousandth of the largest speed, along the run of `scene`
-    /// by `method` with steps of `step` (s).
+    /// A lower bound of the growth along the run of `scene` by `method` with steps of `step` (s),
+    /// for a perturbation as large as the errors that are compared: a thousandth of the largest
+    /// speed.
     ///
     /// # Errors
-    /// What the runs report.
+    /// Errors of the runs.
     pub fn by_runs(scene: &Scene, method: &Method, step: f64) -> Result<Self> {
         perturbation::growth(scene, method, step, perturbation::COMPARED)
     }
 
-    /// The same of a change just above rounding.
+    /// The same for a perturbation just above rounding.
     pub(super) fn of_rounding(scene: &Scene, method: &Method, step: f64) -> Result<Self> {
         perturbation::growth(scene, method, step, perturbation::SMALL)
     }
@@ -51,7 +57,8 @@ impl Growth {
         let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
         let mut product = [[1.0, 0.0], [0.0, 1.0]];
         let (mut time, mut products, mut speed) = (vec![0.0], vec![product], 0.0_f64);
-        // Acceleration at the end of the last arc and its damping: a damped wall that is entered or left changes both.
+        // Acceleration at the end of the last arc, and the damping there: entering or leaving a
+        // damped wall changes both.
         let mut last: Option<(f64, f64)> = None;
         while stepper.time() < scene.duration {
             let step = stepper.step()?;
@@ -72,7 +79,7 @@ impl Growth {
                 last = (!jumped).then_some((a_before, arc.damping()));
                 if jumped && before != 0.0 {
                     let e = -after / before;
-                    // The smooth force changes with the velocity only.
+                    // At the impact the smooth force changes only through the velocity.
                     let a_after = a_before + (arc.damping() / arc.mass()) * (before - after);
                     product = multiply([[-e, 0.0], [(a_after + e * a_before) / before, -e]], product);
                 }
@@ -85,7 +92,8 @@ impl Growth {
         Ok(Self { time, factor: products.into_iter().map(scaled).collect(), source: Source::Saltation })
     }
 
-    /// The time up to which no perturbation has grown by more than `most`; the end of the run if none ever does.
+    /// The time up to which no perturbation has grown by more than `most`; the end of the run if
+    /// none ever does.
     #[must_use]
     pub fn horizon(&self, most: f64) -> f64 {
         let last = self.time.last().copied().unwrap_or(0.0);
@@ -99,7 +107,8 @@ impl Growth {
         last
     }
 
-    /// The largest growth up to `time` (s). Where perturbed runs have parted, it is [`LARGEST_GROWTH`] at least.
+    /// The largest growth up to `time` (s). Where perturbed runs have separated completely, it
+    /// counts as [`LARGEST_GROWTH`].
     #[must_use]
     pub fn until(&self, time: f64) -> f64 {
         let rows = self.time.iter().zip(&self.factor).filter(|(t, _)| **t <= time);

@@ -1,4 +1,4 @@
-//! Questions asked of many runs.
+//! Studies: questions that take many runs to answer.
 
 pub mod accuracy;
 pub mod change;

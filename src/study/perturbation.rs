@@ -1,16 +1,20 @@
-//! The growth of a small change of the start, seen in runs that really are changed: an estimate from below, for scenes that have no formula.
+//! The growth of a small change of the start, measured on perturbed runs: a lower bound, for scenes
+//! without a closed form.
 //!
-//! The velocities of the start are changed by pseudo-random amounts, δ of the largest speed at most, in a few directions. Of the difference
-//! to the unchanged run the displacement wδ at every wall and probe is watched, at the rows: its growth is the largest of √((wδ/gap)² +
-//! (ẇδ/speed)²) over what the change was at the start, in the same places. ẇδ is the slope of wδ between two rows, the least of those about
-//! a row: at an impact wδ itself jumps, to −e wδ, and the velocities differ by a whole jump for the instant that lies between the two
-//! impacts. A few directions rarely hold the worst one, but soon turn towards it: where growth is large the estimate falls short of it by a
-//! factor of order 1.
+//! The initial velocities are changed by pseudo-random amounts, at most δ times the largest speed,
+//! in a few directions. At the rows, the displacement difference wδ to the unperturbed run is taken
+//! at every wall and probe. The growth is the largest √((wδ/gap)² + (ẇδ/speed)²) over its value at
+//! the start, at the same places. ẇδ is the slope of wδ between two rows, the smallest of those
+//! next to a row: at an impact wδ itself jumps, to −e wδ, and between the impacts of the two runs
+//! the velocities differ by the whole jump. A few random directions rarely include the worst one,
+//! but soon turn towards it: where growth is large the estimate is too small by a factor of order
+//! 1.
 //!
-//! A stepping scheme touches walls at the grid's instants, and a change far below its own error may change nothing there, or a whole step.
-//! Where runs of such a scheme are to say how long errors can be compared, δ is as large as these errors ([`COMPARED`]); where they are to
-//! say how far rounding grows, it is small ([`SMALL`]). What a scheme makes of the phase of an impact within its step separates two of its
-//! runs like any other change, and is part of what they show.
+//! A stepping scheme meets walls at the grid's instants only; a perturbation far below its own
+//! error may change nothing there, or shift a contact by a whole step. Where such runs are to tell
+//! how long errors can be compared, δ is as large as these errors ([`COMPARED`]); where they are to
+//! tell how far rounding grows, δ is small ([`SMALL`]). The scheme's response to the phase of an
+//! impact within its step separates two of its runs too, and is part of the growth they show.
 
 use super::difference::largest;
 use super::growth::{Growth, Source};
@@ -20,23 +24,24 @@ use crate::scheme::{Method, Scheme, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
 
-/// Far above rounding and what solvers leave, far below what is compared.
+/// δ far above rounding and solver residuals, far below the errors that are compared.
 pub(super) const SMALL: f64 = 1e-10;
-/// As large as errors that are compared.
+/// δ as large as the errors that are compared.
 pub(super) const COMPARED: f64 = 1e-3;
-/// Directions, where there is more than one degree of freedom.
+/// Number of directions, where there is more than one degree of freedom.
 const DIRECTIONS: u64 = 2;
-/// A difference above this share of the gap grows no further: the gap is full.
+/// A difference above this share of the gap is saturated.
 const FULL: f64 = 0.1;
-/// Rows at which runs are compared.
+/// Number of rows at which runs are compared.
 const ROWS: u64 = 1024;
-/// Places watched at most, where neither walls nor probes are.
+/// Most places compared where there are neither walls nor probes.
 const FEW: usize = 16;
 
-/// The growth of a change of size `delta` along the run of `scene` by `method` with steps of `step` (s), which the exact scheme does without.
+/// The growth of a change of size `delta` along the run of `scene` by `method` with steps of `step`
+/// (s); the exact scheme ignores `step`.
 ///
 /// # Errors
-/// What the runs report.
+/// Errors of the runs.
 pub(super) fn growth(scene: &Scene, method: &Method, step: f64, delta: f64) -> Result<Growth> {
     let watched = watching(scene);
     let base = record(&watched, method, step)?;
@@ -64,7 +69,8 @@ pub(super) fn growth(scene: &Scene, method: &Method, step: f64, delta: f64) -> R
     Ok(Growth { time: base.time().to_vec(), factor, source })
 }
 
-/// Raises `factor` to the size of the difference of two columns at each row; no number from where the gap is full.
+/// Raises `factor` to the size of the difference of two columns at each row; NaN from the row on at
+/// which the difference is saturated.
 fn follow(time: &[f64], w: &[f64], moved: &[f64], (length, speed): (f64, f64), factor: &mut [f64]) {
     let difference = |row: usize| Some((moved.get(row)? - w.get(row)?, *time.get(row)?));
     let mut full = false;
@@ -80,7 +86,8 @@ fn follow(time: &[f64], w: &[f64], moved: &[f64], (length, speed): (f64, f64), f
     }
 }
 
-/// The scene with a probe at every wall and where its own look; at some degrees of freedom where there is neither.
+/// The scene with a probe on the row of every wall and of every probe it has; where it has neither,
+/// at some of its degrees of freedom.
 fn watching(scene: &Scene) -> Scene {
     let mut watched = scene.clone();
     let mut places: Vec<Row> = Vec::new();
@@ -96,7 +103,7 @@ fn watching(scene: &Scene) -> Scene {
     watched
 }
 
-/// Pseudo-random numbers from −1 to 1, the largest of them of size 1.
+/// Pseudo-random numbers from −1 to 1, scaled so that the largest has magnitude 1.
 pub(super) fn directions_of(n: usize, direction: u64) -> Vec<f64> {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(direction + 1);
     let mut draw = || {

@@ -1,4 +1,4 @@
-//! The refinement verdict: the same run with half the step, and what that changed.
+//! The refinement verdict: the same run with half the step, and the change that makes.
 
 use super::change::Change;
 use super::exact::{Replay, affordable, replay, stride};
@@ -12,10 +12,10 @@ use crate::time::TimeOptions;
 use serde::Serialize;
 use std::fmt;
 
-/// What a verdict costs, in runs like the one it is about.
+/// Cost of a verdict, in runs like the one it checks.
 pub const COST: f64 = 2.0;
 
-/// Walls that a verdict in words speaks of one by one, at most.
+/// Most walls that the text of a verdict names one by one.
 const MOST_NAMED: usize = 4;
 
 /// How a run was checked.
@@ -28,14 +28,14 @@ pub enum Check {
         /// The halved step, s.
         step_s: f64,
     },
-    /// The exact scheme has no step: by the same motion with another rounding.
+    /// The exact scheme has no step: by the same motion with other roundings.
     OtherRounding {
-        /// Distance of the stops that bring the other rounding, s.
+        /// Distance of the stops that change the rounding, s.
         stride_s: f64,
     },
 }
 
-/// One wall before and after.
+/// One wall in the run and in its check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WallVerdict {
@@ -45,11 +45,12 @@ pub struct WallVerdict {
     pub impulse_n_s: [f64; 2],
     /// Contacts of the run and of its check in that window.
     pub contacts: [usize; 2],
-    /// Largest force of the run and of its check in that window, N; none where there is no finite one.
+    /// Largest force of the run and of its check in that window, N; `None` where no force is
+    /// finite.
     pub peak_force_n: [Option<f64>; 2],
 }
 
-/// What the check changed.
+/// The changes that the check found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Verdict {
@@ -57,20 +58,23 @@ pub struct Verdict {
     pub check: Check,
     /// Largest |Δu| of any probe over the gap scale up to the horizon.
     pub displacement: f64,
-    /// Time up to which displacements were compared, s: the end, or where a perturbation of the start has grown
-    /// [`LARGEST_GROWTH`]-fold.
+    /// Time up to which displacements were compared, s: the end, or where a perturbation of the
+    /// start has grown [`LARGEST_GROWTH`]-fold.
     pub horizon_s: f64,
-    /// One entry a wall, in the scene's order; none of them stops at the horizon.
+    /// One entry per wall, in the scene's order. Unlike displacements, these are compared over the
+    /// whole run.
     pub walls: Vec<WallVerdict>,
-    /// What the judge refutes of the check's own run: with any of these the verdict says nothing.
+    /// What the judge refutes in the check's own run; if there is anything, the verdict is
+    /// meaningless.
     pub findings: Vec<Finding>,
 }
 
 impl Verdict {
-    /// Checks `run` of `scene`, made by `method` with the options `time`; `progress` hears the time (s) that the check has reached.
+    /// Checks `run` of `scene`, made by `method` with the options `time`; `progress` is told the
+    /// time (s) that the check has reached.
     ///
     /// # Errors
-    /// What the check's run reports.
+    /// Errors of the check's run.
     pub fn of(
         scene: &Scene,
         method: &Method,
@@ -88,11 +92,13 @@ impl Verdict {
             let Run { trajectory, statistics, findings, .. } = half;
             (Check::HalfStep { step_s }, Replay { trajectory, statistics, findings })
         };
-        // A penalty moves between springs: what grows there is not what grows between rigid walls.
+        // A penalty run moves between springs, where perturbations grow otherwise than between
+        // rigid walls.
         let model = Stepper::new(scene, method, run.grid.step)?.scene().clone();
         let growth = affordable(&model).and_then(|()| Growth::of(&model));
         let growth = match (&model.system, growth) {
-            // Several degrees of freedom: where the exact scheme cannot go, the method itself can.
+            // With several degrees of freedom, where the exact scheme cannot follow the scene, runs
+            // of the method itself show the growth.
             (System::Structure(_), Err(_)) => Growth::by_runs(scene, method, run.grid.step),
             (_, growth) => growth,
         };
@@ -111,8 +117,9 @@ impl Verdict {
         Ok(Self { check, displacement: change.displacement, horizon_s, walls, findings: again.findings })
     }
 
-    /// Largest change of a wall's impulse, as a share of the largest impulse that a wall has in either run: a wall that is hardly touched,
-    /// or in one of the runs only, does not decide. With one wall this is the change over that wall's larger impulse; 0 where nothing differs.
+    /// Largest change of a wall's impulse, as a share of the largest impulse at any wall in either
+    /// run, so that a wall that is hardly touched, or in one run only, does not dominate. With one
+    /// wall this is the change over that wall's larger impulse; 0 where nothing differs.
     #[must_use]
     pub fn impulse_change(&self) -> f64 {
         let largest = |of: fn(&WallVerdict) -> f64| self.walls.iter().map(of).fold(0.0, f64::max);
@@ -120,7 +127,7 @@ impl Verdict {
         if change == 0.0 { 0.0 } else { change / largest(|w| w.impulse_n_s[0].abs().max(w.impulse_n_s[1].abs())) }
     }
 
-    /// The walls a line has room for: all of a few, else those with the largest impulses.
+    /// The walls named in the text: all where they are few, else those with the largest impulses.
     fn foremost(&self) -> Vec<&WallVerdict> {
         let mut walls: Vec<&WallVerdict> = self.walls.iter().collect();
         if walls.len() > MOST_NAMED {
@@ -130,7 +137,7 @@ impl Verdict {
         walls
     }
 
-    /// Contacts that the check has more than the run, all walls together.
+    /// By how many contacts the check exceeds the run, all walls together.
     #[must_use]
     pub fn contacts_gained(&self) -> i64 {
         self.walls.iter().map(|w| w.contacts[1] as i64 - w.contacts[0] as i64).sum()
@@ -173,7 +180,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// The change as a share of the value after it, which is not 0 unless both are.
+/// The change as a share of the value after it (which is 0 only if both are).
 fn relative([before, after]: [f64; 2]) -> String {
     if before == after {
         "unchanged".into()

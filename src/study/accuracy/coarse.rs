@@ -1,11 +1,12 @@
-//! Where refinement begins: the coarsest step that can see what happens in a scene.
+//! The coarsest step with which refinement begins: just short enough to see the shortest event of
+//! the scene.
 
 use crate::error::Result;
 use crate::scene::{LoadKind, Loads, Scene, System, WallLaw};
 use crate::time::{TimeGrid, TimeOptions};
 use std::f64::consts::{PI, TAU};
 
-/// Steps in the shortest period or contact of a scene with which refinement begins.
+/// Number of first steps in the shortest period or contact of the scene.
 const STEPS_PER_PERIOD: f64 = 8.0;
 
 /// Least number of steps in a run.
@@ -14,7 +15,7 @@ const FEWEST_STEPS: f64 = 64.0;
 /// Most rows where no spacing is asked for.
 const MOST_ROWS: f64 = 1e4;
 
-/// Rows and first steps of a refinement: every later grid halves the steps and keeps the rows.
+/// Rows and first step of a refinement. Every further level halves the step and keeps the rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoarseGrid {
     /// Spacing of the rows, s.
@@ -26,7 +27,8 @@ pub struct CoarseGrid {
 }
 
 impl CoarseGrid {
-    /// The coarse grid of `scene`. Rows are those asked for; without a spacing a row a first step, or ten thousand.
+    /// The coarse grid of `scene`. Its rows are those asked for; without a spacing there is one row
+    /// per first step, at most ten thousand.
     ///
     /// # Errors
     /// [`crate::Error::Invalid`] for times that make no sense.
@@ -37,12 +39,13 @@ impl CoarseGrid {
         let rows =
             TimeGrid::stepping(scene.duration, &TimeOptions { step: 0.5 * spacing, sample: Some(spacing), ..*time })?;
         let sample = scene.duration / rows.rows as f64;
-        // In range: the rows are bounded, and a scene with more steps a row than this is refused by its grid.
+        // In range: the number of rows is bounded, and a scene with more steps per row than this is
+        // refused by its grid.
         let per_row = (sample / largest * (1.0 - 1e-9)).ceil().clamp(1.0, 1e9) as u64;
         Ok(Self { sample, steps: rows.rows.saturating_mul(per_row), per_row })
     }
 
-    /// The options of the grid that has been halved `level` times.
+    /// The time options of the grid whose step has been halved `level` times.
     #[must_use]
     pub fn options(&self, level: u32, time: &TimeOptions) -> TimeOptions {
         let step = self.sample / (self.per_row as f64 * 2f64.powi(level as i32));
@@ -50,15 +53,16 @@ impl CoarseGrid {
     }
 }
 
-/// The shortest time in which something happens, s: a period of the system (of several degrees of freedom midway between the slowest and the
-/// fastest) or of a load, a row of a table, a contact with an elastic wall, the gap at the
-/// speed of the start.
-/// Infinite where nothing has a time of its own.
+/// The shortest time scale of the scene, s: a period of the system (with several degrees of
+/// freedom, the geometric mean between the slowest and the fastest), a period of a load, the
+/// spacing of a table, a contact with an elastic wall, or the time in which the gap is crossed at
+/// the initial speed. Infinite where the scene has no time scale.
 fn shortest_time(scene: &Scene) -> f64 {
     let [slowest, fastest] = scene.system.frequencies();
     let slowest = match scene.system {
         System::Oscillator(_) => slowest,
-        // Midway, as ratios go: impacts wake more than the slowest motion, and halving goes on to the faster ones.
+        // The geometric mean: impacts excite more than the slowest mode, and further halvings
+        // resolve the faster ones.
         System::Structure(_) => (slowest.max(TAU / scene.duration) * fastest).sqrt(),
     };
     let mut times = vec![period(slowest * slowest)];
@@ -67,7 +71,7 @@ fn shortest_time(scene: &Scene) -> f64 {
             LoadKind::Harmonic { frequency, .. } if *frequency > 0.0 => times.push(1.0 / frequency),
             LoadKind::Table(table) => {
                 if let [first, .., last] = table.time() {
-                    // Rows are samples of something: it has some of them in a period.
+                    // Table rows are samples of a signal, so a period holds several of them.
                     times.push(STEPS_PER_PERIOD * (last - first) / (table.time().len() - 1) as f64);
                 }
             }
@@ -78,7 +82,8 @@ fn shortest_time(scene: &Scene) -> f64 {
     let mut blow = vec![0.0; scene.initial.v.len()];
     Loads::new(&scene.loads).initial_blow(&mut blow);
     for (wall, mass) in scene.walls.iter().zip(masses) {
-        // The mass at the wall takes what falls to its place: an estimate, exact for one degree of freedom.
+        // Speed at the wall from an impulse at the start, taken up by the mass that the wall feels:
+        // an estimate, exact for one degree of freedom.
         let speed = (wall.at.dot(&scene.initial.v) + wall.at.dot(&blow) / mass).abs();
         if speed > 0.0 {
             times.push(scene.gap_scale() / speed);

@@ -1,4 +1,4 @@
-//! How far an error can be promised.
+//! The time up to which an error can be kept at all.
 
 use super::judged::{Judged, exact};
 use super::{CoarseGrid, JudgedBy, Outcome, Target};
@@ -12,29 +12,31 @@ use crate::study::exact::affordable;
 use crate::study::horizon::{Growth, LARGEST_GROWTH};
 use crate::time::TimeOptions;
 
-/// What a run errs by before it grows, over the gap, however small its step: rounding, with two digits in reserve.
+/// Error over the gap, before it grows, of any run however small its step: rounding, with two
+/// digits in reserve.
 const ROUNDING: f64 = 1e-14;
 
 /// Rounding may grow to this share of the tolerance.
 const SHARE: f64 = 0.25;
 
-/// Change of the start that is followed where the growth is not known, over the gap.
+/// Perturbation of the start, over the gap, that is followed where the growth is not known.
 const PERTURBATION: f64 = 1e-10;
 
-/// A perturbation that has grown to this, over the gap, has stopped growing: the gap is full.
+/// A perturbation that has reached this size, over the gap, is no longer growing: it fills the gap.
 const SATURATED: f64 = 0.1;
 
-/// Shares of the run, shortest first, over which exact runs of a structure are asked how fast rounding grows: where it
-/// soon does, that is known in a fraction of a run.
+/// Shares of the run, shortest first, over which exact runs of a structure show how fast rounding
+/// grows: where it grows fast, a fraction of a run is enough to know.
 const SHORT: [f64; 3] = [1.0 / 16.0, 0.25, 1.0];
 
-/// The time (s) beyond which no step keeps the error asked for, since rounding alone grows to it; none if it never does, or if that is
-/// not known. A matter of a few short runs, to be asked before [`reach`](super::reach): for one degree of freedom exact. For a structure
-/// at most this time: by short exact runs where the exact scheme can follow it, else by runs of the method with the coarsest step that
-/// could see the motion.
+/// The time (s) beyond which no step keeps the error asked for, since rounding alone grows to it;
+/// `None` if it never does, or if that is not known. This takes a few short runs and is meant to be
+/// called before [`reach`](super::reach). For one degree of freedom it is exact. For a structure it
+/// is an upper bound, found by short exact runs where the exact scheme can follow the motion, else
+/// by runs of the method with the coarsest step that could see the motion.
 ///
 /// # Errors
-/// [`crate::Error::Invalid`] for a request that makes no sense, and what the runs report.
+/// [`crate::Error::Invalid`] for a request that makes no sense, and errors of the runs.
 pub fn foresee(scene: &Scene, target: &Target) -> Result<Option<f64>> {
     target.validate()?;
     scene.validate()?;
@@ -65,8 +67,8 @@ pub fn foresee(scene: &Scene, target: &Target) -> Result<Option<f64>> {
     Ok((until < scene.duration * (1.0 - 1e-9)).then_some(until))
 }
 
-/// The row (s) before which rounding has not grown beyond its share of `tolerance`; none if it never does. Between two events, so that no
-/// impact stands at the edge of what is counted.
+/// The row (s) up to which rounding has not grown beyond its share of `tolerance`; `None` if it
+/// never does. It lies between two events, so that no impact falls on the last row compared.
 pub(super) fn cut(growth: &Growth, tolerance: f64, sample: f64) -> Option<f64> {
     let horizon = growth.horizon(SHARE * tolerance / ROUNDING);
     if growth.time.last().is_none_or(|&end| horizon >= end) {
@@ -76,8 +78,9 @@ pub(super) fn cut(growth: &Growth, tolerance: f64, sample: f64) -> Option<f64> {
     Some((0.5 * (before + horizon) / sample).floor().max(1.0) * sample)
 }
 
-/// The time (s) up to which a run that starts a little elsewhere stays as near as the tolerance asks once the change is scaled down to
-/// rounding; none if it does to the end, or if the start has no room.
+/// The time (s) up to which a run from a perturbed start stays within the tolerance when the
+/// perturbation is scaled down to rounding; `None` if it does so to the end, or if the start leaves
+/// no room for a perturbation.
 pub(super) fn perturbed(
     judged: &Judged,
     method: &Method,
@@ -104,8 +107,8 @@ pub(super) fn perturbed(
     Ok((until < judged.scene.duration).then_some(until))
 }
 
-/// What the statistics themselves are known to, where that is less than the error asked for: the wall with the widest interval. Walls with
-/// fewer contacts than batches have none.
+/// A remark on the statistics' own scatter, where it is wider than the error asked for; it names
+/// the wall with the widest interval. Walls with fewer contacts than batches have no interval.
 fn sampling(statistics: &Statistics, tolerance: f64) -> Option<String> {
     let share = |wall: &WallStatistics| {
         let force = wall.force.filter(|force| wall.half_width_95.is_some() && force.mean_n > 0.0)?;
@@ -121,7 +124,7 @@ fn sampling(statistics: &Statistics, tolerance: f64) -> Option<String> {
     ))
 }
 
-/// Adds to the run's notes what a reader must know of an error that was kept.
+/// Adds to the run's notes what a reader must know about an error that was kept.
 pub(super) fn explain(scene: &Scene, outcome: &mut Outcome) {
     let until = outcome.accuracy.until_s;
     if let Some(growth) = outcome.accuracy.growth.filter(|&g| g > LARGEST_GROWTH) {

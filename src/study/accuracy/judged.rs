@@ -1,4 +1,4 @@
-//! What a refinement judges: a scene up to its horizon, and its exact motion.
+//! What a refinement is judged on: a scene up to its horizon, and its exact motion.
 
 use super::CoarseGrid;
 use crate::error::Result;
@@ -9,13 +9,14 @@ use crate::study::change::Change;
 use crate::study::exact::affordable;
 use crate::time::TimeOptions;
 
-/// The exact motion of `scene`, at the rows of `time`, where it can be afforded and the judge has not refuted it.
+/// The exact motion of `scene` at the rows of `time`; an error where it takes too many events or
+/// the judge refutes it.
 pub(super) fn exact(scene: &Scene, time: TimeOptions) -> Result<Run> {
     affordable(scene)?;
     unchecked(scene, time)?.unrefuted()
 }
 
-/// The same, whatever the judge says of it.
+/// The same, without the judge's verdict.
 pub(super) fn unchecked(scene: &Scene, time: TimeOptions) -> Result<Run> {
     run(scene, &Scheme::Event, &Options::new(time))
 }
@@ -24,7 +25,7 @@ pub(super) fn unchecked(scene: &Scene, time: TimeOptions) -> Result<Run> {
 #[derive(Debug)]
 pub(super) struct Judged {
     pub scene: Scene,
-    /// The scene as the scheme sees it.
+    /// The scene as the scheme sees it: a penalty's walls are springs.
     pub model: Scene,
     pub coarse: CoarseGrid,
     /// Start of the window for statistics, s.

@@ -1,4 +1,4 @@
-//! An error is named, not a step: the scheme and the step that keep it are found.
+//! The caller names an error instead of a step; scheme and step that keep it are found.
 
 mod coarse;
 mod horizon;
@@ -24,11 +24,13 @@ use crate::time::TimeOptions;
 use judged::{Judged, exact, unchecked};
 use refine::{Refined, refine};
 
-/// Finds scheme and step for `target` on `scene`. `progress` hears the time (s) that the run under way has reached.
+/// Finds scheme and step for `target` on `scene`. `progress` is told the time (s) that the current
+/// run has reached.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a request that makes no sense, [`Error::Inaccurate`] if the first step would already be one too many, and what
-/// the last of the runs reports. A tolerance that was not reached is no error here: see [`Outcome::shortfall`].
+/// [`Error::Invalid`] for a request that makes no sense, [`Error::Inaccurate`] if even the first
+/// run would take more steps than allowed, and the errors of the last run. A tolerance that was not
+/// reached is not an error here: see [`Outcome::shortfall`].
 pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> Result<Outcome> {
     target.validate()?;
     scene.validate()?;
@@ -37,7 +39,8 @@ pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> R
         None => choice::for_error(scene, &exact(scene, target.time)),
     };
     let method = chosen.method;
-    // A penalty's motion is that between its springs; the exact scheme follows those too where they are linear.
+    // A penalty run moves between springs, and so does its reference; the exact scheme follows
+    // linear springs too.
     let model = Stepper::new(scene, &method, scene.duration)?.scene().clone();
     let coarse = CoarseGrid::of(&model, &target.time)?;
     let growth = affordable(&model).and_then(|()| Growth::of(&model));
@@ -62,7 +65,7 @@ pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> R
     Ok(outcome)
 }
 
-/// The exact motion, held against itself with other roundings.
+/// The exact motion, compared with the exact motion computed with other roundings.
 fn other_rounding(judged: &Judged, target: &Target) -> Result<Refined> {
     let time = judged.time(&TimeOptions { sample: Some(judged.coarse.sample), ..target.time });
     let run = unchecked(&judged.scene, time)?;
@@ -84,7 +87,8 @@ fn other_rounding(judged: &Judged, target: &Target) -> Result<Refined> {
     })
 }
 
-/// Puts the result together; a run that was judged up to the horizon only is made once more over the whole duration.
+/// Assembles the result. A run that was judged only up to the horizon is repeated over the whole
+/// duration.
 fn finish(
     scene: &Scene,
     target: &Target,
@@ -104,7 +108,7 @@ fn finish(
         _ => None,
     };
     let shortfall = if !refined.kept {
-        // Where all runs are refuted there is no error to speak of.
+        // Where all runs are refuted, no error can be stated.
         Some(refined.run.refuted().unwrap_or(Error::Inaccurate {
             tolerance: target.tolerance,
             reached,

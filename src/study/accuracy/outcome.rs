@@ -12,9 +12,11 @@ use std::fmt;
 pub enum JudgedBy {
     /// Against the exact motion.
     ExactMotion,
-    /// By two halvings in succession, each of which changed less than a quarter of the tolerance.
+    /// By halving the step: two halvings in succession each changed the result by less than a
+    /// quarter of the tolerance.
     Halving,
-    /// The exact motion itself: against the same with other roundings.
+    /// The result is the exact motion; it was compared with the exact motion computed with other
+    /// roundings.
     OtherRounding,
 }
 
@@ -25,10 +27,10 @@ pub struct Level {
     pub step_s: f64,
     /// Its steps.
     pub steps: u64,
-    /// Its error, or the change since the level before it; none for the first level of a run that is held against its refinements, and for
-    /// one that failed.
+    /// Its error, or its change from the level before; `None` for the first level where levels are
+    /// compared with each other, and for a run that failed.
     pub error: Option<f64>,
-    /// Why it failed, if it did.
+    /// Why the run failed, if it did.
     pub failure: Option<String>,
 }
 
@@ -38,27 +40,29 @@ pub struct Level {
 pub struct Accuracy {
     /// The error asked for.
     pub tolerance: f64,
-    /// The error of the result or, by halving, its last change; infinite if nothing could be compared.
+    /// The error of the result or, by halving, the last change; infinite if nothing could be
+    /// compared.
     pub reached: f64,
-    /// The quantity that `reached` belongs to: the worst of all.
+    /// The quantity with the largest error, to which `reached` belongs.
     pub quantity: String,
-    /// Time up to which it was judged, s: the end, or the horizon of predictability.
+    /// Time up to which the error was judged, s: the end, or the horizon of predictability.
     pub until_s: f64,
-    /// Largest growth of a small change of the start up to then; none where it is not known.
+    /// Largest growth of a small change of the start up to then; `None` where it is not known.
     pub growth: Option<f64>,
     /// How it was judged.
     pub judged_by: JudgedBy,
-    /// The step of the result, s; none for the exact scheme.
+    /// The step of the result, s; `None` for the exact scheme.
     pub step_s: Option<f64>,
-    /// The coarsest step tried that keeps the tolerance, s. Judged by halving it lies within half the tolerance of the result.
+    /// The coarsest step tried that keeps the tolerance, s. Where the error is judged by halving,
+    /// its run lies within half the tolerance of the result.
     pub sufficient_step_s: Option<f64>,
     /// The runs of the refinement, coarse to fine.
     pub levels: Vec<Level>,
-    /// Steps of all of them.
+    /// Steps of all these runs together.
     pub total_steps: u64,
 }
 
-/// The result, which is worth having even if it falls short.
+/// The result; it is returned even if it falls short of the tolerance.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Outcome {
@@ -70,7 +74,7 @@ pub struct Outcome {
     pub run: Run,
     /// What was reached.
     pub accuracy: Accuracy,
-    /// [`Error::Inaccurate`] or [`Error::Unpredictable`] where that is less than was asked for.
+    /// [`Error::Inaccurate`] or [`Error::Unpredictable`] where less was reached than asked for.
     pub shortfall: Option<Error>,
 }
 

@@ -1,4 +1,4 @@
-//! Halving the step until the error is kept.
+//! Halves the step until the tolerance is kept.
 
 use super::judged::{Judged, exact};
 use super::{Against, JudgedBy, Level, Target};
@@ -8,56 +8,59 @@ use crate::scheme::Method;
 use crate::study::change::agree_until;
 use crate::time::TimeOptions;
 
-/// Share of the tolerance that a halving may change, and how many halvings running must keep to it. One halving misleads: over random trials
-/// the true error exceeded the last change in 25 to 57 of 100, by up to 3.8 times.
+/// Largest change by a halving, as a share of the tolerance, and the number of successive halvings
+/// that must stay below it. One halving is not enough: over random trials the true error exceeded
+/// the last change in 25 to 57 of 100, by up to 3.8 times.
 const QUIET: f64 = 0.25;
 const QUIET_HALVINGS: usize = 2;
 
-/// Levels before which no trend is read: coarser steps may not see the motion at all.
+/// Number of levels before a trend is looked for: the coarsest steps may not see the motion at all.
 const FEWEST_LEVELS: usize = 8;
 
-/// Halvings from which the trend is read.
+/// Number of last levels from which the trend is taken.
 const TREND: usize = 3;
 
-/// An error above this is of the size of what is compared.
+/// An error above this is as large as the quantities compared.
 const LOST: f64 = 0.1;
 
-/// A step found is called sufficient if its run lies within this share of the tolerance from the finest.
+/// A coarser step is called sufficient if its run lies within this share of the tolerance from the
+/// finest.
 const SUFFICIENT: f64 = 0.5;
 
-/// A refinement at its end.
+/// Outcome of a refinement.
 #[derive(Debug)]
 pub(super) struct Refined {
     /// The finest run.
     pub run: Run,
     /// How often its step was halved.
     pub level: u32,
-    /// The same of the coarsest run that keeps the tolerance.
+    /// The level of the coarsest run that keeps the tolerance.
     pub sufficient: u32,
-    /// All of them.
+    /// All levels.
     pub levels: Vec<Level>,
-    /// The last error or change, and its quantity.
+    /// The last error or change, and the quantity it belongs to.
     pub worst: (f64, String),
     /// True if the tolerance is kept.
     pub kept: bool,
-    /// Time (s) up to which the displacement of the finest run keeps it.
+    /// Time (s) up to which the displacement of the finest run keeps the tolerance.
     pub agrees_until: f64,
     pub judged_by: JudgedBy,
 }
 
-/// True if the errors of the runs so far are of the size of the motion and do not fall: where a small change grows apart exponentially, halving
-/// the step keeps the motion for a little longer, and no more.
+/// True if the errors so far are as large as the motion and do not decrease: where a small change
+/// grows exponentially, each halving of the step only keeps the motion for a little longer.
 fn leads_nowhere(levels: &[Level]) -> bool {
     let errors: Vec<f64> = levels.iter().rev().map_while(|level| level.error).collect();
     let (Some(&last), Some(&before)) = (errors.first(), errors.get(TREND)) else { return false };
     errors.len() >= FEWEST_LEVELS && last > LOST && last > 0.5 * before
 }
 
-/// Halves the step of `method` until the tolerance is kept, the next run would take too many steps, or the runs so far show that it would
-/// not be kept by then. Where the judge refutes every run, the last of them is the result: it keeps nothing, and its findings say why.
+/// Halves the step of `method` until the tolerance is kept, until the next run would take too many
+/// steps, or until the runs so far show that the tolerance would still be missed by then. Where the
+/// judge refutes every run, the last of them is returned as not kept; its findings say why.
 ///
 /// # Errors
-/// What the last of the runs reports, where none was made.
+/// The error of the last run, where every run failed.
 pub(super) fn refine(
     judged: &Judged,
     method: &Method,
@@ -67,7 +70,7 @@ pub(super) fn refine(
     refine_by(judged, target, &mut |options| run_with_progress(&judged.scene, method, options, progress))
 }
 
-/// The same with runs as `make` makes them.
+/// The same, with runs made by `make`.
 fn refine_by(judged: &Judged, target: &Target, make: &mut dyn FnMut(&Options) -> Result<Run>) -> Result<Refined> {
     let rows = TimeOptions { sample: Some(judged.coarse.sample), ..judged.time(&target.time) };
     let reference = match target.against {
@@ -98,7 +101,7 @@ fn refine_by(judged: &Judged, target: &Target, make: &mut dyn FnMut(&Options) ->
         let run = match made {
             Ok(run) => run,
             Err(error) if error.is_request() => return Err(error),
-            // A step too large for its scheme is no reason not to try a smaller one.
+            // If a step is too large for the scheme, a smaller one may still work.
             Err(error) => {
                 levels.push(Level { step_s: time.step, steps, error: None, failure: Some(error.to_string()) });
                 failure = Some(error);
@@ -112,7 +115,8 @@ fn refine_by(judged: &Judged, target: &Target, make: &mut dyn FnMut(&Options) ->
         levels.push(Level { step_s: run.grid.step, steps, error: change.as_ref().map(|c| c.worst().0), failure: None });
         if let Some(change) = change {
             worst = change.worst();
-            // A body frozen between its walls changes nothing from halving to halving, and is wrong.
+            // A body frozen between its walls does not change from halving to halving, and yet is
+            // wrong.
             let moves = run.counters.frozen_steps == 0;
             quiet = if moves && worst.0 <= share * target.tolerance { quiet + 1 } else { 0 };
         }

@@ -4,35 +4,38 @@ use crate::error::{Error, Result};
 use crate::scheme::Method;
 use crate::time::TimeOptions;
 
-/// Steps that one run of a refinement may take unless a target says otherwise: seconds of a scalar scheme.
+/// Most steps of one run of a refinement, unless a target says otherwise: seconds of a scalar
+/// scheme.
 pub const MOST_STEPS: u64 = 1 << 24;
 
-/// What a stepping run is held against.
+/// The reference of a stepping run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Against {
-    /// The exact motion where there is one, else its own refinements.
+    /// The exact motion where there is one, else the run's own refinements.
     Exact,
-    /// Its own refinements only.
+    /// The run's own refinements only.
     Refinements,
 }
 
 /// The error asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
-    /// Largest error: of the displacement over the gap scale, and of each wall's numbers in the sense of [`Change`](crate::study::change::Change). Above 0, below 1.
+    /// Largest error allowed: of the displacement over the gap scale, and of the quantities of each
+    /// wall in the sense of [`Change`](crate::study::change::Change). Above 0, below 1.
     pub tolerance: f64,
-    /// The method to refine; none leaves it to the scene.
+    /// The method to refine; with `None` it is chosen for the scene.
     pub method: Option<Method>,
-    /// Rows and window for statistics; its step is not used.
+    /// Rows and window for statistics; its step is ignored.
     pub time: TimeOptions,
-    /// What a stepping run is held against.
+    /// The reference of a stepping run.
     pub against: Against,
     /// Most steps of one run.
     pub most_steps: u64,
 }
 
 impl Target {
-    /// An error of `tolerance`, by whatever the scene needs, with the rows and the window of `time`.
+    /// A target of `tolerance` with the rows and the window of `time`; the method is chosen for the
+    /// scene.
     #[must_use]
     pub fn new(tolerance: f64, time: TimeOptions) -> Self {
         Self { tolerance, method: None, time, against: Against::Exact, most_steps: MOST_STEPS }
@@ -41,7 +44,7 @@ impl Target {
     /// Checks the error asked for.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for one that is no share.
+    /// [`Error::Invalid`] for a tolerance that is not above 0 and below 1.
     pub fn validate(&self) -> Result<()> {
         if self.tolerance > 0.0 && self.tolerance < 1.0 {
             return Ok(());

@@ -1,4 +1,4 @@
-//! What the measurements of a run amount to.
+//! Classification of a run from its measurements.
 
 use super::ruler::{REST, Ruler, exchanged};
 use super::watch::{Record, depth_bound};
@@ -7,49 +7,57 @@ use crate::scheme::Scheme;
 use crate::step::Contact;
 use std::fmt;
 
-/// Speeds over this many times the reference's largest have left the motion: energy is up by more than a hundred.
+/// Speed above this multiple of the reference's largest counts as diverged: the energy is up by
+/// more than a hundred.
 pub const DIVERGED: f64 = 10.0;
-/// Share of the arriving energy made per impact above which a scheme gains: 1 % compounds to a factor e in a hundred impacts, one run
-/// of the source scene.
+/// Share of the arriving energy gained per impact above which a scheme gains energy: 1 % compounds
+/// to a factor e in a hundred impacts, one run of the source scene.
 pub const GAIN: f64 = 0.01;
-/// Share of the arriving energy lost per impact above which a scheme dissipates: 5 % is a restitution off by 0.025, less than what
-/// restitution is known to for any real wall. A loss does not compound: a load makes up for it.
+/// Share of the arriving energy lost per impact above which a scheme dissipates: 5 % is a
+/// restitution off by 0.025, less than the uncertainty of the restitution of any real wall. A loss
+/// does not compound, since the load replaces it.
 pub const LOSS: f64 = 0.05;
-/// Speed over the reference's largest above which the motion is another one: twice its energy.
+/// Speed over the reference's largest above which the motion is a different one: twice its energy.
 pub const FAST: f64 = 1.5;
-/// Root-mean-square speed over the reference's below which the motion is another one: half its energy.
+/// Root-mean-square speed over the reference's below which the motion is a different one: half its
+/// energy.
 pub const SLOW: f64 = 0.7;
-/// Share of steps in which opposite walls took turns above which a body is frozen: a body that crosses a gap in one step now and then
-/// is not.
+/// Share of steps in which opposite walls push alternately above which a body is frozen; a body
+/// that crosses the gap in one step now and then is not.
 pub const FROZEN: f64 = 0.01;
 /// Root-mean-square speed over the reference's below which a body stands still.
 pub const STILL: f64 = 0.01;
-/// Contact counts off by more than this factor are wrong.
+/// Contact counts that differ by more than this factor are wrong.
 pub const MISCOUNTED: f64 = 2.0;
-/// Fewer contacts than this are too few to be held against a factor.
+/// Contact counts below this are too few to compare by a factor.
 pub const FEW: usize = 4;
-/// Depth over the stated bound above which a wall was passed: 5 % for the terms of higher order in it.
+/// Depth over the stated bound above which a wall was passed: 5 % allow for the higher-order terms
+/// of the bound.
 pub const PASSED: f64 = 1.05;
-/// Depths below this share of the scene's gap scale are rounding, for bounds of 0.
+/// Depths below this share of the scene's gap scale are rounding, where the bound is 0.
 pub const TOUCH: f64 = 1e-9;
 
-/// What becomes of a scene under a scheme at a step, from harmless to worst.
+/// Behaviour of a scheme on a scene at a step, from harmless to worst.
 ///
-/// Stable is not accurate: it says that nothing went wrong of itself, and that the motion is of the right kind.
+/// Stable does not mean accurate: it means that the motion is of the right kind, without spurious
+/// gain or loss.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
-    /// Energy kept as the walls' law has it, speeds, contacts and rest as in the reference.
+    /// Energy changes as the wall laws say; speeds, contacts and rest agree with the reference.
     Stable,
-    /// More than [`LOSS`] of the energy that arrives at the walls is lost per impact, beyond what restitution takes.
+    /// More than [`LOSS`] of the energy that arrives at the walls is lost per impact, beyond what
+    /// restitution takes.
     Dissipative,
-    /// The body stands still where it should move: it crosses the gap in less than a step, or the steps see no load.
+    /// The body stands still where it should move: it crosses the gap in less than a step, or the
+    /// steps do not sample the load.
     Frozen,
-    /// The energy is kept but the motion is another one: a wall passed beyond the scheme's bound, contacts off by more than
-    /// [`MISCOUNTED`], speeds above [`FAST`] or below [`SLOW`], or no rest where rest is due.
+    /// The energy is kept but the motion is a different one: a wall passed beyond the scheme's
+    /// bound, contacts off by more than [`MISCOUNTED`], speeds above [`FAST`] or below [`SLOW`], or
+    /// no rest where the reference rests.
     Astray,
-    /// More than [`GAIN`] of the energy that arrives at the walls is made per impact.
+    /// More than [`GAIN`] of the energy that arrives at the walls is gained per impact.
     Gaining,
-    /// Speeds beyond [`DIVERGED`], numbers that are not finite, or a step that cannot be solved.
+    /// Speeds beyond [`DIVERGED`], values that are not finite, or a step that cannot be solved.
     Diverged,
 }
 
@@ -112,40 +120,43 @@ impl fmt::Display for Rest {
     }
 }
 
-/// A run held against its ruler.
+/// A run compared with its reference runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measurement {
-    /// Energy that the scheme made, beyond what restitution takes, over the kinetic energy that arrived at the walls: a share of it gained
-    /// (+) or lost (−) per impact; none without a contact. Of several degrees of freedom, what it made at and between the walls all in all
-    /// (+), or took beyond what the reference's walls take (−), over the energy that arrived or the reference's largest kinetic energy, if
-    /// that is more.
+    /// Energy that the scheme produced, beyond what restitution takes, over the kinetic energy that
+    /// arrived at the walls: the share gained (+) or lost (−) per impact; `None` without a contact.
+    /// With several degrees of freedom: the energy produced in all, at and between the walls (+),
+    /// or taken beyond what the walls of the reference take (−), over the larger of the energy that
+    /// arrived and the reference's largest kinetic energy.
     pub growth: Option<f64>,
     /// Largest speed over the reference's.
     pub speed: f64,
     /// Root-mean-square speed over the reference's.
     pub rms_speed: f64,
-    /// Contacts counted ([`COUNTED`](super::ruler::COUNTED)).
+    /// Number of contacts counted ([`COUNTED`](super::ruler::COUNTED)).
     pub contacts: usize,
     /// How many fewer than in any reference run.
     pub missed: usize,
     /// How many more than in any reference run.
     pub spurious: usize,
-    /// Contacts over the reference's.
+    /// Number of contacts over the reference's.
     pub contact_ratio: f64,
     /// Deepest position behind a wall at the end of a step, m.
     pub depth: f64,
-    /// The largest ratio of depth and stated bound over the walls ([`depth_bound`]); 0 where no wall is passed.
+    /// The largest ratio of depth and stated bound over the walls ([`depth_bound`]); 0 where no
+    /// wall is passed.
     pub passed: f64,
-    /// Share of steps in which opposite walls took turns.
+    /// Share of steps in which opposite walls push alternately.
     pub frozen: f64,
-    /// Whether it rests.
+    /// Whether the body comes to rest.
     pub rest: Rest,
-    /// When the speed left all bounds, s.
+    /// Time at which the speed exceeded the limit, s.
     pub escaped: Option<f64>,
 }
 
 impl Measurement {
-    /// The run `record` of `scene` (as the scheme sees it) by `scheme` with steps of `h` (s) against `ruler`.
+    /// Measures the run `record` of `scene` (as the scheme sees it) by `scheme` with steps of `h`
+    /// (s) against `ruler`.
     #[must_use]
     pub fn new(record: &Record, ruler: &Ruler, scene: &Scene, scheme: &Scheme, h: f64) -> Self {
         let contacts = ruler.contact_times(record).len();
@@ -155,7 +166,8 @@ impl Measurement {
         let of = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
         let bound = |index: usize, law| {
             let (v, a) = (of(&record.wall_speed, index), of(&record.acceleration, index));
-            // Behind the one mass of an oscillator comes nothing more; behind the node of a structure all that moves.
+            // The energy that can reach a wall: that of the mass at the wall for an oscillator,
+            // that of everything that moves for a structure.
             let energy = match scene.system {
                 System::Oscillator(_) => 0.5 * of(&masses, index) * v * v,
                 _ => ruler.energy,
@@ -182,7 +194,7 @@ impl Measurement {
         }
     }
 
-    /// The class, and the finding that decided it.
+    /// The class, and the criterion that decided it.
     #[must_use]
     pub fn classify(&self) -> (Class, String) {
         let growth = self.growth.unwrap_or(0.0);
@@ -228,12 +240,14 @@ impl Measurement {
     }
 }
 
-/// Of one degree of freedom: kinetic energy with which the body leaves rigid walls beyond e² of that with which it came, and what the scheme made
-/// elsewhere, over the kinetic energy that arrived at all walls.
+/// For one degree of freedom: kinetic energy with which the body leaves rigid walls beyond e² times
+/// that of its arrival, plus the energy that the scheme produced elsewhere, over the kinetic energy
+/// that arrived at all walls.
 fn growth(record: &Record, scene: &Scene, masses: &[f64], ruler: &Ruler) -> Option<f64> {
     if let System::Structure(_) = scene.system {
         let share = record.made / exchanged(record, masses, ruler.energy);
-        // Walls that take less than the reference's make a livelier motion, but no energy: only more than nothing is a gain.
+        // Walls that take less energy than those of the reference make the motion livelier but
+        // produce none: only a positive share is a gain.
         let growth = if share > 0.0 { share } else { ruler.taken.beyond(share).min(0.0) };
         return (!record.contacts.is_empty()).then_some(growth);
     }

@@ -1,4 +1,4 @@
-//! The schemes of the maps, and what is varied beside the step.
+//! The schemes of the maps, and the second parameter of each map.
 
 use super::watch::wall_stiffness;
 use crate::error::{Error, Result};
@@ -6,32 +6,32 @@ use crate::scene::{Scene, WallLaw};
 use crate::scheme::{Integrator, PenaltyLaw, Scheme};
 use std::fmt;
 
-/// What is mapped: a scene and the penalties that stand in for its rigid walls.
+/// What is mapped: a scene and the penalties that replace its rigid walls.
 #[derive(Debug, Clone, Copy)]
 pub struct Question<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// The penalties; their values are among those of the maps.
+    /// The penalty laws; their values are among those of the maps.
     pub laws: &'a [PenaltyLaw],
 }
 
-/// Decades of penalty parameters at least, and how many values a decade has.
+/// Fewest decades of penalty parameters, and the number of values per decade.
 const DECADES: f64 = 6.0;
 const PER_DECADE: f64 = 2.0;
 /// Spacing of restitutions.
 const RESTITUTIONS: u32 = 10;
 
-/// One scheme with its second parameter left open: one map.
+/// One scheme with its second parameter left open: it gives one map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Family {
-    /// A scheme that takes walls as they are.
+    /// A scheme that treats walls as constraints.
     Constrained(Scheme),
     /// A penalty with this integrator.
     Penalty(Integrator),
 }
 
 impl Family {
-    /// Every family, in the order of tables; generalized-alpha with the ρ∞ that most choose.
+    /// Every family, in the order of tables; generalized-alpha with its default ρ∞.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let constrained = [
@@ -55,7 +55,7 @@ impl fmt::Display for Family {
     }
 }
 
-/// What is varied beside the step.
+/// The second parameter of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Parameter {
     /// e of every rigid wall.
@@ -64,7 +64,8 @@ pub enum Parameter {
     Epsilon,
     /// Stiffness of the penalty spring, N/m.
     PenaltyStiffness,
-    /// Stiffness of every elastic wall, N/m, in a scene without rigid walls; dampers stay in proportion.
+    /// Stiffness of every elastic wall, N/m, in a scene without rigid walls; dampers are scaled in
+    /// proportion.
     WallStiffness,
 }
 
@@ -94,7 +95,7 @@ impl Parameter {
         }
     }
 
-    /// The word in tables.
+    /// The name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -105,7 +106,7 @@ impl Parameter {
         }
     }
 
-    /// The values that the case itself has, in its order.
+    /// The values of the case itself, in its order.
     #[must_use]
     pub fn own(self, case: Question<'_>) -> Vec<f64> {
         let walls = case.scene.walls.iter().map(|w| w.law);
@@ -132,8 +133,9 @@ impl Parameter {
         values
     }
 
-    /// The values of a map, rising: those of the case among them. Of penalties without any, walls from as stiff as a
-    /// spring that would swing the mass at `stiffness` (N/m) up to 10⁶ times that.
+    /// The values of a map, increasing, with those of the case among them. For penalties without
+    /// values of their own they begin at the stiffness that the wall spring needs to vibrate the
+    /// mass as `stiffness` (N/m) would, and go up to 10⁶ times that.
     #[must_use]
     pub fn values(self, case: Question<'_>, stiffness: f64) -> Vec<f64> {
         let own = self.own(case);
@@ -156,7 +158,8 @@ impl Parameter {
                 (low as i32..=high as i32).map(|i| 10_f64.powf(f64::from(i) / PER_DECADE)).collect()
             }
         };
-        // The case's own value takes the place of one that differs from it by rounding.
+        // Where a grid value differs from one of the case's own only by rounding, the case's own is
+        // kept.
         values.retain(|v| !own.iter().any(|o| (v - o).abs() <= 1e-9 * o.abs()));
         values.extend(own);
         values.sort_by(f64::total_cmp);
@@ -190,7 +193,8 @@ impl Parameter {
             Family::Penalty(integrator) => {
                 let law = match self {
                     Self::Epsilon => PenaltyLaw::Quartic { epsilon: value },
-                    // In a scene of elastic walls only, a penalty has none to stand in for: its integrator steps through theirs.
+                    // In a scene with elastic walls only, there is no rigid wall to replace: the
+                    // integrator steps through the elastic walls.
                     _ => PenaltyLaw::Linear { stiffness: value, damping: 0.0 },
                 };
                 Scheme::Penalty { law, integrator }
@@ -202,7 +206,7 @@ impl Parameter {
     }
 }
 
-/// Refuses a case in which nothing can be hit.
+/// Refuses a case without walls.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a case without walls.

@@ -1,8 +1,9 @@
-//! One free impact: the restitution that a scheme realises, as a function of where in its step the contact falls.
+//! One free impact: the restitution that a scheme realises, as a function of the position of the
+//! contact within its step.
 //!
-//! A free particle (no spring, no load) flies at 1 m/s towards one wall and would reach it when the fraction τ of a step
-//! has gone by. Departure speed over approach speed is what the step makes of the wall: nothing but scheme, τ, e and,
-//! for a penalty, κ = h²k_w/m enters, so one map serves every mass and step.
+//! A free particle (no spring, no load) flies at 1 m/s towards one wall and would reach it after
+//! the fraction τ of a step. Departure speed over approach speed depends on the scheme, τ, e and,
+//! for a penalty, κ = h²k_w/m only, so one map holds for every mass and step.
 
 use super::theory;
 use crate::error::Result;
@@ -10,24 +11,27 @@ use crate::scene::{Scene, Wall};
 use crate::scheme::{Integrator, PenaltyLaw, Scheme, Stepper};
 use rayon::prelude::*;
 
-/// κ = h²k_w/m of the maps: resolved, one radian a step, beyond one radian, and a wall that the step cannot see.
+/// κ = h²k_w/m of the maps: well resolved, one radian per step, beyond one radian, and a wall far
+/// too stiff for the step.
 pub const KAPPAS: [f64; 4] = [0.01, 1.0, 3.0, 1e4];
 /// θ of the moreau-jean maps.
 pub const THETAS: [f64; 3] = [0.5, 0.75, 1.0];
-/// Phases of a map: midpoints of equal parts of the step, so that none falls on the instant of a grid point.
+/// Phases of a map: midpoints of equal parts of the step, so that no contact falls exactly on a
+/// grid point.
 pub const PHASES: usize = 200;
 
-/// Free steps before the impact: enough for schemes that remember a step to have forgotten the start.
+/// Free steps before the impact: enough for multistep schemes to forget the start.
 const RUN_UP: f64 = 2.0;
-/// Steps after which a body that has not left is taken to stay. At κ = 0.01 a contact lasts 32.
+/// Number of steps after which a body that has not left is taken to stay. At κ = 0.01 a contact
+/// lasts 32.
 const MOST_STEPS: u64 = 400;
-/// Free steps in a row after which the body has left.
+/// Number of successive free steps after which the body has left.
 const LEFT: u32 = 2;
 
 /// One impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
-    /// τ, the fraction of the step gone by at contact, in [0, 1).
+    /// τ, the fraction of the step that has passed at contact, in [0, 1).
     pub phase: f64,
     /// Departure speed over approach speed, ≥ 0; 0 for a body that stays.
     pub restitution: f64,
@@ -42,44 +46,46 @@ pub struct Impact {
 /// The impacts of one scheme over all phases.
 #[derive(Debug, Clone)]
 pub struct ImpactMap {
-    /// The scheme; for a penalty, with the stiffness that κ amounts to.
+    /// The scheme; for a penalty, with the stiffness that κ gives.
     pub scheme: Scheme,
-    /// What tables and legends call it, without the numbers of mass and step.
+    /// Name in tables and legends, without the mass and the step.
     pub label: String,
     /// κ = h²k_w/m of a penalty.
     pub kappa: Option<f64>,
-    /// One impact a phase, or why there is none.
+    /// One impact per phase, or why it failed.
     pub impacts: Vec<Result<Impact>>,
 }
 
 impl ImpactMap {
-    /// The impacts that came about.
+    /// The impacts that succeeded.
     pub fn measured(&self) -> impl Iterator<Item = &Impact> {
         self.impacts.iter().flatten()
     }
 
-    /// Least and largest restitution over the phases; none if every impact failed.
+    /// Smallest and largest restitution over the phases; `None` if every impact failed.
     #[must_use]
     pub fn range(&self) -> Option<(f64, f64)> {
         let e = || self.measured().map(|i| i.restitution);
         Some((e().reduce(f64::min)?, e().reduce(f64::max)?))
     }
 
-    /// Mean of e² over the phases: what an impact at a random phase makes of the kinetic energy.
+    /// Mean of e² over the phases: the expected share of kinetic energy kept in an impact at a
+    /// random phase.
     #[must_use]
     pub fn mean_energy_ratio(&self) -> Option<f64> {
         let count = self.measured().count();
         (count > 0).then(|| self.measured().map(|i| i.restitution.powi(2)).sum::<f64>() / count as f64)
     }
 
-    /// Largest distance from the closed form, where there is one.
+    /// Largest difference from the closed form, where there is one.
     #[must_use]
     pub fn error(&self) -> Option<f64> {
         self.measured().filter_map(|i| i.theory.map(|e| (e - i.restitution).abs())).reduce(f64::max)
     }
 }
 
-/// The maps of all schemes for a body of `mass` (kg), steps of `h` (s) and a rigid wall of restitution `e`.
+/// The maps of all schemes for a body of `mass` (kg), steps of `h` (s) and a rigid wall of
+/// restitution `e`.
 #[must_use]
 pub fn maps(mass: f64, h: f64, e: f64) -> Vec<ImpactMap> {
     let mut schemes: Vec<(Scheme, String, Option<f64>)> = Vec::new();
@@ -104,11 +110,11 @@ pub fn maps(mass: f64, h: f64, e: f64) -> Vec<ImpactMap> {
     schemes.into_par_iter().map(map).collect()
 }
 
-/// One impact of a body of `mass` (kg) by `scheme` with steps of `h` (s) on a wall of restitution `e`, which it would
-/// reach when the fraction `phase` of a step has gone by.
+/// One impact of a body of `mass` (kg) by `scheme` with steps of `h` (s) on a wall of restitution
+/// `e`, which it would reach after the fraction `phase` of a step.
 ///
 /// # Errors
-/// What the scheme reports: numbers that make no sense, or a motion that left them.
+/// Errors of the scheme: invalid values, or a state that became NaN or infinite.
 pub fn impact(scheme: &Scheme, kappa: Option<f64>, mass: f64, h: f64, e: f64, phase: f64) -> Result<Impact> {
     let wall = Wall::upper("wall", 0.0).with_restitution(e);
     let start = -(RUN_UP + phase) * h;
@@ -132,7 +138,7 @@ pub fn impact(scheme: &Scheme, kappa: Option<f64>, mass: f64, h: f64, e: f64, ph
     Ok(Impact { phase, restitution: (-speed).max(0.0), depth, contact_steps, theory })
 }
 
-/// The restitution for the maps of a scene: that of its first rigid wall, 1 where it has none.
+/// The restitution used for the maps of a scene: that of its first rigid wall, 1 where it has none.
 #[must_use]
 pub fn wall_restitution(scene: &Scene) -> f64 {
     let rigid = |wall: &Wall| wall.law.restitution();

@@ -1,17 +1,19 @@
-//! What a scheme does to the energy of a run, and to the force of a contact that lasts.
+//! The effect of a scheme on the energy of a run, and on the force of a lasting contact.
 //!
-//! A lasting contact is where schemes on a mesh show their known weakness: the node at the wall is stopped at every touch, the elements
-//! behind it are not, and the force rings at the frequencies of the mesh though the exact one is smooth, or constant as in the impact of a
-//! bar. The measure is the ripple
+//! Lasting contacts show the known weakness of time stepping on a mesh: every touch stops the node
+//! at the wall but not the elements behind it, and the force oscillates at the frequencies of the
+//! mesh though the exact force is smooth, or constant as in the impact of a bar. The measure is the
+//! ripple
 //!
 //! ρ = √(mean of (F − F̄)²) / F̄
 //!
-//! of the mean force F of each step over the inner four fifths of the contact, F̄ being its mean there: 0 for a constant force; 1 for one
-//! that comes and goes every other step. The first and the last tenth are left out: they hold the rise and the fall, which take a step or
-//! two even where nothing rings.
+//! of the mean force F of each step over the inner four fifths of the contact, F̄ being its mean
+//! there: 0 for a constant force; 1 for a force present in every other step. The first and the last
+//! tenth are left out: they hold the rise and the fall, which take a step or two even without
+//! oscillations.
 //!
-//! Pushes of one wall that follow one another within a thirty-second of the slowest period are one contact: a force that rings may well let
-//! go in between.
+//! Pushes of one wall that follow one another within a thirty-second of the slowest period are one
+//! contact, since an oscillating force may vanish in between.
 
 use super::scale::Scale;
 use crate::error::Result;
@@ -21,28 +23,29 @@ use crate::scheme::Scheme;
 use crate::time::TimeOptions;
 use rayon::prelude::*;
 
-/// Share of a contact left out at either end.
+/// Share of a contact left out at each end.
 const EDGE: f64 = 0.1;
-/// Fewest steps of a contact whose force can be said to ring or not.
+/// Fewest steps of a contact whose ripple is measured.
 const FEWEST: usize = 10;
-/// Steps tried, as multiples of the case's own.
+/// Steps tried, as multiples of the case's own step.
 pub const MULTIPLES: [f64; 3] = [4.0, 1.0, 0.25];
 
-/// A contact that lasts, as one wall saw it.
+/// A lasting contact at one wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lasting {
-    /// Its first push, s.
+    /// Start of its first push, s.
     pub start: f64,
-    /// Its last, s.
+    /// End of its last push, s.
     pub end: f64,
     /// Impulse over it, N s, as a magnitude.
     pub impulse: f64,
-    /// ρ.
+    /// Ripple ρ.
     pub ripple: f64,
 }
 
-/// The contact with the largest impulse among those of a wall that last ten steps or more; none where there is none. `impulse` holds the
-/// wall's impulse (N s) in each of equal steps of `h` (s) from t = 0 on; pushes less than `joined` (s) apart belong together.
+/// The contact with the largest impulse among those of a wall that last more than ten steps; `None`
+/// where there is no such contact. `impulse` holds the wall's impulse (N s) in each of equal steps
+/// of `h` (s) from t = 0 on; pushes at most `joined` (s) apart belong to one contact.
 ///
 /// ```
 /// use signorini::study::stability::lasting::lasting;
@@ -76,47 +79,48 @@ pub fn lasting(impulse: &[f64], h: f64, joined: f64) -> Option<Lasting> {
     seen.max_by(|a, b| a.impulse.total_cmp(&b.impulse))
 }
 
-/// What one scheme makes of the case at one step.
+/// One run: one scheme with one step.
 #[derive(Debug, Clone)]
 pub struct Line {
     /// The scheme.
     pub scheme: Scheme,
-    /// Its step, s; the spacing of its rows for the exact scheme.
+    /// Its step, s; for the exact scheme, the spacing of its rows.
     pub step: f64,
-    /// What was seen, or why nothing was.
+    /// The measurements, or why there are none.
     pub outcome: Result<Seen>,
 }
 
-/// Energies as shares of the scale of [`Quality`], and the contact.
+/// Energies as shares of the reference energy of [`Quality`], and the contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seen {
     /// Largest energy of the run.
     pub largest: f64,
     /// Energy at its end.
     pub last: f64,
-    /// Taken by the walls; negative where the scheme made energy there.
+    /// Energy taken by the walls; negative where the scheme produced energy there.
     pub lost_at_walls: f64,
-    /// What no load, damping or wall accounts for.
+    /// Energy change that no load, damping or wall accounts for.
     pub unexplained: f64,
     /// The largest lasting contact, and the name of its wall.
     pub contact: Option<(String, Lasting)>,
 }
 
-/// What every scheme does to the energy and the lasting contact of a case.
+/// The effect of every scheme on the energy and the lasting contact of a case.
 #[derive(Debug, Clone)]
 pub struct Quality {
-    /// What energies are shares of, J: the largest energy of the exact run, or of moreau-jean with the finest step where the exact scheme cannot go.
+    /// Reference energy, J: the largest energy of the exact run, or of moreau-jean with the finest
+    /// step where the exact scheme cannot follow the case.
     pub energy: f64,
-    /// Scheme by scheme, coarse steps first.
+    /// The runs, scheme by scheme, coarse steps first.
     pub lines: Vec<Line>,
 }
 
 impl Quality {
-    /// Runs `schemes` on `scene` with [`MULTIPLES`] of the step of `time`, in parallel; a run that fails is a line with the reason. `scale`
-    /// says what the slowest period is.
+    /// Runs `schemes` on `scene` with [`MULTIPLES`] of the step of `time`, in parallel; a run that
+    /// fails is a line with the reason. `scale` gives the slowest period.
     ///
     /// # Errors
-    /// What the reference reports.
+    /// Errors of the reference run.
     pub fn of(scene: &Scene, schemes: &[Scheme], time: &TimeOptions, scale: &Scale) -> Result<Self> {
         let joined = scale.joined();
         let go = |scheme: Scheme, step: f64| {

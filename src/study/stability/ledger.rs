@@ -1,25 +1,30 @@
-//! The energy that a scheme makes of itself, of one degree of freedom: a few operations a step, where the judge needs many.
+//! The energy that a scheme itself produces, for one degree of freedom: a few operations per step,
+//! much cheaper than the judge.
 
 use crate::scene::{Wall, WallLaw};
 use crate::scheme::Stepper;
 use crate::step::{Balance, Step};
 
-/// The energy that a scheme makes between impacts, without knowing the load: by the balance of momentum that every scheme states
-/// ([`Balance`]), the work of load and dampers in a step equals the change of energy but for the terms booked here.
+/// The energy that a scheme produces between impacts. The load need not be known: by the momentum
+/// balance that every scheme declares ([`Balance`]), the work of load and dampers in a step equals
+/// the change of energy except for the terms summed here.
 ///
-/// θ-balance: p·Δq/h + ΔU − (θ−½)(mΔv² + kΔq²). Staggered: p·(v₋ + v₊)/2 + ΔU between half steps. U is the energy in the
-/// springs of the walls; what their dashpots take, and what a damped wall keeps as it lets go of the body, is no loss of the scheme.
-/// Steps in which a rigid wall pushes are left out: what it makes or takes is seen in the speeds before and after.
+/// θ-balance: p·Δq/h + ΔU − (θ−½)(mΔv² + kΔq²). Staggered: p·(v₋ + v₊)/2 + ΔU between half steps. U
+/// is the energy in the springs of the walls; the energy that their dashpots take, and the energy
+/// left in a damped wall when it releases the body, do not count as a loss of the scheme. Steps in
+/// which a rigid wall pushes are left out: the energy change there is computed from the speeds
+/// before and after.
 pub(super) struct Ledger {
     springs: Vec<Spring>,
-    /// Numbers of the rigid walls.
+    /// Indices of the rigid walls.
     rigid: Vec<usize>,
     balance: Balance,
     h: f64,
     mass: f64,
     stiffness: f64,
     q: f64,
-    /// True where a wall pushed or held the body in the last step: the staggered energy of a wall is that of two ends.
+    /// True where a wall pushed or held the body in the last step: staggered, the energy change of
+    /// a wall spans two steps.
     busy: bool,
     made: f64,
 }
@@ -29,7 +34,7 @@ struct Spring {
     index: usize,
     wall: Wall,
     damping: f64,
-    /// Energy in it where the last step left it, J.
+    /// Energy stored in it at the end of the last step, J.
     stored: f64,
 }
 
@@ -53,12 +58,12 @@ impl Ledger {
         Self { springs, rigid, balance: stepper.contract().balance, h, mass, stiffness, q, busy: true, made: 0.0 }
     }
 
-    /// The energy made so far, J.
+    /// The energy produced so far, J.
     pub fn made(&self) -> f64 {
         self.made
     }
 
-    /// Takes in a step; `busy` where a wall pushed in it or holds the body at its end.
+    /// Adds a step; `busy` where a wall pushed in it or holds the body at its end.
     #[inline]
     pub fn see(&mut self, step: &Step<'_>, busy: bool) {
         let (q, before, after) = (at(step.q), at(step.velocity_before), at(step.velocity_after));
@@ -83,7 +88,7 @@ impl Ledger {
                 let p = impulse(spring.index);
                 if p != 0.0 || spring.damping == 0.0 {
                     self.made += p * rate + stored - spring.stored;
-                    // What the dashpot's share of p takes.
+                    // Impulse of the dashpot, part of p.
                     let depth_rate = -wall.side.sign() * rate;
                     let plate_rate =
                         if staggered { depth_rate } else { (depth_end.max(0.0) - depth.max(0.0)) / self.h };
@@ -97,7 +102,7 @@ impl Ledger {
     }
 }
 
-/// The single degree of freedom.
+/// The value of the only degree of freedom.
 pub(super) fn at(x: &[f64]) -> f64 {
     x.first().copied().unwrap_or(0.0)
 }

@@ -3,14 +3,14 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`impact`] | the restitution that a scheme realises in one free impact, by phase |
-//! | [`theory`] | what it should be, in closed form |
+//! | [`theory`] | the same restitution in closed form |
 //! | [`scale`] | the frequency by which steps are measured |
 //! | [`family`] | the schemes of the maps and their second parameter |
-//! | [`watch`] | one run, measured |
-//! | `ledger` | the energy that a scheme makes of itself |
-//! | [`lasting`] | what schemes do to energy and to the force of a lasting contact |
-//! | [`ruler`] | what they are held against: fine runs from neighbouring starts |
-//! | [`class`] | what the measurements amount to |
+//! | [`watch`] | measurements of one run |
+//! | `ledger` | the energy that a scheme itself produces |
+//! | [`lasting`] | the effect of schemes on energy and on the force of a lasting contact |
+//! | [`ruler`] | the reference: fine runs from neighbouring starts |
+//! | [`class`] | classification of the measurements |
 //! | [`row`] | one scheme on one scene over all steps |
 //! | [`plan`] | the maps of a case, computed in parallel |
 

@@ -1,4 +1,4 @@
-//! The maps of a case: every scheme, step and parameter, in parallel.
+//! The maps of a case: every scheme, step and parameter, run in parallel.
 
 use super::family::{self, Family, Parameter, Question};
 use super::row::{Cell, Safe, Subject};
@@ -11,25 +11,26 @@ use crate::scheme::{Integrator, PenaltyLaw, Scheme};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Steps of the coarsest cell at least.
+/// Fewest steps in the coarsest cell.
 const LEAST_STEPS: f64 = 20.0;
 
-/// How much is to be mapped.
+/// Extent of the maps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
-    /// Smallest step as hω. A natural period has 6 × 10⁴ of the default, 10⁻⁴: that resolves the stiffest penalty of the source
-    /// (h²k_w/m = 0.01).
+    /// Smallest step as hω. The default, 10⁻⁴, gives 6 × 10⁴ steps per natural period, which
+    /// resolves the stiffest penalty of the source (h²k_w/m = 0.01).
     pub finest: f64,
-    /// Largest step as hω: two to the natural period by default.
+    /// Largest step as hω; by default there are two steps per natural period.
     pub coarsest: f64,
-    /// Steps a decade.
+    /// Number of steps per decade.
     pub per_decade: f64,
-    /// Contacts of the reference at which the horizon ends, if the duration does not end it before: by default a hundred, enough
-    /// for a gain of 1 % each to show.
+    /// Number of contacts of the reference at which the horizon ends, unless the duration ends
+    /// earlier: by default a hundred, enough for a gain of 1 % per impact to show.
     pub contacts: usize,
-    /// Most steps of a cell: where the finest step would need more over the horizon, the grid starts at a coarser one.
+    /// Most steps in a cell: where the finest step would need more over the horizon, the grid
+    /// starts at a coarser step.
     pub most_steps: f64,
-    /// The schemes.
+    /// The schemes to map.
     pub families: Vec<Family>,
 }
 
@@ -39,13 +40,15 @@ impl Default for Grid {
     }
 }
 
-/// Steps of several degrees of freedom in all of a map's finest cells, times their number, and the fewest of one cell.
+/// Most steps in all finest cells of a map times the number of degrees of freedom, and fewest steps
+/// in one cell.
 const MOST_WORK: f64 = 5e5;
 const FEWEST_STEPS: f64 = 1e4;
 
 impl Grid {
-    /// The grid for `scene`: the default for one degree of freedom; for several, whose steps cost in proportion, coarser ones and fewer to
-    /// a decade. Steps are measured by the slowest frequency, and reach from where most is resolved to where not even that is.
+    /// The grid for `scene`: the default for one degree of freedom; for several, whose steps cost
+    /// in proportion, coarser steps and fewer per decade. Steps are measured by the slowest
+    /// frequency, and range from where most modes are resolved to where not even the slowest is.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         match scene.system {
@@ -58,53 +61,55 @@ impl Grid {
     }
 }
 
-/// All that is to be run for the maps of a case.
+/// All runs needed for the maps of a case.
 #[derive(Debug, Clone)]
 pub struct Plan {
-    /// What steps are measured by.
+    /// The frequency by which steps are measured.
     pub scale: Scale,
-    /// How long each run is, s: until the reference's hundredth contact, at most the case's duration.
+    /// Duration of each run, s: until the hundredth contact of the reference, at most the case's
+    /// duration.
     pub horizon: f64,
-    /// The steps, s, rising.
+    /// The steps, s, increasing.
     pub steps: Vec<f64>,
-    /// The rows of the maps, family by family, the parameter rising.
+    /// The rows of the maps, family by family, the parameter increasing.
     pub subjects: Vec<Subject>,
-    /// For each subject the number of its reference.
+    /// For each subject the index of its reference.
     rulers: Vec<usize>,
     references: Vec<(Scene, Scheme)>,
 }
 
-/// A row of a map, run.
+/// A row of a map, with its runs done.
 #[derive(Debug, Clone)]
 pub struct Row {
-    /// What it is about.
+    /// Scheme, parameter and scene of the row.
     pub subject: Subject,
-    /// One cell a step.
+    /// One cell per step.
     pub cells: Vec<Cell>,
-    /// Contacts of its reference.
+    /// Number of contacts in its reference runs.
     pub contacts: Range,
-    /// For the case's own parameters, the largest safe step.
+    /// The largest safe step, where the parameter value is the case's own.
     pub safe: Option<Safe>,
 }
 
 /// The maps of a case.
 #[derive(Debug, Clone)]
 pub struct Maps {
-    /// What steps are measured by.
+    /// The frequency by which steps are measured.
     pub scale: Scale,
-    /// How long each run was, s.
+    /// Duration of each run, s.
     pub horizon: f64,
-    /// The steps, s, rising.
+    /// The steps, s, increasing.
     pub steps: Vec<f64>,
     /// The rows, in the order of the plan.
     pub rows: Vec<Row>,
 }
 
 impl Plan {
-    /// The plan for a case. It takes one run of the case, at the finest step over its whole duration.
+    /// The plan for a case. It takes one run of the case, with the finest step over its whole
+    /// duration.
     ///
     /// # Errors
-    /// [`crate::Error::Invalid`] for a case without walls, and what the reference run of the case itself reports.
+    /// [`crate::Error::Invalid`] for a case without walls, and errors of that run.
     pub fn new(case: Question<'_>, grid: &Grid) -> Result<Self> {
         family::check(case)?;
         let scene = case.scene;
@@ -131,7 +136,7 @@ impl Plan {
                 let (scene, scheme) = parameter.at(family, value, scene)?;
                 plan.add(family, parameter, value, scheme, scene, own.contains(&value) && !several, true)?;
             }
-            // Walls that differ in the parameter make a row of their own, beside the map.
+            // A case whose walls differ in the parameter gets a row of its own, outside the map.
             if several && let Ok((_, scheme)) = parameter.at(family, 1.0, scene) {
                 plan.add(family, parameter, f64::NAN, scheme, scene.clone(), true, false)?;
             }
@@ -164,7 +169,7 @@ impl Plan {
         Ok(())
     }
 
-    /// Steps to be taken in all, for a progress bar.
+    /// Number of steps in all, for a progress bar.
     #[must_use]
     pub fn work(&self) -> u64 {
         let row: u64 = self.steps.iter().map(|h| self.cost(*h)).sum();
@@ -180,10 +185,11 @@ impl Plan {
         self.steps.first().copied().unwrap_or(self.horizon)
     }
 
-    /// Runs everything, telling `progress` the steps taken, of [`Plan::work`]. The result does not depend on the number of threads.
+    /// Runs everything; `progress` is told the number of steps taken, of [`Plan::work`]. The result
+    /// does not depend on the number of threads.
     ///
     /// # Errors
-    /// What a reference run reports; a run of a map that fails is a cell with the reason in it.
+    /// Errors of a reference run; a run of a map that fails is a cell with the reason in it.
     pub fn run(self, progress: &(dyn Fn(u64) + Sync)) -> Result<Maps> {
         let done = AtomicU64::new(0);
         let tell = |steps: u64| progress(done.fetch_add(steps, Ordering::Relaxed) + steps);
@@ -200,7 +206,7 @@ impl Plan {
         let rulers: Vec<Ruler> = self.references.par_iter().map(reference).collect::<Result<_>>()?;
         let ruled: Vec<(&Subject, &Ruler)> =
             self.subjects.iter().zip(self.rulers.iter().filter_map(|i| rulers.get(*i))).collect();
-        // The dearest first, so that no thread is left with one of them at the end.
+        // The most expensive tasks first, so that no thread is left with one of them at the end.
         let tasks: Vec<_> = self.steps.iter().flat_map(|h| ruled.iter().map(move |r| (*h, *r))).collect();
         let cell = |(h, (subject, ruler)): (f64, (&Subject, &Ruler))| {
             let cell = subject.cell(ruler, &self.scale, h, self.horizon);
@@ -218,8 +224,9 @@ impl Plan {
     }
 }
 
-/// What the runs on a scene are held against: moreau-jean with θ = ½, which keeps energy between impacts and the law at them; for a
-/// penalty the discrete gradient on the same springs, which keeps theirs. Both with the finest step of the grid.
+/// The reference scheme: moreau-jean with θ = ½, which keeps energy between impacts and the impact
+/// law exactly; for a penalty the discrete gradient on the same springs, which keeps the energy of
+/// the springs. Both with the finest step of the grid.
 fn reference_of(scene: &Scene, law: Option<PenaltyLaw>) -> (Scene, Scheme) {
     let scheme = match law {
         Some(law) => Scheme::Penalty { law, integrator: Integrator::DiscreteGradient },
@@ -229,12 +236,12 @@ fn reference_of(scene: &Scene, law: Option<PenaltyLaw>) -> (Scene, Scheme) {
 }
 
 impl Maps {
-    /// The rows of one family that are drawn, the parameter rising.
+    /// The rows of one family that are drawn, the parameter increasing.
     pub fn map(&self, family: Family) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(move |row| row.subject.family == family && row.subject.mapped)
     }
 
-    /// The rows of the case's own parameters, in the order of families.
+    /// The rows with the case's own parameters, in the order of families.
     pub fn own(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| row.subject.own)
     }

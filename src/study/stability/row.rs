@@ -8,7 +8,8 @@ use super::watch::{STARTS, nudged, wall_stiffness, watch};
 use crate::scene::Scene;
 use crate::scheme::Scheme;
 
-/// Times the interval between the last safe step and the next one of the grid is halved (in its logarithm).
+/// Number of bisections, in the logarithm, of the interval between the last safe step and the next
+/// one of the grid.
 const BISECTIONS: u32 = 2;
 
 /// One run of a map.
@@ -16,47 +17,49 @@ const BISECTIONS: u32 = 2;
 pub struct Cell {
     /// Step, s.
     pub step: f64,
-    /// What was measured; none where the run failed.
+    /// The measurements; `None` where the run failed.
     pub measured: Option<Measurement>,
-    /// What it amounts to.
+    /// The class of the run.
     pub class: Class,
-    /// The finding that decided the class, or why the run failed.
+    /// The criterion that decided the class, or why the run failed.
     pub reason: String,
 }
 
-/// A scheme with its second parameter set, on its scene: what a row of a map is made of.
+/// A scheme with its second parameter set, on its scene: a row of a map.
 #[derive(Debug, Clone)]
 pub struct Subject {
     /// Which map it belongs to.
     pub family: Family,
-    /// What is varied beside the step.
+    /// The second parameter.
     pub parameter: Parameter,
     /// Its value.
     pub value: f64,
     /// The scheme.
     pub scheme: Scheme,
-    /// The scene given to it.
+    /// The scene given to the scheme.
     pub scene: Scene,
-    /// The scene as it sees it: penalised walls are springs.
+    /// The scene as the scheme sees it: a penalty's walls are springs.
     pub seen: Scene,
     /// True where the parameter's value is the case's own.
     pub own: bool,
-    /// True where the row is drawn on the map; false for a case whose walls differ in the parameter.
+    /// True where the row is drawn on the map; false for a case whose walls differ in the
+    /// parameter.
     pub mapped: bool,
 }
 
 impl Subject {
-    /// h²k_w/m at the step `h` (s) for the stiffest wall; none where all walls are rigid.
+    /// h²k_w/m at the step `h` (s) for the stiffest wall; `None` where all walls are rigid.
     #[must_use]
     pub fn kappa(&self, scale: &Scale, h: f64) -> Option<f64> {
         let stiffest = self.seen.walls.iter().filter_map(|w| wall_stiffness(w.law)).reduce(f64::max);
         stiffest.map(|k| h * h * k / scale.mass)
     }
 
-    /// The run with steps of `h` (s) over `horizon` (s), held against `ruler`.
+    /// The run with steps of `h` (s) over `horizon` (s), compared with `ruler`.
     ///
-    /// A motion that goes astray is tried from the other starts of the ruler's runs: one that stays on course from any of them went astray
-    /// by the scene's choice between two motions, not by the scheme's.
+    /// A run classified as astray is repeated from the other starts of the reference. If one of
+    /// these is not astray, the scene has two possible motions, and the scheme is not to blame for
+    /// following the other one.
     #[must_use]
     pub fn cell(&self, ruler: &Ruler, scale: &Scale, h: f64, horizon: f64) -> Cell {
         let first = self.attempt(0, ruler, scale, h, horizon);
@@ -69,7 +72,8 @@ impl Subject {
     }
 
     fn attempt(&self, start: u32, ruler: &Ruler, scale: &Scale, h: f64, horizon: f64) -> Cell {
-        // Well beyond what makes a class, so that the speed reached is still measured there.
+        // Far above the limit of the class, so that the speed is still measured where a run
+        // diverges.
         let limit = 10.0 * DIVERGED * ruler.speed.high.max(f64::MIN_POSITIVE);
         match watch(&nudged(&self.scene, start, scale), &self.scheme, h, horizon, limit) {
             Err(error) => Cell { step: h, measured: None, class: Class::Diverged, reason: error.to_string() },
@@ -82,17 +86,18 @@ impl Subject {
     }
 }
 
-/// How far a scheme can be trusted on a scene.
+/// The range of safe steps of a scheme on a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Safe {
-    /// The largest step that is stable together with all smaller ones of the grid, s; none where not even the smallest is.
+    /// The largest step that is stable together with all smaller ones of the grid, s; `None` where
+    /// the smallest is not stable.
     pub step: Option<f64>,
-    /// The smallest step found that is not stable: what happens there; none where all are stable.
+    /// The run with the smallest step found that is not stable; `None` where all are stable.
     pub beyond: Option<Cell>,
 }
 
 impl Safe {
-    /// Finds it among the `cells` of a row, in the order of their steps, then by bisection.
+    /// Finds it from the `cells` of a row, in the order of their steps, and then by bisection.
     #[must_use]
     pub fn find(subject: &Subject, cells: &[Cell], ruler: &Ruler, scale: &Scale, horizon: f64) -> Self {
         let stable = |cell: &Cell| cell.class == Class::Stable;

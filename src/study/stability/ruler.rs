@@ -1,45 +1,48 @@
-//! What a run is measured by: fine runs from neighbouring starts.
+//! The reference of a run: fine runs from neighbouring starts.
 
 use super::scale::Scale;
 use super::watch::{Record, total_mass};
 use crate::scene::{Scene, System};
 use crate::step::Contact;
 
-/// What walls of several degrees of freedom take scatters by this share from run to run: which contacts come together is chance.
+/// Relative scatter, from run to run, of the energy that the walls take with several degrees of
+/// freedom: which contacts coincide depends on chance.
 pub const SCATTER: f64 = 0.04;
-/// Contacts are counted where the approach is faster than this share of the reference's largest: the number of slower ones,
-/// in chatter and accumulations, depends on resolution alone.
+/// Contacts are counted where the approach is faster than this share of the reference's largest:
+/// the number of slower contacts, in chatter and accumulations, depends on the resolution only.
 pub const COUNTED: f64 = 0.05;
-/// Speeds below this share of the reference's largest are rest.
+/// Speeds below this share of the reference's largest count as rest.
 pub const REST: f64 = 1e-3;
 
-/// Fine runs that others are held against: several, from starts that differ by next to nothing. Where the motion is
-/// chaotic they scatter, and only what lies outside their scatter is wrong.
+/// Fine runs that others are compared with: several, from slightly different starts. Where the
+/// motion is chaotic they scatter, and only a value outside their scatter is wrong.
 #[derive(Debug, Clone)]
 pub struct Ruler {
-    /// Largest speed of each run, m/s: least and largest.
+    /// Range, over the runs, of the largest speed, m/s.
     pub speed: Range,
-    /// Root-mean-square speed of each run, m/s.
+    /// Range, over the runs, of the root-mean-square speed, m/s.
     pub rms_speed: Range,
-    /// Contacts counted in each run.
+    /// Range, over the runs, of the number of contacts counted.
     pub contacts: Range,
     /// Approach speed above which a contact is counted, m/s.
     pub(super) threshold: f64,
-    /// Contacts of one wall less than this apart count as one, s; none for one degree of freedom, where each counts.
+    /// Contacts of one wall less than this apart count as one, s; `None` for one degree of freedom,
+    /// where each contact counts.
     pub(super) joined: Option<f64>,
     pub(super) rests: bool,
-    /// What the walls of several degrees of freedom rightly take, over the energy that [`exchanged`] counts.
+    /// Range of the energy that the walls of several degrees of freedom take, over the energy that
+    /// [`exchanged`] counts.
     pub(super) taken: Range,
-    /// Largest kinetic energy of each run, J.
+    /// Largest kinetic energy over the runs, J.
     pub(super) energy: f64,
 }
 
-/// Least and largest of several values.
+/// Smallest and largest of several values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
-    /// The least.
+    /// The smallest value.
     pub low: f64,
-    /// The largest.
+    /// The largest value.
     pub high: f64,
 }
 
@@ -49,19 +52,19 @@ impl Range {
         values.fold(all, |r, x| Self { low: r.low.min(x), high: r.high.max(x) })
     }
 
-    /// Of values that are few for how much they scatter: [`SCATTER`] more to either side.
+    /// The range of a small sample with large scatter: widened by [`SCATTER`] to either side.
     pub(super) fn scattered(values: impl Iterator<Item = f64>) -> Self {
         let all = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
         let seen = values.fold(all, |r, x| Self { low: r.low.min(x), high: r.high.max(x) });
         Self { low: seen.low - SCATTER, high: seen.high + SCATTER }
     }
 
-    /// How far a value lies outside the range: 0 within it.
+    /// Distance of a value from the range: 0 within it, signed outside.
     pub(super) fn beyond(self, x: f64) -> f64 {
         x - x.clamp(self.low.min(self.high), self.high)
     }
 
-    /// The value over the nearest one of the range: 1 within it.
+    /// The value over the nearest value of the range: 1 within it.
     pub(super) fn ratio(self, x: f64) -> f64 {
         let nearest = x.clamp(self.low.min(self.high), self.high);
         if x == nearest { 1.0 } else { x / nearest }
@@ -69,7 +72,8 @@ impl Range {
 }
 
 impl Ruler {
-    /// The ruler that fine runs of `scene` make. On a mesh a contact may let go and touch again with its vibrations: those are one.
+    /// The ruler made of fine runs of `scene`. On a mesh, vibrations may interrupt a contact; its
+    /// parts are counted as one.
     #[must_use]
     pub fn new(records: &[Record], scene: &Scene, scale: &Scale) -> Self {
         let joined = matches!(scene.system, System::Structure(_)).then(|| scale.joined());
@@ -90,15 +94,15 @@ impl Ruler {
         }
     }
 
-    /// Times of the contacts counted, s.
+    /// Start times of the contacts counted, s.
     #[must_use]
     pub fn contact_times(&self, record: &Record) -> Vec<f64> {
         counted(&record.contacts, self.threshold, self.joined)
     }
 }
 
-/// Starts of the contacts faster than `threshold`, in the order of the list; those of one wall that begin within `joined` of the end of the
-/// one before are part of it.
+/// Starts of the contacts faster than `threshold`, in the order of the list; a contact of the same
+/// wall that begins within `joined` of the end of the one before belongs to it.
 pub(super) fn counted(contacts: &[Contact], threshold: f64, joined: Option<f64>) -> Vec<f64> {
     let fast = contacts.iter().filter(|c| c.approach_speed > threshold);
     let Some(joined) = joined else { return fast.map(|c| c.start).collect() };
@@ -123,8 +127,8 @@ pub(super) fn counted(contacts: &[Contact], threshold: f64, joined: Option<f64>)
     starts
 }
 
-/// Kinetic energy that arrived at the walls, each with the mass that it feels, or `least` if that is more, J: at the node of a fine mesh
-/// little mass arrives.
+/// Kinetic energy that arrived at the walls, J: for each contact with the mass that the wall feels,
+/// but at least `least` per contact, since little mass arrives at the node of a fine mesh.
 pub(super) fn exchanged(record: &Record, masses: &[f64], least: f64) -> f64 {
     let energy = |c: &Contact| 0.5 * masses.get(c.wall).copied().unwrap_or(0.0) * c.approach_speed * c.approach_speed;
     record.contacts.iter().map(energy).sum::<f64>().max(least).max(f64::MIN_POSITIVE)

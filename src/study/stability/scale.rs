@@ -1,28 +1,30 @@
-//! What a scene's steps are measured by.
+//! The frequency by which the steps of a scene are measured.
 
 use crate::scene::{LoadKind, Scene};
 use std::f64::consts::TAU;
 
-/// A frequency with less than this many periods in the duration sets no scale: the body hardly begins to swing.
+/// A frequency with fewer periods in the duration than this is not used: the body hardly begins to
+/// swing.
 const SLOWEST: f64 = 0.01;
-/// Nor does a first contact after less than a thousandth of the duration: the body starts at the wall.
+/// A first contact after less than a thousandth of the duration is not used either: the body starts
+/// at the wall.
 const FASTEST_FLIGHT: f64 = 1e3;
 
-/// Where the circular frequency of a scene comes from.
+/// Origin of the circular frequency of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// √(k/m), the oscillator's own; of several degrees of freedom the slowest.
+    /// √(k/m) of the oscillator; with several degrees of freedom the slowest natural frequency.
     Spring,
-    /// The slowest sine of the load, where nothing but the walls holds the body.
+    /// The slowest sine load, where only the walls hold the body.
     Load,
-    /// 2π over the time from the start to the first contact, where there is no sine either.
+    /// 2π over the time from the start to the first contact, where there is no sine load either.
     Flight,
-    /// 2π over the duration, where nothing ever happens faster.
+    /// 2π over the duration, where none of these exists.
     Duration,
 }
 
 impl Origin {
-    /// For axis labels and messages.
+    /// Description for axis labels and messages.
     #[must_use]
     pub fn describe(self) -> &'static str {
         match self {
@@ -34,22 +36,22 @@ impl Origin {
     }
 }
 
-/// A circular frequency and where it comes from.
+/// A circular frequency and its origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
     /// ω, rad/s.
     pub omega: f64,
-    /// Where it comes from.
+    /// Its origin.
     pub origin: Origin,
-    /// Mass at the walls, kg: the least that a wall feels.
+    /// Smallest mass that a wall feels, kg.
     pub mass: f64,
 }
 
-/// Share of the period within which touches of one wall are one contact.
+/// Share of the period within which touches of one wall count as one contact.
 const JOINED: f64 = 1.0 / 32.0;
 
 impl Scale {
-    /// The time within which touches of one wall are one contact of a structure that vibrates at the wall, s.
+    /// The time within which touches of one wall by a vibrating structure count as one contact, s.
     #[must_use]
     pub fn joined(&self) -> f64 {
         JOINED * TAU / self.omega

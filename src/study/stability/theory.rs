@@ -1,17 +1,21 @@
-//! What a scheme returns from one free impact, in closed form where there is one.
+//! The restitution that a scheme realises in one free impact, in closed form where there is one.
 //!
-//! A free particle meets one wall when the fraction τ of a step has gone by. κ = h²k_w/m measures the spring of a penalty.
+//! A free particle reaches one wall after the fraction τ of a step. κ = h²k_w/m measures the spring
+//! of a penalty.
 
 use crate::scheme::{Integrator, Scheme};
 
-/// The restitution that `scheme` realises at the phase `tau` in [0, 1), for a rigid wall of restitution `e` or a penalty
-/// spring of `kappa` = h²k_w/m; none where no closed form is at hand.
+/// The restitution that `scheme` realises at the phase `tau` in [0, 1), for a rigid wall of
+/// restitution `e` or a penalty spring of `kappa` = h²k_w/m; `None` where no closed form is known
+/// here.
 ///
-/// - moreau-jean, paoli-schatzman, generalized-alpha and event: e at every phase; implicit-euler: 0.
+/// - moreau-jean, paoli-schatzman, generalized-alpha and event: e at every phase; implicit-euler:
+///   0.
 /// - newmark: 3 − 4τ for τ < ⅔, one step on the wall; 8τ − 5 beyond, two steps.
 /// - discrete gradient: 1, it keeps the energy of the spring.
-/// - implicit Euler on the spring at κ = 1: s⁺ = (2s − s⁻)/2 turns (s⁻, s) into half of itself in two steps that leave
-///   the wall, hence ¼ at every phase. Central difference at κ = 1: s⁺ = s − s⁻ reverses the motion exactly, 1.
+/// - implicit Euler on the spring at κ = 1: s⁺ = (2s − s⁻)/2 turns (s⁻, s) into half of itself in
+///   two steps that leave the wall, hence ¼ at every phase. Central difference at κ = 1: s⁺ = s −
+///   s⁻ reverses the motion exactly, 1.
 #[must_use]
 pub fn restitution(scheme: &Scheme, e: f64, kappa: Option<f64>, tau: f64) -> Option<f64> {
     match *scheme {

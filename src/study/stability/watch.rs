@@ -1,4 +1,4 @@
-//! One run, measured: what a stability map needs to know of it.
+//! Measurements of one run for a stability map.
 
 use super::ledger::{Ledger, at};
 use super::scale::Scale;
@@ -8,20 +8,24 @@ use crate::scene::{Scene, System, WallLaw};
 use crate::scheme::{Scheme, Stepper};
 use crate::step::{Contact, Step};
 
-/// The share of the horizon, at its end, in which a body that is due to rest must rest.
+/// The last part of the horizon, as a share, in which the body must be at rest if the reference is.
 const LAST: f64 = 0.1;
-/// Steps after which a contact that has not ended at the horizon is a lasting one: the body stays at the wall, and leaves with nothing.
+/// Number of steps after which a contact that has not ended at the horizon is a lasting one: the
+/// body stays at the wall, with departure speed 0.
 const LASTING: f64 = 10.0;
 
-/// What was seen of one run.
+/// The measurements of one run.
 #[derive(Debug, Clone, Default)]
 pub struct Record {
-    /// Contact episodes that ended within the horizon, in the order of their ends, then lasting ones, with a departure speed of 0.
+    /// Contact episodes that ended within the horizon, in the order of their ends, then lasting
+    /// ones, with a departure speed of 0.
     pub contacts: Vec<Contact>,
-    /// Energy that the scheme made, J: of one degree of freedom between impacts, away from walls and in the springs of elastic and penalised ones; of
-    /// several what rigid walls give and take as well.
+    /// Energy that the scheme produced, J. One degree of freedom: between impacts, away from walls
+    /// and in the springs of elastic and penalised walls. Several: also the energy that rigid walls
+    /// give and take.
     pub made: f64,
-    /// Largest speed, m/s: of several degrees of freedom the one with which all of the mass would have the kinetic energy, √(vᵀMv / 1ᵀM1).
+    /// Largest speed, m/s. Several degrees of freedom: the speed at which the total mass would have
+    /// the same kinetic energy, √(vᵀMv / 1ᵀM1).
     pub speed: f64,
     /// Root mean square of the speed, m/s.
     pub rms_speed: f64,
@@ -31,22 +35,23 @@ pub struct Record {
     pub depth: Vec<f64>,
     /// Largest speed at each wall, m/s.
     pub wall_speed: Vec<f64>,
-    /// Largest acceleration at each wall in a step without contact there or at a wall that shares a degree of freedom with it, m/s².
+    /// Largest acceleration at each wall, m/s², in steps without contact at this wall or at a wall
+    /// that shares a degree of freedom with it.
     pub acceleration: Vec<f64>,
     /// Steps taken.
     pub steps: u64,
-    /// Steps in which opposite walls took turns, as the scheme itself counts them.
+    /// Steps in which opposite walls push alternately, as counted by the scheme.
     pub frozen_steps: u64,
-    /// When the speed exceeded the limit, s; the run ended there.
+    /// Time at which the speed exceeded the limit, s; the run ended there.
     pub escaped: Option<f64>,
 }
 
 /// Runs `scene` by `scheme` with steps of `h` (s) over `horizon` (s).
 ///
-/// A run that exceeds `limit` (m/s) is left there, since nothing it does later is of interest.
+/// A run whose speed exceeds `limit` (m/s) ends there.
 ///
 /// # Errors
-/// What the scheme reports.
+/// Errors of the scheme.
 pub fn watch(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -> Result<Record> {
     let mut stepper = Stepper::new(scene, scheme, h)?;
     let mut books = Books::new(&stepper, h);
@@ -95,13 +100,15 @@ pub fn watch(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -
     Ok(record)
 }
 
-/// Starts from which a scene is tried, and by what their speeds differ, as a share of gap scale times ω: less than anybody could tell,
-/// enough for chaotic motions to part and for those between two attractors to find both.
+/// Number of starts that are tried, and the difference of their initial speeds as a share of gap
+/// scale times ω ([`NUDGE`]): too small to matter in practice, large enough for chaotic motions to
+/// separate and for motions between two attractors to find both.
 pub const STARTS: u32 = 4;
 /// See [`STARTS`].
 pub const NUDGE: f64 = 1e-3;
 
-/// The scene from start number `start`, 0 its own. The nudge brings the energy of that speed at the mass of a wall, in a motion of all together.
+/// The scene with start number `start`; number 0 is its own. All degrees of freedom get the same
+/// additional velocity, with the kinetic energy that the mass at a wall would have at that speed.
 #[must_use]
 pub fn nudged(scene: &Scene, start: u32, scale: &Scale) -> Scene {
     let mut scene = scene.clone();
@@ -114,10 +121,11 @@ pub fn nudged(scene: &Scene, start: u32, scale: &Scale) -> Scene {
     scene
 }
 
-/// Who keeps the books of energy.
+/// Keeps account of the energy.
 enum Books {
     Single(Box<Ledger>),
-    /// Of several degrees of freedom the judge: what no load, damping or wall accounts for, less what rigid walls took.
+    /// For several degrees of freedom, the judge: the energy that no load, damping or wall accounts
+    /// for, less the energy that rigid walls took.
     Several(Box<Judge>),
 }
 
@@ -149,7 +157,8 @@ impl Books {
     }
 }
 
-/// For each wall those whose impulses are felt there at once: itself, and all that share a degree of freedom with it.
+/// For each wall, the walls whose impulses act on it directly: itself, and all that share a degree
+/// of freedom with it.
 fn neighbours(scene: &Scene) -> Vec<Vec<usize>> {
     let dofs = |wall: &crate::scene::Wall| wall.at.entries().iter().map(|entry| entry.0).collect::<Vec<_>>();
     let all: Vec<Vec<usize>> = scene.walls.iter().map(dofs).collect();
@@ -161,10 +170,10 @@ fn neighbours(scene: &Scene) -> Vec<Vec<usize>> {
     all.iter().enumerate().map(of).collect()
 }
 
-/// What makes a speed of a vector of velocities.
+/// How a speed is computed from a vector of velocities.
 enum Gauge<'a> {
     Single,
-    /// The system, and the mass of all of it, kg.
+    /// The system, and its total mass, kg.
     Several(&'a System, f64),
 }
 
@@ -190,7 +199,7 @@ pub(super) fn total_mass(system: &System) -> f64 {
     system.mass_form(&ones, &ones)
 }
 
-/// Stiffness of a wall where the body meets it, N/m; none for a rigid one.
+/// Stiffness of a wall at first contact, N/m; `None` for a rigid wall.
 #[must_use]
 pub fn wall_stiffness(law: WallLaw) -> Option<f64> {
     match law {
@@ -200,16 +209,18 @@ pub fn wall_stiffness(law: WallLaw) -> Option<f64> {
     }
 }
 
-/// How deep behind a wall of this law (as the scheme sees it) a body may come that behaves, m: the bound stated for the scheme, with the
-/// mass m that the wall feels (kg), the energy E that may come to it (J), the largest speed `v` (m/s) and free acceleration `a` (m/s²)
-/// there, plus h²a for the order of the step.
+/// Upper bound, m, of the depth behind a wall of this law (as the scheme sees it) in a sound run.
+/// It depends on the scheme, the mass m that the wall feels (kg), the energy E that may reach it
+/// (J), the largest speed `v` (m/s) and the largest free acceleration `a` (m/s²) there; h²a is
+/// added for the order of the step.
 ///
 /// | walls and scheme | bound |
 /// |---|---|
 /// | rigid, implicit-euler, newmark and generalized-alpha | 0 |
 /// | rigid, paoli-schatzman | 2e h v/(1+e) |
 /// | rigid, moreau-jean | h v (1 − e/2) |
-/// | elastic or penalty of stiffness k_w, any | h v + √(2E/k_w) + 2ma/k_w: a step, the way in which the spring stores E, and twice what the load holds in |
+/// | elastic or penalty of stiffness k_w, any | h v + √(2E/k_w) + 2ma/k_w: one step, the depth at
+/// which the spring stores E, and twice the static depth under the load |
 #[must_use]
 pub fn depth_bound(law: WallLaw, scheme: &Scheme, mass: f64, energy: f64, h: f64, v: f64, a: f64) -> f64 {
     let stated = match (law, wall_stiffness(law)) {

@@ -1,4 +1,4 @@
-//! How many modes are enough.
+//! Chooses the number of modes.
 
 use super::{Truncation, Whole};
 use crate::error::{Error, Result};
@@ -9,29 +9,32 @@ use crate::time::TimeOptions;
 use serde::Serialize;
 use std::fmt;
 
-/// The most modes that are tried, unless the structure has no more than this.
+/// Most modes that are tried, unless the structure has no more than this.
 pub const MOST_CHOSEN: usize = 200;
 
-/// Share of the tolerance that an increase may change. What is left out falls like 1/k in the modes at worst (a bar's wall force): then
-/// twice the change of the last increase, by half, is still to come; and an increase may change little by chance.
+/// Largest change by an increase, as a share of the tolerance. The truncation error falls at worst
+/// like 1/k in the number of modes k (the wall force of a bar): in that case twice the last change,
+/// for an increase by half, is still to come; and an increase may change little by chance.
 const QUIET: f64 = 0.25;
 
-/// How many increases running must change less than that: one that changes nothing may have added modes with a node at the walls.
+/// Number of successive increases that must change less than that: an increase that changes nothing
+/// may have added modes with a node at the walls.
 const QUIET_INCREASES: usize = 2;
 
-/// Where this many increases running have each changed more than [`IDLE`], and more than half as much as the first of them, more modes lead
-/// nowhere: peaks of impacts grow with every mode, and impulses of a chaotic motion differ by chance.
+/// After this many successive increases that each changed more than [`IDLE`], and more than half as
+/// much as the first of them, adding modes is given up: peaks of impacts grow with every mode, and
+/// impulses of a chaotic motion differ by chance.
 const IDLE_INCREASES: usize = 3;
 const IDLE: f64 = 0.1;
 
-/// One number of modes.
+/// One number of modes that was tried.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModesLevel {
     /// The modes.
     pub modes: usize,
-    /// Largest change of an impulse or peak since the number before; none for the first.
+    /// Largest change of an impulse or peak from the number tried before; `None` for the first.
     pub change: Option<f64>,
-    /// The quantity that it belongs to.
+    /// The quantity with that change.
     pub quantity: Option<String>,
 }
 
@@ -43,16 +46,17 @@ pub struct ChosenModes {
     pub tolerance: f64,
     /// The modes chosen.
     pub modes: usize,
-    /// Degrees of freedom of the whole structure: as many modes as there are.
+    /// Degrees of freedom of the whole structure, hence its number of modes.
     pub degrees_of_freedom: usize,
-    /// True if the tolerance is kept: two increases running changed less than a quarter of it, or no mode is left out.
+    /// True if the tolerance is kept: two successive increases changed less than a quarter of it,
+    /// or no mode is left out.
     pub kept: bool,
     /// What was tried, in order.
     pub levels: Vec<ModesLevel>,
 }
 
 impl ChosenModes {
-    /// What was missed, if the tolerance is not kept.
+    /// The error to report if the tolerance is not kept.
     #[must_use]
     pub fn shortfall(&self) -> Option<Error> {
         let last = self.levels.last().filter(|_| !self.kept)?;
@@ -66,12 +70,14 @@ impl ChosenModes {
     }
 }
 
-/// Increases the modes by half, from `start` on, until two increases running change no wall's impulse and peak by more than a quarter of
-/// `tolerance`: runs of `method` with the step and window of `time`. Where the changes do not fall, it gives up and keeps `start`, the
-/// cheapest number, since no other tried is nearer to anything. `progress` hears the time (s) that the run under way has reached.
+/// Increases the number of modes by half, from `start` on, until two successive increases change no
+/// wall's impulse and peak by more than a quarter of `tolerance`; runs are by `method` with the
+/// step and window of `time`. Where the changes do not decrease, it gives up and keeps `start`, the
+/// cheapest number, since no other number tried is known to be more accurate. `progress` is told
+/// the time (s) that the current run has reached.
 ///
 /// # Errors
-/// What a cut or a run reports.
+/// Errors of a reduction or a run.
 pub fn choose_modes(
     whole: &Whole,
     start: usize,

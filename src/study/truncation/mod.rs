@@ -1,9 +1,11 @@
-//! Modal truncation: what the modes left out would have changed, and how many are enough.
+//! Modal truncation: the effect of the modes left out, and the number of modes needed.
 //!
-//! A truncation without static correction keeps restitution and changes the mass that a wall feels, 1/(g M⁻¹ gᵀ): it falls as modes are added (on a
-//! continuous string or bar to 0), and with it the impulse of one impact, while impacts grow in number. What converges is what a contact hands over
-//! in all. So a truncation is judged by the wall's impulse over the window of the statistics, and by its largest force, or largest impulse of one contact where contacts are
-//! impacts, which have no finite force.
+//! A truncation without static correction keeps restitution but changes the mass that a wall feels,
+//! 1/(g M⁻¹ gᵀ). This mass falls as modes are added (on a continuous string or bar to 0), and with
+//! it the impulse of one impact, while the number of impacts grows. What converges is the total
+//! impulse of the contacts. So a truncation is judged by each wall's impulse over the window of the
+//! statistics, and by its largest force; or, where contacts are impacts without a finite force, by
+//! the largest impulse of one contact.
 
 mod choose;
 
@@ -20,19 +22,20 @@ use crate::time::TimeOptions;
 use serde::Serialize;
 use std::fmt;
 
-/// A scene before it is cut to modes, and how it is cut.
+/// A scene before it is reduced to modes, and how it is reduced.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Whole {
     /// The scene in its own degrees of freedom.
     pub scene: Scene,
-    /// Damping that is given to the modes, in place of the scene's own; none where the scene has it.
+    /// Damping that is given to the modes, in place of the scene's own; `None` where the scene's
+    /// own is kept.
     pub damping: Option<Damping>,
-    /// True if walls are given the compliance of the modes left out.
+    /// True if walls get the compliance of the modes left out.
     pub static_correction: bool,
 }
 
 impl Whole {
-    /// The scene cut to its `modes` slowest modes.
+    /// The scene reduced to its `modes` slowest modes.
     ///
     /// # Errors
     /// As [`Scene::reduced`].
@@ -45,21 +48,21 @@ impl Whole {
     }
 }
 
-/// One wall with the modes kept, and with more.
+/// One wall in the run and in the run with more modes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WallTruncated {
     /// The wall's name.
     pub wall: String,
     /// Impulse over the window for statistics, N s, signed: of the run, and with more modes.
     pub impulse_n_s: [f64; 2],
-    /// Change of it, as [`WallChange::impulse`](super::change::WallChange::impulse).
+    /// Its change, defined as [`WallChange::impulse`](super::change::WallChange::impulse).
     pub impulse_change: f64,
-    /// Largest finite force in the window for statistics, N; none where contacts are impacts.
+    /// Largest finite force in the window for statistics, N; `None` where contacts are impacts.
     pub peak_force_n: [Option<f64>; 2],
-    /// Largest impulse of one contact in that window, N s; none without contact.
+    /// Largest impulse of one contact in that window, N s; `None` without contact.
     pub largest_impulse_n_s: [Option<f64>; 2],
-    /// Change of the peak force where both are finite, else of the largest impulse of one contact; as a share
-    /// of the largest that a wall has.
+    /// Change of the peak force where both are finite, else of the largest impulse of one contact;
+    /// as a share of the largest value at any wall.
     pub peak_change: f64,
     /// Mass that the wall feels, kg.
     pub effective_mass_kg: [f64; 2],
@@ -67,30 +70,33 @@ pub struct WallTruncated {
     pub compliance_share: [f64; 2],
 }
 
-/// What more modes change of a run.
+/// The effect of more modes on a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Truncation {
-    /// Modes of the run, and of the one that it is held against.
+    /// Number of modes of the run, and of the run it is compared with.
     pub modes: [usize; 2],
-    /// Degrees of freedom of the whole structure: as many modes as there are.
+    /// Degrees of freedom of the whole structure, hence its number of modes.
     pub degrees_of_freedom: usize,
     /// True if walls were given the compliance of the modes left out.
     pub static_correction: bool,
-    /// Largest |Δu| of the first probe over the gap scale, over the whole run; where the motion is chaotic it says nothing.
+    /// Largest |Δu| of the first probe over the gap scale, over the whole run; meaningless where
+    /// the motion is chaotic.
     pub displacement: f64,
-    /// One entry a wall, in the scene's order.
+    /// One entry per wall, in the scene's order.
     pub walls: Vec<WallTruncated>,
-    /// What the judge refutes of the run with more modes: with any of these nothing of this holds.
+    /// What the judge refutes in the run with more modes; if there is anything, this comparison is
+    /// meaningless.
     pub findings: Vec<Finding>,
 }
 
 impl Truncation {
-    /// Holds `run` of the cut `reduction`, made by `method` with the options `time`, against the same with twice its modes, or all of them.
-    /// None if it has all. `progress` hears the time (s) that the other run has reached.
+    /// Compares `run` of the `reduction`, made by `method` with the options `time`, with the run of
+    /// twice its modes, or of all of them. `None` if it has all. `progress` is told the time (s)
+    /// that the other run has reached.
     ///
     /// # Errors
-    /// What the other cut or run reports.
+    /// Errors of the other reduction or run.
     pub fn of(
         whole: &Whole,
         reduction: &Reduction,
@@ -104,7 +110,7 @@ impl Truncation {
             return Ok(None);
         }
         let more = whole.cut((2 * modes).min(reduction.degrees_of_freedom))?;
-        // The same rows, whatever the scheme.
+        // The same rows for any scheme.
         let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
         let options = Options::new(rows);
         let against = run_with_progress(&more.scene, method, &options, progress)?;
@@ -112,12 +118,13 @@ impl Truncation {
         Ok(Some(Self { findings: against.findings, ..between }))
     }
 
-    /// What changes from one cut and its run to the other.
+    /// The changes from one reduction and its run to the other.
     fn between(whole: &Whole, cuts: [&Reduction; 2], runs: [&Run; 2]) -> Self {
         let [run, against] = runs;
         let change = Change::of_runs(&cuts[1].scene, run, against, against.grid.end);
         let mut walls = Vec::new();
-        // A wall that is hardly touched, or in one of the runs only, does not decide: changes are shares of the largest wall's value.
+        // Changes are shares of the largest wall's value, so that a wall that is hardly touched, or
+        // in one of the runs only, does not dominate.
         let most = |part: fn(&WallStatistics) -> f64| {
             runs.iter().flat_map(|run| run.statistics.walls.iter().map(part)).fold(0.0, f64::max)
         };
@@ -155,7 +162,8 @@ impl Truncation {
         }
     }
 
-    /// The largest change of any wall's impulse or peak, and the quantity it belongs to; of the displacement in a scene without walls.
+    /// The largest change of any wall's impulse or peak, and the quantity it belongs to; in a scene
+    /// without walls, that of the displacement.
     #[must_use]
     pub fn worst(&self) -> (f64, String) {
         if self.walls.is_empty() {

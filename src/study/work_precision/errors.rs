@@ -1,4 +1,4 @@
-//! How far one run is from another: four errors, each dimensionless.
+//! The difference between two runs: four errors, each dimensionless.
 
 use super::graph::{Graph, Scales};
 use crate::scene::Scene;
@@ -11,11 +11,14 @@ use crate::trajectory::Trajectory;
 pub struct Errors {
     /// Largest |Δu| of any probe over the gap scale, at the rows.
     pub displacement: f64,
-    /// Distance between the completed graphs (t, u, v), the largest of the eight fastest probes: see [`Graph`].
+    /// Distance between the completed graphs (t, u, v), the largest over the eight fastest probes:
+    /// see [`Graph`].
     pub velocity: f64,
-    /// |ΔJ| of each wall, in the scene's order, over the sum of |J| of the reference at all walls; empty where the reference has none.
+    /// |ΔJ| of each wall, in the scene's order, over the sum of |J| of the reference at all walls;
+    /// empty where the reference has no impulse.
     pub impulse: Vec<f64>,
-    /// Largest |Δt| of matched contacts over the duration; none where none match. Contacts match that are nearest to one another at one wall.
+    /// Largest |Δt| of matched contacts over the duration; `None` where no contacts match. Two
+    /// contacts at one wall match if each is the nearest to the other.
     pub contact_time: Option<f64>,
     /// Contacts of the reference that the run lacks.
     pub missing: usize,
@@ -23,23 +26,24 @@ pub struct Errors {
     pub spurious: usize,
 }
 
-/// A motion that others are held against.
+/// A motion that others are compared with.
 #[derive(Debug, Clone)]
 pub(super) struct Yardstick {
     pub scene: Scene,
     pub trajectory: Trajectory,
-    /// s; 0 for an exact motion.
+    /// Its step, s; 0 for an exact motion.
     pub step: f64,
     pub scales: Scales,
-    /// Numbers of the probes whose graphs are compared.
+    /// Indices of the probes whose graphs are compared.
     fastest: Vec<usize>,
 }
 
-/// Probes whose graphs are compared, at most.
+/// Most probes whose graphs are compared.
 const MOST_GRAPHS: usize = 8;
 
 impl Yardstick {
-    /// `trajectory`, made with `step` (s), as the measure of other runs of `scene` up to `until` (s).
+    /// `trajectory`, made with `step` (s), as the reference for other runs of `scene` up to `until`
+    /// (s).
     pub fn new(scene: &Scene, trajectory: Trajectory, step: f64, until: f64) -> Self {
         let speed = largest(trajectory.velocities());
         let speed = trajectory.contacts().iter().fold(speed, |a, c| a.max(c.approach_speed));
@@ -49,7 +53,8 @@ impl Yardstick {
         Self { scene: scene.clone(), trajectory, step, scales, fastest }
     }
 
-    /// Errors of `run`, made with `step` (s; 0 for an exact one), whose rows are some of this motion's or all.
+    /// Errors of `run`, made with `step` (s; 0 for an exact run); its rows must be rows of this
+    /// motion.
     pub fn errors(&self, run: &Trajectory, step: f64) -> Errors {
         let all = |t: &Trajectory| t.time().len().saturating_sub(1).max(1);
         let stride = (all(&self.trajectory) / all(run)).max(1);
@@ -71,7 +76,7 @@ impl Yardstick {
         errors
     }
 
-    /// Rows of `run` that are compared.
+    /// Number of rows of `run` that are compared.
     fn rows(&self, run: &Trajectory) -> usize {
         run.time().partition_point(|t| *t <= self.scales.duration * (1.0 + 1e-12))
     }
@@ -108,7 +113,7 @@ impl Yardstick {
 }
 
 impl Errors {
-    /// The larger of each.
+    /// The larger of each error.
     #[must_use]
     pub fn max(&self, other: &Self) -> Self {
         let longer = self.impulse.len().max(other.impulse.len());
@@ -123,7 +128,7 @@ impl Errors {
         }
     }
 
-    /// Each error at least `least`: what rounding leaves unknown.
+    /// Each error raised to at least `least`, the uncertainty that rounding leaves.
     #[must_use]
     pub fn at_least(mut self, least: f64) -> Self {
         self.displacement = self.displacement.max(least);
@@ -133,14 +138,14 @@ impl Errors {
         self
     }
 
-    /// The worst wall's impulse error.
+    /// The impulse error of the worst wall.
     #[must_use]
     pub fn worst_impulse(&self) -> Option<f64> {
         self.impulse.iter().copied().reduce(worst)
     }
 }
 
-/// Numbers of the columns with the largest entries, [`MOST_GRAPHS`] at most, in their order.
+/// Indices of the columns with the largest entries, at most [`MOST_GRAPHS`], in their order.
 fn fastest(velocities: &[Vec<f64>]) -> Vec<usize> {
     let speed = |column: &Vec<f64>| column.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     let mut numbered: Vec<(usize, f64)> = velocities.iter().map(speed).enumerate().collect();
@@ -151,7 +156,7 @@ fn fastest(velocities: &[Vec<f64>]) -> Vec<usize> {
     numbers
 }
 
-/// The larger; a NaN is the worst.
+/// The larger; NaN counts as the worst.
 fn worst(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

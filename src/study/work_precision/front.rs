@@ -1,6 +1,8 @@
-//! What to read off a set of points: the order of a scheme, the Pareto front, the cheapest point at a tolerance.
+//! Results read from a set of points: the order of a scheme, the Pareto front, the cheapest point
+//! at a tolerance.
 
-/// The points that no other beats in both error and time, by falling error and rising time.
+/// The points that no other point beats in both error and time, sorted by decreasing error and
+/// increasing time.
 #[must_use]
 pub fn pareto(points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let drawn = |p: &(f64, f64)| p.0 > 0.0 && p.1 > 0.0 && p.0.is_finite() && p.1.is_finite();
@@ -15,7 +17,7 @@ pub fn pareto(points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     points
 }
 
-/// Slope of ln(error) over ln(step), by least squares; none from fewer than two different steps.
+/// Slope of ln(error) over ln(step), by least squares; `None` from fewer than two different steps.
 ///
 /// ```
 /// use signorini::study::work_precision::order;
@@ -35,11 +37,12 @@ pub fn order(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
     (below > 0.0).then_some(above / below)
 }
 
-/// The index of the first of `errors`, coarsest step first, from which on all are at most `tolerance`: a coarse run that hits it by chance, with
-/// finer ones that miss it, does not count.
+/// Index of the first of `errors`, coarsest step first, from which on all are at most `tolerance`.
+/// A coarse run within the tolerance by chance, followed by finer ones that exceed it, does not
+/// count.
 #[must_use]
 pub fn reached(errors: &[f64], tolerance: f64) -> Option<usize> {
-    // A NaN misses.
+    // NaN counts as exceeding the tolerance.
     let misses = errors.iter().rposition(|e| e.is_nan() || *e > tolerance);
     let first = misses.map_or(0, |i| i + 1);
     (first < errors.len()).then_some(first)

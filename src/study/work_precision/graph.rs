@@ -1,21 +1,25 @@
-//! The distance between two motions with jumps, in a measure that goes to zero as the motions approach one another.
+//! A distance between two motions with jumps that tends to zero as the motions approach one
+//! another.
 //!
-//! At an impact the velocity jumps, so sup|Δv| stays as large as the jump for every step, however small: the two jumps never fall on the same
-//! instant. What converges is the distance between the *completed graphs*: the curves (t, u, v) with every jump filled in by the segment from
-//! the velocity before to the one after. With t over the duration, u over the gap scale and v over the reference's largest speed, it is
-//! Hausdorff's: the farthest that a point of either curve is from the other curve.
+//! At an impact the velocity jumps, so sup|Δv| remains as large as the jump for every step, however
+//! small: the two jumps never fall on the same instant. What converges is the distance between the
+//! *completed graphs*: the curves (t, u, v) with every jump filled in by the segment from the
+//! velocity before to the velocity after. With t over the duration, u over the gap scale and v over
+//! the reference's largest speed, it is the Hausdorff distance: the largest distance of a point of
+//! either curve from the other curve.
 
 use crate::scene::{Row, Scene, Wall};
 use crate::trajectory::Trajectory;
 use std::collections::BTreeSet;
 
-/// Pieces into which a long segment is cut for the distance: jumps are as long as the picture is high.
+/// Longest piece into which a segment is cut for the distance; the segment of a jump is as long as
+/// the whole range of velocities.
 const LONGEST_PIECE: f64 = 1.0 / 32.0;
 const MOST_PIECES: f64 = 64.0;
-/// One segment in so many is looked at first.
+/// One segment in this many is looked at first.
 const FEW: usize = 29;
 
-/// What makes time, displacement and velocity comparable.
+/// Reference scales that make time, displacement and velocity comparable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scales {
     /// Duration compared, s.
@@ -34,14 +38,15 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The graph that probe number `probe` shows in every `stride`-th row of `trajectory` up to the duration compared, with the jumps at
-    /// those walls that are rigid in `scene` and stand where the probe looks. What other walls do to it shows in the rows alone, within the
-    /// spacing of two.
+    /// The graph of probe number `probe` in every `stride`-th row of `trajectory` up to the
+    /// duration compared, with the jumps at those walls that are rigid in `scene` and stand on the
+    /// probe's row. The effect of other walls shows in the rows only, to within their spacing.
     ///
-    /// A contact shorter than the spacing of these rows stands between the two corners (start, −approach) and (end, departure) at the wall; a
-    /// longer one has rows of its own for all but its first corner. Rows within a `step` (s) of a contact at a wall that shares a degree of
-    /// freedom with the probe are left out: a scheme on positions has no speed there. At walls that are springs the velocity is continuous
-    /// and the rows show it.
+    /// A contact shorter than the spacing of these rows is drawn between two corners at the wall,
+    /// (start, −approach) and (end, departure); a longer one is drawn by its rows, except for its
+    /// first corner. Rows within a `step` (s) of a contact at a wall that shares a degree of
+    /// freedom with the probe are left out, since a scheme on positions has no velocity there. At
+    /// walls that are springs the velocity is continuous, and the rows show it.
     #[must_use]
     pub fn of(trajectory: &Trajectory, probe: usize, stride: usize, step: f64, scene: &Scene, scales: &Scales) -> Self {
         let point = |t: f64, u: f64, v: f64| [t / scales.duration, u / scales.length, v / scales.speed];
@@ -79,12 +84,13 @@ impl Graph {
         let rows = motion.step_by(stride).map(|((&t, &u), &v)| (t, u, v)).take_while(|row| row.0 <= until);
         let clear = rows.enumerate().filter(|(row, _)| !blurred.contains(row));
         vertices.extend(clear.map(|(_, (t, u, v))| point(t, u, v)));
-        // Stable: rows are right-continuous, so at one time the corners of a jump come before the row.
+        // A stable sort: a row holds the state after a jump at its time, so the corners of the jump
+        // come before it.
         vertices.sort_by(|a, b| a[0].total_cmp(&b[0]));
         Self { vertices }
     }
 
-    /// Hausdorff's distance between two graphs.
+    /// The Hausdorff distance between two graphs.
     #[must_use]
     pub fn distance(&self, other: &Self) -> f64 {
         other.excess(self, self.excess(other, 0.0))
@@ -94,7 +100,8 @@ impl Graph {
     fn excess(&self, other: &Self, least: f64) -> f64 {
         let mut farthest = least;
         let mut near = 0;
-        // A few of the segments first: most of the others are then soon known not to be the farthest.
+        // A few segments first: with their distance known, most others need not be searched
+        // completely.
         for stride in [FEW, 1] {
             near = 0;
             for pair in self.vertices.windows(2).step_by(stride) {
@@ -112,8 +119,10 @@ impl Graph {
         }
     }
 
-    /// Distance from `point` to this polyline; not searched further once it is known to be at most `enough`, since it cannot be the largest then
-    /// (Taha & Hanbury 2015, doi:10.1109/TPAMI.2015.2408351). `near` is where the search begins: the last segment that starts before the point.
+    /// Distance from `point` to this polyline. The search stops once the distance is known to be at
+    /// most `enough`, since it cannot be the largest then (Taha & Hanbury 2015,
+    /// doi:10.1109/TPAMI.2015.2408351). It begins at `near`, the last segment that starts before
+    /// the point.
     fn reach(&self, point: [f64; 3], near: &mut usize, enough: f64) -> f64 {
         let time = |i: usize| self.vertices.get(i).map(|v| v[0]);
         while time(*near + 1).is_some_and(|t| t <= point[0]) {
@@ -124,7 +133,7 @@ impl Graph {
             Some(to_segment(point, *a, *self.vertices.get(i + 1).unwrap_or(a)))
         };
         let mut best = segment(*near).unwrap_or(f64::INFINITY);
-        // Outwards in time, as far as time alone does not already exceed the best.
+        // Outwards in time, until the difference in time alone exceeds the best distance.
         let (mut before, mut after) = (*near, *near + 1);
         loop {
             let left = before.checked_sub(1).filter(|_| time(before).is_some_and(|t| point[0] - t < best));

@@ -1,9 +1,9 @@
-//! Which error is asked for, and of which kind of method.
+//! The kinds of errors, and the kinds of methods.
 
 use super::errors::Errors;
 use crate::scheme::Scheme;
 
-/// One of the errors that charts and tables compare methods by.
+/// One of the errors by which charts and tables compare methods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Largest difference of the displacement, over the gap.
@@ -18,7 +18,7 @@ impl Quantity {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Displacement, Self::Impulse, Self::ContactTime];
 
-    /// In a word or two.
+    /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -28,8 +28,8 @@ impl Quantity {
         }
     }
 
-    /// This error of a run: none where there was no contact to compare, NaN for contact times where a contact is
-    /// missing or has no counterpart.
+    /// This error of a run: `None` where there was no contact to compare; for contact times NaN
+    /// where a contact is missing or spurious.
     #[must_use]
     pub fn of(self, errors: &Errors) -> Option<f64> {
         match self {
@@ -41,14 +41,14 @@ impl Quantity {
     }
 }
 
-/// What a method does about walls.
+/// How a method treats walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Finds the instants of contact: nothing is discretised.
+    /// Finds the instants of contact; nothing is discretised.
     Exact,
     /// Solves a quadratic programme in every step that meets a wall.
     Qp,
-    /// Lets the walls give way.
+    /// Replaces the walls by springs.
     Penalty,
 }
 
@@ -66,7 +66,7 @@ impl Kind {
         }
     }
 
-    /// In a word.
+    /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,36 +1,38 @@
-//! The steps that are tried: each a power of two finer than the last, so that their rows coincide.
+//! The steps that are tried. Their ratios are powers of two, so that the rows of all runs coincide.
 
 use crate::error::{Error, Result};
 use crate::scene::{LoadKind, Scene};
 use crate::time::{MOST_STEPS, TimeOptions};
 
-/// Steps of a run, at least, over the duration, and over the fastest period of the scene.
+/// Fewest steps of a run over the duration, and over the fastest period of the scene.
 const COARSE: f64 = 64.0;
 const COARSE_A_PERIOD: f64 = 16.0;
-/// Steps of the finest run unless asked otherwise: some hundredths of a second of a penalty. Of n degrees of freedom four n-ths as many,
-/// and this few at least.
+/// Steps of the finest run unless asked otherwise: some hundredths of a second for a penalty. With
+/// n degrees of freedom 4/n times as many, but at least [`FEWEST_FINE`].
 const FINE: f64 = 1e6;
 const FEWEST_FINE: f64 = 2e4;
-/// Rows at which runs are compared, at most, where the coarsest run does not have more steps.
+/// Most rows at which runs are compared, where the coarsest run does not have more steps.
 const MOST_ROWS: u64 = 2048;
 
-/// Which steps to try. The finest asked for is not passed: the last step is within a factor of two of it where all levels are tried.
+/// The steps to try. No step is finer than the finest asked for; where all levels are tried, the
+/// last is within a factor of two of it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Steps {
-    /// Coarsest, s; none: a sixteenth of the scene's fastest period, and at least 64 steps.
+    /// Coarsest step, s; `None`: a sixteenth of the scene's fastest period, and at least 64 steps.
     pub coarsest: Option<f64>,
-    /// Finest, s; none: some 10⁶ steps, fewer where many degrees of freedom make each of them dear.
+    /// Finest step, s; `None`: some 10⁶ steps, fewer where many degrees of freedom make a step
+    /// expensive.
     pub finest: Option<f64>,
-    /// How many, at most; none: 8.
+    /// Most levels; `None`: 8.
     pub levels: Option<u32>,
 }
 
-/// Numbers of steps over one duration, and the rows they share.
+/// Numbers of steps over one duration, and the rows that all runs share.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ladder {
-    /// Increasing.
+    /// Number of steps of each run, increasing.
     pub counts: Vec<u64>,
-    /// Rows of the reference: a power of two times the first count.
+    /// Number of rows of the reference: a power of two times the first count.
     pub rows: u64,
     pub duration: f64,
 }
@@ -66,7 +68,7 @@ impl Ladder {
         Ok(Self { counts, rows, duration })
     }
 
-    /// Step and rows of a run of `count` steps, s.
+    /// Step and rows of a run of `count` steps.
     pub fn time(&self, count: u64) -> TimeOptions {
         let rows = self.rows.min(count);
         let step = self.duration / count as f64;
@@ -74,15 +76,15 @@ impl Ladder {
     }
 }
 
-/// The shortest period of the scene: of its free motion without walls (of several degrees of freedom the slowest: finer steps down the ladder
-/// resolve the others, one by one) and of its harmonic loads, s.
+/// The shortest period of the scene, s: of its harmonic loads and of its free motion without walls
+/// (with several degrees of freedom the slowest mode; finer steps resolve the others one by one).
 fn fastest_period(scene: &Scene) -> f64 {
     let natural = std::f64::consts::TAU / scene.system.frequencies()[0];
     let loads = scene.loads.iter().filter_map(|load| match &load.kind {
         LoadKind::Harmonic { frequency, .. } if *frequency > 0.0 => Some(1.0 / frequency),
         _ => None,
     });
-    // At most 10⁵ steps on the coarsest run, however fast the scene.
+    // At most 10⁵ steps in the coarsest run, however short the periods of the scene.
     loads.chain([natural]).fold(f64::INFINITY, f64::min).max(COARSE_A_PERIOD * 1e-5 * scene.duration)
 }
 

@@ -1,4 +1,4 @@
-//! The study: every method at every step, its errors first, then its time.
+//! The study: first the errors of every method at every step, then the times.
 
 use super::errors::Errors;
 use super::ladder::Ladder;
@@ -11,11 +11,11 @@ use crate::scene::Scene;
 use crate::scheme::{Counters, Integrator, Method, Scheme};
 use crate::study::choice::choose;
 
-/// Measures `methods` on `scene`; `progress` hears the share done, from 0 to 1.
+/// Measures `methods` on `scene`; `progress` is told the share done, from 0 to 1.
 ///
 /// # Errors
-/// [`crate::Error::Invalid`] for steps that make no sense, and whatever leaves the study without a reference. What a single run fails at is
-/// in its point.
+/// [`crate::Error::Invalid`] for steps that make no sense, and any error that leaves the study
+/// without a reference. The error of a single run is in its point.
 pub fn study(scene: &Scene, methods: &[Method], effort: &Effort, progress: &dyn Fn(f64)) -> Result<WorkPrecision> {
     scene.validate()?;
     if scene.probes.is_empty() {
@@ -27,7 +27,7 @@ pub fn study(scene: &Scene, methods: &[Method], effort: &Effort, progress: &dyn 
     let ladder = Ladder::new(scene, &effort.steps)?;
     let reference = Reference::of(scene, stand_in, &ladder, &horizon, effort.most_seconds)?;
     let floors = floors(scene, methods, &reference, &ladder, effort);
-    // Half of the bar for the errors, half for the times.
+    // Half of the progress bar for the errors, half for the times.
     let mut series = Vec::with_capacity(methods.len());
     for (done, method) in methods.iter().enumerate() {
         series.push(errors_of(scene, *method, &reference, &floors, &ladder, effort));
@@ -63,7 +63,7 @@ fn floors(scene: &Scene, methods: &[Method], rigid: &Reference, ladder: &Ladder,
     floors
 }
 
-/// The errors of one method at every step; times are still missing.
+/// The errors of one method at every step, without the times.
 fn errors_of(
     scene: &Scene,
     method: Method,
@@ -86,7 +86,7 @@ fn errors_of(
     let own = floors.iter().find(|f| matches!(method.scheme, Scheme::Penalty { law, .. } if law == f.law));
     let own = own.and_then(|f| f.reference.as_ref().ok());
     let mut points: Vec<Point> = Vec::new();
-    // Seconds a step, recorded and judged, of the last run that took long enough to tell.
+    // Seconds per step, recorded and judged, of the last run that was long enough to measure.
     let mut pace = 0.0;
     for &count in &ladder.counts {
         let expected = pace * count as f64;
@@ -117,7 +117,7 @@ fn measure(run: Run, reference: &Reference, own: Option<&Reference>) -> Measured
     }
 }
 
-/// Counters of the exact scheme, unless the judge refutes it.
+/// Counters of the exact scheme; an error where the judge refutes its run.
 fn exact(scene: &Scene) -> Result<Counters> {
     let options = Options::with_step(scene.duration).unrecorded();
     Ok(run(scene, &Scheme::Event, &options)?.unrefuted()?.counters)

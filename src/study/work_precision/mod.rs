@@ -5,12 +5,12 @@
 //! | `graph.rs` | the distance between motions with jumps |
 //! | `errors.rs` | the four errors of a run |
 //! | `kind.rs` | which of these errors is asked for, and of which kind of method |
-//! | `reference.rs` | what they are held against, and until when |
-//! | `ladder.rs` | the steps tried |
-//! | `timing.rs` | the clock |
+//! | `reference.rs` | the reference of these errors, and until when it can be used |
+//! | `ladder.rs` | the steps that are tried |
+//! | `timing.rs` | timing |
 //! | `measure.rs` | the study itself |
 //! | `front.rs` | order, Pareto front, cheapest |
-//! | `overlay.rs` | other programs' points |
+//! | `overlay.rs` | points of other programs |
 
 mod errors;
 mod front;
@@ -34,14 +34,15 @@ pub use reference::{Horizon, Reference};
 use crate::error::{Error, Result};
 use crate::scheme::{Counters, Integrator, Method, PenaltyLaw, Scheme};
 
-/// What is tried, and how much it may cost.
+/// The steps to try, and the limits on cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
     /// The steps.
     pub steps: Steps,
-    /// Timed runs of each point, of which the fastest counts.
+    /// Timed runs of each point; the fastest counts.
     pub repeats: u32,
-    /// A run expected to take longer than this is left out, and said to be, s. A refined reference may take some times as long.
+    /// Most seconds of a run, s: one that is expected to take longer is left out, and its point
+    /// says so. A refined reference may take several times as long.
     pub most_seconds: f64,
 }
 
@@ -51,7 +52,7 @@ impl Default for Effort {
     }
 }
 
-/// What came of one method at one step.
+/// Outcome of one method at one step.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub enum Outcome {
@@ -59,36 +60,36 @@ pub enum Outcome {
     Ran(Box<Measured>),
     /// It failed.
     Failed(Error),
-    /// It would have taken this long, s: not run.
+    /// It was left out, since it would have taken this long, s.
     LeftOut(f64),
 }
 
-/// A run, measured.
+/// Measurements of a run.
 #[derive(Debug, Clone)]
 pub struct Measured {
-    /// Against the scene: for a penalty, modelling and integration together.
+    /// Errors against the scene: for a penalty, modelling and integration together.
     pub errors: Errors,
-    /// A penalty's error against the motion of its own springs: integration alone.
+    /// Errors of a penalty against the motion of its own springs: integration only.
     pub own: Option<Errors>,
     /// Stepping, s: best of several.
     pub seconds: f64,
-    /// What it cost on any machine.
+    /// Cost that does not depend on the machine.
     pub counters: Counters,
-    /// What a reader must know of the run.
+    /// Notes of the run, which the reader must know.
     pub notes: Vec<String>,
 }
 
 /// One method at one step.
 #[derive(Debug, Clone)]
 pub struct Point {
-    /// s; none for the exact scheme.
+    /// Its step, s; `None` for the exact scheme.
     pub step: Option<f64>,
-    /// What came of it.
+    /// Its outcome.
     pub outcome: Outcome,
 }
 
 impl Point {
-    /// The measurement, if there is one.
+    /// The measurements, if it ran.
     #[must_use]
     pub fn measured(&self) -> Option<&Measured> {
         if let Outcome::Ran(measured) = &self.outcome { Some(measured) } else { None }
@@ -105,13 +106,14 @@ pub struct Series {
 }
 
 impl Series {
-    /// The points that ran: step (s; none for the exact scheme) and measurement.
+    /// The points that ran: step (s; `None` for the exact scheme) and measurements.
     pub fn measured(&self) -> impl Iterator<Item = (Option<f64>, &Measured)> {
         self.points.iter().filter_map(|p| Some((p.step, p.measured()?)))
     }
 
-    /// Order of convergence: of the displacement's error against a penalty's own springs, of that against the scene for the others. From errors
-    /// below a tenth and far enough above `known`, the error of what they are held against; none from fewer than two of these.
+    /// Order of convergence of the displacement error (of a penalty, against its own springs). It
+    /// uses errors below a tenth and far enough above `known`, the uncertainty of the reference;
+    /// `None` from fewer than two of these.
     #[must_use]
     pub fn order(&self, known: f64) -> Option<f64> {
         let error = |m: &Measured| m.own.as_ref().unwrap_or(&m.errors).displacement;
@@ -122,7 +124,8 @@ impl Series {
     /// The cheapest point from which on the error of `quantity` stays at or below `tolerance`.
     #[must_use]
     pub fn cheapest(&self, quantity: Quantity, tolerance: f64) -> Option<(Option<f64>, &Measured)> {
-        // An error that a run does not have, such as that of impulses without contacts, misses every tolerance.
+        // An error that is missing, such as that of impulses in a run without contacts, misses
+        // every tolerance.
         let error = |m: &Measured| quantity.of(&m.errors).unwrap_or(f64::NAN);
         let errors: Vec<f64> = self.measured().map(|(_, m)| error(m)).collect();
         let first = reached(&errors, tolerance)?;
@@ -130,16 +133,17 @@ impl Series {
     }
 }
 
-/// What a penalty's springs cannot get below, however small the step.
+/// The modelling error of a penalty, which remains however small the step.
 #[derive(Debug, Clone)]
 pub struct Floor {
     /// The springs.
     pub law: PenaltyLaw,
-    /// Their own motion, or why there is none.
+    /// The motion with these springs, or why there is none.
     pub reference: Result<Reference>,
-    /// Until when runs are held against that motion, s: springs that lose nothing may be more sensitive than the scene.
+    /// Time up to which runs are compared with that motion, s: lossless springs may be more
+    /// sensitive to the start than the scene.
     pub end: f64,
-    /// Its errors against the scene: the modelling error.
+    /// Errors of that motion against the scene: the modelling error.
     pub errors: Option<Errors>,
 }
 
@@ -147,19 +151,20 @@ pub struct Floor {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct WorkPrecision {
-    /// Until when runs are compared.
+    /// Time up to which runs are compared.
     pub horizon: Horizon,
-    /// What they are held against.
+    /// The reference.
     pub reference: Reference,
-    /// One a method.
+    /// One series per method.
     pub series: Vec<Series>,
-    /// One a penalty law.
+    /// One floor per penalty law.
     pub floors: Vec<Floor>,
 }
 
 impl WorkPrecision {
-    /// The cheapest method of a kind from whose step on the error of `quantity` stays at or below `tolerance`: its
-    /// series, step (s; none for the exact scheme) and measurement.
+    /// The cheapest method of a kind among those whose error of `quantity` stays at or below
+    /// `tolerance` from some step on: its series, step (s; `None` for the exact scheme) and
+    /// measurements.
     #[must_use]
     pub fn cheapest(
         &self,
@@ -172,14 +177,15 @@ impl WorkPrecision {
         reached.min_by(|a, b| a.2.seconds.total_cmp(&b.2.seconds))
     }
 
-    /// What the springs of a penalty cannot get below; none for the other schemes.
+    /// The modelling error of a penalty; `None` for the other schemes.
     #[must_use]
     pub fn floor(&self, scheme: &Scheme) -> Option<&Floor> {
         let Scheme::Penalty { law, .. } = *scheme else { return None };
         self.floors.iter().find(|f| f.law == law)
     }
 
-    /// The uncertainty of what a scheme's own error is held against: a penalty's springs, or the reference; over the gap.
+    /// The uncertainty, over the gap, of the reference for a scheme's own error: of the motion of a
+    /// penalty's springs, else of the scene's reference.
     #[must_use]
     pub fn known(&self, scheme: &Scheme) -> f64 {
         let own = self.floor(scheme).and_then(|f| f.reference.as_ref().ok());
@@ -187,7 +193,8 @@ impl WorkPrecision {
     }
 }
 
-/// Every scheme: those of the constrained QP, every penalty with every integrator, and the exact one.
+/// Every scheme: those of the constrained QP, every penalty with every integrator, and the exact
+/// one.
 #[must_use]
 pub fn every_method(laws: &[PenaltyLaw]) -> Vec<Method> {
     let schemes = [

@@ -1,4 +1,4 @@
-//! Points that other programs measured, from a CSV file.
+//! Points measured with other programs, read from a CSV file.
 
 use crate::error::{Error, Result};
 use std::path::Path;
@@ -12,23 +12,24 @@ pub struct Peer {
     pub method: String,
     /// Largest |Δu| over the gap scale.
     pub error: f64,
-    /// Wall-clock time, s: warm, without setting up.
+    /// Wall-clock time, s: after a warm-up run and without the set-up.
     pub seconds: f64,
 }
 
 impl Peer {
-    /// What the legend says.
+    /// Its label in the legend.
     #[must_use]
     pub fn label(&self) -> String {
         format!("{} {}", self.program, self.method).trim().to_owned()
     }
 }
 
-/// Reads a CSV with the columns `program,method,error_over_gap,seconds`, in any order and with others between, which are passed over. A row
-/// whose error or time is empty is a run that failed: it has no point.
+/// Reads a CSV file with the columns `program,method,error_over_gap,seconds`, in any order; other
+/// columns are ignored. A row whose error or time is empty is a run that failed and has no point.
 ///
 /// # Errors
-/// [`Error::Io`] where the file cannot be read, [`Error::Invalid`] with the line of what makes no sense.
+/// [`Error::Io`] where the file cannot be read, [`Error::Invalid`] with the line of an entry that
+/// makes no sense.
 pub fn read(path: &Path) -> Result<Vec<Peer>> {
     let shown = path.display();
     let failed = |e: csv::Error| Error::io(path.display(), e.to_string(), true).caused_by(e);

@@ -1,4 +1,5 @@
-//! What the runs are held against, how far it can itself be trusted, and for how long a comparison means anything.
+//! The reference of the runs, its own uncertainty, and the time up to which a comparison is
+//! meaningful.
 
 use super::errors::{Errors, Yardstick};
 use super::ladder::Ladder;
@@ -11,32 +12,37 @@ use crate::study::exact::affordable;
 use crate::study::horizon::{Growth, LARGEST_GROWTH};
 use crate::trajectory::{Recorder, Trajectory};
 
-/// Shares of the duration after which the exact scheme is made to start a new arc, so that it rounds differently.
+/// Shares of the duration after which the exact scheme is made to start a new arc, so that it
+/// rounds differently.
 const STRIDES: [f64; 3] = [1.0 / 7.3, 1.0 / 31.7, 1.0 / 101.9];
-/// How many times finer than the finest run a refined reference is: its error is then a sixteenth of that run's, for a scheme of order 2.
+/// Ratio of the steps of the finest run and of a refined reference: for a scheme of order 2 the
+/// error of the reference is then a sixteenth of that run's.
 const FINER: u64 = 4;
-/// Steps of the runs that show growth where the exact scheme cannot go, at most, for one degree of freedom.
+/// Most steps of the runs that show the growth where the exact scheme cannot follow the scene, for
+/// one degree of freedom.
 pub(super) const PERTURBED_STEPS: u64 = 262_144;
 const FEWEST_PERTURBED: u64 = 1024;
-/// The comparison ends this much before the event at which growth exceeds the limit, so that no impact falls on its last row.
+/// The comparison ends at this share of the time at which growth exceeds the limit, so that no
+/// impact falls on its last row.
 const SHAVED: f64 = 0.99;
 
-/// How long a comparison means anything.
+/// Time up to which a comparison is meaningful.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Horizon {
-    /// The comparison's end, s.
+    /// End of the comparison, s.
     pub end: f64,
-    /// Growth of a small change of the start until then.
+    /// Growth of a small change of the start up to then.
     pub growth: f64,
     /// Growth over the scene's whole duration.
     pub growth_of_all: f64,
-    /// How it was found, and why it ends there.
+    /// How the growth was found, and why the comparison ends there.
     pub how: String,
 }
 
 impl Horizon {
-    /// The horizon of `scene`: by the exact motion, or by perturbed runs of `stand_in` in `steps` steps where the exact scheme cannot go.
+    /// The horizon of `scene`: from the exact motion, or from perturbed runs of `stand_in` in
+    /// `steps` steps where the exact scheme cannot follow it.
     pub(super) fn of(scene: &Scene, stand_in: Method, steps: u64) -> Result<Self> {
         let exact = |scene: &Scene| affordable(scene).and_then(|()| Growth::of(scene));
         let exact = match stand_in.scheme {
@@ -52,7 +58,7 @@ impl Horizon {
         let end = if limit >= whole {
             whole
         } else {
-            // The first event may be a graze: then until just before it.
+            // The first event may be a graze; then the comparison ends just before it.
             let first = growth.time.iter().copied().find(|t| *t > 0.0).unwrap_or(whole);
             SHAVED * if limit > 0.0 { limit } else { first }
         };
@@ -60,18 +66,19 @@ impl Horizon {
     }
 }
 
-/// A motion to hold others against.
+/// A motion that others are compared with.
 #[derive(Debug, Clone)]
 pub struct Reference {
     pub(super) yardstick: Yardstick,
     /// How it was made.
     pub how: String,
-    /// How far it may itself be off: an error below this says nothing.
+    /// Its own uncertainty: an error below this is meaningless.
     pub uncertainty: Errors,
 }
 
 impl Reference {
-    /// The exact motion of `scene` where the exact scheme can go, else a refined run of `stand_in`.
+    /// The exact motion of `scene` where the exact scheme can follow it, else a refined run of
+    /// `stand_in`.
     pub(super) fn of(scene: &Scene, stand_in: Method, ladder: &Ladder, horizon: &Horizon, most: f64) -> Result<Self> {
         Self::exact(scene, ladder.rows, horizon).or_else(|error| {
             let mut reference = Self::refined(scene, scene, stand_in, ladder, horizon, most)?;
@@ -80,7 +87,8 @@ impl Reference {
         })
     }
 
-    /// The motion between the springs of a penalty run of `method`: exact for linear ones, refined for the φ² law.
+    /// The motion of `scene` with the springs of the penalty `method`: exact for linear springs,
+    /// refined for the φ² law.
     pub(super) fn of_penalty(
         scene: &Scene,
         method: Method,
@@ -96,8 +104,8 @@ impl Reference {
             .or_else(|_| Self::refined(scene, &penalised, method, ladder, horizon, most))
     }
 
-    /// By the exact scheme. Its error is what changes when the arcs are cut elsewhere, and every rounding with them; and never less than one
-    /// rounding, grown as the scene makes it grow.
+    /// By the exact scheme. Its uncertainty is the change when its arcs start elsewhere, with other
+    /// roundings; but at least one rounding, times the growth of the scene.
     fn exact(scene: &Scene, rows: u64, horizon: &Horizon) -> Result<Self> {
         affordable(scene)?;
         let yardstick = Yardstick::new(scene, cut(scene, scene.duration, rows)?, 0.0, horizon.end);
@@ -109,8 +117,9 @@ impl Reference {
         Ok(Self { yardstick, how: "the exact motion (`event`)".into(), uncertainty })
     }
 
-    /// By `method` with steps [`FINER`] times finer than the finest compared, or as fine as time allows; its error is what the last halving
-    /// changed. `seen` is the scene as the method sees it.
+    /// By `method` with steps [`FINER`] times finer than the finest compared, or as fine as time
+    /// allows; its uncertainty is the change by the last halving. `seen` is the scene as the method
+    /// sees it.
     fn refined(
         scene: &Scene,
         seen: &Scene,
@@ -127,7 +136,8 @@ impl Reference {
         let mut count = ladder.rows;
         let mut last = go(count)?;
         loop {
-            // Straight to the last two, where the time of the last run says that they can be afforded.
+            // Directly to the last two levels, where the time of the last run shows that they can
+            // be afforded.
             let ahead = FINER / 2 * finest / count;
             let affordable = last.seconds * 2.0 * ahead as f64 <= most;
             count *= if affordable { ahead.max(2) } else { 2 };

@@ -1,4 +1,5 @@
-//! Wall-clock time of stepping, fairly: nothing recorded or judged, setting up excluded, warm, the runs in turn, the best of several.
+//! Wall-clock time of stepping under equal conditions: nothing recorded or judged, set-up excluded,
+//! after a warm-up, the runs in turn, the best of several.
 
 use super::ladder::Ladder;
 use crate::error::Result;
@@ -7,7 +8,8 @@ use crate::scheme::{Method, Scheme, Stepper};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// A run shorter than this is repeated within its turn, up to so often: a clock tells some tens of nanoseconds.
+/// A shorter run is repeated within its turn, up to this often: the resolution of a clock is some
+/// tens of nanoseconds.
 const TURN: f64 = 1e-3;
 const MOST_IN_A_TURN: f64 = 32.0;
 
@@ -15,12 +17,12 @@ const MOST_IN_A_TURN: f64 = 32.0;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Job {
     pub method: Method,
-    /// Steps over the duration; the exact scheme finds its own.
+    /// Number of steps over the duration; the exact scheme chooses its own.
     pub count: u64,
 }
 
-/// Seconds of each job: the best of `repeats` turns after one that does not count. In each turn every job has its go, so that whatever else the
-/// machine does meets all of them alike.
+/// Seconds of each job: the best of `repeats` turns after a warm-up turn. Every turn runs every job
+/// once, so that other load on the machine affects all of them alike.
 pub(super) fn best(
     scene: &Scene,
     jobs: &[Job],
@@ -44,7 +46,7 @@ pub(super) fn best(
     seconds
 }
 
-/// Seconds that one run's steps take.
+/// Seconds of the steps of one run.
 fn once(scene: &Scene, job: &Job, ladder: &Ladder) -> Result<f64> {
     let exact = job.method.scheme == Scheme::Event;
     let step = if exact { scene.duration } else { ladder.time(job.count).step };
