@@ -11,8 +11,9 @@
 //! does not, once h²k_w/m is not small: "unconditionally stable" is a statement about linear systems. Order 2 at θ = ½, 1 at θ = 1, which
 //! loses energy instead.
 //!
-//! The walls' velocities y = G v_θ obey y = y_free + θh W P̄(y) with W = G A⁻¹ Gᵀ, which is solved first. One Newton step for all of v_θ
-//! follows: it takes out the rounding of that detour, which a stiff wall would turn into work.
+//! One degree of freedom: Newton's method on v_θ itself, in a bracket. Several: the walls' velocities y = G v_θ obey y = y_free + θh W P̄(y)
+//! with W = G A⁻¹ Gᵀ, which is solved first. One Newton step for all of v_θ follows: it takes out the rounding of that detour, which a stiff
+//! wall would turn into work.
 
 use super::Counters;
 use super::body::Body;
@@ -23,6 +24,9 @@ use super::space::{Space, zero};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
+
+/// Newton's method with a bracket needs a handful of iterations; more than this many means that numbers are not finite.
+const NEWTON_LIMIT: u64 = 200;
 
 /// How a step averages the pressure of a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -86,6 +90,65 @@ impl<S: Space> Penalty<S> {
         let s1 = s0 - stop.sign * h * rate;
         let (pressure, tangent) = mean_pressure(&stop.law, self.mean, self.theta, h, s0, s1);
         Answer { force: stop.sign * pressure, slope: h * tangent, noise: s0.abs() / h }
+    }
+
+    /// v_θ of one degree of freedom in a step that may meet a wall, whose impulses it writes: the root of (A/θ)(v_θ − v) − b − h Gᵀ P̄, a
+    /// function that increases with it.
+    #[inline(never)]
+    fn meet_alone(&mut self, frame: &mut Frame<S>, step: u64) -> Result<f64> {
+        let (h, theta, v, b) = (self.body.h, self.theta, frame.v[0], self.b[0]);
+        // The rows' entries and A, by what they make of 1.
+        self.residual[0] = 1.0;
+        self.change[0] = 0.0;
+        S::add_product(&self.a, 1.0, &self.residual, &mut self.change);
+        for (wall, weight) in self.rate.iter_mut().enumerate() {
+            *weight = self.body.seen(wall, &self.residual);
+        }
+        let a = self.change[0] / theta;
+        let (mut lo, mut hi) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut mean = v + theta * self.delta[0];
+        let (mut residual, mut found) = (f64::NAN, None);
+        for _ in 0..NEWTON_LIMIT {
+            self.walls.iterations += 1;
+            residual = a * (mean - v) - b;
+            let mut slope = a;
+            let mut size = a * (mean.abs() + v.abs()) + b.abs();
+            for wall in 0..self.rate.len() {
+                let weight = self.rate[wall];
+                let Answer { force, slope: tangent, noise } = self.answer(wall, weight * mean);
+                residual -= h * weight * force;
+                slope += h * weight * weight * tangent;
+                // The depth itself is known to rounding of its parts only.
+                size += h * weight.abs() * (force.abs() + tangent * (noise + (weight * mean).abs()));
+            }
+            let next = mean - residual / slope;
+            // Below two units of rounding of the terms that cancel, the residual is noise. Newton comes from one side: the last
+            // correction takes that bias out of the energy.
+            if residual.abs() <= 2.0 * f64::EPSILON * size {
+                found = Some(next);
+                break;
+            }
+            if residual > 0.0 {
+                hi = hi.min(mean);
+            } else {
+                lo = lo.max(mean);
+            }
+            let bracketed = lo.is_finite() && hi.is_finite() && !(next > lo && next < hi);
+            let next = if bracketed { 0.5 * (lo + hi) } else { next };
+            if next == mean || next == lo || next == hi {
+                found = Some(next);
+                break;
+            }
+            mean = next;
+        }
+        let Some(mean) = found else {
+            return Err(Error::Newton { time: frame.start, step, residual: residual.abs() / h });
+        };
+        for wall in 0..self.rate.len() {
+            frame.force[wall] = self.answer(wall, self.rate[wall] * mean).force;
+        }
+        frame.push_by_force(h);
+        Ok(mean)
     }
 
     /// δ of a step that may meet a wall, whose impulses it writes. Out of line: most steps are none.
@@ -165,12 +228,18 @@ impl<S: Space> Rule<S> for Penalty<S> {
             (place[wall], self.walls.free[wall]) = (w, free);
             inside |= stop.depth(w) > 0.0 || stop.depth(w + h * free) > 0.0;
         }
-        if inside {
-            self.meet(frame, step)?;
-        }
-        for ((q, v), d) in frame.q.as_mut().iter_mut().zip(frame.v.as_mut()).zip(self.delta.as_ref()) {
-            *q += h * (*v + theta * d);
-            *v += d;
+        if inside && self.body.n == 1 {
+            let mean = self.meet_alone(frame, step)?;
+            frame.q[0] += h * mean;
+            frame.v[0] = (mean - (1.0 - theta) * frame.v[0]) / theta;
+        } else {
+            if inside {
+                self.meet(frame, step)?;
+            }
+            for ((q, v), d) in frame.q.as_mut().iter_mut().zip(frame.v.as_mut()).zip(self.delta.as_ref()) {
+                *q += h * (*v + theta * d);
+                *v += d;
+            }
         }
         frame.after.clone_from(&frame.v);
         if blown {

@@ -79,7 +79,8 @@ impl<S: Space> Position<S> {
         }
     }
 
-    /// On a rigid wall means on it: w + (g − w) may miss g by the last bit.
+    /// On a rigid wall means on it: w + (g − w) may miss g by the last bit. With one degree of freedom only: of several walls' rows each would
+    /// move the others.
     #[inline(never)]
     fn place(&self, frame: &mut Frame<S>) {
         for &wall in frame.pushing.iter().filter(|&&wall| self.body.walls[wall].law.is_rigid()) {
@@ -152,7 +153,7 @@ impl<S: Space> Rule<S> for Position<S> {
             self.body.shift(&mut frame.q);
         }
         frame.after.clone_from(&frame.v);
-        if !frame.pushing.is_empty() {
+        if self.body.n == 1 && !frame.pushing.is_empty() {
             self.place(frame);
         }
         if !frame.pushing.is_empty() || !self.holding.is_empty() {
