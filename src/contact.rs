@@ -1,29 +1,33 @@
-//! Contact episodes: consecutive steps in which a wall pushes, joined into one row of a table.
+//! Contact episodes: consecutive steps in which a wall pushes, joined into one row of the contact
+//! table.
 //!
-//! Contact is where a force or an impulse acts. A body that stands at a wall without pressing is not in contact with it, whatever the
-//! scheme: what a scheme computes there is rounding, and counts as no force.
+//! A contact exists where a force or an impulse acts. A body that stands at a wall without pressing
+//! is not in contact with it, whatever the scheme: the force that a scheme computes there is
+//! rounding, and counts as 0.
 
 use crate::scene::{LoadKind, Scene, Side, System, WallLaw};
 use crate::step::{Bound, Contact, Contract};
 
-/// An impact on a rigid wall takes one step on the velocity level and up to two on the position level. Longer episodes
-/// are lasting contact, whose force is finite after those first steps.
+/// An impact on a rigid wall takes one step in a velocity-level scheme and up to two in a
+/// position-level one. Longer episodes are lasting contact, whose force is finite after those first
+/// steps.
 const IMPACT_STEPS: u64 = 2;
 
-/// Sums of a few terms err by this share of the largest.
+/// Rounding error of a sum of a few terms, relative to the largest.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Impulses at one wall that are rounding: `force` · h + `inertia`/h, N s.
+/// Limit up to which an impulse at one wall is rounding: `force` · h + `inertia`/h, N s.
 #[derive(Debug, Clone, Copy)]
 struct Floor {
-    /// N: of the forces that balance where a body rests.
+    /// N: rounding error of the forces that balance where a body rests.
     force: f64,
-    /// kg m: of the displacement, where a scheme gets its impulses from displacements.
+    /// kg m: rounding error of the displacement times the mass, where a scheme computes its
+    /// impulses from displacements.
     inertia: f64,
 }
 
 impl Floor {
-    /// One a wall of `scene`.
+    /// One per wall of `scene`.
     fn all(scene: &Scene, masses: &[f64], contract: Contract) -> Vec<Self> {
         let size = |kind: &LoadKind| match kind {
             LoadKind::Constant { force } => force.abs(),
@@ -32,7 +36,8 @@ impl Floor {
             _ => 0.0,
         };
         let loads: f64 = scene.loads.iter().map(|load| size(&load.kind)).sum();
-        // Of a structure the loads alone tell: what its springs carry at rest is what they put on it.
+        // For a structure the loads alone set the scale: what its springs carry at rest comes from
+        // the loads.
         let spring = if let System::Oscillator(o) = scene.system { o.stiffness } else { 0.0 };
         let positions = matches!(contract.promise.rigid.displacement, Some(Bound::End | Bound::Reflected));
         let floor = |(wall, mass): (&crate::scene::Wall, &f64)| {
@@ -44,19 +49,20 @@ impl Floor {
         scene.walls.iter().zip(masses).map(floor).collect()
     }
 
-    /// True if an impulse `p` (N s) of a step of `h` (s) is rounding; without a division, since every wall that
-    /// pushes asks in every step.
+    /// True if an impulse `p` (N s) of a step of `h` (s) is rounding; without a division, since
+    /// this runs for every pushing wall in every step.
     #[inline]
     fn holds(&self, p: f64, h: f64) -> bool {
         p.abs() * h <= self.force * h * h + self.inertia
     }
 }
 
-/// A step in which a rigid wall turns a speed whose momentum is more than this share of the step's impulse holds a blow: impulse/h is no
-/// force there. The last bounces of an accumulation come in steps next to one another and end in a force that lasts.
+/// If the momentum that a rigid wall reverses in a step exceeds this share of the step's impulse,
+/// the step contains an impact and impulse/h is not a force. (The last bounces of an accumulation
+/// come in adjacent steps and end in a lasting force.)
 const BLOW: f64 = 1e-2;
 
-/// An episode under way at one wall.
+/// An open episode at one wall.
 #[derive(Debug, Clone, Copy)]
 struct Open {
     first: f64,
@@ -65,13 +71,13 @@ struct Open {
     impulse: f64,
     /// ∫ t dp, for the instant of an impact spread over two steps.
     moment: f64,
-    /// Largest finite force, N; none while every step had a blow in it.
+    /// Largest finite force, N; `None` while every step had an impact in it.
     peak: Option<f64>,
     approach: f64,
     departure: f64,
 }
 
-/// Velocities of a step as a wall sees them, m/s.
+/// Velocities of a step at the row of a wall, m/s.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rates {
     /// At its start.
@@ -82,7 +88,8 @@ pub(crate) struct Rates {
     pub after: f64,
 }
 
-/// Watches the steps of a scheme on a grid and closes an episode when a wall stops pushing.
+/// Joins the impulses of a scheme on a grid into episodes, and closes an episode when a wall stops
+/// pushing.
 #[derive(Debug, Clone)]
 pub(crate) struct Episodes {
     instant: f64,
@@ -99,7 +106,7 @@ pub(crate) struct Episodes {
 }
 
 impl Episodes {
-    /// Of `scene`, whose walls feel `masses` (kg).
+    /// For `scene`, whose walls feel `masses` (kg).
     pub(crate) fn new(scene: &Scene, masses: &[f64], contract: Contract) -> Self {
         let walls = scene.walls.len();
         Self {
@@ -111,12 +118,12 @@ impl Episodes {
             open: vec![None; walls],
             any: false,
             pushed: Vec::with_capacity(walls),
-            // A step may close a rest and the impact that ended it.
+            // A step may close both a rest and the impact that ended it.
             closed: Vec::with_capacity(2 * walls),
         }
     }
 
-    /// Forgets all that has been seen.
+    /// Drops all episodes.
     pub(crate) fn forget(&mut self) {
         self.open.fill(None);
         self.pushed.clear();
@@ -130,14 +137,14 @@ impl Episodes {
         &self.closed
     }
 
-    /// True if a step without impulses would change nothing: the common case, kept cheap.
+    /// True if a step without impulses would change nothing: the common case, which must be cheap.
     #[inline]
     pub(crate) fn idle(&self) -> bool {
         !self.any && self.closed.is_empty()
     }
 
-    /// Takes in one step from `start` over `h` (s) with its impulses (N s) and, per wall, its velocities ẇ (m/s). `pushing` lists the walls
-    /// with an impulse: the others are not looked at.
+    /// Adds one step from `start` over `h` (s) with its impulses (N s) and, per wall, its
+    /// velocities ẇ (m/s). `pushing` lists the walls with an impulse: only these are looked at.
     pub(crate) fn see(
         &mut self,
         start: f64,
@@ -164,14 +171,14 @@ impl Episodes {
         self.pushed = before;
     }
 
-    /// A wall that does not push: its episode, if there is one, has ended.
+    /// Closes the episode, if any, of a wall that does not push.
     fn part(&mut self, wall: usize) {
         if let Some(episode) = self.open.get_mut(wall).and_then(Option::take) {
             self.closed.push(contact(wall, self.side[wall].sign(), self.rigid[wall], &episode, true));
         }
     }
 
-    /// The same where an impulse is rounding, which is rare: kept out of the way of what is not.
+    /// As [`Self::part`], for an impulse that is rounding: rare, so kept out of the fast path.
     #[cold]
     #[inline(never)]
     fn leave(&mut self, wall: usize) {
@@ -184,7 +191,8 @@ impl Episodes {
         }
         let sign = self.side[wall].sign();
         let Rates { before, struck, after } = rates;
-        // A blow towards the wall ends a rest on it: what follows is an impact with a speed of its own.
+        // A blow towards the wall ends a rest on it: an impact with an approach speed of its own
+        // follows.
         if sign * (struck - before) < 0.0 {
             self.part(wall);
         }

@@ -1,4 +1,4 @@
-//! What a reader must know of a run: sentences, drawn from its residuals and counters.
+//! What a reader must know about a run: sentences, drawn from its residuals and counters.
 
 mod approach;
 #[cfg(feature = "cli")]
@@ -15,18 +15,22 @@ use crate::scene::{Checked, Scene};
 use crate::scheme::Scheme;
 use crate::step::Contact;
 
-/// A ledger open by this share of the energy exchanged is worth a sentence, and so are impacts that give back this share more than
-/// arrived at them. (Of Paoli & Schatzman's that is 0.1 % in the source scene at h = 1 ms, of Newmark's a multiple.)
+/// A residual of the energy ledger above this share of the energy exchanged gets a note, and so do
+/// impacts that return this much more energy than arrived at them. (Paoli & Schatzman's scheme
+/// returns 0.1 % more in the source scene at h = 1 ms, Newmark's several times more.)
 const WORTH_SAYING: f64 = 1e-2;
 
-/// Energy made at walls below this share of what was exchanged is rounding, whatever arrived there.
+/// Energy created at walls is rounding below this share of the energy exchanged, however little
+/// arrived there.
 const ROUNDING: f64 = 1e-9;
 
-/// So is this share of the largest energy: once a body crosses the gap in a step, newmark throws it back and forth without
-/// further gain, and little of all that arrives is new. More than start and loads ever gave is worth a sentence in any case.
+/// Energy created at walls also gets a note above this share of the largest energy. The share of
+/// what arrived is no measure there: once a body crosses the gap within a step, newmark throws it
+/// back and forth without further gain, and little of all that arrives is new. Creating more than
+/// the start and the loads ever supplied gets a note in any case.
 const SHARE_OF_LARGEST: f64 = 0.1;
 
-/// Stretches handed over that are told one by one.
+/// Maximum number of handed-over stretches with a note each.
 const MOST_HANDED: usize = 5;
 
 pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) -> Vec<String> {
@@ -61,16 +65,21 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) 
     }
     for handed in run.handed.iter().take(MOST_HANDED) {
         notes.push(format!(
-            "from {:.6} s to {:.6} s impacts crowd closer than the exact scheme follows them: moreau-jean stepped through it, with steps of {:.1e} s",
+            "from {:.6} s to {:.6} s impacts follow one another faster than the exact scheme resolves: \
+             moreau-jean stepped through it, with steps of {:.1e} s",
             handed.from, handed.to, handed.step
         ));
     }
     if let Some(more) = run.handed.len().checked_sub(MOST_HANDED).filter(|&more| more > 0) {
-        notes.push(format!("so it did {more} stretches more, {} steps in all", run.counters.handed_steps));
+        notes.push(format!(
+            "moreau-jean stepped through {more} more such stretches, {} steps in all",
+            run.counters.handed_steps
+        ));
     }
     if run.counters.frozen_steps > 0 {
         notes.push(format!(
-            "in {} steps opposite walls took turns: the body crosses the gap in less than a step and stands still; use a smaller step",
+            "in {} steps opposite walls pushed in turn: the body crosses the gap in less than a step \
+             and appears to stand still; use a smaller step",
             run.counters.frozen_steps
         ));
     }
@@ -79,21 +88,24 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) 
     notes
 }
 
-/// What a lasting contact that is open at the end says of the depth at which the structure stands behind its wall, `q` being where it is.
+/// A note on a lasting contact that is open at the end of the run, if the structure then stands
+/// behind its wall; `q` is its displacement.
 fn standing(scene: &Scene, contact: &Contact, q: &[f64]) -> Option<String> {
     let wall = scene.walls.get(contact.wall).filter(|wall| wall.law.is_rigid())?;
     let depth = -wall.gap(wall.at.dot(q));
     let lasts = contact.end.is_none() && contact.peak_force.is_some();
     (lasts && depth > WORTH_SAYING * scene.gap_scale()).then(|| {
         format!(
-            "at the end the body rests {depth:.2e} m behind wall {:?}, where its last impact left it: moreau-jean does not lift it, and the \
-             force is the one of that place, off by the stiffness times that depth; use a smaller step, or generalized-alpha, which rests on the face",
+            "at the end the body rests {depth:.2e} m behind wall {:?}, where its last impact left it: moreau-jean does not push it \
+             back to the face, and the \
+             force has an error of the stiffness times that depth; use a smaller step, or generalized-alpha, which rests on the face",
             wall.name
         )
     })
 }
 
-/// What the ledger tells against a run; `arrived` is the energy (J) that arrived at its rigid walls, where it is known.
+/// A note on energy that the scheme created or lost; `arrived` is the energy (J) that arrived at
+/// its rigid walls, where it is known.
 fn of_energy(energy: &Energy, arrived: Option<f64>) -> Option<String> {
     let created = -energy.impact_loss_j;
     let given = energy.initial_j + energy.load_work_j.abs();

@@ -1,32 +1,39 @@
-//! The times of a run that are not the scene's: step, recording, statistics, and the grid they make.
+//! The times of a run other than the scene's duration: step, recording, statistics, and the grid
+//! that follows from them.
 
 use crate::error::{Error, Result};
 
-/// Most steps that a run may take: minutes of a scalar scheme, and far from the end of a `u64`.
+/// Maximum number of steps of a run: minutes for a scheme of one degree of freedom, and far from
+/// the end of a `u64`.
 pub const MOST_STEPS: f64 = 1e10;
-/// Most rows that a trajectory may have: half a gigabyte of CSV.
+/// Maximum number of rows of a trajectory: half a gigabyte of CSV.
 pub const MOST_ROWS: f64 = 1e7;
 
-/// Step, recording and statistics of a run: a case's `[time]` table without `end`, which is the duration of the scene.
+/// Step, recording and statistics of a run: a case's `[time]` table without `end`, which is the
+/// duration of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeOptions {
-    /// Step asked of the stepping schemes, s: above 0, below the end. A run shortens it to divide its duration.
+    /// Step requested of the stepping schemes, s: above 0, below the end. A run shortens it so that
+    /// it divides the duration.
     pub step: f64,
-    /// Spacing of the recorded trajectory, s; none records every step. A spacing below the step does too.
+    /// Spacing of the recorded trajectory, s; `None`, or a spacing below the step, records every
+    /// step.
     pub sample: Option<f64>,
     /// Start of the window for statistics, s: 0 or more, below the end.
     pub statistics_from: f64,
-    /// Stretch over which the force of a rigid wall is averaged before its root mean square over time is taken, s: above 0; by default
-    /// [`FORCE_AVERAGING`](Self::FORCE_AVERAGING). The stretch used may be shorter, a tenth of the window at most, or longer where the window
-    /// would hold more than 1e6 of them.
+    /// Length of the intervals over which the force of a rigid wall is averaged before its root
+    /// mean square over time is taken, s: above 0; by default
+    /// [`FORCE_AVERAGING`](Self::FORCE_AVERAGING). The interval used may be shorter, so that each
+    /// tenth of the window holds a whole number of them, or longer where the window would hold more
+    /// than 1e6.
     pub force_averaging: f64,
 }
 
 impl TimeOptions {
-    /// A millisecond: short for the period of a structure, long for an impact.
+    /// A millisecond: short compared with the period of a structure, long compared with an impact.
     pub const FORCE_AVERAGING: f64 = 1e-3;
 
-    /// Steps of `step` seconds, all of them recorded, statistics from the start.
+    /// Steps of `step` seconds, all of them recorded, and statistics from the start.
     #[must_use]
     pub fn with_step(step: f64) -> Self {
         Self { step, sample: None, statistics_from: 0.0, force_averaging: Self::FORCE_AVERAGING }
@@ -82,13 +89,14 @@ impl TimeOptions {
     }
 }
 
-/// Equal steps that end exactly at the end, and equal rows that fall on steps.
+/// Equal steps that end exactly at the end of the run, and equally spaced rows that coincide with
+/// steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TimeGrid {
     /// The end, s.
     pub end: f64,
-    /// The step used, s: the one asked for or a little shorter.
+    /// The step used, s: the requested one or a little shorter.
     pub step: f64,
     /// Number of steps.
     pub steps: u64,
@@ -96,11 +104,12 @@ pub struct TimeGrid {
     pub rows: u64,
     /// True if the step had to be shortened.
     pub shortened: bool,
-    /// True if the spacing of the rows had to be shortened, to end at the end.
+    /// True if the spacing of the rows had to be shortened so that the last row is at the end.
     pub rows_shortened: bool,
 }
 
-/// Rows of the exact scheme, which has no step of its own, where no spacing is given.
+/// Number of recorded intervals of the exact scheme, which has no step of its own, if no spacing is
+/// given.
 const EVENT_ROWS: f64 = 1000.0;
 
 impl TimeGrid {
@@ -125,7 +134,8 @@ impl TimeGrid {
         })
     }
 
-    /// The rows of the exact scheme, which steps from event to event: a thousand unless a spacing is given.
+    /// The rows of the exact scheme, which steps from event to event: a thousand unless a spacing
+    /// is given.
     ///
     /// # Errors
     /// As [`TimeOptions::validate`].
@@ -138,12 +148,14 @@ impl TimeGrid {
     }
 }
 
-/// True if `rows` intervals of the duration are shorter than the spacing asked for, by more than rounding.
+/// True if `rows` intervals of the duration are shorter than the spacing asked for, by more than
+/// rounding.
 fn shorter(duration: f64, rows: u64, spacing: f64) -> bool {
     duration / (rows as f64) < spacing * (1.0 - 1e-9)
 }
 
-/// The least number of equal intervals of at most `step` that fill `span`, forgiving the rounding of their ratio.
+/// The least number of equal intervals of at most `step` that fill `span`, up to the rounding of
+/// their ratio.
 fn intervals(span: f64, step: f64) -> u64 {
     // In range: the options bound the ratio by MOST_STEPS.
     (span / step * (1.0 - 1e-12)).ceil().max(1.0) as u64

@@ -1,13 +1,14 @@
-//! The recorded motion: columns in time, and the contacts.
+//! The recorded motion: columns over time, and the contacts.
 
 use crate::error::{Error, Result};
 use crate::scene::{Row, Scene};
 use crate::step::{Contact, Path, Step};
 
-/// A motion sampled at given times, with every newton second of contact accounted for.
+/// A motion sampled at given times; the contact impulses between the samples are recorded in full.
 ///
-/// Row 0 is the start, after any impulse at t = 0; the last row is exactly the end. States are right-continuous. For a
-/// scheme on a grid a force is that of the step which ends at the row; for the exact scheme it is the force at that instant.
+/// Row 0 is the start, after any impulse at t = 0; the last row is exactly the end. States are
+/// right-continuous. For a scheme on a grid, the force in a row is that of the step which ends
+/// there; for the exact scheme it is the force at that instant.
 ///
 /// ```
 /// use signorini::{Load, Options, Scene, Scheme, Wall, run};
@@ -70,25 +71,26 @@ impl Trajectory {
         self.velocity.first().map_or(&[], Vec::as_slice)
     }
 
-    /// Displacement at each row, m: one column a probe, in the scene's order.
+    /// Displacement at each row, m: one column per probe, in the scene's order.
     #[must_use]
     pub fn displacements(&self) -> &[Vec<f64>] {
         &self.displacement
     }
 
-    /// Velocity at each row, m/s: one column a probe, in the scene's order.
+    /// Velocity at each row, m/s: one column per probe, in the scene's order.
     #[must_use]
     pub fn velocities(&self) -> &[Vec<f64>] {
         &self.velocity
     }
 
-    /// Force of each wall on the body at each row, N: one column a wall, in the scene's order.
+    /// Force of each wall on the body at each row, N: one column per wall, in the scene's order.
     #[must_use]
     pub fn contact_forces(&self) -> &[Vec<f64>] {
         &self.force
     }
 
-    /// Impulse of each wall on the body since the previous row, N s: one column a wall, in the scene's order.
+    /// Impulse of each wall on the body since the previous row, N s: one column per wall, in the
+    /// scene's order.
     #[must_use]
     pub fn contact_impulses(&self) -> &[Vec<f64>] {
         &self.impulse
@@ -139,14 +141,14 @@ fn find(kind: &'static str, name: &str, known: &[String]) -> Result<usize> {
     known.iter().position(|k| k == name).ok_or_else(missing)
 }
 
-/// Builds a [`Trajectory`] from the steps of a run, at the rows it was asked for.
+/// Builds a [`Trajectory`] from the steps of a run, at the requested rows.
 #[derive(Debug, Clone)]
 pub struct Recorder {
     trajectory: Trajectory,
     probes: Vec<Row>,
     end: f64,
     rows: u64,
-    /// Rows a second, and the time of the next row, s.
+    /// Rows per second, and the time of the next row, s.
     rate: f64,
     due: f64,
     /// Impulse per wall since the last row, N s.
@@ -157,7 +159,8 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// A recorder of `rows` equal intervals over the scene's duration, starting from the state `q` (m), `v` (m/s).
+    /// A recorder of `rows` equal intervals over the scene's duration, starting from the state `q`
+    /// (m), `v` (m/s).
     #[must_use]
     pub fn new(scene: &Scene, rows: u64, q: &[f64], v: &[f64]) -> Self {
         let capacity = usize::try_from(rows).unwrap_or(0).saturating_add(1).min(1 << 24);
@@ -189,14 +192,14 @@ impl Recorder {
         recorder
     }
 
-    /// Time of row `k`, s; the last is the end itself. The rate is often a whole number (1 ms: 1000 a second), and dividing by it gives the
-    /// double nearest to the decimal.
+    /// Time of row `k`, s; the last is the end itself. The rate is often a whole number (1 ms: 1000
+    /// per second), and dividing by it gives the double nearest to the decimal.
     fn row_time(&self, k: u64) -> f64 {
         if k >= self.rows { self.end } else { k as f64 / self.rate }
     }
 
-    /// Takes in one step. Steps must come in order; those after the last row are none of the run's and change nothing, nor do
-    /// steps of another scene, one with other numbers of walls or degrees of freedom.
+    /// Adds one step. Steps must come in order. Steps after the last row are ignored, and so are
+    /// steps of another scene, with another number of walls or degrees of freedom.
     pub fn see(&mut self, step: &Step<'_>) {
         let (n, m) = (self.state[0].len(), self.pending.len());
         let moved = [step.q, step.v, step.velocity_before];
@@ -213,7 +216,8 @@ impl Recorder {
                 for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
                     *sum += p;
                 }
-                // The grid divides the rows' spacing, so a row's time and a step's end differ by rounding at most.
+                // The grid divides the spacing of the rows, so a row's time and a step's end differ
+                // by rounding only.
                 let due = self.due;
                 if step.end > due - 0.5 * (step.end - step.start) {
                     self.push(due, step.q, step.v, step.force);
@@ -224,7 +228,8 @@ impl Recorder {
         }
     }
 
-    /// A step between two instants that fall on no row: on the way between its ends the displacement is a line.
+    /// Adds a step whose ends need not fall on rows: between them the displacement is interpolated
+    /// linearly.
     fn see_handed(&mut self, step: &Step<'_>) {
         for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
             *sum += p;
@@ -254,12 +259,14 @@ impl Recorder {
             return;
         }
         if step.start == 0.0 {
-            // Only now is it known whether the body rests on a rigid wall, and how hard.
+            // The force at t = 0 is known only now, from the first arc: the body may rest on a
+            // rigid wall.
             for (wall, column) in self.trajectory.force.iter_mut().enumerate() {
                 column[0] = path.contact_force(wall, 0.0);
             }
         }
-        // Right-continuity: a row at the very end of this arc is the next arc's, or the run's last.
+        // States are right-continuous: a row at the very end of this arc belongs to the next arc,
+        // or is the run's last.
         loop {
             let row = self.trajectory.time.len() as u64;
             let due = self.due;
@@ -285,7 +292,7 @@ impl Recorder {
         }
     }
 
-    /// An impact at t = 0 belongs to the first row.
+    /// Adds an impact at t = 0 to the first row.
     fn restart(&mut self, step: &Step<'_>) {
         let t = &mut self.trajectory;
         for (column, row) in t.displacement.iter_mut().zip(&self.probes) {

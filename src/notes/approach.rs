@@ -1,14 +1,15 @@
-//! How near a body came to walls that it never touched.
+//! How near the body came to walls that it never touched.
 
 use crate::scene::Scene;
 use crate::trajectory::Trajectory;
 
-/// The note on a run without contact; none where there was one, or no wall.
+/// The note on a run without contact; `None` where there was a contact, or no wall.
 pub(super) fn untouched(scene: &Scene, trajectory: &Trajectory) -> Option<String> {
     if scene.walls.is_empty() || !trajectory.contacts().is_empty() {
         return None;
     }
-    // A wall is seen by a probe of its own row; the rows recorded are what is known.
+    // The gap at a wall is known at the recorded rows, through a probe on the same row of the
+    // structure.
     let seen = scene.walls.iter().filter_map(|wall| {
         let probe = scene.probes.iter().position(|probe| probe.at == wall.at)?;
         let gaps = trajectory.displacements().get(probe)?.iter().map(|&w| wall.gap(w));

@@ -1,18 +1,19 @@
-//! What a reader must know of a scene and a step, whatever the run makes of them.
+//! What a reader must know about a scene and a step, independent of the run.
 
 use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table, WallLaw};
 use crate::scheme::Scheme;
 use std::f64::consts::{PI, TAU};
 
-/// Fewer steps to a period than this do not resolve it: with ten the trapezoidal rule makes it 3 % longer.
+/// Minimum number of steps per period: with ten the trapezoidal rule makes the period 3 % longer.
 const STEPS_A_PERIOD: f64 = 10.0;
-/// An elastic wall is resolved below this h² k/m: ten steps to a contact.
+/// An elastic wall is resolved below this h² k/m: ten steps per contact.
 const RESOLVED: f64 = 0.1;
-/// Steps see a table as it is if what they miss between them is below this share of its range.
+/// The steps resolve a table if its largest departure between them is below this share of its
+/// range.
 const MISSED: f64 = 1e-2;
-/// A mode matters if it carries this share of the static compliance at a wall or load.
+/// A mode matters if it contributes this share of the static compliance at a wall or load.
 const MATTERS: f64 = 1e-2;
-/// Natural frequencies that engineers meet, Hz.
+/// Range of natural frequencies usual in engineering, Hz.
 const USUAL: [f64; 2] = [1e-2, 1e5];
 
 /// Notes on `scene` run by `scheme` in steps of `step` seconds.
@@ -27,7 +28,7 @@ pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
     notes
 }
 
-/// A table that does not last as long as the run.
+/// A note on a table that does not cover the whole run.
 fn span(scene: &Scene, index: usize, load: &Load) -> Option<String> {
     let LoadKind::Table(table) = &load.kind else { return None };
     let (number, end) = (index + 1, scene.duration);
@@ -41,7 +42,7 @@ fn span(scene: &Scene, index: usize, load: &Load) -> Option<String> {
     (first > 0.0 && starts).then(|| format!("the table of load {number} begins at {first} s: before, its force is 0"))
 }
 
-/// Natural frequencies that say that a unit may be another than meant.
+/// A note on natural frequencies that suggest a wrong unit.
 fn unusual(scene: &Scene) -> Option<String> {
     let slowest = slowest(scene)? / TAU;
     (!(USUAL[0]..=USUAL[1]).contains(&slowest)).then(|| {
@@ -52,7 +53,7 @@ fn unusual(scene: &Scene) -> Option<String> {
     })
 }
 
-/// ω of the slowest motion that springs bring back, rad/s.
+/// The smallest circular frequency above 0, rad/s.
 fn slowest(scene: &Scene) -> Option<f64> {
     let all = match &scene.system {
         System::Structure(structure) => diagonal(structure),
@@ -65,7 +66,7 @@ fn slowest(scene: &Scene) -> Option<f64> {
     (slowest > 0.0).then_some(slowest)
 }
 
-/// ω and k of each coordinate of a structure whose M and K are diagonal, as that of one cut to modes.
+/// ω and k of each coordinate of a structure whose M and K are diagonal, as in modal coordinates.
 fn diagonal(structure: &Structure) -> Option<Vec<(f64, f64)>> {
     if structure.mass.half_bandwidth() > 0 || structure.stiffness.half_bandwidth() > 0 {
         return None;
@@ -74,7 +75,7 @@ fn diagonal(structure: &Structure) -> Option<Vec<(f64, f64)>> {
     Some(m.into_iter().zip(k).map(|(m, k)| ((k / m).sqrt(), k)).collect())
 }
 
-/// A load that changes faster than the step follows.
+/// A note on a load that changes faster than the step resolves.
 fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<String> {
     let number = index + 1;
     match &load.kind {
@@ -89,22 +90,23 @@ fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<
         LoadKind::Table(table) => {
             let (missed, rows) = missed(table, step, scene.duration)?;
             Some(format!(
-                "a step of {step:.2e} s passes over the table of load {number}, {rows:.0} rows a step: between steps its force departs by up to \
-                 {missed:.3e} N from what they see"
+                "a step of {step:.2e} s skips rows of the table of load {number}, {rows:.0} rows a step: between steps its force departs by up to \
+                 {missed:.3e} N from the line through its values at the steps"
             ))
         }
         _ => None,
     }
 }
 
-/// The largest departure (N) of a table from its values at the steps, joined by lines, and the rows a step; none where it is small.
+/// The largest departure (N) of a table from the line through its values at the steps, and the
+/// number of its rows per step; `None` where the departure is small.
 fn missed(table: &Table, step: f64, end: f64) -> Option<(f64, f64)> {
     let (time, force) = (table.time(), table.force());
     let rows = step * (time.len() - 1) as f64 / (time.last()? - time.first()?);
     let extreme = |start: f64, pick: fn(f64, f64) -> f64| force.iter().copied().fold(start, pick);
     let range = extreme(f64::NEG_INFINITY, f64::max) - extreme(f64::INFINITY, f64::min);
     let mut most = 0.0_f64;
-    // First and last row are jumps to and from 0, which every step sees in its own way.
+    // The first and last row are jumps from and to 0, which no step resolves.
     let inner = time.iter().zip(force).take(time.len() - 1).skip(1);
     for (&t, &f) in inner.filter(|(t, _)| (0.0..=end).contains(*t)) {
         let before = (t / step).floor();
@@ -120,7 +122,8 @@ fn missed(table: &Table, step: f64, end: f64) -> Option<(f64, f64)> {
     (rows > 1.0 && most > MISSED * range).then_some((most, rows))
 }
 
-/// A mode that the step does not follow: of modes the fastest that matters, of coupled matrices the slowest.
+/// A note on a mode that the step does not resolve: in modal coordinates the fastest that matters,
+/// for coupled matrices the slowest.
 fn modes_resolved(scene: &Scene, step: f64) -> Option<String> {
     let (omega, what) = match &scene.system {
         System::Oscillator(_) => (scene.system.frequencies()[0], "the natural frequency"),
@@ -140,7 +143,8 @@ fn modes_resolved(scene: &Scene, step: f64) -> Option<String> {
     })
 }
 
-/// ω of the fastest of `modes` that carries a share of the static compliance at a wall or load, rad/s; the slowest where there is neither.
+/// ω of the fastest of `modes` that contributes a relevant share of the static compliance at a wall
+/// or load, rad/s; that of the slowest where there is neither.
 fn fastest_that_matters(scene: &Scene, modes: &[(f64, f64)]) -> Option<f64> {
     let rows = scene.walls.iter().map(|wall| &wall.at).chain(scene.loads.iter().map(|load| &load.at));
     let fastest = |row: &Row| {
@@ -156,7 +160,8 @@ fn fastest_that_matters(scene: &Scene, modes: &[(f64, f64)]) -> Option<f64> {
     rows.filter_map(fastest).reduce(f64::max).or_else(slowest)
 }
 
-/// Elastic walls that the step does not resolve. What a penalty puts in place of rigid ones is for the judge: some integrators take it as it comes.
+/// A note on elastic walls that the step does not resolve. The springs that a penalty scheme puts
+/// in place of rigid walls are left to the judge: some integrators need not resolve them.
 fn walls_resolved(scene: &Scene, step: f64) -> Option<String> {
     let stiffness = |law: &WallLaw| match *law {
         WallLaw::Rigid { .. } => 0.0,
@@ -175,8 +180,8 @@ fn walls_resolved(scene: &Scene, step: f64) -> Option<String> {
         n => format!(", and {} more", n - 1),
     };
     Some(format!(
-        "the step of {step:.2e} s does not resolve the wall {:?}{others}: h² k/m = {:.2e}, and a contact of {:.2e} s takes {:.1} steps; the forces there \
-         are the step's, not the wall's",
+        "the step of {step:.2e} s does not resolve the wall {:?}{others}: h² k/m = {:.2e}, and a contact of {:.2e} s takes {:.1} steps; the contact forces there \
+         depend on the step instead of the wall's stiffness",
         wall.name,
         step * step * ratio,
         PI / ratio.sqrt(),

@@ -9,13 +9,14 @@ use crate::scheme::{Counters, Handed, Scheme};
 use crate::time::TimeGrid;
 use crate::trajectory::Trajectory;
 
-/// A finished run: judged and recorded, unless the [`Options`](super::Options) left one of them out.
+/// A finished run: judged and recorded, unless the [`Options`](super::Options) left one of them
+/// out.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Run<J: Judging = Judged, R: Recording = Recorded> {
     /// The scheme that made it.
     pub scheme: Scheme,
-    /// The solver of its quadratic programmes: the one in force, not `auto`.
+    /// The solver of its quadratic programmes: the one used, never `auto`.
     pub backend: Backend,
     /// Its steps and rows.
     pub grid: TimeGrid,
@@ -23,31 +24,34 @@ pub struct Run<J: Judging = Judged, R: Recording = Recorded> {
     pub state: State,
     /// The recorded motion, a [`Trajectory`]; `()` if the run was not recorded.
     pub trajectory: R::Motion,
-    /// The judge's verdict, [`Residuals`]; `()` if the run was not judged.
+    /// The run's [`Residuals`], from the judge; `()` if the run was not judged.
     pub residuals: J::Verdict,
-    /// Where that refutes the run, a list of [`Finding`]s: promises of the scheme that its steps broke beyond what the contract allows.
-    /// With any of them the run's numbers are wrong. `()` if the run was not judged.
+    /// The list of [`Finding`]s: promises of the scheme's contract that the steps broke by more
+    /// than its tolerances. If there is any, the run's numbers are wrong. `()` if the run was not
+    /// judged.
     pub findings: J::Findings,
-    /// Contact [`Statistics`](crate::Statistics) over the window asked for; `()` if the run was not recorded.
+    /// Contact [`Statistics`](crate::Statistics) over the requested window; `()` if the run was not
+    /// recorded.
     pub statistics: R::Statistics,
-    /// What it cost, machine-independent.
+    /// Its cost in machine-independent counts.
     pub counters: Counters,
-    /// What it cost, wall-clock seconds, recording and judging included where they were asked for.
+    /// Its cost in wall-clock seconds, including recording and judging where requested.
     pub seconds: f64,
-    /// Stretches that the exact scheme handed to moreau-jean; none for other schemes.
+    /// Stretches that the exact scheme handed to moreau-jean; empty for other schemes.
     pub handed: Vec<Handed>,
-    /// What a reader must know of this run, in sentences.
+    /// What a reader must know about this run, in sentences.
     pub notes: Vec<String>,
 }
 
 impl<J: Judging, R: Recording> Run<J, R> {
-    /// The judge's verdict, if the run was judged: for code that takes runs of any kind.
+    /// The residuals, if the run was judged: for code that takes runs of any kind.
     #[must_use]
     pub fn judged(&self) -> Option<&Residuals> {
         J::residuals(&self.residuals)
     }
 
-    /// [`Error::Refuted`] where the judge has refuted the run; none for a run that kept its word, or was not judged.
+    /// [`Error::Refuted`] where the judge has findings; `None` for a run without findings, or one
+    /// that was not judged.
     #[must_use]
     pub fn refuted(&self) -> Option<Error> {
         let findings = J::findings(&self.findings);
@@ -55,7 +59,7 @@ impl<J: Judging, R: Recording> Run<J, R> {
         (!findings.is_empty()).then(|| Error::Refuted { runs: vec![format!("{}: {text}", self.scheme)] })
     }
 
-    /// The run, unless the judge has refuted it: for whoever measures others by it.
+    /// The run, unless the judge has findings: for callers that use it as a reference for others.
     ///
     /// # Errors
     /// [`Error::Refuted`].

@@ -11,10 +11,11 @@ use crate::scene::{Checked, Scene};
 use crate::scheme::{Method, Scheme, Stepper};
 use std::time::Instant;
 
-/// Most steps between two reports of progress.
+/// Maximum number of steps between two reports of progress.
 const PROGRESS_STRIDE: u64 = 1 << 14;
 
-/// The first reports come more often, this share of the steps so far apart: a step may take a nanosecond or a second.
+/// At the beginning reports come more often: one part in this many of the steps so far lies between
+/// two, since a step may take a nanosecond or a second.
 const PROGRESS_SHARE: u64 = 8;
 
 /// Runs `scene` by `method`, a [`Scheme`] or a [`Method`], to its end.
@@ -41,7 +42,7 @@ const PROGRESS_SHARE: u64 = 8;
 /// ```
 ///
 /// # Errors
-/// [`crate::Error::Invalid`] for a request that makes no sense, and what [`Stepper::step`] reports.
+/// [`crate::Error::Invalid`] for an invalid request, and what [`Stepper::step`] reports.
 pub fn run<J: Judging, R: Recording>(
     scene: &Scene,
     method: &(impl Copy + Into<Method>),
@@ -50,7 +51,7 @@ pub fn run<J: Judging, R: Recording>(
     run_with_progress(scene, method, options, &mut |_| {})
 }
 
-/// The same, telling `progress` the time reached (s) now and then.
+/// As [`run`], and calls `progress` with the time reached (s) now and then.
 ///
 /// # Errors
 /// As [`run`].

@@ -1,4 +1,5 @@
-//! What a run needs to know beside the scene and the method, and what it is asked to keep.
+//! The options of a run besides the scene and the method: its times, and whether it is judged and
+//! recorded.
 
 use crate::error::Result;
 use crate::residual::{Finding, Judge, Residuals};
@@ -10,11 +11,11 @@ use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
 use std::fmt::Debug;
 
-/// What a run needs to know beside the scene and the method.
+/// The options of a run besides the scene and the method.
 ///
-/// A run is judged and recorded unless told otherwise. A study that needs only one of the two, or only the state at the
-/// end, leaves the other out and saves its time; what was not asked for is then no field full of zeros, but absent from the
-/// type of the [`Run`](crate::Run):
+/// A run is judged and recorded by default. A study that needs only one of the two, or only the
+/// state at the end, leaves the other out and saves its time. The result then has no such field
+/// full of zeros: it is absent from the type of the [`Run`](crate::Run):
 ///
 /// ```
 /// use signorini::{Load, Options, Scene, Scheme, Wall, run};
@@ -41,7 +42,7 @@ use std::fmt::Debug;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<J: Judging = Judged, R: Recording = Recorded> {
-    /// Step, rows and the window of the statistics. The exact scheme has no use for the step.
+    /// Step, rows and the window of the statistics. The exact scheme ignores the step.
     pub time: TimeOptions,
     /// Whether the run is judged.
     pub judge: J,
@@ -64,23 +65,24 @@ impl Options {
 }
 
 impl<J: Judging, R: Recording> Options<J, R> {
-    /// The same, with a row every `sample` seconds instead of every step.
+    /// These options with a row every `sample` seconds instead of every step.
     #[must_use]
     pub fn with_sample(mut self, sample: f64) -> Self {
         self.time.sample = Some(sample);
         self
     }
 
-    /// The same without the judge: [`Run::residuals`](crate::Run::residuals) is then `()`.
+    /// These options without the judge: [`Run::residuals`](crate::Run::residuals) is then `()`.
     #[must_use]
     pub fn unjudged(self) -> Options<Unjudged, R> {
         let Self { time, record, .. } = self;
         Options { time, judge: Unjudged, record }
     }
 
-    /// The same without rows, contacts and statistics: [`Run::trajectory`](crate::Run::trajectory) and
-    /// [`Run::statistics`](crate::Run::statistics) are then `()`. (Contacts and statistics without rows to speak of:
-    /// [`Options::with_sample`] of the duration.)
+    /// These options without rows, contacts and statistics:
+    /// [`Run::trajectory`](crate::Run::trajectory) and [`Run::statistics`](crate::Run::statistics)
+    /// are then `()`. (For contacts and statistics with two rows only, give the duration to
+    /// [`Options::with_sample`].)
     #[must_use]
     pub fn unrecorded(self) -> Options<J, Unrecorded> {
         let Self { time, judge, .. } = self;
@@ -91,7 +93,8 @@ impl<J: Judging, R: Recording> Options<J, R> {
     pub(super) fn grid(&self, scene: &Scene, exact: bool) -> Result<TimeGrid> {
         let mut time = self.time;
         if R::ROWLESS && time.sample.is_none() {
-            // The bound on rows is none of a run without them. A spacing that is given stays: steps end on its rows.
+            // The maximum number of rows does not apply to a run without rows. A given spacing
+            // stays: steps end on its rows.
             time.sample = Some(scene.duration);
         }
         if exact { TimeGrid::exact(scene.duration, &time) } else { TimeGrid::stepping(scene.duration, &time) }
@@ -108,9 +111,9 @@ mod sealed {
 
 /// Whether a run is judged: [`Judged`] or [`Unjudged`], no others.
 pub trait Judging: sealed::Sealed + Debug + Copy {
-    /// What the judge hands over: [`Residuals`], or nothing.
+    /// The result of the judge: [`Residuals`], or nothing.
     type Verdict: Debug + Clone;
-    /// What it refutes: [`Finding`]s, or nothing.
+    /// The list of [`Finding`]s, or nothing.
     type Findings: Debug + Clone;
     #[doc(hidden)]
     type Judge;
@@ -191,7 +194,7 @@ impl Judging for Unjudged {
 pub trait Recording: sealed::Sealed + Debug + Copy {
     /// What is recorded of the motion: a [`Trajectory`], or nothing.
     type Motion: Debug + Clone;
-    /// What is drawn from its contacts: [`Statistics`], or nothing.
+    /// The statistics of its contacts: [`Statistics`], or nothing.
     type Statistics: Debug + Clone;
     #[doc(hidden)]
     type Recorder;
@@ -216,7 +219,7 @@ pub trait Recording: sealed::Sealed + Debug + Copy {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Recorded;
 
-/// Nothing is kept of the motion but its end.
+/// Only the state at the end is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Unrecorded;
 

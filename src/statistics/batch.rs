@@ -1,11 +1,13 @@
-//! Batch means: how far a number scatters from one stretch of the window to the next.
+//! Batch means: how much a mean scatters from one part of the window to the next.
 //!
-//! The window is cut into ten equal batches. A mean over time has the 95 % interval of the mean of its ten batch means, by Student's t
-//! with nine degrees of freedom (Schmeiser, Batch size effects in the analysis of simulation output, Operations Research 30(3), 1982,
-//! doi:10.1287/opre.30.3.556: ten to thirty batches, more gain nothing). A mean over episodes is a ratio, Σ of a quantity over the number
-//! of episodes; both scatter, and its interval is that of the ratio estimator (see [`ratio_half_width`]).
+//! The window is cut into ten equal batches. A mean over time has the 95 % interval of the mean of
+//! its ten batch means, by Student's t with nine degrees of freedom (Schmeiser, Batch size effects
+//! in the analysis of simulation output, Operations Research 30(3), 1982,
+//! doi:10.1287/opre.30.3.556: ten to thirty batches, more bring no gain). A mean over episodes is a
+//! ratio, Σ of a quantity over the number of episodes; both scatter, and its interval is that of
+//! the ratio estimator (see [`ratio_half_width`]).
 
-/// Batches of the window.
+/// Number of batches of the window.
 pub(super) const BATCHES: usize = 10;
 
 /// Student's t for 95 %, two-sided, with nine degrees of freedom.
@@ -24,11 +26,14 @@ pub(super) fn half_width(batches: &[f64; BATCHES]) -> f64 {
     STUDENT * (square / count).sqrt()
 }
 
-/// Half width of the 95 % interval of the ratio R = Σxₖ/Σnₖ, from the sums xₖ and the numbers nₖ of ten batches.
+/// Half width of the 95 % interval of the ratio R = Σxₖ/Σnₖ, from the sums xₖ and the numbers nₖ of
+/// ten batches.
 ///
-/// The ratio estimator: to first order R is off by the mean of zₖ = xₖ − R nₖ over the mean of nₖ, so that the half width is
-/// t √(s_z²/10) / n̄ with s_z² = Σzₖ²/9 (Crane & Iglehart, Simulating stable stochastic systems III, Operations
-/// Research 23(1), 1975, doi:10.1287/opre.23.1.33, with batches in the place of regenerative cycles). `None` where nothing was counted.
+/// The ratio estimator: to first order the error of R is the mean of zₖ = xₖ − R nₖ over the mean
+/// of nₖ, so that the half width is t √(s_z²/10) / n̄ with s_z² = Σzₖ²/9 (Crane & Iglehart,
+/// Simulating stable stochastic systems III, Operations Research 23(1), 1975,
+/// doi:10.1287/opre.23.1.33, with batches in the place of regenerative cycles). `None` where
+/// nothing was counted.
 pub(super) fn ratio_half_width(sums: &[f64; BATCHES], numbers: &[f64; BATCHES]) -> Option<f64> {
     let all: f64 = numbers.iter().sum();
     if all <= 0.0 {
@@ -37,6 +42,6 @@ pub(super) fn ratio_half_width(sums: &[f64; BATCHES], numbers: &[f64; BATCHES]) 
     let ratio = sums.iter().sum::<f64>() / all;
     let mut open = *sums;
     open.iter_mut().zip(numbers).for_each(|(z, n)| *z -= ratio * n);
-    // The zₖ sum to 0 but for rounding, which half_width takes off.
+    // The zₖ sum to 0 up to rounding, which half_width subtracts.
     Some(half_width(&open) * BATCHES as f64 / all)
 }

@@ -5,7 +5,8 @@ use crate::scene::Scene;
 use crate::step::{Path, Step};
 use serde::Serialize;
 
-/// Most stretches of a window; of a window that has more of them, they are longer. They cost time where a contact lasts.
+/// Maximum number of averaging intervals in a window; they are longer where a window would hold
+/// more. They cost time where a contact lasts.
 const MOST_STRETCHES: f64 = 1e6;
 
 /// Gauss's rule of two points on [0, 1].
@@ -17,24 +18,28 @@ const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 pub struct ForceStatistics {
     /// Impulse of the wall on the body over the window, N s; signed as the force.
     pub impulse_n_s: f64,
-    /// Half width of its 95 % interval by batch means, N s; this and the two below are none unless ten contacts began in the window, or
-    /// the wall pushed in each of its ten batches.
+    /// Half width of its 95 % interval by batch means, N s. This and the two below are `None`
+    /// unless ten contacts began in the window, or the wall pushed in each of its ten batches.
     pub impulse_half_width_95_n_s: Option<f64>,
     /// Mean of |force| over time, Σ|p|/T, N.
     pub mean_n: f64,
     /// Half width of its 95 % interval by batch means, N.
     pub mean_half_width_95_n: Option<f64>,
-    /// Root mean square of the force over time, N: of the force itself where the wall is elastic; of its mean over stretches of
-    /// `rms_averaged_over_s` where it is rigid, since impacts have no finite force and the mean square of impulse/h has no limit as h → 0.
+    /// Root mean square of the force over time, N: for an elastic wall of the force itself, for a
+    /// rigid wall of its mean over intervals of `rms_averaged_over_s`, since impacts have no finite
+    /// force and the mean square of impulse/h has no limit as h → 0.
     pub rms_n: f64,
-    /// Half width of its 95 % interval, N: that of the mean square by batch means, over twice the RMS.
+    /// Half width of its 95 % interval, N: that of the mean square by batch means, divided by twice
+    /// the RMS.
     pub rms_half_width_95_n: Option<f64>,
-    /// Those stretches, s: [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging) or a little less, so that each batch of the
-    /// window holds a whole number of them; more where the window would hold more than 1e6. None where the force itself is squared.
+    /// Length of those intervals, s:
+    /// [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging) or a little less, so
+    /// that each batch of the window holds a whole number of them; more where the window would hold
+    /// more than 1e6. `None` for an elastic wall.
     pub rms_averaged_over_s: Option<f64>,
 }
 
-/// What one wall did, by batches.
+/// The impulses and squared forces of one wall, by batches.
 #[derive(Debug, Clone, Default)]
 struct Tally {
     rigid: bool,
@@ -43,26 +48,26 @@ struct Tally {
     /// Σ|p|, N s, and ∫ of the square, N² s.
     pushed: [f64; BATCHES],
     square: [f64; BATCHES],
-    /// The impulse of the stretch under way, N s.
+    /// The impulse in the current interval, N s.
     stretch: f64,
 }
 
-/// Watches the steps of a run for the forces of its walls.
+/// Sums up the forces of the walls over the steps of a run.
 #[derive(Debug, Clone)]
 pub struct Forces {
     from: f64,
-    /// Length of the window and of a stretch, s, and how many stretches there are.
+    /// Length of the window and of an averaging interval, s, and the number of intervals.
     length: f64,
     bin: f64,
     bins: u64,
-    /// The stretch under way.
+    /// Index of the current interval.
     at: u64,
     walls: Vec<Tally>,
 }
 
 impl Forces {
-    /// For the walls of `scene` (as the scheme sees it) from the time `from` (s) to its end, the forces of rigid walls averaged over stretches
-    /// of `averaging` (s) at most.
+    /// For the walls of `scene` (as the scheme sees it), from the time `from` (s) to the end, with
+    /// the forces of rigid walls averaged over intervals of at most `averaging` (s).
     #[must_use]
     pub fn new(scene: &Scene, from: f64, averaging: f64) -> Self {
         let from = from.min(scene.duration);
@@ -75,7 +80,8 @@ impl Forces {
         Self { from, length, bin: length / bins as f64, bins, at: 0, walls }
     }
 
-    /// Takes in one step; steps must come in order. A step of a scene with other walls is passed over.
+    /// Adds one step; steps must come in order. A step of a scene with another number of walls is
+    /// ignored.
     pub fn see(&mut self, step: &Step<'_>) {
         let end = step.end.min(self.from + self.length);
         if step.impulse.len() != self.walls.len() || self.length <= 0.0 || step.end < self.from {
@@ -84,7 +90,8 @@ impl Forces {
         if step.impulse.iter().all(|&p| p == 0.0) {
             return;
         }
-        // Where nothing but blows in the instant of its end push, there is no way to look along.
+        // Where all impulses are jumps at the end of the step, there is no force to integrate over
+        // it.
         let along = step.impulse.iter().zip(step.jump).any(|(p, jump)| p != jump);
         let mut from = if along { step.start.max(self.from) } else { end };
         while from < end {
@@ -96,7 +103,7 @@ impl Forces {
                     self.add(wall, p, square);
                 }
             }
-            // The edge of a stretch may be the time itself, by rounding.
+            // By rounding, the edge of an interval may coincide with the time itself.
             from = if to > from { to } else { from.next_up() };
         }
         if step.jump.iter().any(|&p| p != 0.0) && end >= step.end {
@@ -107,7 +114,7 @@ impl Forces {
         }
     }
 
-    /// Goes to the stretch in which `t` (s) lies; returns its end, s.
+    /// Moves on to the interval that contains `t` (s); returns its end, s.
     fn move_to(&mut self, t: f64) -> f64 {
         let at = (((t - self.from) / self.bin) as u64).min(self.bins - 1);
         if at > self.at {
@@ -133,7 +140,7 @@ impl Forces {
         }
     }
 
-    /// Ends the stretch under way.
+    /// Ends the current interval.
     fn close(&mut self) {
         let (batch, bin) = (self.batch(), self.bin);
         for tally in &mut self.walls {
@@ -144,13 +151,14 @@ impl Forces {
         }
     }
 
-    /// What was seen of the wall number `wall`, at which `contacts` began in the window; none of a window without length.
+    /// Statistics of wall number `wall`, at which `contacts` began in the window; `None` for a
+    /// window of length 0.
     pub(super) fn statistics(&self, wall: usize, contacts: usize) -> Option<ForceStatistics> {
         let tally = self.walls.get(wall).filter(|_| self.length > 0.0)?;
         let batch = self.length / BATCHES as f64;
         let mut squares = tally.square;
         if tally.rigid {
-            // The stretch under way ends with the window.
+            // The current interval ends with the window.
             squares[self.batch()] += tally.stretch * tally.stretch / self.bin;
         }
         let means = tally.pushed.map(|p| p / batch);
@@ -171,7 +179,8 @@ impl Forces {
     }
 }
 
-/// Impulse (N s) of a wall over a piece of a step, without the jump at its end, and ∫ of the squared force, N² s.
+/// Impulse (N s) of a wall over a piece of a step, without the jump at its end, and ∫ of the
+/// squared force, N² s.
 fn piece(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> (f64, f64) {
     let rate = match step.path {
         Path::Exact(arc) => arc.fastest_motion(),
@@ -182,7 +191,7 @@ fn piece(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> (f64, f64) {
             return (force * (to - from), force * force * (to - from));
         }
     };
-    // Half a radian of the fastest motion each: the square turns by one.
+    // Each part is half a radian of the fastest motion, so one radian of the squared force.
     let parts = ((to - from) * rate * 2.0).ceil().clamp(1.0, 1e6);
     let span = (to - from) / parts;
     let force = |part: f64, node: f64| step.path.contact_force(wall, from + span * (part + node));

@@ -1,9 +1,10 @@
-//! Contact statistics: what wear models ask of a run.
+//! Contact statistics: the quantities of a run that wear models need.
 //!
-//! Everything here is of one window, from `statistics_from` to the end. How far a number scatters from one stretch of the window to
-//! the next is told by batch means: ten equal batches and the half width of a 95 % interval. It is the sampling error of a
-//! motion that does not repeat itself, not the error of the step. Fewer than ten events do not fill ten batches: then there is no interval.
-//! Extremes have none in any case: the largest of a longer window is larger.
+//! Everything here refers to one window, from `statistics_from` to the end. Batch means measure how
+//! much a number scatters within the window: ten equal batches give the half width of a 95 %
+//! interval. It is the sampling error of a motion that does not repeat itself, not the error of the
+//! time step. Fewer than ten events cannot fill ten batches: then there is no interval. Extremes
+//! have no interval in any case, since the largest of a longer window is larger.
 
 mod batch;
 mod force;
@@ -15,11 +16,11 @@ use crate::step::Contact;
 use batch::{BATCHES, batch_of, half_width, ratio_half_width};
 use serde::Serialize;
 
-/// Mean and largest of a set of magnitudes, one of each episode; both `None` if the set is empty.
+/// Mean and largest of a set of magnitudes, one per episode; both `None` if the set is empty.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Summary {
-    /// Arithmetic mean over the episodes: not over time.
+    /// Arithmetic mean over the episodes, not over time.
     pub mean: Option<f64>,
     /// Largest.
     pub max: Option<f64>,
@@ -36,8 +37,8 @@ impl Summary {
     }
 }
 
-/// Half widths of the 95 % intervals of what is drawn from a wall's contacts, by batch means; none of them where fewer than ten contacts began in
-/// the window.
+/// Half widths of the 95 % intervals, by batch means, of the quantities drawn from a wall's
+/// contacts; there are none where fewer than ten contacts began in the window.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct HalfWidths {
@@ -45,18 +46,21 @@ pub struct HalfWidths {
     pub contact_rate_per_s: f64,
     /// Of the share of time in contact.
     pub contact_time_ratio: f64,
-    /// Of the mean impulse of an episode, N s: by the ratio estimator, t √(Σ(xₖ − R nₖ)²/9/10)/n̄ with R = Σxₖ/Σnₖ, since the
-    /// number nₖ of episodes in a batch scatters too (Crane & Iglehart 1975, doi:10.1287/opre.23.1.33).
+    /// Of the mean impulse of an episode, N s: by the ratio estimator, t √(Σ(xₖ − R nₖ)²/9/10)/n̄
+    /// with R = Σxₖ/Σnₖ, since the number nₖ of episodes in a batch scatters too (Crane & Iglehart
+    /// 1975, doi:10.1287/opre.23.1.33).
     pub episode_impulse_n_s: f64,
-    /// Of the mean peak of an episode, N, likewise; none where fewer than ten episodes had a finite force.
+    /// Of the mean peak of an episode, N, likewise; `None` where fewer than ten episodes had a
+    /// finite force.
     pub episode_peak_force_n: Option<f64>,
     /// Of the impact power, W.
     pub impact_power_w: f64,
-    /// Of the power that arrived less the one that left, W.
+    /// Of the power that arrived minus the power that left, W.
     pub arrived_less_departed_power_w: f64,
 }
 
-/// Contacts at one wall within the window. An episode counts where it begins; its time counts where it passes.
+/// Contacts at one wall within the window. An episode counts if it begins in the window; contact
+/// time counts as far as it lies in the window.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WallStatistics {
@@ -64,26 +68,29 @@ pub struct WallStatistics {
     pub wall: String,
     /// Number of contact episodes that began in the window.
     pub contacts: usize,
-    /// The same per second.
+    /// That number per second.
     pub contact_rate_per_s: f64,
     /// Time in contact over the window's length.
     pub contact_time_ratio: f64,
-    /// The wall's force over time; none where only the contacts are known.
+    /// The wall's force over time; `None` where only the contacts are known.
     pub force: Option<ForceStatistics>,
-    /// Largest |force| of each episode that reaches into the window and whose force is finite, N: of an elastic wall, or of a contact that
-    /// lasts on a rigid one. The mean is over episodes.
+    /// Largest |force| of each episode that overlaps the window and whose force is finite, N: at an
+    /// elastic wall, or in a lasting contact on a rigid one. The mean is over episodes.
     pub episode_peak_force_n: Summary,
     /// |impulse| of each episode that began in the window, N s.
     pub episode_impulse_n_s: Summary,
-    /// Kinetic energy that arrived at the wall per time, Σ ½m·approach²/T, W, with m the mass that the wall feels ([`Scene::wall_masses`]).
-    /// The motion is normal to the wall and frictionless: this is impact power, there is no sliding wear in it.
+    /// Kinetic energy that arrived at the wall per unit time, Σ ½m·approach²/T, W, with m the mass
+    /// that the wall feels ([`Scene::wall_masses`]). The motion is normal to the wall and
+    /// frictionless: this is impact power and contains no sliding wear.
     pub impact_power_w: f64,
-    /// The same less the kinetic energy with which the body left, Σ ½m(approach² − departure²)/T, W; of closed episodes. At impacts this is
-    /// what restitution takes. Where a contact lasts (elastic walls, penalties, rest), the loads and the structure work on the body
-    /// meanwhile, and that work is in it: negative where the body leaves with more than it brought. What dashpots of walls dissipate is
+    /// That power minus the kinetic energy with which the body left, Σ ½m(approach² −
+    /// departure²)/T, W; of closed episodes. At impacts this is what restitution dissipates. In a
+    /// lasting contact (elastic walls, penalties, rest) the loads and the structure do work on the
+    /// body, and that work is included: the value is negative where the body leaves with more
+    /// energy than it brought. What dashpots of walls dissipate is
     /// [`Energy::wall_damping_j`](crate::residual::Energy::wall_damping_j).
     pub arrived_less_departed_power_w: f64,
-    /// How far the numbers above scatter; those of the force are beside it.
+    /// Half widths of the intervals of the numbers above; those of the force are in `force`.
     pub half_width_95: Option<HalfWidths>,
 }
 
@@ -95,19 +102,20 @@ pub struct Statistics {
     pub from_s: f64,
     /// End of the window, s.
     pub to_s: f64,
-    /// One entry a wall, in the scene's order.
+    /// One entry per wall, in the scene's order.
     pub walls: Vec<WallStatistics>,
 }
 
 impl Statistics {
-    /// Statistics of `contacts` from the time `from` (s) to the scene's end, without the force over time. A window of no length, if `from`
-    /// is the end or later (or no number), has times and powers of 0.
+    /// Statistics of `contacts` from the time `from` (s) to the scene's end, without the force over
+    /// time. If `from` is at or after the end, or NaN, the window has length 0, and times and
+    /// powers are 0.
     #[must_use]
     pub fn new(scene: &Scene, contacts: &[Contact], from: f64) -> Self {
         Self::of(scene, &scene.wall_masses(), contacts, from)
     }
 
-    /// The same of a scene whose walls feel `masses` (kg).
+    /// As [`Statistics::new`], for a scene whose walls feel `masses` (kg).
     pub(crate) fn of(scene: &Scene, masses: &[f64], contacts: &[Contact], from: f64) -> Self {
         let to = scene.duration;
         let from = from.min(to);
@@ -123,7 +131,7 @@ impl Statistics {
         Self { from_s: from, to_s: to, walls: scene.walls.iter().zip(&by_wall).enumerate().map(wall).collect() }
     }
 
-    /// The same with the force over time, as it was seen step by step.
+    /// Adds the force over time, as summed step by step.
     #[must_use]
     pub fn with_forces(mut self, forces: &Forces) -> Self {
         for (index, wall) in self.walls.iter_mut().enumerate() {
@@ -132,7 +140,8 @@ impl Statistics {
         self
     }
 
-    /// Impulse of the wall number `wall` on the body over the window, N s, signed as the force; 0 where it is not known.
+    /// Impulse of the wall number `wall` on the body over the window, N s, signed as the force; 0
+    /// where it is not known.
     pub(crate) fn impulse(&self, wall: usize) -> f64 {
         self.walls.get(wall).and_then(|wall| wall.force).map_or(0.0, |force| force.impulse_n_s)
     }
@@ -143,7 +152,7 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> Wa
     let per_time = |x: f64| if length > 0.0 { x / length } else { 0.0 };
     let here = all.iter().copied().filter(|c| c.start >= from);
     let energy = |speed: f64| 0.5 * mass * speed * speed;
-    // An empty sum of floats is −0, which nobody wants to read.
+    // An empty sum of floats is −0; starting from 0 prints 0.
     let total = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |sum, x| sum + x);
     let end = |c: &Contact| c.end.unwrap_or(to).min(to);
     let lost = |c: &Contact| c.departure_speed.map_or(0.0, |d| energy(c.approach_speed) - energy(d));
@@ -188,12 +197,13 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> Wa
     }
 }
 
-/// Half width of the 95 % interval of the mean of peaks (time at which the episode began, s; force, N) in the window from a time on (s) of a
-/// length (s); none of fewer than ten.
+/// Half width of the 95 % interval of the mean of `peaks` (time at which the episode began, s;
+/// force, N) in the window that starts at `from` (s) and lasts `length` (s); `None` for fewer than
+/// ten.
 fn scatter_of_peaks(peaks: impl Iterator<Item = (f64, f64)>, [from, length]: [f64; 2]) -> Option<f64> {
     let [mut counts, mut sums] = [[0.0; BATCHES]; 2];
     for (start, force) in peaks {
-        // One that began before the window stands in its first batch.
+        // An episode that began before the window counts in its first batch.
         let k = batch_of((start - from).max(0.0), length);
         counts[k] += 1.0;
         sums[k] += force;
