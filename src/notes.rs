@@ -79,7 +79,7 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) 
     if run.counters.frozen_steps > 0 {
         notes.push(format!(
             "in {} steps opposite walls pushed in turn: the body crosses the gap in less than a step \
-             and appears to stand still; use a smaller step",
+             and stands still in the result; use a smaller step",
             run.counters.frozen_steps
         ));
     }
