@@ -8,14 +8,17 @@ use signorini::sweep::{Axis, Kernel, Measure, Plan, Stretch, Sweep};
 use signorini::{Scene, Scheme, Stepper};
 use std::time::Instant;
 
-const REPEATS: usize = 5;
+const REPEATS: usize = 15;
 
-fn best(mut work: impl FnMut()) -> f64 {
-    let mut least = f64::INFINITY;
+/// Seconds of the best of several runs of each, in turn.
+fn best<const N: usize>(mut works: [&mut dyn FnMut(); N]) -> [f64; N] {
+    let mut least = [f64::INFINITY; N];
     for _ in 0..REPEATS {
-        let started = Instant::now();
-        work();
-        least = least.min(started.elapsed().as_secs_f64());
+        for (work, least) in works.iter_mut().zip(&mut least) {
+            let started = Instant::now();
+            work();
+            *least = least.min(started.elapsed().as_secs_f64());
+        }
     }
     least
 }
@@ -52,15 +55,16 @@ fn main() {
         let measures = [Measure::Contacts, Measure::ImpulseMean, Measure::ImpactPower];
         let plan = plan(case, points, stretch, Kernel::Scalar, &measures);
         let scenes = scenes(case, points, periods);
-        let row = best(|| assert_eq!(plan.rows(1).expect("rows").len() as u64, points));
-        let engine = best(|| {
+        let mut rows = || assert_eq!(plan.rows(1).expect("rows").len() as u64, points);
+        let mut steppers = || {
             for scene in &scenes {
                 let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration).expect("a stepper");
                 while stepper.time() < scene.duration {
                     stepper.step().expect("a step");
                 }
             }
-        });
+        };
+        let [row, engine] = best([&mut rows, &mut steppers]);
         let each = |seconds: f64| seconds / points as f64;
         println!(
             "{case:18} {points:>8} {periods:>9} {:>12.3e} {:>12.3e} {:>7.3}",
@@ -71,6 +75,6 @@ fn main() {
     }
     let stretch = Stretch::Periods { settle: 150, keep: 50 };
     let plan = plan("rigid-walls-sine", 4096, stretch, Kernel::Batch, &[Measure::Impulse, Measure::Lyapunov]);
-    let seconds = best(|| assert_eq!(plan.rows(1).expect("rows").len(), 4096));
+    let [seconds] = best([&mut || assert_eq!(plan.rows(1).expect("rows").len(), 4096)]);
     println!("batch kernel: {:.3e} s a row of 200 periods", seconds / 4096.0);
 }
