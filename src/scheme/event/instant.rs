@@ -1,26 +1,28 @@
-//! What happens in an instant: blows, impacts, sticking, release, entry into elastic walls and letting go.
+//! What happens at one instant: blows, impacts, sticking, release, and the contact of elastic walls
+//! beginning or ending.
 
 use super::Event;
 use crate::scene::Side;
 use crate::scheme::exact::{Phase, noise};
 
-/// A flight after an impact is the tail of an accumulation if it is lower than this share of the scene's length …
+/// A flight after an impact is the tail of an accumulation of impacts if its height is below this
+/// share of the scene's length …
 const TAIL_HEIGHT: f64 = 1e-12;
 
-/// … and if the pressing acceleration will change by less than this share until the impacts have accumulated: then
-/// t∞ = t + flight/(1 − e) has that relative error.
+/// … and if the pressing acceleration changes by less than this share before the impacts have
+/// accumulated: then t∞ = t + flight/(1 − e) has that relative error.
 const TAIL_CHANGE: f64 = 1e-6;
 
-/// A flight of fewer units in the last place of the time than this is not resolved.
+/// A flight shorter than this many units in the last place of the time is not resolved.
 const TIME_UNITS: f64 = 8.0;
 
 impl Event {
-    /// Everything that happens at the present instant, to which `hit` has brought the body. True if the velocity jumped
-    /// or a wall's phase changed.
+    /// Handles everything that happens at the present instant; `hit` is the wall of the event that
+    /// ended the arc. True if the velocity jumped or a wall's phase changed.
     pub(super) fn happen(&mut self, hit: Option<usize>, extra: f64) -> bool {
         let left = self.v;
         while let Some(&(time, impulse)) = self.forcing.impulses.get(self.blow).filter(|b| b.0 <= self.time) {
-            // Blows at t = 0 are part of the start.
+            // Blows at t = 0 are part of the initial state.
             if time > 0.0 {
                 self.v += impulse / self.body.mass;
             }
@@ -34,7 +36,8 @@ impl Event {
         self.clock.last_wall = hit.or(self.clock.last_wall);
         if let Some(index) = self.support {
             if blown {
-                // The rest ends before the blow: what the blow does at the wall is an impact of its own.
+                // The rest ends before the blow, and what the blow does at the wall is a new
+                // impact.
                 self.support = None;
                 let time = self.time;
                 if let Some(b) = self.barriers.get_mut(index) {
@@ -51,7 +54,7 @@ impl Event {
             if let Some(index) = hit {
                 self.cross(index);
             }
-            // A blow leaves no velocity that is rounding.
+            // After a blow the velocity is not taken for rounding.
             self.meet_rigid(hit.filter(|_| !blown), extra, None);
         }
         if self.v != left {
@@ -60,7 +63,8 @@ impl Event {
         true
     }
 
-    /// Moves an elastic wall into its next phase and sets the body onto the surface it has reached.
+    /// Moves an elastic wall into its next phase, and puts the body exactly on the surface if it is
+    /// there.
     fn cross(&mut self, index: usize) {
         let (q, v, time, resolution) = (self.q, self.v, self.time, self.resolution);
         let Some(b) = self.barriers.get_mut(index) else { return };
@@ -75,7 +79,8 @@ impl Event {
         b.settle(index, time, v, &mut self.shown.closed);
     }
 
-    /// After a jump of velocity: elastic walls with damping may let go or take hold.
+    /// Updates the phases after a jump of velocity, which may begin or end the contact at elastic
+    /// walls with damping.
     pub(super) fn reclassify(&mut self) {
         let (q, v, time, resolution) = (self.q, self.v, self.time, self.resolution);
         for (index, b) in self.barriers.iter_mut().enumerate() {
@@ -84,10 +89,12 @@ impl Event {
         }
     }
 
-    /// Rigid walls that touch: Newton's law for an approach, sticking or leaving else. `held` carried the body so far.
+    /// Handles the rigid walls that touch: Newton's law for an approach, otherwise sticking or
+    /// leaving. `held` is the wall that has carried the body so far.
     ///
-    /// Of several closed walls on one side, Newton's law holds as ẇ⁺ + e ẇ⁻ ≥ 0 for each, so the largest e decides, and
-    /// the first wall that has it takes the impulse. Closed walls on both sides hold the body fast.
+    /// For several closed walls on one side, Newton's law reads ẇ⁺ + e ẇ⁻ ≥ 0 for each, so the
+    /// largest e decides, and the first wall that has it takes the impulse. Closed walls on both
+    /// sides hold the body in place.
     fn meet_rigid(&mut self, hit: Option<usize>, extra: f64, held: Option<usize>) {
         let resolution = self.resolution;
         let side = if self.v < 0.0 { Side::Lower } else { Side::Upper };
@@ -135,7 +142,8 @@ impl Event {
                 }
             }
         } else if hit.is_some_and(|h| closed.contains(&Some(h))) && self.support.is_none() && held.is_none() {
-            // Touched with a velocity that is rounding: it counts as none if the body is pressed.
+            // Touched with a velocity within rounding of 0: it is set to 0 if the body is pressed
+            // onto the wall.
             let away = if hit == closed[0] { 1.0 } else { -1.0 };
             if self.acceleration(self.v, extra)[0] * away <= 0.0 {
                 self.v = 0.0;
@@ -144,7 +152,8 @@ impl Event {
         let carrier = struck.or(held).or(hit).filter(|i| closed.contains(&Some(*i))).unwrap_or(first);
         let mut next = if self.v == 0.0 { self.pressed(closed, carrier, extra) } else { None };
         if held.is_some() && held == hit && next == held {
-            // The force of this wall has just vanished: only one behind the body could hold it.
+            // The force of this wall has just vanished, so only a wall on the other side could hold
+            // the body.
             next = if caught { closed.into_iter().flatten().find(|&w| Some(w) != held) } else { None };
         }
         if let Some(old) = held.filter(|&old| next != Some(old)) {
@@ -159,8 +168,8 @@ impl Event {
         }
     }
 
-    /// The wall that carries a body without velocity: on the side to which it is pressed, none if it is lifted.
-    /// `carrier` is kept where nothing presses either way.
+    /// The wall that carries a body of velocity 0: one on the side to which it is pressed, `None`
+    /// if it lifts off. `carrier` is kept where neither side is pressed.
     fn pressed(&self, closed: [Option<usize>; 2], carrier: usize, extra: f64) -> Option<usize> {
         let [a, rate] = self.acceleration(0.0, extra);
         let size = self.force_size;
@@ -179,14 +188,16 @@ impl Event {
         }
     }
 
-    /// True if the flight that starts now with the present velocity, away from a wall, is the tail of an accumulation or
-    /// below what double precision resolves.
+    /// True if the flight that starts now with the present velocity, away from a wall, is the tail
+    /// of an accumulation or too short to be resolved in double precision.
     ///
-    /// Sticking at once takes the momentum and the energy of the whole tail: m p (t∞ − t) of steady pressing is what its
-    /// impacts sum up to. The body is displaced by less than the height, and t∞ is kept for who asks.
+    /// Sticking at once removes the momentum and the energy of the whole tail: the impulses of its
+    /// impacts sum up to m p (t∞ − t), with p the steady pressing acceleration. The displacement is
+    /// off by less than the height of the flight, and t∞ is kept for callers.
     fn sticks(&mut self, away: f64, e: f64, extra: f64) -> bool {
         let speed = self.v.abs();
-        // What presses is at most this; a flight far too high then needs no closer look.
+        // An upper bound of the pressing acceleration: most flights are far too high for a tail,
+        // and need no closer look.
         let most = self.force_size[0] + self.body.damping * speed / self.body.mass;
         let (low, short) = (TAIL_HEIGHT * self.length + self.resolution, TIME_UNITS * f64::EPSILON * self.time);
         if !self.arc.touches() && speed * speed > 4.0 * most * low && speed > most * short {
@@ -214,11 +225,12 @@ impl Event {
         self.dies_of_drag(speed, press)
     }
 
-    /// True if drag ends the impacts from this speed (m/s) on under this pressing acceleration (m/s²), at any restitution,
-    /// before the load can have taken half of it away.
+    /// True if drag makes the impacts die out, at any restitution, from this speed (m/s) on under
+    /// this pressing acceleration (m/s²), before the load can have removed half of that
+    /// acceleration.
     ///
-    /// A flight of speed u loses 2cu²/3mp in the time 2u/p: the impacts never end, but die like exp(−ct/3m) into what is
-    /// not resolved.
+    /// A flight of speed u loses the speed 2cu²/3mp in the time 2u/p: the impacts never end, but
+    /// decay like exp(−ct/3m) until they are not resolved.
     fn dies_of_drag(&self, speed: f64, press: f64) -> bool {
         let (mass, [.., rate]) = (self.body.mass, self.sizes);
         let least = (2.0 * press * self.resolution).sqrt().max(0.5 * press * TIME_UNITS * f64::EPSILON * self.time);

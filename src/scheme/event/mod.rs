@@ -1,4 +1,5 @@
-//! The exact scheme: closed-form motion between events, and the events to rounding.
+//! The exact scheme of one degree of freedom: closed-form motion between events, which are located
+//! to rounding.
 
 mod instant;
 mod motion;
@@ -15,39 +16,44 @@ use crate::flow::Arc;
 use crate::scene::{Forcing, Oscillator, Scene, System};
 use crate::step::{Balance, Conserves, Contract, Promise, Tolerances};
 
-/// One degree of freedom between walls, from event to event:
+/// One degree of freedom between walls, advanced from event to event:
 ///
-/// m q̈ + c q̇ + k q = f(t) + r,  0 ≤ gap ⟂ |r| ≥ 0 and ẇ⁺ = −e ẇ⁻ at a rigid wall, |r| = max(0, k_a s + c_a ṡ) for s > 0
-/// at an elastic one.
+/// m q̈ + c q̇ + k q = f(t) + r, 0 ≤ gap ⟂ |r| ≥ 0 and ẇ⁺ = −e ẇ⁻ at a rigid wall, |r| = max(0, k_a
+/// s + c_a ṡ) for s > 0 at an elastic one.
 ///
-/// Between events the motion is an [`Arc`]. The first root of each gap, and of the force of each wall that touches, is
-/// approached from one side by polynomials that lie below the function (bounds from [`Arc`]), so that no root is passed:
-/// neither a graze nor a wall is missed. Gaps are resolved to rounding; a miss by less counts as a touch.
+/// Between events the motion is an [`Arc`]. The first root of each gap, and of the force of each
+/// wall that touches, is approached from one side by polynomials that are lower bounds of the
+/// function (from bounds by [`Arc`]), so that no root is skipped: neither a grazing contact nor a
+/// wall is missed. Gaps are resolved to rounding; a miss by less than that counts as a touch.
 ///
-/// - A touch without an approach, such as the tangential return of an undamped motion, is put at the extremum of the gap: it has no
-///   speed, no impulse and is no contact.
-/// - An approach to a rigid wall is an impact, −m(1 + e)v. If the flight after it is unresolved in double precision, or
-///   (e < 1) lower than 1e-12 of [`Scene::gap_scale`] while the pressing acceleration changes by less than 1e-6 until
-///   t∞ = t + flight/(1 − e), the body sticks: the rest that follows carries the impulse of the tail.
-///   So it does at any e below that height if drag c takes the flights, like exp(−ct/3m), below what is resolved before
-///   the pressing can have lost half of itself: those impacts have no t∞.
-/// - A blow ends a rest: what it does at the wall is an impact of its own, at the speed the blow gives.
-/// - A body at rest leaves where the pressing force becomes tensile; a touch of zero does not release it. Contact lasts while a
-///   force acts: a body that stands at a wall without pressing is not in contact with it.
-/// - A motion that has died down to ε² of the largest displacement and of the largest speed so far is rest at the origin.
-/// - More than [`EVENTS_PER_WINDOW`] events, or evaluations in search of one, in 1/[`WINDOWS`] of the duration are
-///   [`Error::TooManyEvents`].
+/// - A touch without approach speed, such as the tangential return of an undamped motion, is
+///   located at the extremum of the gap: it has no speed and no impulse, and is no contact.
+/// - An approach to a rigid wall is an impact, −m(1 + e)v. The body sticks if the flight after it
+///   is unresolved in double precision, or (e < 1) lower than 1e-12 of [`Scene::gap_scale`] while
+///   the pressing acceleration changes by less than 1e-6 until t∞ = t + flight/(1 − e): the rest
+///   that follows carries the impulse of the tail. It also sticks, at any e below that height, if
+///   the drag c makes the flights decay, like exp(−ct/3m), until they are not resolved, before the
+///   pressing acceleration can have lost half of its value: those impacts have no t∞.
+/// - A blow ends a rest: what it does at the wall is a new impact, at the speed that the blow
+///   gives.
+/// - A body at rest leaves where the pressing force becomes tensile; a force that touches 0 does
+///   not release it. Contact lasts while a force acts: a body that stands at a wall without
+///   pressing is not in contact with it.
+/// - A motion that has decayed to ε² of the largest displacement and of the largest speed so far is
+///   set to rest at the origin.
+/// - More than [`EVENTS_PER_WINDOW`] events, or evaluations in the search for one, in 1/[`WINDOWS`]
+///   of the duration are an error, [`Error::TooManyEvents`].
 #[derive(Debug, Clone)]
 pub struct Event {
     body: Oscillator,
     forcing: Forcing,
     barriers: Vec<ExactWall>,
     clock: Clock,
-    /// A displacement of ordinary size, m.
+    /// A typical displacement of the scene, m.
     length: f64,
     arc: Arc,
     time: f64,
-    /// What `time` has lost to rounding, s: the present is this much later.
+    /// The rounding error of `time`, s: the present is this much later.
     late: f64,
     q: f64,
     v: f64,
@@ -57,12 +63,13 @@ pub struct Event {
     support: Option<usize>,
     /// Index of the next impulsive load.
     blow: usize,
-    /// When a body without velocity was last found not to be held by the walls it touches, s.
+    /// When a body of velocity 0 was last found not to be held by the walls it touches, s.
     released: f64,
     accumulation: Option<f64>,
-    /// Sizes of acceleration (m/s²) and its rate (m/s³), whose rounding is no pressing.
+    /// Sizes of the terms of the acceleration (m/s²) and of its rate (m/s³): below their rounding
+    /// nothing presses.
     force_size: [f64; 2],
-    /// A gap below this is none, m: rounding of the displacement.
+    /// A gap below this counts as 0, m: rounding of the displacement.
     resolution: f64,
     /// [`Arc::sizes`] of the present arc.
     sizes: [f64; 4],
@@ -72,7 +79,7 @@ pub struct Event {
 }
 
 impl Event {
-    /// The promise of the scheme.
+    /// The contract of the scheme.
     pub const CONTRACT: Contract = Contract {
         balance: Balance::Exact,
         promise: Promise::throughout(),
@@ -80,11 +87,13 @@ impl Event {
         tolerances: Tolerances::of(Conserves::Everything),
     };
 
-    /// The scene at its start, after the impulses at t = 0. Steps end at events and at multiples of `stride` (s).
+    /// The scene at its start, after the impulses at t = 0. Steps end at events and at multiples of
+    /// `stride` (s).
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a scene that does not validate, a stride that is not a finite number above 0, or a wall of
-    /// the φ² penalty or a function of time as load, which have no closed-form motion.
+    /// [`Error::Invalid`] for a scene that does not validate, a stride that is not a finite number
+    /// above 0, or a wall of the φ² penalty or a function of time as load, which have no
+    /// closed-form motion.
     pub fn new(scene: &Scene, stride: f64) -> Result<Self> {
         scene.validate()?;
         Self::over(scene, stride)
@@ -132,9 +141,9 @@ impl Event {
         Ok(event)
     }
 
-    /// Moves on to the next event, multiple of the stride, or the end of the scene, whichever is first, under a constant
-    /// extra force (N). A step of no length happens where the body starts on a wall and moves into it. Past the end of the
-    /// scene the motion goes on.
+    /// Moves on to the next event, multiple of the stride, or the end of the scene, whichever is
+    /// first, under a constant extra force (N). A step of no length happens where the body starts
+    /// on a wall and moves into it. Past the end of the scene the motion goes on.
     ///
     /// # Errors
     /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow.
@@ -169,22 +178,23 @@ impl Event {
         self.clock.check(self.time, &self.barriers)
     }
 
-    /// Lets `tau` (s) pass, up to `limit` (s) which is `span` (s) away; what the sum of the times loses to rounding is kept, so that
-    /// many events err by no more than one.
+    /// Advances the time by `tau` (s), at most to `limit` (s), which is `span` (s) away. The
+    /// rounding error of the sum is kept, so that many events together have the error of one.
     fn pass(&mut self, tau: f64, span: f64, limit: f64) {
         let step = tau + self.late;
         let end = self.time + step;
         if tau >= span || end >= limit {
             (self.time, self.late) = (limit, 0.0);
         } else {
-            // Knuth's sum of two numbers, whose rounding is a number too.
+            // Knuth's sum of two numbers, which also gives its rounding error.
             let back = end - self.time;
             self.late = (self.time - (end - back)) + (step - back);
             self.time = end;
         }
     }
 
-    /// How far the next arc can reach: a mark, a row of a table, a blow, the end if it is still ahead; s.
+    /// The time at which the next arc must end, s: a multiple of the stride, a row of a table, a
+    /// blow, or the end if it is still ahead.
     fn limit(&self) -> f64 {
         let mut limit = self.clock.limit(self.time);
         if let Some(&(time, _)) = self.forcing.impulses.get(self.blow).filter(|b| b.0 > self.time) {

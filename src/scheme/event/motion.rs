@@ -1,20 +1,22 @@
-//! What drives the body: the arc it follows, the forces on it, and the impulses of the walls.
+//! The motion of the body between events: its arc, the forces on it, and the impulses of the walls.
 
 use super::Event;
 use crate::flow::{Start, Support};
 use crate::scene::Oscillator;
 use crate::scheme::exact::{Phase, noise};
 
-/// A motion below this share of the largest so far is none: ε², far below what the sum of any two such motions can show.
+/// A motion below this share of the largest so far counts as rest: ε², far below the rounding of a
+/// sum of the two.
 const FADED: f64 = f64::EPSILON * f64::EPSILON;
 
 impl Event {
-    /// True for a state that has died down to nothing beside what has been.
+    /// True for a state that has decayed to [`FADED`] of the largest motion so far.
     pub(super) fn has_faded(&self, [q, v]: [f64; 2]) -> bool {
         q.abs() <= FADED * self.largest[0] && v.abs() <= FADED * self.largest[1]
     }
 
-    /// Sets a motion that has died down to rest at the origin, the only place where numbers could follow it further.
+    /// Sets a motion that has decayed to rest at the origin: only around 0 could numbers resolve it
+    /// further.
     fn fade(&mut self) {
         self.largest = [self.largest[0].max(self.q.abs()), self.largest[1].max(self.v.abs())];
         if self.support.is_none() && self.has_faded([self.q, self.v]) {
@@ -41,14 +43,15 @@ impl Event {
         let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
         self.resolution = noise(q + wall);
         self.sizes = sizes;
-        // The instant itself is known to an ulp of the time only.
+        // The instant itself is known only to an ulp of the time.
         let (mass, fastest) = (self.body.mass, self.arc.fastest());
         let size = (force + rate * self.time) / mass;
         self.force_size = [size, rate * (1.0 + fastest * self.time) / mass + self.body.damping / mass * size];
         self.take_up(noise(size * mass));
     }
 
-    /// Begins the episode of the wall that carries the body, or ends it where nothing presses: contact is where a force acts.
+    /// Begins the episode of the wall that carries the body, or ends it where nothing presses: a
+    /// contact exists only where a force acts.
     fn take_up(&mut self, least: f64) {
         let Some((index, b)) = self.support.and_then(|i| self.barriers.get_mut(i).map(|b| (i, b))) else { return };
         if self.arc.is_unpressed(least) {
@@ -58,7 +61,7 @@ impl Event {
         }
     }
 
-    /// Adds the impulses of the arc just run through to the step and to the episodes under way.
+    /// Adds the impulses of the arc just completed to the step and to the open episodes.
     pub(super) fn gather_impulses(&mut self) {
         let (from, to) = (self.arc.start(), self.arc.end());
         for (index, b) in self.barriers.iter_mut().enumerate() {
@@ -75,8 +78,8 @@ impl Event {
         }
     }
 
-    /// Acceleration (m/s²) of the body here at velocity `v`, free of rigid walls, from the right of the present; and the
-    /// rate (m/s³) at which the load changes it.
+    /// Acceleration (m/s²) of the body here at velocity `v`, without rigid walls, from the right of
+    /// the present; and the rate (m/s³) at which the load changes it.
     pub(super) fn acceleration(&self, v: f64, extra: f64) -> [f64; 2] {
         let Oscillator { mass, damping, stiffness } = self.body;
         let (f, rate) = self.load_now();
@@ -103,7 +106,7 @@ impl Event {
         (f, rate)
     }
 
-    /// f″/m at the present, m/s⁴: what decides where force and rate vanish.
+    /// f″/m at the present, m/s⁴, which decides where force and rate vanish.
     pub(super) fn curvature(&self) -> f64 {
         let second = |h: &crate::scene::Harmonic| {
             -h.amplitude * h.omega * h.omega * (h.omega * self.time + h.phase).sin() / self.body.mass

@@ -1,40 +1,43 @@
-//! First roots that are never passed: one-sided steps by polynomials that lie below a function.
+//! First roots that are never skipped: one-sided steps by polynomials that are lower bounds of a
+//! function.
 
-/// A function from one instant on: g(u) ≥ Σ cₙ uⁿ/n! (n ≤ 3) − b u⁴/24 for 0 ≤ u ≤ w.
+/// A lower bound of a function g from one instant on: g(u) ≥ Σ cₙ uⁿ/n! (n ≤ 3) − b u⁴/24 for 0 ≤ u
+/// ≤ w.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Below {
     /// g, g′, g″, g‴ at the instant.
     pub c: [f64; 4],
-    /// g⁗ at the instant; asked for only where all the others vanish.
+    /// g⁗ at the instant; used only where all the others vanish.
     pub fourth: f64,
     /// A bound on |g⁗| over the window, ≥ 0.
     pub bound: f64,
     /// The sizes below which the first four are rounding.
     pub noise: [f64; 4],
-    /// True if leaving 0 is no event, only going below it.
+    /// True if reaching 0 is no event, but only going below it.
     pub passes_touch: bool,
 }
 
-/// What a [`Below`] promises.
+/// How far one can go by a [`Below`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Step {
     /// g is at 0, within rounding, and goes below it at once.
     Now,
-    /// g has its first root here, within rounding, and the polynomial is exact to rounding up to it.
+    /// The first root of g, within rounding; the polynomial is exact to rounding up to it.
     Root(f64),
-    /// g has a minimum here that is 0 within rounding.
+    /// A minimum of g that is 0 within rounding.
     Touch(f64),
-    /// g has no root before this; it is the window where there is none in it.
+    /// g has no root before this; the whole window where it has none there.
     Free(f64),
 }
 
-/// Newton steps after which a safe step is taken as it is: each is one-sided, so stopping early costs time, not safety.
+/// Maximum number of Newton steps: each is one-sided, so stopping early costs time, not safety.
 const INNER_STEPS: usize = 16;
 
-/// A minimum within this many times the noise of 0 is a touch.
+/// A minimum whose magnitude is below this many times its rounding error is a touch.
 const TOUCH: f64 = 4.0;
 
-/// A release is not taken back for an acceleration towards the wall of less than this many times its noise.
+/// A release stands unless the acceleration towards the wall exceeds this many times its rounding
+/// error.
 const LET_GO: f64 = 16.0;
 
 /// A tenth of the 1/24 with which the bound enters.
@@ -43,7 +46,7 @@ const BLUR: f64 = 0.1 / 24.0;
 const SIXTH: f64 = 1.0 / 6.0;
 
 impl Below {
-    /// How far one can go, at most `window`, without passing a root of g.
+    /// How far one can go, at most `window`, without skipping a root of g.
     #[inline]
     pub fn step(&self, window: f64) -> Step {
         if self.c[0] > self.noise[0] {
@@ -56,7 +59,8 @@ impl Below {
         self.depart(window)
     }
 
-    /// Makes of a start at 0 without velocity one that does not go below 0 by rounding alone: whoever asks has decided that g grows.
+    /// Prevents rounding alone from making g negative at once where it starts at 0 with velocity 0:
+    /// the caller has decided that g grows.
     pub fn let_go(&mut self) {
         let [c0, c1, c2, _] = &mut self.c;
         if *c0 <= self.noise[0] && *c2 > -LET_GO * self.noise[2] {
@@ -64,10 +68,11 @@ impl Below {
         }
     }
 
-    /// What comes of g, which falls towards its noise `s` from now, if its minimum is 0 to rounding: a touch. None if it goes on falling,
-    /// or if the minimum is not known from here.
+    /// Where g falls towards its rounding error at `s` from now: a touch if its minimum is 0 to
+    /// rounding. `None` if g goes on falling, or if the minimum cannot be told from here.
     ///
-    /// To take the place where g first comes within its noise for a root would be too early by the root of that noise.
+    /// Taking the place where g first falls to its rounding error for a root would be too early by
+    /// the square root of that error.
     #[inline(never)]
     pub fn touch(&self, s: f64, window: f64) -> Option<Step> {
         let [c0, c1, c2, c3] = self.c;
@@ -83,7 +88,8 @@ impl Below {
         {
             return None;
         }
-        // Past the minimum by as much again, and by twice the distance at which a parabola is above the noise.
+        // Past the minimum by the same distance, plus twice the distance at which a parabola
+        // exceeds the rounding error.
         let past = 2.0 * (-rate / curve) + 4.0 * (noise / curve).sqrt();
         let varies = past * (c3.abs() + b * (s + past));
         if varies > 0.5 * curve {
@@ -112,7 +118,7 @@ impl Below {
         }
     }
 
-    /// g is 0 now: the root at 0 is divided out as often as it occurs.
+    /// g is 0 now: the root at 0 is divided out with its multiplicity.
     #[inline(never)]
     fn depart(&self, window: f64) -> Step {
         let [c0, c1, c2, c3] = self.c;
@@ -132,7 +138,8 @@ impl Below {
         } else if c3.abs() > self.noise[3] {
             (c3, [c3 / 6.0, -self.bound / 24.0, 0.0, 0.0])
         } else if self.fourth > 0.0 {
-            // Both u⁴ terms: a root of g lies no nearer than where a growth of the bound by a window would put it.
+            // Both u⁴ terms: no root of g is nearer than where the bound, grown over a window,
+            // would cancel the fourth derivative.
             return Step::Free(window * (self.fourth / self.bound).min(1.0));
         } else if self.fourth < 0.0 {
             return Step::Now;
@@ -149,15 +156,15 @@ impl Below {
     }
 }
 
-/// True if every falling term of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 at its worst in [0, w] still leaves it above `enough`: the common
-/// case, kept cheap.
+/// True if p(u) = Σ cₙ uⁿ/n! − b u⁴/24 stays above `enough` with each negative term at its largest
+/// in [0, w]: the common case, which must be cheap.
 #[inline]
 fn stays_above([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> bool {
     let cubic = SIXTH * c3.min(0.0) - w * b * (0.25 * SIXTH);
     c0 + w * (c1.min(0.0) + w * (0.5 * c2.min(0.0) + w * cubic)) > enough
 }
 
-/// A number not above the first root of p + p′u − ½Mu², `far` where it has none.
+/// A lower bound of the first root of p + p′u − ½Mu²; `far` where it has none.
 #[inline(always)]
 fn below_root(p: f64, p1: f64, m: f64, far: f64) -> f64 {
     if p1 < 0.0 && m * p <= p1 * p1 {
@@ -170,15 +177,17 @@ fn below_root(p: f64, p1: f64, m: f64, far: f64) -> f64 {
     }
 }
 
-/// A step of less than this share of the window has been kept short by what the bound allows far beyond it …
+/// A step of less than this share of the window is short only because the bound is taken far beyond
+/// it …
 const NEAR: f64 = 0.125;
 
-/// … and gains from one of these nearer ends, the geometric mean of the step and the last.
+/// … and is tried again with up to this many nearer ends, each the geometric mean of the step and
+/// the last end.
 const NEARER: usize = 6;
 
-/// The longest safe step found with M taken over less than the whole window: a bound that is left from a transient grows
-/// like the square of the window, and says nothing of the time the root is away. The cubic has p, p′, p″ and the third
-/// derivative `p3`.
+/// The longest safe step found with M taken over less than the whole window: a bound that is left
+/// from a transient grows like the square of the window, and is irrelevant within the time to the
+/// root. The cubic has p, p′, p″ and the third derivative `p3`.
 #[inline(never)]
 fn within_reach([p, p1, p2]: [f64; 3], p3: f64, b: f64, mut u: f64, mut reach: f64) -> f64 {
     for _ in 0..NEARER {
@@ -192,11 +201,12 @@ fn within_reach([p, p1, p2]: [f64; 3], p3: f64, b: f64, mut u: f64, mut reach: f
     u
 }
 
-/// A number not above the first root of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 in [0, w], or w, with p there; p(0) > 0.
+/// A lower bound of the first root of p(u) = Σ cₙ uⁿ/n! − b u⁴/24 in [0, w], or w if there is none,
+/// with p there; p(0) > 0.
 ///
-/// p″ is concave for b ≥ 0, so its least value over [s, w] is at an end, and p(s + u) ≥ p + p′u − ½Mu² there with
-/// M = max(0, −least). Where p falls, the root of that is at least Halley's 2p|p′|/(2p′² + Mp), which is
-/// near enough to it for Mp ≤ p′².
+/// p″ is concave for b ≥ 0, so its least value over [s, w] is at an end, and p(s + u) ≥ p + p′u −
+/// ½Mu² there with M = max(0, −least). Where p falls, the root of that is at least Halley's
+/// 2p|p′|/(2p′² + Mp), which is close to it for Mp ≤ p′².
 #[inline]
 fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, f64) {
     let (mut s, mut p, mut p1, mut p2) = (0.0, c0, c1, c2);
@@ -218,7 +228,8 @@ fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, 
             let safe = if value < -enough { s + 0.999 * u } else { next };
             return (safe, if value < -enough { p } else { value.abs() });
         }
-        // The bound's own share of p outweighs what is left: the next evaluation of g gains more than a closer root of p.
+        // The bound's term in p outweighs the value of p: a new evaluation of g gains more than a
+        // closer root of p.
         let blur = if enough > 0.0 { BLUR * b * next.powi(4) } else { f64::INFINITY };
         if next == s || (u <= 0.1 * next && value <= blur) {
             return (next, value);

@@ -13,18 +13,19 @@ pub(super) struct Hit {
     pub tau: f64,
     /// Displacement (m) and velocity (m/s) there, from the left.
     pub state: [f64; 2],
-    /// The wall with which something happens; none where nothing does up to the end.
+    /// The wall of the event; `None` where there is none up to the end.
     pub wall: Option<usize>,
 }
 
-/// The longest window of a bound, in radians of the fastest oscillation: beyond it the bounds grow faster than the window.
+/// Length of the longest window of a bound, in radians of the fastest oscillation: beyond it the
+/// bounds grow faster than the window.
 const WINDOW_RADIANS: f64 = 1.5;
 
-/// Halvings, or Newton steps, after which the place of a peak is known to rounding.
+/// Maximum number of halvings or Newton steps to locate a peak to rounding.
 const PEAK_STEPS: usize = 60;
 
 impl Event {
-    /// Follows the arc for `span` (s) or up to its first event.
+    /// Searches the arc over `span` (s) for its first event.
     pub(super) fn search(&mut self, span: f64) -> Result<Hit> {
         if let Some(support) = self.support {
             return self.search_rest(support, span);
@@ -49,7 +50,8 @@ impl Event {
                 for which in 0..2 {
                     let Some(mut below) = self.watch(index, which, &jet, &bounds, &noise) else { break };
                     if tau == 0.0 && self.has_changed(index) {
-                        // It was at 0 to the rounding of the arc before, which may be coarser than that of this one.
+                        // It was 0 to the rounding of the arc before, which may be coarser than
+                        // that of this arc.
                         below.c[0] = below.c[0].max(0.0);
                     }
                     if let_go && tau == 0.0 {
@@ -66,7 +68,7 @@ impl Event {
             }
             let next = tau + step;
             if wall.is_some() && (is_root || next == tau) {
-                // So near that the series is exact to rounding, and saves an evaluation.
+                // So near that the Taylor series is exact to rounding, and saves an evaluation.
                 let s = step;
                 let q = jet[0] + s * (jet[1] + s * (0.5 * jet[2] + s * jet[3] / 6.0));
                 let v = jet[1] + s * (jet[2] + s * (0.5 * jet[3] + s * jet[4] / 6.0));
@@ -74,14 +76,15 @@ impl Event {
                     let end = self.arc.jet(next);
                     self.note_between((tau, &jet), (next, &end));
                 }
-                // In a touch the body is at the wall, without speed.
+                // In a touch the body is at the wall, with speed 0.
                 let state = if touched { [q, 0.0] } else { [q, v] };
                 return Ok(Hit { tau: next, state, wall });
             }
             let next = if wall.is_none() && step >= span - tau { span } else { next };
             let before = jet;
             if tau == 0.0 {
-                // From here on the closed form gives the acceleration, with the rounding of its own terms.
+                // From here on the closed form gives the acceleration, with the rounding errors of
+                // its own terms.
                 let steady = self.arc.steady_size();
                 noise[2] += crate::scheme::exact::noise(steady);
                 noise[3] += crate::scheme::exact::noise(steady * fastest);
@@ -101,12 +104,12 @@ impl Event {
         }
     }
 
-    /// True if the wall came into its present phase at this instant.
+    /// True if the wall's phase changed at this instant.
     fn has_changed(&self, index: usize) -> bool {
         self.barriers.get(index).is_some_and(|b| b.changed == self.time)
     }
 
-    /// True where the sizes of the motion's terms keep it before every wall.
+    /// True where the bounds of the motion keep it in front of every wall.
     fn nothing_in_reach(&self) -> bool {
         let [low, high] = self.arc.extent();
         self.barriers.iter().all(|b| {
@@ -115,7 +118,8 @@ impl Event {
         })
     }
 
-    /// A wall met just at the end of the arc. What is not yet below 0 there is found at the start of the next.
+    /// A wall met exactly at the end of the arc. A function that is not yet below 0 there is found
+    /// at the start of the next arc.
     fn hit_at_end(&self, jet: &Jet, noise: &[f64; 4]) -> Option<usize> {
         (0..self.barriers.len()).find(|&index| {
             let watched = (0..2).map_while(|which| self.watch(index, which, jet, &[0.0; 2], noise));
@@ -124,9 +128,9 @@ impl Event {
         })
     }
 
-    /// The functions of wall `index` whose first root is an event, numbered by `which`: two where the body is in an
-    /// elastic wall that has let go, else one.
-    // Always: the way through memory costs more than the arithmetic.
+    /// The functions of wall `index` whose first root is an event, numbered by `which`: two where
+    /// the body is behind the face of an elastic wall that does not push, else one.
+    // Always inline: passing it through memory costs more than the arithmetic.
     #[inline(always)]
     fn watch(&self, index: usize, which: u8, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Option<Below> {
         let b = self.barriers.get(index)?;
@@ -140,12 +144,12 @@ impl Event {
         }
     }
 
-    /// The sizes below which displacement and three derivatives are rounding on this arc.
+    /// Rounding errors of displacement and its first three derivatives on this arc.
     fn flow_noise(&self) -> [f64; 4] {
         let [q, v, force, rate] = self.sizes;
         let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
         let (mass, rub) = (self.body.mass, self.body.damping / self.body.mass);
-        // The instant itself is known to an ulp of the time only, and the load with it.
+        // The instant itself, and the load with it, is known only to an ulp of the time.
         let fastest = self.arc.fastest();
         let a = (force + rate * self.time) / mass + rub * v;
         let jerk = rate * (1.0 + fastest * self.time) / mass + rub * a + self.body.stiffness / mass * v;
@@ -163,7 +167,7 @@ impl Event {
         let bound = self.arc.pressing_bound();
         let fastest = self.arc.fastest();
         let longest = if fastest > 0.0 { WINDOW_RADIANS / fastest } else { f64::INFINITY };
-        // The instant itself is known to an ulp of the time only.
+        // The instant itself is known only to an ulp of the time.
         let late = 1.0 + fastest * self.time;
         let curve = rate * fastest;
         let noise = [noise(force + rate * self.time), noise(rate * late), noise(curve * late), noise(curve * fastest)];
@@ -205,7 +209,7 @@ impl Event {
         }
     }
 
-    /// Notes the pressures of the touching elastic walls at one state.
+    /// Records the pressures of the touching elastic walls at one state.
     fn note_pressures(&mut self, jet: &Jet) {
         for b in &mut self.barriers {
             if b.phase == Phase::Touching {
@@ -215,7 +219,7 @@ impl Event {
         }
     }
 
-    /// Notes the pressures at the end of a step of the search, and those of a peak inside it.
+    /// Records the pressures at the end of a step of the search, and those of a peak inside it.
     fn note_between(&mut self, from: (f64, &Jet), to: (f64, &Jet)) {
         let arc = &self.arc;
         for b in &mut self.barriers {
@@ -237,7 +241,7 @@ impl Event {
     }
 }
 
-/// The gap, seen with `sign`.
+/// The gap times `sign`.
 #[inline]
 fn gap(b: &ExactWall, sign: f64, passes_touch: bool, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Below {
     Below {
@@ -249,7 +253,7 @@ fn gap(b: &ExactWall, sign: f64, passes_touch: bool, jet: &Jet, bounds: &[f64; 2
     }
 }
 
-/// The sum of spring and dashpot, seen with `sign`.
+/// The sum of spring and dashpot force times `sign`.
 #[inline(never)]
 fn sum(b: &ExactWall, sign: f64, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Below {
     let at = |n: usize| -sign * (b.stiffness * jet[n] + b.damping * jet[n + 1]);
@@ -264,8 +268,8 @@ fn sum(b: &ExactWall, sign: f64, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4])
     }
 }
 
-/// The maximum of g in an interval over which g′ goes from + to −, by Newton's method on g′ kept inside it by halving.
-/// `jet` gives g, g′, g″.
+/// The maximum of g in an interval in which g′ goes from + to −, by Newton's method on g′,
+/// safeguarded by bisection. `jet` gives g, g′, g″.
 fn highest((mut low, mut high): (f64, f64), jet: impl Fn(f64) -> [f64; 3]) -> f64 {
     let (mut t, mut best) = (0.5 * (low + high), f64::NEG_INFINITY);
     for _ in 0..PEAK_STEPS {
@@ -278,7 +282,8 @@ fn highest((mut low, mut high): (f64, f64), jet: impl Fn(f64) -> [f64; 3]) -> f6
         }
         let newton = t - rate / second;
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        // The value is flat at the peak: a displacement by 1e-9 of the interval changes it by 1e-18 of its variation.
+        // The function is flat at its peak: a displacement by 1e-9 of the interval changes it by
+        // 1e-18 of its variation.
         if rate == 0.0 || (next - t).abs() <= 1e-9 * (high - low).max(t.abs() * f64::EPSILON) || next == t {
             return best.max(jet(next)[0]);
         }

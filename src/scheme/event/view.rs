@@ -1,4 +1,4 @@
-//! What a run shows of itself after each step.
+//! What the scheme shows after each step.
 
 use super::{Event, EventCounters};
 use crate::error::Result;
@@ -33,7 +33,7 @@ impl Event {
         std::slice::from_ref(&self.q)
     }
 
-    /// Velocity now, m/s, after what happened in this instant: a slice of one.
+    /// Velocity now, m/s, after the jump at this instant: a slice of one.
     #[must_use]
     pub fn v(&self) -> &[f64] {
         std::slice::from_ref(&self.v)
@@ -45,19 +45,19 @@ impl Event {
         &self.shown.before
     }
 
-    /// Velocity at the end of the last step from the left, m/s: before what happened in that instant.
+    /// Velocity at the end of the last step from the left, m/s: before the jump at that instant.
     #[must_use]
     pub fn velocity_left(&self) -> f64 {
         self.velocity_left
     }
 
-    /// Impulse of each wall over the last step, N s, signed, with its jump.
+    /// Impulse of each wall over the last step, N s, signed, including its jump.
     #[must_use]
     pub fn impulse(&self) -> &[f64] {
         &self.shown.impulse
     }
 
-    /// The part of it that acted in the instant at the end, N s.
+    /// The part of it that acted at the instant of the end, N s.
     #[must_use]
     pub fn jump(&self) -> &[f64] {
         &self.shown.jump
@@ -75,7 +75,7 @@ impl Event {
         &self.shown.closed
     }
 
-    /// Contact episodes under way.
+    /// Open contact episodes.
     pub fn open_contacts(&self) -> impl Iterator<Item = &Contact> {
         self.barriers.iter().filter_map(|b| b.open.as_ref()).filter(|c| c.impulse != 0.0)
     }
@@ -92,8 +92,9 @@ impl Event {
         self.support
     }
 
-    /// Time t∞ (s) to which the last tail of impacts accumulates, if one has been closed into lasting contact. The rest
-    /// begins at the impact that opened the tail, earlier by flight/(1 − e).
+    /// Time t∞ (s) to which the last tail of impacts accumulates, if one has been closed into
+    /// lasting contact. The rest begins at the impact that opened the tail, earlier by flight/(1 −
+    /// e).
     #[must_use]
     pub fn accumulation(&self) -> Option<f64> {
         self.accumulation

@@ -1,17 +1,18 @@
-//! When steps end beside events, and when a run is given up.
+//! When steps end other than at events, and when a run is abandoned.
 
 use super::ExactWall;
 use super::guard::{EventCounters, Guard, WINDOWS};
 use crate::error::{Error, Result};
 
-/// The marks at which steps end, multiples of a stride and the end of the scene, and the work done so far.
+/// The marks at which steps end, which are multiples of a stride and the end of the scene, and the
+/// work done so far.
 #[derive(Debug, Clone)]
 pub(in crate::scheme) struct Clock {
     /// The end of the scene, s.
     pub duration: f64,
     /// s.
     pub stride: f64,
-    /// Multiples of the stride passed.
+    /// Number of multiples of the stride passed.
     marks: u64,
     guard: Guard,
     /// The wall of the last event.
@@ -23,27 +24,29 @@ impl Clock {
         Self { duration, stride, marks: 0, guard: Guard::default(), last_wall: None }
     }
 
-    /// Goes on from `time` (s); work counts on.
+    /// Continues from `time` (s); the work counters are kept.
     pub fn restart(&mut self, time: f64) {
-        // One that only rounding puts ahead is passed.
+        // A mark that is ahead by rounding only counts as passed.
         self.marks = (time / self.stride + 1e-9).floor() as u64;
         self.last_wall = None;
         self.guard.restart(time);
     }
 
-    /// The next multiple of the stride, s; the end of the scene where only rounding would separate the two.
+    /// The next multiple of the stride, s; the end of the scene where only rounding would separate
+    /// the two.
     fn next_mark(&self) -> f64 {
         let mark = (self.marks + 1) as f64 * self.stride;
         if (self.duration - mark).abs() < 1e-9 * self.stride { self.duration } else { mark }
     }
 
-    /// How far a step from `time` (s) can reach: to a mark, or to the end of the scene if it is still ahead; s.
+    /// The latest end of a step from `time` (s): a mark, or the end of the scene if it is still
+    /// ahead; s.
     pub fn limit(&self, time: f64) -> f64 {
         let mark = self.next_mark();
         if time < self.duration { mark.min(self.duration) } else { mark }
     }
 
-    /// A step has ended at `time` (s).
+    /// Notes that a step has ended at `time` (s).
     pub fn pass(&mut self, time: f64) {
         if time >= self.next_mark() {
             self.marks += 1;
@@ -55,7 +58,7 @@ impl Clock {
         self.guard.total
     }
 
-    /// The same, to count on.
+    /// Work done so far, to be increased.
     pub fn count(&mut self) -> &mut EventCounters {
         &mut self.guard.total
     }

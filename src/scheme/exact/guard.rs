@@ -1,9 +1,11 @@
-//! Work counters, and the bound that keeps a run from never ending.
+//! Work counters, and the limit that stops a run which would not end.
 
-/// Events, or root-search evaluations, that are followed within one window before a run is given up.
+/// Maximum number of events, or of evaluations in root searches, within one window before a run is
+/// abandoned.
 pub const EVENTS_PER_WINDOW: u64 = 1_000_000;
 
-/// Windows into which the duration of a scene is divided: a run follows twenty million events at most, some ten seconds of computing.
+/// Number of windows into which the duration of a scene is divided: a run follows at most twenty
+/// million events, some ten seconds of computing.
 pub const WINDOWS: f64 = 20.0;
 
 /// Work done since the start of a run.
@@ -31,7 +33,7 @@ impl Guard {
         (self.since, self.at_since) = (time, self.total);
     }
 
-    /// Count of events or evaluations in the window if it is above the bound. `window` in s.
+    /// The count of events or evaluations in the window if it exceeds the limit. `window` in s.
     #[inline]
     pub fn exceeded(&mut self, time: f64, window: f64) -> Option<u64> {
         if time >= self.since + window {

@@ -1,5 +1,5 @@
-//! What the exact schemes share, of one degree of freedom and of several: when steps end and when a run is given up, the walls and their
-//! phases, and what a step shows.
+//! What the exact schemes of one and of several degrees of freedom share: when steps end and when a
+//! run is abandoned, the walls and their phases, and what a step shows.
 
 mod clock;
 mod guard;
@@ -14,15 +14,16 @@ pub(super) use wall::{ExactWall, Phase, barriers};
 use crate::error::{Error, Result, Subject};
 use crate::scene::{LoadKind, Scene};
 
-/// Mode changes that take no time, within one step: beyond them the step is handed over with no length, and the guard counts.
+/// Maximum number of contact changes at one instant within one step: beyond it the step ends with
+/// length 0, and the guard counts its events.
 pub(super) const CHANGES_AT_ONCE: usize = 16;
 
-/// What a sum of terms of this size may err by: four units in the last place.
+/// Rounding error of a sum of terms of this size: four units in the last place.
 pub(crate) fn noise(size: f64) -> f64 {
     4.0 * f64::EPSILON * size
 }
 
-/// Refuses a load under which the exact motion is not known.
+/// Rejects loads for which the exact motion is not available.
 pub(super) fn known_loads(scene: &Scene) -> Result<()> {
     match scene.loads.iter().position(|load| matches!(load.kind, LoadKind::Function(_))) {
         Some(index) => Err(Error::invalid(

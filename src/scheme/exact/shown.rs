@@ -1,9 +1,9 @@
-//! What a step of the exact motion shows beside the state at its end.
+//! What a step of the exact schemes shows besides the state at its end.
 
 use super::super::space::{Space, zero};
 use crate::step::{Contact, Path, Step};
 
-/// The last step. Vectors over walls have an entry for each.
+/// The last step. Vectors over walls have one entry per wall.
 #[derive(Debug, Clone)]
 pub(in crate::scheme) struct Shown<S: Space> {
     pub start: f64,
@@ -11,7 +11,8 @@ pub(in crate::scheme) struct Shown<S: Space> {
     pub before: S::Vector,
     /// The caller's extra force, N.
     pub extra: S::Vector,
-    /// Impulse of each wall (N s, signed), its part in the instant at the end, and its force there (N, signed).
+    /// Impulse of each wall (N s, signed), the part of it at the instant of the end, and its force
+    /// there (N, signed).
     pub impulse: Vec<f64>,
     pub jump: Vec<f64>,
     pub force: Vec<f64>,
@@ -20,7 +21,8 @@ pub(in crate::scheme) struct Shown<S: Space> {
 }
 
 impl<S: Space> Shown<S> {
-    /// Nothing yet, at the velocity `v` (m/s); a step closes `contacts` episodes at most, or allocates.
+    /// Before the first step, at the velocity `v` (m/s). A step that closes more than `contacts`
+    /// episodes allocates.
     pub fn new(v: &S::Vector, walls: usize, contacts: usize) -> Self {
         Self {
             start: 0.0,
@@ -42,12 +44,12 @@ impl<S: Space> Shown<S> {
         self.before.clone_from(v);
     }
 
-    /// True if a wall has struck in the instant at the end.
+    /// True if a wall gave an impulse at the instant of the end.
     pub fn jumped(&self) -> bool {
         self.jump.iter().any(|&p| p != 0.0)
     }
 
-    /// Adds what came in the instant at the end to the impulses.
+    /// Adds the impulses at the instant of the end to those of the step.
     pub fn add_jumps(&mut self) {
         for (impulse, jump) in self.impulse.iter_mut().zip(&self.jump) {
             *impulse += jump;

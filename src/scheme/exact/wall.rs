@@ -1,24 +1,25 @@
-//! A wall as the exact scheme sees it: its law, whether it touches, and the episode under way.
+//! A wall in the exact schemes: its law, whether it touches, and its open episode.
 
 use crate::error::{Error, Result, Subject};
 use crate::flow::Touch;
 use crate::scene::{Scene, Side, Wall, WallLaw};
 use crate::step::Contact;
 
-/// Where the body is with respect to one wall.
+/// Where the body is relative to one wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::scheme) enum Phase {
     /// A rigid wall, with its restitution e.
     Rigid(f64),
-    /// An elastic wall, before it: s ≤ 0.
+    /// An elastic wall, with the body in front of it: s ≤ 0.
     Outside,
-    /// In it and pushed: k_a s + c_a ṡ > 0.
+    /// An elastic wall that pushes: k_a s + c_a ṡ > 0.
     Touching,
-    /// In it but let go: k_a s + c_a ṡ ≤ 0 < s.
+    /// An elastic wall that does not push although the body is behind its face: k_a s + c_a ṡ ≤ 0 <
+    /// s.
     Detached,
 }
 
-/// The walls of `scene`; refuses a law under which the motion is not known.
+/// The walls of `scene`; rejects a law for which the exact motion is not available.
 pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<ExactWall>> {
     let barrier = |wall: &Wall| {
         ExactWall::new(wall).ok_or_else(|| {
@@ -34,7 +35,7 @@ pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<ExactWall>> {
 pub(in crate::scheme) struct ExactWall {
     pub name: String,
     pub side: Side,
-    /// Away from the wall: +1 at a lower wall, −1 at an upper one.
+    /// The direction away from the wall: +1 at a lower wall, −1 at an upper one.
     pub sign: f64,
     /// Position g, m.
     pub position: f64,
@@ -44,12 +45,12 @@ pub(in crate::scheme) struct ExactWall {
     pub phase: Phase,
     /// When the phase last changed, s.
     pub changed: f64,
-    /// The episode under way.
+    /// The open episode.
     pub open: Option<Contact>,
 }
 
 impl ExactWall {
-    /// None for a law that the exact scheme does not follow.
+    /// `None` for a law that the exact schemes do not follow.
     pub fn new(wall: &Wall) -> Option<Self> {
         let (stiffness, damping, phase) = match wall.law {
             WallLaw::Rigid { restitution } => (0.0, 0.0, Phase::Rigid(restitution)),
@@ -80,13 +81,14 @@ impl ExactWall {
         -self.sign * (self.stiffness * (q - self.position) + self.damping * v)
     }
 
-    /// The same wall as the flow needs it, while it touches.
+    /// The wall in the form that [`Arc`](crate::flow::Arc) takes, while it touches.
     pub fn touch(&self, wall: usize) -> Option<Touch> {
         let Self { position, stiffness, damping, .. } = *self;
         (self.phase == Phase::Touching).then_some(Touch { wall, position, stiffness, damping })
     }
 
-    /// Puts an elastic wall in the phase that the state asks for; a body on the surface touches if it moves inwards.
+    /// Sets the phase of an elastic wall from the state; a body on its surface touches if it moves
+    /// inwards.
     pub fn classify(&mut self, q: f64, v: f64, resolution: f64) {
         if matches!(self.phase, Phase::Rigid(_)) {
             return;
@@ -100,7 +102,8 @@ impl ExactWall {
         };
     }
 
-    /// Moves an elastic wall into its next phase at `time` (s), with the body on its surface or within. Returns whether the surface was crossed.
+    /// Moves an elastic wall into its next phase at `time` (s), with the body on its surface or
+    /// behind it. Returns whether the surface was crossed.
     pub fn cross(&mut self, at_surface: bool, time: f64) -> bool {
         let next = match self.phase {
             Phase::Rigid(_) => return false,
@@ -115,7 +118,8 @@ impl ExactWall {
         crossed
     }
 
-    /// Opens or closes the episode of an elastic wall as its phase asks, at the velocity `v` (m/s).
+    /// Opens or closes the episode of an elastic wall according to its phase, at the velocity `v`
+    /// (m/s).
     pub fn settle(&mut self, wall: usize, time: f64, v: f64, closed: &mut Vec<Contact>) {
         match self.phase {
             Phase::Touching => self.open(wall, time, -self.sign * v),
@@ -124,7 +128,7 @@ impl ExactWall {
         }
     }
 
-    /// Begins an episode unless one is under way.
+    /// Begins an episode unless one is open.
     pub fn open(&mut self, wall: usize, start: f64, approach_speed: f64) {
         if self.open.is_none() {
             self.open = Some(Contact {
@@ -139,14 +143,15 @@ impl ExactWall {
         }
     }
 
-    /// Ends the episode under way and hands it over; nothing if no force has acted: a touch is no contact.
+    /// Ends the open episode and returns it; `None` if no force has acted, since a touch is no
+    /// contact.
     pub fn close(&mut self, end: f64, departure_speed: f64) -> Option<Contact> {
         let mut contact = self.open.take().filter(|c| c.impulse != 0.0)?;
         (contact.end, contact.departure_speed) = (Some(end), Some(departure_speed.max(0.0)));
         Some(contact)
     }
 
-    /// Notes a pressure of the episode under way, N.
+    /// Records a pressure of the open episode, N.
     #[inline]
     pub fn note(&mut self, pressure: f64) {
         if let Some(contact) = &mut self.open {

@@ -1,9 +1,11 @@
 //! Stretches that are handed to moreau-jean.
 //!
-//! Impacts may accumulate where no rule closes them: at several walls in turn, under a force that changes meanwhile, or at e = 1 under
-//! drag. More than [`CROWD`] events within two radians of the fastest motion (or a thousandth of the run, if that is shorter) are such a
-//! place. That long a stretch is then stepped by moreau-jean with θ = ½ in [`PARTS`] steps, and the exact motion goes on from where it
-//! ends, put back onto walls that the steps have passed. Whoever reads the run is told.
+//! Impacts may accumulate where no rule ends the accumulation: at several walls in turn, under a
+//! force that changes meanwhile, or at e = 1 under drag. More than [`CROWD`] events within two
+//! radians of the fastest motion (or a thousandth of the run, if that is shorter) are taken for
+//! such an accumulation. A stretch of that length is then stepped by moreau-jean with θ = ½ in
+//! [`PARTS`] steps. The exact motion continues from its end, with displacements behind walls put
+//! back onto them. The run's notes report it.
 
 use super::StructureEvent;
 use super::stretch::Stretch;
@@ -15,19 +17,20 @@ use crate::scheme::moreau_jean::MoreauJean;
 use crate::scheme::motion::Motion;
 use crate::scheme::{Handed, Scheme};
 
-/// Events within a stretch that are followed one by one …
+/// Maximum number of events within a stretch before it is handed over …
 const CROWD: u64 = 5000;
 
-/// … and where the stretch before has been handed over already.
+/// … and where the stretch just before has been handed over already.
 const CROWD_AGAIN: u64 = 50;
 
-/// Steps of a stretch that is handed over: a hundredth of a radian of the fastest motion each.
+/// Number of steps of a stretch that is handed over: a hundredth of a radian of the fastest motion
+/// each.
 const PARTS: u64 = 200;
 
 /// The longest stretch, as a share of the run.
 const LONGEST: f64 = 1e-3;
 
-/// θ of the rule that steps.
+/// θ of moreau-jean.
 const THETA: f64 = 0.5;
 
 impl StructureEvent {
@@ -38,7 +41,7 @@ impl StructureEvent {
         if rate > 0.0 { longest.min(2.0 / rate) } else { longest }
     }
 
-    /// Hands the stretch ahead over if events crowd here.
+    /// Hands the next stretch over if there were too many events.
     pub(super) fn hand_over(&mut self) -> Result<()> {
         let (window, events) = (self.crowd_window(), self.clock.total().events);
         if self.time > self.crowd.since + window {
@@ -68,7 +71,7 @@ impl StructureEvent {
         Ok(())
     }
 
-    /// The scene from the present on, its loads as they are until the next event of theirs.
+    /// The scene from the present on, with its loads up to their next blow or table row.
     fn scene_from_here(&self, duration: f64) -> Scene {
         let now = self.time;
         let shifted = |load: &Load| {
@@ -79,7 +82,8 @@ impl StructureEvent {
                     frequency: *frequency,
                     phase: phase + std::f64::consts::TAU * frequency * now,
                 },
-                // A stretch ends before the next blow. Functions are refused at the start.
+                // A stretch ends before the next blow. Functions of time were rejected at the
+                // start.
                 LoadKind::Impulse { .. } | LoadKind::Function(_) => return None,
                 LoadKind::Table(table) => {
                     let (at, slope) = table.piece(now);
@@ -99,7 +103,7 @@ impl StructureEvent {
         }
     }
 
-    /// One step of the stretch under way.
+    /// Takes one step of the current stretch.
     pub(super) fn advance_stretch(&mut self, mut stretch: Box<Stretch>) -> Result<()> {
         if stretch.step == 0 {
             // The exact episodes end here; the steps have their own.
@@ -140,7 +144,7 @@ impl StructureEvent {
         self.resume()
     }
 
-    /// Takes up the exact motion where a stretch has ended.
+    /// Resumes the exact motion where a stretch has ended.
     fn resume(&mut self) -> Result<()> {
         self.crowd.handed = self.time;
         (self.crowd.since, self.crowd.at_since) = (self.time, self.clock.total().events);
@@ -150,7 +154,7 @@ impl StructureEvent {
         self.carriers.clear();
         self.decided = f64::NEG_INFINITY;
         self.reclassify();
-        // Blows due now come with the next step of the exact motion.
+        // Blows due now are given in the next step of the exact motion.
         Ok(())
     }
 }

@@ -4,10 +4,12 @@
 //!
 //! minimise ½ (v⁺ − v)ᵀ M (v⁺ − v)   subject to   ẇ⁺ + e ẇ ≥ 0,
 //!
-//! which is Newton's law with an impulse at each wall that its own approach calls for (Moreau 1988, doi:10.1007/978-3-7091-2624-0_1). It is
-//! repeated while any closed wall is approached, for one impulse may throw the structure onto the next wall; after [`PASSES`] of them, or
-//! where walls on opposite sides leave no room for a rebound, one programme over all closed walls with e = 0 ends it. Energy never grows:
-//! in each pass p · (ẇ⁺ + ẇ) ≤ 0 at every wall with an impulse.
+//! which is Newton's law with an impulse at each wall whose own approach requires one (Moreau 1988,
+//! doi:10.1007/978-3-7091-2624-0_1). It is repeated while any closed wall is approached, since one
+//! impulse may drive the structure into the next wall; after [`PASSES`] repetitions, or where walls
+//! on opposite sides leave no room for a rebound, one programme over all closed walls with e = 0
+//! ends the impact. Energy never grows: in each pass p · (ẇ⁺ + ẇ) ≤ 0 at every wall with an
+//! impulse.
 
 use super::rows::size;
 use super::{StructureEvent, closed_row::side_of};
@@ -15,39 +17,46 @@ use crate::error::{Error, Result};
 use crate::qp::{Failure, Rhs};
 use crate::scheme::exact::noise;
 
-/// Programmes of an instant after which one with e = 0 over all closed walls ends it.
+/// Maximum number of programmes at one instant before one with e = 0 over all closed walls ends the
+/// impact.
 const PASSES: usize = 20;
 
-/// Programmes with e = 0 after which an instant that they do not end is an error.
+/// Maximum number of programmes with e = 0 at one instant; if walls are still approached then, it
+/// is an error.
 const TURNS: usize = 2000;
 
-/// A flight after an impact is the tail of an accumulation if it is lower than this share of the scene's length and of the row's motion …
+/// A flight after an impact is the tail of an accumulation of impacts if its height is below this
+/// share of the scene's length and of the row's motion …
 const TAIL_HEIGHT: f64 = 1e-12;
 
-/// … and if the pressing acceleration will change by less than this share until the impacts have accumulated.
+/// … and if the pressing acceleration changes by less than this share before the impacts have
+/// accumulated.
 const TAIL_CHANGE: f64 = 1e-6;
 
-/// A flight of fewer units in the last place of the time than this is not resolved.
+/// A flight shorter than this many units in the last place of the time is not resolved.
 const TIME_UNITS: f64 = 8.0;
 
-/// Signs in a programme are told down to this share of the largest speed of the rows that touch.
+/// Relative tolerance for the sign of a speed in a programme, over the largest speed of the rows
+/// that touch.
 const TOLD: f64 = 4e-12;
 
 impl StructureEvent {
-    /// Rates away from the walls that are below this are none, m/s.
+    /// The speed away from a wall below which it counts as 0, m/s.
     pub(super) fn quiet(&self, row: usize) -> f64 {
         let pull = self.body.answer_size(row, &self.sizes.instant);
-        // What forces in balance leave of a velocity is the rounding of their terms over the last stretch.
+        // Where forces balance, the velocity has the rounding error of their terms over the last
+        // stretch.
         let own = noise(size(&self.body, row, &self.v) + pull * self.series.unit());
         if self.seats.len() < 2 {
             return own;
         }
-        // A programme knows rows by what a force of one makes of the other: heavy ones are told more finely, light ones no more coarsely.
+        // In a programme, rows are coupled through W: the tolerance scales with √W, so heavy rows
+        // get a finer one, and light rows no coarser one than in absolute terms.
         let weighed = self.fastest_weighed * self.body.delassus(row, row).sqrt();
         own.max(TOLD * self.fastest_row.min(weighed))
     }
 
-    /// True if a seat's wall is approached.
+    /// True if the structure approaches the wall of this closed row.
     pub(super) fn is_approached(&self, seat: usize) -> bool {
         let s = &self.seats[seat];
         let rate = self.rate_of(seat);
@@ -61,7 +70,7 @@ impl StructureEvent {
         s.sign * self.body.rows.dot(s.row, &self.v)
     }
 
-    /// The impacts of this instant, with those that close an accumulation.
+    /// Handles the impacts of this instant, with those that end an accumulation.
     pub(super) fn impact(&mut self) -> Result<()> {
         for seat in 0..self.seats.len() {
             let s = self.seats[seat];
@@ -81,7 +90,7 @@ impl StructureEvent {
         Ok(())
     }
 
-    /// Passes of the impact law from the present velocity.
+    /// Applies the impact law from the present velocity until no closed wall is approached.
     fn strike(&mut self) -> Result<()> {
         self.seats.iter_mut().for_each(|s| s.push = [0.0; 2]);
         if let [seat] = self.seats[..] {
@@ -102,8 +111,9 @@ impl StructureEvent {
         Ok(())
     }
 
-    /// The end of an instant: one programme over all closed walls with e = 0. Should rows that nearly depend on one another be more than it
-    /// can tell apart, the walls that are approached are taken in turn, which ends at a motion that none opposes, too.
+    /// Ends the impacts of an instant with one programme over all closed walls with e = 0. If rows
+    /// are so nearly dependent that it fails, the approached walls are treated in turn with e = 0,
+    /// which also ends at a motion that approaches no wall.
     fn stop(&mut self) -> Result<()> {
         if self.pass(true)? {
             return Ok(());
@@ -120,7 +130,8 @@ impl StructureEvent {
         Err(self.unsolved("closed walls are still approached after their impacts"))
     }
 
-    /// One programme; the `last` one is over all closed walls, with e = 0. False if walls on opposite sides leave no room for the rebounds asked for.
+    /// Solves one programme; the `last` one is over all closed walls, with e = 0. False if walls on
+    /// opposite sides leave no room for the rebounds.
     fn pass(&mut self, last: bool) -> Result<bool> {
         self.lo.fill(f64::NEG_INFINITY);
         self.hi.fill(f64::INFINITY);
@@ -130,7 +141,8 @@ impl StructureEvent {
                 continue;
             }
             let bound = if last || rate >= -quiet { 0.0 } else { -s.restitution * rate };
-            // Between walls of both sides the one that is approached counts, and the other in the next pass: an impulse against the motion never gains.
+            // Between walls on both sides only the approached one counts in this pass, the other in
+            // the next: an impulse against the motion never adds energy.
             let fixed = s.both && (last || rate.abs() <= quiet);
             let lower = if s.both { s.sign * rate < 0.0 } else { s.sign > 0.0 };
             if lower || fixed {
@@ -156,7 +168,8 @@ impl StructureEvent {
         Ok(true)
     }
 
-    /// Solves the programme of `rhs`, `lo` and `hi`. False if no motion is found that keeps the bounds.
+    /// Solves the programme of `rhs`, `lo` and `hi`. False if no motion that satisfies the bounds
+    /// is found.
     pub(super) fn solve(&mut self) -> Result<bool> {
         let (time, step) = (self.time, self.steps);
         if self.solver.is_none() {
@@ -174,10 +187,11 @@ impl StructureEvent {
         Error::Qp { time: self.time, step: self.steps, wall: None, reason: reason.to_owned() }
     }
 
-    /// Takes the restitution from the seats whose flight after the impact is the tail of an accumulation, or below what double precision
-    /// resolves. Returns whether there is one.
+    /// Sets the restitution to 0 in the closed rows whose flight after the impact is the tail of an
+    /// accumulation, or too short to be resolved in double precision. Returns whether there is any.
     fn stick(&mut self) -> Result<bool> {
-        // What presses is at most this; a flight far too high then needs no closer look.
+        // An upper bound of the pressing acceleration: most flights are far too high for a tail,
+        // and need no closer look.
         self.derivatives[0].copy_from_slice(&self.q);
         self.derivatives[1].copy_from_slice(&self.v);
         self.forces(0);
@@ -190,7 +204,8 @@ impl StructureEvent {
             let resolved = self.resolution(s.row, position);
             let low = self.low(s.row) + TAIL_HEIGHT * self.places[s.row].travel + resolved;
             let wanted = s.push[side_of(s.sign)] > 0.0 && s.restitution > 0.0 && rate > 0.0;
-            // Others that are held press by their reactions too, which are of the size of what they react to.
+            // Reactions of other held rows press too, with the size of the forces that they
+            // balance: no bound is known then.
             let most = if self.seats.len() > 1 { f64::INFINITY } else { most };
             self.seats[seat].candidate = wanted && (rate * rate <= 4.0 * most * low || rate <= most * short);
             any |= self.seats[seat].candidate;
@@ -201,7 +216,7 @@ impl StructureEvent {
         self.departing.copy_from_slice(&self.v);
         self.reclassify();
         self.settle(None)?;
-        // The stretch that led here stays as it is: it is what the step shows.
+        // The stretch that led here is kept unchanged, since the step shows it.
         std::mem::swap(&mut self.series, &mut self.flight);
         self.begin_series(self.limit());
         self.measure();
@@ -219,9 +234,10 @@ impl StructureEvent {
         Ok(found)
     }
 
-    /// True if the flight of a seat in the series just begun is a tail.
+    /// True if the flight of a closed row in the series just begun is a tail.
     ///
-    /// Sticking at once takes the momentum and the energy of the whole tail: of steady pressing that is what its impacts sum up to.
+    /// Sticking at once removes the momentum and the energy of the whole tail: under a steady
+    /// pressing force its impacts sum up to the same impulse.
     fn is_tail(&self, seat: usize, short: f64) -> bool {
         let s = self.seats[seat];
         let (c, unit) = (self.series.seen(s.row), self.series.unit());
@@ -233,7 +249,7 @@ impl StructureEvent {
         }
         let (height, flight) = (0.5 * rate * rate / press, 2.0 * rate / press);
         let position = self.places[s.row].bound[side_of(s.sign)];
-        // What the search takes for 0 on this stretch is no flight.
+        // A height that the search takes for 0 on this stretch is no flight.
         if height <= self.rounding(s.row, position).below() || flight <= short {
             return true;
         }
@@ -249,12 +265,12 @@ impl StructureEvent {
         change / (unit * unit) <= TAIL_CHANGE * press
     }
 
-    /// Below this a flight may be a tail, m.
+    /// The height below which a flight may be a tail, m.
     fn low(&self, row: usize) -> f64 {
         TAIL_HEIGHT * self.length.min(self.places[row].travel)
     }
 
-    /// What the displacement of a row may err by here, m.
+    /// Rounding error of the displacement of a row here, m.
     pub(super) fn resolution(&self, row: usize, position: f64) -> f64 {
         let moved = self.series.span() * size(&self.body, row, self.series.term(1));
         noise(size(&self.body, row, &self.q) + moved + position.abs())

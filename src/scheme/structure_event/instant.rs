@@ -1,4 +1,5 @@
-//! What happens in an instant: blows, impacts, lasting contact and its end, entry into elastic walls and letting go.
+//! What happens at one instant: blows, impacts, lasting contact and its end, and the contact of
+//! elastic walls beginning or ending.
 
 use super::StructureEvent;
 use super::closed_row::{Cause, ClosedRow, Fate, side_of};
@@ -9,7 +10,8 @@ use crate::scheme::exact::{ExactWall, Phase};
 use crate::step::Contact;
 
 impl StructureEvent {
-    /// Everything that happens at the present instant, to which `hit` has led. True if the velocity jumped or a contact changed.
+    /// Handles everything that happens at the present instant; `hit` is the event that ended the
+    /// stretch. True if the velocity jumped or a contact changed.
     pub(super) fn happen(&mut self, hit: Option<Cause>) -> Result<bool> {
         let blown = self.blow();
         if hit.is_none() && !blown {
@@ -32,7 +34,7 @@ impl StructureEvent {
         Ok(true)
     }
 
-    /// The blow that is due.
+    /// Gives the blow that is due; false if there is none.
     fn blow(&mut self) -> bool {
         let before = self.blow.checked_sub(1).and_then(|i| self.blows.get(i)).copied().unwrap_or(0.0);
         if self.blows.get(self.blow).is_none_or(|&time| time > self.time) {
@@ -58,7 +60,8 @@ impl StructureEvent {
         b.settle(wall, self.time, rate, &mut self.shown.closed);
     }
 
-    /// After a jump of velocity: elastic walls with damping may let go or take hold.
+    /// Updates the phases after a jump of velocity, which may begin or end the contact at elastic
+    /// walls with damping.
     pub(super) fn reclassify(&mut self) {
         for wall in 0..self.barriers.len() {
             if matches!(self.barriers[wall].phase, Phase::Rigid(_)) {
@@ -73,7 +76,8 @@ impl StructureEvent {
         }
     }
 
-    /// Rigid walls that touch: impacts for what is approached, lasting contact or leaving for the rest. Returns whether the velocity jumped.
+    /// Handles the rigid walls that touch: impacts where walls are approached, lasting contact or
+    /// separation elsewhere. Returns whether the velocity jumped.
     fn meet(&mut self, hit: Option<Cause>, blown: bool) -> Result<bool> {
         self.seat(hit);
         if self.seats.is_empty() {
@@ -96,7 +100,7 @@ impl StructureEvent {
         Ok(struck)
     }
 
-    /// Finds the closed rows, and puts the structure onto their surfaces.
+    /// Finds the closed rows, and puts the structure exactly onto their surfaces.
     fn seat(&mut self, hit: Option<Cause>) {
         self.seats.clear();
         (self.fastest_row, self.fastest_weighed) = (0.0, 0.0);
@@ -108,7 +112,7 @@ impl StructureEvent {
             let (w, rate) = (self.body.rows.dot(row, &self.q), self.body.rows.dot(row, &self.v));
             let mut closed = [false; 2];
             for (side, closed) in closed.iter_mut().enumerate().filter(|(side, _)| place.carriers[*side] > 0) {
-                // The instant is known to an ulp of the time only.
+                // The instant is known only to an ulp of the time.
                 let late = 4.0 * f64::EPSILON * self.time * rate.abs();
                 *closed = hit == Some(Cause::Gap(row, side))
                     || place.held == SIGNS[side]
@@ -154,7 +158,7 @@ impl StructureEvent {
         }
         let Self { surface, body, seats, places, q, scratch, .. } = self;
         let held = |s: &ClosedRow| Held { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
-        // A row that is just leaving would be put back for ever.
+        // A row that is just leaving must not be put back: it would never leave.
         let leaves = |s: &ClosedRow| {
             let gap = places[s.row].gap(side_of(s.sign), body.rows.dot(s.row, q));
             gap >= 0.0 && s.arrived > 0.0 && s.was == 0.0 && !s.both
@@ -167,7 +171,8 @@ impl StructureEvent {
         self.sizes.instant.copy_from_slice(&self.rhs_size);
     }
 
-    /// What a blow does at a wall that carried the structure is an impact of its own: the rest ends before it.
+    /// Ends the rests that a blow disturbs: what the blow does at a wall that carried the structure
+    /// is a new impact.
     fn end_rests(&mut self) {
         for seat in 0..self.seats.len() {
             if self.seats[seat].was != 0.0 && self.is_approached(seat) {
@@ -178,7 +183,7 @@ impl StructureEvent {
         }
     }
 
-    /// Calls `of` for each rigid wall that stands nearest on one side of a row.
+    /// Calls `of` for each of the nearest rigid walls on one side of a row.
     fn each_wall(&mut self, row: usize, sign: f64, mut of: impl FnMut(&mut ExactWall, usize, &mut Vec<Contact>, f64)) {
         let bound = self.places[row].bound[side_of(sign)];
         for &wall in &self.walls_of[row] {
@@ -189,7 +194,7 @@ impl StructureEvent {
         }
     }
 
-    /// Writes what has happened at a seat into the step and the episodes of its walls.
+    /// Records what has happened at a closed row in the step and in the episodes of its walls.
     fn tell(&mut self, seat: usize) {
         let s = self.seats[seat];
         let (rate, place) = (s.sign * self.rate_of(seat), self.places[s.row]);
@@ -207,7 +212,7 @@ impl StructureEvent {
         }
     }
 
-    /// An impulse: the walls of the largest restitution share it.
+    /// Records an impulse: the walls with the largest restitution share it.
     fn tell_impact(&mut self, s: ClosedRow, side: usize, stays: bool, rate: f64) {
         let (place, sign) = (self.places[s.row], SIGNS[side]);
         let (e, arrived) = (place.restitution[side], s.sign * sign * s.arrived);

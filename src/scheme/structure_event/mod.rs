@@ -1,17 +1,18 @@
-//! The exact scheme for several degrees of freedom: series between events, and the events to rounding.
+//! The exact scheme for several degrees of freedom: Taylor series between events, which are located
+//! to rounding.
 //!
 //! | file | what it holds |
 //! |---|---|
 //! | `start.rs` | the scene at its start |
-//! | `rows.rs` | the rows of the walls: bounds, what is held, roundings |
+//! | `rows.rs` | the rows of the walls: bounds, which are held, rounding errors |
 //! | `search.rs`, `root.rs` | the first event of a stretch |
-//! | `motion.rs` | what drives the structure: series, forces, impulses |
-//! | `instant.rs` | what happens in an instant, and the episodes of contact |
+//! | `motion.rs` | the motion between events: series, forces, impulses |
+//! | `instant.rs` | what happens at one instant, and the episodes of contact |
 //! | `impact.rs` | impacts, at several walls at once |
-//! | `rest.rs` | which walls carry what touches without speed |
-//! | `closed_row.rs` | what is told of an instant |
-//! | `hand.rs`, `stretch.rs` | what is handed to moreau-jean |
-//! | `view.rs` | what a run shows of itself |
+//! | `rest.rs` | which touching walls push where the speed is 0 |
+//! | `closed_row.rs` | a closed row at an instant, and what becomes of it |
+//! | `hand.rs`, `stretch.rs` | the stretches that are handed to moreau-jean |
+//! | `view.rs` | what the scheme shows after each step |
 
 mod closed_row;
 mod hand;
@@ -39,17 +40,20 @@ use rows::{DERIVATIVES, Sizes, WallRow};
 use std::sync::Arc;
 use stretch::{Crowd, Stretch};
 
-/// A structure between walls, from event to event:
+/// A structure between walls, advanced from event to event:
 ///
-/// M q̈ + C q̇ + K q = f(t) + Gᵀ r,  0 ≤ gap ⟂ |r| ≥ 0 and an impact law at rigid walls, |r| = max(0, k_a s + c_a ṡ) for s > 0 at elastic ones.
+/// M q̈ + C q̇ + K q = f(t) + Gᵀ r, 0 ≤ gap ⟂ |r| ≥ 0 and an impact law at rigid walls, |r| =
+/// max(0, k_a s + c_a ṡ) for s > 0 at elastic ones.
 ///
-/// Between events the motion is a [`Series`]; a step ends with an event or with the series. The first root of each gap, and of the force of
-/// each wall that touches, is never passed (`root.rs`).
+/// Between events the motion is a [`Series`]; a step ends with an event or with the series. The
+/// first root of each gap, and of the force of each wall that touches, is never skipped
+/// (`root.rs`).
 ///
-/// - Impacts at several walls at once are one quadratic programme in the metric of M: see `impact.rs`. They never gain energy.
-/// - Walls that touch without speed carry what presses on them: 0 ≤ ẅ ⟂ λ ≥ 0, one quadratic programme, and where both vanish the next
-///   derivatives decide (`rest.rs`).
-/// - Accumulations of impacts close into lasting contact as they do for one degree of freedom.
+/// - Impacts at several walls at once are one quadratic programme in the metric of M: see
+///   `impact.rs`. They never gain energy.
+/// - Walls that touch at speed 0 balance the forces that press on them: 0 ≤ ẅ ⟂ λ ≥ 0, one
+///   quadratic programme, and where both vanish the next derivatives decide (`rest.rs`).
+/// - Accumulations of impacts end in lasting contact as for one degree of freedom.
 #[derive(Debug)]
 pub(super) struct StructureEvent {
     scene: Arc<Scene>,
@@ -62,36 +66,38 @@ pub(super) struct StructureEvent {
     walls_of: Vec<Vec<usize>>,
     solver: Option<qp::Solver>,
     series: Series,
-    /// Room for a look ahead.
+    /// Work space for looking ahead.
     flight: Series,
     hold: Hold,
-    /// Rows that touch at an instant: what puts the structure onto their surfaces.
+    /// The rows that touch at an instant, to put the structure onto their surfaces.
     surface: Hold,
-    /// Walls behind held rows: wall, number of the held row, share.
+    /// Walls that hold rows: wall, number of the held row, share.
     carriers: Vec<(usize, usize, f64)>,
     touching: Vec<Touching>,
     seats: Vec<ClosedRow>,
-    /// The largest speed of a row that touches at the present instant, m/s, and in the metric of the mass, √J.
+    /// The largest speed of a row that touches at the present instant, m/s, and in the metric of
+    /// the mass, √J.
     fastest_row: f64,
     fastest_weighed: f64,
     sizes: Sizes,
     clock: Clock,
-    /// A displacement of ordinary size, m.
+    /// A typical displacement of the scene, m.
     length: f64,
     time: f64,
     q: Vec<f64>,
     v: Vec<f64>,
-    /// By how much more than its rounding a coefficient must differ from 0 to be told from it: above 1 while events follow one another in
-    /// which nothing moves, for only rounding can make the search contradict what has just been decided.
+    /// Factor on the rounding error that a coefficient must exceed to count as different from 0:
+    /// above 1 while events follow one another without motion, since only rounding can make the
+    /// search contradict the last decision.
     doubt: f64,
-    /// The instant at which places were last decided, s.
+    /// The instant of the last decision on the rows, s.
     decided: f64,
-    /// Times of the blows after the start, s, and how many have been given.
+    /// Times of the blows after the start, s, and the number given so far.
     blows: Vec<f64>,
     blow: usize,
     crowd: Crowd,
     stretch: Option<Box<Stretch>>,
-    /// The rule of the last step, if it was handed over, and its step, s.
+    /// The contract and the step (s) of the last step, if it was handed over.
     handed: Option<(Contract, f64)>,
     steps: u64,
     // Vectors of length n.
@@ -108,17 +114,19 @@ pub(super) struct StructureEvent {
     shown: Shown<Matrices>,
 }
 
-/// Factor by which doubt grows with each such event, and where it ends.
+/// Factor by which `doubt` grows with each such event, and its maximum.
 const DOUBT: f64 = 4.0;
 const MOST_DOUBT: f64 = 1e4;
 
 impl StructureEvent {
-    /// Moves on to the next event, end of a series, multiple of the stride, or the end of the scene, whichever is first, under a constant
-    /// extra force (N, n entries; none is none).
-    /// A step of no length happens where the structure starts on a wall and moves into it. Past the end of the scene the motion goes on.
+    /// Moves on to the next event, end of a series, multiple of the stride, or the end of the
+    /// scene, whichever is first, under a constant extra force (N, n entries; `None` means 0). A
+    /// step of no length happens where the structure starts on a wall and moves into it. Past the
+    /// end of the scene the motion goes on.
     ///
     /// # Errors
-    /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow; [`Error::Qp`] if a programme is not solved.
+    /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow; [`Error::Qp`] if a
+    /// programme is not solved.
     pub fn advance(&mut self, extra: Option<&[f64]>) -> Result<()> {
         self.shown.begin(self.time, &self.v);
         let changed = match extra {

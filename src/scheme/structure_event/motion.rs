@@ -1,4 +1,5 @@
-//! What drives the structure: the series it follows, the forces on it, and the impulses of the walls.
+//! The motion of the structure between events: its series, the forces on it, and the impulses of
+//! the walls.
 
 use super::StructureEvent;
 use super::rows::{Sizes, WallRow, size};
@@ -6,7 +7,8 @@ use crate::flow::{SeriesStart, Touching};
 use crate::scheme::exact::Phase;
 
 impl StructureEvent {
-    /// How far the next series can reach: a mark, a row of a table, a blow, the end if it is still ahead; s.
+    /// The time at which the next series must end, s: a multiple of the stride, a row of a table, a
+    /// blow, or the end if it is still ahead.
     pub(super) fn limit(&self) -> f64 {
         let mut limit = self.clock.limit(self.time);
         if let Some(&time) = self.blows.get(self.blow) {
@@ -15,7 +17,7 @@ impl StructureEvent {
         self.body.next_corner(self.time).map_or(limit, |corner| limit.min(corner))
     }
 
-    /// The series from here on, with the walls that touch and the rows that are held.
+    /// Begins the series from here on, with the walls that touch and the rows that are held.
     pub(super) fn begin_series(&mut self, limit: f64) {
         if self.decided != self.time {
             self.places.iter_mut().for_each(WallRow::forget);
@@ -35,7 +37,7 @@ impl StructureEvent {
         self.sizes.known = false;
     }
 
-    /// Adds the impulses of the stretch just run through to the step and to the episodes under way.
+    /// Adds the impulses of the stretch just completed to the step and to the open episodes.
     pub(super) fn gather_impulses(&mut self) {
         let Self { series, barriers, shown, .. } = self;
         for (wall, ..) in series.acting() {
@@ -49,8 +51,9 @@ impl StructureEvent {
         }
     }
 
-    /// The derivative of `order` of the force on the structure, free of rigid walls, at the present instant from the right, and the sizes
-    /// of its terms: into `rhs` (N/sᵏ) and `rhs_size`. Reads the derivatives of q from `order` to `order` + 1, and from order 1 on their
+    /// Computes the derivative of `order` of the force on the structure, without rigid walls, at
+    /// the present instant from the right, and the sizes of its terms: into `rhs` (N/sᵏ) and
+    /// `rhs_size`. Uses the derivatives of q from `order` to `order` + 1, and from order 1 on their
     /// sizes too.
     pub(super) fn forces(&mut self, order: usize) {
         let Self { body, derivatives, rhs, rhs_size, sizes, barriers, .. } = self;
@@ -84,7 +87,8 @@ impl StructureEvent {
         body.level_sizes(rhs_size);
     }
 
-    /// The size of derivative `order` + 2 of q, which follows from the force of that order in `rhs_size`.
+    /// Computes the size of derivative `order` + 2 of q, which follows from the force of that order
+    /// in `rhs_size`.
     pub(super) fn enlarge(&mut self, order: usize) {
         let Self { body, derivatives, rhs_size, sizes: Sizes { derivative, work, .. }, .. } = self;
         work.copy_from_slice(rhs_size);
@@ -94,7 +98,7 @@ impl StructureEvent {
         }
     }
 
-    /// The sizes of force and rate at the start of the series, once.
+    /// Computes the sizes of force and rate at the start of the series, unless they are known.
     pub(super) fn measure(&mut self) {
         if self.sizes.known {
             return;
@@ -119,7 +123,7 @@ impl StructureEvent {
         }
     }
 
-    /// The force of each wall now.
+    /// Computes the force of each wall now.
     pub(super) fn set_forces(&mut self) {
         self.shown.force.fill(0.0);
         if !self.hold.rows().is_empty() {

@@ -1,9 +1,10 @@
-//! Which walls carry what touches without speed.
+//! Which touching walls push where the speed is 0.
 //!
-//! Over the closed rows without speed, 0 ≤ ẅ ⟂ λ ≥ 0: the accelerations minimise ½ (q̈ − M⁻¹F)ᵀ M (q̈ − M⁻¹F) over G q̈ ≥ 0, Gauss's
-//! principle. Rows with λ > 0 are held, rows with ẅ > 0 leave. Where both vanish to rounding the next derivative decides in the same way,
-//! with the rows that are held held in it too. A row on which no derivative has a say is stopped and left free: nothing presses on it,
-//! so it is not in contact, and the search for events sees which way it goes.
+//! Over the closed rows of speed 0, 0 ≤ ẅ ⟂ λ ≥ 0: the accelerations minimise ½ (q̈ − M⁻¹F)ᵀ M (q̈
+//! − M⁻¹F) over G q̈ ≥ 0 (Gauss's principle). Rows with λ > 0 are held, rows with ẅ > 0 leave.
+//! Where both vanish to rounding the next derivative decides in the same way, and the rows held so
+//! far are held in it too. A row that no derivative decides is stopped and left free: nothing
+//! presses on it, so it is not in contact, and the search for events finds which way it goes.
 
 use super::StructureEvent;
 use super::closed_row::{ClosedRow, Fate, side_of};
@@ -12,19 +13,21 @@ use crate::error::Result;
 use crate::flow::Held;
 use crate::scheme::exact::noise;
 
-/// Derivatives of the acceleration that are asked, with itself.
+/// Number of derivatives of the acceleration that are examined, including itself.
 const LEVELS: usize = 3;
 
-/// A force that has just been found to vanish does so to this share of its terms, or something else has happened to it.
+/// Relative tolerance within which a force that the search found to vanish must be 0; if it is
+/// larger, something else has changed it.
 const VANISHED: f64 = 1e-9;
 
 impl StructureEvent {
-    /// Decides over the seats without speed and holds those that are pressed. `released` is the row whose force has just vanished.
+    /// Decides on the closed rows of speed 0, and holds those that are pressed. `released` is the
+    /// row whose force has just vanished.
     pub(super) fn settle(&mut self, released: Option<usize>) -> Result<()> {
         for seat in 0..self.seats.len() {
             let s = self.seats[seat];
             let (rate, quiet) = (self.rate_of(seat), self.quiet(s.row));
-            // Without restitution an impulse leaves no speed but rounding.
+            // After an impact without restitution, the speed is rounding.
             let stopped = s.push != [0.0; 2] && s.restitution == 0.0 && rate.abs() <= 1e3 * quiet;
             let rests = !s.candidate && (s.both || stopped || rate.abs() <= quiet || rate < 0.0);
             self.seats[seat].fate = if rests { Fate::Open } else { Fate::None };
@@ -43,7 +46,7 @@ impl StructureEvent {
         Ok(())
     }
 
-    /// One level: the derivative of the acceleration, and of the forces.
+    /// Decides one level: one derivative of the acceleration and of the forces.
     fn decide(&mut self, level: usize, released: Option<usize>) -> Result<()> {
         let resting = |s: &&ClosedRow| matches!(s.fate, Fate::Open | Fate::Held(_));
         if let (1, Some(at)) = (self.seats.iter().filter(resting).count(), self.seats.iter().position(|s| resting(&s)))
@@ -67,7 +70,7 @@ impl StructureEvent {
         let Some(solver) = &self.solver else { return Ok(()) };
         let solution = solver.solution();
         self.derivatives[level + 2].copy_from_slice(&solution.x);
-        // What the walls push with are terms of the acceleration too.
+        // The forces of the walls are terms of the acceleration too.
         for (&r, row) in solution.multiplier.iter().zip(0..).filter(|(r, _)| **r != 0.0) {
             self.body.rows.row(row).iter().for_each(|&(i, g)| self.rhs_size[i] += (g * r).abs());
         }
@@ -83,7 +86,7 @@ impl StructureEvent {
         Ok(())
     }
 
-    /// The same for a single row.
+    /// As [`Self::decide`], for a single row.
     fn decide_one(&mut self, level: usize, at: usize, released: Option<usize>) -> Result<()> {
         let s = self.seats[at];
         let away = s.sign * self.body.answer(s.row, &self.rhs);
@@ -101,7 +104,8 @@ impl StructureEvent {
         Ok(())
     }
 
-    /// A seat after the verdict of one level: `push` is its force's share of the acceleration, `away` the acceleration that is left.
+    /// A closed row after the decision of one level: `push` is its force's share of the
+    /// acceleration, `away` the acceleration that remains.
     fn judged(&self, mut s: ClosedRow, level: usize, push: f64, away: f64, released: Option<usize>) -> ClosedRow {
         let large = self.body.answer_size(s.row, &self.rhs_size);
         let vanished = level == 0 && released == Some(s.row) && push.abs() <= VANISHED * large;
@@ -117,7 +121,7 @@ impl StructureEvent {
         s
     }
 
-    /// Holds the seats that are to be held, and notes what has been decided.
+    /// Holds the rows that are to be held, and records what has been decided.
     fn hold_seats(&mut self, released: Option<usize>) {
         let Self { hold, body, seats, places, carriers, walls_of, barriers, v, scratch, .. } = self;
         for place in places.iter_mut() {
@@ -129,7 +133,8 @@ impl StructureEvent {
             matches!(s.fate, Fate::Held(_)).then_some(Held { row: s.row, sign: s.sign, position })
         };
         let of = |level: usize| seats.iter().filter(move |s| s.fate == Fate::Held(level)).filter_map(&held);
-        // The speed that rounding has left of a stop belongs to this instant, not to the motion that follows.
+        // The speed that rounding leaves after a stop is removed here, so that it does not enter
+        // the motion that follows.
         if seats.iter().any(|s| s.fate == Fate::Open) {
             let stopped = seats.iter().filter(|s| matches!(s.fate, Fate::Open | Fate::Held(_))).map(|s| Held {
                 row: s.row,
@@ -139,8 +144,9 @@ impl StructureEvent {
             hold.set(body, std::iter::empty(), stopped);
             hold.stop(body, v, scratch);
         }
-        // Those that are pressed share what presses; of the others a row that follows from those before it carries nothing, above all the
-        // one among its equals that has just been found to pull.
+        // The rows held by their force itself share it. Of the others, a row that depends on those
+        // before it carries no force; the row that has just been found to pull comes last, so that
+        // of several equal rows it is the one without a force.
         let pulled = |held: &Held| released == Some(held.row);
         let idle = |level: usize| of(level).filter(move |held| !pulled(held)).chain(of(level).filter(pulled));
         hold.set(body, of(0), (1..LEVELS).flat_map(idle));

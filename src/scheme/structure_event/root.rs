@@ -1,21 +1,24 @@
-//! The first root of a polynomial on an interval, never passed: by its Bernstein coefficients.
+//! The first root of a polynomial on an interval, never skipped: by its Bernstein coefficients.
 //!
-//! On [0, X] a polynomial lies within the hull of its Bernstein coefficients: all above 0 means no root. De Casteljau's subdivision halves
-//! the interval, the left half first, until one change of sign is left, which is one root (Descartes' rule), and Newton's method kept
-//! inside the interval finds it to rounding. Where a minimum touches 0 to rounding the halving ends at it: a touch counts.
+//! On [0, X] a polynomial lies within the convex hull of its Bernstein coefficients: if all are
+//! above 0, it has no root. De Casteljau's subdivision halves the interval, the left half first,
+//! until one change of sign is left, which is one root (Descartes' rule); Newton's method, kept
+//! inside the interval, finds it to rounding. Where a minimum is 0 to rounding the subdivision ends
+//! at it: a touch counts as a root.
 
 use crate::flow::{TERMS, value};
 
-/// Halvings after which an interval is one point of the stretch to rounding.
+/// Maximum number of halvings: then an interval is one point of the stretch to rounding.
 const DEPTH: usize = 52;
 
-/// Steps of the last search; each halves the interval at least every second time.
+/// Maximum number of steps of the final search; at least every second one halves the interval.
 const REFINEMENTS: usize = 120;
 
-/// Terms of the quick test: what is left of the series beyond them is bounded by its size.
+/// Number of terms of the quick test; the rest of the polynomial is bounded by the sum of its
+/// magnitudes.
 const QUICK: usize = 8;
 
-/// The smallest x in [0, `end`] at which p(x) = Σ cₖ xᵏ is 0 or below, for p(0) > 0; none if there is none.
+/// The smallest x in [0, `end`] at which p(x) = Σ cₖ xᵏ ≤ 0, for p(0) > 0; `None` if there is none.
 pub(super) fn first_root(c: &[f64], end: f64) -> Option<f64> {
     let count = c.len().min(TERMS);
     let mut p = [0.0; TERMS];
@@ -25,7 +28,7 @@ pub(super) fn first_root(c: &[f64], end: f64) -> Option<f64> {
         power *= end;
         fall += p.min(0.0);
     }
-    // The first coefficient is positive, and counts for nothing in the fall.
+    // The first coefficient is positive, so `fall` does not include it.
     if p[0] + fall > 0.0 {
         return None;
     }
@@ -43,7 +46,8 @@ pub(super) fn first_root(c: &[f64], end: f64) -> Option<f64> {
     descend(&p[..count], b, count).map(|x| x * end)
 }
 
-/// Power coefficients to Bernstein coefficients on [0, 1]: bⱼ = Σ C(j,k)/C(N,k) cₖ, every weight at most 1.
+/// Power coefficients to Bernstein coefficients on [0, 1]: bⱼ = Σ C(j,k)/C(N,k) cₖ, every weight at
+/// most 1.
 fn to_bernstein(b: &mut [f64]) {
     let top = b.len() - 1;
     let mut binomial = 1.0;
@@ -58,9 +62,9 @@ fn to_bernstein(b: &mut [f64]) {
     }
 }
 
-/// Halves intervals, the left one first.
+/// Subdivides, the left half first.
 fn descend(p: &[f64], b: [f64; TERMS], count: usize) -> Option<f64> {
-    // The right halves still to be looked at: one for each level of the way down.
+    // The right halves still to be examined: one for each level of the subdivision.
     let mut waiting = [(0.0, 0.0); DEPTH + 2];
     let mut depth = 0;
     let (mut low, mut high, mut b) = (0.0, 1.0, b);
@@ -102,7 +106,8 @@ fn left_half(b: &mut [f64]) {
     }
 }
 
-/// Bernstein coefficients of p on [`low`, `high`]: p shifted to `low` and scaled, by Horner's scheme.
+/// Bernstein coefficients of p on [`low`, `high`]: p shifted to `low` and scaled, by Horner's
+/// scheme.
 fn over(p: &[f64], low: f64, high: f64, count: usize) -> [f64; TERMS] {
     let mut shifted = [0.0; TERMS];
     shifted[..count].copy_from_slice(p);
@@ -144,7 +149,7 @@ fn refine(p: &[f64], mut low: f64, mut high: f64) -> f64 {
     x
 }
 
-/// The largest value of a polynomial on [0, `end`], to what its second derivative leaves of the place of the peak.
+/// The largest value of a polynomial on [0, `end`], located by bisection of its derivative.
 pub(super) fn highest(c: &[f64], sign: f64, end: f64) -> f64 {
     let rate = |x: f64| sign * c.iter().enumerate().skip(1).rev().fold(0.0, |sum, (k, c)| sum * x + k as f64 * c);
     let mut best = (sign * value(c, 0.0)).max(sign * value(c, end));
@@ -154,7 +159,7 @@ pub(super) fn highest(c: &[f64], sign: f64, end: f64) -> f64 {
         let after = rate(right);
         if before > 0.0 && after < 0.0 {
             let (mut low, mut high) = (left, right);
-            // The value is flat at the peak: 2⁻³⁰ of the interval is 2⁻⁶⁰ of its variation.
+            // The polynomial is flat at its peak: 2⁻³⁰ of the interval is 2⁻⁶⁰ of its variation.
             for _ in 0..30 {
                 let middle = 0.5 * (low + high);
                 if rate(middle) > 0.0 { low = middle } else { high = middle }
@@ -166,7 +171,8 @@ pub(super) fn highest(c: &[f64], sign: f64, end: f64) -> f64 {
     best
 }
 
-/// Parts of a stretch in which a force has one peak at most: a quarter of a radian of its fastest motion each.
+/// Number of parts of a stretch; a force has at most one peak in each: a quarter of a radian of its
+/// fastest motion.
 const PARTS: usize = 8;
 
 #[cfg(test)]
@@ -178,7 +184,7 @@ mod tests {
         // (x − 0.3)(x − 0.30001)(x − 0.9) at the sign that starts above 0.
         let c = [0.3 * 0.30001 * 0.9, -(0.3 * 0.30001 + 0.3 * 0.9 + 0.30001 * 0.9), 0.3 + 0.30001 + 0.9, -1.0];
         let x = first_root(&c, 1.0).unwrap();
-        // Of neighbours 1e-5 apart rounding of the coefficients moves each by 1e-16/1e-5.
+        // With two roots 1e-5 apart, rounding of the coefficients moves each by 1e-16/1e-5.
         assert!((x - 0.3).abs() < 1e-10, "{x}");
         assert_eq!(first_root(&c, 0.29), None);
     }
@@ -197,7 +203,7 @@ mod tests {
 
     #[test]
     fn the_second_of_two_dips_is_found() {
-        // 1 − 4x(1−x)·… by a sine over three quarters of its turns: cos(9x) + 0.95 dips below 0 first at 0.3138….
+        // cos 2x + 0.3, whose first root is ½ arccos(−0.3).
         let mut c = [0.0; TERMS];
         let mut term = 1.0;
         for (k, c) in c.iter_mut().enumerate() {

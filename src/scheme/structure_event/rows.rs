@@ -1,34 +1,36 @@
-//! The rows of the walls, as contact sees them: bounds, what is held, and what roundings are worth there.
+//! The rows of the walls: bounds, which are held, and the rounding errors there.
 
 use crate::flow::{SeriesBody, TERMS};
 use crate::scene::{Scene, Side};
 use crate::scheme::exact::noise;
 
-/// The side of the structure on which a wall stands: the sign of its force.
+/// The sign of a wall's force, for lower and upper walls.
 pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
 
 /// A row with rigid walls behind it. Index 0 is the lower side, 1 the upper.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WallRow {
-    /// Where the nearest rigid wall of each side stands, m; infinite without one.
+    /// Position of the nearest rigid wall of each side, m; infinite without one.
     pub bound: [f64; 2],
-    /// The largest restitution of the walls that stand there.
+    /// The largest restitution of the walls at that position.
     pub restitution: [f64; 2],
-    /// How many share it: all that stand there in lasting contact, those of the largest restitution in an impact.
+    /// Numbers of walls that share the force: all at that position in lasting contact, those with
+    /// the largest restitution in an impact.
     pub carriers: [usize; 2],
     pub strikers: [usize; 2],
     /// The sign of the walls that hold the row at present; 0 if none does.
     pub held: f64,
-    /// The furthest that it has moved on a stretch so far, m: what a low flight is low against.
+    /// The furthest that the row has moved on a stretch so far, m: the scale for the height of a
+    /// flight.
     pub travel: f64,
-    /// What has been decided at this instant about the coefficients of each side's gap.
+    /// What has been decided at this instant about the leading coefficients of each side's gap.
     pub gap_zeros: [Option<Zeros>; 2],
-    /// The same of the force that holds the row.
+    /// The same for the force that holds the row.
     pub force_zeros: Option<Zeros>,
 }
 
 impl WallRow {
-    /// The row that the walls of these numbers share.
+    /// The row that the walls with these indices share.
     pub fn new(scene: &Scene, walls: &[usize]) -> Self {
         let mut place = Self {
             bound: [f64::NEG_INFINITY, f64::INFINITY],
@@ -64,25 +66,28 @@ impl WallRow {
         SIGNS[side] * (w - self.bound[side])
     }
 
-    /// Forgets what was decided at an instant.
+    /// Discards what was decided at an instant.
     pub fn forget(&mut self) {
         self.gap_zeros = [None; 2];
         self.force_zeros = None;
     }
 }
 
-/// Derivatives of the displacement whose sizes are kept: with the acceleration those that are asked about a row at rest.
+/// Number of derivatives of the displacement whose sizes are kept: up to the last that `rest.rs`
+/// examines.
 pub(super) const DERIVATIVES: usize = 5;
 
-/// Sizes of the terms of forces and derivatives, whose rounding limits what a row shows.
+/// Sizes of the terms of forces and derivatives, whose rounding errors limit what is known of a
+/// row.
 #[derive(Debug)]
 pub(super) struct Sizes {
-    /// Of the derivatives of q (m/sᵏ), n entries each. What a derivative is a sum of may be far larger than the derivative, and
-    /// what follows from it errs by the rounding of those terms.
+    /// Of the derivatives of q (m/sᵏ), n entries each. The terms that add up to a derivative may be
+    /// far larger than the derivative, and what follows from it has the rounding error of those
+    /// terms.
     pub derivative: [Vec<f64>; DERIVATIVES],
     /// Of the force (N) and of its rate (N/s) at the start of the series, n entries each.
     pub force: [Vec<f64>; 2],
-    /// True once the sizes of `force` are those of the present series.
+    /// True once `force` holds the sizes of the present series.
     pub known: bool,
     /// Of the force at the last event, N.
     pub instant: Vec<f64>,
@@ -107,19 +112,19 @@ pub(super) fn size(body: &SeriesBody, row: usize, x: &[f64]) -> f64 {
     body.rows.row(row).iter().map(|&(j, g)| (g * x[j]).abs()).sum()
 }
 
-/// A polynomial to be watched for its first root.
+/// A polynomial whose first root is sought.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Watched {
     pub c: [f64; TERMS],
     pub terms: usize,
 }
 
-/// What the coefficients of a polynomial err by at its start.
+/// Rounding errors of the coefficients of a polynomial at its start.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rounding {
-    /// The first ones, each by itself.
+    /// Of the first coefficients.
     pub of: [f64; NOISES],
-    /// How far below 0 its value may be for rounding, anywhere on the stretch.
+    /// How far below 0 its value may be by rounding, anywhere on the stretch.
     depth: f64,
 }
 
@@ -129,45 +134,47 @@ impl Rounding {
         Self { of, depth: BELOW * (of.iter().sum::<f64>() + noise(terms)) }
     }
 
-    /// The same with coefficients that must differ from 0 by `doubt` times as much.
+    /// The same with the errors of the coefficients multiplied by `doubt`.
     pub fn doubted(mut self, doubt: f64) -> Self {
         self.of.iter_mut().for_each(|noise| *noise *= doubt);
         self
     }
 
-    /// The value below 0 at which a polynomial at 0 is found to be below it.
+    /// The distance below 0 at which a polynomial that starts at 0 is found to be negative.
     pub fn below(&self) -> f64 {
         BELOW * self.depth
     }
 }
 
-/// What watching says.
+/// The result of the search for a first root.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Seen {
-    /// It is at 0, within rounding, and goes below it at once.
+    /// The polynomial is 0, within rounding, and goes below 0 at once.
     Now,
     /// The first root, in the stretch's x.
     Root(f64),
     Nothing,
 }
 
-/// What an event decides about a row that touches.
+/// What an event has decided about a row that touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Zeros {
     /// That many leading coefficients are zero, and the next one is positive.
     Then(usize),
-    /// That many are zero; which way the row goes is not known.
+    /// That many are zero; which way the row goes is undecided.
     Unknown(usize),
     /// All are: the row cannot move.
     All,
 }
 
 impl Watched {
-    /// The first root up to `end`. Coefficients below their rounding at the start are taken for 0; `zeros` says which are 0 by what
-    /// has been decided at this instant. A `force` below 0 is an event whatever follows, a gap only if it goes on falling.
+    /// The first root up to `end`. Coefficients below their rounding error at the start count as 0;
+    /// `zeros` says which are 0 because of what has been decided at this instant. A `force` below 0
+    /// is an event in any case, a gap below 0 only if it goes on falling.
     ///
-    /// Where no known coefficient tells which way a polynomial at 0 goes — a push may have to come through many masses first — it is
-    /// watched until it is below 0 by more than rounding.
+    /// Where no known coefficient shows which way a polynomial at 0 goes (a force may have to
+    /// travel through many masses first), the search is for the point where it is below 0 by more
+    /// than rounding.
     pub fn first(
         &self,
         zeros: Option<Zeros>,
@@ -212,11 +219,13 @@ fn root(c: &[f64], end: f64) -> Seen {
     super::root::first_root(c, end).map_or(Seen::Nothing, Seen::Root)
 }
 
-/// Coefficients whose noise is known.
+/// Number of coefficients whose rounding error is known.
 const NOISES: usize = 4;
 
-/// How far beyond its rounding a coefficient may contradict what a programme has decided, whose signs are told more coarsely.
+/// Factor on its rounding error by which a coefficient may contradict what a programme has decided,
+/// since the programme's signs have a coarser tolerance.
 const DECIDED: f64 = 1e3;
 
-/// A value below 0 by this many times its rounding is not 0; watching starts from as far above that.
+/// A value below 0 by this many times its rounding error is not 0; the search starts from as far
+/// above that.
 const BELOW: f64 = 2.0;

@@ -7,18 +7,19 @@ use super::rows::{Rounding, SIGNS, Seen, Watched, Zeros, size};
 use crate::flow::TERMS;
 use crate::scheme::exact::{Phase, noise};
 
-/// When, in the stretch's x, and with what.
+/// An event: when, in the stretch's x, and which.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hit {
     pub x: f64,
     pub cause: Cause,
 }
 
-/// A gap above this share of all that the row moves and stands off is no rounding, however the terms cancel.
+/// A gap above this share of the sizes of the row's motion and of its wall's position exceeds
+/// rounding, however its terms cancel.
 const NEAR: f64 = 1e-9;
 
 impl StructureEvent {
-    /// The first event of the stretch, none if there is none up to its end.
+    /// The first event of the stretch, `None` if there is none.
     pub(super) fn search(&mut self) -> Option<Hit> {
         let mut end = self.series.span();
         let mut hit = None;
@@ -31,7 +32,7 @@ impl StructureEvent {
                 self.watch_hold(row, &mut end, &mut hit);
             }
             for (side, sign) in SIGNS.into_iter().enumerate() {
-                // Rounding aside a gap wider than all the row can move stays open.
+                // Apart from rounding, a gap wider than all the row can move stays open.
                 if place.gap(side, w) > reach || place.held == sign || place.bound[side].is_infinite() {
                     continue;
                 }
@@ -75,7 +76,7 @@ impl StructureEvent {
         }
         let mut watched = Watched { c: [0.0; TERMS], terms: 0 };
         let force = self.series.held_force(k);
-        // The last two coefficients of a force are not known: nothing follows from them.
+        // The last two coefficients of a force are not known, and are left out.
         watched.terms = force.len() - 2;
         for (c, f) in watched.c.iter_mut().zip(force) {
             *c = place.held * f;
@@ -103,7 +104,7 @@ impl StructureEvent {
             *c = sign * s;
         }
         gap.c[0] = b.gap(seen[0]);
-        // k_a s + c_a ṡ, without its last coefficient, which the series does not know.
+        // k_a s + c_a ṡ, without its last coefficient, which needs a term beyond the series.
         let mut sum = Watched { c: [0.0; TERMS], terms: if damping > 0.0 { terms - 1 } else { terms } };
         for k in 0..sum.terms {
             let next = if k + 1 < terms { gap.c[k + 1] } else { 0.0 };
@@ -127,38 +128,40 @@ impl StructureEvent {
         for (mut watched, sign, rounding) in looks.into_iter().flatten() {
             watched.c.iter_mut().for_each(|c| *c *= sign);
             if changed {
-                // It was at 0 to the rounding of the stretch before, which may be coarser than that of this one.
+                // It was 0 to the rounding of the stretch before, which may be coarser than that of
+                // this stretch.
                 watched.c[0] = watched.c[0].max(0.0);
             }
             note(watched.first(None, || rounding, true, false, *end), Cause::Elastic(wall), end, hit);
         }
     }
 
-    /// What the coefficients of a row's displacement may err by at the start, m: of displacement, velocity, acceleration and its rate.
+    /// Rounding errors of the first coefficients of a row's displacement at the start, m: of
+    /// displacement, velocity, acceleration and its rate.
     pub(super) fn noises(&self, row: usize, position: f64) -> [f64; 4] {
         let unit = self.series.unit();
         let answer = |x: &[f64]| self.body.answer_size(row, x);
         let second = noise(answer(&self.sizes.force[0])) * unit * unit / 2.0;
         [
             self.resolution(row, position),
-            // What forces in balance leave of a velocity is the rounding of their terms.
+            // Where forces balance, the velocity has the rounding error of their terms.
             noise(size(&self.body, row, self.series.term(1))) + 2.0 * second,
             second,
             noise(answer(&self.sizes.force[1])) * unit * unit * unit / 6.0,
         ]
     }
 
-    /// What the gap of a row at a wall errs by, m. The sizes must be measured.
+    /// Rounding errors of the gap of a row at a wall, m. The sizes must be measured.
     pub(super) fn rounding(&self, row: usize, position: f64) -> Rounding {
         Rounding::new(self.noises(row, position), self.travel(row))
     }
 
-    /// Sizes of all that the displacement of a row is a sum of beyond its place at the start, m.
+    /// Σ of the sizes of the terms of a row's displacement after the first, m.
     fn travel(&self, row: usize) -> f64 {
         (1..self.series.seen(row).len()).map(|k| size(&self.body, row, self.series.term(k))).sum()
     }
 
-    /// The same of the force on held row number `k`, N.
+    /// Rounding errors of the first coefficients of the force on held row number `k`, N.
     fn force_noises(&self, k: usize) -> [f64; 4] {
         let unit = self.series.unit();
         let mut out = [0.0; 4];
@@ -167,12 +170,12 @@ impl StructureEvent {
                 *out += noise(w.abs() * self.body.answer_size(held.row, &self.sizes.force[order]));
             }
         }
-        // Of the higher ones what the fastest rate makes of the second.
+        // For the higher ones, the second times powers of the fastest rate.
         let fast = self.series.rate() * unit;
         [out[0], out[1] * unit, out[1] * unit * fast, out[1] * unit * fast * fast]
     }
 
-    /// Notes the pressures of the stretch up to `x` in the episodes under way.
+    /// Records the pressures of the stretch up to `x` in the open episodes.
     pub(super) fn note_pressures(&mut self, x: f64) {
         let Self { series, barriers, .. } = self;
         for (wall, force, share) in series.acting() {

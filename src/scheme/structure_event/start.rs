@@ -10,14 +10,16 @@ use crate::scene::{Loads, Scene};
 use crate::scheme::exact::{Clock, Shown, barriers, known_loads};
 use std::sync::Arc;
 
-/// The programme's signs are tested relative to the motion at hand, so any positive length will do.
+/// The programme's signs are tested relative to its own motion, so any positive length will do.
 const SCALE: f64 = 1e-200;
 
 impl StructureEvent {
-    /// The scene at its start, after the blows at t = 0. Steps end at events, with a series, and at multiples of `stride` (s).
+    /// The scene at its start, after the blows at t = 0. Steps end at events, with a series, and at
+    /// multiples of `stride` (s).
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a wall of the φ² penalty, which has no linear law, and for a function of time as load.
+    /// [`Error::Invalid`] for a wall of the φ² penalty, which has no linear law, and for a function
+    /// of time as load.
     pub(in crate::scheme) fn new(scene: &Arc<Scene>, stride: f64) -> Result<Self> {
         known_loads(scene)?;
         let barriers = barriers(scene)?;
@@ -86,7 +88,8 @@ impl StructureEvent {
         Ok(event)
     }
 
-    /// The solver of impacts and of lasting contact at several walls, made when it is first needed: of many walls it is large.
+    /// Makes the solver of impacts and of lasting contact at several walls, when it is first
+    /// needed: with many walls it is large.
     pub(super) fn make_solver(&mut self) -> Result<()> {
         let (mass, rows) = (self.scene.system.structure().mass.clone(), &self.body.rows);
         let problem = qp::Problem { a: mass, g: rows.clone(), compliance: vec![0.0; rows.count()] };
@@ -96,7 +99,8 @@ impl StructureEvent {
         Ok(())
     }
 
-    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each: the state after whatever happened at that instant.
+    /// Restarts the motion at `time` (s) from `q` (m) and `v` (m/s), n entries each: the state
+    /// after any jump at that instant.
     pub fn restart(&mut self, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
         let mut event = Self::new(&self.scene, self.clock.stride)?;
         event.time = time;

@@ -1,11 +1,11 @@
-//! A stretch that moreau-jean steps, and the count of events that calls for one.
+//! A stretch that moreau-jean steps, and the count of events that decides on it.
 
 use crate::scheme::Handed;
 use crate::scheme::grid::Grid;
 use crate::scheme::matrices::Matrices;
 use crate::step::Contract;
 
-/// A stretch under way.
+/// The current stretch.
 #[derive(Debug)]
 pub(super) struct Stretch {
     pub grid: Grid<Matrices>,
@@ -18,20 +18,20 @@ pub(super) struct Stretch {
     pub contract: Contract,
 }
 
-/// Counts events, to know a crowd.
+/// Counts events, to detect that there are too many.
 #[derive(Debug, Default)]
 pub(super) struct Crowd {
     pub since: f64,
     pub at_since: u64,
     /// End of the last stretch handed over, s.
     pub handed: f64,
-    /// Stretches handed over, those that follow one another as one.
+    /// Stretches handed over; adjacent ones are joined.
     pub stretches: Vec<Handed>,
     pub steps: u64,
 }
 
 impl Crowd {
-    /// Counts anew from `time` (s) on, when so many `events` have been.
+    /// Restarts the count at `time` (s), after `events` events so far.
     pub fn restart(&mut self, time: f64, events: u64) {
         (self.since, self.at_since) = (time, events);
     }

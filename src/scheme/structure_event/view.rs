@@ -1,4 +1,4 @@
-//! What a run shows of itself after each step.
+//! What the scheme shows after each step.
 
 use super::StructureEvent;
 use crate::error::Result;
