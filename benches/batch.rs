@@ -1,6 +1,6 @@
-//! Cost of an oscillator and period of its load in a batch, by instruction set, beside the scheme
-//! `event` and turn by turn with it. Prints a table, checks that both sides found the same motion,
-//! and asserts nothing about time.
+//! Cost per oscillator and load period in a batch, by instruction set, and by the scheme `event`,
+//! measured alternately. Prints a table, checks that both sides found the same motion, and asserts
+//! nothing about time.
 
 use signorini::batch::{By, Lane, Plan, Sine, Stop, Width};
 use signorini::{Oscillator, Scheme, Stepper, WallLaw};
@@ -10,8 +10,8 @@ use std::time::Instant;
 mod support;
 use support::race;
 
-/// Oscillators, periods of each, and rounds of which the best counts: a round is short enough to
-/// find a quiet moment on a busy machine.
+/// Number of oscillators, periods of each, and rounds, of which the best counts: a round is short
+/// enough to fit between the interruptions of a busy machine.
 const LANES: usize = 256;
 const PERIODS: u32 = 100;
 const ROUNDS: usize = 60;
@@ -46,7 +46,7 @@ fn event(lane: &Lane, periods: u32) -> [f64; 2] {
     [state.q[0], state.v[0]]
 }
 
-/// Nanoseconds an oscillator and period.
+/// Nanoseconds per oscillator and period.
 fn cost(lanes: usize, work: impl FnOnce()) -> f64 {
     let start = Instant::now();
     work();
@@ -80,7 +80,7 @@ fn main() {
         let batch = Plan { threads: 1, ..Plan::new(0, PERIODS) }.run(&lanes).expect("a batch");
         let outcomes = batch.outcomes().iter().flatten();
         let impacts: u64 = outcomes.clone().map(|o| o.lower.impacts + o.upper.impacts).sum();
-        // Both sides after five periods: before chaos has made anything of rounding.
+        // Both sides after five periods: before chaos has amplified rounding.
         let short = Plan { threads: 1, ..Plan::new(4, 1) }.run(&lanes).expect("a batch");
         for (index, lane) in lanes.iter().enumerate().step_by(EVERY) {
             let (a, b) = (short.strobes(index)[0], event(lane, 5));

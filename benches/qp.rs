@@ -1,5 +1,6 @@
-//! Cost of a step's programme: the clamp, bare Clarabel (`update_q`, `update_b`, `solve`), the polished solver, and the condensed one
-//! against a loop by hand and, with more rows than unknowns, against Clarabel, measured in turn in one run. Prints tables; asserts nothing about time.
+//! Cost of a step's programme: the clamp, bare Clarabel (`update_q`, `update_b`, `solve`), the
+//! polished solver, and the condensed one against a loop by hand and, with more rows than unknowns,
+//! against Clarabel, measured in turn in one run. Prints tables; asserts nothing about time.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSolver, IPSolver, NonnegativeConeT};
@@ -12,10 +13,11 @@ mod beam;
 mod support;
 use support::{clarabel_settings, race, time};
 
-/// Best of these rounds counts; sides take turns within each.
+/// Number of rounds, of which the best counts; the sides alternate within each.
 const ROUNDS: usize = 15;
 
-/// A chain of n springs with a box of ±1 on every unknown; loads that push a varying part of it against the walls.
+/// A chain of n springs with a box of ±1 on every unknown; loads that push a varying part of it
+/// against the walls.
 fn chain(n: usize) -> (Problem, Vec<Vec<f64>>) {
     let a = Symmetric::from_entries(n, (0..n).map(|i| (i, i, 3.0)).chain((1..n).map(|i| (i, i - 1, -1.0))));
     let unit: Vec<[(usize, f64); 1]> = (0..n).map(|i| [(i, 1.0)]).collect();
@@ -37,7 +39,8 @@ fn by_columns(height: usize, columns: &[Vec<(usize, f64)>]) -> CscMatrix<f64> {
     CscMatrix::new(height, columns.len(), starts, rows, values)
 }
 
-/// Clarabel as one would call it by hand, at the same tolerance, on the same (already dimensionless) programme.
+/// Clarabel as one would call it by hand, at the same tolerance, on the same (already
+/// dimensionless) programme.
 fn bare(problem: &Problem) -> DefaultSolver<f64> {
     let n = problem.a.size();
     // Rows of the lower triangle are columns of the upper one; a box's rows are its columns.
@@ -49,14 +52,16 @@ fn bare(problem: &Problem) -> DefaultSolver<f64> {
         .expect("a sound programme")
 }
 
-/// h²θ²k of a chain of masses 1 and springs 1e4 at h = 1e-3, θ = ½: A = (1 + 2c) I − c (neighbours), in velocities.
+/// h²θ²k of a chain of masses 1 and springs 1e4 at h = 1e-3, θ = ½: A = (1 + 2c) I − c
+/// (neighbours), in velocities.
 const COUPLING: f64 = 0.0025;
 
 /// b, lo and hi of one step.
 type Step = (Vec<f64>, Vec<f64>, Vec<f64>);
 
-/// Programmes of moreau-jean on that chain: every mass between stops at ±1e-3 m without restitution, driven so that about a fifth are
-/// in contact. Bounds are 0 where a stop is reached and infinite elsewhere.
+/// Programmes of moreau-jean on that chain: every mass between stops at ±1e-3 m without
+/// restitution, driven so that about a fifth are in contact. Bounds are 0 where a stop is reached
+/// and infinite elsewhere.
 fn programmes(n: usize, count: usize) -> (Problem, Vec<Step>) {
     let chain = (0..n).map(|i| (i, i, 1.0 + 2.0 * COUPLING)).chain((1..n).map(|i| (i, i - 1, -COUPLING)));
     let unit: Vec<[(usize, f64); 1]> = (0..n).map(|i| [(i, 1.0)]).collect();
@@ -87,10 +92,12 @@ fn programmes(n: usize, count: usize) -> (Problem, Vec<Step>) {
     (problem, steps)
 }
 
-/// h²θ²k of a chain of masses 1 and springs 1e6 at h = 1e-2, θ = ½: a force reaches some ten masses.
+/// h²θ²k of a chain of masses 1 and springs 1e6 at h = 1e-2, θ = ½: a force reaches some ten
+/// masses.
 const STIFF: f64 = 25.0;
 
-/// Programmes of that chain with every other mass held against its stop, a few of which let go or take hold from step to step.
+/// Programmes of that chain with every other mass held against its stop, a few of which change
+/// between contact and separation from step to step.
 fn held(n: usize, count: usize) -> (Problem, Vec<Step>) {
     let chain = (0..n).map(|i| (i, i, 1.0 + 2.0 * STIFF)).chain((1..n).map(|i| (i, i - 1, -STIFF)));
     let unit: Vec<[(usize, f64); 1]> = (0..n).map(|i| [(i, 1.0)]).collect();
@@ -105,8 +112,8 @@ fn held(n: usize, count: usize) -> (Problem, Vec<Step>) {
     (problem, (0..count).map(step).collect())
 }
 
-/// The same programme by hand, for this chain only: a primal-dual active set, each pass one sweep of the tridiagonal system in which the
-/// masses in contact are held.
+/// The same programme by hand, for this chain only: a primal-dual active set, each pass one sweep
+/// of the tridiagonal system in which the masses in contact are held.
 struct Hand {
     /// h²θ²k of the chain.
     coupling: f64,
@@ -165,7 +172,8 @@ impl Hand {
         }
         for _ in 0..100 {
             self.passes += 1;
-            // A held mass passes its place on, and nothing of its own stiffness.
+            // A held mass enters its neighbours' equations as a known displacement, and its own
+            // equation is left out.
             let (mut last, mut pivot, mut part) = (0.0, 0.0, 0.0);
             for i in 0..n {
                 if side[i] == 0 {
@@ -185,7 +193,7 @@ impl Hand {
                     x[i] = next;
                     let new = i8::from(next > hi[i] + 1e-12) - i8::from(next < lo[i] - 1e-12);
                     changed |= new != 0;
-                    // Twice a side: to be held from the next pass on.
+                    // The double value marks a mass that is to be held from the next pass on.
                     side[i] = 2 * new;
                 } else {
                     next = x[i];
@@ -265,7 +273,8 @@ fn chains() {
     println!();
 }
 
-/// More rows than unknowns: a beam between more supports than it has modes, from one that rests on all of them to one that leaves most.
+/// More rows than unknowns: a beam between more supports than it has modes, from one that rests on
+/// all of them to one that leaves most.
 fn beams() {
     println!(
         "{:>5} {:>8} {:>6} {:>12} {:>12} {:>7} {:>34}",

@@ -1,5 +1,5 @@
-//! What a run costs beside its stepper alone: the judge, the rows, and both, measured in turn in one
-//! run. Prints a table, asserts nothing about time.
+//! Cost of a run compared with its stepper alone: with the judge, with recording, and with both,
+//! measured alternately. Prints a table, asserts nothing about time.
 
 use signorini::{Load, Options, Scene, Scheme, Stepper, Wall, case::Case, run};
 use std::hint::black_box;
@@ -7,13 +7,13 @@ use std::hint::black_box;
 mod support;
 use support::{race, time};
 
-/// Best of these rounds counts; the ways take turns within each. A round lasts a millisecond or two, so
-/// that some fit between the interruptions of a busy machine.
+/// Number of rounds, of which the best counts; the variants alternate within each. A round lasts a
+/// millisecond or two, so that some fit between the interruptions of a busy machine.
 const ROUNDS: usize = 40;
 
 /// One line: a scene, a scheme, a step (s), and the duration of a round (s).
 fn line(what: &str, scene: &Scene, scheme: &Scheme, step: f64, end: f64) {
-    // A word on the command line takes the lines that have it.
+    // A word on the command line selects the lines that contain it.
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     if !words.is_empty() && !words.iter().any(|word| what.contains(word.as_str())) {
         return;
@@ -27,7 +27,8 @@ fn line(what: &str, scene: &Scene, scheme: &Scheme, step: f64, end: f64) {
     let best = race(ROUNDS, || {
         let alone = time(1, |_| {
             let mut stepper = Stepper::new(&scene, scheme, step).expect("a scene");
-            // A grid ends half a step early or late by rounding, the exact scheme on the end itself.
+            // The time on a grid has rounding errors, so half a step is subtracted; the exact
+            // scheme ends exactly at the end.
             let last = if *scheme == Scheme::Event { end } else { end - 0.5 * step };
             while stepper.time() < last {
                 black_box(stepper.step().expect("a step"));

@@ -1,12 +1,16 @@
-//! What a step costs against the number of degrees of freedom, and against the number of walls: moreau-jean, e = 0, h = 1e-3, on chains
-//! like those of the built-in cases (1 kg, 1e4 N/m, stops at ±1 mm, 50 sin(10πt) N on the first mass). Prints three tables, writes a chart of
-//! each, and asserts nothing about time. `cargo bench --bench scaling -- FOLDER` says where to; otherwise it is `target/scaling`.
+//! Cost of a step against the number of degrees of freedom, and against the number of walls:
+//! moreau-jean, e = 0, h = 1e-3, on chains like those of the built-in cases (1 kg, 1e4 N/m, stops
+//! at ±1 mm, 50 sin(10πt) N on the first mass). Prints three tables, writes a chart of each to
+//! `target/scaling` or to FOLDER in `cargo bench --bench scaling -- FOLDER`, and asserts nothing
+//! about time.
 //!
-//! With walls at the first few masses only, n grows from 1 to 1e5: the step of a banded system is linear in n. With stops on every mass,
-//! driven at every tenth so that many of them touch, walls grow to 1000 (of both sides together).
+//! With walls at the first few masses only, n grows from 1 to 1e5: the step of a banded system is
+//! linear in n. With stops on every mass, driven at every tenth so that many of them touch, walls
+//! grow to 1000 (of both sides together).
 //!
-//! And what the exact motion of the source scene (e = 0.8) costs a period of its load against the length of the run, from 100 to 1e5
-//! periods: the bare stepper, a run that is judged, one that is recorded (a row every ten periods), and both.
+//! It also measures the cost of the exact motion of the source scene (e = 0.8) per period of its
+//! load, against the length of the run, from 100 to 1e5 periods: the bare stepper, a judged run, a
+//! recorded run (a row every ten periods), and both.
 
 use signorini::linear::{Factor, Symmetric};
 use signorini::output::atomic::write_whole;
@@ -18,14 +22,16 @@ use std::time::{Duration, Instant};
 
 const H: f64 = 1e-3;
 const MOREAU_JEAN: Scheme = Scheme::MoreauJean { theta: 0.5 };
-/// Masses with walls where n grows.
+/// Number of masses with walls where n grows.
 const FEW: usize = 5;
-/// A measurement takes about this long, and is taken so often, best of all; what takes longer than the limit ends its series.
+/// A measurement takes about this long and is repeated `TURNS` times, of which the best counts; a
+/// series ends when one exceeds the limit.
 const TURN: Duration = Duration::from_millis(200);
 const TURNS: u32 = 3;
 const LIMIT: Duration = Duration::from_secs(20);
 
-/// A chain of `n` masses of which the first `walled` stand between stops, driven at the masses `driven`.
+/// A chain of `n` masses of which the first `walled` stand between stops, driven at the masses
+/// `driven`.
 fn chain(n: usize, walled: usize, driven: impl Iterator<Item = usize>) -> Scene {
     let chain = Chain { masses: vec![1.0; n], springs: vec![1e4; n - 1], grounds: [1e4; 2] };
     let mut structure = chain.structure().expect("a chain");
@@ -40,7 +46,7 @@ fn chain(n: usize, walled: usize, driven: impl Iterator<Item = usize>) -> Scene 
         }
     }
     for i in driven {
-        // Phases apart, so that neighbours do not move as one.
+        // Different phases, so that neighbours do not move together.
         scene.loads.push(Load { at: Row::dof(i), ..Load::harmonic(50.0, 5.0, 0.7 * i as f64) });
     }
     scene
@@ -50,11 +56,11 @@ fn chain(n: usize, walled: usize, driven: impl Iterator<Item = usize>) -> Scene 
 struct Cost {
     n: usize,
     walls: usize,
-    /// Best of the turns, ns a step.
+    /// Best of the turns, ns per step.
     step: f64,
     /// Setting up, s.
     setup: f64,
-    /// Of a step, in the mean.
+    /// Mean numbers per step.
     programmes: f64,
     pivots: f64,
     interior: f64,
@@ -147,7 +153,8 @@ fn source(periods: f64) -> Scene {
         .with_duration(0.2 * periods)
 }
 
-/// ns a period of what `go` does in a run of so many periods: the best of a few turns, or the only one of a long run.
+/// Cost of `go` in ns per period, for a run of this many periods: the best of a few turns, or the
+/// only one of a long run.
 fn per_period(periods: f64, mut go: impl FnMut()) -> f64 {
     let mut best = f64::INFINITY;
     let begun = Instant::now();
@@ -197,7 +204,7 @@ fn by_length() -> Vec<(f64, [f64; 4])> {
     rows
 }
 
-/// The same as a chart: flat lines are what is wanted.
+/// These costs as a chart: flat lines mean that the cost per period does not grow.
 fn length_picture(rows: &[(f64, [f64; 4])]) -> String {
     let names = ["bare stepper", "judged", "recorded", "judged and recorded"];
     let mut panel = Panel::new("Time of a period of the load (ns)").log();
@@ -209,7 +216,7 @@ fn length_picture(rows: &[(f64, [f64; 4])]) -> String {
 }
 
 fn main() {
-    // Cargo passes `--bench`; a folder is what is no option.
+    // Cargo passes `--bench`; the first argument that is no option is the folder.
     let folder = std::env::args().skip(1).find(|a| !a.starts_with('-'));
     let folder = PathBuf::from(folder.unwrap_or_else(|| "target/scaling".to_owned()));
     std::fs::create_dir_all(&folder).expect("a folder");

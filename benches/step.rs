@@ -1,6 +1,6 @@
-//! Cost of a step, of an impact and of a step through Clarabel, each beside a loop written by hand for that one scene
-//! and doing the same arithmetic; sides take turns. Prints a table, checks that both sides found the same motion, and
-//! asserts nothing about time.
+//! Cost of a step, of an impact and of a step through Clarabel, each beside a loop written by hand
+//! for that one scene and doing the same arithmetic; the sides alternate. Prints a table, checks
+//! that both sides found the same motion, and asserts nothing about time.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSolver, IPSolver, NonnegativeConeT};
@@ -87,7 +87,7 @@ fn bare_moreau_jean(s: Source, theta: f64, h: f64, steps: u64) -> Outcome {
     Outcome { q, v, sum, impulse }
 }
 
-/// The same through the library: all impulses are read in the steps that touch.
+/// The same through the library; the impulses of all steps with contact are read.
 fn stepped(stepper: &mut Stepper, steps: u64) -> Outcome {
     let (mut q, mut v, mut sum, mut impulse) = (0.0, 0.0, 0.0, 0.0);
     for _ in 0..steps {
@@ -101,7 +101,8 @@ fn stepped(stepper: &mut Stepper, steps: u64) -> Outcome {
     Outcome { q, v, sum, impulse }
 }
 
-/// The e = 1 motion between two impacts, by hand: Re(Z e^{λτ}) from the impact on, and the steady Im(S e^{i(ωt + φ)}).
+/// The e = 1 motion between two impacts, by hand: Re(Z e^{λτ}) from the impact on, and the steady
+/// Im(S e^{i(ωt + φ)}).
 struct Flight {
     s: Source,
     sigma: f64,
@@ -139,8 +140,9 @@ impl Flight {
         [q, v, self.s.amplitude / self.s.m * sin - 2.0 * self.sigma * v - self.kappa * q]
     }
 
-    /// The root of f in (low, high), from a guess: Newton's method, halving where it leaves the bracket. `f` gives value
-    /// and slope from a state, the value's sign at `low` being that of `sign`.
+    /// The root of f in (low, high), from a guess: Newton's method, halving where it leaves the
+    /// bracket. `f` gives value and slope from a state, the value's sign at `low` being that of
+    /// `sign`.
     fn root(&self, mut low: f64, mut high: f64, guess: f64, sign: f64, f: impl Fn([f64; 3]) -> [f64; 2]) -> f64 {
         let mut tau = if guess > low && guess < high { guess } else { 0.5 * (low + high) };
         for _ in 0..60 {
@@ -151,7 +153,7 @@ impl Flight {
                 high = tau
             }
             let newton = tau - value / slope;
-            // Convergence is quadratic: what so small a step leaves is rounding.
+            // Convergence is quadratic: after so small a step the error is rounding.
             if (newton - tau).abs() <= 1e-8 / self.s.omega {
                 return newton;
             }
@@ -161,8 +163,8 @@ impl Flight {
     }
 }
 
-/// Impulses of the impacts up to `end`, by hand. Scans in eighths of the load's period; an interval that the curvature
-/// could carry to a wall is looked into.
+/// Impulses of the impacts up to `end`, by hand. Scans in eighths of the load's period; an interval
+/// in which the curvature could bring the body to a wall is searched.
 fn bare_event(s: Source, end: f64, found: &mut Vec<f64>) {
     let mut flight = Flight::new(s);
     let stride = TAU / s.omega / 8.0;
@@ -183,7 +185,7 @@ fn bare_event(s: Source, end: f64, found: &mut Vec<f64>) {
                 let turns = side * low[1] > 0.0 && side * high[1] < 0.0;
                 let mut bracket = (after > 0.0).then_some((from, to));
                 if left == side {
-                    // It has just left this wall: the root at the start is none.
+                    // It has just left this wall: the root at the start does not count.
                     let peak = || flight.root(from, to, from - low[1] / low[2], -side, |[_, v, a]| [v, a]);
                     bracket = bracket.map(|(_, to)| (peak(), to));
                 } else if bracket.is_none() && turns {
@@ -223,7 +225,8 @@ fn exact(stepper: &mut Stepper, end: f64, found: &mut Vec<f64>) {
     }
 }
 
-/// A body that rests against a wall and is pressed by a varying load: every step is a programme in contact.
+/// A body that rests against a wall and is pressed by a varying load: every step is a programme in
+/// contact.
 fn pressed() -> Scene {
     Scene::oscillator(1.0, 0.2, 100.0)
         .with_wall(Wall::upper("upper", 5e-3).with_restitution(0.0))
@@ -275,7 +278,7 @@ fn main() {
         [by_hand / hand.len() as f64, library / ours.len() as f64]
     });
     assert_eq!(hand.len(), ours.len(), "other impacts");
-    // Rounding grows by 1e5 in the first half of the run and by 4e11 in all of it.
+    // Rounding errors grow by 1e5 in the first half of the run and by 4e11 in all of it.
     for (impact, (a, b)) in hand.iter().zip(&ours).enumerate() {
         assert!((a - b).abs() < if impact < hand.len() / 2 { 1e-9 } else { 1e-2 }, "impact {impact}: {a} {b}");
     }
@@ -286,7 +289,7 @@ fn main() {
     let (mut linear, mut by_hand, before) = (vec![0.0], 0, stepper.counters());
     let best = race(ROUNDS, || {
         let hand = time(steps, |step| {
-            // The force that presses, over its mean.
+            // The pressing force, relative to its mean.
             let press = (2.5 + (TAU * 5.0 * H * (n + step) as f64).sin()) / 2.5;
             linear[0] = -press;
             direct.update_q(&linear).expect("updatable");

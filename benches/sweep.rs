@@ -1,5 +1,5 @@
-//! What a row of a sweep costs beside its bare engine: the same scenes, built beforehand, stepped to their ends. Both in turn, the best of
-//! several, on one thread.
+//! Cost of a row of a sweep compared with its bare engine: the same scenes, built beforehand,
+//! stepped to their ends. Both are measured alternately, the best of several, on one thread.
 //!
 //! `cargo bench --bench sweep`
 
@@ -10,7 +10,7 @@ use std::time::Instant;
 
 const REPEATS: usize = 15;
 
-/// Seconds of the best of several runs of each, in turn.
+/// Seconds of the best of several runs of each, alternating.
 fn best<const N: usize>(mut works: [&mut dyn FnMut(); N]) -> [f64; N] {
     let mut least = [f64::INFINITY; N];
     for _ in 0..REPEATS {

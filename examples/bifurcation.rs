@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release --example bifurcation > points.csv` prints frequency, displacement and
 //! velocity once a period: plotted over the frequency, periodic motion is a few points, chaos is
-//! many. What is worth knowing of the batch goes to stderr.
+//! many. A summary of the batch goes to stderr.
 
 use signorini::batch::{Lane, Plan};
 use signorini::{Load, Result, Scene, Wall};
@@ -11,7 +11,7 @@ use signorini::{Load, Result, Scene, Wall};
 /// Frequencies from 2 Hz to 7 Hz.
 const FREQUENCIES: u32 = 500;
 
-/// Periods that are left for the start to die down, and those that are recorded.
+/// Number of periods for the transient to decay, and number of recorded ones.
 const SETTLE: u32 = 300;
 const KEEP: u32 = 40;
 

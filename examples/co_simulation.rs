@@ -1,21 +1,26 @@
-//! Co-simulation: a controller and its actuator, another program with its own rate, press a spring-mounted body on a rigid stop.
+//! Co-simulation: another program, a controller and its actuator with their own rate, presses a
+//! spring-mounted body on a rigid stop.
 //!
-//! `cargo run --release --example co_simulation` prints the contact force every 20 ms as CSV: it settles at the 5 N asked for.
+//! `cargo run --release --example co_simulation` prints the contact force every 20 ms as CSV: it
+//! settles at the wanted 5 N.
 //!
-//! Every macro step of 1 ms both programs are advanced. The actuator is a spring that the body moves against, so its force depends on
-//! where the body will be: the macro step is repeated with better guesses of the force ([`Stepper::set_state`] puts the body back)
-//! until both agree. Without that, a stiff actuator and a delay of one macro step would make energy.
+//! In every macro step of 1 ms both programs are advanced. The actuator is a spring that the body
+//! moves against, so its force depends on where the body will be: the macro step is repeated with
+//! better guesses of the force ([`Stepper::set_state`] puts the body back) until both agree.
+//! Without that, a stiff actuator with a delay of one macro step would create energy.
 
 use signorini::{Result, Scene, Scheme, Stepper, Wall};
 
-/// The macro step at which the programs talk, s, and the steps of the body in it.
+/// The macro step after which the programs exchange values, s, and the number of steps of the body
+/// in it.
 const MACRO: f64 = 1e-3;
 const STEPS: u32 = 20;
 
 /// Force wanted on the stop, N.
 const WANTED: f64 = 5.0;
 
-/// The other program: an integrating force controller that moves the far end of the actuator's spring.
+/// The other program: an integrating force controller that moves the far end of the actuator's
+/// spring.
 struct Actuator {
     /// Stiffness of the spring, N/m, and the place of its far end, m.
     stiffness: f64,
@@ -28,7 +33,8 @@ impl Actuator {
         self.stiffness * (self.end - q)
     }
 
-    /// One sample of the controller, which has measured the force on the stop (N) over the last macro step.
+    /// One sample of the controller, which has measured the force on the stop (N) over the last
+    /// macro step.
     fn control(&mut self, measured: f64) {
         // At most 0.2 m/s: before contact nothing else limits the approach.
         let speed = (0.05 * (WANTED - measured)).clamp(-0.2, 0.2);
@@ -36,7 +42,8 @@ impl Actuator {
     }
 }
 
-/// One macro step of the body under the actuator's force: place reached (m) and force on the stop (N), both means over it.
+/// One macro step of the body under the actuator's force: displacement (m) and force on the stop
+/// (N), both means over the step.
 fn advance(body: &mut Stepper, force: f64) -> Result<(f64, f64)> {
     let (mut place, mut impulse) = (0.0, 0.0);
     for _ in 0..STEPS {
@@ -57,7 +64,8 @@ fn main() -> Result<()> {
     println!("time_s,displacement_m,force_on_stop_N");
     for sample in 0..1000_u32 {
         actuator.control(on_stop);
-        // Where this macro step starts from, to come back to. (A step's time is a product, so it is taken from the stepper.)
+        // The start of this macro step, to return to. (A step's time is a product, so it is taken
+        // from the stepper.)
         let (time, state) = (body.time(), body.state());
         loop {
             let guess = place;

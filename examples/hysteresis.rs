@@ -1,5 +1,5 @@
-//! A sweep from Rust: the impact oscillator by rising and falling frequency, its state carried on, and what differs between the two
-//! ways: hysteresis.
+//! A sweep from Rust: the impact oscillator at rising and at falling frequency, each run starting
+//! from the state in which the last one ended. Where the two directions differ there is hysteresis.
 //!
 //! `cargo run --release --example hysteresis`
 
@@ -18,7 +18,8 @@ fn main() -> signorini::Result<()> {
         .plan()?;
     println!("{} rows: {}", plan.count(), plan.header().join(", "));
 
-    // On all cores; the numbers do not depend on how many there are. `plan.run_into` writes tables instead, and goes on after a kill.
+    // On all cores; the numbers do not depend on their count. `plan.run_into` writes tables
+    // instead, and continues after an interruption.
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let rows = plan.rows(threads)?;
     let (up, down) = rows.split_at(rows.len() / 2);

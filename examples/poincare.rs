@@ -1,15 +1,17 @@
-//! Poincaré points by hand: the state of an impact oscillator once a period of its load, for a range of frequencies.
+//! Poincaré points by hand: the state of an impact oscillator once a period of its load, for a
+//! range of frequencies.
 //!
-//! `cargo run --release --example poincare > points.csv` prints frequency, displacement and velocity: plotted over the frequency, a
-//! bifurcation diagram. Periodic motion is a few points, chaos is many.
+//! `cargo run --release --example poincare > points.csv` prints frequency, displacement and
+//! velocity: plotted over the frequency, a bifurcation diagram. Periodic motion is a few points,
+//! chaos is many.
 //!
-//! The exact scheme ends its steps at events and at multiples of the stride it is given: with the period of the load for a stride, those
-//! multiples are the Poincaré section, and nothing has to be interpolated.
+//! The exact scheme ends its steps at events and at multiples of its stride: with the period of the
+//! load for a stride, those multiples are the Poincaré section, and nothing has to be interpolated.
 
 use signorini::{Load, Result, Scene, Scheme, Stepper, Wall};
 use std::collections::BTreeSet;
 
-/// Periods that are left for the start to die down, and those that are recorded.
+/// Number of periods for the transient to decay, and number of recorded ones.
 const TRANSIENT: u32 = 200;
 const RECORDED: u32 = 50;
 
@@ -23,7 +25,8 @@ fn section(frequency: f64) -> Result<Vec<(f64, f64)>> {
     let mut stepper = Stepper::new(&scene, &Scheme::Event, period)?;
     let mut points = Vec::new();
     for count in 1..=TRANSIENT + RECORDED {
-        // Steps end at impacts too: on to the next multiple of the period. Half a unit of rounding of the time is no period.
+        // Steps end at impacts too: go on to the next multiple of the period, which is reached up
+        // to rounding of the time.
         let section = f64::from(count) * period;
         while stepper.time() < section * (1.0 - 1e-12) {
             stepper.step()?;
@@ -44,7 +47,7 @@ fn main() -> Result<()> {
         for (q, v) in &points {
             println!("{frequency:.3},{q:.9e},{v:.9e}");
         }
-        // Points closer than a thousandth of the gap are one.
+        // Points closer than a thousandth of the gap count as one.
         let distinct: BTreeSet<i64> = points.iter().map(|(q, _)| (q / 5e-6).round() as i64).collect();
         eprintln!("{frequency:.3} Hz: {} distinct points of {RECORDED}", distinct.len());
     }

@@ -1,18 +1,20 @@
 //! The contact force of a tube that rattles in two loose supports.
 //!
-//! `cargo run --release --example tube_contact_force > force.csv` prints the force of the first support, averaged over 1 ms, as
-//! CSV, and what each support takes to stderr.
+//! `cargo run --release --example tube_contact_force > force.csv` prints the force of the first
+//! support, averaged over 1 ms, as CSV, and the mean and largest force of each support to stderr.
 //!
-//! The force of a rigid impact is not finite, so impulse/h of a step has no limit as h shrinks. What has one is the impulse, and
-//! the force averaged over a stated time: here the impulse between two rows, 1 ms apart, divided by that time.
+//! The force of a rigid impact is not finite, so impulse/h of a step has no limit as h shrinks. The
+//! impulse has one, and so has the force averaged over a stated time: here the impulse between two
+//! rows, 1 ms apart, divided by that time.
 
 use signorini::{Beam, BeamEnd, Damping, Load, Options, Probe, Result, Scene, Scheme, Wall, run};
 
-/// Spacing of the rows, s: what the force is averaged over.
+/// Spacing of the rows, s, over which the force is averaged.
 const WINDOW: f64 = 1e-3;
 
 fn main() -> Result<()> {
-    // A heat-exchanger tube, 19.05 × 1.65 mm steel, three spans of 1 m, 0.2 mm from its supports on either side.
+    // A heat-exchanger tube, 19.05 × 1.65 mm steel, three spans of 1 m, 0.2 mm from its supports on
+    // either side.
     let tube = Beam {
         length: 3.0,
         youngs_modulus: 2e11,
@@ -35,7 +37,8 @@ fn main() -> Result<()> {
     }
     let scene = scene.with_load(Load { at: tube.at(0.5)?, ..Load::harmonic(10.0, 25.0, 0.0) });
 
-    // Twenty modes, each with 1 % of critical damping. How much of the mass at each wall that keeps is reported.
+    // Twenty modes, each with 1 % of critical damping. The share of the mass at each wall that
+    // these keep is reported.
     let cut = scene.reduced(20, false)?.with_damping(&Damping::Modal(vec![0.01]))?;
     let run = run(&cut.scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(5e-5).with_sample(WINDOW))?;
 
@@ -57,7 +60,7 @@ fn main() -> Result<()> {
         let force = impulse / scene.duration;
         eprintln!("{name}: {force:.3} N in the mean, {largest:.1} N at most over {WINDOW} s");
     }
-    // The judge has seen every step: what was promised at the walls holds, and momentum is balanced.
+    // The judge has checked every step: the laws at the walls hold, and momentum is balanced.
     let (walls, balance) = (run.residuals.complementarity, run.residuals.force_balance);
     eprintln!("residuals: {walls:.1e} at the walls, {balance:.1e} in the momentum balance");
     Ok(())

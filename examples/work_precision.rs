@@ -1,7 +1,8 @@
-//! Work and precision from the library: what an error costs, scheme by scheme.
+//! Work and precision from the library: the cost of an error, scheme by scheme.
 //!
-//! `cargo run --release --example work_precision` prints the error of displacement and impulse against the exact motion, and the time of
-//! a run, for steps that are halved again and again, as CSV. (`signorini chart` does this for any case file, with figures.)
+//! `cargo run --release --example work_precision` prints the error of displacement and impulse
+//! against the exact motion, and the time of a run, for steps that are halved again and again, as
+//! CSV. (`signorini chart` does this for any case file, with figures.)
 
 use signorini::{Integrator, Load, Options, PenaltyLaw, Result, Run, Scene, Scheme, Unjudged, Wall, run};
 
@@ -14,7 +15,8 @@ fn scene() -> Scene {
         .with_duration(1.0)
 }
 
-/// Largest difference of displacement over the gap, and of the walls' impulses (relative to the larger), between a run and the exact one.
+/// Largest difference of displacement over the gap, and of the walls' impulses (relative to the
+/// larger), between a run and the exact one.
 fn errors(run: &Run<Unjudged>, exact: &Run<Unjudged>) -> Result<(f64, f64)> {
     let pairs = run.trajectory.displacement().iter().zip(exact.trajectory.displacement());
     let displacement = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / 5e-3;
@@ -29,7 +31,8 @@ fn errors(run: &Run<Unjudged>, exact: &Run<Unjudged>) -> Result<(f64, f64)> {
 
 fn main() -> Result<()> {
     let scene = scene();
-    // Rows 10 ms apart for all of them, so that they can be compared; the judge would be timed with the run.
+    // The same rows, 10 ms apart, for all runs, so that they can be compared. Unjudged, since the
+    // judge's time would count.
     let options = |step: f64| Options::with_step(step).with_sample(0.01).unjudged();
     let exact = run(&scene, &Scheme::Event, &options(1e-3))?;
     let soft = PenaltyLaw::Linear { stiffness: 1e8, damping: 0.0 };
@@ -37,7 +40,7 @@ fn main() -> Result<()> {
         Scheme::MoreauJean { theta: 0.5 },
         Scheme::PaoliSchatzman,
         Scheme::GeneralizedAlpha { rho: 0.8 },
-        // Tends to e = 1, so it cannot come near: the walls here have e = 0.8.
+        // The penalty tends to e = 1, so it cannot come near: the walls here have e = 0.8.
         Scheme::Penalty { law: soft, integrator: Integrator::DiscreteGradient },
     ];
     println!("scheme,step_s,displacement_error_of_gap,impulse_error,seconds");

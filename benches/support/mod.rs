@@ -5,7 +5,8 @@
 use clarabel::solver::DefaultSettings;
 use std::time::Instant;
 
-/// Settings of the bare Clarabel that the library is timed against: the library's own tolerances, and updates of the data allowed.
+/// Settings of the bare Clarabel that the library is timed against: the library's own tolerances,
+/// and updates of the data allowed.
 pub fn clarabel_settings() -> DefaultSettings<f64> {
     DefaultSettings {
         verbose: false,
@@ -18,7 +19,7 @@ pub fn clarabel_settings() -> DefaultSettings<f64> {
     }
 }
 
-/// Nanoseconds for each call of `work`, over `calls` of them.
+/// Nanoseconds per call of `work`, over `calls` of them.
 pub fn time(calls: usize, mut work: impl FnMut(usize)) -> f64 {
     let start = Instant::now();
     for call in 0..calls {
@@ -27,7 +28,8 @@ pub fn time(calls: usize, mut work: impl FnMut(usize)) -> f64 {
     start.elapsed().as_secs_f64() * 1e9 / calls as f64
 }
 
-/// The best of `rounds` for each side, the sides taking turns within every round so that a busy machine is fair to both.
+/// The best of `rounds` for each side; the sides alternate within every round, so that a busy
+/// machine affects both alike.
 pub fn race<const N: usize>(rounds: usize, mut round: impl FnMut() -> [f64; N]) -> [f64; N] {
     let mut best = [f64::INFINITY; N];
     for _ in 0..rounds {
