@@ -52,7 +52,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
             };
             return Choice {
                 method: Method::new(scheme),
-                reason: format!("{why}; the exact scheme cannot go: {error}"),
+                reason: format!("{why}; the exact scheme cannot follow the scene: {error}"),
             };
         }
     };
@@ -66,7 +66,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         let (all, lasting) = (contacts.len(), contacts.iter().filter(lasting).count());
         let what = match scene.system {
             System::Oscillator(_) => "one degree of freedom rests, and its impacts accumulate, in closed form",
-            System::Structure(_) => "the structure moves on, held by those walls, in closed form",
+            System::Structure(_) => "while a contact lasts, the rest of the structure moves on in closed form",
         };
         format!("{all} contacts, {lasting} of them lasting: {what}, so no step is needed")
     } else {
@@ -85,14 +85,14 @@ pub fn qp_reason(method: &Method, scene: &Scene) -> String {
     let single = matches!(scene.system, System::Oscillator(_));
     match (method.scheme, method.backend) {
         (Scheme::Penalty { .. }, _) => "a penalty has no QP: Newton's method solves each step",
-        (Scheme::Event, _) if single => "at an impact of one degree of freedom the QP is solved by hand: v⁺ = −e v⁻",
-        (Scheme::Event, _) => "at an impact a QP in the metric of the masses, over the walls that are touched",
+        (Scheme::Event, _) if single => "for one degree of freedom the QP at an impact has the closed form v⁺ = −e v⁻",
+        (Scheme::Event, _) => "at an impact, a QP in the mass metric over the walls in contact",
         (_, Backend::Condensed) => "asked for: condensed onto the walls",
         (_, Backend::Clarabel) => "asked for: every step that meets a wall goes through Clarabel",
         (_, Backend::Clamp) => "asked for: one unknown, so the QP is a clamp",
         (_, Backend::Auto) if single => "one unknown: the QP is a clamp, exact and a few nanoseconds",
         (_, Backend::Auto) => {
-            "several unknowns: condensed onto the walls and solved exactly by block principal pivoting, warm-started; Clarabel stands behind it"
+            "several unknowns: condensed onto the walls and solved exactly by block principal pivoting, warm-started; Clarabel is the fallback"
         }
     }
     .into()
@@ -142,14 +142,14 @@ fn damping(system: &System, structure: &Structure) -> String {
             (false, true) => format!("{stiffness:e} K"),
             _ => format!("{mass:e} M + {stiffness:e} K"),
         };
-        return format!("classical damping: C = {sum}, modes stay apart");
+        return format!("classical damping: C = {sum}, the modes are uncoupled");
     }
     let widths = [&structure.mass, &structure.damping, &structure.stiffness].map(|m| m.half_bandwidth());
     if widths == [0; 3] {
-        return "classical damping: every coordinate moves by itself".into();
+        return "classical damping: the coordinates are uncoupled".into();
     }
     match structure.is_classically_damped() {
-        true => "classical damping: modes stay apart".into(),
+        true => "classical damping: the modes are uncoupled".into(),
         false if structure.mass.size() > MOST_DENSE => {
             format!(
                 "damping not known to be classical: beyond {MOST_DENSE} degrees of freedom Rayleigh's alone is recognised"

@@ -229,7 +229,9 @@ fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
         findings.push("implicit-euler on positions tends to e = 0: it does not converge to walls that rebound".into());
     }
     if any(|s| *s == Scheme::Newmark) && !asked.is_empty() {
-        findings.push("newmark is an exhibit: it takes e between 1/3 and 3 by chance and gains energy".into());
+        findings.push(
+            "newmark shows what goes wrong: by chance it realises an e between 1/3 and 3, and it gains energy".into(),
+        );
     }
     if let Some(line) = clarabel_difference(scene, comparison) {
         findings.push(line);

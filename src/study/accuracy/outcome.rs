@@ -94,7 +94,7 @@ impl fmt::Display for Accuracy {
             write!(f, "; step {step:.3e} s, {} steps in {} runs", self.total_steps, self.levels.len())?;
         }
         match self.sufficient_step_s {
-            Some(step) if self.step_s.is_some_and(|s| s < 0.75 * step) => write!(f, "; {step:.3e} s would do"),
+            Some(step) if self.step_s.is_some_and(|s| s < 0.75 * step) => write!(f, "; {step:.3e} s would suffice"),
             _ => Ok(()),
         }
     }

@@ -82,7 +82,7 @@ impl Reference {
     pub(super) fn of(scene: &Scene, stand_in: Method, ladder: &Ladder, horizon: &Horizon, most: f64) -> Result<Self> {
         Self::exact(scene, ladder.rows, horizon).or_else(|error| {
             let mut reference = Self::refined(scene, scene, stand_in, ladder, horizon, most)?;
-            reference.how = format!("{}, since `event` cannot go: {error}", reference.how);
+            reference.how = format!("{}, since `event` cannot follow the scene: {error}", reference.how);
             Ok(reference)
         })
     }
