@@ -1,4 +1,4 @@
-//! An error asked for is kept, and the step found for it is not far from the best.
+//! The requested error is met, and the step found for it is close to the best one.
 #![cfg(feature = "cli")]
 
 use signorini::study::accuracy::{Against, JudgedBy, Target, foresee, reach};
@@ -88,7 +88,7 @@ fn scenes() -> Vec<(String, Scene)> {
     scenes
 }
 
-/// Rows left to the refinement; the step is not used.
+/// Rows are chosen by the refinement; the step is not used.
 fn time() -> TimeOptions {
     TimeOptions::with_step(1e-3)
 }
@@ -102,7 +102,8 @@ fn true_error(scene: &Scene, found: &Run) -> (f64, String) {
     change.worst()
 }
 
-/// The same for the displacement and the impulses alone, written out.
+/// As [`true_error`], for the displacement and the impulses alone, computed here from the
+/// definition.
 fn displacement_and_impulse(scene: &Scene, found: &Run) -> f64 {
     let sample = found.grid.end / found.grid.rows as f64;
     let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(sample) };
@@ -127,8 +128,9 @@ fn target(scheme: Scheme, against: Against, tolerance: f64) -> Target {
     Target { method: Some(Method::new(scheme)), against, most_steps: 1 << 20, ..Target::new(tolerance, time()) }
 }
 
-/// The fewest steps that keep the tolerance in hindsight, of half-octaves from the first step tried to the one found: such that no finer
-/// one of them misses it, and such that it keeps it itself, perhaps by luck.
+/// The fewest steps that meet the tolerance in hindsight, by half-octaves from the first step tried
+/// to the one found: the one from which on every finer one meets it, and the coarsest that meets it
+/// at all, perhaps by luck.
 fn best_steps(scene: &Scene, scheme: &Scheme, tolerance: f64, found: &Run, levels: usize) -> (u64, u64) {
     let rows = found.grid.rows;
     let sample = found.grid.end / rows as f64;
@@ -167,9 +169,10 @@ fn what_a_scene_needs_is_the_exact_motion_and_it_keeps_any_tolerance() {
     }
 }
 
-/// Held against the exact motion, the error is the true one: it is kept wherever the result is not called short. The work of all runs
-/// together is at most 4 times that of the best step: the levels before the last sum up to less than the last, and the last is less than
-/// twice as fine as needed.
+/// Against the exact motion the error is the true one: it is met wherever the result does not
+/// report that it fell short. The work of all runs together is at most 4 times that of the best
+/// step: the levels before the last sum up to less than the last, and the last is less than twice
+/// as fine as needed.
 #[test]
 fn a_step_found_against_the_exact_motion_keeps_the_error_for_at_most_four_times_the_work() {
     let mut kept = 0;
@@ -198,8 +201,10 @@ fn a_step_found_against_the_exact_motion_keeps_the_error_for_at_most_four_times_
     assert!(kept >= 90, "{kept} of {}", 3 * scenes().len());
 }
 
-/// By halving alone the result errs on the safe side: it was never wrong here. That has its price: the rule asks two halvings running to
-/// stay below a quarter, which a scheme of order 1 does at an eighth of the step needed, and the slowest of all quantities decides.
+/// With halving alone the result is on the safe side: in these scenes it never missed the error.
+/// That has its price: the rule demands two halvings in a row whose change is below a quarter,
+/// which a scheme of order 1 reaches at an eighth of the step needed, and the slowest of all
+/// quantities decides.
 #[test]
 fn a_step_found_by_halving_alone_keeps_the_error_too() {
     let mut kept = 0;
@@ -263,7 +268,7 @@ fn a_body_that_crosses_its_gap_millions_of_times_is_refused_in_seconds() {
         let error = reach(&tight(1e-7), &asked, &mut |_| {}).unwrap_err();
         assert!(matches!(error, Error::Inaccurate { .. } | Error::TooManyEvents { .. }), "{error}");
     }
-    // Steps in which the body crosses its whole gap are not taken for convergence.
+    // Steps in which the body crosses the whole gap must not pass for convergence.
     let few = Target { most_steps: 1 << 14, ..target(MOREAU, Against::Refinements, 1e-2) };
     let slow = tight(1e-3).with_initial(&[0.0], &[0.0]).with_load(Load::impulse(100.0, 1e-4));
     let outcome = reach(&slow, &few, &mut |_| {}).unwrap();
@@ -406,7 +411,8 @@ fn the_number_of_impacts_that_accumulate_is_not_asked_for() {
             let found = at_step(&scene, &MOREAU, h, 1e-2);
             let wall = &Change::of_runs(&scene, &found, &exact, duration).walls[0];
             assert_eq!(wall.contacts, None, "e = {e}, h = {h}");
-            // What is asked for instead has a limit: the impulse is the weight's, whatever the impacts.
+            // The quantities requested here have a limit: the impulse is that of the weight,
+            // whatever the impacts.
             assert!(wall.impulse < 20.0 * h && wall.contact_time < 60.0 * h, "e = {e}, h = {h}: {wall:?}");
         }
     }
@@ -418,7 +424,8 @@ fn the_number_of_impacts_that_accumulate_is_not_asked_for() {
 
 #[test]
 fn a_search_that_leads_nowhere_ends_early_and_the_stretch_is_foreseen() {
-    // Chaotic at e = 1: every halving keeps the displacement for a little longer, and 2²⁴ steps do not reach the end.
+    // Chaotic at e = 1: every halving keeps the displacement for a little longer, and 2²⁴ steps do
+    // not reach the end.
     let scene = driven(3.0, 5.0, 10.0).with_wall(upper(5e-3, 1.0)).with_wall(lower(-5e-3, 1.0));
     let patient = Target { most_steps: 1 << 24, ..target(MOREAU, Against::Exact, 1e-3) };
     let outcome = reach(&scene, &patient, &mut |_| {}).unwrap();
@@ -426,7 +433,7 @@ fn a_search_that_leads_nowhere_ends_early_and_the_stretch_is_foreseen() {
     assert!(until > 0.05 && until < 10.0, "{until}");
     // A hundredth of what was allowed.
     assert!(outcome.accuracy.total_steps < 1 << 20, "{}", outcome.accuracy.total_steps);
-    // Rounding alone ends what any step can keep; nothing does in the settled motion.
+    // Rounding alone limits how long any step stays accurate; in the settled motion nothing does.
     let until = foresee(&scene, &patient).unwrap().unwrap();
     assert!(until > 1.0 && until < 10.0, "{until}");
     let settled = driven(3.0, 5.0, 10.0).with_wall(upper(5e-3, 0.8)).with_wall(lower(-5e-3, 0.8));
@@ -446,7 +453,7 @@ fn statistics_that_scatter_more_than_the_error_asked_for_are_named() {
     assert!(widest > 1e-3 && widest < 0.9, "{widest}");
     let found = note(&outcome).unwrap_or_else(|| panic!("{:?}", outcome.run.notes));
     assert!(found.contains(&format!("±{:.1} %", 100.0 * widest)), "{found}: {widest}");
-    // An interval within what is asked for is worth no note.
+    // A confidence interval within the requested error gets no note.
     let coarse = reach(&scene, &Target::new(0.95, time()), &mut |_| {}).unwrap();
     assert_eq!(note(&coarse), None);
 }
@@ -466,12 +473,13 @@ fn a_wall_that_one_of_two_runs_touches_changes_by_a_finite_share() {
 
 #[test]
 fn where_the_numbers_of_a_rattling_tube_cannot_be_kept_is_known_from_its_first_stretch() {
-    // Exact runs from starts 1e-10 apart part within half a second of ten: a sixteenth of the run tells.
+    // Exact runs from starts 1e-10 apart part within half a second of ten: a sixteenth of the run
+    // tells.
     let case = signorini::case::Case::embedded("tube-loose-supports").unwrap();
     let target = Target::new(1e-2, case.time);
     let until = foresee(&case.scene, &target).unwrap().expect("a horizon");
     assert!((0.2..0.8).contains(&until), "{until}");
-    // The same scene for as long as it can be told.
+    // The same scene over the time for which it can be predicted.
     let whole = Target { time: TimeOptions { statistics_from: 0.0, ..case.time }, ..target };
     assert_eq!(foresee(&case.scene.clone().with_duration(0.1), &whole).unwrap(), None);
 }

@@ -1,5 +1,7 @@
-//! The elastic bar thrown against a rigid wall, held against its closed form: contact from t = 1 s to 2 s under the stress ½, then back to the start at
-//! t = 3 s (L = E = ρ = area = 1, u(x, 0) = ½(1 − x), v = 0, held at x = 1, wall at x = 0, e = 0; GetFEM's test of contact in elastodynamics).
+//! The elastic bar thrown against a rigid wall, compared with its closed form: contact from t = 1 s
+//! to 2 s under the stress ½, then back to the start at t = 3 s (L = E = ρ = area = 1, u(x, 0) =
+//! ½(1 − x), v = 0, held at x = 1, wall at x = 0, e = 0; GetFEM's test of contact in
+//! elastodynamics).
 
 use signorini::{Bar, BarEnd, MassMatrix, Options, Probe, Run, Scene, Scheme, TimeOptions, Wall, run};
 
@@ -25,7 +27,8 @@ fn scene(elements: usize) -> Scene {
     scene
 }
 
-/// What the closed form knows: how long the contact lasts (s), its mean stress (Pa), and where the end returns to (m).
+/// What the closed form gives: how long the contact lasts (s), its mean stress (Pa), and where the
+/// end returns to (m).
 #[derive(Debug, Clone, Copy)]
 struct Outcome {
     duration: f64,
@@ -58,8 +61,10 @@ fn outcome(scheme: &Scheme, elements: usize) -> Outcome {
 
 #[test]
 fn duration_stress_and_rebound_converge_to_the_closed_form() {
-    // A wave front on a mesh is smeared over a width like the mesh to the power 2/3 (dispersion of linear elements), so four times as many elements
-    // leave errors 4^(2/3) = 2.5 times smaller; noise of single steps takes some of that. The implicit Euler rule damps the front as well: order ½.
+    // A wave front on a mesh is smeared over a width like the mesh to the power 2/3 (dispersion of
+    // linear elements), so four times as many elements leave errors 4^(2/3) = 2.5 times smaller;
+    // noise of single steps takes some of that. The implicit Euler rule damps the front as well:
+    // order ½.
     let schemes = [
         (Scheme::MoreauJean { theta: 0.5 }, 2.0, 1e-3),
         (Scheme::PaoliSchatzman, 2.0, 1e-3),
@@ -71,8 +76,9 @@ fn duration_stress_and_rebound_converge_to_the_closed_form() {
         let [coarse, middle, fine] = [25, 100, 400].map(|n| outcome(&scheme, n).errors());
         println!("{scheme}: {coarse:?} {middle:?} {fine:?}");
         for (coarse, fine) in [(coarse, middle), (middle, fine)] {
-            // Duration and rebound fall at that rate. The impulse falls short as the duration does, so that the mean stress is right
-            // to a thousandth from the first mesh on; implicit Euler loses a damped front's part of it.
+            // Duration and rebound fall at that rate. The impulse falls short as the duration does,
+            // so that the mean stress is right to a thousandth from the first mesh on; implicit
+            // Euler loses a damped front's part of it.
             for i in [0, 2] {
                 assert!(coarse[i] > least * fine[i], "{scheme}: quantity {i}: {coarse:?} to {fine:?}");
             }
@@ -83,8 +89,9 @@ fn duration_stress_and_rebound_converge_to_the_closed_form() {
 
 #[test]
 fn an_impact_takes_the_energy_of_the_end_node_alone() {
-    // The end node stops dead: with a consistent mass it carries ½ m v² with m = 1/(g M⁻¹ gᵀ), which is 1/(2√3) of an element's mass on a
-    // long bar, at the speed ½ of the bar. What the scheme takes beyond that would be its own.
+    // The end node stops dead: with a consistent mass it carries ½ m v² with m = 1/(g M⁻¹ gᵀ),
+    // which is 1/(2√3) of an element's mass on a long bar, at the speed ½ of the bar. What the
+    // scheme takes beyond that would be its own.
     for (elements, scheme) in [(50, Scheme::Event), (50, Scheme::MoreauJean { theta: 0.5 }), (200, Scheme::Event)] {
         let scene = scene(elements).with_duration(1.5);
         let step = 0.02 / elements as f64;

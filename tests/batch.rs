@@ -40,7 +40,7 @@ fn source(amplitude: f64, e: f64) -> Lane {
 /// An oscillator of any kind that the lanes hold.
 fn random(draw: &mut Draw) -> Lane {
     let stiffness = draw.one_of(&[0.0, 1.0, 100.0, 1e4]);
-    // From none to far beyond the critical one.
+    // From no damping to far beyond critical damping.
     let damping = draw.one_of(&[0.0, 0.02, 0.3, 2.0, 60.0]);
     let gap = draw.between(1e-3, 2e-2);
     let stop = |draw: &mut Draw, position: f64| Stop {
@@ -80,8 +80,8 @@ fn by_event(lanes: &[Lane]) -> Vec<Lane> {
     lanes.iter().map(more).collect()
 }
 
-/// What has become, at the end of each of so many periods, of noise of one unit that enters the
-/// state at every event: the root of its variance, carried by the exact derivative of the motion.
+/// The root of the variance that noise of one unit, entering the state at every event, has reached
+/// at the end of each of `periods` periods, carried by the exact derivative of the motion.
 /// Displacement counts in `size` (m), velocity in `size` · `rate` (1/s).
 fn amplified(lane: &Lane, periods: u32, size: f64, rate: f64) -> Vec<f64> {
     let scene = lane.scene(f64::from(periods) * lane.period);
@@ -195,8 +195,8 @@ fn random_oscillators_agree_with_the_exact_scheme_for_as_long_as_rounding_stays_
                 assert!((a.impulse - b.impulse).abs() <= 1e-9 * size, "{index}: {a:?} {b:?} {lane:?}");
                 assert!((a.largest_impulse - b.largest_impulse).abs() <= 1e-9 * size, "{index}: {a:?} {b:?}");
             }
-            // Infinite alike, or a growth that agrees to what rounding makes of it. Without a sine of
-            // its own the lane handed over has another fastest rate, in which changes are measured.
+            // Both infinite, or a growth that agrees up to rounding. Without a sine of its own the
+            // lane that was handed over has another fastest rate, in which changes are measured.
             let (a, b) = (found.exponent, known.exponent);
             let apart = (a - b).abs() * 100.0 * lane.period;
             assert!(a == b || apart < 1e-6 || lane.sines.is_empty(), "{index}: exponents {a} and {b} /s, {lane:?}");
@@ -209,7 +209,7 @@ fn random_oscillators_agree_with_the_exact_scheme_for_as_long_as_rounding_stays_
             "{width:?}: {compared} compared, {regular} of them over all 100 periods, worst {worst:.1e} of the gap, {} handed",
             batch.handed()
         );
-        // Guards the test itself: one that compares nothing would pass.
+        // Guards the test itself: it would also pass if it compared nothing.
         assert!(3 * compared > cases && 5 * regular > cases, "{compared} compared, {regular} to the end");
     }
 }
@@ -344,7 +344,7 @@ fn a_graze_is_never_passed_and_never_made_up() {
                 velocity: size * omega * angle.cos(),
                 ..quiet.clone()
             };
-            // Where the start is behind a wall, there is nothing to ask.
+            // A start behind a wall is invalid, and skipped.
             if lane.validate().is_ok() {
                 lanes.push((share, lane));
             }

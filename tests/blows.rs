@@ -1,4 +1,4 @@
-//! Blows act at their instants, wherever in a step these fall.
+//! Blows (impulsive loads) act at their instants, wherever in a step these fall.
 
 mod common;
 mod random_structures;
@@ -8,7 +8,8 @@ use random_structures::{on, scene};
 use signorini::linear::Symmetric;
 use signorini::{Load, Options, Probe, Row, Scene, Scheme, Wall, run};
 
-/// Blows (s, N s): two of them in one step of 10 ms, one on a row, one that stops what is left of the others.
+/// Blows (s, N s): two of them in one step of 10 ms, one on a row, and a last one that stops the
+/// motion left by the others.
 const BLOWS: [(f64, f64); 5] = [(0.0431, 1.0), (0.1234, 0.7), (0.1278, -0.4), (0.2, 0.25), (0.3567, -1.55)];
 
 /// Where they have taken a free body of 1 kg by `t`, m.
@@ -22,7 +23,8 @@ fn a_free_body_is_where_the_blows_have_taken_it_at_every_row() {
     for (time, impulse) in BLOWS {
         oscillator = oscillator.with_load(Load::impulse(2.0 * impulse, time));
     }
-    // Three masses that feel one another's inertia; the blows on the first, through M = L Lᵀ with known M⁻¹ e₀.
+    // Three masses that feel one another's inertia; the blows on the first, through M = L Lᵀ with
+    // known M⁻¹ e₀.
     let mass = Symmetric::from_entries(3, [(0, 0, 2.0), (1, 0, 1.0), (1, 1, 2.0), (2, 1, 1.0), (2, 2, 2.0)]);
     let zero = || Symmetric::diagonal(&[0.0; 3]);
     let mut structure = scene(mass, zero(), zero()).with_wall(Wall::upper("far", 10.0)).with_duration(0.6);
@@ -52,7 +54,8 @@ fn a_free_body_is_where_the_blows_have_taken_it_at_every_row() {
 
 #[test]
 fn a_blow_between_two_instants_of_the_grid_costs_no_order() {
-    // With a damper, which a rule has feel the blow from the instant where it counts it: a share hC/M of what it gives.
+    // With a damper: the rule lets it feel the blow from the instant where the rule counts it, an
+    // error of hC/M of the blow.
     let oscillator = Scene::oscillator(1.0, 3.0, 100.0).with_initial(&[2e-3], &[0.05]);
     let masses = random_structures::chain(2, 100.0, 0.02).with_initial(&[2e-3, 0.0], &[0.05, 0.0]);
     for scene in [oscillator, masses] {
@@ -80,7 +83,8 @@ fn keeps_order(scene: &Scene) {
         let points = [4_u64, 16, 64, 256]
             .map(|per| (1.0 / per as f64, error(&on_grid(scene, &scheme, 1e-2, per, 1.0), &exact.displacement()[1..])));
         println!("{scheme}: {points:?}");
-        // Where in a step the blows fall differs from run to run: the slope of four of them scatters by that.
+        // Where in a step the blows fall differs from run to run: the slope of four of them
+        // scatters by that.
         assert!(slope(&points) > order - 0.2, "{scheme}: {points:?}");
     }
 }
@@ -107,7 +111,7 @@ fn the_ledger_of_a_blow_in_the_middle_of_a_step_closes() {
 
 #[test]
 fn a_body_that_rests_on_a_wall_with_a_damper_hands_a_blow_into_it_over_whole() {
-    // It does not move, so no damper takes anything: 25 N of the load and 0.3 N s.
+    // It does not move, so no damper has an impulse: 25 N of the load and 0.3 N s.
     let pressed = Scene::oscillator(1.0, 20.0, 1e4).with_initial(&[1e-3], &[0.0]);
     let masses = random_structures::chain(2, 1e4, 1e-3).with_initial(&[1e-3, 0.5e-3], &[0.0, 0.0]);
     for (scene, force) in [(pressed, 25.0), (masses, 20.0)] {
@@ -122,8 +126,9 @@ fn a_body_that_rests_on_a_wall_with_a_damper_hands_a_blow_into_it_over_whole() {
         {
             let run = run(&scene, &scheme, &Options::with_step(1e-3)).expect("a run");
             let pushed: f64 = run.trajectory.contact_impulses()[0].iter().sum();
-            // Two hundred steps of rounding. Where the wall holds the place and not the velocity, the dampers of the body and of its
-            // neighbour take what moves for a step: of the order of c h over m of the blow.
+            // Two hundred steps of rounding. Where the wall holds the place and not the velocity,
+            // the dampers of the body and of its neighbour take what moves for a step: of the order
+            // of c h over m of the blow.
             let allowed = match scheme {
                 Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. } => 0.3 * 20.0 * 1e-3,
                 _ => 1e-10,

@@ -1,11 +1,12 @@
-//! Wrong case files: each gives one error that names file, line, column, key and what would be accepted.
+//! Wrong case files: each gives one error that names file, line, column, key and what would be
+//! accepted.
 #![cfg(feature = "cli")]
 
 use signorini::Error;
 use signorini::case::Case;
 use std::fs;
 
-/// A case file that is right. Each wrong one differs from it in one place.
+/// A valid case file. Each wrong one differs from it in one place.
 const RIGHT: &str = r#"title = "right"
 
 [system.oscillator]
@@ -39,7 +40,8 @@ sample = 1e-3
 epsilon = [1e-12, 1e-9]
 "#;
 
-/// What is wrong; the text of `RIGHT` that is replaced, and by what; line:column of the error; what it must say.
+/// What is wrong; the text of `RIGHT` that is replaced, and its replacement; line:column of the
+/// error; what the message must contain.
 type Wrong = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
 #[rustfmt::skip]
@@ -334,7 +336,7 @@ fn a_file_that_cannot_be_read_is_a_wrong_request() {
     }
 }
 
-/// A tube that is right. Each wrong one differs from it in one place.
+/// A valid tube. Each wrong one differs from it in one place.
 const TUBE: &str = r#"title = "right"
 
 [system]
@@ -375,7 +377,7 @@ end = 1.0
 step = 1e-4
 "#;
 
-/// A chain that is right.
+/// A valid chain.
 const CHAIN: &str = r#"title = "right"
 
 [system.chain]
@@ -503,7 +505,7 @@ const WRONG_CHAINS: &[Wrong] = &[
     ("modes of an oscillator", "[system.chain]\nmasses = 4\nmass = 1.0\nsprings = 1e4\nleft = { stiffness = 1e4 }\n", "[system]\nmodes = 1\n[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 0.0\n", "10:1", &["`system.damping` beside an oscillator"]),
 ];
 
-/// Modes that are right.
+/// Valid modal data.
 const MODES: &str = r#"title = "right"
 
 [system.modal]
@@ -558,7 +560,7 @@ const WRONG_MODES: &[Wrong] = &[
     ("a point where nothing moves", "tip = [1.0, -1.0]", "tip = [0.0, 0.0]", "11:6", &["nothing moves there"]),
 ];
 
-/// Every wrong text that is not refused at its place and in its words.
+/// The wrong texts that are not rejected at the expected place and with the expected words.
 fn not_refused(right: &str, all: &[Wrong]) -> String {
     let mut failures = String::new();
     for (what, old, new, place, words) in all {

@@ -1,4 +1,4 @@
-//! The case files that come with the crate: each holds the scene that it says.
+//! The case files that come with the crate: each gives the scene that it describes.
 #![cfg(feature = "cli")]
 
 use signorini::case::{Case, Embedded};
@@ -162,7 +162,8 @@ fn the_chains_are_those_of_the_benchmark() {
 fn the_bar_starts_compressed_above_its_wall() {
     let case = embedded("bar-impact");
     let scene = &case.scene;
-    // One eighth of the elastic energy of a strain of 1/2, E A L = 1: exact, as the profile is linear.
+    // One eighth of the elastic energy of a strain of 1/2, E A L = 1: exact, as the profile is
+    // linear.
     assert!((0.5 * scene.system.stiffness_form(&scene.initial.q, &scene.initial.q) - 0.125).abs() < 1e-14);
     assert!(scene.initial.v.iter().all(|v| *v == 0.0));
     assert_eq!(scene.walls[0].at.dot(&scene.initial.q), 0.5);
@@ -285,7 +286,8 @@ fn a_measured_table_is_read_by_the_names_of_its_columns() {
         LoadKind::Table(table) => (table.time().to_vec(), table.force().to_vec()),
         other => panic!("{other:?}"),
     };
-    // As a German data logger writes it: a byte-order mark, semicolons, decimal commas, quotes, spaces, columns of no interest.
+    // As a German data logger writes it: a byte-order mark, semicolons, decimal commas, quotes,
+    // spaces, columns of no interest.
     let german =
         "\u{feff}\"t\"; F1 ;\"F2; raw\";Bemerkung\r\n0,0;1,5;-2,25;ok\r\n 0,5 ;2;\"1e-3\";a,b\r\n1;3;0,125;\r\n";
     fs::write(folder.path().join("force.csv"), german).unwrap();
@@ -293,7 +295,7 @@ fn a_measured_table_is_read_by_the_names_of_its_columns() {
     assert_eq!(table(&read), (vec![0.0, 0.5, 1.0], vec![-4.5, 2e-3, 0.25]));
     fs::write(folder.path().join("force.csv"), "force_N\ttime_s\n1\t0\n2\t1\n").unwrap();
     assert_eq!(table(&case(", delimiter = \"\\t\", scale = -1e3")), (vec![0.0, 1.0], vec![-1e3, -2e3]));
-    // Columns beside the two are no reason to refuse a table.
+    // A table with further columns besides the two is accepted.
     fs::write(folder.path().join("force.csv"), "time_s,force_N,note\n0,1,start\n1,2,end\n").unwrap();
     assert_eq!(table(&case("")), (vec![0.0, 1.0], vec![1.0, 2.0]));
 }

@@ -1,4 +1,4 @@
-//! Case files with random changes: refused at a place or accepted and sound, never a panic.
+//! Case files with random changes: rejected with a place, or accepted and valid; never a panic.
 #![cfg(feature = "cli")]
 
 use proptest::prelude::*;
@@ -109,7 +109,7 @@ fn bare(text: &str) -> String {
     text.lines().map(|line| line.split('#').next().unwrap_or_default().trim_end().to_owned() + "\n").collect()
 }
 
-/// What the cases of the crate leave unsaid.
+/// Features that the crate's own cases do not use.
 const MORE: [&str; 7] = [
     "[system]\nmodes = 4\nstatic_correction = true\n[system.bar]\nlength = 2.0\nyoungs_modulus = 1e9\ndensity = 1e3\narea = 1e-4\n\
      elements = 8\nmass_matrix = \"lumped\"\nleft = { stiffness = 1e5 }\nright = \"free\"\n[system.damping]\nratios = [0.01, 0.02]\n\

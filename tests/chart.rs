@@ -1,5 +1,5 @@
-//! Accuracy against speed: orders, front, floors and hard scenes from the chart's own data, and the command itself. Errors, files and counters
-//! only: no time is asserted.
+//! Accuracy against speed: orders, front, floors and hard scenes from the chart's own data, and the
+//! command itself. Errors, files and counters only: no time is asserted.
 
 use signorini::study::work_precision::{
     Effort, Kind, Measured, Quantity, Series, Steps, WorkPrecision, every_method, study,
@@ -61,10 +61,12 @@ fn free_motion_shows_the_order_of_every_scheme() {
 fn impacts_bring_every_stepping_scheme_to_order_one() {
     let expected = [(MOREAU, 1.0), (Scheme::PaoliSchatzman, 1.0)];
     let chart = chart(&source(1.0, 0.6), &expected.map(|e| e.0), (1e-3, 3e-6), 9);
-    // The phase of each impact within its step is a lottery: over nine steps the slope stays within 0.2.
+    // The phase of each impact within its step is random: over nine steps the slope stays within
+    // 0.2.
     assert_orders(&chart, &expected, 0.3);
     for scheme in [MOREAU, Scheme::PaoliSchatzman] {
-        // The other errors fall with it: impulse, contact times, and the velocity in the measure of its graph.
+        // The other errors fall with it: impulse, contact times, and the velocity in the measure of
+        // its graph.
         let e = &finest(&chart, scheme).errors;
         assert_eq!((e.missing, e.spurious), (0, 0), "{scheme}");
         assert!(e.velocity < 2e-3, "{scheme}: {}", e.velocity);
@@ -82,7 +84,8 @@ fn penalties_show_their_order_against_their_own_springs() {
         let Scheme::Penalty { integrator, .. } = scheme else { unreachable!() };
         let expected = if integrator == Integrator::ImplicitEuler { 1.0 } else { 2.0 };
         let found = order(&chart, scheme);
-        // Entering and leaving the wall within a step adds an error of the same order and a random factor.
+        // Entering and leaving the wall within a step adds an error of the same order and a random
+        // factor.
         assert!((found - expected).abs() <= 0.3, "{scheme}: order {found}");
     }
 }
@@ -155,7 +158,8 @@ fn a_zeno_point_is_handled_by_every_scheme_that_knows_restitution() {
     for scheme in [MOREAU, Scheme::PaoliSchatzman] {
         let e = &finest(&chart, scheme).errors;
         assert!(e.displacement < 1e-3, "{scheme}: {}", e.displacement);
-        // All of the momentum: the total impulse is m g T = 19.62 N s for any motion that comes to rest.
+        // All of the momentum: the total impulse is m g T = 19.62 N s for any motion that comes to
+        // rest.
         assert!(e.worst_impulse().unwrap() < 1e-4, "{scheme}: {:?}", e.impulse);
         assert!((order(&chart, scheme) - 1.0).abs() < 0.3, "{scheme}");
     }
@@ -224,7 +228,8 @@ fn the_command_writes_table_and_picture_and_lays_other_programs_over() {
     let table: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let rows = table["cheapest"].as_array().unwrap();
     assert_eq!(table["series"].as_array().unwrap().len(), 3);
-    // Three errors, three kinds and five tolerances; other programs tell the displacement's error only.
+    // Three errors, three kinds and five tolerances; other programs tell the displacement's error
+    // only.
     assert_eq!(rows.len(), 3 * 3 * 5 + 5);
     let find = |error: &str, kind: &str, tolerance: f64| {
         let this = |r: &&serde_json::Value| {
@@ -268,7 +273,8 @@ fn the_command_writes_table_and_picture_and_lays_other_programs_over() {
     for text in texts {
         assert!(svg.contains(text), "{text}");
     }
-    // The error of the exact scheme, some 1e-15, is told at the edge; the axis ends at 1e-8 at the latest.
+    // The error of the exact scheme, some 1e-15, is told at the edge; the axis ends at 1e-8 at the
+    // latest.
     let document = roxmltree::Document::parse(&svg).unwrap();
     let texts = document.descendants().filter(|n| n.has_tag_name("text"));
     let texts: Vec<String> = texts.map(|n| n.descendants().filter_map(|d| d.text()).collect()).collect();

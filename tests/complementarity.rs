@@ -1,4 +1,5 @@
-//! Complementarity of every QP scheme: the judge's verdict, an account of it kept here, and a judge that is judged.
+//! Complementarity of every QP scheme: by the judge, by an independent account computed here, and
+//! tests of the judge itself.
 
 mod common;
 
@@ -57,15 +58,16 @@ fn complementarity_holds_to_1e_12_with_the_clamp_at_every_step_of_every_scheme()
                 // Rounding of positions leaves some 1e-15 of the scales.
                 assert!(r.complementarity <= 1e-12, "{what}: {r:?}");
                 assert!(r.tension_n <= 1e-12 * r.force_scale_n, "{what}: {r:?}");
-                // Newmark throws the body about at speeds whose rounding is no longer small against the gap.
+                // Newmark drives the body to speeds whose rounding is no longer small against the
+                // gap.
                 assert!(r.force_balance <= 1e-12 || scheme == Scheme::Newmark, "{what}: {r:?}");
             }
         }
     }
 }
 
-/// Largest difference of two runs: in displacement over the gap scale, and in the net wall force over the largest. (Walls at one
-/// place share a force in no stated way.)
+/// Largest difference of two runs: in displacement over the gap scale, and in the net wall force
+/// over the largest. (Walls at one place share a force in no stated way.)
 fn difference(a: &Run, b: &Run, scene: &Scene) -> (f64, f64) {
     let largest = |x: &[f64], y: &[f64]| x.iter().zip(y).fold(0.0, |w, (x, y)| f64::max(w, (x - y).abs()));
     let net = |run: &Run| {
@@ -93,8 +95,8 @@ fn clarabel_keeps_it_to_1e_9_and_agrees_with_the_clamp_over_whole_runs() {
                 let by_clarabel = run(&scene, &by(scheme, Backend::Clarabel), &options(step)).expect("a run");
                 assert!(by_clarabel.residuals.complementarity <= 1e-9, "{what}: {:?}", by_clarabel.residuals);
                 assert_eq!(by_clarabel.findings, [], "{what}");
-                // A run is chaotic for this purpose if a load changed by rounding (1e-15) moves it by more than a hundredth of the
-                // tolerance.
+                // A run is chaotic for this purpose if a load changed by rounding (1e-15) moves it
+                // by more than a hundredth of the tolerance.
                 let mut nudged = scene.clone();
                 for load in &mut nudged.loads {
                     match &mut load.kind {
@@ -120,7 +122,8 @@ fn clarabel_keeps_it_to_1e_9_and_agrees_with_the_clamp_over_whole_runs() {
     assert!(compared > 100, "only {compared}; chaotic: {chaotic:?}");
 }
 
-/// A step written out again from the literature, for an oscillator: the programme of moreau-jean, paoli-schatzman or implicit-euler.
+/// A step written here from the literature, for an oscillator: the programme of moreau-jean,
+/// paoli-schatzman or implicit-euler.
 struct Programme {
     a: f64,
     b: f64,
@@ -169,7 +172,7 @@ fn bound(side: Side, at: f64) -> ScalarRow {
     }
 }
 
-/// The least e, if with each wall its own the bounds would cross.
+/// The least e, if the bounds with each wall's own e would cross.
 fn shared(scene: &Scene, back: f64) -> Option<f64> {
     let e =
         |w: &Wall| if let WallLaw::Rigid { restitution } = w.law { restitution } else { panic!("rigid walls only") };
@@ -198,7 +201,8 @@ impl Oscillation {
             + blow(scene, t, t + h);
         // The wall answers the velocity that a blow of the step leaves.
         let v = v + blow(scene, t, t + h) / m;
-        // The damper feels the blow from its instant on, and not from where the rule counts it; one that a wall answers stays there.
+        // The damper feels the blow from its own instant on, not from where the rule counts it; a
+        // blow that a wall answers stays where the rule counts it.
         let reached = |w: &Wall| w.side.sign() * (q + 0.5 * h * v - w.position) <= 1e-12 * scene.gap_scale();
         let answers = |w: &Wall| reached(w) && w.side.sign() * blow(scene, t, t + h) < 0.0;
         let felt = if scene.walls.iter().any(answers) { 0.0 } else { shift(scene, t, t + h, t + h - theta * h) / m };
@@ -236,7 +240,8 @@ impl Oscillation {
     fn implicit_euler(&self, scene: &Scene, t: f64, q: f64, v: f64) -> Programme {
         let Self { m, c, k, h } = *self;
         let a = m / (h * h) + c / h + k;
-        // The rule counts a blow from the step's start on, where it acts from its own instant, for the damper too.
+        // The rule counts a blow from the step's start on, where it acts from its own instant, for
+        // the damper too.
         let early = shift(scene, t, t + h, t) / m;
         let b = m * (q / h + v) / h + c * q / h + load(scene, t + h) + blow(scene, t, t + h) / h + a * early
             - c * early / h;
@@ -244,8 +249,9 @@ impl Oscillation {
     }
 }
 
-/// The account kept here: at each step the programme is written out from the states alone, its residuals taken from what the stepper
-/// returned, and the same programme given to both solvers.
+/// The independent account: at each step the programme is written from the states alone, its
+/// residuals are taken from what the stepper returned, and the same programme is given to both
+/// solvers.
 #[test]
 fn an_independent_account_finds_the_same_complementarity_and_both_solvers_agree_on_every_programme() {
     for (name, scene) in scenes().into_iter().filter(|(_, s)| s.walls.iter().all(|w| w.law.is_rigid())) {
@@ -282,7 +288,7 @@ fn account(name: &str, scene: &Scene, scheme: &Scheme, h: f64) {
         let x = if velocity { step.v[0] } else { step.q[0] };
         let unit = if velocity { h } else { 1.0 };
         let net: f64 = step.impulse.iter().sum::<f64>() / h;
-        // What the states need of wall force, against what the walls report.
+        // The wall force that the states require, against what the walls report.
         let needed = (a * x - b) / unit;
         largest_force = largest_force.max(needed.abs());
         largest_x = largest_x.max(x.abs());
@@ -319,8 +325,9 @@ fn account(name: &str, scene: &Scene, scheme: &Scheme, h: f64) {
     }
     let scale = if matches!(scheme, Scheme::MoreauJean { .. }) { largest_x } else { scene.gap_scale() };
     let relative = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
-    // A force taken from a second difference of positions is known to a ulp of position times A: for the weakest contact here, gravity
-    // on a ball at h = 1e-3, 1e-18·1e6 of 10 N. Measured against the largest force of the run, and 1 N where there is none to speak of.
+    // A force taken from a second difference of positions is known to a ulp of position times A:
+    // for the weakest contact here, gravity on a ball at h = 1e-3, 1e-18·1e6 of 10 N. Measured
+    // against the largest force of the run, and 1 N where there is none to speak of.
     let force_scale = largest_force.max(1.0);
     for (slack, pressure, mismatch) in pairs {
         let worst = relative(slack, scale).min(relative(pressure, force_scale)).abs();
@@ -389,7 +396,7 @@ fn the_judge_reports_what_is_wrong_with_a_corrupted_step() {
         });
         assert!(r.complementarity > 1e-3 && r.force_balance > 1e-3, "{scheme}: {r:?}");
 
-        // A force that is 1 % too large: only the balance knows.
+        // A force that is 1 % too large: only the momentum balance shows it.
         let r = judged(&scene, &scheme, |_, a| a.impulse.iter_mut().chain(&mut a.force).for_each(|p| *p *= 1.01));
         assert!(r.complementarity < 1e-12 && r.force_balance > 9e-3, "{scheme}: {r:?}");
 
@@ -418,8 +425,8 @@ fn the_judge_reports_penetration_where_a_scheme_promises_none() {
 #[test]
 fn the_judge_reports_a_wrong_restitution_though_momentum_is_kept() {
     let scene = source(0.8, 0.8);
-    // The rebound and the impulse that goes with it are those of e = 0.7: 1 kg of mass, so Δp = Δv (but for the damping within
-    // the step, 1e-4 of it).
+    // The rebound and the impulse that goes with it are those of e = 0.7: 1 kg of mass, so Δp = Δv
+    // (but for the damping within the step, 1e-4 of it).
     let mut left = 0.0;
     let r = judged(&scene, &MOREAU_JEAN, |step, a| {
         if step.index == FIRST_IMPACT {
@@ -467,7 +474,7 @@ fn a_judge_takes_no_harm_from_what_does_not_fit_its_scene() {
         for (q, v) in [(&[][..], &[][..]), (&[0.0, 1.0], &[0.0])] {
             let mut judge = Judge::new(&scene, stepper.contract(), 1e-3, q, v);
             let before = judge.residuals();
-            // Without walls: passed over.
+            // A step without walls does not fit, and is ignored.
             judge.see(&stepper.step().expect("a step"));
             assert_eq!(judge.residuals(), before);
         }

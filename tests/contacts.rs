@@ -30,7 +30,8 @@ fn the_table_of_contacts_lists_the_impacts_of_the_exact_motion() {
                     (event.wall, Some(contact.start), None),
                     "{what}"
                 );
-                // The motion itself is known to 1e-3 of the gap and 1e-2 of its speed at this step: 5e-6 m at 0.1 m/s.
+                // The motion itself is known to 1e-3 of the gap and 1e-2 of its speed at this step:
+                // 5e-6 m at 0.1 m/s.
                 assert!((contact.start - event.time).abs() < 2e-4, "{what}");
                 assert!((contact.approach_speed - event.approach).abs() < 5e-3, "{what}");
                 let departure = contact.departure_speed.expect("closed");
@@ -56,8 +57,8 @@ fn lasting_contacts_begin_end_and_peak_where_the_closed_forms_do() {
         .with_initial(&[0.0], &[-1.0])
         .with_duration(1.1);
     let h = 1e-5;
-    // Sharing a spring between steps, an order-one scheme is off by some 10 h of relative energy loss; the others by h where a contact
-    // begins or ends within a step.
+    // Sharing a spring between steps, an order-one scheme is off by some 10 h of relative energy
+    // loss; the others by h where a contact begins or ends within a step.
     for scheme in schemes() {
         let first_order = matches!(
             scheme,
@@ -106,7 +107,8 @@ fn a_body_that_lands_with_restitution_zero_stays_until_it_is_lifted() {
         assert!((contact.impulse - expected).abs() < 2.0 * h * 9.81, "{what}, expected {expected}");
         assert!((contact.approach_speed - 9.81 * landing).abs() < 2.0 * h * 9.81, "{what}");
         assert!(contact.departure_speed.expect("closed").abs() < 2.0 * h * 10.19, "{what}");
-        // The blow of the landing is no finite force: what peaks is the weight, or a blow's remainder of the same order.
+        // The impact of the landing has no finite force: the peak is the weight, or what an impact
+        // leaves of the same order.
         assert!(contact.peak_force.is_some_and(|p| p < 3.0 * 9.81), "{what}");
     }
     // Without the lift it is open at the end.
@@ -180,8 +182,8 @@ fn the_table_joins_the_steps_in_which_a_wall_pushes() {
                         assert!(near(contact.start, start, 1e-15), "{what}: {start}");
                         assert!(near(contact.end.expect("closed"), end, 1e-15), "{what}: {end}");
                         assert!(near(contact.impulse, joined.impulse, 1e-12), "{what}");
-                        // A spring has its largest force; a blow has none, and nor has a rest while
-                        // it is made of blows.
+                        // A spring has a largest force; an impact has none, and nor has a rest as
+                        // long as it consists of impacts.
                         match contact.peak_force {
                             None => assert!(rigid[wall], "{what}"),
                             Some(peak) => assert!(!impact && near(peak, joined.peak, 1e-15), "{what}"),
@@ -203,8 +205,8 @@ fn the_table_joins_the_steps_in_which_a_wall_pushes() {
                     joined.peak = joined.peak.max(if finite { p.abs() / h } else { 0.0 });
                 }
             }
-            // Each scene has what it is here for: a spring pushes for long, an impact is over at
-            // once.
+            // Each scene contains what it is meant to test: a spring pushes for long, an impact is
+            // over at once.
             assert!(lasting > 0 || rigid.iter().all(|&rigid| rigid), "{name}, {scheme}");
             assert!(impacts > 0 || !rigid.contains(&true) || !lands_at_once(&scheme), "{name}, {scheme}");
         }
@@ -299,7 +301,7 @@ fn a_push_of_two_steps_is_an_impact_and_one_of_three_lasts() {
 
 #[test]
 fn a_body_that_stands_at_a_wall_without_pressing_is_not_in_contact() {
-    // Its spring carries the load but for a unit in the last place, which is rounding and no force.
+    // Its spring carries the load up to a unit in the last place, which is rounding and no force.
     for i in 1..60 {
         let (place, k) = (f64::from(i) / 97.0, 31.0 + f64::from(i) / 7.0);
         let force = (k * place).next_up();

@@ -73,8 +73,8 @@ fn at_restitution_zero_paoli_schatzman_is_of_order_two_and_implicit_euler_of_ord
     }
 }
 
-/// Asserts an order to 0.2, the tolerance of all slopes here: single pairs of steps scatter by more, since the phase of an impact
-/// within its step is as good as random.
+/// Asserts an order to 0.2, the tolerance of all slopes here: single pairs of steps scatter by
+/// more, since the phase of an impact within its step is nearly random.
 fn expect(what: &str, points: &[(f64, f64)], order: f64) {
     let found = report(what, points);
     assert!((found - order).abs() < 0.2, "{what}: order {found}, expected {order}");
@@ -85,20 +85,21 @@ fn an_elastic_wall_is_met_at_the_order_of_every_scheme() {
     let parts = spread(1, 300, 20);
     let theta = |theta| Scheme::MoreauJean { theta };
     for damping in [0.0, 3.0] {
-        // Beside a rigid wall of restitution 1: the schemes that honour it, at their order through impacts.
+        // With a rigid wall of restitution 1: the schemes that honour it, at their order through
+        // impacts.
         let scene = common::elastic(damping, 1.0);
         let exact = EventDriven::displacements(&scene, 1e-3, 1.0);
         for scheme in [Scheme::PaoliSchatzman, MOREAU_JEAN, theta(1.0)] {
             expect(&format!("{scheme}, c = {damping}, rigid e = 1"), &errors(&scene, &scheme, &exact, &parts), 1.0);
         }
-        // Beside one of restitution 0.
+        // With a rigid wall of restitution 0.
         let scene = common::elastic(damping, 0.0);
         let exact = EventDriven::displacements(&scene, 1e-3, 1.0);
         for (scheme, order) in [(Scheme::PaoliSchatzman, 2.0), (Scheme::ImplicitEuler, 1.0)] {
             expect(&format!("{scheme}, c = {damping}, rigid e = 0"), &errors(&scene, &scheme, &exact, &parts), order);
         }
-        // Without a rigid wall: all of them. A dashpot's rate taken at one end of the step, or a contact that begins with a jump
-        // of force on a whole step, costs an order.
+        // Without a rigid wall: all of them. A dashpot's rate taken at one end of the step, or a
+        // contact that begins with a jump of force on a whole step, costs an order.
         let scene = common::all_elastic(damping);
         let exact = EventDriven::displacements(&scene, 1e-3, 1.0);
         let undamped_only = if damping > 0.0 { 1.0 } else { 2.0 };
@@ -119,9 +120,10 @@ fn an_elastic_wall_is_met_at_the_order_of_every_scheme() {
     }
 }
 
-/// Steps are chosen by h√(k_w/m), with k_w = (10 mm)²/ε the stiffness at the wall. The integrators of order two need its square small:
-/// from 0.1 down. Implicit Euler loses a share of h√(k_w/m) in each contact and needs that itself small: from 0.01 down, and over
-/// the first two contacts only where the wall is stiffest. Below, the values' own 2e-10 m (4e-8 of the gap) end the fit.
+/// Steps are chosen by h√(k_w/m), with k_w = (10 mm)²/ε the stiffness at the wall. The integrators
+/// of order two need its square small: from 0.1 down. Implicit Euler loses a share of h√(k_w/m) in
+/// each contact and needs that itself small: from 0.01 down, and over the first two contacts only
+/// where the wall is stiffest. Below, the values' own 2e-10 m (4e-8 of the gap) end the fit.
 #[test]
 fn each_penalty_integrator_converges_to_its_own_epsilon_at_its_own_order() {
     let scene = common::source(1.0, 1.0);
@@ -142,7 +144,8 @@ fn each_penalty_integrator_converges_to_its_own_epsilon_at_its_own_order() {
 
 #[test]
 fn walls_of_unequal_restitution_keep_their_own_in_every_scheme_that_honours_it() {
-    // Against the exact scheme: at most 1 % of the gap at h = 1e-5, where the schemes' error is of order h (1e-4 of the gap at equal e).
+    // Against the exact scheme: at most 1 % of the gap at h = 1e-5, where the schemes' error is of
+    // order h (1e-4 of the gap at equal e).
     let scene = common::source(0.9, 0.4).with_duration(1.0);
     let time = TimeOptions { sample: Some(1e-3), ..TimeOptions::with_step(1e-5) };
     let options = Options { time, ..Options::with_step(1e-5) };
@@ -157,10 +160,11 @@ fn walls_of_unequal_restitution_keep_their_own_in_every_scheme_that_honours_it()
 
 #[test]
 fn the_trapezoid_on_a_bouncing_spring_converges_through_steps_that_are_lucky() {
-    // A ball on a spring, 1e4 N/m: the kink of the force falls anywhere within a step, at entry and at exit. The trapezoid errs there by
-    // (ωh)²φ(1 − φ)/2 of the speed, φ the place in the step; entry and exit have opposite signs. Where both fall alike the errors cancel:
-    // 2¹⁶ steps over 10 s are such a step, and their error is a tenth to a hundredth of their neighbours'. The chart, whose steps are powers
-    // of two, showed it as an error that stops falling near 2e-6.
+    // A ball on a spring, 1e4 N/m: the kink of the force falls anywhere within a step, at entry and
+    // at exit. The trapezoid errs there by (ωh)²φ(1 − φ)/2 of the speed, φ the place in the step;
+    // entry and exit have opposite signs. Where both fall alike the errors cancel: 2¹⁶ steps over
+    // 10 s are such a step, and their error is a tenth to a hundredth of their neighbours'. The
+    // chart, whose steps are powers of two, showed it as an error that stops falling near 2e-6.
     let scene = common::ball(1.0, 0.0).with_duration(10.0);
     let scheme = common::spring(1e4, Integrator::Trapezoidal);
     let rows = |scene: &Scene, scheme: &Scheme, steps: u64| {
@@ -177,7 +181,8 @@ fn the_trapezoid_on_a_bouncing_spring_converges_through_steps_that_are_lucky() {
     let neighbours = |steps: u64| (1..=8).map(|i| error(steps + 64 * (1 + steps / 16_384) * i)).fold(0.0, f64::max);
     let lucky = error(1 << 16);
     assert!(lucky < 2e-5 && neighbours(1 << 16) > 5.0 * lucky, "{lucky:e} {:e}", neighbours(1 << 16));
-    // Order 2 in the worst of nine steps: sixteen times over two halvings, to a factor of 4 for chance.
+    // Order 2 in the worst of nine steps: sixteen times over two halvings, to a factor of 4 for
+    // chance.
     let ratio = neighbours(1 << 16) / neighbours(1 << 18);
     assert!(ratio > 4.0 && ratio < 64.0, "{ratio}");
 }

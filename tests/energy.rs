@@ -1,4 +1,4 @@
-//! Energy: who keeps it, who makes it, and whether the ledger says so.
+//! Energy: which schemes conserve it, which create it, and whether the ledger shows it.
 
 mod common;
 
@@ -76,11 +76,13 @@ fn the_ledgers_of_moreau_jean_and_of_the_discrete_gradient_close_to_rounding() {
     for step in [1e-2, 1e-3, 1e-4] {
         for scene in &rigid {
             let energy = go(scene, &MOREAU_JEAN, step).residuals.energy;
-            // Each of 1e5 steps rounds by an ulp or so of an energy below the one exchanged; found: 1e-16.
+            // Each of 1e5 steps rounds by an ulp or so of an energy below the one exchanged; found:
+            // 1e-16.
             assert!(energy.residual < 1e-14, "h = {step}: {energy:?}");
             for epsilon in [1e-12, 1e-9, 1e-6] {
                 let energy = go(scene, &penalty(epsilon, Integrator::DiscreteGradient), step).residuals.energy;
-                // In a wall of 1e8 N/m a rounding of the position by 1e-18 m is 1e-15 J of some 1e-2 J; found: 3e-15.
+                // In a wall of 1e8 N/m a rounding of the position by 1e-18 m is 1e-15 J of some
+                // 1e-2 J; found: 3e-15.
                 assert!(energy.residual < 1e-13, "ε = {epsilon}, h = {step}: {energy:?}");
             }
         }
@@ -119,7 +121,8 @@ fn moreau_jean_keeps_the_energy_to_1e_12_over_ten_million_steps() {
 
 #[test]
 fn the_discrete_gradient_keeps_the_energy_to_1e_9_over_ten_million_steps() {
-    // Found: 6e-11 at most, where a step of 10 ms meets a wall of 1e8 N/m; 1e-11 and below elsewhere.
+    // Found: 6e-11 at most, where a step of 10 ms meets a wall of 1e8 N/m; 1e-11 and below
+    // elsewhere.
     for step in [1e-2, 1e-3, 1e-4] {
         let (least, most) = drift(&penalty(1e-12, Integrator::DiscreteGradient), step);
         assert!(least > -1e-9 && most < 1e-9, "h = {step}: {least:e} … {most:e}");
@@ -128,8 +131,9 @@ fn the_discrete_gradient_keeps_the_energy_to_1e_9_over_ten_million_steps() {
 
 #[test]
 fn paoli_schatzman_at_restitution_one_holds_its_energy_within_bounds() {
-    // The energy at half steps, which the rule conserves between impacts; in the steps of contact the velocity means nothing.
-    // The reference gives −5.7/+4.5 % at 10 ms and 0.07 % at 0.1 ms; which phases are met depends on the start, hence a sixth more.
+    // The energy at half steps, which the rule conserves between impacts; in the steps of contact
+    // the velocity means nothing. The reference gives −5.7/+4.5 % at 10 ms and 0.07 % at 0.1 ms;
+    // which phases are met depends on the start, hence a sixth more.
     for (step, below, above) in [(1e-2, 0.067, 0.053), (1e-4, 8e-4, 8e-4)] {
         let mut stepper = Stepper::new(&lossless(), &Scheme::PaoliSchatzman, step).expect("a sound scene");
         let (mut least, mut most) = (0.0_f64, 0.0_f64);
@@ -139,7 +143,8 @@ fn paoli_schatzman_at_restitution_one_holds_its_energy_within_bounds() {
             let (v, q) = (now.velocity_after[0], 0.5 * (last + now.q[0]));
             let pushes = now.impulse.iter().any(|&p| p != 0.0);
             let energy = (0.5 * v * v + 50.0 * q * q) / 5e-3 - 1.0;
-            // The half step after the last push of a contact is outside it; the one after its first push may be inside.
+            // The half step after the last push of a contact is outside it; the one after its first
+            // push may be inside.
             if !pushes || pushed {
                 (least, most) = (least.min(energy), most.max(energy));
             }
@@ -211,7 +216,8 @@ fn the_ledgers_of_the_dissipating_schemes_close_as_the_step_shrinks() {
 
 #[test]
 fn a_rest_under_a_changing_load_is_judged_without_delay() {
-    // Load and wall cancel there: their sum is rounding, which an adaptive rule must not try to resolve.
+    // Load and wall cancel there: their sum is rounding, which an adaptive rule must not try to
+    // resolve.
     for scene in [source(0.0, 0.0), source(0.0, 0.0).with_initial(&[GAP], &[0.0]), source(0.0, 0.8)] {
         let run = go(&scene.with_duration(10.0), &Scheme::Event, 1e-3);
         println!("{:.1e} {:.1e} in {} s", run.residuals.energy.residual, run.residuals.force_balance, run.seconds);
@@ -222,7 +228,8 @@ fn a_rest_under_a_changing_load_is_judged_without_delay() {
 
 #[test]
 fn motion_that_dies_within_a_sliver_of_its_arc_is_judged_too() {
-    // c/m = 5e4 1/s over 1 s: nodes spread over the whole arc see nothing of the 4.99 J that go in the first 0.1 ms.
+    // c/m = 5e4 1/s over 1 s: nodes spread over the whole arc see nothing of the 4.99 J that go in
+    // the first 0.1 ms.
     for stiffness in [0.0, 100.0] {
         let scene = Scene::oscillator(1e-3, 50.0, stiffness).with_initial(&[0.0], &[99.9]);
         let run = go(&scene, &Scheme::Event, 1e-3);
@@ -231,7 +238,8 @@ fn motion_that_dies_within_a_sliver_of_its_arc_is_judged_too() {
     }
 }
 
-/// Kept by the exact motion: the ledger, the walls' laws and the balance; and no wall's dashpot makes energy.
+/// Asserts what exact motion keeps: the ledger, the walls' laws and the balance; and that no wall's
+/// dashpot creates energy.
 fn closes(what: &str, scene: &Scene) -> Run {
     let run = go(scene, &Scheme::Event, 1e-4);
     let (residuals, energy) = (&run.residuals, &run.residuals.energy);
@@ -261,7 +269,8 @@ fn damped_walls_that_share_a_face_with_others_are_judged_at_rounding() {
         .with_initial(&[0.0], &[-0.1]);
     let run = closes("thrown", &thrown);
     assert!(run.residuals.energy.wall_damping_j > 4e-3, "{:?}", run.residuals.energy);
-    // A damped wall on the face of a rigid one, on the same side; the body starts there and moves in.
+    // A damped wall on the face of a rigid one, on the same side; the body starts there and moves
+    // in.
     let lined = Scene::oscillator(100.0, 0.2, 1e4)
         .with_wall(damped(Wall::upper("pad", 5e-4)))
         .with_wall(Wall::upper("spring", 1e-3).with_elasticity(1e3, 0.0))
@@ -270,7 +279,7 @@ fn damped_walls_that_share_a_face_with_others_are_judged_at_rounding() {
         .with_load(signorini::Load::constant(0.5))
         .with_initial(&[5e-4], &[0.0]);
     closes("lined", &lined);
-    // Two pads with one face, one of which lets go before the other.
+    // Two pads with one face; the contact of one ends before that of the other.
     let stacked = Scene::oscillator(1.0, 0.0, 100.0)
         .with_wall(damped(Wall::upper("slow", 1e-3)))
         .with_wall(Wall::upper("fast", 1e-3).with_elasticity(1e5, 30.0))
@@ -281,7 +290,8 @@ fn damped_walls_that_share_a_face_with_others_are_judged_at_rounding() {
 
 #[test]
 fn what_a_damped_wall_takes_is_the_work_of_its_dashpot() {
-    // One visit, from face to release: all that the body lost, by the speed with which it left. The spring's share stays in the wall.
+    // One contact, from the face to the release: all that the body lost, by the speed with which it
+    // left. The energy that remains in the spring counts as lost.
     let scene = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::upper("pad", 0.0).with_elasticity(100.0, 10.0))
         .with_initial(&[-0.1], &[1.0])
@@ -296,13 +306,15 @@ fn what_a_damped_wall_takes_is_the_work_of_its_dashpot() {
 
 #[test]
 fn a_load_that_gives_and_takes_has_exchanged_what_it_gave() {
-    // From rest under 3 cos(10πt): at multiples of 0.1 s the body is at rest again, and a step without events may well be that long.
+    // From rest under 3 cos(10πt): at multiples of 0.1 s the body is at rest again, and a step
+    // without events may well be that long.
     let load = signorini::Load::harmonic(3.0, 5.0, std::f64::consts::FRAC_PI_2);
     let scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(load);
     for step in [1e-4, 0.1, 1.0] {
         let run = go(&scene, &Scheme::Event, step);
         let energy = run.residuals.energy;
-        // ½(3/10π)² at the peaks, given and taken ten times in the second. No more than a scale, which kinks of |f q̇| may blur.
+        // ½(3/10π)² at the peaks, given and taken ten times in the second. No more than a scale,
+        // which kinks of |f q̇| may blur.
         let peak = 0.5 * (3.0 / (10.0 * std::f64::consts::PI)).powi(2);
         println!("{step}: {energy:?}");
         assert!((energy.largest_j / peak - 1.0).abs() < 2e-2, "h = {step}: {energy:?}");
@@ -313,8 +325,9 @@ fn a_load_that_gives_and_takes_has_exchanged_what_it_gave() {
 
 #[test]
 fn a_late_clock_does_not_spoil_the_judgement_of_exact_motion() {
-    // 2e4 periods of the load, 4000 s: the phase ωt has lost five digits by then, ωt·ε = 3e-11, and no judge can ask for them. (Where panels
-    // were halved to a tolerance that did not know this, each late arc spent its whole budget of panels.)
+    // 2e4 periods of the load, 4000 s: the phase ωt has lost five digits by then, ωt·ε = 3e-11, and
+    // no check can require them. (Where panels were halved to a tolerance that did not know this,
+    // each late arc spent its whole budget of panels.)
     let scene = source(0.8, 0.8).with_duration(4000.0);
     let options = Options::with_step(1e-3).with_sample(1.0);
     let run = run(&scene, &Scheme::Event, &options).expect("a run");
@@ -322,6 +335,7 @@ fn a_late_clock_does_not_spoil_the_judgement_of_exact_motion() {
     println!("{:e} {:e} {:e}", residuals.force_balance, residuals.complementarity, energy.residual);
     assert!(residuals.force_balance < 1e-13, "{residuals:?}");
     assert!(residuals.complementarity < 1e-13, "{residuals:?}");
-    // The work of that rounding of the load's phase, which changes sign from node to node: found 1e-14.
+    // The work of that rounding of the load's phase, which changes sign from node to node: found
+    // 1e-14.
     assert!(energy.residual < 1e-13, "{energy:?}");
 }

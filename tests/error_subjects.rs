@@ -1,4 +1,5 @@
-//! What errors are about: typed paths in the library's words, and the place in the file where a case was read.
+//! What errors refer to: typed paths in the library's terms, and the place in the file where a case
+//! was read.
 
 use signorini::case::Case;
 use signorini::{
@@ -63,10 +64,10 @@ fn an_error_of_a_case_file_has_its_place_its_key_and_its_cause() {
     let said = error.to_string();
     assert!(said.contains("two.toml:2:16") && said.contains("system.chain.masses: value 2 is -1.0"), "{said}");
 
-    // What is no TOML is the reader's own.
+    // A text that is not TOML gives the TOML reader's own error.
     let error = Case::parse("[system", "two.toml", ".").unwrap_err();
     assert!(error.source().is_some());
-    // An error of the library itself has none.
+    // An error of the library itself has no place in a file.
     let wall = Wall { at: Row::dof(7), ..Wall::upper("far", 1.0) };
     let error = Scene::oscillator(1.0, 0.0, 1.0).with_wall(wall).validate().unwrap_err();
     assert_eq!(subject(&error), Subject::wall("far").part("at"));

@@ -1,10 +1,10 @@
-//! The closed-form flow against a Taylor integration that shares nothing with it, in every regime.
+//! The closed-form flow against an independent Taylor integration, in every regime.
 
 use signorini::scheme::event::Event;
 use signorini::{Load, LoadKind, Scene, System, Table};
 
-/// m q̈ + c q̇ + k q = f(t) by power series of 24 terms in steps of at most 0.25 of the fastest time: its truncation is
-/// below 1e-30 a step, its rounding a few ulp a step.
+/// m q̈ + c q̇ + k q = f(t) by power series of 24 terms in steps of at most 0.25 of the fastest
+/// time: its truncation is below 1e-30 a step, its rounding a few ulp a step.
 ///
 /// Gives the state at the end, and the largest displacement and speed on the way.
 fn taylor(scene: &Scene, end: f64) -> [f64; 4] {
@@ -68,7 +68,8 @@ fn flow(scene: &Scene, end: f64, stride: f64) -> (f64, f64) {
     (event.q()[0], event.v()[0])
 }
 
-/// One long arc, and many short ones, against the series; relative to the size of the motion and its speed.
+/// One long arc, and many short ones, against the series; relative to the size of the motion and
+/// its speed.
 fn check(name: &str, scene: &Scene, end: f64, tolerance: f64) {
     let [q, v, length, speed] = taylor(scene, end);
     for stride in [end, end / 7.0, end / 300.0] {
@@ -81,7 +82,8 @@ fn check(name: &str, scene: &Scene, end: f64, tolerance: f64) {
 #[test]
 fn every_regime_matches_an_independent_series() {
     let table = Table::new(vec![0.0, 0.7, 1.1, 1.6, 4.0], vec![0.0, 2.0, -1.0, 0.5, 3.0]).unwrap();
-    // (name, m, c, k): damping from none to 50 times critical through its neighbourhood; stiffness down to none.
+    // (name, m, c, k): damping from none to 50 times critical through its neighbourhood; stiffness
+    // down to none.
     let systems = [
         ("undamped", 1.0, 0.0, 10.0),
         ("underdamped", 1.0, 0.3, 10.0),

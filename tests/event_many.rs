@@ -1,4 +1,5 @@
-//! The exact scheme for several degrees of freedom: against that for one, closed forms, and refined runs.
+//! The exact scheme for several degrees of freedom: against that for one, closed forms, and refined
+//! runs.
 
 mod common;
 
@@ -57,7 +58,7 @@ fn one_degree_of_freedom_as_matrices_is_the_oscillator() {
     ] {
         let (error, a, b) = difference(scene);
         println!("{name}: {error:e} {:?}", b.counters);
-        // Rounding, and what e = 1 makes of it in 2 s (a factor of 60).
+        // Rounding, amplified at e = 1 by a factor of 60 in 2 s.
         assert!(error < 1e-11, "{name}: {error:e}");
         assert_eq!(a.trajectory.contacts().len(), b.trajectory.contacts().len(), "{name}");
         for (x, y) in a.trajectory.contacts().iter().zip(b.trajectory.contacts()) {
@@ -136,7 +137,7 @@ fn oscillators_that_do_not_touch_each_other_move_alone() {
     for (alone, name) in [(one, "q0"), (other, "q1")] {
         let alone = exact(&alone.with_duration(2.0), 500.0);
         let error = common::error(alone.trajectory.displacement(), run.trajectory.probe(name).unwrap().0);
-        // Rounding only: these motions forget it.
+        // Rounding only: these motions do not amplify it.
         assert!(error < 1e-12, "{name}: {error:e}");
     }
     assert_judged(&run);
@@ -176,7 +177,8 @@ fn free_flight_is_the_sum_of_its_modes_over_a_thousand_periods() {
     for i in 0..n {
         let (q, _) = run.trajectory.probe(&format!("q{i}")).unwrap();
         let closed: f64 = (0..n).map(|j| shape(j, i) / (j + 1) as f64 * (omega(j) * end).cos()).sum();
-        // The clock: at t = 1000 periods ω t is known to 4e-13, and some thousand series have been rounded since.
+        // Rounding of the time: at t = 1000 periods ω t is known to 4e-13, and some thousand series
+        // have been rounded since the start.
         assert!((q[100] - closed).abs() < 1e-11, "{} {closed}", q[100]);
     }
     assert_judged(&run);
@@ -234,7 +236,8 @@ fn a_chain_is_what_refined_steps_tend_to() {
     };
     let (coarse, fine) = (error(2e-5), error(2.5e-6));
     println!("{coarse:e} {fine:e}");
-    // Order 1 through impacts: an eighth of the step, about an eighth of the error, which the impacts have made grow by some thousands.
+    // Order 1 through impacts: an eighth of the step, about an eighth of the error, which the
+    // impacts have made grow by some thousands.
     assert!(fine < 0.03 && fine < 0.25 * coarse, "{coarse:e} {fine:e}");
 }
 
@@ -264,8 +267,9 @@ fn permuting_degrees_of_freedom_permutes_the_motion() {
 
 #[test]
 fn three_supports_of_a_rigid_bar_share_its_weight() {
-    // Heave and tilt of a free bar on three walls: the reactions of least Σ Wᵢᵢ rᵢ² among those in balance. By symmetry the outer two are equal, and of
-    // r = (a, N − 2a, a) with W = (1/m + d²/I, 1/m, 1/m + d²/I) the least is at a = N/(m (2 W₀ + 4 W₁)) · 2 … solved below.
+    // Heave and tilt of a free bar on three walls: the reactions of least Σ Wᵢᵢ rᵢ² among those in
+    // balance. By symmetry the outer two are equal, and of r = (a, N − 2a, a) with W = (1/m + d²/I,
+    // 1/m, 1/m + d²/I) the least is at a = N/(m (2 W₀ + 4 W₁)) · 2 … solved below.
     let (m, inertia, d, g) = (2.0, 0.5, 0.7, 9.81);
     let mut bar = scene(diagonal(&[m, inertia], &[0.1, 0.1], &[0.0; 2]))
         .with_load(load_at(Load::constant(-m * g), Row::dof(0)))

@@ -1,11 +1,12 @@
-//! Stretches in which impacts crowd closer than the exact scheme follows them.
+//! Stretches in which impacts follow one another faster than the exact scheme resolves.
 
 mod common;
 
 use signorini::linear::Symmetric;
 use signorini::{Options, Scene, Scheme, Structure, TimeOptions, run};
 
-/// A ball with e = 1 that only drag brings to rest: its impacts never end, and no flight is the tail of a geometric series.
+/// A ball with e = 1 that only drag brings to rest: its impacts never end, and no flight is the
+/// tail of a geometric series.
 fn ball_in_oil(drag: f64) -> Scene {
     let mut scene = common::ball(1e-3, 1.0).with_duration(8.0);
     let one = |x: f64| Symmetric::diagonal(&[x]);
@@ -26,13 +27,14 @@ fn impacts_without_end_are_handed_to_moreau_jean_and_the_run_says_so() {
     let first = run.handed[0];
     // Until then 5000 impacts have not fallen into one stretch, a thousandth of the run.
     assert!(first.from > 0.2 && first.from < 6.0, "{first:?}");
-    // Momentum: from the first fall to the end the floor has carried the weight, but for what drag took: m v is nothing at both ends, and
-    // the drag's impulse is c times the fall.
+    // Momentum: from the first fall to the end the floor has carried the weight minus the impulse
+    // of the drag: m v is 0 at both ends, and that impulse is c times the fall.
     let impulse = run.trajectory.impulse("floor").unwrap();
     let expected = 9.81 * 8.0 - 30.0 * 1e-3;
     // The ball ends within a bounce of a step, g h per step of 4e-5 s.
     assert!((impulse - expected).abs() < 2e-3, "{impulse} {expected}");
-    // θ = ½ keeps its ledger at e = 1; what is lost is where the exact motion is put back onto the floor.
+    // θ = ½ conserves energy at e = 1; the loss is where the exact motion is put back onto the
+    // floor.
     assert!(run.residuals.energy.residual < 1e-9, "{:?}", run.residuals.energy);
     assert!(run.residuals.force_balance < 1e-9, "{}", run.residuals.force_balance);
     let displacement = run.trajectory.displacement();

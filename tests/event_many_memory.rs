@@ -1,4 +1,5 @@
-//! What the exact scheme holds of a large structure follows what is in play, not all pairs of walls.
+//! The memory of the exact scheme for a large structure grows with the rows in contact, not with
+//! all pairs of walls.
 #![allow(unsafe_code, reason = "an allocator that counts")]
 
 use signorini::linear::Symmetric;
@@ -32,7 +33,8 @@ static HEAP: Counting = Counting;
 
 #[test]
 fn memory_follows_the_rows_in_play() {
-    // A chain of 20 000 masses with stops at 2000 of them, pushed at one end: the first stops are met, the others stand far off.
+    // A chain of 20 000 masses with stops at 2000 of them, pushed at one end: the first stops are
+    // met, the others stand far off.
     let (n, walls) = (20_000, 2000);
     let entries = (0..n).flat_map(|i| [(i, i, 2e4), (i + 1, i, -1e4)]).filter(|entry| entry.0 < n);
     let structure = Structure {
@@ -57,6 +59,7 @@ fn memory_follows_the_rows_in_play() {
     let most = (MOST.load(Ordering::Relaxed) - before) as f64 / 1e6;
     println!("{most} MB, {:?}", stepper.counters());
     assert!(stepper.counters().events > 0);
-    // The scene, its matrices and two series of 32 terms come to some 20 MB; all pairs of masses and walls would be 320 MB.
+    // The scene, its matrices and two series of 32 terms come to some 20 MB; all pairs of masses
+    // and walls would be 320 MB.
     assert!(most < 60.0, "{most} MB");
 }

@@ -1,4 +1,5 @@
-//! Any structure between any walls: the exact scheme keeps its ledger, its walls and its word.
+//! Any structure between any walls: the exact scheme closes its energy ledger and keeps its
+//! contract.
 
 use proptest::prelude::*;
 use signorini::linear::Symmetric;
@@ -42,7 +43,7 @@ fn law() -> impl Strategy<Value = WallLaw> {
 
 fn any_wall(rigid: bool) -> impl Strategy<Value = AnyWall> {
     let law = law().prop_filter("rigid walls only", move |law| !rigid || law.is_rigid());
-    // Not all of them near 0: a wall that nothing moves is refused.
+    // Not all of them near 0: a wall on which no motion acts is rejected.
     let row = prop::collection::vec(prop_oneof![0.1..1.0f64, -1.0..-0.1f64], 5);
     (law, any::<bool>(), prop_oneof![Just(0.0), 0.0..0.1f64], row, any::<bool>())
         .prop_map(|(law, upper, gap, row, single)| AnyWall { law, upper, gap, row, single })
@@ -146,9 +147,11 @@ proptest! {
         }
         match follow(&any, 3000) {
             Ok(r) => {
-                // Held fast on all sides a structure exchanges rounding only, of forces of some newtons over some centimetres.
+                // A structure held on all sides exchanges only rounding errors of forces of some
+                // newtons over some centimetres.
                 let fast = r.energy.residual_j.abs() < 1e-14;
-                // The ends of stretches are known to an ulp of the time, and where impacts accumulate there are hundreds of them.
+                // The ends of stretches are known to an ulp of the time, and where impacts
+                // accumulate there are hundreds of them.
                 prop_assert!(r.energy.residual < 1e-11 || fast, "{:?}", r.energy);
                 prop_assert!(r.complementarity < 1e-10, "complementarity {}", r.complementarity);
                 prop_assert!(r.penetration_m <= 1e-12, "penetration {}", r.penetration_m);

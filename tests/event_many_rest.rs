@@ -1,4 +1,5 @@
-//! Structures that start on their walls: at rest, pressed, pulled, directly or through many others, of any mass and stiffness.
+//! Structures that start on their walls: at rest, pressed, pulled, directly or through many others,
+//! of any mass and stiffness.
 //!
 //! Each is judged by the judge's residuals, and some by closed forms.
 
@@ -9,7 +10,8 @@ use signorini::linear::Symmetric;
 use signorini::residual::{Judge, Residuals};
 use signorini::{Contact, Load, Options, Row, Scene, Scheme, Stepper, Wall, run};
 
-/// Two free masses of `m` (kg) joined by a spring of `k` (N/m). Mass 1 touches an upper wall, mass 0 is pushed towards it with 1 N.
+/// Two free masses of `m` (kg) joined by a spring of `k` (N/m). Mass 1 touches an upper wall, mass
+/// 0 is pushed towards it with 1 N.
 fn pair(m: f64, k: f64, e: f64) -> Scene {
     let stiffness = Symmetric::from_entries(2, [(0, 0, k), (1, 1, k), (1, 0, -k)]);
     scene(Symmetric::diagonal(&[m, m]), Symmetric::zeros(2), stiffness)
@@ -19,7 +21,8 @@ fn pair(m: f64, k: f64, e: f64) -> Scene {
 
 #[test]
 fn what_is_pressed_onto_a_wall_through_another_mass_stays_there() {
-    // While mass 1 stands, mass 0 swings about 1/k: r = −k x₀ = −(1 − cos ωt), ω² = k/m. It never pulls, and falls to 0 once a period.
+    // While mass 1 stands, mass 0 swings about 1/k: r = −k x₀ = −(1 − cos ωt), ω² = k/m. It never
+    // pulls, and falls to 0 once a period.
     for (m, k, end) in [(1e3, 1.0, 500.0), (1.0, 1.0, 20.0), (1e-6, 1e12, 2e-8), (1e6, 1e-6, 5e6)] {
         for e in [0.0, 0.5, 1.0] {
             let scene = pair(m, k, e).with_duration(end);
@@ -43,7 +46,8 @@ fn what_is_pressed_onto_a_wall_through_another_mass_stays_there() {
 
 #[test]
 fn a_push_through_twenty_masses_arrives_at_the_wall() {
-    // At the start the first forty derivatives of the last mass vanish: no series shows which way it will go.
+    // At the start the first forty derivatives of the last mass vanish: no series shows which way
+    // it will go.
     let n = 20;
     let entries = (0..n).map(|i| (i, i, if i == 0 || i == n - 1 { 1.0 } else { 2.0 }));
     let stiffness = Symmetric::from_entries(n, entries.chain((1..n).map(|i| (i, i - 1, -1.0))));
@@ -58,7 +62,8 @@ fn a_push_through_twenty_masses_arrives_at_the_wall() {
         assert!(run.residuals.penetration_m <= 1e-13, "{what}");
         assert!(run.residuals.energy.residual <= 1e-12, "{what}");
         let pushed = run.trajectory.impulse("wall").unwrap();
-        // The wave front comes after about 19 s at 1 m/s; then the wall carries what the push gives, and twice that while it is reflected.
+        // The wave front arrives after about 19 s at 1 m/s; then the wall carries the push, and
+        // twice the push while the wave is reflected.
         if sign > 0.0 {
             assert!(-pushed > 30.0 && -pushed < 80.0, "{pushed} N s, {what}");
         } else {
@@ -142,7 +147,8 @@ fn random(draws: &mut Draws) -> Scene {
         scene = scene.with_wall(at(wall.with_restitution(e), row));
     }
     for _ in 0..draws.below(3) {
-        // A push that moves its mass by about the length in a radian of the fastest motion, or by far less.
+        // A push that moves its mass by about the length in a radian of the fastest motion, or by
+        // far less.
         let dof = draws.below(n);
         let force = draws.between(-1.0, 1.0) * masses[dof] * rate * rate * length * power(draws, -6.0, 0.0);
         let load = match draws.below(4) {
@@ -155,7 +161,7 @@ fn random(draws: &mut Draws) -> Scene {
     scene
 }
 
-/// What a run has shown.
+/// Sizes and residuals of a run.
 struct Judged {
     residuals: Residuals,
     /// The largest |q|, m.
@@ -180,15 +186,18 @@ fn judged(scene: &Scene) -> Result<Judged, signorini::Error> {
     Ok(Judged { residuals: judge.residuals(), reach, steps, handed: stepper.handed().len() })
 }
 
-/// Displacements and energies are measured by the largest of the run, or by `reach` (m) and `energy` (J).
+/// Displacements and energies are measured by the largest of the run, or by `reach` (m) and
+/// `energy` (J).
 ///
-/// Where the run has handed a stretch over, which it says, moreau-jean has passed walls by a step and may have lost there what a step loses.
+/// Where the run reports a stretch that was handed over, moreau-jean may have passed walls by a
+/// step, and may have lost the energy that such a step loses.
 fn sound(scene: &Scene, run: &Judged, reach: f64, energy: f64) -> bool {
     let r = &run.residuals;
     if run.handed > 0 {
         return r.energy.residual_j.abs() <= 1e-6 * r.energy.exchanged_j.max(energy);
     }
-    // A gap may be far less than the displacements that it is the difference of, or far more than all motion.
+    // A gap may be far less than the displacements that it is the difference of, or far more than
+    // all motion.
     let reach = scene.walls.iter().map(|w| w.position.abs()).fold(reach.max(run.reach), f64::max);
     let share = (reach / r.gap_scale).max(1.0);
     r.penetration_m <= 1e-11 * reach
@@ -223,7 +232,8 @@ fn whatever_starts_on_its_walls_keeps_to_them() {
         if sound(&scene, &run, 0.0, 0.0) {
             continue;
         }
-        // Where walls hold it fast, a structure moves and exchanges rounding: measured by what it would do without them.
+        // A structure that walls hold moves and exchanges rounding only: measured by its motion
+        // without walls.
         let free = judged(&Scene { walls: Vec::new(), ..scene.clone() }).expect("a run without walls");
         if !sound(&scene, &run, free.reach, free.residuals.energy.exchanged_j) {
             wrong.push(format!(

@@ -1,11 +1,12 @@
-//! Any scene: no penetration, no energy from impacts, an end or a named error.
+//! Any scene: no penetration, no energy from impacts, and the run ends properly or with a named
+//! error.
 
 use proptest::prelude::*;
 use signorini::Error;
 use signorini::scheme::event::Event;
 use signorini::{Load, LoadKind, Scene, Table, Wall, WallLaw};
 
-/// Runs a scene to its end, and holds every step to what a wall promises.
+/// Runs a scene to its end, and checks every step against the laws of the walls.
 fn follow(scene: &Scene, stride: f64) -> Result<u64, Error> {
     let mut event = Event::new(scene, stride)?;
     let mut steps = 0;
@@ -18,7 +19,7 @@ fn follow(scene: &Scene, stride: f64) -> Result<u64, Error> {
         let span = scene.walls.iter().map(|w| w.position.abs()).fold(scene.gap_scale(), f64::max);
         for (index, wall) in scene.walls.iter().enumerate() {
             let rigid = wall.law.is_rigid();
-            // Dense enough to see a wall missed; only the first steps of a run of a million.
+            // Dense enough to notice a missed wall; only in the first steps of a run of a million.
             let points = if steps < 2000 { 20 } else { 1 };
             for i in 0..=points {
                 let t = from + (to - from) * f64::from(i) / f64::from(points);
@@ -161,6 +162,6 @@ fn extreme_scenes_end_or_say_why_not() {
             }
         }
     }
-    // Those that ask for 1e10 impacts a second.
+    // Scenes with 1e10 impacts per second.
     assert!(named <= 6, "{named}");
 }

@@ -1,4 +1,4 @@
-//! Returns to a wall that are no impacts, releases near resonance, and times of many events.
+//! Returns to a wall that are no impacts, releases near resonance, and the times of many events.
 
 mod common;
 
@@ -21,8 +21,8 @@ fn follow(scene: &Scene, stride: f64) -> (Event, Vec<Contact>) {
 
 #[test]
 fn a_body_is_let_go_near_resonance_where_the_steady_motion_is_far_larger_than_the_gap() {
-    // The source scene, whose natural frequency is 1.5915 Hz, and the same with other damping: the closed form after a release is the
-    // difference of motions up to 1/2ζ times as large.
+    // The source scene, whose natural frequency is 1.5915 Hz, and the same with other damping: the
+    // closed form after a release is the difference of motions up to 1/2ζ times as large.
     for damping in [0.0, 2e-4, 0.2, 2.0] {
         for e in [0.0, 1e-9, 1e-3, 0.1, 0.3, 0.5, 0.7] {
             for i in 0..60 {
@@ -36,7 +36,8 @@ fn a_body_is_let_go_near_resonance_where_the_steady_motion_is_far_larger_than_th
                 let evaluations = event.counters().evaluations;
                 assert!(evaluations < 5_000, "c = {damping}, e = {e}, {frequency} Hz: {evaluations} evaluations");
                 if e == 0.0 && i % 20 == 0 {
-                    // Written apart, by bisection. Its own closed form cancels: 1e-16 of a steady motion a thousand gaps large or more.
+                    // Written apart, by bisection. Its own closed form cancels: 1e-16 of a steady
+                    // motion a thousand gaps large or more.
                     let (q, v) = EventDriven::new(&scene).advance(5.0);
                     assert!((event.q()[0] - q).abs() < 1e-10, "{damping} {frequency}: {} {q}", event.q()[0]);
                     assert!((event.v()[0] - v).abs() < 1e-8, "{damping} {frequency}: {} {v}", event.v()[0]);
@@ -48,7 +49,8 @@ fn a_body_is_let_go_near_resonance_where_the_steady_motion_is_far_larger_than_th
 
 #[test]
 fn a_tangential_return_is_no_impact() {
-    // Stopped by the wall at its own place of rest plus g, then g cos ωτ for ever: it touches the wall once a period, without speed.
+    // Stopped by the wall at its own place of rest plus g, then g cos ωτ for ever: it touches the
+    // wall once a period, without speed.
     let (g, omega, duration) = (5e-3, 10.0, 1000.0);
     for (e, sign) in [(0.0, 1.0), (0.0, -1.0), (0.5, 1.0), (1.0, 1.0)] {
         let wall = if sign > 0.0 { Wall::upper("wall", g) } else { Wall::lower("wall", -g) };
@@ -70,7 +72,8 @@ fn a_tangential_return_is_no_impact() {
             assert_eq!(event.counters().impacts, 0, "e = {e}, stride {stride}");
         }
     }
-    // The same after an impact that takes all speed: one contact, and the velocity of the cosine for a thousand seconds.
+    // The same after an impact that takes all speed: one contact, and the velocity of the cosine
+    // for a thousand seconds.
     let scene = Scene::oscillator(1.0, 0.0, omega * omega)
         .with_wall(Wall::upper("wall", g).with_restitution(0.0))
         .with_initial(&[0.0], &[1.0])
@@ -84,7 +87,8 @@ fn a_tangential_return_is_no_impact() {
 
 #[test]
 fn fifty_thousand_impacts_cost_no_digits_of_the_time() {
-    // To and fro at 1 m/s between walls that are 2g apart: a triangle wave. Its phase at the end is known from whole numbers.
+    // To and fro at 1 m/s between walls that are 2g apart: a triangle wave. Its phase at the end is
+    // known from whole numbers.
     let g = 1e-4 / 3.0;
     for (e_load, duration) in [(0.0, 3.37), (1.0, 3.37)] {
         let mut scene = Scene::oscillator(1.0, 0.0, 0.0)
@@ -93,7 +97,7 @@ fn fifty_thousand_impacts_cost_no_digits_of_the_time() {
             .with_initial(&[0.0], &[1.0])
             .with_duration(duration);
         if e_load > 0.0 {
-            // A load that is never anything makes the arcs general ones.
+            // A load of amplitude 0 makes the arcs general ones.
             scene = scene.with_load(Load::harmonic(0.0, 1.0, 0.0));
         }
         let (event, contacts) = follow(&scene, duration);
@@ -101,7 +105,8 @@ fn fifty_thousand_impacts_cost_no_digits_of_the_time() {
         let phase = (duration + g) % (4.0 * g);
         let expected = if phase < 2.0 * g { phase - g } else { 3.0 * g - phase };
         assert!(contacts.len() > 50_000);
-        // Two roundings of a time of 3 s, at 1 m/s: 1e-15 m. Summed without their remainders the times lost 1e-12.
+        // Two roundings of a time of 3 s, at 1 m/s: 1e-15 m. Summed without their remainders the
+        // times lost 1e-12.
         assert!((event.q()[0] - expected).abs() < 2e-15, "{:e}", event.q()[0] - expected);
     }
 }
@@ -119,7 +124,8 @@ fn contact_is_where_a_force_acts_in_every_scheme() {
     let h = 1e-3;
     // Lands and stays without a load: the impact is all there is.
     let landing = Scene::oscillator(1.0, 0.0, 0.0).with_wall(floor()).with_initial(&[0.1], &[-1.0]).with_duration(1.0);
-    // Stands at a wall that a spring just reaches, to the rounding of 0.1 · 3 − 0.3 and of 11 · 0.3 − 3.3.
+    // Stands at a wall that a spring just reaches, to the rounding of 0.1 · 3 − 0.3 and of 11 · 0.3
+    // − 3.3.
     let standing = |k: f64, g: f64, f: f64| {
         Scene::oscillator(0.7, 0.3, k)
             .with_wall(Wall::lower("floor", g).with_restitution(0.0))
@@ -134,7 +140,7 @@ fn contact_is_where_a_force_acts_in_every_scheme() {
     let springs = |scheme: &Scheme| matches!(scheme, Scheme::Penalty { .. });
     for (number, scene) in scenes.iter().enumerate() {
         for scheme in [Scheme::Event].into_iter().chain(schemes()) {
-            // Neither a spring nor newmark stops what lands: their contacts are of their own making.
+            // Neither a spring nor newmark stops a landing body: they have contacts of their own.
             if number == 0 && (springs(&scheme) || scheme == Scheme::Newmark) {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! Motions that die down at a wall, and what blows do to a body at rest on one.
+//! Motions that decay at a wall, and what blows do to a body at rest on one.
 
 use signorini::scheme::event::Event;
 use signorini::{Load, Scene, Wall, WallLaw};
@@ -91,14 +91,14 @@ fn a_blow_at_a_body_at_rest_on_a_wall_is_an_impact_of_its_own() {
     assert_eq!((impact.start, impact.end, impact.peak_force), (0.5, Some(0.5), None));
     assert_eq!((impact.approach_speed, impact.departure_speed, impact.impulse), (1.0, Some(0.5), 1.5));
 
-    // It stays where nothing is given back …
+    // At e = 0 it stays …
     let (event, contacts) = settle(&floor(0.0).with_load(Load::impulse(-1.0, 0.5)), 10.0);
     assert_eq!((contacts.len(), event.rests_on()), (1, Some(0)));
     let open = event.open_contacts().next().expect("rest");
     assert_eq!((open.start, open.approach_speed), (0.5, 1.0));
     assert!((open.impulse - 6.0).abs() < 1e-14);
 
-    // … and leaves with what it is given upwards, to land again.
+    // … and at e > 0 it leaves with the speed that the blow gives upwards, to land again.
     let (_, contacts) = settle(&floor(0.5).with_load(Load::impulse(1.0, 0.5)), 10.0);
     assert_eq!((contacts[0].end, contacts[0].departure_speed), (Some(0.5), Some(0.0)));
     assert!((contacts[1].start - 0.7).abs() < 1e-14 && (contacts[1].approach_speed - 1.0).abs() < 1e-14);
@@ -106,7 +106,8 @@ fn a_blow_at_a_body_at_rest_on_a_wall_is_an_impact_of_its_own() {
 
 #[test]
 fn a_blow_in_the_instant_of_an_arrival_counts_with_it() {
-    // Arrives at 1 m/s after 1 s, and is thrown back at 2 m/s: no impact, and no velocity that is rounding.
+    // Arrives at 1 m/s after 1 s, and is thrown back at 2 m/s: no impact, and no velocity that is
+    // rounding.
     let scene = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::lower("floor", -1.0).with_restitution(0.5))
         .with_initial(&[0.0], &[-1.0])

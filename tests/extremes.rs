@@ -1,4 +1,5 @@
-//! Penetration within its bounds, freezing that is told, and scenes at the edge of what numbers hold.
+//! Penetration within its bounds, frozen motion that is reported, and scenes at the limits of
+//! double precision.
 
 mod common;
 
@@ -37,7 +38,8 @@ fn rigid_walls_are_passed_by_no_more_than_the_bounds_of_each_scheme() {
 
 #[test]
 fn moreau_jean_says_so_where_the_body_crosses_the_gap_within_a_step_and_freezes() {
-    // 10 m/s across 10 mm in steps of 10 ms: each wall is reached from the other before the body has moved.
+    // 10 m/s across 10 mm in steps of 10 ms: each wall is reached from the other before the body
+    // has moved.
     let scene = source(1.0, 1.0).with_initial(&[0.0], &[10.0]);
     let run = run(&scene, &MOREAU_JEAN, &Options::with_step(1e-2)).expect("a run");
     assert!(run.counters.frozen_steps > 90, "{:?}", run.counters);
@@ -47,7 +49,8 @@ fn moreau_jean_says_so_where_the_body_crosses_the_gap_within_a_step_and_freezes(
     assert_eq!(run.counters.frozen_steps, 0);
 }
 
-/// A scene at the edge of what numbers hold, in units that scale it: ω = √(k/m), or √(1/m) without a spring.
+/// A scene at the limits of double precision, in units that scale it: ω = √(k/m), or √(1/m) without
+/// a spring.
 #[derive(Debug, Clone, Copy)]
 struct Extreme {
     mass: f64,
@@ -114,7 +117,8 @@ impl Extreme {
     }
 }
 
-/// 300 steps end in a named error, or meet their residuals: to 1e-9, or to rounding of what the balance subtracts where that is coarser.
+/// 300 steps end in a named error, or meet their residuals: to 1e-9, or to rounding of what the
+/// balance subtracts where that is coarser.
 fn survives(extreme: &Extreme, scheme: &Scheme) {
     let what = format!("{scheme}, {extreme:?}");
     let (scene, h) = (extreme.scene(), extreme.step());
@@ -135,7 +139,8 @@ fn survives(extreme: &Extreme, scheme: &Scheme) {
     }
     let explicit = matches!(scheme, Scheme::Penalty { integrator: Integrator::CentralDifference, .. });
     if explicit && speed > 1e3 * extreme.omega() * reach.min(1.0) {
-        // On its way to the infinity that it reports: stiffer than the explicit rule is stable for.
+        // About to overflow, which it reports: stiffer than the stability limit of the explicit
+        // rule.
         return;
     }
     assert_eq!(judge.findings(), [], "{what}");
@@ -155,7 +160,8 @@ fn survives(extreme: &Extreme, scheme: &Scheme) {
     assert!(r.tension_n <= 1e-12 * r.force_scale_n, "{what}: {r:?}");
     let bound = match scheme {
         Scheme::Penalty { .. } => f64::INFINITY,
-        // e(g − q⁻) with q⁻ two steps back, and half a step and a turn of velocity: wider than the bounds above, which are for small h.
+        // e(g − q⁻) with q⁻ two steps back, and half a step and a turn of velocity: wider than the
+        // bounds above, which are for small h.
         Scheme::PaoliSchatzman | Scheme::MoreauJean { .. } => 2.0 * h * speed,
         _ => 0.0,
     };
@@ -243,7 +249,7 @@ fn elastic_walls_that_take_turns_freeze_nothing() {
 
 #[test]
 fn a_motion_that_leaves_the_numbers_is_an_error_at_that_step() {
-    // 1e308 N on 1 kg: after a second 1e308 m/s, after two more than a double holds.
+    // 1e308 N on 1 kg: 1e308 m/s after a second, and an overflow after two more.
     for structure in [false, true] {
         let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::constant(1e308)).with_duration(10.0);
         if structure {

@@ -1,5 +1,5 @@
-//! Every kind of figure with data such as the program makes. The pictures are left in `target/tmp/gallery` to be looked
-//! at; the tests read them back.
+//! Every kind of figure, with data as the program makes them. The pictures stay in
+//! `target/tmp/gallery` for inspection; the tests read them back.
 #![cfg(feature = "cli")]
 
 use std::path::PathBuf;

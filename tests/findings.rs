@@ -1,4 +1,5 @@
-//! What the judge refutes: every kind of broken promise, and nothing of a run that kept its scheme's word.
+//! The judge's findings: one for every kind of broken promise, and none for a run that kept its
+//! scheme's contract.
 
 mod common;
 mod random_structures;
@@ -51,7 +52,7 @@ struct Altered {
     force: Vec<f64>,
 }
 
-/// The kinds of what is found, each once.
+/// The kinds of findings, each once.
 fn kinds(findings: &[Finding]) -> Vec<Refuted> {
     let mut kinds = Vec::new();
     for finding in findings {
@@ -77,7 +78,7 @@ fn each_kind_of_broken_promise_is_found_with_its_place() {
         assert_eq!(found(&scheme, &|_, _| {}), [], "{scheme}");
         let pulls = found(&scheme, &|_, a| a.impulse.iter_mut().chain(&mut a.force).for_each(|p| *p = -*p));
         assert!(kinds(&pulls).contains(&Refuted::Tension), "{scheme}: {pulls:?}");
-        // One part in a thousand too much force: only the balance knows.
+        // A force that is one part in a thousand too large: only the momentum balance shows it.
         let more = found(&scheme, &|_, a| a.impulse.iter_mut().chain(&mut a.force).for_each(|p| *p *= 1.001));
         assert!(kinds(&more).contains(&Refuted::MomentumBalance), "{scheme}: {more:?}");
         let finding = more.iter().find(|f| f.refuted == Refuted::MomentumBalance).expect("just seen");
@@ -92,7 +93,8 @@ fn each_kind_of_broken_promise_is_found_with_its_place() {
         assert!((wall.time_s - 0.031).abs() < 1e-12, "{scheme}: {wall:?}");
         assert!(matches!(wall.refuted, Refuted::Complementarity | Refuted::WallLaw), "{scheme}: {wall:?}");
     }
-    // Behind the wall where the scheme promises to stay in front; the place is off its velocities as well.
+    // Behind the wall although the scheme promises gaps ≥ 0; the displacement does not fit the
+    // velocities either.
     let behind = found(&Scheme::ImplicitEuler, &|step, a| {
         if step.index == FIRST_IMPACT {
             a.q[0] = 5.5e-3;
@@ -102,7 +104,8 @@ fn each_kind_of_broken_promise_is_found_with_its_place() {
     assert!((deep.residual - 0.1).abs() < 1e-9 && (deep.time_s - 0.077).abs() < 1e-12, "{deep:?}");
     assert_eq!(deep.wall.as_deref(), Some("upper"));
     assert!(kinds(&behind).contains(&Refuted::Kinematics), "{behind:?}");
-    // moreau-jean promises the rebound, not the depth: a run that lands 0.9 mm deep has no finding; one with another rebound has.
+    // moreau-jean promises the rebound, not the depth: a run that lands 0.9 mm deep has no finding;
+    // one with another rebound has.
     let rebound = found(&MOREAU_JEAN, &|step, a| {
         if step.index == FIRST_IMPACT {
             let change = 0.1 * step.velocity_before[0];
@@ -112,7 +115,8 @@ fn each_kind_of_broken_promise_is_found_with_its_place() {
         }
     });
     assert!(kinds(&rebound).contains(&Refuted::Complementarity), "{rebound:?}");
-    // Energy from nowhere, where the scheme conserves it: the speed of a free body grows by one part in a thousand.
+    // Energy from nowhere, where the scheme conserves it: the speed of a free body grows by one
+    // part in a thousand.
     let free = Scene::oscillator(1.0, 0.0, 0.0).with_initial(&[0.0], &[0.1]);
     let made = |step: &Step<'_>, a: &mut Altered| {
         if step.index >= 40 {
@@ -144,7 +148,7 @@ fn a_finding_says_what_where_and_why_in_words() {
     assert!(text.contains(expected), "{text}");
 }
 
-/// Every scheme of the crate, the exhibit too: what it does not promise is no finding.
+/// Every scheme of the crate, newmark included: what a scheme does not promise gives no finding.
 fn schemes(stiffness: f64) -> Vec<Scheme> {
     let mut all = common::CONSTRAINED.to_vec();
     all.extend([0.0, 1.0].map(|rho| Scheme::GeneralizedAlpha { rho }));
@@ -154,7 +158,8 @@ fn schemes(stiffness: f64) -> Vec<Scheme> {
 
 #[test]
 fn no_run_is_accused_at_scales_far_from_one() {
-    // Mass and stiffness over many decades, with loads, gaps and speeds that belong to them: and with those that do not.
+    // Mass and stiffness over many decades, with loads, gaps and speeds that belong to them: and
+    // with those that do not.
     let mut judged_runs = 0;
     for mass in [1e-6, 1.0, 1e6] {
         for stiffness in [1e-6_f64, 1e2, 1e12] {
@@ -191,7 +196,8 @@ fn no_run_of_a_random_structure_is_accused_at_any_scale() {
     for seed in 1000..1060 {
         let mut draws = Draws::new(seed);
         let mut scene = random_scene(&mut draws);
-        // A scene in other units of mass (and force): everything that has kilograms in it is scaled.
+        // A scene in other units of mass (and force): everything that has kilograms in it is
+        // scaled.
         let unit = 10_f64.powf(draws.between(-6.0, 6.0));
         if let System::Structure(s) = &mut scene.system {
             let s = &mut **s;
@@ -213,7 +219,8 @@ fn no_run_of_a_random_structure_is_accused_at_any_scale() {
             let what = format!("seed {seed}, unit {unit:e}, {scheme}");
             match judged(&scene, &scheme, STEP, 250, |_, _| {}) {
                 Ok(findings) => assert_eq!(findings, [], "{what}"),
-                // The bounds of walls with unequal e on rows that depend on one another may contradict.
+                // The bounds of walls with unequal e on rows that depend on one another may
+                // contradict.
                 Err(Error::Qp { .. } | Error::NotFinite { .. } | Error::Newton { .. }) => {}
                 Err(error) => panic!("{what}: {error}"),
             }
@@ -234,7 +241,8 @@ fn scaled(mut load: Load, unit: f64) -> Load {
 
 #[test]
 fn a_body_held_fast_or_far_from_the_origin_is_not_accused() {
-    // Held between two walls without a gap, pressed; and the source scene moved by a kilometre, where a place is known to 1e-13 m.
+    // Held between two walls without a gap, pressed; and the source scene moved by a kilometre,
+    // where a place is known to 1e-13 m.
     let held = Scene::oscillator(1.0, 0.2, 100.0)
         .with_wall(Wall::upper("upper", 0.0).with_restitution(0.5))
         .with_wall(Wall::lower("lower", 0.0).with_restitution(0.5))
@@ -257,8 +265,9 @@ fn a_body_held_fast_or_far_from_the_origin_is_not_accused() {
     }
 }
 
-/// Every built-in case by every scheme that the tool offers for it, at the case's own step: the first tenth of a second, which holds the
-/// first impacts of all of them but the ball's, and at most 20 000 steps.
+/// Every built-in case by every scheme that the tool offers for it, at the case's own step: the
+/// first tenth of a second, which holds the first impacts of all of them but the ball's, and at
+/// most 20 000 steps.
 #[cfg(feature = "cli")]
 #[test]
 fn no_built_in_case_is_accused() {
@@ -322,8 +331,9 @@ fn the_summary_says_that_a_run_was_refuted_and_by_what() {
     std::fs::remove_file(&path).expect("its own");
 }
 
-/// A promise is made of parts, and one that no scheme of the crate makes is judged like any other: without restitution the reflected bound
-/// of paoli-schatzman is the bound at the step's end; with it that bound lies elsewhere, and such a promise is broken.
+/// A promise is made of parts, and one that no scheme of the crate makes is judged like any other:
+/// without restitution the reflected bound of paoli-schatzman is the bound at the step's end; with
+/// it that bound lies elsewhere, and such a promise is broken.
 #[test]
 fn a_promise_that_no_scheme_makes_is_judged_by_its_parts() {
     let found = |e: f64| {

@@ -1,5 +1,5 @@
-//! The contact force itself, which is what a run is made for: of every scheme, as an oscillator and
-//! as a structure, on rigid and elastic walls.
+//! The contact force itself, the purpose of a run: of every scheme, as an oscillator and as a
+//! structure, on rigid and elastic walls.
 
 mod common;
 mod random_structures;
@@ -10,7 +10,7 @@ use signorini::{
     Integrator, Load, Options, PenaltyLaw, Row, Scene, Scheme, Side, Stepper, System, Table, Wall, WallLaw, run,
 };
 
-/// Spring that stands for a rigid wall under a penalty, N/m.
+/// Spring that replaces a rigid wall under a penalty, N/m.
 const STAND_IN: f64 = 1e6;
 
 fn every() -> Vec<Scheme> {
@@ -24,7 +24,7 @@ fn every() -> Vec<Scheme> {
 /// in time, and so is the wall's force.
 struct Press {
     scene: Scene,
-    /// Force of the wall (N, signed) at t = 0, and what it grows by a second.
+    /// Force of the wall (N, signed) at t = 0, and its growth per second.
     force: f64,
     growth: f64,
 }
@@ -90,8 +90,8 @@ fn as_oscillator(mut scene: Scene) -> Scene {
     scene
 }
 
-/// Holds every step of `scheme` to the force of the press, and its impulse to the force times the
-/// step.
+/// Checks the force in every step of `scheme` against that of the press, and the impulse against
+/// the force times the step.
 fn hold(press: &Press, scheme: &Scheme, h: f64, what: &str) {
     let mut stepper = Stepper::new(&press.scene, scheme, h).expect("a sound scene");
     // A force is made of displacements over h²: the rounding of 5 mm, times some steps of drift.
@@ -100,7 +100,7 @@ fn hold(press: &Press, scheme: &Scheme, h: f64, what: &str) {
     while stepper.time() < DURATION - 0.5 * h {
         let step = stepper.step().expect("a step");
         let (t, end) = (step.start, step.end);
-        // Which instant of the step the force is that of is the scheme's own matter.
+        // The instant of the step to which the force belongs depends on the scheme.
         let (lo, hi) = (press.force(t).min(press.force(end)), press.force(t).max(press.force(end)));
         let force = step.force[0];
         assert!(
@@ -132,7 +132,7 @@ fn for_scheme(n: usize, side: Side, law: Option<(f64, f64)>, growth: f64, scheme
 
 #[test]
 fn a_press_is_answered_by_its_force_in_every_step_of_every_scheme() {
-    // At rest, and pressed harder and harder; rigid, a spring, a spring with a dashpot.
+    // At rest, and under a growing load; a rigid wall, a spring, and a spring with a dashpot.
     for growth in [0.0, 20.0] {
         for law in [None, Some((2e3, 0.0)), Some((2e3, 5.0))] {
             for side in [Side::Upper, Side::Lower] {
@@ -241,7 +241,8 @@ fn a_run_records_the_force_of_the_press_and_its_peak() {
     }
 }
 
-/// Holds the rows and the statistics of a run to the force of the press, within a step of its time.
+/// Checks the rows and the statistics of a run against the force of the press, within a step of its
+/// time.
 fn recorded(press: &Press, scheme: &Scheme, h: f64, what: &str) {
     let run = run(&press.scene, scheme, &Options::with_step(h)).expect("a run");
     let near = |found: f64, expected: f64| (found - expected).abs() <= press.growth.abs() * h + 1e-8;

@@ -44,7 +44,7 @@ fn the_exact_scheme_refuses_a_function_and_says_what_would_do() {
         let refused = Stepper::new(&function, &Scheme::Event, 1.0).expect_err("no closed form");
         assert!(refused.is_request() && refused.to_string().contains("Table::sampled"), "{refused}");
     }
-    // A value that is no number is found at the start, or where it comes.
+    // A value that is not finite is reported at the start, or when it occurs.
     let scene = Scene::oscillator(1.0, 0.0, 1.0).with_load(Load::function(|t| 1.0 / t));
     assert!(matches!(Stepper::new(&scene, &MOREAU_JEAN, 1e-3), Err(Error::Invalid { .. })));
     let late = Scene::oscillator(1.0, 0.0, 1.0).with_load(Load::function(|t| (0.5 - t).sqrt()));
@@ -59,13 +59,15 @@ fn a_sampled_function_is_as_near_as_it_says_and_carries_the_exact_scheme() {
         let table = Table::sampled(sine, [0.0, 0.5], 3.0 * omega * omega, error).expect("a table");
         let off = |i: u32| 0.5 * f64::from(i) / 100_003.0;
         let worst = (0..100_003).map(|i| (table.piece(off(i)).0 - sine(off(i))).abs()).fold(0.0, f64::max);
-        // The bound is met, and no finer table was made than it takes: a sine comes near its largest curvature.
+        // The bound is met, and no finer table was made than it takes: a sine comes near its
+        // largest curvature.
         assert!(worst <= error && worst > 0.9 * error, "{worst:e}");
         let [known, mut sampled] = scenes(false);
         sampled.loads = vec![Load::table(table)];
         let [a, b] = [&known, &sampled].map(|s| run(s, &Scheme::Event, &Options::with_step(1e-3)).expect("a run"));
         let apart = (a.state.q[0] - b.state.q[0]).abs();
-        // An error of the force moves 1 kg by at most ½ε t² between impacts, half a second with some ten of them.
+        // An error of the force moves 1 kg by at most ½ε t² between impacts, half a second with
+        // some ten of them.
         assert!(apart < 20.0 * error, "{apart:e}");
     }
     for (interval, curvature, error) in [

@@ -1,4 +1,5 @@
-//! Nonsmooth generalized-α against closed forms and the exact scheme, and the judge of it against steps that break their word.
+//! Nonsmooth generalized-α against closed forms and the exact scheme, and its judge against altered
+//! steps.
 
 mod common;
 mod random_structures;
@@ -48,8 +49,8 @@ fn it_is_of_order_two_without_impacts_one_through_them_and_two_where_they_are_pl
 #[test]
 fn the_fastest_vibration_shrinks_by_rho_in_every_step_and_one_that_is_resolved_stays() {
     for rho in RHOS {
-        // h ω = 1e6: the limit in which ρ∞ is what is left. A triple root: m²ρᵐ, whose m² grows by a
-        // factor of 3 from step 30 to 50, 1.06 a step.
+        // h ω = 1e6: the limit in which the amplitude decays by ρ∞ per step. A triple root: m²ρᵐ,
+        // whose m² grows by a factor of 3 from step 30 to 50, 1.06 per step.
         let stiff = Scene::oscillator(1.0, 0.0, 1e12).with_initial(&[1.0], &[0.0]);
         let mut stepper = Stepper::new(&stiff, &alpha(rho), 1.0).expect("a sound scene");
         let mut size = Vec::new();
@@ -58,11 +59,12 @@ fn the_fastest_vibration_shrinks_by_rho_in_every_step_and_one_that_is_resolved_s
         }
         let largest = |from: usize| size[from..from + 4].iter().fold(0.0_f64, |a, b| a.max(*b));
         let rate = (largest(50) / largest(30)).powf(1.0 / 20.0);
-        // At ρ∞ = 0 it is what the finite hω and rounding leave.
+        // At ρ∞ = 0 a remainder of the finite hω and rounding.
         assert!(rate <= (1.06 * rho).max(1e-3) && (rho == 0.0 || rate >= 0.94 * rho), "{rho}: {rate}");
         let resolved = Scene::oscillator(1.0, 0.0, 1.0).with_initial(&[1.0], &[0.0]).with_duration(10.0);
         let energy = run(&resolved, &alpha(rho), &Options::with_step(1e-2)).expect("a run").residuals.energy;
-        // Numerical dissipation is the ledger's residual: none at ρ∞ = 1 but rounding of a thousand steps, of order h³ω³ an oscillation elsewhere.
+        // Numerical dissipation is the ledger's residual: none at ρ∞ = 1 but rounding of a thousand
+        // steps, of order h³ω³ an oscillation elsewhere.
         let lost = -energy.residual_j / energy.initial_j;
         assert!(lost.abs() < if rho == 1.0 { 1e-13 } else { 1e-4 }, "{rho}: {lost:e}");
         assert!(rho == 1.0 || lost > 0.0, "{rho}: {lost:e}");
@@ -112,7 +114,8 @@ fn a_body_at_rest_on_a_wall_stays_and_weighs_what_it_weighs() {
     }
 }
 
-/// What the ledger of a chain of 20 masses between walls of e = 0.9 and 0.45 does not account for, over its energy at the start.
+/// What the ledger of a chain of 20 masses between walls of e = 0.9 and 0.45 does not account for,
+/// over its energy at the start.
 fn unaccounted(scheme: &Scheme, step: f64) -> f64 {
     let mut scene = random_structures::chain(20, 1e4, 0.0);
     for i in 0..20 {
@@ -159,8 +162,9 @@ fn a_pressed_mass_rests_under_the_static_force_whatever_the_step() {
 
 #[test]
 fn a_damped_structure_rests_where_statics_puts_it_and_stays_there() {
-    // Two masses on springs to the ground and to one another, pressed on a stop at the second. Damping that couples them, light and
-    // heavy; steps that resolve the vibration and steps that do not.
+    // Two masses on springs to the ground and to one another, pressed on a stop at the second.
+    // Damping that couples them, light and heavy; steps that resolve the vibration and steps that
+    // do not.
     for (k, damping) in [(1e4, 1e-3), (1e5, 1e-5), (1e5, 1e-2), (1e8, 1e-3)] {
         let g = 20.0 / k;
         let at_rest = [(15.0 + k * g) / (2.0 * k), g];
@@ -183,7 +187,8 @@ fn a_damped_structure_rests_where_statics_puts_it_and_stays_there() {
                     }
                     let off = stepper.state().q[0] - at_rest[0];
                     println!("k {k:e} d {damping:e} ρ∞ {rho} h {h:e}: {:e} {off:e}", force + held);
-                    // It lands and comes to rest there too, where the damper has the time: 1e-17 of the vibration is left.
+                    // It lands and comes to rest there too, where the damper has the time: 1e-17 of
+                    // the vibration is left.
                     let slow = !from_rest && damping * k * h * 20_000.0 < 40.0;
                     assert!(slow || off.abs() < 1e-9 * g, "{:?}", stepper.state());
                     assert!(slow || (force + held).abs() < 1e-9, "{force} for {held}");
@@ -193,7 +198,7 @@ fn a_damped_structure_rests_where_statics_puts_it_and_stays_there() {
     }
 }
 
-/// What a judge makes of a run whose step number `at` is altered.
+/// The residuals of a run whose step number `at` is altered.
 fn altered(scene: &Scene, at: u64, alter: impl Fn(&mut [f64; 4])) -> Residuals {
     let scheme = alpha(0.8);
     let mut stepper = Stepper::new(scene, &scheme, 1e-3).expect("a sound scene");
@@ -229,7 +234,7 @@ fn the_judge_reports_each_broken_promise() {
     let (impact, free) = (impact.expect("an impact"), free.expect("a free step"));
     let fine = altered(&rigid, free, |_| {});
     assert!(fine.complementarity < 1e-14 && fine.force_balance < 1e-14, "{fine:?}");
-    // Wrong in the eighth digit of each: seen where it is promised.
+    // Each value changed in its eighth digit: noticed where the contract covers it.
     let balance = |at: u64, which: usize| altered(&rigid, at, |x| x[which] *= 1.0 + 1e-8).force_balance;
     for (at, which) in [(free, 0), (free, 1), (impact, 1), (impact, 2)] {
         let found = balance(at, which);

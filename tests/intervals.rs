@@ -1,4 +1,5 @@
-//! Forces over time against closed forms, and the intervals of statistics against what is known of random processes.
+//! Forces over time against closed forms, and the intervals of statistics against what is known of
+//! random processes.
 
 use signorini::study::verdict::Verdict;
 use signorini::{Contact, Load, Method, Options, Scene, Scheme, Statistics, Wall, run};
@@ -16,8 +17,8 @@ fn still(duration: f64) -> Scene {
     Scene::oscillator(1.0, 0.0, 1.0).with_wall(Wall::upper("upper", 1.0)).with_duration(duration)
 }
 
-/// A ball of 1 kg on a floor without loss, started at its highest point 5 m up under g = 10: down in 1 s, 10 m/s, a blow of 20 N s
-/// every 2 s from t = 1 s on.
+/// A ball of 1 kg on a floor without loss, started at its highest point 5 m up under g = 10: down
+/// in 1 s, 10 m/s, a blow of 20 N s every 2 s from t = 1 s on.
 fn ball(duration: f64) -> Scene {
     Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::lower("floor", 0.0))
@@ -35,8 +36,8 @@ fn the_mean_force_of_a_periodic_orbit_is_its_impulse_over_its_period() {
             options.time.statistics_from = from;
             let run = run(&ball(20.0 + from), &scheme, &options).expect("a run");
             let force = run.statistics.walls[0].force.expect("a window");
-            // The exact scheme to rounding; on a grid a step moves the instant of a blow but not its number, and its speed by g h at most,
-            // 1e-4 of 10 m/s.
+            // The exact scheme to rounding; on a grid a step moves the instant of a blow but not
+            // its number, and its speed by g h at most, 1e-4 of 10 m/s.
             let tolerance = if scheme == Scheme::Event { 1e-9 } else { 1e-4 };
             assert!((force.mean_n / 10.0 - 1.0).abs() < tolerance, "{scheme}, from {from}: {force:?}");
             assert!((force.impulse_n_s / 200.0 - 1.0).abs() < tolerance, "{scheme}, from {from}: {force:?}");
@@ -46,7 +47,8 @@ fn the_mean_force_of_a_periodic_orbit_is_its_impulse_over_its_period() {
 
 #[test]
 fn the_rms_of_a_rigid_wall_is_that_of_the_force_averaged_over_the_stretch_asked_for() {
-    // Blows of 20 N s at t = 1, 3, 5, …, 39 s. By hand: Σ (impulse in each stretch)² / stretch / 40 s.
+    // Blows of 20 N s at t = 1, 3, 5, …, 39 s. By hand: Σ (impulse in each stretch)² / stretch / 40
+    // s.
     for averaging in [1e-3, 0.5, 0.8, 4.0, 1e9] {
         let mut options = Options::with_step(1e-3).with_sample(1.0);
         options.time.force_averaging = averaging;
@@ -57,13 +59,15 @@ fn the_rms_of_a_rigid_wall_is_that_of_the_force_averaged_over_the_stretch_asked_
         let count = (40.0 / stretch).round() as usize;
         let mut bins = vec![0.0_f64; count];
         for k in 0..20 {
-            // None falls on an edge but at 0.5 and 1e-3 s, where it belongs to either of two that hold no other.
+            // None falls on an edge but at 0.5 and 1e-3 s, where it belongs to either of two that
+            // hold no other.
             bins[((1.0 + 2.0 * f64::from(k)) / stretch) as usize] += 20.0;
         }
         let expected = (bins.iter().map(|p| p * p / stretch).sum::<f64>() / 40.0).sqrt();
         assert!((force.rms_n / expected - 1.0).abs() < 1e-9, "{averaging}: {force:?}, expected {expected}");
     }
-    // A body held at a stop by 3 + 2 sin(ωt) N: the mean of the force over a stretch [a, b] in closed form.
+    // A body held at a stop by 3 + 2 sin(ωt) N: the mean of the force over a stretch [a, b] in
+    // closed form.
     let (omega, length) = (TAU * 2.0, 10.0);
     let scene = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::upper("stop", 0.0).with_restitution(0.0))
@@ -76,7 +80,7 @@ fn the_rms_of_a_rigid_wall_is_that_of_the_force_averaged_over_the_stretch_asked_
         |k: f64| 3.0 + 2.0 * ((omega * k * stretch).cos() - (omega * (k + 1.0) * stretch).cos()) / (omega * stretch);
     let squares: f64 = (0..count as u32).map(|k| mean(f64::from(k)).powi(2)).sum();
     let expected = (squares / count).sqrt();
-    // What averaging takes off is seen: without it the RMS is √(9 + 2).
+    // The effect of averaging is large enough to be seen: without it the RMS is √(9 + 2).
     assert!((expected / 11.0_f64.sqrt() - 1.0).abs() > 1e-2);
     // The trapezoid's error of the load over a step is (ωh)²/12 = 1e-7 at h = 1e-4.
     for (scheme, tolerance) in [(Scheme::Event, 1e-9), (Scheme::MoreauJean { theta: 0.5 }, 1e-6)] {
@@ -110,12 +114,14 @@ fn means_over_episodes_have_the_interval_of_the_ratio_estimator() {
     contacts.extend((0..10).map(|k| contact(3.1 + 0.01 * f64::from(k), 3.0, None)));
     let all = Statistics::new(&still(10.0), &contacts, 0.0);
     let uneven = all.walls[0].half_width_95.expect("twenty contacts");
-    // R = 40/20 = 2; z = 1 − 2 nine times and 31 − 22 once: s² = (9 + 81)/9 = 10, and t √(10/10) over 2 episodes a batch.
+    // R = 40/20 = 2; z = 1 − 2 nine times and 31 − 22 once: s² = (9 + 81)/9 = 10, and t √(10/10)
+    // over 2 episodes a batch.
     assert_eq!(all.walls[0].episode_impulse_n_s.mean, Some(2.0));
     assert!((uneven.episode_impulse_n_s - 0.5 * T).abs() < 1e-6, "{uneven:?}");
     // Ten peaks, all alike.
     assert_eq!(uneven.episode_peak_force_n, Some(0.0));
-    // What came and went: ½(p² − p²/4) each, 3/8 nine times and 3/8 + 10 · 27/8 once; a mean of 10 of 3/8 and 270/8 over ten.
+    // What came and went: ½(p² − p²/4) each, 3/8 nine times and 3/8 + 10 · 27/8 once; a mean of 10
+    // of 3/8 and 270/8 over ten.
     let (low, high) = (3.0 / 8.0, 3.0 / 8.0 + 270.0 / 8.0);
     let mean = (9.0 * low + high) / 10.0;
     let s = ((9.0 * (low - mean) * (low - mean) + (high - mean) * (high - mean)) / 9.0_f64).sqrt();
@@ -129,7 +135,8 @@ fn too_few_episodes_have_no_interval() {
     let wall = |contacts: &[Contact]| Statistics::new(&still(10.0), contacts, 0.0).walls[0].clone();
     assert_eq!(wall(&contacts).half_width_95.expect("twelve").episode_peak_force_n, None);
     assert_eq!(wall(&contacts[..9]).half_width_95, None);
-    // Three blows say nothing of how far their mean scatters; a lasting contact, one episode, does.
+    // From three blows the scatter of their mean is not known; a lasting contact, a single episode,
+    // has an interval.
     let few = run(&ball(6.0), &Scheme::Event, &Options::with_step(1e-3)).expect("a run");
     let force = few.statistics.walls[0].force.expect("a window");
     assert!(force.mean_n > 9.0, "{force:?}");
@@ -162,8 +169,9 @@ impl Random {
 
 #[test]
 fn nineteen_of_twenty_intervals_hold_the_truth() {
-    // Contacts as a Poisson process of 2 per second; every second or so a spell begins that has larger or smaller impulses than the last, so
-    // that neighbours are alike. Impulses are uniform on (0.5, 1.5) times the spell's 1 or 3 N s: 2 N s in the mean over time, and over episodes.
+    // Contacts as a Poisson process of 2 per second; every second or so a spell begins that has
+    // larger or smaller impulses than the last, so that neighbours are alike. Impulses are uniform
+    // on (0.5, 1.5) times the spell's 1 or 3 N s: 2 N s in the mean over time, and over episodes.
     const RATE: f64 = 2.0;
     const LENGTH: f64 = 300.0;
     const SEEDS: u64 = 2000;
@@ -194,8 +202,8 @@ fn nineteen_of_twenty_intervals_hold_the_truth() {
             *held += u64::from(off.abs() <= width);
         }
     }
-    // 95 % of 2000 trials are known to ±1.5 % (three standard deviations, 3 √(0.95 · 0.05/2000)); sums of sixty contacts a batch are normal and
-    // independent to half a percent of coverage.
+    // 95 % of 2000 trials are known to ±1.5 % (three standard deviations, 3 √(0.95 · 0.05/2000));
+    // sums of sixty contacts a batch are normal and independent to half a percent of coverage.
     for held in held {
         let share = held as f64 / SEEDS as f64;
         assert!((share - 0.95).abs() < 0.02, "{share}");

@@ -1,4 +1,5 @@
-//! Several degrees of freedom: one written as matrices is the oscillator, a symmetric pair stays symmetric, and the numbering is no physics.
+//! Several degrees of freedom: an oscillator written as matrices gives the same motion, a symmetric
+//! pair stays symmetric, and the numbering does not matter.
 
 mod common;
 mod random_structures;
@@ -13,8 +14,8 @@ fn source(upper: f64, lower: f64) -> Scene {
     common::source(upper, lower).with_load(Load::impulse(0.05, 0.3))
 }
 
-/// The scenes in which one degree of freedom meets everything: restitutions, elastic and damped walls, blows (one at the start), a start at
-/// rest on a wall.
+/// Scenes of one degree of freedom with everything in it: restitutions, elastic and damped walls,
+/// blows (one at the start), a start at rest on a wall.
 fn scenes() -> Vec<(&'static str, Scene)> {
     let mut leaning = Scene::oscillator(2.0, 0.3, 50.0)
         .with_wall(Wall::upper("upper", 0.01).with_restitution(0.6))
@@ -40,7 +41,8 @@ fn as_matrices(mut scene: Scene) -> Scene {
     scene
 }
 
-/// Largest difference of displacement over half the gap of the source scene, and of the impulses over the largest.
+/// Largest difference of displacement over half the gap of the source scene, and of the impulses
+/// over the largest.
 fn difference(a: &Scene, b: &Scene, scheme: &Scheme, steps: u32, extra: impl Fn(u32) -> f64) -> (f64, f64) {
     let mut pair = [a, b].map(|scene| Stepper::new(scene, scheme, 1e-3).expect("a sound scene"));
     let (mut far, mut impulse, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -72,12 +74,12 @@ fn one_degree_of_freedom_as_matrices_is_the_oscillator() {
             }
         }
         for scheme in list {
-            // A spring of 1e6 N/m is none that a step of 1 ms resolves: the explicit rule leaves the numbers.
+            // A spring of 1e6 N/m is not resolved by a step of 1 ms: the explicit rule overflows.
             if scheme == spring(1e6, Integrator::CentralDifference) {
                 continue;
             }
-            // Some roundings of the gap, in another order, grown by the few impacts of 0.6 s; much more where a scheme adds to the energy
-            // at each: there over a fifth of that time.
+            // Some roundings of the gap, in another order, grown by the few impacts of 0.6 s; much
+            // more where a scheme adds to the energy at each: there over a fifth of that time.
             let wild = scheme == Scheme::Newmark || scheme == spring(1e6, Integrator::Trapezoidal);
             let (steps, bound) = if wild { (120, 1e-8) } else { (600, 1e-10) };
             for push in [0.0, 0.7] {
@@ -89,7 +91,8 @@ fn one_degree_of_freedom_as_matrices_is_the_oscillator() {
     }
 }
 
-/// Two masses between mirrored walls, joined by a spring and each held by one, pushed apart and together.
+/// Two masses between mirrored walls, joined by a spring and each held by one, pushed apart and
+/// together.
 fn pair(e: f64, elastic: bool) -> Scene {
     let mut scene = chain(2, 150.0, 1e-3);
     for (i, sign) in [(0, 1.0), (1, -1.0)] {
@@ -162,7 +165,7 @@ fn the_numbering_of_the_masses_is_no_physics() {
             let [x, y] = pair.each_mut().map(|stepper| stepper.step().expect("a step"));
             contacts += x.impulse.iter().filter(|&&p| p != 0.0).count();
             for (dof, q) in x.q.iter().enumerate() {
-                // Roundings of the gap, grown by the impacts of 30 ms.
+                // Rounding errors of the gap, amplified by the impacts of 30 ms.
                 assert!((q - y.q[shuffled(dof)]).abs() < 1e-9 * 1e-3, "{scheme}, step {i}, mass {dof}");
             }
             for (p, r) in x.impulse.iter().zip(y.impulse) {
@@ -190,7 +193,8 @@ fn a_hundred_thousand_masses_step_as_a_few_thousand_do_while_nothing_has_come_fr
         for _ in 0..6 {
             let [x, y] = pair.each_mut().map(|stepper| stepper.step().expect("a step"));
             pushed |= x.impulse[0] != 0.0;
-            // The stiffness between two masses is a hundredth of their inertia over the step: an influence falls by 1e2 from mass to mass.
+            // The stiffness between two masses is a hundredth of their inertia over the step: an
+            // influence falls by 1e2 from mass to mass.
             for (a, b) in x.q.iter().zip(y.q).take(500) {
                 assert!((a - b).abs() <= 1e-15, "{scheme}: {a} {b}");
             }

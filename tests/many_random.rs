@@ -1,5 +1,5 @@
-//! Random systems of up to eight degrees of freedom, walls of every kind on single ones and on rows of several, duplicates among them:
-//! every scheme keeps its word.
+//! Random systems of up to eight degrees of freedom, walls of every kind on single ones and on rows
+//! of several, duplicates among them: every scheme keeps its contract.
 
 mod common;
 mod random_structures;
@@ -41,8 +41,9 @@ fn judged(scene: &Scene, scheme: &Scheme, backend: Backend, steps: u32, push: f6
     Ok(judge.residuals())
 }
 
-/// The condensed solver takes a bound for met that is missed by 1e-12 of the gap scale, or of a gap a step; measured by the run's own
-/// speeds, which are lower, or its forces, which a stiff wall makes of less, that is more.
+/// The condensed solver counts a bound as met that is missed by 1e-12 of the gap scale, or of the
+/// gap scale over a step. Relative to the run's own speeds, which are lower, or to the forces of a
+/// stiff wall, that is more.
 fn allowed(scene: &Scene, scheme: &Scheme, r: &Residuals) -> f64 {
     let gap = scene.gap_scale();
     let stiffest = scene.walls.iter().map(|wall| match wall.law {
@@ -70,7 +71,8 @@ fn every_scheme_keeps_its_word_on_random_structures() {
             let what = format!("seed {seed}, {scheme}");
             let r = match judged(&scene, &scheme, Backend::Auto, 250, push) {
                 Ok(r) => r,
-                // The bounds (1+e)g − e w⁻ of walls with unequal e on rows that depend on one another may contradict.
+                // The bounds (1+e)g − e w⁻ of walls with unequal e on rows that depend on one
+                // another may contradict.
                 Err(Error::Qp { ref reason, .. }) if scheme == Scheme::PaoliSchatzman && reason.contains("bounds") => {
                     refused += 1;
                     continue;
@@ -85,15 +87,16 @@ fn every_scheme_keeps_its_word_on_random_structures() {
             let energy = r.energy;
             match scheme {
                 Scheme::MoreauJean { theta: 0.5 } => {
-                    // Of an elastic wall the half steps on its face are none of the ledger's. A blow that falls together with an impact shares its
-                    // work with it, and who gave and who took is not settled.
+                    // Of an elastic wall the half steps on its face are none of the ledger's. A
+                    // blow that falls together with an impact shares its work with it, and who gave
+                    // and who took is not settled.
                     let rigid = scene.walls.iter().all(|wall| wall.law.is_rigid());
                     let blown = scene.loads.iter().any(|load| matches!(load.kind, LoadKind::Impulse { .. }));
                     assert!(energy.residual <= 1e-12 || !rigid, "{what}: {energy:?}");
                     assert!(blown || energy.impact_loss_j >= -1e-12 * energy.exchanged_j, "{what}: {energy:?}");
                 }
                 Scheme::Penalty { integrator: Integrator::DiscreteGradient, .. } => {
-                    // A dashpot that would pull and may not leaves its ledger open.
+                    // Where a dashpot's pull is cut to 0, the ledger stays open.
                     let damped = |wall: &Wall| matches!(wall.law, WallLaw::Elastic { damping, .. } if damping > 0.0);
                     let lossless = !scene.walls.iter().any(damped);
                     assert!(energy.residual <= 1e-12 || !lossless, "{what}: {energy:?}");
@@ -103,7 +106,7 @@ fn every_scheme_keeps_its_word_on_random_structures() {
         }
     }
     println!("{met} runs met a wall, {refused} were refused");
-    // Guards the draws: most scenes have walls that are reached.
+    // Guards the random draws: in most scenes walls must be reached.
     assert!(met > 2000, "{met}");
 }
 
@@ -121,7 +124,8 @@ fn clarabel_and_the_condensed_solver_make_the_same_motion() {
             for i in 0..60 {
                 let [a, b] = pair.each_mut().map(|stepper| stepper.step().expect("a step"));
                 for (x, y) in a.q.iter().zip(b.q) {
-                    // A polished interior point: rounding of the gaps, grown by the impacts of 60 ms.
+                    // A polished interior point: rounding of the gaps, grown by the impacts of 60
+                    // ms.
                     assert!((x - y).abs() <= 1e-9 * scene.gap_scale().max(1e-3), "{what}, step {i}: {x} {y}");
                 }
             }
@@ -146,7 +150,8 @@ fn newton_settles_behind_walls_however_stiff() {
             let r = judged(&scene, &spring(stiffness, integrator), Backend::Auto, 150, 1.0)
                 .unwrap_or_else(|error| panic!("{what}: {error}"));
             met += u32::from(r.force_scale_n > 0.0);
-            // The depth behind a wall is known to some roundings of its place: the stiffness makes a force of that.
+            // The depth behind a wall is known to some roundings of its place: the stiffness makes
+            // a force of that.
             let reach = scene.gap_scale() + r.depth_m.iter().fold(0.0_f64, |a, b| a.max(*b));
             let rounding = 16.0 * f64::EPSILON * stiffness * reach / r.force_scale_n.max(f64::MIN_POSITIVE);
             assert!(r.complementarity <= 1e-12 + rounding, "{what}: {rounding:e} {r:?}");

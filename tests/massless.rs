@@ -1,4 +1,4 @@
-//! Degrees of freedom without mass: condensed to what statics say, and structures by their modal data.
+//! Degrees of freedom without mass: static condensation, and structures by their modal data.
 #![cfg(feature = "cli")]
 
 use signorini::case::{Case, Place};
@@ -10,7 +10,8 @@ use signorini::{
 use std::fs;
 use std::path::Path;
 
-/// 1 kg – 100 N/m – nothing – 300 N/m – 2 kg, the first on 50 N/m to ground: the two springs in series are one of 75 N/m.
+/// 1 kg – 100 N/m – nothing – 300 N/m – 2 kg, the first on 50 N/m to ground: the two springs in
+/// series are one of 75 N/m.
 fn chain(middle: f64) -> Structure {
     let entries = [(0, 0, 150.0), (1, 0, -100.0), (1, 1, 400.0), (2, 1, -300.0), (2, 2, 300.0)];
     Structure {
@@ -49,7 +50,8 @@ fn springs_in_series_become_one() {
     // The springs share the force of the massless node by their stiffness.
     assert_eq!(less.loads[0].at, Row::new(vec![(0, 0.25), (1, 0.75)]));
     assert_eq!(less.initial.q, vec![1e-3, 5e-3]);
-    // A start of the massless node is what the springs hold it at, (1·100 + 5·300)/400 mm, or nothing.
+    // A start of the massless node is what the springs hold it at, (1·100 + 5·300)/400 mm, or
+    // nothing.
     scene.initial.q[1] = 4e-3;
     assert_eq!(scene.condensed().unwrap().0.initial.q, vec![1e-3, 5e-3]);
     scene.initial.q[1] = 3e-3;
@@ -126,8 +128,8 @@ fn a_rigid_wall_on_a_massless_node_is_the_spring_behind_it() {
     assert!(close(stiffness, 400.0, 1e-15) && damping == 0.0);
     let (sprung, _) = scene(0.0, WallLaw::Elastic { stiffness: 400.0, damping: 0.0 }).condensed().unwrap();
     assert!(matches!(sprung.walls[0].law, WallLaw::Elastic { stiffness, .. } if close(stiffness, 200.0, 1e-15)));
-    // The same with a little mass at the node, which a wall of e = 0 stops at once: what is left of it is of the order of its
-    // mass's share, 1e-4, of the impulses.
+    // The same with a little mass at the node, which a wall of e = 0 stops at once: what is left of
+    // it is of the order of its mass's share, 1e-4, of the impulses.
     let options = Options::with_step(1e-4);
     let exact = run(&less, &Scheme::Event, &options).unwrap();
     let light = run(&scene(1e-4, rigid), &Scheme::MoreauJean { theta: 0.5 }, &options).unwrap();
@@ -184,7 +186,7 @@ fn what_statics_cannot_say_exactly_is_refused_by_name() {
     let mut behind = free(Row::dof(1));
     behind.initial.q = vec![2e-3, 2e-3, 2e-3];
     refused(behind, &["initial state: displacement", "at most 0.001"]);
-    // The scene itself says what to do with it.
+    // The error of the scene says what to do.
     let said = Scene::structure(chain(0.0)).validate().unwrap_err().to_string();
     assert!(said.contains("Scene::condensed"), "{said}");
 }
@@ -249,7 +251,8 @@ fn modal_data_make_the_scene_that_its_own_modes_make() {
     let truncated = beam.truncated.as_ref().unwrap();
     let modes = &truncated.reduction.modes;
     let signorini::case::Model::Beam(tube) = &beam.model else { panic!("{:?}", beam.model) };
-    // What a finite-element program exports: Hz, shapes of largest value 1 with their generalised masses.
+    // What a finite-element program exports: Hz, shapes of largest value 1 with their generalised
+    // masses.
     let (mut hz, mut masses, mut shapes) = (Vec::new(), Vec::new(), vec![Vec::new(); 3]);
     let Place::Position(first) = beam.places[0] else { panic!("{:?}", beam.places) };
     let Place::Position(second) = beam.places[2] else { panic!("{:?}", beam.places) };
@@ -286,7 +289,7 @@ fn modal_data_make_the_scene_that_its_own_modes_make() {
     let case = Case::read(folder.path().join("case.toml")).unwrap_or_else(|error| panic!("{error}"));
     let inline = format!("{{ first = {:?}, second = {:?}, load = {:?} }}", shapes[0], shapes[1], shapes[2]);
     let same = Case::parse(&text(&inline), "case.toml", "").unwrap_or_else(|error| panic!("{error}"));
-    // But for the file that was read, the cases are one.
+    // Apart from the file that was read, the two cases are equal.
     assert_eq!((&case.model, &case.places, &case.scene), (&same.model, &same.places, &same.scene));
     assert_eq!((case.written.files.len(), same.written.files.len()), (1, 0));
     let mut scene = Scene::structure(tube.structure().unwrap()).with_duration(0.2);

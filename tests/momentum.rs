@@ -1,4 +1,5 @@
-//! The impulses in the table carry the momentum of the run, in every scheme: judged from what is recorded.
+//! The recorded impulses account for the momentum of the run, in every scheme: checked from the
+//! recorded rows.
 
 mod common;
 mod random_structures;
@@ -44,8 +45,9 @@ fn the_recorded_impulses_close_the_momentum_balance_of_any_run() {
                 options.time.sample = Some(h);
                 let run = run(&scene, &scheme, &options).expect("a run");
                 let seen = momentum(&scene, &run.trajectory).expect("a probe on every mass");
-                // The rules' weights differ from the trapezoid's at the ends of the run, by one step at each; and each contact may shift
-                // the place, whose velocity the damper feels, by a step: c h v of an impact of m v.
+                // The rules' weights differ from the trapezoid's at the ends of the run, by one
+                // step at each; and each contact may shift the place, whose velocity the damper
+                // feels, by a step: c h v of an impact of m v.
                 let impacts = run.trajectory.contacts().len() as f64;
                 let damper = if name == "pressed" { 20.0 * 1e-3 } else { 1.2 * 1e-2 };
                 let allowed = 2.0 * seen.step_n_s.min(h * 40.0) + impacts * damper * h * 10.0 + 1e-11;
@@ -69,7 +71,8 @@ fn an_impulse_column_that_is_short_of_what_the_wall_gave_is_seen() {
     assert!(momentum(&scene, &run.trajectory).expect("a probe").residual_n_s < 0.1);
 }
 
-/// What a judge of the scheme's steps finds, told that the walls gave `share` of the impulses recorded, and seen them give `shown`.
+/// The findings of a judge that is told `share` of the recorded impulses, and is shown steps with
+/// `shown` of the walls' impulses.
 fn heard(scene: &Scene, scheme: &Scheme, h: f64, shown: f64, share: f64) -> Vec<Finding> {
     let mut stepper = Stepper::new(scene, scheme, h).expect("a stepper");
     let start = stepper.state();
@@ -95,20 +98,23 @@ fn on_impulses(findings: &[Finding]) -> bool {
 fn impulses_that_do_not_carry_the_momentum_are_a_finding_whatever_each_step_says() {
     for scheme in schemes().into_iter().chain([0.0, 1.0].map(|rho| Scheme::GeneralizedAlpha { rho })) {
         for (name, scene) in [("pressed", pressed()), ("masses", masses())] {
-            // Newmark throws the body back and forth and gains energy without end: what a step may miss of such forces is much.
+            // Newmark throws the body back and forth and gains energy without end: what a step may
+            // miss of such forces is much.
             if scheme == Scheme::Newmark {
                 continue;
             }
             assert_eq!(heard(&scene, &scheme, 1e-3, 1.0, 1.0), [], "{name}, {scheme}");
-            // The steps are sound, and the table is not: one part in ten thousand lost on the way.
+            // The steps are right, but the table is not: one part in ten thousand is missing.
             assert!(on_impulses(&heard(&scene, &scheme, 1e-3, 1.0, 0.9999)), "{name}, {scheme}");
-            // The table and the steps agree, and both are short by a tenth: the states tell, but where a stiff spring stands for the wall,
-            // whose force over one step is as much as the few blows of a short run.
+            // The table and the steps agree, and both are short by a tenth: the states tell, but
+            // where a stiff spring stands for the wall, whose force over one step is as much as the
+            // few blows of a short run.
             if name == "pressed" || !matches!(scheme, Scheme::Penalty { .. }) {
                 assert!(on_impulses(&heard(&scene, &scheme, 1e-3, 0.9, 1.0)), "{name}, {scheme}");
             }
         }
-        // What once was: a body resting under 25 N of which the wall's impulses counted 24.19, at a step of 2 ms.
+        // A former defect: a body resting under 25 N of which the wall's impulses counted 24.19, at
+        // a step of 2 ms.
         assert!(
             matches!(scheme, Scheme::Newmark | Scheme::Penalty { .. })
                 || on_impulses(&heard(&pressed(), &scheme, 2e-3, 24.19 / 25.0, 1.0)),
@@ -119,8 +125,9 @@ fn impulses_that_do_not_carry_the_momentum_are_a_finding_whatever_each_step_says
 
 #[test]
 fn steps_whose_own_balance_closes_on_wrong_forces_are_refuted_by_the_end_states() {
-    // A scheme that counts the load short in its own rule and the wall's force with it: each step's balance holds under that load, and
-    // the judge, which knows the load, sees what the run as a whole leaves open.
+    // A scheme that counts the load short in its own rule and the wall's force with it: each step's
+    // balance holds under that load, and the judge, which knows the load, sees what the run as a
+    // whole leaves open.
     let scene = pressed();
     let short = Scene { loads: vec![Load::constant(34.19)], ..scene.clone() };
     let mut stepper = Stepper::new(&short, &MOREAU_JEAN, 1e-3).expect("a stepper");

@@ -1,4 +1,4 @@
-//! What would cost days if nobody said it, and nothing where there is nothing to say.
+//! Notes on what a user would otherwise notice late, and no notes where there is nothing to say.
 #![cfg(feature = "cli")]
 
 use signorini::case::Embedded;
@@ -65,7 +65,8 @@ fn a_step_that_passes_over_a_mode_is_said() {
         Scene::structure(chain.structure().unwrap()).with_load(Load { at: Row::dof(7), ..Load::constant(1.0) });
     assert!(notes(&scene, &MOREAU, 0.1).contains("a period of the slowest mode"), "{}", notes(&scene, &MOREAU, 0.1));
     assert_eq!(notes(&scene, &MOREAU, 0.02), "");
-    // Cut to modes, the third carries 2 % of the tip's compliance, the eighth nothing to speak of: 1/(2i − 1)² of the first.
+    // Cut to modes, the third carries 2 % of the tip's compliance, the eighth nothing to speak of:
+    // 1/(2i − 1)² of the first.
     scene.walls.push(Wall { at: Row::dof(7), ..Wall::upper("stop", 1e-5) });
     let cut = scene.reduced(8, false).unwrap().scene;
     let said = notes(&cut, &MOREAU, 0.02);
@@ -88,7 +89,8 @@ fn a_wall_that_the_step_does_not_resolve_is_said() {
 
 #[test]
 fn no_contact_at_all_is_said_with_how_near_it_came() {
-    // The static deflection is 10 mm; without damping the body swings to 20 mm: a gap of 0.1 mm, typed in mm.
+    // The static deflection is 10 mm; without damping the body swings to 20 mm: a gap of 0.1 mm,
+    // typed in mm.
     let far = Scene::oscillator(1.0, 0.0, 100.0).with_load(Load::constant(1.0)).with_wall(Wall::upper("stop", 0.1));
     for scheme in [MOREAU, Scheme::Event] {
         let said = notes(&far, &scheme, 1e-3);

@@ -1,4 +1,5 @@
-//! Judging and recording are left out one by one: what remains is the same, what was left out is not there.
+//! Judging and recording are left out one by one: what remains is unchanged, and what was left out
+//! is absent.
 
 mod common;
 
@@ -58,7 +59,8 @@ fn what_was_left_out_is_absent_from_the_type() {
 
 #[test]
 fn a_run_without_rows_may_have_more_steps_than_rows_are_allowed() {
-    // 2e7 steps would be refused with every step recorded; the first check of an unrecorded run is another.
+    // 2e7 steps would be refused with every step recorded; the first check of an unrecorded run is
+    // another.
     let scene = Scene::oscillator(1.0, 0.0, 1.0).with_duration(1.0);
     let scheme = Scheme::MoreauJean { theta: 0.5 };
     let options = Options::with_step(0.9e-7);

@@ -1,4 +1,4 @@
-//! Paoli & Schatzman's scheme where its bounds contradict, and walls that stand at one place.
+//! Paoli & Schatzman's scheme where its bounds contradict one another, and walls at one place.
 
 mod common;
 mod random_structures;
@@ -27,7 +27,8 @@ fn unequal_restitutions_on_rows_that_depend_on_one_another_are_no_reason_to_stop
     let (mut shared, mut steps) = (0, 0);
     for seed in 0..300 {
         let scene = dependent(&mut Draws::new(seed));
-        // A step in which a body crosses the gap: deep behind one wall, the bounds of the others contradict.
+        // A step in which a body crosses the gap: deep behind one wall, the bounds of the others
+        // contradict.
         let h = 1e-3;
         let mut stepper = Stepper::new(&scene, &Scheme::PaoliSchatzman, h).expect("a sound scene");
         for _ in 0..300 {
@@ -57,7 +58,8 @@ fn walls_at_one_place_share_their_force_alike_in_every_solver() {
             let run = run(&scene, &method, &options).expect("a run");
             let [first, second] = ["first", "second"].map(|wall| run.trajectory.impulse(wall).expect("a wall"));
             assert!(first < 0.0, "{scheme}, {backend:?}: nothing was met");
-            // Clarabel's answers are polished to rounding, but which of two equal walls it leaves how much is its tolerance's.
+            // Clarabel's answers are polished to rounding, but which of two equal walls it leaves
+            // how much is its tolerance's.
             let tolerance = if backend == Backend::Clarabel { 1e-6 } else { 1e-12 };
             assert!(
                 (first - second).abs() <= tolerance * first.abs(),

@@ -1,4 +1,5 @@
-//! One rule for going past the duration of a scene: every scheme goes on, as if the duration had been longer.
+//! Stepping past the duration of a scene: every scheme continues as if the duration had been
+//! longer.
 
 mod common;
 
@@ -67,8 +68,8 @@ fn every_scheme_goes_on_as_if_the_duration_had_been_longer() {
             let short = at_two_seconds(&scene, &scheme, 1e-3);
             let long = at_two_seconds(&scene.clone().with_duration(2.0), &scheme, 1e-3);
             let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            // Nothing of a scheme on a grid knows the duration. The exact scheme ends a step at it: rounding, 1e-17 m, that a
-            // dozen impacts with e = ½ do not blow up by more than 1e5.
+            // A scheme on a grid does not use the duration. The exact scheme ends a step at it: a
+            // rounding error of 1e-17 m, which a dozen impacts with e = ½ amplify by at most 1e5.
             let allowed = if scheme == Scheme::Event { 1e-12 } else { 0.0 };
             let (q, v) = (apart(&short.q, &long.q), apart(&short.v, &long.v));
             assert!(q <= allowed && v <= 100.0 * allowed, "{what}, {scheme}: {q:e} m, {v:e} m/s");

@@ -11,7 +11,7 @@ thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
 }
 
-// Counting needs an allocator, and an allocator needs unsafe: it only passes on.
+// Counting needs an allocator, which needs unsafe code: it only forwards.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         let _ = COUNT.try_with(|count| count.set(count.get() + 1));
@@ -58,7 +58,8 @@ fn the_polished_solver_allocates_only_what_clarabel_does() {
 
 #[test]
 fn the_condensed_solver_allocates_nothing_while_rows_come_and_go() {
-    // Chains of all stiffness, with every third wall doubled and with rows that depend on others: loads that wander through.
+    // Chains of all stiffness, with every third wall doubled and with rows that depend on others:
+    // loads that wander through.
     for (n, coupling, twice) in [(2, 0.1, false), (30, 0.0025, false), (30, 10.0, true), (60, 0.5, true)] {
         let chain = (0..n).map(|i| (i, i, 1.0 + 2.0 * coupling)).chain((1..n).map(|i| (i, i - 1, -coupling)));
         let mut rows: Vec<Vec<(usize, f64)>> = (0..n).map(|i| vec![(i, 1.0)]).collect();

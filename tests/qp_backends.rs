@@ -33,7 +33,8 @@ fn clamp_and_clarabel_agree_on_ten_thousand_scalar_programmes_of_all_scales() {
         let a = case.problem.a[(0, 0)];
         let length = case.scale.max((case.b[0] / a).abs());
         worst_x = worst_x.max((x.x[0] - y.x[0]).abs() / length);
-        // Rows that see the same motion may divide the force otherwise: its sum on the body is what is defined.
+        // Rows that see the same motion may divide the force differently: only its sum on the body
+        // is defined.
         let total = |r: &[f64]| -> f64 { r.iter().zip(case.problem.g.iter()).map(|(r, g)| r * g).sum() };
         worst_r = worst_r.max((total(&x.multiplier) - total(&y.multiplier)).abs() / (a * length));
         met += u32::from(largest(&x.multiplier) > 0.0);
@@ -55,7 +56,8 @@ fn clarabel_polished_meets_the_optimality_conditions_up_to_ten_unknowns_and_ten_
         let found =
             reference.solve(&case.rhs()).unwrap_or_else(|failure| panic!("{trial}: {failure}\n{case:#?}")).clone();
         let residual = judge(&case, &found);
-        // The required 1e-9; rows of random direction may be nearly dependent, so forces carry their condition.
+        // The required 1e-9; rows of random direction may be nearly dependent, so the condition of
+        // W enters the forces.
         assert!(residual.worst() <= 1e-9, "{trial}: {residual:?}\n{case:#?}\n{found:?}");
         worst = worst.max(residual.worst());
         pivots += reference.counters().pivots;
@@ -77,7 +79,8 @@ fn clarabel_finds_the_set_that_enumeration_finds() {
         let found = reference.solve(&case.rhs()).expect("feasible");
         let length = case.scale.max(largest(&exact.x));
         let error = exact.x.iter().zip(&found.x).fold(0.0, |e, (a, b)| f64::max(e, (a - b).abs())) / length;
-        // Both solve well-conditioned systems (A has condition < 1e2): far from the 1e-9 that separates sets.
+        // Both solve well-conditioned systems (A has condition < 1e2): far from the 1e-9 that
+        // separates sets.
         assert!(error <= 1e-9, "{trial}: {error:e}\n{case:#?}\n{exact:?}\n{found:?}");
         worst = worst.max(error);
         compared += 1;
@@ -88,7 +91,8 @@ fn clarabel_finds_the_set_that_enumeration_finds() {
 
 #[test]
 fn the_trap_of_small_numbers_is_no_trap() {
-    // k = 1e3, u = 1e-6, f = 1e-3: fed as it is, the interior point's stopping test calls almost anything solved.
+    // k = 1e3, u = 1e-6, f = 1e-3: fed as it is, the interior point's stopping test calls almost
+    // anything solved.
     let problem = Dense {
         a: DMatrix::from_element(1, 1, 1e3),
         g: DMatrix::from_element(1, 1, 1.0),
@@ -133,7 +137,8 @@ fn bounds_may_come_and_go_from_step_to_step() {
 
 #[test]
 fn a_bound_far_outside_what_the_interior_point_sees_still_holds() {
-    // The first row pushes by 1e-6, the stiffly coupled second row then moves by far more than a thousand times that.
+    // The first row pushes by 1e-6, the stiffly coupled second row then moves by far more than a
+    // thousand times that.
     let problem = Dense {
         a: DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 1e8]),
         g: DMatrix::from_row_slice(2, 2, &[1.0, 1e8, 1.0, -1e8]),
@@ -167,7 +172,8 @@ fn the_matrix_on_which_plain_active_sets_cycle_is_solved() {
 
 #[test]
 fn walls_at_one_place_do_not_stop_either_solver() {
-    // Three rows see the same motion; the tightest holds, and the force on the body is what it must be.
+    // Three rows see the same motion; the tightest holds, and the force on the body is what it must
+    // be.
     for backend in [Backend::Clamp, Backend::Condensed, Backend::Clarabel] {
         let problem = Dense {
             a: DMatrix::from_element(1, 1, 2.0),
@@ -288,7 +294,8 @@ fn a_row_that_sees_nothing_carries_nothing_unless_it_cannot_be_met() {
 
 #[test]
 fn a_programme_on_which_the_interior_point_goes_round_in_circles_is_solved() {
-    // At Clarabel's default step fraction its iterates repeat with period four; shorter steps end it.
+    // At Clarabel's default step fraction its iterates repeat with period four; shorter steps end
+    // it.
     let problem = Dense {
         a: DMatrix::from_element(1, 1, 3055.2878678605825),
         g: DMatrix::from_column_slice(

@@ -1,4 +1,5 @@
-//! The condensed solver: against the optimality conditions on a hundred thousand programmes, against Clarabel, against enumeration.
+//! The condensed solver: against the optimality conditions on a hundred thousand programmes,
+//! against Clarabel, against enumeration.
 
 mod qp_support;
 
@@ -34,7 +35,8 @@ fn matrix(random: &mut Random, n: usize) -> DMatrix<f64> {
     a
 }
 
-/// Rows on one unknown, on a few, on all; some equal, some the sum of two, some almost the one before, up to cond W = 1e6.
+/// Rows on one unknown, on a few, or on all; some equal, some the sum of two, some almost equal to
+/// the one before, up to cond W = 1e6.
 fn rows(random: &mut Random, m: usize, n: usize) -> DMatrix<f64> {
     let mut g = DMatrix::zeros(m, n);
     let kind = random.below(3);
@@ -63,7 +65,8 @@ fn rows(random: &mut Random, m: usize, n: usize) -> DMatrix<f64> {
     g
 }
 
-/// A problem and a sequence of feasible programmes on it, as a time-stepper would pose them: bounds that come, go and touch; loads that move.
+/// A problem and a sequence of feasible programmes on it, as a time-stepper would pose them: bounds
+/// that come, go and touch; loads that move.
 fn sequence(random: &mut Random, n: usize, m: usize, length: usize) -> (Dense, Vec<Case>) {
     let (stiffness, size) = (random.decade(-6.0, 9.0), random.decade(-9.0, 3.0));
     let elastic = if random.chance(0.5) { 0.0 } else { 0.3 };
@@ -85,7 +88,8 @@ fn sequence(random: &mut Random, n: usize, m: usize, length: usize) -> (Dense, V
     let hi: Vec<f64> = seen.iter().map(|w| w + side(random)).collect();
     let mut b = DVector::zeros(n);
     let cases = (0..length).map(|step| {
-        // The load jumps, drifts as from step to step, or holds the body exactly at the point: force = gap = 0 where a bound touches.
+        // The load jumps, drifts as from step to step, or holds the body exactly at the point:
+        // force = gap = 0 where a bound touches.
         let push = random.decade(-2.0, 1.0) * size * stiffness;
         match random.below(8) {
             0 => b = &problem.a * &point,
@@ -122,17 +126,19 @@ fn a_hundred_thousand_programmes_meet_the_optimality_conditions() {
         for (step, case) in cases.iter().enumerate() {
             let found = solver.solve(&case.rhs()).unwrap_or_else(|e| panic!("{trial}.{step}: {e}\n{case:?}"));
             let residual = judge.judge(&case.rhs(), case.scale, found);
-            // 1e-12 is the tolerance of the sign test; the balance is one solve with A, condition below 1e3, of 50 unknowns.
+            // 1e-12 is the tolerance of the sign test; the balance is one solve with A, condition
+            // below 1e3, of 50 unknowns.
             let settled = residual.stationarity.max(residual.complementarity);
             assert!(settled <= 1e-12, "{trial}.{step}: {residual:?}\n{case:?}\n{found:?}");
-            // Where more rows than unknowns meet in one point, a few so nearly dependent that their rounding decides who holds it, the
-            // test is looser by a power of ten, and then another.
+            // Where more rows than unknowns meet in one point, a few so nearly dependent that their
+            // rounding decides who holds it, the test is looser by a power of ten, and then
+            // another.
             assert!(residual.feasibility <= 1e-10, "{trial}.{step}: {residual:?}\n{case:?}\n{found:?}");
             loose += u32::from(residual.feasibility > 1e-12);
             worst.stationarity = worst.stationarity.max(residual.stationarity);
             worst.feasibility = worst.feasibility.max(residual.feasibility);
             worst.complementarity = worst.complementarity.max(residual.complementarity);
-            // A force is none, or pushes: never a trace of the wrong sign.
+            // A force is 0 or pushes: it never has a trace of the wrong sign.
             for (i, &r) in found.multiplier.iter().enumerate() {
                 assert!(
                     r == 0.0 || (if r > 0.0 { case.lo[i] } else { case.hi[i] }).is_finite(),
@@ -152,7 +158,8 @@ fn a_hundred_thousand_programmes_meet_the_optimality_conditions() {
     assert!(loose <= 20 && fallbacks < programmes / 50);
 }
 
-/// Largest difference of displacements and of forces, each against the largest of its kind; forces as the motions they cause.
+/// Largest difference of displacements and of forces, each against the largest of its kind; forces
+/// as the motions they cause.
 fn difference(judge: &Judge, scale: f64, a: (&[f64], &[f64]), b: (&[f64], &[f64])) -> (f64, f64) {
     let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most, v: f64| f64::max(most, v.abs()));
     let length = scale.max(most(&mut a.0.iter().copied()));
@@ -205,7 +212,8 @@ fn forces_are_those_of_least_norm_that_enumeration_finds() {
             let found = solver.solve(&case.rhs()).expect("feasible");
             let Some(share) = judge.least_share(&case.rhs(), case.scale, &found.x) else { continue };
             let (_, r) = difference(&judge, case.scale, (&found.x, &share), (&found.x, &found.multiplier));
-            // The enumeration takes its forces from A x − b, and finds them in rows that may be at an angle of 1e-3 only.
+            // The enumeration takes its forces from A x − b, and finds them in rows that may be at
+            // an angle of 1e-3 only.
             assert!(r <= 1e-7, "{trial}: {r:e}\n{case:#?}\n{found:?}\n{share:?}");
             worst = worst.max(r);
             compared += 1;
@@ -228,7 +236,8 @@ fn condensed_finds_the_set_that_enumeration_finds() {
         let mut solver = Solver::new(case.problem.problem(), Backend::Condensed, case.scale).expect("sound");
         let found = solver.solve(&case.rhs()).expect("feasible");
         let (x, _) = difference(&Judge::new(&case.problem), case.scale, (&exact.x, &[]), (&found.x, &[]));
-        // Both solve well-conditioned systems (A has condition < 1e2): far from the 1e-9 that separates sets.
+        // Both solve well-conditioned systems (A has condition < 1e2): far from the 1e-9 that
+        // separates sets.
         assert!(x <= 1e-9, "{trial}: {x:e}\n{case:#?}\n{exact:?}\n{found:?}");
         worst = worst.max(x);
         compared += 1;
@@ -246,7 +255,8 @@ fn the_matrix_on_which_plain_active_sets_cycle_is_solved_from_every_start() {
     let exact = brute_force(&case).expect("unique");
     for start in 0..8_u8 {
         let mut solver = Solver::new(case.problem.problem(), Backend::Condensed, 1.0).expect("sound");
-        // A programme that leaves the wanted rows in play: x is 0 with force 1 on those, and −1 without on the others.
+        // A programme that leaves the wanted rows in play: x is 0 with force 1 on those, and −1
+        // without on the others.
         let on = |i: usize| start >> i & 1 == 1;
         let x = DVector::from_fn(3, |i, _| if on(i) { 0.0 } else { -1.0 });
         let r = DVector::from_fn(3, |i, _| if on(i) { -1.0 } else { 0.0 });
@@ -268,7 +278,8 @@ fn the_matrix_on_which_plain_active_sets_cycle_is_solved_from_every_start() {
 #[test]
 fn equal_walls_at_one_place_share_equally_and_unequal_ones_by_least_norm() {
     for backend in [Backend::Condensed, Backend::Clarabel] {
-        // Two masses, the first between three equal walls, one of them half an ulp away, and one that sees twice its motion.
+        // Two masses, the first between three equal walls, one of them half an ulp away, and one
+        // that sees twice its motion.
         let problem = Dense {
             a: DMatrix::from_row_slice(2, 2, &[2.0, -1.0, -1.0, 2.0]),
             g: DMatrix::from_row_slice(5, 2, &[1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 2.0, 0.0]),
@@ -277,7 +288,8 @@ fn equal_walls_at_one_place_share_equally_and_unequal_ones_by_least_norm() {
         let mut solver = Solver::new(problem.problem(), backend, 1.0).expect("sound");
         let hi = [1.0, 1.0, 9.0, 1.0 + f64::EPSILON, 2.0];
         let found = solver.solve(&Rhs { b: &[6.0, 0.0], lo: &[-INF; 5], hi: &hi }).expect("feasible");
-        // x = (1, ½), so 2 − ½ = 6 + Σ: Σ = −4.5 over 1 + 1 + 1 + 2·r₄, and of least Σ Wᵢᵢ rᵢ²: every gᵢ rᵢ the same, −4.5/4.
+        // x = (1, ½), so 2 − ½ = 6 + Σ: Σ = −4.5 over 1 + 1 + 1 + 2·r₄, and of least Σ Wᵢᵢ rᵢ²:
+        // every gᵢ rᵢ the same, −4.5/4.
         for (i, share) in [-1.125, -1.125, 0.0, -1.125, -0.5625].into_iter().enumerate() {
             // Rounding of a few operations on numbers below 10.
             assert!((found.multiplier[i] - share).abs() <= 1e-14, "{backend}: {found:?}");
@@ -289,7 +301,8 @@ fn equal_walls_at_one_place_share_equally_and_unequal_ones_by_least_norm() {
 #[test]
 fn dependent_triples_get_the_share_of_least_norm() {
     for backend in [Backend::Condensed, Backend::Clarabel] {
-        // Two masses and their sum, A = 1: W = [1 0 1; 0 1 1; 1 1 2]. All stand on a bound under loads (1+p, 1+q).
+        // Two masses and their sum, A = 1: W = [1 0 1; 0 1 1; 1 1 2]. All stand on a bound under
+        // loads (1+p, 1+q).
         let problem = Dense {
             a: DMatrix::identity(2, 2),
             g: DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 0.0, 1.0, 1.0, 1.0]),
@@ -299,7 +312,8 @@ fn dependent_triples_get_the_share_of_least_norm() {
         for (p, q) in [(4.0, 4.0), (4.0, 2.0), (4.0, 0.5), (0.5, 4.0), (3.0, 0.0)] {
             let found =
                 solver.solve(&Rhs { b: &[1.0 + p, 1.0 + q], lo: &[-INF; 3], hi: &[1.0, 1.0, 2.0] }).expect("feasible");
-            // r = −(p − t, q − t, t) with t ≤ min(p, q) and least (p−t)² + (q−t)² + 2t²: t = (p+q)/4, if it is no more.
+            // r = −(p − t, q − t, t) with t ≤ min(p, q) and least (p−t)² + (q−t)² + 2t²: t =
+            // (p+q)/4, if it is no more.
             let t = f64::min((p + q) / 4.0, f64::min(p, q));
             for (i, share) in [p - t, q - t, t].into_iter().enumerate() {
                 assert!((found.multiplier[i] + share).abs() <= 1e-14, "{backend}, {p}, {q}: {found:?}"); // as above
@@ -315,7 +329,8 @@ fn dependent_triples_get_the_share_of_least_norm() {
 
 #[test]
 fn nearly_dependent_rows_keep_their_forces() {
-    // Rows e₁ and e₁ + ε e₂ over A = 1: cond W = 4/ε², and with ε = 2^-10 every number here is exact but the solution's own rounding.
+    // Rows e₁ and e₁ + ε e₂ over A = 1: cond W = 4/ε², and with ε = 2^-10 every number here is
+    // exact but the solution's own rounding.
     let epsilon = f64::powi(2.0, -10);
     let problem = Dense {
         a: DMatrix::identity(2, 2),
@@ -336,7 +351,8 @@ fn nearly_dependent_rows_keep_their_forces() {
     }
 }
 
-/// A x − b − r of a chain with a wall pair on every mass, against the size of its terms, and the worst complementarity.
+/// A x − b − r of a chain with a wall pair on every mass, against the size of its terms, and the
+/// worst complementarity.
 fn chain_residual(coupling: f64, b: &[f64], bound: f64, x: &[f64], r: &[f64]) -> (f64, f64) {
     let at = |i: usize, d: isize| i.checked_add_signed(d).and_then(|j| x.get(j)).copied().unwrap_or(0.0);
     let (mut balance, mut size, mut worst) = (0.0_f64, 0.0_f64, 0.0_f64);

@@ -1,4 +1,5 @@
-//! Programmes with many more rows than unknowns, in sequence: a beam between more supports than it has modes.
+//! Programmes with many more rows than unknowns, in sequence: a beam between more supports than it
+//! has modes.
 
 #[path = "qp_support/beam.rs"]
 mod beam;
@@ -8,7 +9,8 @@ use nalgebra::{DMatrix, DVector};
 use qp_support::{Dense, Judge};
 use signorini::qp::{Backend, Rhs, Solver};
 
-/// Modes, supports, and how hard the beam is shaken, m/s²: from one that rests on all of its supports to one that leaves most of them.
+/// Modes, supports, and how hard the beam is shaken, m/s²: from one that rests on all of its
+/// supports to one that leaves most of them.
 const BEAMS: [(usize, usize, f64); 9] = [
     (12, 300, 1.0),
     (12, 300, 10.0),
@@ -21,10 +23,11 @@ const BEAMS: [(usize, usize, f64); 9] = [
     (60, 100, 10.0),
 ];
 
-/// Speed that bounds are measured by, m/s: the gap over the step.
+/// The scale of bounds, a speed in m/s: the gap over the step.
 const SCALE: f64 = beam::GAP / beam::STEP;
 
-/// Programmes of each sequence, and how many of them Clarabel is asked for too, which takes up to 0.1 s each.
+/// Programmes of each sequence, and how many of them Clarabel is asked for too, which takes up to
+/// 0.1 s each.
 const COUNT: usize = 60;
 const ASKED: usize = 8;
 
@@ -46,8 +49,8 @@ fn more_supports_than_modes_are_solved_without_clarabel_and_as_by_it() {
             let found = solver.solve(&rhs).unwrap().clone();
             let residual = judge.judge(&rhs, SCALE, &found);
             let what = format!("{modes} modes, {supports} supports, {shake} m/s², step {at}: {residual:?}");
-            // Those of `qp_condensed.rs`: the sign test's 1e-12, looser by powers of ten where rows are so nearly dependent that rounding
-            // decides who carries.
+            // Those of `qp_condensed.rs`: the sign test's 1e-12, looser by powers of ten where rows
+            // are so nearly dependent that rounding decides who carries.
             assert!(residual.stationarity.max(residual.complementarity) <= 1e-12, "{what}");
             assert!(residual.feasibility <= 1e-10, "{what}");
             reached += lo.iter().zip(hi).filter(|(lo, hi)| lo.is_finite() || hi.is_finite()).count();
@@ -69,10 +72,11 @@ fn more_supports_than_modes_are_solved_without_clarabel_and_as_by_it() {
             reached / COUNT,
             play / COUNT
         );
-        // x is unique: rounding of one solve with A. The forces are not: no others have a smaller sum, but where rows are so nearly
-        // dependent that rounding decides which of them touch.
+        // x is unique: rounding of one solve with A. The forces are not: no others have a smaller
+        // sum, but where rows are so nearly dependent that rounding decides which of them touch.
         assert!(apart[0] <= 1e-12 && apart[1] <= 1e-6, "{modes} modes, {supports} supports, {shake} m/s²: {apart:?}");
-        // Exchanging all wrong rows at once left most of these to Clarabel, after hundreds of passes.
+        // Exchanging all wrong rows at once left most of these to Clarabel, after hundreds of
+        // passes.
         assert_eq!(counters.fallbacks, 0, "{modes} modes, {supports} supports, {shake} m/s²: {counters:?}");
     }
 }

@@ -1,4 +1,5 @@
-//! Programmes with more rows than unknowns, some of them nearly dependent, whose bounds have a common point: they always have a solution.
+//! Programmes with more rows than unknowns, some of them nearly dependent, whose bounds have a
+//! common point: they always have a solution.
 
 mod qp_support;
 
@@ -50,7 +51,8 @@ fn rows_that_all_but_close_a_cone_are_met_at_its_tip() {
             let mut solver = Solver::new(case.problem.problem(), backend, scale).expect("sound");
             let found = solver.solve(&case.rhs()).unwrap_or_else(|e| panic!("{backend}, {scale}: {e}"));
             let residual = Judge::new(&case.problem).judge(&case.rhs(), scale, found);
-            // Three of the rows span a volume of 1e-4 only: x is known to 1e-16 over its square, forces of 480 to 1e-8 of themselves.
+            // Three of the rows span a volume of 1e-4 only: x is known to 1e-16 over its square,
+            // forces of 480 to 1e-8 of themselves.
             assert!(found.x.iter().all(|x| x.abs() <= 1e-8), "{backend}, {scale}: {found:?}");
             let most = found.multiplier.iter().fold(0.0, |most, r| f64::max(most, *r));
             assert!((480.0..490.0).contains(&most), "{backend}, {scale}: {found:?}");
@@ -71,7 +73,8 @@ fn matrix(random: &mut Random, n: usize) -> DMatrix<f64> {
     (&a + a.transpose()) * 0.5
 }
 
-/// n from 1 to 4, m from n + 1 to 8, about half of the rows nearly dependent: angles down to 1e-3. Bounds contain 0, and many touch it.
+/// n from 1 to 4, m from n + 1 to 8, about half of the rows nearly dependent: angles down to 1e-3.
+/// Bounds contain 0, and many touch it.
 fn programme(random: &mut Random) -> Case {
     let n = 1 + random.below(4);
     let m = n + 1 + random.below(8 - n);
@@ -123,7 +126,8 @@ fn programmes_whose_bounds_contain_zero_are_never_refused() {
             let mut solver = Solver::new(case.problem.problem(), backend, case.scale).expect("sound");
             let found = match solver.solve(&case.rhs()) {
                 Ok(found) => found,
-                // The interior is thin where rows all but close a cone: the interior point may give up, but tells nothing of the bounds.
+                // The interior is thin where rows all but close a cone: the interior-point solver
+                // may give up, but must not report crossing bounds.
                 Err(Failure::NotSolved { .. }) if backend == Backend::Clarabel => {
                     unsolved += 1;
                     continue;
@@ -131,11 +135,14 @@ fn programmes_whose_bounds_contain_zero_are_never_refused() {
                 Err(e) => panic!("{backend}, {trial}: {e}\n{case:?}"),
             };
             let residual = Judge::new(&case.problem).judge(&case.rhs(), case.scale, found);
-            // Balance and signs are those of the forces found, whatever these are: rounding of one solve with A, of condition 1e4.
+            // Balance and signs are those of the forces found, whatever these are: rounding of one
+            // solve with A, of condition 1e4.
             assert!(residual.stationarity <= 1e-11, "{backend}, {trial}: {residual:?}\n{case:?}");
-            // A row in play stands within 1e-16 of the motion its forces cause, times what the condition of A adds to W.
+            // A row in play stands within 1e-16 of the motion its forces cause, times what the
+            // condition of A adds to W.
             assert!(residual.complementarity <= 1e-10, "{backend}, {trial}: {residual:?}\n{case:?}");
-            // A row that follows from nearly dependent ones has their rounding, 1e-16, over the square of an angle, down to 1e-5 among three.
+            // A row that follows from nearly dependent ones has their rounding, 1e-16, over the
+            // square of an angle, down to 1e-5 among three.
             assert!(residual.feasibility <= 1e-6, "{backend}, {trial}: {residual:?}\n{case:?}");
             loose += u32::from(residual.feasibility > 1e-10);
             worst.stationarity = worst.stationarity.max(residual.stationarity);

@@ -1,4 +1,5 @@
-//! A summary holds the run: the scene is built again from it, and the run is the same to the last bit.
+//! A summary contains the whole request: the scene is rebuilt from it, and the run is the same to
+//! the last bit.
 #![cfg(feature = "cli")]
 
 use signorini::case::{Case, Embedded};
@@ -11,7 +12,8 @@ fn signorini(folder: &Path, args: &[&str]) -> (i32, String) {
     (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
 }
 
-/// Runs `case` with `options`, and then its summary by the scheme that the summary names: both leave the same files.
+/// Runs `case` with `options`, and then its summary by the scheme that the summary names: both
+/// leave the same files.
 fn same_again(folder: &Path, case: &str, options: &[&str]) -> serde_json::Value {
     let run = |case: &str, options: &[&str], out: &str| {
         let args: Vec<&str> =
@@ -47,7 +49,7 @@ fn every_built_in_case_is_run_again_from_its_summary() {
         let end = format!("{:e}", Case::embedded(embedded.name).unwrap().scene.duration / 50.0);
         let summary = same_again(folder.path(), embedded.name, &["--end", &end]);
         assert_eq!(summary["case"], embedded.name);
-        // The start of 200 masses is none, and takes no line.
+        // A start at rest of 200 masses takes no line.
         let lines = fs::read_to_string(folder.path().join("first/summary.json")).unwrap();
         assert!(lines.lines().filter(|line| line.trim() == "0.0,").count() == 0, "{}", embedded.name);
     }

@@ -1,4 +1,4 @@
-//! A body that has come to rest stays.
+//! A body that has come to rest stays at rest.
 
 mod common;
 
@@ -41,7 +41,8 @@ fn a_body_at_rest_on_a_wall_neither_creeps_nor_buzzes_in_a_million_steps() {
     ];
     for e in [0.0, 1e-6, 1.0] {
         for h in [1e-2, 1e-4] {
-            // A floor at 0, and one at a place that is no short binary number, under a ball with a spring and a damper.
+            // A floor at 0, and one at a place that is no short binary number, under a ball with a
+            // spring and a damper.
             let sprung = Scene::oscillator(0.7, 0.3, 11.0)
                 .with_wall(Wall::lower("floor", 0.1).with_restitution(e))
                 .with_load(Load::constant(-9.81))
@@ -53,7 +54,8 @@ fn a_body_at_rest_on_a_wall_neither_creeps_nor_buzzes_in_a_million_steps() {
                     assert!((b.least - floor).abs() <= 1e-15 && (b.most - floor).abs() <= 1e-15, "{what}");
                     // One ulp of the position over a step at most.
                     assert!(b.speed <= 2e-17 / h && b.ended == 0, "{what}");
-                    // Every newton second of the weight is carried (a staggered or position-level rule starts within half a step).
+                    // Every newton second of the weight is carried (a staggered or position-level
+                    // rule starts within half a step).
                     let carried = b.pushed / (weight * h * f64::from(STEPS));
                     assert!((carried - 1.0).abs() <= 1.0 / f64::from(STEPS), "{what}: carried {carried}");
                 }
@@ -69,7 +71,8 @@ fn a_body_at_rest_in_a_penalty_wall_stays_where_the_wall_carries_it() {
         for integrator in INTEGRATORS {
             let depth = weight / stiffness;
             let scene = common::ball(0.0, 1.0).with_initial(&[0.0], &[0.0]);
-            // The spring stands where the rigid floor does: the body may start behind the floor in the penalised scene only.
+            // The spring stands where the rigid floor does: the body may start behind the floor in
+            // the penalised scene only.
             let scheme = spring(stiffness, integrator);
             let settled = scene.penalised(match scheme {
                 Scheme::Penalty { law, .. } => law,
@@ -141,7 +144,8 @@ fn a_wall_touched_at_the_start_with_outward_velocity_is_not_felt() {
 
 #[test]
 fn a_body_that_grazes_a_wall_at_rest_there_goes_its_way() {
-    // Starts at the wall with no velocity, drawn off it by the spring: no force, and none that pulls.
+    // Starts at the wall with no velocity, drawn off it by the spring: no force, and none that
+    // pulls.
     for scheme in schemes() {
         let scene =
             Scene::oscillator(1.0, 0.0, 100.0).with_wall(Wall::upper("wall", 0.01)).with_initial(&[0.01], &[0.0]);
@@ -153,8 +157,9 @@ fn a_body_that_grazes_a_wall_at_rest_there_goes_its_way() {
 
 #[test]
 fn a_body_struck_at_rest_on_a_wall_rebounds_like_one_that_arrives() {
-    // A blow of −1 N s on 1 kg that a floor with e carries: the wall answers 1 m/s with e m/s, in every scheme that honours e. Between
-    // there are gravity's h g of speed for the schemes on a grid.
+    // A blow of −1 N s on 1 kg that a floor with e carries: the wall answers 1 m/s with e m/s, in
+    // every scheme that honours e. Between there are gravity's h g of speed for the schemes on a
+    // grid.
     let h = 1e-4;
     for e in [0.0, 0.5, 1.0] {
         for time in [0.05, 0.05003, 0.05005] {
@@ -171,7 +176,7 @@ fn a_body_struck_at_rest_on_a_wall_rebounds_like_one_that_arrives() {
                     (v - expected).abs() < 3.0 * 9.81 * h,
                     "{scheme}, e = {e}, blow at {time} s: {v} m/s, not {expected}"
                 );
-                // Promises hold in the step of the blow as in any other.
+                // The contract holds in the step of the blow as in any other.
                 assert!(run.residuals.complementarity < 1e-12, "{scheme}: {:?}", run.residuals);
                 let hit = run.trajectory.contacts().iter().map(|c| c.approach_speed).fold(0.0, f64::max);
                 assert!(
@@ -185,7 +190,8 @@ fn a_body_struck_at_rest_on_a_wall_rebounds_like_one_that_arrives() {
 
 #[test]
 fn a_mass_pressed_on_a_stop_rests_under_the_static_force_in_every_scheme() {
-    // 35 N against a spring of 1e4 N/m, the stop at 1 mm: it holds 25 N. Started there, and at 0, from where it lands.
+    // 35 N against a spring of 1e4 N/m, the stop at 1 mm: it holds 25 N. Started there, and at 0,
+    // from where it lands.
     let scene = |start: f64| {
         Scene::oscillator(1.0, 20.0, 1e4)
             .with_wall(Wall::upper("stop", 1e-3).with_restitution(0.0))
@@ -211,13 +217,15 @@ fn a_mass_pressed_on_a_stop_rests_under_the_static_force_in_every_scheme() {
                 assert!((force + 1e4 * depth - 25.0).abs() < 1e-9, "{scheme}, h = {h}: {force} N at {depth} m");
                 let lands = matches!(scheme, Scheme::MoreauJean { .. }) && start == 0.0;
                 assert!(lands || depth.abs() < 1e-15, "{scheme}, h = {h}: {depth} m");
-                // Where it lands deep behind the stop it says so.
+                // Where it lands deep behind the stop, a note reports it.
                 let said = run.notes.iter().any(|note| note.contains("behind wall \"stop\""));
                 assert_eq!(said, depth > 1e-5, "{scheme}, h = {h}, {depth} m: {:?}", run.notes);
-                // What the wall gave from the first row to the last is what the force was in all that time, from rest.
+                // What the wall gave from the first row to the last is what the force was in all
+                // that time, from rest.
                 if start > 0.0 {
                     let impulse = -run.trajectory.impulse("stop").expect("a wall");
-                    // The force at t = 0 counts where a scheme knows it; a step of rounding otherwise.
+                    // The force at t = 0 counts where a scheme knows it; a step of rounding
+                    // otherwise.
                     assert!((impulse - 100.0).abs() < 1e-9, "{scheme}, h = {h}: {impulse} N s");
                 }
             }

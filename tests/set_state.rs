@@ -1,4 +1,4 @@
-//! A stepper put into a state at a time: what goes on from there is what would have gone on.
+//! A stepper set to a state at a time continues as the original would.
 
 mod common;
 
@@ -48,7 +48,7 @@ fn one_step_rules_repeat_their_steps_to_the_last_bit() {
             assert_eq!(go(&mut stepper, 400), first, "{what}, {scheme}");
             // Work goes on being counted.
             assert_eq!(stepper.counters().steps, 950);
-            // And another stepper takes it up.
+            // And another stepper continues from it.
             let mut other = Stepper::new(&scene, scheme, H).expect("a scene");
             other.set_state(time, &state).expect("a state of its own");
             assert_eq!(go(&mut other, 400), first, "{what}, {scheme}");
@@ -81,7 +81,8 @@ fn the_exact_scheme_goes_on_from_any_time() {
     }
 }
 
-/// The largest error of `scheme` at 0.6 s, m, against the exact motion, with the state set to itself at 0.3 s.
+/// The largest error of `scheme` at 0.6 s, m, against the exact motion, with the state set to
+/// itself at 0.3 s.
 fn error(scene: &Scene, scheme: &Scheme, h: f64) -> f64 {
     let mut exact = Stepper::new(scene, &Scheme::Event, 0.6).expect("a scene");
     while exact.time() < 0.6 {

@@ -1,4 +1,5 @@
-//! Where schemes fail: what is known of it in closed form or by an independent recursion, and what the maps must show.
+//! Where schemes fail: known limits, in closed form or by an independent recursion, and what the
+//! maps must show.
 #![cfg(feature = "cli")]
 
 use signorini::case::Case;
@@ -18,8 +19,9 @@ fn find(maps: &[ImpactMap], label: &str) -> ImpactMap {
     maps.iter().find(|m| m.label == label).unwrap_or_else(|| panic!("no map {label}")).clone()
 }
 
-/// Depth and speed of a free particle one step later, behind a linear spring at depth 0: h = m = 1, stiffness κ. Written
-/// from the rules themselves, each case of its quadratic solved in closed form.
+/// Depth and speed of a free particle one step later, behind a linear spring at depth 0: h = m = 1,
+/// stiffness κ. Written from the rules themselves, each case of its quadratic solved in closed
+/// form.
 fn step(integrator: Integrator, k: f64, (s, v): (f64, f64)) -> (f64, f64) {
     let free = s + v;
     match integrator {
@@ -60,7 +62,8 @@ fn recursion(integrator: Integrator, kappa: f64, phase: f64) -> f64 {
         state = step(integrator, kappa, state);
         touched |= state.0 > 0.0;
         if touched && state.0 <= 0.0 && state.1 < 0.0 {
-            // The trapezoid's speed is that at the end of the step, one free step later nothing has changed.
+            // The trapezoid's speed is that at the end of the step, one free step later nothing has
+            // changed.
             return -step(integrator, kappa, state).1;
         }
     }
@@ -128,12 +131,14 @@ fn restitutions_of_the_penalty_lie_in_the_known_ranges() {
     ];
     for (label, least, most) in known {
         let (low, high) = find(&all, label).range().unwrap();
-        // The ranges are rounded to the last digit given; midpoints of 200 phases come that near to their ends.
+        // The ranges are rounded to the last digit given; midpoints of 200 phases come that near to
+        // their ends.
         let digit = if least == most { 1e-9 } else { 1e-4 * most };
         assert!(low >= least - digit && high <= most + digit, "{label}: {low} to {high}");
         assert!(high - low >= 0.97 * (most - least) - digit, "{label}: {low} to {high} is narrower");
     }
-    // Beyond one radian a step it gains although the linear limit is κ = 4; beyond that it knows no bound but κ − 1.
+    // Beyond one radian a step it gains although the linear limit is κ = 4; beyond that its only
+    // bound is κ − 1.
     let (_, high) = find(&all, "penalty, central-difference, κ = 3").range().unwrap();
     assert!((high - 2.0).abs() < 0.02, "{high}");
     let (_, high) = find(&all, "penalty, central-difference, κ = 10000").range().unwrap();
@@ -152,7 +157,7 @@ fn an_impact_depends_on_nothing_but_phase_law_and_kappa() {
     assert!((spring(1e-6, 1e-7) - spring(1e6, 10.0)).abs() < 1e-9);
 }
 
-/// Few and coarse steps, so that a map takes a blink.
+/// Few and coarse steps, so that a map is fast.
 fn grid(families: &[Family]) -> Grid {
     Grid { finest: 1e-2, coarsest: 0.9, per_decade: 4.0, families: families.to_vec(), ..Grid::default() }
 }
@@ -208,7 +213,8 @@ fn moreau_jean_freezes_where_a_step_crosses_the_gap() {
     let wide = Grid { finest: 1e-1, coarsest: 50.0, per_decade: 5.0, ..grid(&[family]) };
     let maps = run(&case, &wide);
     let own = maps.own().next().unwrap();
-    // Speed 1 m/s, gap 10 mm: 10 ms. Between half of that and that the body is caught every other step or not, by chance.
+    // Speed 1 m/s, gap 10 mm: 10 ms. Between half of that and that the body is caught every other
+    // step or not, by chance.
     for cell in own.cells.iter().filter(|c| c.step < 4e-3) {
         assert_eq!(cell.class, Class::Stable, "{cell:?}");
     }

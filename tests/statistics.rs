@@ -80,7 +80,8 @@ fn forces_and_times_of_lasting_contacts_are_those_of_the_window() {
     close(wall.episode_peak_force_n.mean, 30.0);
     close(wall.episode_peak_force_n.max, 40.0);
     close(wall.episode_impulse_n_s.mean, 3.5);
-    // 4 + 9 J arrive over 8 s. What is still in the wall is not lost: only the closed episode's 4 − 1.
+    // 4 + 9 J arrive over 8 s. What is still in the wall is not lost: only the closed episode's 4 −
+    // 1.
     close(Some(wall.impact_power_w), 13.0 / 8.0);
     close(Some(wall.arrived_less_departed_power_w), 3.0 / 8.0);
 }
@@ -94,7 +95,8 @@ fn an_episode_at_the_start_of_the_window_belongs_to_it() {
 
 #[test]
 fn a_bouncing_ball_arrives_with_the_energy_it_fell_by() {
-    // g = 10, h = 5 m, e = ½: impacts at 1 s (10 m/s) and 2 s (5 m/s), then 2.5 s; measured by a run over 2.2 s.
+    // g = 10, h = 5 m, e = ½: impacts at 1 s (10 m/s) and 2 s (5 m/s), then 2.5 s; measured by a
+    // run over 2.2 s.
     let scene = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::lower("floor", 0.0).with_restitution(0.5))
         .with_load(signorini::Load::constant(-10.0))
@@ -132,8 +134,9 @@ fn a_window_of_no_length_has_no_powers_and_no_numbers_that_are_none() {
 
 #[test]
 fn a_lossless_wall_may_return_more_than_arrived_for_the_load_works_meanwhile() {
-    // 2 N towards free flight push a body of 1 kg all the while it is in a spring: it leaves by their work over the way, which is 0 from
-    // face to face, but a load that sets in at the deepest point gives all of its work.
+    // 2 N towards free flight push a body of 1 kg all the while it is in a spring: it leaves by
+    // their work over the way, which is 0 from face to face, but a load that sets in at the deepest
+    // point gives all of its work.
     let table = signorini::Table::new(vec![0.05, 0.5], vec![-2.0, -2.0]).expect("a table");
     let scene = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::upper("upper", 0.0).with_elasticity(986.960_440_108_935_8, 0.0))
@@ -151,8 +154,9 @@ fn a_lossless_wall_may_return_more_than_arrived_for_the_load_works_meanwhile() {
 
 #[test]
 fn the_force_over_time_is_that_of_the_window_and_of_every_scheme() {
-    // 2 N presses a body onto a stop for 1 s; it has lain there from the start. Mean, RMS and impulse are exact in any window, and nothing
-    // scatters; what came before the window is not in it.
+    // 2 N presses a body onto a stop for 1 s; it has lain there from the start. Mean, RMS and
+    // impulse are exact in any window, and nothing scatters; what came before the window is not in
+    // it.
     let scene = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::upper("stop", 0.0).with_restitution(0.5))
         .with_load(signorini::Load::constant(2.0))
@@ -185,7 +189,8 @@ fn the_force_over_time_is_that_of_the_window_and_of_every_scheme() {
 
 #[test]
 fn the_rms_of_a_rigid_wall_does_not_depend_on_the_step_and_that_of_a_spring_is_the_force_itself() {
-    // Ten impacts of 2 N s a second: once in ten stretches of a millisecond each is 2000 N, so RMS² = 10/1000 · 2000² N².
+    // Ten impacts of 2 N s a second: once in ten stretches of a millisecond each is 2000 N, so RMS²
+    // = 10/1000 · 2000² N².
     let scene = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::upper("upper", 0.05))
         .with_wall(Wall::lower("lower", -0.05))
@@ -208,9 +213,11 @@ fn the_rms_of_a_rigid_wall_does_not_depend_on_the_step_and_that_of_a_spring_is_t
     }
     let expected = (5.0 * 2.0 * 2.0 / 1e-3_f64).sqrt();
     assert!((found[0] - expected).abs() < 1e-6, "{found:?}, expected {expected}");
-    // A step that straddles two stretches shares its impulse between them: at most one in ten, and in a hundred, of all.
+    // A step that straddles two stretches shares its impulse between them: at most one in ten, and
+    // in a hundred, of all.
     assert!((found[1] / expected - 1.0).abs() < 0.05 && (found[2] / expected - 1.0).abs() < 0.01, "{found:?}");
-    // A spring: half a sine of force, amplitude k/ω, whose mean square over the half period is half of its square.
+    // A spring: half a sine of force, amplitude k/ω, whose mean square over the half period is half
+    // of its square.
     let k = 1e4;
     let spring = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::upper("pad", 0.0).with_elasticity(k, 0.0))
@@ -229,7 +236,8 @@ fn the_rms_of_a_rigid_wall_does_not_depend_on_the_step_and_that_of_a_spring_is_t
 
 #[test]
 fn batch_means_tell_how_far_a_rate_scatters() {
-    // Contacts at the middle of the ten seconds' batches, one in each; then with ten more in one of them.
+    // Contacts at the middle of the ten seconds' batches, one in each; then with ten more in one of
+    // them.
     let each: Vec<Contact> = (0..10).map(|k| impact(f64::from(k) + 0.5, -1.0, 1.0, 1.0)).collect();
     let even = Statistics::new(&scene(), &each, 0.0).walls[0].half_width_95.expect("ten contacts");
     assert_eq!((even.contact_rate_per_s, even.impact_power_w), (0.0, 0.0));
@@ -243,7 +251,8 @@ fn batch_means_tell_how_far_a_rate_scatters() {
 
 #[test]
 fn the_last_blows_of_an_accumulation_are_no_peak_force() {
-    // A ball that comes to rest under its weight: 9.81 N, whatever the step makes of its last bounces.
+    // A ball that comes to rest under its weight: 9.81 N, whatever the step makes of its last
+    // bounces.
     let scene = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::lower("floor", 0.0).with_restitution(0.5))
         .with_load(signorini::Load::constant(-9.81))
@@ -259,7 +268,8 @@ fn the_last_blows_of_an_accumulation_are_no_peak_force() {
 
 #[test]
 fn a_graze_without_force_is_no_broken_complementarity() {
-    // Swings up to the wall and touches it at rest: the reaction is rounding, and a share of rounding says nothing.
+    // Swings up to the wall and touches it at rest: the reaction is rounding, and a ratio of
+    // rounding errors means nothing.
     let scene = Scene::oscillator(1.0, 0.0, 100.0)
         .with_wall(Wall::upper("stop", 5e-3))
         .with_initial(&[-5e-3], &[0.0])

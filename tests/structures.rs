@@ -1,4 +1,5 @@
-//! Chains, bars, tubes and matrices: statics against the textbook, exact at nodes; and every misuse is told.
+//! Chains, bars, tubes and matrices: statics against textbook solutions, exact at nodes; and every
+//! misuse is reported.
 
 use signorini::linear::{Factor, Symmetric};
 use signorini::matrices::{TextError, read_csv, read_matrix_market};
@@ -45,7 +46,8 @@ fn deflection(structure: &Structure, loads: &[(Row, f64)]) -> Vec<f64> {
     x
 }
 
-/// Rounding of K⁻¹: its condition number is some 50 elements⁴ for a beam; the meshes here have 12 elements at most, so 1e6 · 2e-16 and a margin.
+/// Rounding of K⁻¹: its condition number is some 50 elements⁴ for a beam; the meshes here have 12
+/// elements at most, so 1e6 · 2e-16 and a margin.
 const ROUNDING: f64 = 1e-9;
 
 #[track_caller]
@@ -61,7 +63,8 @@ fn a_pinned_tube_bends_as_the_textbook_says() {
         let centre = tube.at(1.0).unwrap();
         assert_eq!(centre.entries().len(), 1);
         near(centre.dot(&deflection(&structure, &[(centre.clone(), FORCE)])), FORCE * l.powi(3) / (48.0 * ei));
-        // The resultant F of an even load, F/L per metre; and its half on the left half, which bends the centre half as much.
+        // The resultant F of an even load, F/L per metre; and its half on the left half, which
+        // bends the centre half as much.
         let whole = tube.spread(0.0, 2.0).unwrap();
         near(centre.dot(&deflection(&structure, &[(whole, FORCE)])), 5.0 * FORCE * l.powi(3) / (384.0 * ei));
         let half = tube.spread(0.0, 1.0).unwrap();
@@ -71,7 +74,8 @@ fn a_pinned_tube_bends_as_the_textbook_says() {
 
 #[test]
 fn a_force_between_nodes_is_carried_as_if_by_the_exact_line_at_the_nodes() {
-    // Hermite elements with consistent loads are exact at the nodes wherever the force is: F at a, seen at x < a, is F b x (L² − b² − x²)/6LEI.
+    // Hermite elements with consistent loads are exact at the nodes wherever the force is: F at a,
+    // seen at x < a, is F b x (L² − b² − x²)/6LEI.
     let tube = beam(4, BeamEnd::Pinned, BeamEnd::Pinned);
     let (structure, l, ei) = (tube.structure().unwrap(), tube.length, tube.bending_stiffness());
     let (a, x) = (1.37, 0.5);
@@ -82,7 +86,8 @@ fn a_force_between_nodes_is_carried_as_if_by_the_exact_line_at_the_nodes() {
 
 #[test]
 fn a_support_takes_the_textbook_share_of_the_load() {
-    // Two spans, a force in the middle of each: the middle support takes 11/8 F, the outer ones 5/16 F each.
+    // Two spans, a force in the middle of each: the middle support takes 11/8 F, the outer ones
+    // 5/16 F each.
     let tube = beam(8, BeamEnd::Pinned, BeamEnd::Pinned);
     let structure = tube.structure().unwrap();
     let support = tube.at(1.0).unwrap();
@@ -145,7 +150,8 @@ fn rows_see_what_their_elements_can_hold() {
         assert!((rod.at(x).unwrap().dot(&line) - (3.0 - 2.0 * x)).abs() < 1e-14);
         assert!((tube.at(x).unwrap().dot(&curve) - cubic(x)[0]).abs() < 1e-13);
     }
-    // A spread force sees the mean: of the line at the centre of the stretch, of the cubic by its integral.
+    // A spread force sees the mean: of the line at the centre of the stretch, of the cubic by its
+    // integral.
     let integral = |x: f64| x - x * x / 2.0 + x.powi(3) / 6.0 - x.powi(4) / 2.0;
     for (from, to) in [(0.0, 2.0), (0.1, 0.15), (0.3, 1.9), (4.0 / 7.0, 6.0 / 7.0)] {
         let mean = 3.0 - (from + to);
@@ -153,7 +159,7 @@ fn rows_see_what_their_elements_can_hold() {
         let mean = (integral(to) - integral(from)) / (to - from);
         assert!((tube.spread(from, to).unwrap().dot(&curve) - mean).abs() < 1e-12, "{from} {to}");
     }
-    // An end that is held sees nothing.
+    // A held end has no displacement, so its row is empty.
     assert!(beam(3, BeamEnd::Pinned, BeamEnd::Free).at(0.0).unwrap().entries().is_empty());
     assert!(bar(3, BarEnd::Free, BarEnd::Fixed).at(2.0).unwrap().entries().is_empty());
 }
@@ -180,8 +186,8 @@ fn masses_are_those_of_rigid_motions() {
 
 #[test]
 fn the_smoothest_curve_through_points_is_the_bent_tube() {
-    // A force in the middle bends a clamped tube into two cubics: the spline through three points with slope 0 at the ends. With one end
-    // pinned, the same with its moment 0.
+    // A force in the middle bends a clamped tube into two cubics: the spline through three points
+    // with slope 0 at the ends. With one end pinned, the same with its moment 0.
     for ends in
         [[BeamEnd::Clamped, BeamEnd::Clamped], [BeamEnd::Clamped, BeamEnd::Pinned], [BeamEnd::Pinned, BeamEnd::Pinned]]
     {
@@ -350,14 +356,14 @@ fn matrices_that_are_not_definite_are_refused_with_their_entry() {
         "system: stiffness matrix, row 2, column 1",
         "at most 0.0",
     );
-    // No pair of entries shows it: three that pull one another.
+    // No pair of entries shows that it is indefinite: three masses that pull one another.
     let all =
         |x: f64| Symmetric::from_entries(3, [(0, 0, 1.0), (1, 1, 1.0), (2, 2, 1.0), (1, 0, x), (2, 1, x), (2, 0, x)]);
     check(unit(), all(-0.6), "system: stiffness matrix, row 3, column 3", "negative pivot");
     check(all(-0.6), unit(), "system: mass matrix, row 3, column 3", "without a positive pivot");
     check(unit(), Symmetric::zeros(2), "system: stiffness matrix", "3 × 3");
     check(unit(), Symmetric::diagonal(&[1.0, f64::NAN, 1.0]), "system: stiffness matrix, row 2, column 2", "finite");
-    // The edge is semidefinite, and taken.
+    // The limit is semidefinite, and accepted.
     let edge = Structure { mass: unit(), damping: Symmetric::zeros(3), stiffness: all(-0.5) };
     Scene::structure(edge).validate().unwrap();
 }

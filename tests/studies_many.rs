@@ -1,4 +1,5 @@
-//! The studies on several degrees of freedom: judged by one degree of freedom, by hand, and by closed forms.
+//! The studies on several degrees of freedom: compared with one degree of freedom, with sums by
+//! hand, and with closed forms.
 #![cfg(feature = "cli")]
 
 use signorini::linear::Symmetric;
@@ -28,7 +29,7 @@ fn source(e: f64, duration: f64) -> Scene {
         .with_duration(duration)
 }
 
-/// Two oscillators side by side that know nothing of one another; names of the second end in 2, and each has its probe.
+/// Two uncoupled oscillators in one scene; names of the second end in 2, and each has its probe.
 fn beside(first: &Scene, second: &Scene) -> Scene {
     let parts = [&first.system, &second.system].map(|system| match system {
         System::Oscillator(o) => *o,
@@ -55,8 +56,8 @@ fn beside(first: &Scene, second: &Scene) -> Scene {
     scene
 }
 
-/// A bar of unit length, modulus and density, its free end at a rigid wall with e = 0 and its other end held: the closed form is contact for
-/// t in [1, 2] under the stress ½.
+/// A bar of unit length, modulus and density, its free end at a rigid wall with e = 0 and its other
+/// end held: the closed form is contact for t in [1, 2] under the stress ½.
 fn bar(elements: usize) -> Scene {
     let (n, size) = (elements, 1.0 / elements as f64);
     let masses: Vec<f64> = (0..n).map(|i| if i == 0 { 0.5 * size } else { size }).collect();
@@ -90,21 +91,24 @@ fn two_oscillators_side_by_side_grow_as_the_more_sensitive_of_them() {
     assert!(matches!(found.source, Source::Runs(_)));
     let by_exact_runs = Growth::of(&beside(&wild, &tame)).unwrap();
     assert_eq!(by_exact_runs.source, Source::ExactRuns);
-    // So small a change of exact runs is their derivative in two directions, which misses the worst one: never above the growth, but for
-    // rows beside impacts.
+    // So small a change of exact runs is their derivative in two directions, which misses the worst
+    // one: never above the growth, but for rows beside impacts.
     let exactly = by_exact_runs.until(1.0);
     assert!(exactly > 0.2 * larger && exactly < 1.1 * larger, "{exactly}, alone {exact:?}");
     let found = found.until(1.0);
-    // An estimate from below: two directions of four miss the worst one by a factor of order 1. It may exceed it a little, since the change is finite.
+    // An estimate from below: two directions of four miss the worst one by a factor of order 1. It
+    // may exceed it a little, since the change is finite.
     assert!(found > 0.2 * larger && found < 1.5 * larger, "{found}, alone {exact:?}");
-    // Two tame ones: little grows but the phase of impacts within steps, which is part of what separates two runs of a scheme.
+    // Two tame ones: little grows but the phase of impacts within steps, which is part of what
+    // separates two runs of a scheme.
     let both_tame = Growth::by_runs(&beside(&tame, &tame), &Method::new(MOREAU), 1e-5).unwrap().until(1.0);
     assert!(both_tame < 5.0 && found > 3.0 * both_tame, "{both_tame} and {found}, alone {exact:?}");
 }
 
 #[test]
 fn errors_are_those_of_the_worst_probe_and_a_method_that_cannot_go_is_a_row_with_the_reason() {
-    // The first mass meets no wall and is at rest, so all of the error is the second's; a second probe sees half of it.
+    // The first mass meets no wall and is at rest, so all of the error is the second's; a second
+    // probe sees half of it.
     let still = Scene::oscillator(1.0, 0.2, 100.0).with_duration(0.5);
     let mut scene = beside(&still, &source(0.8, 0.5));
     scene.probes.push(Probe { name: "half".into(), at: Row::new(vec![(1, 0.5)]) });
@@ -113,8 +117,9 @@ fn errors_are_those_of_the_worst_probe_and_a_method_that_cannot_go_is_a_row_with
     let comparison = compare(&scene, &[Method::new(MOREAU), refused], &time, &|_| {}).unwrap();
     let alone = compare(&source(0.8, 0.5), &[Method::new(MOREAU)], &time, &|_| {}).unwrap();
     let (found, expected) = (comparison.rows[0].error.unwrap(), alone.rows[0].error.unwrap());
-    // Where the exact scheme does not go the reference is the same scheme at an eighth of the step: its own error, of order 1, is an eighth
-    // of this one and a phase of impacts within steps that makes it twice that at worst.
+    // Where the exact scheme does not go the reference is the same scheme at an eighth of the step:
+    // its own error, of order 1, is an eighth of this one and a phase of impacts within steps that
+    // makes it twice that at worst.
     assert!((found / expected - 1.0).abs() < 0.5, "{found} against {expected}");
     assert_eq!(comparison.rows.len(), 3);
     assert!(comparison.rows[1].outcome.is_err(), "a clamp is for one unknown");
@@ -141,7 +146,8 @@ fn a_change_counts_at_every_probe_and_is_measured_by_the_mass_that_each_wall_fee
 
 #[test]
 fn statistics_take_the_mass_that_each_wall_feels() {
-    // Masses of 2 and 3 kg: a wall on the first, and one between the two, which feels 1/(1/2 + 1/3) = 1.2 kg.
+    // Masses of 2 and 3 kg: a wall on the first, and one between the two, which feels 1/(1/2 + 1/3)
+    // = 1.2 kg.
     let structure = Structure {
         mass: Symmetric::diagonal(&[2.0, 3.0]),
         damping: Symmetric::zeros(2),
@@ -184,7 +190,7 @@ fn the_ripple_of_a_force_is_what_its_definition_says() {
     let found = lasting(&contact(&|i| if i % 2 == 0 { 1.0 } else { 0.0 }), 1e-3, 1e-2).unwrap();
     // One more of the 639 steps may be off than on.
     assert!((found.ripple - 1.0).abs() < 2.0 / 639.0 && (found.end - found.start - 0.799).abs() < 1e-12, "{found:?}");
-    // A rise and a fall within the first and the last tenth say nothing.
+    // A rise and a fall within the first and the last tenth do not count.
     assert!(ripple(&|i| if (150..850).contains(&i) { 1.0 } else { 0.2 }) < 1e-14);
     // Single pushes do not last; two contacts far apart are two, and the stronger is told.
     assert_eq!(lasting(&[0.0, 1.0, 0.0], 1e-3, 1e-2), None);
@@ -212,24 +218,26 @@ fn a_bar_on_a_wall_shows_what_each_scheme_does_to_energy_and_to_the_force() {
         let seen = at(scheme, 1.0);
         let (wall, contact) = seen.contact.unwrap();
         assert_eq!(wall, "wall");
-        // Contact in [1, 2] with the impulse ½: to the time a wave takes through four elements, 4/50 s at either end.
-        // Newmark's wall gives energy and lets go early.
+        // Contact in [1, 2] with the impulse ½: to the time a wave takes through four elements,
+        // 4/50 s at either end. Newmark's wall gives energy and lets go early.
         let late = (contact.end - 2.0).abs();
         assert!(
             (contact.start - 1.0).abs() < 0.08 && (late < 0.08 || scheme == Scheme::Newmark),
             "{scheme}: {contact:?}"
         );
         assert!((contact.impulse - 0.5).abs() < 0.5 * 0.08, "{scheme}: {contact:?}");
-        // Nobody rings more than newmark, whose wall gives energy.
+        // No scheme rings more than newmark, whose wall gives energy.
         assert!(contact.ripple <= at(Scheme::Newmark, 1.0).contact.unwrap().1.ripple, "{scheme}: {contact:?}");
     }
-    // What stops at the wall with e = 0 is the end node, a hundredth of the mass: ½ (1/100) ½² = 1e-2 of 1/8 J; touching again takes some more.
+    // What stops at the wall with e = 0 is the end node, a hundredth of the mass: ½ (1/100) ½² =
+    // 1e-2 of 1/8 J; touching again takes some more.
     for scheme in [MOREAU, Scheme::PaoliSchatzman] {
         let seen = at(scheme, 1.0);
         assert!(seen.largest < 1.0 + 1e-9 && seen.lost_at_walls > 0.0 && seen.lost_at_walls < 0.03, "{seen:?}");
         assert!(seen.unexplained.abs() < 1e-9, "{seen:?}");
     }
-    // The exact stress is constant: this mesh of lumped masses rings by a hundredth, newmark by more than the force itself.
+    // The exact stress is constant: this mesh of lumped masses rings by a hundredth, newmark by
+    // more than the force itself.
     let ripple = |scheme: Scheme| at(scheme, 1.0).contact.unwrap().1.ripple;
     assert!(ripple(MOREAU) < 0.05 && ripple(alpha) < 0.05 && ripple(Scheme::Newmark) > 1.0);
     // Implicit Euler damps the bar, less at a finer step.
@@ -270,7 +278,8 @@ fn a_chart_of_two_masses_shows_the_order_of_each_scheme_between_impacts() {
     let chart = study(&scene, &methods, &Effort { steps, repeats: 1, most_seconds: 60.0 }, &|_| {}).unwrap();
     for ((_, order), series) in expected.iter().zip(&chart.series) {
         let found = series.order(chart.known(&series.method.scheme)).unwrap();
-        // Smooth motion: slopes are within 0.1 of the integer; the reference is a run of moreau-jean, four times finer than the finest.
+        // Smooth motion: slopes are within 0.1 of the integer; the reference is a run of
+        // moreau-jean, four times finer than the finest.
         assert!((found - order).abs() < 0.15, "{}: order {found}", series.method);
     }
     scene.probes.clear();
@@ -294,7 +303,8 @@ fn an_error_is_kept_by_halving_and_the_result_is_within_it_of_a_much_finer_run()
 
 #[test]
 fn a_load_and_a_probe_elsewhere_than_at_the_first_mass_are_where_they_say() {
-    // Only the second mass is loaded: the first probe sees nothing, the second what the oscillator alone sees.
+    // Only the second mass is loaded: the first probe sees nothing, the second what the oscillator
+    // alone sees.
     let mut alone = source(0.8, 0.3);
     let scene = beside(&Scene::oscillator(1.0, 0.2, 100.0).with_duration(0.3), &alone);
     assert!(matches!(scene.loads[0].kind, LoadKind::Harmonic { .. }));

@@ -1,4 +1,5 @@
-//! `signorini sweep`: rows that equal runs, failures as rows, folders that are gone on with, shards that are merged.
+//! `signorini sweep`: rows that equal runs, failures as rows, folders that are continued, shards
+//! that are merged.
 #![cfg(feature = "cli")]
 
 use signorini::case::{Case, CaseFile};
@@ -80,7 +81,8 @@ fn the_measures_of_a_row_are_those_of_the_run_with_its_values() {
 
 #[test]
 fn displacements_between_the_rows_of_a_run_are_exact_extremes() {
-    // Against a run recorded so finely that its largest row is within ½ a h² of the extreme: h = 1e-5 s, a < 1e2 m/s².
+    // Against a run recorded so finely that its largest row is within ½ a h² of the extreme: h =
+    // 1e-5 s, a < 1e2 m/s².
     for (name, end) in [("linear-sine", 3.0), ("elastic-wall", 3.0), ("two-masses", 3.0), ("rigid-walls-sine", 3.0)] {
         let case = Case::embedded(name).unwrap();
         let sweep = Sweep::new(CaseFile::embedded(name).unwrap());
@@ -109,7 +111,8 @@ fn displacements_between_the_rows_of_a_run_are_exact_extremes() {
             let speed = v.iter().copied().fold(0.0, |most: f64, v| most.max(v.abs()));
             let found = |measure: &str, unit: &str| cell(&plan, &row, &format!("{measure}{word}_{unit}")).unwrap();
             let (highest, lowest) = (found("displacement_highest", "m"), found("displacement_lowest", "m"));
-            // A body that strikes a rigid wall between two rows was there, and up to v h from it at both.
+            // A body that strikes a rigid wall between two rows was there, and up to v h from it at
+            // both.
             let strikes = scene.walls.iter().any(|wall| wall.law.is_rigid());
             let slack = 5e-9 + if strikes { 1e-5 * speed } else { 0.0 };
             assert!(highest >= top - 1e-15 && highest - top < slack, "{name}: {highest:e} against {top:e}");
@@ -126,7 +129,8 @@ fn displacements_between_the_rows_of_a_run_are_exact_extremes() {
 
 #[test]
 fn a_quiet_motion_has_the_amplitude_of_its_closed_form() {
-    // Below the graze at 4.2107738… Hz the steady motion is F/√((k − mω²)² + (cω)²); 300 periods of 0.3 s and c/2m = 0.1/s leave e⁻⁹ of the start.
+    // Below the graze at 4.2107738… Hz the steady motion is F/√((k − mω²)² + (cω)²); 300 periods of
+    // 0.3 s and c/2m = 0.1/s leave e⁻⁹ of the start.
     let plan = source()
         .vary(frequency(3.0, 4.0, 3))
         .by("event")
@@ -152,8 +156,9 @@ fn a_quiet_motion_has_the_amplitude_of_its_closed_form() {
 
 #[test]
 fn the_symmetric_orbit_and_where_its_symmetry_breaks_are_found_by_sweeping() {
-    // e = 0.8, one impact a wall and period: at 5 Hz the speed of impact in closed form is 0.1694105913583735 m/s; by falling frequency the
-    // orbit loses its symmetry at 4.57083913378074 Hz, where the speeds at the two walls part.
+    // e = 0.8, one impact a wall and period: at 5 Hz the speed of impact in closed form is
+    // 0.1694105913583735 m/s; by falling frequency the orbit loses its symmetry at 4.57083913378074
+    // Hz, where the speeds at the two walls part.
     let sweep = |axis: Axis, settle| {
         let sweep = source().set("wall.*.restitution", 0.8).unwrap().vary(axis).by("event");
         let sweep = sweep.over(Stretch::Periods { settle, keep: 8 });
@@ -165,7 +170,8 @@ fn the_symmetric_orbit_and_where_its_symmetry_breaks_are_found_by_sweeping() {
         assert!((speed / 0.169_410_591_358_373_5 - 1.0).abs() < 1e-12, "{speed:e}");
     }
     assert_eq!(row.measures[2], Some(1.0));
-    // Near the point the orbit attracts weakly: 0.01 Hz from it on either side 600 periods settle what is left to 1e-5 of the speeds.
+    // Near the point the orbit attracts weakly: 0.01 Hz from it on either side 600 periods settle
+    // what is left to 1e-5 of the speeds.
     let rows = sweep(frequency(4.56, 4.58, 2).followed(Follow::Down), 600);
     let part = |row: &signorini::sweep::Row| (row.measures[0].unwrap() / row.measures[1].unwrap() - 1.0).abs();
     assert!(part(&rows[0]) < 1e-5, "{} Hz: {:e}", rows[0].values[0], part(&rows[0]));
@@ -276,7 +282,8 @@ fn rows_that_fail_are_rows_with_their_reason() {
     assert_eq!(rows.iter().map(|row| row.status).collect::<Vec<_>>(), [Status::Ok, Status::Invalid, Status::Ok]);
     assert!(rows[1].error.contains("wall") && !rows[1].error.contains('\n'), "{}", rows[1].error);
     assert_eq!(rows[1].measures, [None, None]);
-    // A scheme that diverges: newmark with a step that its walls do not bear does not, but an explicit rule beyond its limit.
+    // A scheme that diverges: not newmark with unresolved walls, but an explicit rule beyond its
+    // stability limit.
     let penalty = "penalty:stiffness=1e12,integrator=central-difference";
     let sweep = source().vary(Axis::list("run.scheme", &[penalty.into(), "event".into()]).unwrap());
     let rows = sweep.set("time.end", 2.0).unwrap().measure([Measure::Contacts]).plan().unwrap().rows(2).unwrap();
@@ -592,7 +599,8 @@ fn the_batch_engine_gives_the_rows_of_the_scheme_event() {
     let mut compared = 0;
     for (a, b) in scalar.iter().zip(&batch) {
         assert_eq!((a.number, &a.values, a.status), (b.number, &b.values, b.status));
-        // Periodic motions attract: both come to the same one, to what 150 periods leave. Others part.
+        // Periodic motions attract: both come to the same one, to what 150 periods leave. Others
+        // part.
         if a.measures[6].is_none() {
             continue;
         }

@@ -1,4 +1,5 @@
-//! What hangs, misleads or gets lost in the tool: results, names, output that cannot be written, widths, JSON, words, time.
+//! The tool must not hang, mislead or lose results: names, output that cannot be written, widths,
+//! JSON, words, time.
 #![cfg(feature = "cli")]
 
 use serde_json::Value;
@@ -163,7 +164,7 @@ fn a_closed_stdout_is_a_failure_and_one_that_is_thrown_away_is_none() {
             let output = shell(request, thrown_away);
             assert_eq!(output.status.code(), Some(0), "{request:?} {thrown_away}: {}", text(&output.stderr));
         }
-        // As a program does that wants no answer, such as one with subprocess.DEVNULL.
+        // As by a program that ignores the output, such as one with subprocess.DEVNULL.
         let output = command(dir.path(), request).stdout(Stdio::null()).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{request:?}: {}", text(&output.stderr));
     }
@@ -277,7 +278,8 @@ fn json_of_a_failure_is_a_document_too() {
     let dir = tempfile::tempdir().unwrap();
     let wrong = document(dir.path(), &["run", "nowhere.toml"], 2);
     assert!(wrong["error"].as_str().unwrap().contains("nowhere.toml") && wrong["exit_code"] == 2);
-    // A run that falls short of the accuracy asked for has results, and says so in the same document.
+    // A run that falls short of the accuracy asked for has results, and says so in the same
+    // document.
     let request = ["run", CASE, "--scheme", "moreau-jean", "--accuracy", "1e-9", "--end", "10"];
     let short = document(dir.path(), &request, 1);
     assert!(short["error"].is_string());
@@ -342,11 +344,12 @@ fn shells_complete_schemes_solvers_and_cases() {
     ] {
         assert!(script.contains(words), "{words}");
     }
-    // What is completed is not all that is taken.
+    // Shell completion does not list every accepted value.
     said(dir.path(), &["run", CASE, "--end", "0.1", "--no-verdict", "--scheme", "moreau-jean:theta=0.75"], 0);
 }
 
-/// A bar whose modulus has some zeros too many: its fastest mode is at 10 GHz, and all its modes are asked for.
+/// A bar whose modulus has some zeros too many: its fastest mode is at 10 GHz, and all its modes
+/// are asked for.
 const STIFF: &str = "[system.bar]\nlength = 1.0\narea = 1e-4\nyoungs_modulus = 2e19\ndensity = 7850.0\nelements = 40\nleft = \"clamped\"\n\
     right = \"free\"\n[[wall]]\nname = \"stop\"\nat = { position = 1.0 }\nside = \"upper\"\nposition = 1e-3\n[[load]]\nat = { position = 1.0 }\n\
     harmonic = { amplitude = 10.0, frequency = 25.0 }\n[time]\nend = 10.0\nstep = 1e-4\n";
@@ -369,8 +372,8 @@ fn a_run_of_hours_says_so_and_names_the_mode_that_sets_it() {
     }
 }
 
-/// One degree of freedom whose stiffness has some zeros too many, before a wall that it does not reach: one step of the exact
-/// scheme is the whole run, so that nothing comes back from it.
+/// One degree of freedom whose stiffness has some zeros too many, before a wall that it does not
+/// reach: one step of the exact scheme is the whole run, so that nothing comes back from it.
 const STIFF_ALONE: &str = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 4e29\n[[wall]]\nname = \"stop\"\n\
     side = \"upper\"\nposition = 1e-3\n[[load]]\nharmonic = { amplitude = 10.0, frequency = 25.0 }\n[time]\nend = 10.0\nstep = 1e-4\n";
 

@@ -1,4 +1,4 @@
-//! Modal truncation: what it costs is measured, and as many modes as an error takes are found.
+//! Modal truncation: its error is measured, and the number of modes for a given error is found.
 #![cfg(feature = "cli")]
 
 use signorini::case::{Case, Truncated};
@@ -6,7 +6,8 @@ use signorini::study::truncation::{MOST_CHOSEN, Truncation, choose_modes};
 use signorini::{Error, Method, Options, Run, Scheme, run};
 use std::f64::consts::PI;
 
-/// A tube over two spans, pressed by a spread load against a support in its middle, which it touches at rest.
+/// A tube over two spans, pressed by a spread load against a support in its middle, which it
+/// touches at rest.
 fn tube(system: &str, wall: &str, end: f64) -> Case {
     let text = format!(
         "{system}[system.beam]\nlength = 2.0\nyoungs_modulus = 2e11\ndensity = 7850.0\nouter_diameter = 0.02\ninner_diameter = 0.016\n\
@@ -63,13 +64,15 @@ fn a_truncation_is_held_against_twice_its_modes() {
 
 #[test]
 fn the_mass_at_a_wall_falls_as_modes_are_added() {
-    // Pinned-pinned, seen in the middle: 1/m = Σ (2/m′L) sin²(iπ/2), half of the modes have a node there.
+    // Pinned-pinned, seen in the middle: 1/m = Σ (2/m′L) sin²(iπ/2), half of the modes have a node
+    // there.
     let case = tube("[system]\nmodes = 3\n", "", 0.5);
     let wall = cost(&case).unwrap().walls.remove(0);
     let area = PI / 4.0 * (0.02_f64.powi(2) - 0.016_f64.powi(2));
     let total = 7850.0 * area * 2.0;
     for (mass, seen) in wall.effective_mass_kg.into_iter().zip([2.0, 3.0]) {
-        // Shapes of 16 Hermite elements: (kh)⁴ of the fifth mode is 1, and its error some thousandth of that.
+        // Shapes of 16 Hermite elements: (kh)⁴ of the fifth mode is 1, and its error some
+        // thousandth of that.
         assert!((mass / (0.5 * total / seen) - 1.0).abs() < 2e-3, "{mass} {seen}");
     }
     // Static compliance L³/48EI, by modes (2L³/π⁴EI) Σ 1/i⁴ over odd i.
@@ -81,17 +84,20 @@ fn the_mass_at_a_wall_falls_as_modes_are_added() {
 
 #[test]
 fn a_static_correction_gives_the_textbooks_reaction_with_one_mode() {
-    // Two spans under an even load: 5/8 of it rests on the middle. One mode alone misses the compliance of the others.
+    // Two spans under an even load: 5/8 of it rests on the middle. One mode alone misses the
+    // compliance of the others.
     let reaction = |system: &str| {
         let case = tube(system, "", 4.0);
-        // The motion has died: the slowest mode at 12 Hz keeps exp(−0.3 · 2π · 12 · 4) of its start.
+        // The motion has died: the slowest mode at 12 Hz keeps exp(−0.3 · 2π · 12 · 4) of its
+        // start.
         let force = made(&case).trajectory.contact_force("support").unwrap().last().copied().unwrap();
         -force / 80.0
     };
     let plain = reaction("[system]\nmodes = 1\n");
     let corrected = reaction("[system]\nmodes = 1\nstatic_correction = true\n");
     let whole = reaction("[system]\nmodes = 32\n");
-    // By series: the load moves the middle by 4/π⁵ of qL⁴/EI in the first mode, 5/384 in all; a unit force by 2/π⁴ and 1/48 of L³/EI.
+    // By series: the load moves the middle by 4/π⁵ of qL⁴/EI in the first mode, 5/384 in all; a
+    // unit force by 2/π⁴ and 1/48 of L³/EI.
     let (free, unit) = (4.0 / PI.powi(5), [2.0 / PI.powi(4), 1.0 / 48.0]);
     assert!((whole - 0.625).abs() < 1e-6, "{whole}");
     assert!((plain - free / unit[0]).abs() < 1e-5, "{plain}");

@@ -2,7 +2,7 @@
 
 use signorini::{Wall, WallLaw};
 
-/// Laws with the energy (J), the pressure (N) and the tangent (N/m) at a depth of 2 m, done by
+/// Laws with the energy (J), the pressure (N) and the tangent (N/m) at a depth of 2 m, computed by
 /// hand.
 ///
 /// Of the φ² penalty with a span of 3 m and ε = 5 m³/N: φ = 2 · 5 = 10, φ' = 2s + span = 7, so that

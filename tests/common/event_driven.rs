@@ -1,9 +1,10 @@
-//! An event-driven solution written apart from the crate: the closed form of an underdamped oscillator between events,
-//! events by bisection to the last bit. For constant and harmonic loads; contacts may last but not accumulate.
+//! An event-driven solution independent of the crate: the closed form of an underdamped oscillator
+//! between events, events by bisection to the last bit. For constant and harmonic loads; contacts
+//! may last but not accumulate.
 
 use signorini::{LoadKind, Scene, Side, System, WallLaw};
 
-/// Longest stretch looked at in one piece, s: the motions here turn round once in it at most.
+/// Longest stretch searched in one piece, s: the motions here turn round at most once in it.
 const STRETCH: f64 = 2e-4;
 
 #[derive(Debug, Clone, Copy)]
@@ -174,7 +175,8 @@ impl EventDriven {
         match self.mode {
             Mode::On(i) if i == wall => -w.sign * (self.load(t) - self.k * w.g),
             Mode::In(i) if i == wall => push,
-            // Outside, or behind a damped wall that has let go: it takes hold once it would push.
+            // Outside, or behind the face of a damped wall that does not push: contact begins when
+            // it would push.
             _ if w.e.is_none() => gap.max(-push),
             _ => gap,
         }

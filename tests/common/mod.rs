@@ -1,4 +1,5 @@
-//! What the tests of the schemes share: scenes, reference values, an independent event-driven solution, and a slope.
+//! Shared by the tests of the schemes: scenes, reference values, an independent event-driven
+//! solution, and a slope.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 #![allow(
     clippy::excessive_precision,
@@ -20,7 +21,8 @@ pub fn source(upper: f64, lower: f64) -> Scene {
         .with_wall(Wall::lower("lower", -GAP).with_restitution(lower))
 }
 
-/// Its upper wall elastic (100 N/m and the damping given, N s/m), its lower one rigid with restitution `e`.
+/// Its upper wall elastic (100 N/m and the damping given, N s/m), its lower one rigid with
+/// restitution `e`.
 pub fn elastic(damping: f64, e: f64) -> Scene {
     driven()
         .with_wall(Wall::upper("upper", GAP).with_elasticity(100.0, damping))
@@ -57,7 +59,8 @@ pub fn spring(stiffness: f64, integrator: Integrator) -> Scheme {
     Scheme::Penalty { law: PenaltyLaw::Linear { stiffness, damping: 0.0 }, integrator }
 }
 
-/// Displacements on a grid of `spacing` seconds up to `end`, by `per` steps in each interval; the start is left out.
+/// Displacements on a grid of `spacing` seconds up to `end`, by `per` steps in each interval; the
+/// start is left out.
 pub fn on_grid(scene: &Scene, scheme: &Scheme, spacing: f64, per: u64, end: f64) -> Vec<f64> {
     let mut stepper = Stepper::new(scene, scheme, spacing / per as f64).expect("a sound scene");
     let rows = (end / spacing).round() as usize;
@@ -120,7 +123,8 @@ pub const IMPULSE_E1: [(f64, f64, f64); 3] = [
     (2.0, -0.003_206_847_640_396_922_585_3, 0.062_956_750_229_846_163_573),
     (5.0, -0.004_530_150_378_068_209_483_4, -0.013_213_654_331_731_555_954),
 ];
-/// Times of the second impact of the source scene at (e, t): 50-digit arithmetic, printed to 1e-8 s.
+/// Times of the second impact of the source scene at (e, t): 50-digit arithmetic, printed to 1e-8
+/// s.
 pub const SECOND_IMPACT: [(f64, f64); 4] =
     [(0.0, 0.193_754_75), (0.5, 0.168_335_66), (0.8, 0.151_677_82), (1.0, 0.141_734_77)];
 

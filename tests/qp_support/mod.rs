@@ -1,4 +1,4 @@
-//! A judge of solutions and a source of programmes, written without the solvers they test.
+//! A check of solutions and a generator of programmes, written without the solvers they test.
 #![allow(dead_code)]
 
 use nalgebra::{DMatrix, DVector};
@@ -33,7 +33,8 @@ impl Random {
     }
 }
 
-/// What stays the same, in full matrices: what the judge and the enumeration work on.
+/// What stays the same over all programmes, as full matrices, which the check and the enumeration
+/// use.
 #[derive(Debug, Clone)]
 pub struct Dense {
     pub a: DMatrix<f64>,
@@ -71,7 +72,8 @@ impl Case {
     }
 }
 
-/// A feasible random programme with n unknowns and m rows, over many orders of magnitude of stiffness and length.
+/// A feasible random programme with n unknowns and m rows, over many orders of magnitude of
+/// stiffness and length.
 pub fn random_case(random: &mut Random, n: usize, m: usize) -> Case {
     let stiffness = random.decade(-6.0, 9.0);
     let length = random.decade(-9.0, 3.0);
@@ -100,7 +102,8 @@ pub fn random_case(random: &mut Random, n: usize, m: usize) -> Case {
     let lo = seen.iter().map(|w| w - side(random)).collect();
     let hi = seen.iter().map(|w| w + side(random)).collect();
     let push = random.decade(-2.0, 1.0);
-    // Now and then the load holds the body exactly at the point: force = gap = 0 where a bound touches.
+    // Now and then the load holds the body exactly at the point: force = gap = 0 where a bound
+    // touches.
     let b = if random.chance(0.1) {
         (&a * &point).as_slice().to_vec()
     } else {
@@ -109,7 +112,8 @@ pub fn random_case(random: &mut Random, n: usize, m: usize) -> Case {
     Case { problem: Dense { a, g, compliance }, b, lo, hi, scale: length }
 }
 
-/// The largest violation of the optimality conditions, each made dimensionless by the size of the terms it compares.
+/// The largest violation of the optimality conditions, each made dimensionless by the size of the
+/// terms it compares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residual {
     pub stationarity: f64,
@@ -123,7 +127,7 @@ impl Residual {
     }
 }
 
-/// What judging needs of a problem, made once for all its programmes.
+/// What the check needs of a problem, computed once for all its programmes.
 pub struct Judge<'a> {
     problem: &'a Dense,
     inverse: DMatrix<f64>,
@@ -154,7 +158,8 @@ impl<'a> Judge<'a> {
         for i in 0..r.len() {
             let y = (g.row(i) * &x)[0] + compliance[i] * r[i];
             let terms = (g.row(i).abs() * x.abs())[0] + (compliance[i] * r[i]).abs();
-            // A force has 16 digits, and so has the motion that the largest of them may cause here: 1e-3 of it, times 1e-12, is 4 ulps.
+            // A force has 16 digits, and so has the motion that the largest of them may cause here:
+            // 1e-3 of it, times 1e-12, is 4 ulps.
             let weight = |j: usize| self.w[(j, j)].sqrt();
             let caused = (0..r.len()).fold(0.0, |most, j| f64::max(most, weight(i) * weight(j) * r[j].abs()));
             let length = scale.max(terms).max(free[i].abs()).max(1e-3 * caused);
@@ -167,8 +172,8 @@ impl<'a> Judge<'a> {
         Residual { stationarity, feasibility, complementarity }
     }
 
-    /// Of all forces that hold the body at `x`, those of least Σ Wᵢᵢ rᵢ², by trying every set of rows that stand on a bound; `None` where
-    /// no set holds it to 1e-9.
+    /// Of all forces that hold the body at `x`, those of least Σ Wᵢᵢ rᵢ², by trying every set of
+    /// rows that stand on a bound; `None` where no set holds it to 1e-9.
     pub fn least_share(&self, rhs: &Rhs, scale: f64, x: &[f64]) -> Option<Vec<f64>> {
         let Dense { a, g, compliance } = self.problem;
         let x = DVector::from_column_slice(x);
@@ -228,7 +233,8 @@ pub fn brute_force(case: &Case) -> Option<Solution> {
         if active.iter().any(|&i| bound(i).is_infinite()) {
             continue;
         }
-        // [A −Gᵀ; G C] [x; r] = [b; bound], in units of the stiffness so that LU meets no mixture of scales.
+        // [A −Gᵀ; G C] [x; r] = [b; bound], in units of the stiffness so that LU meets no mixture
+        // of scales.
         let k = a.amax();
         let size = n + active.len();
         let mut matrix = DMatrix::zeros(size, size);
