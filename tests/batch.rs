@@ -132,7 +132,7 @@ fn comparable(lane: &Lane, known: &Outcome) -> (f64, usize) {
     let noise = amplified(lane, 100, gap, own.max(std::f64::consts::TAU * f64::from(fastest) / lane.period));
     // The noise is some units of rounding, 1e-15, of the motion in the lanes, of its steady part in
     // the exact scheme, which takes the motion for the sum of that and a free one. Grown by 1e4 it
-    // is a tenth of what is asked for. Beyond, the motion is chaotic, or grazes, and no two ways of
+    // is a tenth of the tolerance. Beyond, the motion is chaotic, or grazes, and no two ways of
     // computing it agree.
     let large = (steady(lane) / gap).max(1.0);
     let last = noise.iter().position(|&n| n.is_nan() || n * large >= 1e4).unwrap_or(100);

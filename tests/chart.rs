@@ -273,7 +273,7 @@ fn the_command_writes_table_and_picture_and_lays_other_programs_over() {
     for text in texts {
         assert!(svg.contains(text), "{text}");
     }
-    // The error of the exact scheme, some 1e-15, is told at the edge; the axis ends at 1e-8 at the
+    // The error of the exact scheme, some 1e-15, is noted at the edge; the axis ends at 1e-8 at the
     // latest.
     let document = roxmltree::Document::parse(&svg).unwrap();
     let texts = document.descendants().filter(|n| n.has_tag_name("text"));

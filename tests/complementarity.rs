@@ -327,7 +327,7 @@ fn account(name: &str, scene: &Scene, scheme: &Scheme, h: f64) {
     let relative = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
     // A force taken from a second difference of positions is known to a ulp of position times A:
     // for the weakest contact here, gravity on a ball at h = 1e-3, 1e-18·1e6 of 10 N. Measured
-    // against the largest force of the run, and 1 N where there is none to speak of.
+    // against the largest force of the run, and 1 N where that is smaller.
     let force_scale = largest_force.max(1.0);
     for (slack, pressure, mismatch) in pairs {
         let worst = relative(slack, scale).min(relative(pressure, force_scale)).abs();

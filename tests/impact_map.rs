@@ -1,4 +1,5 @@
-//! One free impact: the restitution that a scheme realises, as a function of the fraction τ of the step elapsed at contact.
+//! One free impact: the restitution that a scheme realises, as a function of the fraction τ of the
+//! step elapsed at contact.
 
 mod common;
 
@@ -19,7 +20,8 @@ fn phases(count: u32) -> impl Iterator<Item = f64> {
     (0..count).map(move |i| (f64::from(i) + 0.37) / f64::from(count))
 }
 
-/// Rebound speed over approach speed, once the wall has let go for good; and the contact reported.
+/// Rebound speed over approach speed, after the last contact with the wall; and the reported
+/// contact.
 fn restitution(scene: &Scene, scheme: &Scheme, steps: u32) -> (f64, Vec<Contact>) {
     let mut stepper = Stepper::new(scene, scheme, H).expect("a sound scene");
     let mut contacts = Vec::new();
@@ -85,8 +87,8 @@ fn newmark_returns_a_restitution_by_chance_of_the_phase() {
     assert!((squares / count - 91.0 / 27.0).abs() < 4e-3, "{}", squares / count);
 }
 
-/// The exact recursions of a free particle of unit mass and a linear spring κ = h²k/m, in units of the step: positions behind the
-/// wall x (negative before it), velocities in positions per step.
+/// The exact recursions of a free particle of unit mass and a linear spring κ = h²k/m, in units of
+/// the step: positions behind the wall x (negative before it), velocities in positions per step.
 fn recursion(integrator: Integrator, kappa: f64, tau: f64) -> f64 {
     let mut x = -(AHEAD + tau);
     let mut v: f64 = 1.0;
@@ -114,8 +116,9 @@ fn recursion(integrator: Integrator, kappa: f64, tau: f64) -> f64 {
                 (x, v) = (end, 2.0 * (end - x) - v);
             }
             _ => {
-                // x⁺ = x + (v + v⁺)/2, v⁺ = v − κ(x⁺₊² − x₊²)/(2(x⁺ − x)): the same with d = x⁺ − x, by bisection between the
-                // rebound and the free step, d/½ − 2v + κ(x⁺₊² − x₊²)/2d = 0 growing with d.
+                // x⁺ = x + (v + v⁺)/2, v⁺ = v − κ(x⁺₊² − x₊²)/(2(x⁺ − x)): the same with d = x⁺ −
+                // x, by bisection between the rebound and the free step, d/½ − 2v + κ(x⁺₊² −
+                // x₊²)/2d = 0 growing with d.
                 let force = |d: f64| {
                     let (a, b) = (inside(x), inside(x + d));
                     // The secant slope of ½s₊² without dividing by d where both ends are inside.

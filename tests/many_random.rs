@@ -87,7 +87,7 @@ fn every_scheme_keeps_its_word_on_random_structures() {
             let energy = r.energy;
             match scheme {
                 Scheme::MoreauJean { theta: 0.5 } => {
-                    // Of an elastic wall the half steps on its face are none of the ledger's. A
+                    // The ledger does not cover the half steps on the face of an elastic wall. A
                     // blow that falls together with an impact shares its work with it, and who gave
                     // and who took is not settled.
                     let rigid = scene.walls.iter().all(|wall| wall.law.is_rigid());

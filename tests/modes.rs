@@ -1,4 +1,5 @@
-//! Modes: against closed forms, at the order of their elements, and what cutting a scene to them keeps.
+//! Modes: against closed forms, at the order of their elements, and what cutting a scene to them
+//! keeps.
 
 use signorini::State;
 use signorini::linear::{Factor, Symmetric};
@@ -51,14 +52,16 @@ fn defects(structure: &Structure, modes: &Modes) -> (f64, f64) {
             }
         }
         let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-        // A mode may have all but rounding on a mass that nothing holds: 1e-14 of the stiffest entry is rounding too, and passes at 1e-9.
+        // A mode may have all but rounding on a mass that nothing holds: 1e-14 of the stiffest
+        // entry is rounding too, and passes at 1e-9.
         let stiffest = structure.stiffness.diagonal_entries().into_iter().fold(0.0, f64::max);
         residual = residual.max(norm(&left) / (norm(&size) + 1e-5 * stiffest * norm(a)));
     }
     (orthonormality, residual)
 }
 
-/// The relative errors of the first frequencies on meshes of `base`, 2 `base` and 4 `base` elements have the order `order`, and the sign `sign`.
+/// The relative errors of the first frequencies on meshes of `base`, 2 `base` and 4 `base` elements
+/// have the order `order`, and the sign `sign`.
 fn converges(
     name: &str,
     exact: &[f64],
@@ -75,7 +78,8 @@ fn converges(
         for (a, b) in [(coarse, middle), (middle, fine)] {
             assert!(a * sign > 0.0 && b * sign > 0.0, "{name}, mode {i}: errors {a:e}, {b:e}");
         }
-        // The observed order approaches that of the elements from the next term, which at ℎ ω/c < 1 is some per cent.
+        // The observed order approaches that of the elements from the next term, which at ℎ ω/c < 1
+        // is some per cent.
         let observed = (middle / fine).log2();
         assert!(
             (observed - order).abs() < 0.1,
@@ -114,7 +118,8 @@ fn a_sprung_bar_converges_to_the_root_of_its_frequency_equation() {
 
 #[test]
 fn beam_frequencies_converge_at_fourth_order_from_above() {
-    // βL of the classical ends: roots of cos cosh = ±1, from Blevins' tables to the digits of a double by Newton's method.
+    // βL of the classical ends: roots of cos cosh = ±1, from Blevins' tables to the digits of a
+    // double by Newton's method.
     let root = |guess: f64, sign: f64| {
         let mut x = guess;
         for _ in 0..50 {
@@ -147,13 +152,15 @@ fn beam_frequencies_converge_at_fourth_order_from_above() {
 
 #[test]
 fn rigid_body_motions_are_exact() {
-    // A free bar slides, a free beam also turns, a beam on one pin turns; small by full matrices and large by Lanczos.
+    // A free bar slides, a free beam also turns, a beam on one pin turns; small by full matrices
+    // and large by Lanczos.
     for n in [7, 20, 300, 2000] {
         let sliding = bar(n, BarEnd::Free, BarEnd::Free, MassMatrix::Consistent).structure().unwrap();
         let modes = Modes::lowest(&sliding, 3).unwrap();
         assert_eq!(modes.rigid(), 1);
         assert_eq!(modes.omega[0], 0.0);
-        // All parts move alike, and the mass is 1: φ = 1, to the rounding of a solve with condition n².
+        // All parts move alike, and the mass is 1: φ = 1, to the rounding of a solve with condition
+        // n².
         let worst = modes.shapes[0].iter().map(|x| (x - 1.0).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-15 * (n as f64).powi(2) + 1e-13, "{n}: {worst:e}");
     }
@@ -177,7 +184,8 @@ fn rigid_body_motions_are_exact() {
 
 #[test]
 fn chain_frequencies_are_the_closed_form_by_both_methods() {
-    // 2 √(k/m) sin(iπ/2(n+1)); by full matrices up to 600 where many are asked for, by Lanczos else.
+    // 2 √(k/m) sin(iπ/2(n+1)); by full matrices up to n = 600 where many are requested, else by
+    // Lanczos.
     for (n, count) in [(5, 5), (20, 20), (200, 200), (200, 12), (600, 3), (2000, 20), (2000, 100), (50_000, 4)] {
         let structure = chain(n, [1e4, 1e4]);
         let modes = Modes::lowest(&structure, count).unwrap();
@@ -219,7 +227,8 @@ fn random(seed: &mut u64) -> f64 {
 
 #[test]
 fn few_modes_of_random_networks_are_those_of_full_matrices_and_survive_renumbering() {
-    // Masses over two decades joined at random by springs over six, held nowhere, once, or often; in pieces where chance leaves them apart.
+    // Masses over two decades joined at random by springs over six, held nowhere, once, or often;
+    // in pieces where chance leaves them apart.
     let mut seed = 7;
     for draw in 0..60 {
         let n = 45 + (random(&mut seed) * 60.0) as usize;
@@ -250,7 +259,8 @@ fn few_modes_of_random_networks_are_those_of_full_matrices_and_survive_renumberi
         let renumbered = Modes::lowest(&build(&|i| (7 * i + 3) % n), 10);
         let few = Modes::lowest(&structure, 10).unwrap();
         let (orthonormality, residual) = defects(&structure, &few);
-        // Shapes are good to 1e-11, which the stiffest spring makes 1e-6 of what the residual is measured by.
+        // Shapes are good to 1e-11, which the stiffest spring makes 1e-6 of what the residual is
+        // measured by.
         assert!(orthonormality < 1e-12 && residual < 1e-6, "{draw}: {orthonormality:e} {residual:e}");
         assert_eq!(few.rigid(), all.rigid().min(10), "{draw}: {:?}", few.omega);
         let fastest = all.omega[n - 1];
@@ -305,8 +315,9 @@ fn rayleigh_damping_is_recognised_on_large_structures() {
 
 #[test]
 fn equal_frequencies_are_all_found() {
-    // Equal chains that do not touch: each frequency as many times, more than Lanczos has start vectors. Fifty short ones exhaust its space
-    // at once, where only the count of what is below tells that most are missing.
+    // Equal chains that do not touch: each frequency as many times, more than Lanczos has start
+    // vectors. Fifty short ones exhaust its space at once, where only the count of what is below
+    // tells that most are missing.
     for (one, copies, count) in [(120, 6, 18), (4, 50, 20)] {
         let n = one * copies;
         let springs: Vec<f64> = (1..n).map(|i| if i % one == 0 { 0.0 } else { 1e4 }).collect();
@@ -403,7 +414,8 @@ fn all_modes_are_the_whole_structure() {
         assert!(
             reduction.scene.walls[0].law.is_rigid() && reduction.walls.iter().all(|w| !w.corrected && w.share() == 1.0)
         );
-        // Forms of the start are the same: to the rounding of modes on a structure whose ω² span 1e6.
+        // Forms of the start are the same: to the rounding of modes on a structure whose ω² span
+        // 1e6.
         let (State { q: a, v: b }, start) = (reduction.scene.initial.clone(), &scene.initial);
         for (what, x, y) in [
             ("M", modal.mass.form(&b, &b), full.mass.form(&start.v, &start.v)),
@@ -459,8 +471,8 @@ fn more_modes_keep_more_compliance_and_less_mass() {
 
 #[test]
 fn the_effective_mass_of_a_string_falls_as_modes_are_added() {
-    // A string of mass 1 struck at its middle is the bar's equation: 2 Σ sin²(iπ/2) over its modes, so 1/2 with one mode and 1/20 with
-    // nineteen, of which ten move the middle.
+    // A string of mass 1 struck at its middle is the bar's equation: 2 Σ sin²(iπ/2) over its modes,
+    // so 1/2 with one mode and 1/20 with nineteen, of which ten move the middle.
     let string = bar(2000, BarEnd::Fixed, BarEnd::Fixed, MassMatrix::Consistent);
     let wall = Wall { at: string.at(0.5).unwrap(), ..Wall::upper("stop", 1.0) };
     let scene = Scene::structure(string.structure().unwrap()).with_wall(wall);
@@ -485,7 +497,8 @@ fn static_correction_gives_back_the_whole_compliance() {
                 (0.0, 0.0)
             };
             let sum = compliance(structure(&reduction.scene), &after.at) + 1.0 / stiffness;
-            // What the modes leave out is a difference from the whole: rounding is relative to it, times the condition of K, 1e6.
+            // What the modes leave out is a difference from the whole: rounding is relative to it,
+            // times the condition of K, 1e6.
             assert!((sum - (whole + own)).abs() < 1e-9 * whole, "{k}: {sum:e} {:e}", whole + own);
             assert!((damping - c * (stiffness * own).powi(2)).abs() <= 1e-15 * c);
             assert!(truncation.corrected);
@@ -501,7 +514,8 @@ fn static_correction_gives_back_the_whole_compliance() {
 
 #[test]
 fn the_residual_compliance_of_a_free_structure_is_that_of_all_other_modes() {
-    // A free bar pushed at its end: Σ 2/(iπ)² over the modes that are left out, i > 3; exact on the elements' own modes.
+    // A free bar pushed at its end: Σ 2/(iπ)² over the modes that are left out, i > 3; exact on the
+    // elements' own modes.
     let free = bar(40, BarEnd::Free, BarEnd::Free, MassMatrix::Consistent);
     let structure = free.structure().unwrap();
     let wall = Wall { at: free.at(0.0).unwrap(), ..Wall::lower("wall", -1.0) };
@@ -512,7 +526,7 @@ fn the_residual_compliance_of_a_free_structure_is_that_of_all_other_modes() {
         let residual = scene.reduced(k, true).unwrap().walls[0].residual();
         assert!((residual - rest).abs() < 1e-11 * rest, "{k}: {residual:e} {rest:e}");
     }
-    // Without the rigid-body motion among the modes there is none.
+    // Without the rigid-body mode among the modes there is no such compliance.
     let pair = Structure {
         stiffness: Symmetric::zeros(2),
         ..Chain { masses: vec![1.0; 2], springs: vec![1.0], grounds: [0.0; 2] }.structure().unwrap()
@@ -583,7 +597,8 @@ fn a_dashpot_couples_modes_and_rayleigh_damping_does_not() {
 
 #[test]
 fn modes_of_one_frequency_are_turned_until_damping_uncouples_them() {
-    // Two equal oscillators, damped along the directions (1, 2) and (2, −1): any basis is one of modes, that one alone uncouples.
+    // Two equal oscillators, damped along the directions (1, 2) and (2, −1): any basis is one of
+    // modes, that one alone uncouples.
     let damping = Symmetric::from_entries(2, [(0, 0, 1.0 + 4.0 * 3.0), (1, 1, 4.0 + 3.0), (1, 0, 2.0 - 2.0 * 3.0)]);
     let structure =
         Structure { mass: Symmetric::diagonal(&[2.0, 2.0]), damping, stiffness: Symmetric::diagonal(&[50.0, 50.0]) };

@@ -26,8 +26,8 @@ const BEAMS: [(usize, usize, f64); 9] = [
 /// The scale of bounds, a speed in m/s: the gap over the step.
 const SCALE: f64 = beam::GAP / beam::STEP;
 
-/// Programmes of each sequence, and how many of them Clarabel is asked for too, which takes up to
-/// 0.1 s each.
+/// Programmes of each sequence, and how many of them Clarabel solves too, which takes up to 0.1 s
+/// each.
 const COUNT: usize = 60;
 const ASKED: usize = 8;
 

@@ -195,7 +195,7 @@ fn the_tightest_wall_of_each_side_bears_wherever_it_stands_in_the_list() {
 
 #[test]
 fn a_free_motion_beyond_all_numbers_is_named() {
-    // b and a are numbers, b/a is none.
+    // b and a are finite, b/a is not.
     for (a, b) in [(1e-300, 1e300), (1e-300, -1e300)] {
         for rows in [[rigid(-1.0, 1.0)], [rigid(-INF, INF)], [elastic(-1.0, 1.0, 0.1)]] {
             assert_eq!(clamp(a, b, &rows, &mut [0.0]), Err(Failure::NotFinite { what: "b", index: 0 }), "{rows:?}");

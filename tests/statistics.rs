@@ -292,7 +292,8 @@ fn a_contact_that_ends_after_the_window_counts_up_to_its_end() {
         let statistics = Statistics::new(&scene(), &[lasting(9.5, end, 2.0, 20.0, 1.0, None)], 5.0);
         close(Some(statistics.walls[1].contact_time_ratio), 0.1);
     }
-    // One that lasts from before the window to beyond it is all of it, and one beyond it is none.
+    // One that lasts from before the window to beyond it counts in full, and one beyond it does not
+    // count.
     let around = Statistics::new(&scene(), &[lasting(1.0, Some(12.0), 2.0, 20.0, 1.0, None)], 5.0);
     assert_eq!(around.walls[1].contact_time_ratio, 1.0);
     let after = Statistics::new(&scene(), &[lasting(11.0, Some(12.0), 2.0, 20.0, 1.0, None)], 5.0);

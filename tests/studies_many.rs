@@ -192,7 +192,7 @@ fn the_ripple_of_a_force_is_what_its_definition_says() {
     assert!((found.ripple - 1.0).abs() < 2.0 / 639.0 && (found.end - found.start - 0.799).abs() < 1e-12, "{found:?}");
     // A rise and a fall within the first and the last tenth do not count.
     assert!(ripple(&|i| if (150..850).contains(&i) { 1.0 } else { 0.2 }) < 1e-14);
-    // Single pushes do not last; two contacts far apart are two, and the stronger is told.
+    // Single pushes are no lasting contact; of two contacts far apart the stronger is reported.
     assert_eq!(lasting(&[0.0, 1.0, 0.0], 1e-3, 1e-2), None);
     let two: Vec<f64> = (0..steps).map(|i| if i % 500 > 400 { 1.0 + (i / 500) as f64 } else { 0.0 }).collect();
     assert!((lasting(&two, 1e-3, 1e-2).unwrap().start - 0.901).abs() < 1e-12);
@@ -219,7 +219,7 @@ fn a_bar_on_a_wall_shows_what_each_scheme_does_to_energy_and_to_the_force() {
         let (wall, contact) = seen.contact.unwrap();
         assert_eq!(wall, "wall");
         // Contact in [1, 2] with the impulse ½: to the time a wave takes through four elements,
-        // 4/50 s at either end. Newmark's wall gives energy and lets go early.
+        // 4/50 s at either end. Newmark's wall gives energy, and its contact ends early.
         let late = (contact.end - 2.0).abs();
         assert!(
             (contact.start - 1.0).abs() < 0.08 && (late < 0.08 || scheme == Scheme::Newmark),

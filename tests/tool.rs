@@ -168,7 +168,7 @@ fn a_closed_stdout_is_a_failure_and_one_that_is_thrown_away_is_none() {
         let output = command(dir.path(), request).stdout(Stdio::null()).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{request:?}: {}", text(&output.stderr));
     }
-    // What a wrong request is told goes to stderr, and needs no stdout.
+    // The error of a wrong request goes to stderr, and needs no stdout.
     assert_eq!(shell(&["run", CASE, "--no-such-option"], ">&-").status.code(), Some(2));
     // Files are no answer: all of them are written before it.
     assert!(dir.path().join("out/rigid-walls-sine/run/request.json").exists());
@@ -278,8 +278,7 @@ fn json_of_a_failure_is_a_document_too() {
     let dir = tempfile::tempdir().unwrap();
     let wrong = document(dir.path(), &["run", "nowhere.toml"], 2);
     assert!(wrong["error"].as_str().unwrap().contains("nowhere.toml") && wrong["exit_code"] == 2);
-    // A run that falls short of the accuracy asked for has results, and says so in the same
-    // document.
+    // A run that misses the requested accuracy has results, and reports it in the same document.
     let request = ["run", CASE, "--scheme", "moreau-jean", "--accuracy", "1e-9", "--end", "10"];
     let short = document(dir.path(), &request, 1);
     assert!(short["error"].is_string());

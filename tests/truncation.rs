@@ -114,7 +114,7 @@ fn as_many_modes_are_found_as_the_error_takes() {
     assert!(chosen.levels.windows(2).all(|pair| pair[1].modes > pair[0].modes));
     let quiet = chosen.levels.iter().rev().take(2).all(|level| level.change.is_some_and(|x| x <= 0.25 * 0.05));
     assert!(quiet, "{chosen:?}");
-    // What was asked for is what all modes give.
+    // The reference is the result with all modes.
     let cut = made(&case.clone().with_modes(chosen.modes).unwrap()).trajectory.impulse("wall").unwrap();
     let all = made(&case.clone().with_modes(60).unwrap()).trajectory.impulse("wall").unwrap();
     assert!((cut / all - 1.0).abs() < 0.05, "{cut} {all}");

@@ -1,7 +1,7 @@
 //! One unknown: the programme is a monotone, piecewise linear scalar equation, solved exactly.
 //!
 //! a x = b + Σ rᵢ(x), rᵢ(x) = (lᵢ − x)/cᵢ below lᵢ, (uᵢ − x)/cᵢ above uᵢ, 0 between (elastic rows),
-//! and x held within the rigid rows' bounds, whose force takes up what is left of the balance.
+//! and x held within the rigid rows' bounds, whose force closes the balance.
 
 use super::{Failure, Problem, ROUNDING, Rhs, Solution};
 

@@ -1,5 +1,5 @@
-//! The convex quadratic programme (QP) of a time step. This room knows no scene: only matrices,
-//! rows and bounds.
+//! The convex quadratic programme (QP) of a time step. This room uses matrices, rows and bounds
+//! only, no scene.
 //!
 //! minimise ½ xᵀA x − bᵀx + Σ sᵢ²/(2cᵢ) subject to lᵢ ≤ gᵢ·x ≤ uᵢ (cᵢ = 0), lᵢ − sᵢ ≤ gᵢ·x ≤ uᵢ +
 //! sᵢ (cᵢ > 0).

@@ -102,7 +102,7 @@ impl Solver {
     /// is larger.
     ///
     /// # Errors
-    /// [`Failure::Shape`] if sizes do not fit, or the clamp is asked for more than one unknown;
+    /// [`Failure::Shape`] if sizes do not fit, or the clamp is requested for more than one unknown;
     /// [`Failure::NotFinite`] for a NaN, an infinity, a negative compliance or a scale that is not
     /// positive; [`Failure::NotPositiveDefinite`].
     pub fn new(problem: Problem, backend: Backend, scale: f64) -> Result<Self, Failure> {
@@ -153,7 +153,7 @@ impl Solver {
     ///
     /// # Errors
     /// [`Failure::Shape`]; [`Failure::NotFinite`]; [`Failure::Infeasible`] if bounds cross by more
-    /// than rounding; [`Failure::NotSolved`] if Clarabel was asked for and fails, or where no
+    /// than rounding; [`Failure::NotSolved`] if Clarabel was requested and fails, or where no
     /// method settles.
     pub fn solve(&mut self, rhs: &Rhs) -> Result<&Solution, Failure> {
         self.counters.solves += 1;

@@ -125,7 +125,8 @@ impl Scene {
         self
     }
 
-    /// The scene started from displacements (m) and velocities (m/s), one of each per degree of freedom.
+    /// The scene started from displacements (m) and velocities (m/s), one of each per degree of
+    /// freedom.
     #[must_use]
     pub fn with_initial(mut self, q: &[f64], v: &[f64]) -> Self {
         self.initial = State { q: q.to_vec(), v: v.to_vec() };
@@ -151,9 +152,10 @@ impl Scene {
         })
     }
 
-    /// A typical length γ₀ of the scene, m: half the least distance between an upper and a lower wall on one row; else
-    /// the largest distance of a wall from the start; else the largest |position|; else the start's displacement; else
-    /// 1. Residuals and solvers are made dimensionless by it. Zero gaps are passed over.
+    /// A typical length γ₀ of the scene, m: half the least distance between an upper and a lower
+    /// wall on one row; else the largest distance of a wall from the start; else the largest
+    /// |position|; else the start's displacement; else 1 m. Residuals and solvers are made
+    /// dimensionless by it. Zero gaps are ignored.
     #[must_use]
     pub fn gap_scale(&self) -> f64 {
         let positive = |x: &f64| x.is_finite() && *x > 0.0;
@@ -189,7 +191,8 @@ impl Scene {
     /// Checks everything a scheme relies on.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for the first value that makes no sense: what it is, and what would be accepted.
+    /// [`Error::Invalid`] for the first value that makes no sense: what it is, and what would be
+    /// accepted.
     pub fn validate(&self) -> Result<()> {
         #[cfg(test)]
         counted::count();
