@@ -66,13 +66,13 @@ impl Forcing {
         for h in &self.harmonics {
             f += h.amplitude * (h.omega * t + h.phase).sin();
         }
-        for table in &self.tables {
-            f += table.piece(t).0;
-        }
-        for (weight, function) in &self.functions {
-            f += weight * function.at(t);
-        }
-        f
+        if self.tables.is_empty() && self.functions.is_empty() { f } else { f + self.irregular(t) }
+    }
+
+    /// Force of tables and functions at `t`, N.
+    pub(crate) fn irregular(&self, t: f64) -> f64 {
+        let tables: f64 = self.tables.iter().map(|table| table.piece(t).0).sum();
+        tables + self.functions.iter().map(|(weight, function)| weight * function.at(t)).sum::<f64>()
     }
 
     /// A bound on the rate at which the force changes between the jumps of tables, N/s, without the functions.

@@ -52,7 +52,7 @@ impl<S: Space> Body<S> {
             damped: matrices.damping.diagonal_entries().iter().any(|&c| c != 0.0),
             blows: Blows::new(scene, &matrices)?.map(Box::new),
             since: 0.0,
-            forces: S::forces(&scene.loads),
+            forces: S::forces(&scene.loads, h),
             load: zero::<S>(n),
             load_before: zero::<S>(n),
             mean: zero::<S>(n),
@@ -63,14 +63,14 @@ impl<S: Space> Body<S> {
     /// Takes the motion up anew at `time` (s).
     pub fn restart(&mut self, time: f64) {
         self.since = time;
-        S::force(&self.forces, time, &mut self.load);
+        S::force(&mut self.forces, time, &mut self.load);
     }
 
     /// Moves the loads on to `time` (s).
     #[inline]
     pub fn load_at(&mut self, time: f64) {
         std::mem::swap(&mut self.load, &mut self.load_before);
-        S::force(&self.forces, time, &mut self.load);
+        S::force(&mut self.forces, time, &mut self.load);
     }
 
     /// The θ-method's A = M + hθC + h²θ²K.

@@ -6,7 +6,7 @@ use super::space::{Solve, Space, indefinite};
 use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::qp::{self, Backend, Failure, Problem, Rhs, ScalarRow};
-use crate::scene::{Forcing, Load, Row, SharedStructure};
+use crate::scene::{Forcing, GridForcing, Load, Row, SharedStructure};
 
 /// Vectors of one number.
 #[derive(Debug, Clone)]
@@ -17,7 +17,7 @@ impl Space for Line {
     type Operator = f64;
     type Factor = f64;
     type Rows = ();
-    type Forces = Forcing;
+    type Forces = GridForcing;
     type Solver = Clamp;
 
     fn vector(values: &[f64]) -> [f64; 1] {
@@ -39,8 +39,8 @@ impl Space for Line {
 
     fn rows<'a>(_: usize, _: impl Iterator<Item = &'a Row>) {}
 
-    fn forces(loads: &[Load]) -> Forcing {
-        Forcing::on(0, loads)
+    fn forces(loads: &[Load], h: f64) -> GridForcing {
+        GridForcing::new(Forcing::on(0, loads), h)
     }
 
     #[inline]
@@ -64,8 +64,8 @@ impl Space for Line {
     }
 
     #[inline]
-    fn force(forces: &Forcing, time: f64, out: &mut [f64; 1]) {
-        out[0] = forces.force(time);
+    fn force(forces: &mut GridForcing, time: f64, out: &mut [f64; 1]) {
+        out[0] = forces.at(time);
     }
 }
 
@@ -73,6 +73,8 @@ impl Space for Line {
 #[derive(Debug)]
 pub(super) struct Clamp {
     a: f64,
+    /// 1/a.
+    inverse: f64,
     x: [f64; 1],
     rows: Vec<ScalarRow>,
     multiplier: Vec<f64>,
@@ -91,12 +93,12 @@ impl Solve<[f64; 1]> for Clamp {
             Backend::Auto | Backend::Clamp => None,
             Backend::Condensed | Backend::Clarabel => Some(Box::new(qp::Solver::new(problem, backend, scale)?)),
         };
-        Ok(Self { a, x: [0.0], rows, multiplier, met: false, other, solves: 0 })
+        Ok(Self { a, inverse: 1.0 / a, x: [0.0], rows, multiplier, met: false, other, solves: 0 })
     }
 
     #[inline]
     fn solve(&mut self, b: &[f64; 1], lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
-        let free = b[0] / self.a;
+        let free = b[0] * self.inverse;
         self.x[0] = free;
         // A free motion that is no number is for the state's check to refuse.
         self.met = lo.iter().zip(hi).any(|(&lo, &hi)| free < lo || free > hi);
@@ -105,7 +107,7 @@ impl Solve<[f64; 1]> for Clamp {
 
     #[inline]
     fn release(&mut self, b: &[f64; 1], _: &[f64], _: &[f64]) -> std::result::Result<(), Failure> {
-        self.x[0] = b[0] / self.a;
+        self.x[0] = b[0] * self.inverse;
         self.met = false;
         Ok(())
     }

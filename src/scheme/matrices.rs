@@ -38,7 +38,7 @@ impl Space for Matrices {
         Rows::new(n, rows.map(Row::entries))
     }
 
-    fn forces(loads: &[Load]) -> Loads {
+    fn forces(loads: &[Load], _: f64) -> Loads {
         Loads::new(loads)
     }
 
@@ -63,7 +63,7 @@ impl Space for Matrices {
     }
 
     #[inline]
-    fn force(forces: &Loads, time: f64, out: &mut Vec<f64>) {
+    fn force(forces: &mut Loads, time: f64, out: &mut Vec<f64>) {
         // All others are 0 since the beginning.
         for &(i, _) in forces.parts().iter().flat_map(|(row, _)| row.entries()) {
             if let Some(force) = out.get_mut(i) {

@@ -34,7 +34,7 @@ pub(super) trait Space: Debug + Sized + 'static {
     /// As [`Space::factor`].
     fn mass(structure: &SharedStructure) -> Result<Self::Factor>;
     fn rows<'a>(n: usize, rows: impl Iterator<Item = &'a Row>) -> Self::Rows;
-    fn forces(loads: &[Load]) -> Self::Forces;
+    fn forces(loads: &[Load], h: f64) -> Self::Forces;
 
     /// Adds `scale` · A x to `out`.
     fn add_product(a: &Self::Operator, scale: f64, x: &Self::Vector, out: &mut Self::Vector);
@@ -45,7 +45,7 @@ pub(super) trait Space: Debug + Sized + 'static {
     /// Adds `force` · gᵢᵀ to `out`.
     fn add_transposed(rows: &Self::Rows, i: usize, force: f64, out: &mut Self::Vector);
     /// Writes the loads at `time` (s) to `out`, N, which has held nothing else since it was 0.
-    fn force(forces: &Self::Forces, time: f64, out: &mut Self::Vector);
+    fn force(forces: &mut Self::Forces, time: f64, out: &mut Self::Vector);
 }
 
 /// Who minimises ½ xᵀA x − bᵀx over lᵢ ≤ gᵢ·x ≤ uᵢ, elastic rows yielding with a compliance.
