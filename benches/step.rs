@@ -77,7 +77,7 @@ fn by_sine(s: Source, h: f64) -> impl FnMut(u64) -> f64 {
 fn by_rotation(s: Source, h: f64) -> impl FnMut(u64) -> f64 {
     let ((turn_s, turn_c), (mut sin, mut cos)) = ((s.omega * h).sin_cos(), (0.0, 0.0));
     move |k| {
-        if k % 256 == 0 {
+        if k.is_multiple_of(256) {
             (sin, cos) = (s.omega * (k as f64 * h) + s.phase).sin_cos();
         } else {
             (sin, cos) = (sin * turn_c + cos * turn_s, cos * turn_c - sin * turn_s);

@@ -63,7 +63,7 @@ impl GridForcing {
     /// Force at `t` (s), N. At the instant after the last one asked for the sines turn on; at any other they are computed anew.
     #[inline]
     pub fn at(&mut self, t: f64) -> f64 {
-        if t == self.next as f64 * self.h && self.next % RESTART != 0 {
+        if t == self.next as f64 * self.h && !self.next.is_multiple_of(RESTART) {
             self.next += 1;
             self.phasors.iter_mut().for_each(Phasor::turn);
         } else {
