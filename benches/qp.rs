@@ -104,7 +104,7 @@ fn held(n: usize, count: usize) -> (Problem, Vec<Step>) {
     let g = Rows::new(n, unit.iter().map(|row| row.as_slice()));
     let problem = Problem { a: Symmetric::from_entries(n, chain), g, compliance: vec![0.0; n] };
     let push = |step: usize, i: usize| 1.0 + 1.05 * (0.05 * step as f64 + 0.9 * i as f64).sin();
-    let stop = |i: usize| if i % 2 == 0 { 0.0 } else { f64::INFINITY };
+    let stop = |i: usize| if i.is_multiple_of(2) { 0.0 } else { f64::INFINITY };
     let step = |step: usize| {
         let b = (0..n).map(|i| push(step, i)).collect();
         (b, vec![f64::NEG_INFINITY; n], (0..n).map(stop).collect())
