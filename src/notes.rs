@@ -48,7 +48,8 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) 
     }
     if run.scheme == Scheme::Newmark && !asked.is_empty() {
         notes.push(
-            "newmark is an exhibit: its restitution is between 1/3 and 3, by chance of the phase of each impact".into(),
+            "newmark is for demonstration: its restitution is between 1/3 and 3, depending on the phase of each impact"
+                .into(),
         );
     }
     if run.scheme == Scheme::ImplicitEuler && asked.iter().any(|&e| e > 0.0) {

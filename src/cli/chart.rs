@@ -32,14 +32,15 @@ Each error is dimensionless, and a column of work-precision.csv:
 Times are of stepping alone: the best of several, in turn, warm. The file of --with has the columns
 program,method,error_over_gap,seconds; benches/peers makes one.";
 
-/// The errors of the table of the cheapest.
+/// The errors for which the table names the cheapest methods.
 const TOLERANCES: [(f64, &str); 5] = [(0.1, "10 %"), (1e-2, "1 %"), (1e-3, "0.1 %"), (1e-6, "1e-6"), (1e-9, "1e-9")];
 
 /// Chart accuracy against speed: every method over a range of steps
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in case
+    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in
+    /// case
     #[arg(value_hint = clap::ValueHint::FilePath)]
     case: String,
     #[command(flatten)]
@@ -50,10 +51,11 @@ pub struct Args {
     /// Restitution of every rigid wall, 0 to 1
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     restitution: Option<f64>,
-    /// Coarsest and finest step, s [default: a sixteenth of the fastest period, and 1e6 steps, fewer for many degrees of freedom]
+    /// Coarsest and finest step, s [default: a sixteenth of the fastest period, and 1e6 steps,
+    /// fewer for many degrees of freedom]
     #[arg(long, value_name = "COARSE:FINE")]
     steps: Option<String>,
-    /// How many steps are tried in that range, at most; each a power of two finer than the last
+    /// Most steps tried in that range; each is finer than the last by a power of two
     #[arg(long, value_name = "N", default_value_t = 8)]
     levels: u32,
     /// Methods to chart [default: all of them, every penalty of the case with every integrator]
@@ -65,7 +67,7 @@ pub struct Args {
     /// Leave out runs that would take longer than this, s
     #[arg(long, value_name = "S", default_value_t = 1.0)]
     longest: f64,
-    /// Points of other programs to lay over the chart
+    /// Points of other programs to show on the chart
     #[arg(long, value_name = "FILE")]
     with: Option<PathBuf>,
     #[command(flatten)]
@@ -83,7 +85,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     };
     let effort = args.effort()?;
     let peers = args.with.as_deref().map(read).transpose()?.unwrap_or_default();
-    /// Resolution of the bar.
+    /// Resolution of the progress bar.
     const UNITS: f64 = 1000.0;
     let asked = with(
         asked("chart", &case, &methods),
@@ -120,7 +122,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     refuted.verdict()
 }
 
-/// The points that the judge has refuted: rows of the CSV that say so, and no points of the picture.
+/// The points that the judge has refuted: the CSV marks their rows, the picture does not show them.
 fn refutations(chart: &WorkPrecision) -> Refutations {
     let mut refuted = Refutations::default();
     for (series, point) in chart.series.iter().flat_map(|s| s.points.iter().map(move |p| (s, p))) {
@@ -168,7 +170,7 @@ impl Args {
     }
 }
 
-/// The first failure, if nothing ran.
+/// The first error, if no run succeeded.
 fn any_ran(chart: &WorkPrecision) -> Result<()> {
     let mut outcomes = chart.series.iter().flat_map(|s| s.points.iter().map(|p| &p.outcome));
     let failure = outcomes.clone().find_map(|o| if let Outcome::Failed(error) = o { Some(error) } else { None });
@@ -194,8 +196,9 @@ fn write(results: &mut Results, case: &Case, chart: &WorkPrecision, peers: &[Pee
     Ok(())
 }
 
-/// The table: for each error and tolerance the cheapest method of each kind, and of the other programs. A person is
-/// shown the exact scheme once, and of the other kinds the first tolerance that they do not reach; `--json` has all.
+/// The table: for each error and tolerance the cheapest method of each kind, and of the other
+/// programs. The terminal shows the exact scheme once, and of the other kinds tolerances down to
+/// the first that they do not reach; `--json` has all rows.
 fn cheapest(chart: &WorkPrecision, peers: &[Peer]) -> Vec<Best> {
     let mut rows = Vec::new();
     for quantity in Quantity::ALL {
@@ -245,7 +248,7 @@ struct Best {
     method: Option<Cheapest>,
 }
 
-/// What reaches a tolerance for the least time.
+/// The method that reaches a tolerance in the least time.
 struct Cheapest {
     name: String,
     short: String,
@@ -268,7 +271,7 @@ impl Best {
         })
     }
 
-    /// For a person; the exact scheme with the error that it has.
+    /// The row for the terminal; for the exact scheme it shows the error that it has.
     fn line(&self) -> Vec<String> {
         let within = match &self.method {
             Some(method) if self.exact => format!("{:.0e}", method.reached),
@@ -287,8 +290,8 @@ impl Best {
     }
 }
 
-/// The lines a person reads: of each error and kind those that are reached, and the first that is not; of the exact
-/// scheme one.
+/// The rows for the terminal: for each error and kind those that are reached, and the first that is
+/// not; for the exact scheme one row.
 fn worth_reading(rows: &[Best]) -> Vec<Vec<String>> {
     let mut lines: Vec<Vec<String>> = Vec::new();
     for group in rows.chunk_by(|a, b| a.quantity == b.quantity && a.kind == b.kind) {
@@ -312,7 +315,7 @@ fn report(case: &Case, chart: &WorkPrecision, ui: &Ui) {
     for floor in &chart.floors {
         match (&floor.reference, &floor.errors) {
             (Ok(own), Some(errors)) => ui.message(&format!(
-                "penalty {}: no step gets it below {:.1e} of the gap from the rigid walls; its own motion up to t = {:.4} s: {}, known to {:.1e}",
+                "penalty {}: no step reduces its error against the rigid walls below {:.1e} of the gap; its own motion up to t = {:.4} s: {}, known to {:.1e}",
                 floor.law, errors.displacement, floor.end, own.how, own.uncertainty.displacement
             )),
             (Err(error), _) => ui.message(&format!("penalty {}: no motion of its own to compare with: {error}", floor.law)),

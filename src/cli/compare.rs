@@ -1,4 +1,4 @@
-//! `signorini compare`: the main job.
+//! `signorini compare`: methods side by side, the main command.
 
 use super::drawing::Stretch;
 use super::noted;
@@ -34,7 +34,8 @@ Methods are written as in the table. Separate them by commas; where a method's o
 pub struct Args {
     #[command(flatten)]
     request: Request,
-    /// Methods to compare [default: the constrained QP, the same through Clarabel, every penalty of the case]; the exact one is always there
+    /// Methods to compare [default: the constrained QP, the same through Clarabel, every penalty of
+    /// the case]; the exact one is always included
     #[arg(long, value_name = "A,B,…", alias = "scheme", value_parser = values::schemes(), hide_possible_values = true)]
     schemes: Option<String>,
     /// Do not repeat the methods with half the step
@@ -60,11 +61,11 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         }
     };
     args.request.check_use(&methods)?;
-    // A stretch that makes no sense is refused before anything runs.
+    // A stretch outside the run is refused before anything runs.
     let span = args.stretch.span(&case, case.scene.duration)?;
     let request = with(asked("compare", &case, &methods), json!({ "verdict": !args.no_verdict }));
     let mut results = args.request.results(&case, "compare", request)?;
-    // The exact run stands among the methods asked for, or beside them.
+    // The exact run is among the methods asked for, or is added to them.
     let count = methods.iter().filter(|method| method.scheme != Scheme::Event).count() as f64 + 2.0;
     let checks = if args.no_verdict { 0.0 } else { (count - 1.0) * verdict::COST };
     let pace = Pace::of_all(&case.scene, &methods, case.time.step);
@@ -108,7 +109,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     refuted.verdict()
 }
 
-/// The rows that the judge has refuted, and the runs that checked them.
+/// The rows that the judge has refuted, and the refuted checks of these rows.
 fn refutations(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Refutations {
     let mut refuted = Refutations::default();
     for (row, verdict) in comparison.rows.iter().zip(verdicts) {
@@ -126,7 +127,7 @@ fn refutations(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Refutat
     refuted
 }
 
-/// The comparison as one document: what all methods share, then a row a method.
+/// The comparison as one JSON document: what all methods share, then one row per method.
 fn document(case: &Case, comparison: &Comparison, rows: Vec<Value>, results: &Results) -> Value {
     let document = json!({
         "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
@@ -144,10 +145,11 @@ fn document(case: &Case, comparison: &Comparison, rows: Vec<Value>, results: &Re
     super::run::with_folder(document, results)
 }
 
-/// Resolution of the bar.
+/// Resolution of the progress bar.
 const UNITS: f64 = 1000.0;
 
-/// Methods separated by semicolons, or by those commas that begin a new method rather than a setting.
+/// Methods separated by semicolons or commas; a comma before a setting (`integrator=trapezoidal`)
+/// belongs to the method before it.
 pub(super) fn split(list: &str) -> impl Iterator<Item = &str> {
     let by_semicolon = list.contains(';');
     let mut parts = Vec::new();

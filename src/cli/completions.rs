@@ -1,4 +1,4 @@
-//! `signorini completions`: for the shell.
+//! `signorini completions`: completion scripts for shells.
 
 use super::ui::Ui;
 use crate::error::Result;
@@ -12,7 +12,7 @@ pub struct Args {
     shell: Shell,
 }
 
-/// Completions for `command`, the whole tool.
+/// Prints completions for `command`, the whole tool.
 pub fn execute(args: &Args, mut command: clap::Command, ui: &Ui) -> Result<()> {
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut command, "signorini", &mut text);

@@ -1,4 +1,4 @@
-//! What the options say of a command's pictures.
+//! The options of a command's pictures.
 
 use super::values;
 use crate::case::Case;
@@ -18,7 +18,8 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// The stretch asked for; without `--to` up to `until` (s), or the end where that comes before the beginning.
+    /// The stretch asked for; without `--to` it ends at `until` (s), or at the end of the run where
+    /// `until` lies before its beginning.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a stretch that does not lie within the run.
@@ -37,7 +38,7 @@ impl Stretch {
     }
 }
 
-/// What pictures are written as.
+/// The file formats of pictures.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Formats {
     /// Write pictures as svg, pdf or png, or several of them [default: svg]
@@ -46,10 +47,10 @@ pub struct Formats {
 }
 
 impl Formats {
-    /// The formats asked for, each once; SVG where none is.
+    /// The formats asked for, without repetition; SVG if none is given.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for one that this build cannot write.
+    /// [`Error::Invalid`] for a format that this build cannot write.
     pub fn usable(&self) -> Result<Vec<Format>> {
         let mut formats = Vec::new();
         for format in &self.format {

@@ -1,4 +1,5 @@
-//! `signorini explain`: what would be chosen, and why, without running.
+//! `signorini explain`: which model, scheme and solver would be chosen, and why, without running
+//! the case.
 
 use super::pace::{Estimate, estimate, words};
 use super::request::Changes;
@@ -18,7 +19,8 @@ use std::time::Duration;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  signorini explain cases/rigid-walls-sine.toml")]
 pub struct Args {
-    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in case
+    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in
+    /// case
     #[arg(value_hint = clap::ValueHint::FilePath)]
     case: String,
     #[command(flatten)]
@@ -28,10 +30,10 @@ pub struct Args {
     modes: Option<usize>,
 }
 
-/// A moment of a run is enough to tell how long all of it takes.
+/// Time for which a run is stepped to estimate its duration.
 const MOMENT: Duration = Duration::from_millis(50);
 
-/// What is explained under one heading.
+/// One heading of the explanation and its lines.
 struct Section {
     heading: &'static str,
     lines: Vec<String>,
@@ -97,7 +99,7 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     Ok(sections)
 }
 
-/// What is explained, as one document.
+/// The explanation as one JSON document.
 fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<&Estimate>) -> Result<Value> {
     let h = case.time.step;
     let [slowest, fastest] = case.scene.system.frequencies().map(|omega| omega / TAU);
@@ -144,14 +146,14 @@ fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     }))
 }
 
-/// What is worth saying of the step and the scene before anything runs.
+/// Notes on the step and the scene that need no run.
 fn setup(case: &Case, choice: &Choice) -> Vec<String> {
     let mut said = notes::setup(&case.scene, &choice.method.scheme, case.time.step);
     said.extend(notes::resting(&case.scene));
     said
 }
 
-/// About so long, by a moment of it.
+/// The duration of a run in words, estimated from a short piece of it.
 fn duration(estimate: &Estimate) -> String {
     match estimate.seconds.is_finite() {
         true => format!("about {} of stepping", words(estimate.seconds)),
@@ -167,7 +169,7 @@ fn masses(case: &Case) -> Vec<f64> {
     case.scene.wall_masses()
 }
 
-/// The step against the fastest motion, and against each elastic wall.
+/// The step compared with the fastest motion, and with each elastic wall.
 fn step(case: &Case) -> Vec<String> {
     let [_, omega] = case.scene.system.frequencies();
     let h = case.time.step;
@@ -181,7 +183,7 @@ fn step(case: &Case) -> Vec<String> {
     lines
 }
 
-/// A penalty of the case and how well its step resolves it.
+/// A penalty of the case, and how well its step resolves it.
 struct Penalty {
     law: PenaltyLaw,
     integrator: Integrator,
@@ -217,10 +219,10 @@ impl Penalty {
     }
 }
 
-/// Most walls that are told one by one.
+/// Most walls that are listed one by one.
 const MOST_WALLS: usize = 12;
 
-/// What the file says a structure is, and what it is cut to; nothing for an oscillator.
+/// The structure as the file describes it, and its reduction; nothing for an oscillator.
 fn what(case: &Case) -> Vec<String> {
     let what = match &case.model {
         Model::Oscillator => return Vec::new(),
@@ -252,7 +254,8 @@ fn what(case: &Case) -> Vec<String> {
     lines
 }
 
-/// Each wall, where it sits and what a truncation leaves of the structure there.
+/// Each wall, its location, and the share of the structure's compliance there that a truncation
+/// keeps.
 fn walls(case: &Case) -> Vec<String> {
     let mut lines = choice::walls(&case.scene);
     for (index, line) in lines.iter_mut().enumerate() {

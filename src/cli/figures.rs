@@ -30,14 +30,14 @@ pub struct Args {
     formats: Formats,
 }
 
-/// What stands in one figure of the source: its number, the case, and whether it is the contact force alone.
+/// One figure of the source: its number, the case, and its content.
 struct Plate {
     number: u32,
     case: &'static str,
     content: Content,
 }
 
-/// What a plate draws.
+/// What a figure of the source shows.
 #[derive(Clone, Copy, PartialEq)]
 enum Content {
     /// Displacement, velocity and phase plot of the constrained QP over the exact motion.
@@ -46,7 +46,7 @@ enum Content {
     Penalties,
     /// Displacement over the 50-digit reference values.
     Independent,
-    /// Contact force in time.
+    /// Contact force over time.
     Force,
 }
 
@@ -61,13 +61,14 @@ const PLATES: [Plate; 8] = [
     Plate { number: 9, case: "elastic-wall", content: Content::Force },
 ];
 
-/// Time shown, s: enough periods to see, few enough to tell apart.
+/// Time shown, s: enough periods to see the motion, few enough to tell them apart.
 const SHOWN: f64 = 2.0;
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let request = json!({ "command": "figures" }).as_object().cloned().unwrap_or_default();
     let mut results = Results::open(&args.out, request, args.force, args.formats.usable()?)?;
-    // One look a method in all figures: its place in the order in which methods first appear.
+    // Each method has one look in all figures: its index in the order in which methods first
+    // appear.
     let mut known = Vec::new();
     let mut refuted = Refutations::default();
     for plate in &PLATES {
@@ -137,7 +138,7 @@ impl Plate {
     }
 }
 
-/// Where a label stands among those `known`; a new one is added.
+/// Index of a label in `known`; a new label is appended.
 fn place(known: &mut Vec<String>, label: &str) -> usize {
     let found = known.iter().position(|other| other == label);
     found.unwrap_or_else(|| {
@@ -146,7 +147,7 @@ fn place(known: &mut Vec<String>, label: &str) -> usize {
     })
 }
 
-/// The method without what all of a figure's penalties share.
+/// The method's name without what all penalties of a figure share.
 fn label(method: &Method, integrator: crate::scheme::Integrator) -> String {
     let text = method.to_string().replace(&format!(",integrator={integrator}"), "");
     if method.scheme == Scheme::Event { "event (exact)".into() } else { text }
@@ -165,7 +166,7 @@ fn independent(case: &Case, title: &str, labels: &[String], runs: &[Run], known:
         cause: None,
     })?;
     let shown = points.into_iter().filter(|p| p.0 <= case.scene.duration);
-    // A point that cannot be drawn between two that can leaves markers without a line.
+    // NaN between any two points leaves markers without a line.
     let shown = shown.flat_map(|(t, u)| [(t, 1e3 * u), (t, f64::NAN)]);
     panel = panel.curve(Curve::new("50-digit reference", shown).marked().look(place(known, "50-digit reference")));
     for wall in &case.scene.walls {

@@ -7,7 +7,7 @@ use crate::sweep::{Merged, merge, write_summary};
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Put the shards of a sweep together: the tables of the sweep that was never divided
+/// Join the shards of a sweep: gives the same tables as the sweep that was not divided
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  signorini merge out/bifurcation/sweep --out out/bifurcation/whole")]
 pub struct Args {

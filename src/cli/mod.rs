@@ -42,11 +42,12 @@ A name stands for the file of that name, then for NAME.toml, then for the built-
 
 Exit codes: 0 done, 1 the run failed or its answer could not be written, 2 the request was wrong.";
 
-/// Vibrating structures between walls: contact forces by one convex QP per time step, by penalty, and exactly.
+/// Vibrating structures between walls: contact forces by one convex QP per time step, by penalty,
+/// and exactly.
 #[derive(Debug, Parser)]
 #[command(name = "signorini", version, about, after_help = EXAMPLES, arg_required_else_help = true)]
 struct Cli {
-    /// Say nothing but errors and results
+    /// Print only errors and results
     #[arg(long, short, global = true)]
     quiet: bool,
     /// Print one JSON document instead of tables and text
@@ -70,8 +71,8 @@ enum Command {
     Completions(completions::Args),
 }
 
-/// Runs the tool on the process's arguments: data to stdout, messages to stderr. A stderr that is closed leaves nobody
-/// to tell, and changes nothing else; an answer without a stdout is a failure.
+/// Runs the tool on the process's arguments: data to stdout, messages to stderr. If stderr is
+/// closed, messages are dropped and nothing else changes; if stdout is closed, the command fails.
 #[must_use]
 pub fn main(stdout: Stdout) -> ExitCode {
     let cli = match Cli::try_parse() {
@@ -88,8 +89,8 @@ pub fn main(stdout: Stdout) -> ExitCode {
     }
 }
 
-/// Prints what clap has to say, and exits as the tool does: 0 after --help and --version, 2 after a wrong request, 1 where it cannot be
-/// written. A reader of a pipe who has read enough is no failure.
+/// Prints clap's text and exits as the tool does: 0 after --help and --version, 2 after a wrong
+/// request, 1 if the text cannot be written. A reader that closes a pipe early is not an error.
 fn answer(text: &clap::Error, stdout: Stdout) -> ExitCode {
     let printed = if text.use_stderr() { text.print() } else { stdout.check().and_then(|()| text.print()) };
     match printed {
@@ -116,7 +117,7 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
     }
 }
 
-/// The tool's command, for the completions.
+/// The tool's command, for shell completions.
 fn command() -> clap::Command {
     <Cli as clap::CommandFactory>::command()
 }
@@ -128,7 +129,8 @@ mod tests {
     use crate::scene::counted as checked;
     use clap::Parser;
 
-    /// How often `signorini run CASE --no-verdict` checks a scene, and the sizes of the matrices that it factors.
+    /// How often `signorini run CASE --no-verdict` checks a scene, and the sizes of the matrices
+    /// that it factors.
     fn counted(case: &str) -> (usize, Vec<usize>) {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("out").display().to_string();
@@ -140,13 +142,15 @@ mod tests {
         (checked::take(), factored::take())
     }
 
-    /// A matrix is factored once, however many ask for it: M, C and K where the scene is checked, K + σM for the slowest frequency, and the
-    /// matrix of a step. Scenes are checked where they are read, where the command line has changed them, and where they are run.
+    /// Each matrix is factored once, however many users it has: M, C and K where the scene is
+    /// checked, K + σM for the slowest frequency, and the matrix of a step. A scene is checked
+    /// where it is read, where the command line has changed it, and where it is run.
     #[test]
     fn a_run_checks_its_scene_and_factors_its_matrices_once() {
         assert_eq!(counted("chain-200"), (2, vec![200; 5]));
-        // The whole tube: M, C and K; twice what finding its modes takes, and their remainder. The modes: the same as of the chain, and a
-        // step on them twice, once to say how long the run will take.
+        // The whole tube: M, C and K; two factors to find its modes, and one for the static
+        // remainder. The reduced scene: the same as for the chain, and the matrix of a step twice,
+        // once to estimate how long the run will take.
         let [whole, modes] = [120, 20].map(|n| vec![n; 6]);
         assert_eq!(counted("tube-loose-supports"), (4, [whole, modes].concat()));
     }

@@ -1,4 +1,4 @@
-//! `signorini new`: a case file to start from.
+//! `signorini new`: writes a case file to start from.
 
 use super::ui::Ui;
 use super::values;
@@ -18,7 +18,7 @@ pub struct Args {
     /// File to write [default: NAME.toml here]; the tables a case reads go beside it
     #[arg(long, value_name = "FILE", value_hint = clap::ValueHint::FilePath)]
     out: Option<PathBuf>,
-    /// Replace files that are there
+    /// Replace existing files
     #[arg(long)]
     force: bool,
 }

@@ -1,8 +1,8 @@
-//! The notes of a comparison's runs, each once.
+//! The notes of a comparison's runs, each listed once.
 
 use crate::study::compare::Comparison;
 
-/// Every note of the rows with the methods that have it.
+/// Every note of the rows, with the methods it applies to.
 pub(super) fn of_rows(comparison: &Comparison) -> Vec<String> {
     let runs =
         comparison.rows.iter().filter_map(|row| Some((row.method.to_string(), &row.outcome.as_ref().ok()?.notes)));

@@ -1,4 +1,4 @@
-//! How long a run will take, and what sets it.
+//! Estimates how long a run will take, and says what decides it.
 
 use crate::scene::{LoadKind, Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
@@ -9,56 +9,56 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
-/// Shorter remainders are not worth a line.
+/// Seconds: a shorter remainder is not reported.
 const WORTH_SAYING: f64 = 2.0;
 
-/// A share below this says nothing of the rest.
+/// A finished share below this is too small to extrapolate from.
 const SEEN: f64 = 1e-12;
 
-/// Steps or stretches that a moment's estimate makes at most between two looks at the clock, in periods of the fastest
-/// motion of one degree of freedom: the exact scheme looks through every one of them for a contact.
+/// Most periods of the fastest motion that an estimate of one degree of freedom steps before it
+/// looks at the clock again: the exact scheme searches each of them for a contact.
 const PERIODS_A_LOOK: f64 = 1e3;
 
-/// How long a run is tried where nothing of the work has come back yet.
+/// How long a run is tried where no part of the work has finished yet.
 const TRIAL: Duration = Duration::from_millis(300);
 
-/// More degrees of freedom take more than a moment to set up: they are not tried beside the run itself, and what is not
-/// known after this long is said not to be.
+/// Structures with more degrees of freedom take too long to set up and are not tried beside the run
+/// itself; after [`UNKNOWN`] seconds the tool says that the duration is not known.
 const FEW: usize = 2000;
 const UNKNOWN: f64 = 10.0;
 
-/// What the pace of a run follows from, in words.
+/// What the duration of the work depends on.
 #[derive(Debug, Clone)]
 pub struct Pace {
-    /// Of all of the run: `200000 steps of 5e-5 s`.
+    /// Description of all steps, such as `200000 steps of 5e-5 s`.
     cause: String,
-    /// Runs whose cost tells that of the whole as long as nothing of it is done.
+    /// Runs from whose cost the duration is estimated while no share of the work is done.
     parts: Vec<Part>,
 }
 
-/// A run that the work consists of, or has among others.
+/// A run of the work, or one of several kinds of runs in it.
 #[derive(Debug, Clone)]
 struct Part {
     scene: Scene,
     method: Method,
     step: f64,
-    /// How many such runs there are, or as many as those that cost the same.
+    /// Number of such runs, or of runs that cost the same in all.
     runs: f64,
-    /// What stands before the time that all of them take, and after it.
+    /// Words before and after the time that these runs take together.
     words: [&'static str; 2],
 }
 
-/// What a moment of a run told about all of it.
+/// Estimate from a short piece of a run.
 #[derive(Debug, Clone)]
 pub struct Estimate {
-    /// Of the whole run, s of wall-clock time.
+    /// Wall-clock time of the whole run, s.
     pub seconds: f64,
-    /// What sets that.
+    /// What decides that time.
     pub cause: String,
 }
 
 impl Pace {
-    /// What sets the pace of `method` on `scene` with steps of `step` seconds.
+    /// The pace of `method` on `scene` with steps of `step` seconds.
     #[must_use]
     pub fn of(scene: &Scene, method: &Method, step: f64) -> Self {
         let cause = if method.scheme == Scheme::Event {
@@ -87,14 +87,14 @@ impl Pace {
         Self { cause, parts: vec![part] }
     }
 
-    /// The same of work that takes `runs` such runs.
+    /// The same for work that consists of `runs` such runs.
     #[must_use]
     pub fn times(mut self, runs: f64) -> Self {
         self.parts.iter_mut().for_each(|part| part.runs *= runs);
         self
     }
 
-    /// The same of a comparison of `methods` with each other and with the exact scheme.
+    /// The pace of a comparison of `methods` with each other and with the exact scheme.
     #[must_use]
     pub fn of_all(scene: &Scene, methods: &[Method], step: f64) -> Self {
         let exact = Self::of(scene, &Method::new(Scheme::Event), step);
@@ -107,8 +107,9 @@ impl Pace {
         Self { cause, ..exact.each() }
     }
 
-    /// The same of a search for the error that `method`, if one is asked for, makes in `most_steps` at most: the exact
-    /// motion some times, and steps halved until they are enough.
+    /// The pace of a search for an error, by `method` if one is asked for, with at most
+    /// `most_steps` steps: the exact motion several times, and steps halved until the error is
+    /// kept.
     #[must_use]
     pub fn of_search(scene: &Scene, method: Option<Method>, step: f64, most_steps: u64) -> Self {
         let exact = Self::of(scene, &Method::new(Scheme::Event), step).each();
@@ -117,14 +118,17 @@ impl Pace {
         let cause =
             format!("{}; steps are halved until there are {:.1e} of them at most", exact.cause, most_steps as f64);
         let mut parts = exact.parts;
-        // A run costs about as much again to record and judge; those before the finest are as much as it.
+        // Recording and judging cost about as much as stepping; all coarser runs together cost as
+        // much as the finest.
         parts.extend(finest.parts.into_iter().map(|part| Part { runs: 4.0, words: ["at most about", "more"], ..part }));
-        // The exact motion of many is given up after a second or so, where it has too many events.
+        // The exact motion of a structure is given up after about a second if it has too many
+        // events.
         parts.retain(|part| part.method.scheme != Scheme::Event || matches!(scene.system, System::Oscillator(_)));
         Self { cause, parts }
     }
 
-    /// The same of a chart of `methods`, each at some steps, none of which may take longer than `longest` (s).
+    /// The pace of a chart of `methods`, each at several steps, where no run may take longer than
+    /// `longest` (s).
     #[must_use]
     pub fn of_chart(scene: &Scene, methods: &[Method], levels: u32, longest: f64) -> Self {
         let exact = Self::of(scene, &Method::new(Scheme::Event), scene.duration).each();
@@ -136,7 +140,8 @@ impl Pace {
         Self { cause, parts: exact.parts }
     }
 
-    /// The same of the energy and the lasting contacts of `runs` runs of about one cost, beside the exact motion.
+    /// The pace of the study of energy and lasting contacts: `runs` runs of about equal cost, and
+    /// the exact motion.
     #[must_use]
     pub fn of_contacts(scene: &Scene, step: f64, runs: f64) -> Self {
         let moreau = Method::new(Scheme::MoreauJean { theta: 0.5 });
@@ -145,7 +150,7 @@ impl Pace {
         Self { cause, parts }
     }
 
-    /// The same of maps of `rows` rows and `work` steps in all.
+    /// The pace of maps with `rows` rows and `work` steps in all.
     #[must_use]
     pub fn of_maps(scene: &Scene, work: u64, rows: usize) -> Self {
         let n = scene.system.degrees_of_freedom();
@@ -158,13 +163,13 @@ impl Pace {
         Self { cause, parts: Vec::new() }
     }
 
-    /// Where each of the runs costs so much by itself, and their number is not known.
+    /// For work whose number of runs is not known, each of which may take long.
     fn each(mut self) -> Self {
         self.parts.iter_mut().for_each(|part| part.words = ["about", "for each run of the exact motion"]);
         self
     }
 
-    /// The line that is said once `elapsed` has gone by and `share` of the work is done; none where it is over soon.
+    /// The message after `elapsed`, with `share` of the work done; `None` if the work ends soon.
     #[must_use]
     pub(super) fn line(&self, elapsed: Duration, share: f64) -> Option<String> {
         let elapsed = elapsed.as_secs_f64();
@@ -175,7 +180,8 @@ impl Pace {
             let left = elapsed * (1.0 - share) / share;
             return (left >= WORTH_SAYING).then(|| format!("about {} more: {}", words(left), self.cause));
         }
-        // Nothing has come back: a step that takes longer than this, or the work before the first.
+        // No part of the work has finished: either a single step takes this long, or the work
+        // before the first step does.
         let (tried, untried): (Vec<&Part>, Vec<&Part>) =
             self.parts.iter().partition(|part| part.scene.system.degrees_of_freedom() <= FEW);
         let line = |part: &Part| {
@@ -194,16 +200,18 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Says how long work takes, from a thread beside it: a single step may take longer than all else. It ends with the work.
+/// Reports how long work takes, from a separate thread, since a single step may take longer than
+/// all the rest. It ends with the work.
 #[derive(Debug)]
 pub struct Watch {
     done: Arc<AtomicU64>,
-    /// Closed when the work is over.
+    /// Dropped when the work is over, which closes the channel.
     _over: Sender<()>,
 }
 
 impl Watch {
-    /// Watches work that begins now; `say` is called once, after `patience` or as much later as there is something to say.
+    /// Watches work that begins now; `say` is called once, after `patience` or as soon afterwards
+    /// as an estimate exists.
     #[must_use]
     pub fn new(pace: Pace, patience: Duration, say: impl Fn(&str) + Send + 'static) -> Self {
         let (over, ended) = channel::<()>();
@@ -215,7 +223,7 @@ impl Watch {
             while ended.recv_timeout(pause) == Err(RecvTimeoutError::Timeout) {
                 let share = || f64::from_bits(share.load(Ordering::Relaxed));
                 let line = pace.line(started.elapsed(), share());
-                // It may have ended while the line was worked out.
+                // The work may have ended while the message was computed.
                 let over = ended.try_recv() == Err(TryRecvError::Disconnected);
                 if let (Some(line), false) = (line, over) {
                     return say(&line);
@@ -223,20 +231,21 @@ impl Watch {
                 pause = started.elapsed();
             }
         };
-        // Without a thread there is no line, and the work goes on.
+        // If no thread can be started, there is no message, and the work continues.
         let _ = std::thread::Builder::new().name("pace".to_owned()).spawn(watch);
         Self { done, _over: over }
     }
 
-    /// Tells which share of the work is done.
+    /// Sets the share of the work that is done.
     pub fn share(&self, share: f64) {
         self.done.store(share.to_bits(), Ordering::Relaxed);
     }
 }
 
-/// Steps `scene` by `method` for at most `patience` and tells from that how long all of it takes; none where it cannot
-/// even start. Recording and judging are not in it: they cost about as much again. The exact scheme of one degree of freedom is
-/// stopped every thousand periods, whatever `step`: between contacts it may have to look through any number of them.
+/// Steps `scene` by `method` for at most `patience`, and estimates from that how long the whole run
+/// takes; `None` if it cannot start. Recording and judging are not included: they cost about as
+/// much again. The exact scheme of one degree of freedom is stopped every thousand periods,
+/// whatever `step` is, since between two contacts it may have to search any number of periods.
 #[must_use]
 pub fn estimate(scene: &Scene, method: &Method, step: f64, patience: Duration) -> Option<Estimate> {
     let started = Instant::now();
@@ -250,7 +259,7 @@ pub fn estimate(scene: &Scene, method: &Method, step: f64, patience: Duration) -
     let stepping = Instant::now();
     let mut time = 0.0;
     while time < scene.duration && stepping.elapsed() < patience {
-        // Few looks at the clock where steps take nanoseconds.
+        // The clock is read rarely, since a step may take nanoseconds.
         for _ in 0..if exact { 1 } else { 64 } {
             time = stepper.step().ok()?.end;
         }
@@ -260,7 +269,7 @@ pub fn estimate(scene: &Scene, method: &Method, step: f64, patience: Duration) -
     Some(Estimate { seconds, cause: Pace::of(scene, method, step).cause })
 }
 
-/// The fastest angular frequency that the exact scheme follows, rad/s, and what it belongs to.
+/// The fastest angular frequency that the exact scheme follows, rad/s, and its origin.
 fn fastest(scene: &Scene) -> (f64, String) {
     let [_, mode] = scene.system.frequencies();
     let harmonic = |kind: &LoadKind| match kind {
@@ -276,7 +285,7 @@ fn fastest(scene: &Scene) -> (f64, String) {
     }
 }
 
-/// A time in the words of people: `3.2 s`, `4 min`, `7.5 h`, `12 days`, `3e4 years`.
+/// A time in words: `3.2 s`, `4 min`, `7.5 h`, `12 days`, `3e4 years`.
 #[must_use]
 pub fn words(seconds: f64) -> String {
     const MINUTE: f64 = 60.0;
@@ -318,8 +327,8 @@ mod tests {
         assert!(pace.line(second, 0.9).is_none() && pace.line(second, 1.0).is_none());
     }
 
-    /// One degree of freedom at 100 THz before a wall that it does not reach: a single step of the exact scheme is the
-    /// whole run, and takes hours.
+    /// One degree of freedom at 100 THz, with a wall that it does not reach: the whole run is a
+    /// single step of the exact scheme, which takes hours.
     fn stiff() -> Scene {
         let scene = Scene::oscillator(1.0, 0.0, 4e29).with_wall(Wall::upper("stop", 1.0)).with_duration(10.0);
         scene.with_load(Load::harmonic(1.0, 25.0, 0.0))
@@ -342,13 +351,14 @@ mod tests {
             assert!(line.contains("for each run of the exact motion: ") && line.contains("the fastest mode"), "{line}");
             assert!(["h for", "days", "years"].iter().any(|unit| line.contains(unit)), "{line}");
         }
-        // A scene that is over in a moment is worth no line.
+        // A run of a moment gets no message.
         let soon = Scene::oscillator(1.0, 0.0, 100.0).with_wall(Wall::upper("stop", 1.0));
         assert_eq!(Pace::of(&soon, &event, 1e-4).line(second, 0.0), None);
-        // Where the steps of the finest run are what costs.
+        // Where the steps of the finest run decide.
         let many = of(Pace::of_search(&soon, Some(moreau), 1e-4, 10_000_000_000));
         assert!(many.starts_with("at most about ") && many.contains("1.0e10 of them at most"), "{many}");
-        // Twice as many runs take about twice as long: both are trials, so within a factor of some.
+        // Twice as many runs take about twice as long: both are measured, so only within a small
+        // factor.
         let seconds = |runs: f64| {
             let pace = Pace::of(&stiff(), &moreau, 1e-9).times(runs);
             let part = &pace.parts[0];
@@ -371,7 +381,7 @@ mod tests {
         long.share(1e-6);
         let line = lines.recv_timeout(Duration::from_secs(60)).unwrap();
         assert!(line.ends_with(": reasons"), "{line}");
-        // The thread has gone, and with it the other end.
+        // The thread has ended, and with it the channel.
         assert!(lines.recv().is_err());
     }
 }

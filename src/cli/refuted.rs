@@ -1,10 +1,11 @@
-//! Runs that the judge has refuted: said first, and the command fails once its results are written.
+//! Runs that the judge has refuted: they are reported first, and the command fails after writing
+//! its results.
 
 use super::ui::Ui;
 use crate::error::{Error, Result};
 use crate::residual::Finding;
 
-/// What a command has made that was refuted.
+/// The refuted runs of a command.
 #[derive(Debug, Default)]
 pub struct Refutations {
     runs: Vec<String>,
@@ -12,7 +13,7 @@ pub struct Refutations {
 }
 
 impl Refutations {
-    /// Takes in a run by what it is called.
+    /// Adds the findings of a run, under the name `run`.
     pub fn see(&mut self, run: &str, findings: &[Finding]) {
         if findings.is_empty() {
             return;
@@ -21,7 +22,7 @@ impl Refutations {
         self.lines.extend(findings.iter().map(|finding| format!("refuted: {run}: {finding}")));
     }
 
-    /// Takes in a run that was refuted where it was made.
+    /// Adds a run that was refuted where it was made.
     pub fn see_error(&mut self, run: &str, error: &Error) {
         if let Error::Refuted { runs } = error {
             self.runs.push(run.to_owned());
@@ -29,20 +30,20 @@ impl Refutations {
         }
     }
 
-    /// Adds those of another part of the command, which has announced them.
+    /// Adds the refuted runs of another part of the command, which has announced them.
     pub fn join(&mut self, other: Self) {
         self.runs.extend(other.runs);
         self.lines.extend(other.lines);
     }
 
-    /// Says so before anything else is said, quiet or not.
+    /// Prints them before any other message, also with `--quiet`.
     pub fn announce(&self, ui: &Ui) {
         for line in &self.lines {
             ui.alarm(line);
         }
     }
 
-    /// The command's end.
+    /// The result of the command.
     ///
     /// # Errors
     /// [`Error::Refuted`] if any run was refuted.

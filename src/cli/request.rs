@@ -1,4 +1,4 @@
-//! The case a command is about, and what the command line changes of it.
+//! The case of a command, and the changes by the command line.
 
 use super::drawing::Formats;
 use super::ui::Ui;
@@ -12,10 +12,11 @@ use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
 use serde_json::{Map, Value};
 use std::path::{Path, PathBuf};
 
-/// What `run` and `compare` share.
+/// Arguments common to `run` and `compare`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Request {
-    /// Case file, summary.json of a run, or the name of a built-in case; a file is taken before a built-in case
+    /// Case file, summary.json of a run, or the name of a built-in case; a file is taken before a
+    /// built-in case
     #[arg(value_hint = clap::ValueHint::FilePath)]
     pub case: String,
     /// What of the case is changed by its keys
@@ -30,7 +31,8 @@ pub struct Request {
     /// Spacing of the recorded rows, s
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub sample: Option<f64>,
-    /// Stretch over which forces of rigid walls are averaged before their RMS is taken, s [default: the case's, or 1e-3]
+    /// Stretch over which forces of rigid walls are averaged before their RMS is taken, s [default:
+    /// the case's, or 1e-3]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub force_averaging: Option<f64>,
     /// Restitution of every rigid wall, 0 to 1
@@ -51,7 +53,8 @@ pub struct Request {
     /// ρ∞ of generalized-alpha, 0 to 1
     #[arg(long, value_name = "ρ", allow_hyphen_values = true)]
     pub rho: Option<f64>,
-    /// Integrator of the penalty: trapezoidal, implicit-euler, central-difference, discrete-gradient
+    /// Integrator of the penalty: trapezoidal, implicit-euler, central-difference,
+    /// discrete-gradient
     #[arg(long, value_name = "NAME", value_parser = values::integrators(), hide_possible_values = true)]
     pub integrator: Option<Integrator>,
     /// Where the results go
@@ -59,7 +62,7 @@ pub struct Request {
     pub place: Destination,
 }
 
-/// Where results go, and what their pictures are written as.
+/// Where results are written, and the formats of their pictures.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Destination {
     /// Folder for the results [default: out/CASE/COMMAND]
@@ -74,8 +77,8 @@ pub struct Destination {
 }
 
 impl Destination {
-    /// The folder of what `command` makes of `case`: `--out`, or `out/CASE/COMMAND`. It is checked that it can be written and holds no
-    /// results of another request than `request`.
+    /// The folder for the results of `command` on `case`: `--out`, or `out/CASE/COMMAND`. It must
+    /// be writable and must not hold results of another request than `request`.
     ///
     /// # Errors
     /// As [`Results::open`]; [`Error::Invalid`] for a format that this build cannot write.
@@ -85,15 +88,16 @@ impl Destination {
     }
 }
 
-/// The file of the case that `name` asks for: the file of that name; else, for a name without an extension, the file NAME.toml here; else
-/// the built-in case of that name. Says which it took wherever a built-in case bears the name, too.
+/// Finds the case `name`: the file of that name; else, for a name without an extension, the file
+/// NAME.toml in the current folder; else the built-in case of that name. Says which it took
+/// wherever there is a built-in case of that name.
 ///
 /// # Errors
 /// As [`CaseFile::read`].
 pub fn case_file(name: &str, ui: &Ui) -> Result<CaseFile> {
     let file = Path::new(name);
     let beside = PathBuf::from(format!("{name}.toml"));
-    // `..` and `.toml` have an extension of their own or none to add.
+    // `..` and `.toml` do not get an extension.
     let bare = !name.is_empty() && file.extension().is_none() && file.file_name().is_some();
     let built_in = Embedded::named(name);
     let taken = match &built_in {
@@ -112,24 +116,25 @@ pub fn case_file(name: &str, ui: &Ui) -> Result<CaseFile> {
     CaseFile::read(taken)
 }
 
-/// Values of the case that the command line sets by their keys.
+/// Values of the case that the command line changes by their keys.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Changes {
-    /// Set a value of the case by its key, such as wall.upper.position=6e-3, load.1.harmonic.frequency=4, wall.*.restitution=0.8; may be given
-    /// several times
+    /// Set a value of the case by its key, such as wall.upper.position=6e-3,
+    /// load.1.harmonic.frequency=4, wall.*.restitution=0.8; may be given several times
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
 }
 
 impl Changes {
-    /// The file of the case that `name` asks for, as [`case_file`] finds it, with the values set.
+    /// The file of the case `name`, found by [`case_file`], with the values set.
     ///
     /// # Errors
-    /// As [`case_file`] and [`CaseFile::set`]; [`Error::Invalid`] for what is no KEY=VALUE.
+    /// As [`case_file`] and [`CaseFile::set`]; [`Error::Invalid`] for an argument that is not
+    /// KEY=VALUE.
     pub fn case_file(&self, name: &str, ui: &Ui) -> Result<CaseFile> {
         let mut file = case_file(name, ui)?;
         if !self.set.is_empty() {
-            // What is wrong with the file itself is shown in its own lines.
+            // Errors of the file itself are shown with its own lines, before any change.
             file.case()?;
         }
         for (key, value) in self.pairs()? {
@@ -138,10 +143,10 @@ impl Changes {
         Ok(file)
     }
 
-    /// The keys and values, as they were given.
+    /// The keys and values as they were given.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for what is no KEY=VALUE.
+    /// [`Error::Invalid`] for an argument that is not KEY=VALUE.
     pub fn pairs(&self) -> Result<Vec<(String, KeyValue)>> {
         let pair = |text: &String| {
             let expected = "KEY=VALUE, such as wall.upper.position=6e-3";
@@ -160,10 +165,10 @@ impl Changes {
         self.case_file(name, ui)?.case()
     }
 
-    /// The same, with another restitution at every rigid wall, checked.
+    /// The same case with another restitution at every rigid wall, checked.
     ///
     /// # Errors
-    /// As [`Changes::case`], and [`Error::Invalid`] for a restitution that makes no sense.
+    /// As [`Changes::case`], and [`Error::Invalid`] for an invalid restitution.
     pub fn case_with_restitution(&self, name: &str, restitution: Option<f64>, ui: &Ui) -> Result<Case> {
         let mut case = self.case(name, ui)?;
         set_restitution(&mut case, restitution)?;
@@ -192,7 +197,7 @@ impl Request {
     /// The case with the command line's changes, checked.
     ///
     /// # Errors
-    /// As [`Changes::case`], and [`Error::Invalid`] for a change that makes no sense.
+    /// As [`Changes::case`], and [`Error::Invalid`] for an invalid change.
     pub fn case(&self, ui: &Ui) -> Result<Case> {
         let read = self.changes.case(&self.case, ui)?;
         let mut case = read.clone();
@@ -217,17 +222,18 @@ impl Request {
         if self.integrator.is_some() {
             case.penalty.integrator = self.integrator;
         }
-        // What was read is sound.
+        // A case that was only read has been checked already.
         if case != read {
             case.validate()?;
         }
         Ok(case)
     }
 
-    /// The method that the word `name` asks for: settings it leaves open come from the command line and the case.
+    /// The method named `name`; settings that it leaves open come from the command line and the
+    /// case.
     ///
     /// # Errors
-    /// [`Error::Unknown`] or [`Error::Invalid`] for a word that names none.
+    /// [`Error::Unknown`] or [`Error::Invalid`] for a name that is not a method.
     pub fn method(&self, name: &str, case: &Case) -> Result<Method> {
         let name = name.trim();
         self.check_against(name)?;
@@ -251,7 +257,7 @@ impl Request {
         Ok(method)
     }
 
-    /// Refuses an option beside a method that says the same thing itself.
+    /// Refuses an option that the name of the method sets as well.
     fn check_against(&self, name: &str) -> Result<()> {
         let given = |key: &str| name.split([':', ',']).any(|part| part.trim().starts_with(key));
         let number = |x: Option<f64>| x.map(|x| x.to_string());
@@ -270,7 +276,7 @@ impl Request {
         Ok(())
     }
 
-    /// Refuses settings that no method of the request has any use for, and a method asked for twice.
+    /// Refuses settings that no method of the request uses, and a method that is asked for twice.
     ///
     /// # Errors
     /// [`Error::Invalid`] naming the option.
@@ -301,7 +307,7 @@ impl Request {
         }
     }
 
-    /// The folder for what `command` makes of the case, asked for by `request`.
+    /// The folder for the results of `command` on the case, for `request`.
     ///
     /// # Errors
     /// As [`Destination::results`].

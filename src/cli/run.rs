@@ -1,4 +1,4 @@
-//! `signorini run`: one scene, one method.
+//! `signorini run`: one case, one method.
 
 use super::drawing::Stretch;
 use super::pace::Pace;
@@ -31,7 +31,7 @@ Examples:
   signorini run tube-loose-supports --modes 40
   signorini run rigid-walls-sine --from 4 --to 6   pictures of these two seconds
 
-Schemes: implicit-euler, paoli-schatzman, moreau-jean, generalized-alpha, newmark (an exhibit), penalty, event (exact).";
+Schemes: implicit-euler, paoli-schatzman, moreau-jean, generalized-alpha, newmark (for demonstration), penalty, event (exact).";
 
 /// Run one case by one scheme: trajectory, contacts, summary and figures
 #[derive(Debug, clap::Args)]
@@ -42,11 +42,12 @@ pub struct Args {
     /// Scheme [default: chosen from the scene; see `signorini explain`]
     #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
     scheme: Option<String>,
-    /// Find scheme and step for this error, as a share of the gap and of each wall's impulse and contact statistics; exit code 1 if it is
-    /// not kept to the end; where the case is cut to modes, as many of them as that takes
+    /// Find scheme and step for this error, as a share of the gap and of each wall's impulse and
+    /// contact statistics; exit code 1 if it is not kept to the end; for a case reduced to modes,
+    /// find the number of modes too
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     accuracy: Option<f64>,
-    /// Do not repeat the run with half the step, nor with more modes where the case is cut to modes
+    /// Do not repeat the run with half the step, nor, for a case reduced to modes, with more modes
     #[arg(long)]
     no_verdict: bool,
     #[command(flatten)]
@@ -108,7 +109,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     refuted.verdict()
 }
 
-/// The run that keeps an error; a shortfall is reported after its results are written.
+/// A run that keeps the error asked for; if it falls short, that is reported after its results are
+/// written.
 fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     if let Some(step) = args.request.step {
         return Err(Error::invalid("--step", step, "none beside --accuracy, which finds the step"));
@@ -123,13 +125,14 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let mut results = args.request.results(case, "run", request)?;
     let target = Target { method, ..Target::new(tolerance, case.time) };
     target.validate()?;
-    // A step costs what its unknowns cost: patience for a structure is some times that for one degree of freedom, and no more.
+    // The cost of a step is proportional to the unknowns: a structure may cost some times as much
+    // as one degree of freedom, but no more.
     let patience = |case: &Case| {
         let unknowns = case.scene.system.degrees_of_freedom() as u64;
         (PATIENCE * target.most_steps / unknowns).clamp(FEWEST_STEPS, target.most_steps)
     };
     let watch = ui.paced("", 0, Pace::of_search(&case.scene, method, case.time.step, patience(case)));
-    // Said before the search, which may take minutes.
+    // Printed before the search, which may take minutes.
     let foreseen = foresee(&case.scene, &target).ok().flatten();
     if let Some(until) = foreseen {
         ui.message(&format!(
@@ -138,7 +141,8 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
         ));
     }
     let (case, modes) = match (foreseen, &case.truncated) {
-        // The error is missed whatever the modes are, and runs that chance has parted tell nothing of them.
+        // The error cannot be kept with any number of modes, and runs that separated by chance
+        // cannot be compared.
         (Some(_), Some(truncated)) => {
             let modes = truncated.reduction.modes.count();
             ui.message(&format!("so the {modes} modes of the case are kept, and no more are tried"));
@@ -176,7 +180,8 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     shortfall.map_or(Ok(()), Err)
 }
 
-/// The case with as many modes as `target` takes, and how they were found; as it is where it is not cut to modes.
+/// The case with as many modes as `target` takes, and how their number was found; unchanged where
+/// it is not reduced to modes.
 fn enough_modes(case: &Case, target: &Target, ui: &Ui) -> Result<(Case, Option<ChosenModes>)> {
     let Some(truncated) = &case.truncated else { return Ok((case.clone(), None)) };
     let method = target.method.unwrap_or(choice::choose(&case.scene).method);
@@ -189,13 +194,13 @@ fn enough_modes(case: &Case, target: &Target, ui: &Ui) -> Result<(Case, Option<C
     Ok((case.clone().with_modes(chosen.modes)?, Some(chosen)))
 }
 
-/// Unknowns times steps of a refinement's last run, in those of one degree of freedom.
+/// Unknowns times steps of the last run of a refinement, relative to one degree of freedom.
 const PATIENCE: u64 = 8;
 
-/// Steps of one run that a refinement may always take.
+/// Fewest steps that a run of a refinement may always take.
 const FEWEST_STEPS: u64 = 1 << 16;
 
-/// Resolution of a bar.
+/// Resolution of the progress bar.
 const UNITS: f64 = 1000.0;
 
 /// Runs `case` by `method` with a progress bar.
@@ -206,7 +211,7 @@ pub(super) fn perform(case: &Case, method: &Method, ui: &Ui) -> Result<Run> {
     run
 }
 
-/// A progress bar over a run and, if there is to be one, its verdict.
+/// A progress bar over a run and, where asked for, its verdict.
 struct Bar {
     progress: Progress,
     end: f64,
@@ -214,7 +219,7 @@ struct Bar {
 }
 
 impl Bar {
-    /// A bar for a work of `runs` times that of the run.
+    /// A bar for work that costs `runs` times as much as the run.
     fn new(method: &Method, case: &Case, runs: f64, ui: &Ui) -> Self {
         let pace = Pace::of(&case.scene, method, case.time.step).times(runs);
         Self { progress: ui.paced(&method.to_string(), UNITS as u64, pace), end: case.scene.duration, runs }
@@ -245,7 +250,7 @@ impl Bar {
     }
 }
 
-/// Tells of a run: its table, what must be said beside it, and its notes; with `--json` its summary.
+/// Prints a run: its table, the remarks on it, and its notes; with `--json` its summary.
 fn report(case: &Case, run: &Run, method: &Method, document: Value, results: &Results, ui: &Ui) -> Result<()> {
     if ui.json() {
         ui.document(&with_folder(document, results))?;
@@ -260,7 +265,7 @@ fn report(case: &Case, run: &Run, method: &Method, document: Value, results: &Re
     Ok(())
 }
 
-/// `document` with where the results are.
+/// `document` with the folder of the results added.
 pub(super) fn with_folder(mut document: Value, results: &Results) -> Value {
     if let Some(map) = document.as_object_mut() {
         map.insert("results".to_owned(), json!(results.folder()));
@@ -269,7 +274,7 @@ pub(super) fn with_folder(mut document: Value, results: &Results) -> Value {
     document
 }
 
-/// Closes the folder of the results, and says what it replaced and where it is.
+/// Finishes the folder of the results, and prints where it is and what it replaced.
 pub(super) fn finish(results: &Results, remark: &str, ui: &Ui) -> Result<()> {
     if let Some(replaced) = results.finish()? {
         ui.message(&replaced);

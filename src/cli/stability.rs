@@ -36,14 +36,15 @@ Classes, from harmless to worst, against a fine run of the same scene:
   energy-gaining   more than 1 % of the energy arriving at the walls made per impact
   diverged         speeds above 10 times the reference's, not finite, or a step that cannot be solved";
 
-/// h²k_w/m, at the case's step, of the penalty that is tried on a case without one: resolved.
+/// h²k_w/m, at the case's step, of the penalty that is used for a case without one; it is resolved.
 const KAPPA: f64 = 0.1;
 
 /// Map where each scheme fails on a case: steps against restitution, ε or wall stiffness
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in case
+    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in
+    /// case
     #[arg(value_hint = clap::ValueHint::FilePath)]
     case: String,
     #[command(flatten)]
@@ -58,7 +59,8 @@ pub struct Args {
 /// Runs the command.
 ///
 /// # Errors
-/// A case that makes no sense or has no wall, a folder that cannot be written, a reference run that fails.
+/// A case that makes no sense or has no wall, a folder that cannot be written, a reference run that
+/// fails.
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let case = args.changes.case_with_restitution(&args.case, args.restitution, ui)?;
     let mut results = args.place.results(&case.name, "stability", asked("stability", &case, &[]))?;
@@ -78,7 +80,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         results.draw(&name, &svg)?;
     }
     let schemes = schemes(&case);
-    // Each at four times, once and a quarter of the step, in parallel; judged and recorded.
+    // Each at four times, one and a quarter of the step, in parallel; judged and recorded.
     let runs = 2.0 * MULTIPLES.iter().map(|multiple| 1.0 / multiple).sum::<f64>() * schemes.len() as f64;
     let threads = std::thread::available_parallelism().map_or(1.0, |count| count.get() as f64);
     let bar = ui.paced("contacts", 0, Pace::of_contacts(&case.scene, case.time.step, runs / threads));
@@ -104,7 +106,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     refuted.verdict()
 }
 
-/// The schemes of the maps on the case's own penalties, or on a spring of `KAPPA` at its step.
+/// The schemes of the maps with the case's own penalties, or with a spring of `KAPPA` at its step.
 fn schemes(case: &Case) -> Vec<Scheme> {
     let mass = case.scene.wall_masses().into_iter().reduce(f64::min).unwrap_or(1.0);
     let stiffness = KAPPA * mass / (case.time.step * case.time.step);
@@ -117,7 +119,7 @@ fn schemes(case: &Case) -> Vec<Scheme> {
     Family::all().into_iter().map(scheme).collect()
 }
 
-/// What each scheme does to energy and to the force of a lasting contact.
+/// Prints what each scheme does to the energy and to the force of a lasting contact.
 fn contacts(quality: &Quality, ui: &Ui) -> Result<()> {
     let lasts = |line: &Line| line.outcome.as_ref().is_ok_and(|seen| seen.contact.is_some());
     let what = if quality.lines.iter().any(lasts) {
@@ -164,7 +166,8 @@ fn contact_line(line: &Line) -> Vec<String> {
     row
 }
 
-/// Three decimals while they say something; a share of millions is a diverging scheme's, and its size is all there is to it.
+/// Three decimals where they mean something; a share of millions belongs to a diverging scheme, and
+/// gets an exponent.
 fn share(x: f64) -> String {
     if x.abs() < 1e4 { format!("{x:.3}") } else { format!("{x:.2e}") }
 }
@@ -204,7 +207,7 @@ fn line(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> Vec<String> {
     ]
 }
 
-/// The restitution over all phases; of a penalty at h²k_w/m = 1.
+/// Range of the restitution over all phases; for a penalty at h²k_w/m = 1.
 fn range(scheme: &Scheme, impacts: &[ImpactMap]) -> Option<(f64, f64)> {
     let same = |map: &&ImpactMap| match (map.scheme, *scheme) {
         (Scheme::Penalty { integrator: a, .. }, Scheme::Penalty { integrator: b, .. }) => {

@@ -1,4 +1,4 @@
-//! What the tool says and where: data on stdout, messages and progress on stderr.
+//! Output of the tool: data on stdout, messages and progress on stderr.
 
 use super::pace::{Pace, Watch};
 use crate::error::{Error, Result};
@@ -10,20 +10,21 @@ use std::cell::Cell;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-/// After this long a bar appears, and a line says how long the work will take.
+/// After this time a progress bar appears, and a line says how long the work will take.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Whether the process began with a stdout.
+/// Whether the process was started with a stdout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stdout {
-    /// A terminal, a pipe, a file, /dev/null.
+    /// It has one: a terminal, a pipe, a file, /dev/null.
     Open,
-    /// None, as after `>&-`: what is printed goes nowhere.
+    /// It has none, as after `>&-`: whatever is printed is lost.
     Closed,
 }
 
 impl Stdout {
-    /// An error where there is none: the one that a write would give, had the runtime put nothing in its place.
+    /// The error of writing to a closed stdout: the runtime replaces it by /dev/null, where writing
+    /// succeeds.
     pub(super) fn check(self) -> io::Result<()> {
         match self {
             Self::Open => Ok(()),
@@ -32,44 +33,44 @@ impl Stdout {
     }
 }
 
-/// How the tool was asked to speak.
+/// How the tool prints.
 #[derive(Debug)]
 pub struct Ui {
     quiet: bool,
     json: bool,
     stdout: Stdout,
-    /// True once the one document of `--json` was printed.
+    /// True once the one document of `--json` has been printed.
     printed: Cell<bool>,
-    /// True once the reader of stdout has gone, as `head` does.
+    /// True once the reader of stdout has closed it, as `head` does.
     deserted: Cell<bool>,
 }
 
 impl Ui {
-    /// Quiet, or in JSON, or neither.
+    /// Quiet, JSON, or neither.
     #[must_use]
     pub fn new(quiet: bool, json: bool, stdout: Stdout) -> Self {
         Self { quiet, json, stdout, printed: Cell::new(false), deserted: Cell::new(false) }
     }
 
-    /// True if the answer is to be a JSON document.
+    /// True if the answer is a JSON document.
     #[must_use]
     pub fn json(&self) -> bool {
         self.json
     }
 
-    /// A line on stderr, unless quiet.
+    /// Prints a line on stderr, unless quiet.
     pub fn message(&self, text: &str) {
         if !self.quiet {
-            // A closed stderr leaves nobody to tell.
+            // If stderr is closed, the message is lost.
             let _ = writeln!(io::stderr(), "{text}");
         }
     }
 
-    /// Text on stdout: the answer itself. A reader that closed its end of a pipe wants no more, and gets no more: that
-    /// is no error.
+    /// Prints text on stdout: the answer itself. If the reader has closed its end of a pipe,
+    /// nothing more is printed, which is not an error.
     ///
     /// # Errors
-    /// [`Error::Io`] where stdout cannot be written: a full disk, a descriptor that is closed.
+    /// [`Error::Io`] where stdout cannot be written: a full disk, a closed descriptor.
     pub fn answer(&self, text: &str) -> Result<()> {
         if self.deserted.get() {
             return Ok(());
@@ -86,7 +87,7 @@ impl Ui {
         }
     }
 
-    /// The answer of `--json`: one document, printed once.
+    /// Prints the answer of `--json`: one document, once.
     ///
     /// # Errors
     /// As [`answer`](Self::answer).
@@ -95,7 +96,8 @@ impl Ui {
         self.answer(json::text(document).trim_end())
     }
 
-    /// A table as wide as the terminal; says which columns had no room, and that `file` has them.
+    /// Prints a table as wide as the terminal; says which columns did not fit, and that `file` has
+    /// them.
     ///
     /// # Errors
     /// As [`answer`](Self::answer).
@@ -108,7 +110,7 @@ impl Ui {
         Ok(())
     }
 
-    /// A line on stderr that nobody may miss, quiet or not.
+    /// Prints a line on stderr, also with `--quiet`.
     pub fn alarm(&self, text: &str) {
         let _ = writeln!(std::io::stderr(), "{text}");
     }
@@ -121,20 +123,22 @@ impl Ui {
         }
     }
 
-    /// An error on stderr, quiet or not; with `--json` also the document, where none was printed.
+    /// Prints an error on stderr, also with `--quiet`; with `--json` also as the document, if none
+    /// was printed.
     pub fn error(&self, error: &Error) {
         let text = error.to_string();
         if self.json && !self.printed.get() {
             let code = if error.is_request() { 2 } else { 1 };
-            // The error that follows is the one to tell, whether or not this can be written.
+            // The error itself is reported next, whether or not this can be written.
             let _ = self.document(&serde_json::json!({ "error": text, "exit_code": code }));
         }
-        // A case file's error comes rendered, with its place.
+        // An error of a case file is already rendered, with its place.
         let head = if text.starts_with("error: ") { "" } else { "error: " };
         let _ = writeln!(io::stderr(), "{head}{text}");
     }
 
-    /// A bar of `total` units that appears on stderr after a second, if that is a terminal and nobody asked for quiet.
+    /// A bar of `total` units that appears on stderr after a second, if that is a terminal and
+    /// `--quiet` is not given.
     #[must_use]
     pub fn progress(&self, label: &str, total: u64) -> Progress {
         let bar = (!self.quiet && io::stderr().is_terminal()).then(|| {
@@ -147,8 +151,8 @@ impl Ui {
         Progress { bar, total, watch: None, started: Instant::now() }
     }
 
-    /// The same, for work whose pace is known to follow from something: after a second a line says how long all of it
-    /// will take, and why.
+    /// The same for work whose pace is known: after a second, a line says how long it will take,
+    /// and why.
     #[must_use]
     pub fn paced(&self, label: &str, total: u64, pace: Pace) -> Progress {
         let progress = self.progress(label, total);
@@ -161,35 +165,35 @@ impl Ui {
     }
 }
 
-/// What is said where stdout cannot be written.
+/// The error for a stdout that cannot be written.
 pub(super) fn unwritable(error: &io::Error) -> Error {
     Error::io("standard output", error.to_string(), false)
 }
 
-/// Columns of text that stdout has room for: `COLUMNS`, else those of the terminal; none for a file or a pipe, which
-/// take any width.
+/// Columns of text that stdout has: `COLUMNS`, else those of the terminal; `None` for a file or a
+/// pipe, which take any width.
 fn width() -> Option<usize> {
     let asked = std::env::var("COLUMNS").ok().and_then(|text| text.trim().parse::<usize>().ok()).filter(|&n| n > 0);
     asked.or_else(|| terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0)))
 }
 
-/// Work under way; shared between threads by reference.
+/// Progress of work; shared between threads by reference.
 #[derive(Debug)]
 pub struct Progress {
     bar: Option<ProgressBar>,
     total: u64,
-    /// What says how long it takes; none where that is not wanted.
+    /// Reports how long the work takes; `None` where that is not wanted.
     watch: Option<Watch>,
     started: Instant,
 }
 
 impl Progress {
-    /// Tells how much is done.
+    /// Sets the amount of work done.
     pub fn set(&self, done: u64) {
         self.share(done as f64 / self.total.max(1) as f64);
     }
 
-    /// Tells which share of all is done.
+    /// Sets the share of the work done.
     pub fn share(&self, share: f64) {
         if let Some(watch) = &self.watch {
             watch.share(share);
@@ -201,7 +205,7 @@ impl Progress {
         bar.set_position((share * self.total as f64) as u64);
     }
 
-    /// Takes the bar away; nothing more is said of how long it takes.
+    /// Removes the bar; no estimate is printed any more.
     pub fn finish(self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();

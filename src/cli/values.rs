@@ -1,4 +1,4 @@
-//! The words that options take, so that the shell can complete them.
+//! The values that options take, so that the shell can complete them.
 
 use crate::case::Embedded;
 use crate::output::format::Format;
@@ -7,7 +7,7 @@ use crate::scheme::{Integrator, NAMES};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::ffi::OsStr;
 
-/// Text with words that a shell may offer for it; it may be another text.
+/// Text with suggestions for the shell; any other text is accepted too.
 #[derive(Debug, Clone)]
 pub struct Offered(Vec<&'static str>);
 
@@ -15,7 +15,7 @@ impl TypedValueParser for Offered {
     type Value = String;
 
     fn parse_ref(&self, _: &clap::Command, _: Option<&clap::Arg>, value: &OsStr) -> Result<String, clap::Error> {
-        // What is no Unicode names nothing here, and the message that says so shows it.
+        // Text that is not Unicode matches nothing; the error message shows it.
         Ok(value.to_string_lossy().into_owned())
     }
 
@@ -24,7 +24,8 @@ impl TypedValueParser for Offered {
     }
 }
 
-/// A scheme, or a method with its settings: `moreau-jean:theta=0.75`. It is read with the case at hand.
+/// A scheme, or a method with its settings: `moreau-jean:theta=0.75`. It is interpreted later, with
+/// the case at hand.
 #[must_use]
 pub fn schemes() -> Offered {
     Offered(NAMES.to_vec())

@@ -5,8 +5,9 @@ use crate::scheme::Scheme;
 use crate::study::compare::Comparison;
 use crate::study::verdict::Verdict;
 
-/// The verdict on every method that ran; `progress` hears how many rows are done. The step's effect is the scheme's, not the solver's: a
-/// scheme is checked once, by the first of its solvers.
+/// The verdict on every method that ran; `progress` is told how many rows are done. The step
+/// matters for the scheme, not for the solver, so a scheme is checked once, by the first of its
+/// solvers.
 pub(super) fn check(case: &Case, comparison: &Comparison, progress: &dyn Fn(u64)) -> Vec<Option<Verdict>> {
     let mut verdicts: Vec<Option<Verdict>> = Vec::new();
     for (index, row) in comparison.rows.iter().enumerate() {
@@ -22,7 +23,7 @@ pub(super) fn check(case: &Case, comparison: &Comparison, progress: &dyn Fn(u64)
     verdicts
 }
 
-/// What half the step changes, method by method, in one line; all the numbers are in each summary.
+/// The effect of half the step, method by method, in one line; each summary has all the numbers.
 pub(super) fn line(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> String {
     let mut parts: Vec<String> = Vec::new();
     for (row, verdict) in comparison.rows.iter().zip(verdicts) {

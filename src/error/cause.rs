@@ -1,9 +1,9 @@
-//! What lies behind an error.
+//! The cause of an error.
 
 use std::fmt;
 use std::sync::Arc;
 
-/// The error that led to another one. Two causes are equal if they say the same.
+/// The error that led to another one. Two causes are equal if their messages are.
 #[derive(Clone)]
 pub struct Cause(Arc<dyn std::error::Error + Send + Sync>);
 
@@ -12,7 +12,7 @@ impl Cause {
         Self(Arc::new(error))
     }
 
-    /// The error itself.
+    /// The underlying error.
     #[must_use]
     pub fn error(&self) -> &(dyn std::error::Error + 'static) {
         &*self.0

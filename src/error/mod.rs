@@ -8,23 +8,24 @@ pub use subject::{Part, Subject};
 
 use std::fmt;
 
-/// Everything that can go wrong, with what a reader needs to find the place: key, value, time, step, wall.
+/// Everything that can fail, with what the reader needs to find the place: key, value, time, step,
+/// wall.
 ///
-/// [`Error::is_request`] separates a request that no run could meet (bad scene, unknown name: exit code 2 of the tool)
-/// from a run that failed (exit code 1).
+/// [`Error::is_request`] separates a request that no run could meet (bad scene, unknown name: exit
+/// code 2 of the tool) from a run that failed (exit code 1).
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
-    /// A value of the scene, the scheme or the time grid that makes no sense.
+    /// An invalid value of the scene, the scheme or the time grid.
     Invalid {
-        /// The way to the value, for example `wall "upper": restitution`.
+        /// Path to the value, for example `wall "upper": restitution`.
         subject: Subject,
         /// The value found, as text.
         value: String,
         /// What would be accepted.
         expected: String,
     },
-    /// A name that nothing carries (a wall, a probe, a scheme, a case).
+    /// A name that does not exist (of a wall, a probe, a scheme, a case).
     Unknown {
         /// What kind of thing was named, for example `wall`.
         kind: &'static str,
@@ -37,18 +38,18 @@ pub enum Error {
     Case {
         /// What is wrong, with file, line and column.
         report: String,
-        /// What the reader of the text, or the library, said of the value.
+        /// The error reported by the reader of the text, or by the library for the value.
         cause: Option<Cause>,
     },
     /// A file or folder that cannot be read or written.
     Io {
         /// The path.
         path: String,
-        /// What the operating system, or the format's reader, said.
+        /// Reason given by the operating system, or by the reader of the format.
         reason: String,
-        /// True while reading a request or opening the output; false once a run was under way.
+        /// True while reading a request or opening the output; false once a run has started.
         request: bool,
-        /// What the operating system, or the format's reader, reported.
+        /// The error of the operating system, or of the reader of the format.
         cause: Option<Cause>,
     },
     /// The convex programme of a step was not solved.
@@ -71,16 +72,17 @@ pub enum Error {
         /// Last residual force, N.
         residual: f64,
     },
-    /// The motion left the numbers: an infinity or NaN appeared.
+    /// The state became NaN or infinite.
     NotFinite {
         /// Time at the end of the step, s.
         time: f64,
         /// Number of the step, from 0.
         step: u64,
-        /// What stopped being finite.
+        /// What is no longer finite.
         what: &'static str,
     },
-    /// More contact events than the stated bound in a window: the exact scheme gives up rather than hang.
+    /// More contact events than the bound allows in a window: the exact scheme gives up instead of
+    /// running for ever.
     TooManyEvents {
         /// Time at which it gave up, s.
         time: f64,
@@ -91,33 +93,33 @@ pub enum Error {
         /// Length of the window, s.
         window: f64,
     },
-    /// The error asked for was not reached with the most steps that were allowed.
+    /// The error asked for was not reached with the largest number of steps allowed.
     Inaccurate {
         /// The error asked for.
         tolerance: f64,
         /// The error reached, or the last change where there is no exact motion.
         reached: f64,
-        /// The quantity that missed it by most.
+        /// The quantity with the largest error.
         quantity: String,
-        /// Time up to which the displacement kept it, s.
+        /// Time up to which the displacement kept the tolerance, s.
         until: f64,
         /// Steps of the finest run.
         steps: u64,
     },
-    /// More modes still change what walls feel by more than was asked for.
+    /// Adding modes still changes impulses or peaks at walls by more than was allowed.
     Truncated {
         /// The change that was allowed.
         tolerance: f64,
         /// The last change.
         reached: f64,
-        /// The quantity that it belongs to.
+        /// The quantity with that change.
         quantity: String,
         /// The most modes that were tried.
         modes: usize,
     },
-    /// Runs that broke what their schemes promise: the judge's findings, in words.
+    /// Runs that violated what their schemes promise: the judge's findings, in words.
     Refuted {
-        /// The runs, each with what it broke.
+        /// The runs, each with its findings.
         runs: Vec<String>,
     },
     /// The motion is predictable for a shorter time than the run lasts.
@@ -133,7 +135,7 @@ pub enum Error {
     },
 }
 
-/// What every function of the crate that can fail returns.
+/// Result of every function of the crate that can fail.
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
@@ -147,7 +149,7 @@ impl Error {
         Self::Io { path: path.to_string(), reason: reason.into(), request, cause: None }
     }
 
-    /// The same with the error that led to it, where an error of this kind has one.
+    /// The same error with its cause, for variants that have one.
     pub(crate) fn caused_by(mut self, error: impl std::error::Error + Send + Sync + 'static) -> Self {
         if let Self::Case { cause, .. } | Self::Io { cause, .. } = &mut self {
             *cause = Some(Cause::new(error));
@@ -155,7 +157,8 @@ impl Error {
         self
     }
 
-    /// True where the request was wrong (exit code 2 of the tool), false where the run failed (exit code 1).
+    /// True where the request was wrong (exit code 2 of the tool), false where the run failed (exit
+    /// code 1).
     #[must_use]
     pub fn is_request(&self) -> bool {
         match self {
@@ -166,8 +169,8 @@ impl Error {
     }
 }
 
-/// The one of `known` that `word` was probably meant to be: one letter in three may be wrong, left out, added, or swapped with the next; or
-/// `word` is how it begins.
+/// The entry of `known` that `word` was probably meant to be: one letter in three may be wrong,
+/// left out, added, or swapped with the next; or `word` is its beginning.
 pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
     let word = word.to_lowercase();
     let letters = word.chars().count();

@@ -1,10 +1,11 @@
-//! What an error is about.
+//! What an error refers to.
 
 use std::borrow::Cow;
 use std::fmt;
 
-/// The way to a value that makes no sense, from the whole to the part, in the library's own words: the stiffness of a wall, the second of a
-/// chain's masses, an entry of a matrix. Whoever has read the value from somewhere can find by it where it stood.
+/// The path to an invalid value, from the whole to the part, in the library's terms: the stiffness
+/// of a wall, the second of a chain's masses, an entry of a matrix. A program that read the value
+/// from a file can use it to find the place there.
 ///
 /// ```
 /// use signorini::{Error, Scene, Subject};
@@ -17,11 +18,11 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Subject(Vec<Part>);
 
-/// One step of that way.
+/// One step of the path.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Part {
-    /// A thing of which there is one, or a field of the thing before.
+    /// Something that exists once, or a field of the part before.
     Name(Cow<'static, str>),
     /// One of several of a kind, by its name: wall "upper".
     Named(&'static str, String),
@@ -34,7 +35,7 @@ pub enum Part {
 }
 
 impl Subject {
-    /// A thing of which there is one.
+    /// Something that exists once.
     #[must_use]
     pub fn of(name: impl Into<Cow<'static, str>>) -> Self {
         Self(vec![Part::Name(name.into())])
@@ -52,25 +53,25 @@ impl Subject {
         Self(vec![Part::Named("probe", name.to_owned())])
     }
 
-    /// Number `index`, from 0, of several of a kind: a load, a wall, a penalty law.
+    /// Item `index`, from 0, of several of a kind: a load, a wall, a penalty law.
     #[must_use]
     pub fn nth(kind: &'static str, index: usize) -> Self {
         Self(vec![Part::Numbered(kind, index + 1)])
     }
 
-    /// A field of it.
+    /// A field of this subject.
     #[must_use]
     pub fn part(self, name: impl Into<Cow<'static, str>>) -> Self {
         self.then(Part::Name(name.into()))
     }
 
-    /// Value number `index`, from 0, of a list.
+    /// Item `index`, from 0, of a list.
     #[must_use]
     pub fn value(self, index: usize) -> Self {
         self.then(Part::Numbered("value", index + 1))
     }
 
-    /// Row number `index`, from 0, of a table.
+    /// Row `index`, from 0, of a table.
     #[must_use]
     pub fn row(self, index: usize) -> Self {
         self.then(Part::Row(index + 1))
@@ -82,7 +83,7 @@ impl Subject {
         self.then(Part::Entry(i + 1, j + 1))
     }
 
-    /// The same as a part of `whole`.
+    /// The same subject as a part of `whole`.
     #[must_use]
     pub fn within(self, whole: Self) -> Self {
         Self(whole.0.into_iter().chain(self.0).collect())
@@ -93,13 +94,13 @@ impl Subject {
         self
     }
 
-    /// Its parts, from the whole on.
+    /// Its parts, beginning with the whole.
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.0
     }
 
-    /// What it is a part of; none for a whole.
+    /// The subject that it is a part of; `None` for a whole.
     #[must_use]
     pub fn whole(&self) -> Option<Self> {
         match self.0.split_last() {
