@@ -79,8 +79,8 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) 
     }
     if run.counters.frozen_steps > 0 {
         notes.push(format!(
-            "in {} steps opposite walls pushed in turn: the body crosses the gap in less than a step \
-             and stands still in the result; use a smaller step",
+            "in {} steps opposite walls pushed in turn: the body crosses the gap in less than a step and stands \
+             still in the result; use a smaller step",
             run.counters.frozen_steps
         ));
     }
@@ -97,9 +97,9 @@ fn standing(scene: &Scene, contact: &Contact, q: &[f64]) -> Option<String> {
     let lasts = contact.end.is_none() && contact.peak_force.is_some();
     (lasts && depth > WORTH_SAYING * scene.gap_scale()).then(|| {
         format!(
-            "at the end the body rests {depth:.2e} m behind wall {:?}, where its last impact left it: moreau-jean does not push it \
-             back to the face, and the \
-             force has an error of the stiffness times that depth; use a smaller step, or generalized-alpha, which rests on the face",
+            "at the end the body rests {depth:.2e} m behind wall {:?}, where its last impact left it: \
+             moreau-jean does not push it back to the face, and the force has an error of the stiffness times \
+             that depth; use a smaller step, or generalized-alpha, which rests on the face",
             wall.name
         )
     })
@@ -115,16 +115,16 @@ fn of_energy(energy: &Energy, arrived: Option<f64>) -> Option<String> {
     if much && created > ROUNDING * energy.exchanged_j {
         let arrived = arrived.map_or_else(String::new, |a| format!(", beyond the {a:.3e} J that arrived there"));
         return Some(format!(
-            "the scheme created {created:.3e} J at the rigid walls{arrived} (largest energy of the run {:.3e} J): do not \
-             trust this run",
+            "the scheme created {created:.3e} J at the rigid walls{arrived} (largest energy of the run {:.3e} \
+             J): do not trust this run",
             energy.largest_j
         ));
     }
     (energy.residual > WORTH_SAYING).then(|| {
         let verb = if energy.residual_j > 0.0 { "created" } else { "lost" };
         format!(
-            "the scheme {verb} {:.3e} J that no load, damping or wall accounts for, {:.1} % of the energy exchanged (largest energy \
-             of the run {:.3e} J): the step is too large for it, do not trust this run",
+            "the scheme {verb} {:.3e} J that no load, damping or wall accounts for, {:.1} % of the energy \
+             exchanged (largest energy of the run {:.3e} J): the step is too large for it, do not trust this run",
             energy.residual_j.abs(),
             100.0 * energy.residual,
             energy.largest_j

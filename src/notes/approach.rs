@@ -20,8 +20,8 @@ pub(super) fn untouched(scene: &Scene, trajectory: &Trajectory) -> Option<String
     };
     let covered = if start > 0.0 { 100.0 * (1.0 - nearest / start) } else { 0.0 };
     Some(format!(
-        "no contact at all: nearest, the body stays {nearest:.3e} m from the wall {:?}, having covered {covered:.2} % of the {start:.3e} m at the start; \
-         positions and gaps are in m",
+        "no contact at all: nearest, the body stays {nearest:.3e} m from the wall {:?}, having covered \
+         {covered:.2} % of the {start:.3e} m at the start; positions and gaps are in m",
         wall.name
     ))
 }

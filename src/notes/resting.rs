@@ -11,9 +11,9 @@ const SLOW: f64 = 0.1;
 pub(crate) fn resting(scene: &Scene) -> Option<String> {
     let wall = scene.walls.iter().find(|wall| wall.law.is_rigid() && may_rest(scene, wall))?;
     Some(format!(
-        "a load that lasts can hold the body on wall {:?}: moreau-jean lets it rest up to h v (1 - e/2) behind a wall (v: its speed of \
-         landing), and its force has an error of the stiffness times the depth; event and generalized-alpha rest on the \
-         face, and a smaller step makes the depth smaller",
+        "a load that lasts can hold the body on wall {:?}: moreau-jean lets it rest up to h v (1 - e/2) behind \
+         a wall (v: its speed of landing), and its force has an error of the stiffness times the depth; event \
+         and generalized-alpha rest on the face, and a smaller step makes the depth smaller",
         wall.name
     ))
 }

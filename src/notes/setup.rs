@@ -36,7 +36,8 @@ fn span(scene: &Scene, index: usize, load: &Load) -> Option<String> {
     let starts = table.force().first().is_some_and(|force| *force != 0.0);
     if last < end * (1.0 - 1e-9) {
         return Some(format!(
-            "the table of load {number} ends at {last} s, before the run does at {end} s: from then on its force is 0"
+            "the table of load {number} ends at {last} s, before the run does at {end} s: from then on its \
+             force is 0"
         ));
     }
     (first > 0.0 && starts).then(|| format!("the table of load {number} begins at {first} s: before, its force is 0"))
@@ -47,8 +48,8 @@ fn unusual(scene: &Scene) -> Option<String> {
     let slowest = slowest(scene)? / TAU;
     (!(USUAL[0]..=USUAL[1]).contains(&slowest)).then(|| {
         format!(
-            "the slowest natural frequency is {slowest:.3e} Hz, far from what structures between walls have: are lengths in m, masses in kg, \
-             stiffnesses in N/m and moduli in Pa?"
+            "the slowest natural frequency is {slowest:.3e} Hz, far from what structures between walls have: \
+             are lengths in m, masses in kg, stiffnesses in N/m and moduli in Pa?"
         )
     })
 }
@@ -83,15 +84,17 @@ fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<
             let steps = 1.0 / (frequency * step);
             (*amplitude != 0.0 && steps < STEPS_A_PERIOD).then(|| {
                 format!(
-                    "a period of load {number} ({frequency} Hz) takes {steps:.1} steps of {step:.2e} s: fewer than {STEPS_A_PERIOD} do not resolve it"
+                    "a period of load {number} ({frequency} Hz) takes {steps:.1} steps of {step:.2e} s: fewer \
+                     than {STEPS_A_PERIOD} do not resolve it"
                 )
             })
         }
         LoadKind::Table(table) => {
             let (missed, rows) = missed(table, step, scene.duration)?;
             Some(format!(
-                "a step of {step:.2e} s skips rows of the table of load {number}, {rows:.0} rows a step: between steps its force departs by up to \
-                 {missed:.3e} N from the line through its values at the steps"
+                "a step of {step:.2e} s skips rows of the table of load {number}, {rows:.0} rows a step: \
+                 between steps its force departs by up to {missed:.3e} N from the line through its values at \
+                 the steps"
             ))
         }
         _ => None,
@@ -137,7 +140,8 @@ fn modes_resolved(scene: &Scene, step: f64) -> Option<String> {
     let steps = TAU / (omega * step);
     (steps < STEPS_A_PERIOD).then(|| {
         format!(
-            "a period of {what}, {:.4e} Hz, takes {steps:.1} steps of {step:.2e} s: fewer than {STEPS_A_PERIOD} do not resolve it",
+            "a period of {what}, {:.4e} Hz, takes {steps:.1} steps of {step:.2e} s: fewer than {STEPS_A_PERIOD} \
+             do not resolve it",
             omega / TAU
         )
     })
@@ -180,8 +184,8 @@ fn walls_resolved(scene: &Scene, step: f64) -> Option<String> {
         n => format!(", and {} more", n - 1),
     };
     Some(format!(
-        "the step of {step:.2e} s does not resolve the wall {:?}{others}: h² k/m = {:.2e}, and a contact of {:.2e} s takes {:.1} steps; the contact forces there \
-         depend on the step instead of the wall's stiffness",
+        "the step of {step:.2e} s does not resolve the wall {:?}{others}: h² k/m = {:.2e}, and a contact of \
+         {:.2e} s takes {:.1} steps; the contact forces there depend on the step instead of the wall's stiffness",
         wall.name,
         step * step * ratio,
         PI / ratio.sqrt(),

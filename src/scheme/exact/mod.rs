@@ -29,8 +29,8 @@ pub(super) fn known_loads(scene: &Scene) -> Result<()> {
         Some(index) => Err(Error::invalid(
             Subject::nth("load", index),
             "a function of time",
-            "for the exact scheme, which has to know the motion in closed form: a constant, a sine, an impulse or a table (one of the \
-             function, with a stated error, is Table::sampled); or a stepping scheme",
+            "for the exact scheme, which has to know the motion in closed form: a constant, a sine, an impulse \
+             or a table (one of the function, with a stated error, is Table::sampled); or a stepping scheme",
         )),
         None => Ok(()),
     }
