@@ -1,4 +1,4 @@
-//! What each key takes, for messages.
+//! The accepted values of each key, for messages.
 
 const SYSTEM: &str = "one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], [system.matrices], [system.modal]";
 const OSCILLATOR: &str = "the table [system.oscillator] with mass (kg), damping (N s/m) and stiffness (N/m)";
@@ -8,7 +8,7 @@ const BEAM_END: &str =
 const CHAIN_END: &str = "\"free\" or { stiffness = N/m }, a spring to ground";
 const PATH: &str = "a path in quotes, relative to the case file, of a Matrix Market (.mtx) or CSV (.csv) file";
 
-/// Path of the key, then what is accepted.
+/// Path of the key, then the accepted values.
 const ACCEPTED: &[(&str, &str)] = &[
     ("title", "one line of text: title = \"Two rigid walls, 5 Hz sine\""),
     ("source", "one line of text: source = \"Fig. 4\""),
@@ -129,7 +129,7 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("penalty.integrator", "integrator = a name in quotes, such as \"discrete-gradient\""),
 ];
 
-/// What the key of that path takes.
+/// The accepted values of the key with that path.
 pub(super) fn accepted(path: &str) -> Option<&'static str> {
     ACCEPTED.iter().find(|(key, _)| *key == path).map(|(_, text)| *text)
 }

@@ -1,5 +1,6 @@
-//! From a case file to a case. What a value may be is checked by the scene and the options themselves; this room knows
-//! where each value stands, and what can be written but not be meant.
+//! Builds a case from a case file. The scene and the options check the values themselves; this
+//! module knows the position of each value in the file, and refuses what can be written but cannot
+//! be meant.
 
 use super::builder::{Builder, MOST_MASSES, TableReader};
 use super::file::{self, File};
@@ -19,8 +20,9 @@ use toml::Spanned;
 
 /// Builds the case that `text` holds.
 ///
-/// Where a `start` is given the scene has it in place of the file's, as far as it has as many degrees of freedom; a rigid wall beyond which it
-/// lies takes it along.
+/// If a `start` is given and has as many degrees of freedom as the scene, the scene starts from it
+/// instead of the file's initial state; a rigid wall behind which it lies moves the body to the
+/// wall.
 pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>, start: Option<&State>) -> Result<Case> {
     let source = Source { name, text };
     let file: File =
@@ -115,7 +117,7 @@ impl Builder<'_> {
         Ok(case)
     }
 
-    /// Full name and text of the file that the case calls `name`, or why there is none.
+    /// Full name and text of the file that the case calls `name`, or why it cannot be read.
     pub fn open(&mut self, name: &str) -> std::result::Result<(String, String), String> {
         let (path, text) = (self.tables)(name)?;
         if self.written.files.iter().all(|known| known.file != name) {
@@ -124,7 +126,8 @@ impl Builder<'_> {
         Ok((path, text))
     }
 
-    /// The scene without the degrees of freedom that have no mass, and with the damping that waited for that.
+    /// The scene without its massless degrees of freedom, and with the damping that is applied
+    /// after they are condensed.
     fn condensed(&mut self, scene: Scene, pending: Option<&Damping>) -> Result<(Scene, Option<Condensation>)> {
         let System::Structure(structure) = &scene.system else { return Ok((scene, None)) };
         if structure.massless().is_empty() {
@@ -146,7 +149,7 @@ impl Builder<'_> {
         Ok((less, Some(condensation)))
     }
 
-    /// `modes` and `static_correction`.
+    /// Applies `modes` and `static_correction`.
     fn modes(&mut self, system: &file::System) -> Result<Option<usize>> {
         let modes = system.modes.as_ref().map(|modes| self.whole("modes", modes, MOST_MASSES)).transpose()?;
         if let Some(correction) = system.static_correction.as_ref().filter(|word| *word.get_ref()) {
@@ -200,7 +203,7 @@ impl Builder<'_> {
         self.number(law.part(what), value)
     }
 
-    /// The number, its place noted under what an error would be about.
+    /// The number; its position is noted under the subject that an error would name.
     pub fn number(&mut self, subject: impl Into<Subject>, value: &Spanned<Number>) -> f64 {
         self.places.push((subject.into(), value.span()));
         value.get_ref().0
@@ -215,10 +218,11 @@ impl Builder<'_> {
         self.source.error(span, &title, &format!("expected {expected}"))
     }
 
-    /// The same error, shown at its place; the error itself is its source.
+    /// The same error, shown at its position in the file; the original error is its source.
     pub fn locate(&self, error: Error, scene: &Scene) -> Error {
         let Error::Invalid { subject, value, expected } = &error else { return error };
-        // A start that is not written down is 0: then the wall that it lies behind is what is wrong.
+        // An initial displacement that is not written is 0: in that case the error is shown at the
+        // wall behind which it lies.
         let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.at.dot(&scene.initial.q)) < 0.0;
         let start = Subject::from(("initial state", "displacement"));
         let wall = || scene.walls.iter().find(behind).filter(|_| *subject == start);
@@ -235,7 +239,7 @@ impl Builder<'_> {
         self.places.iter().find(|(s, _)| s == subject).map(|(_, span)| span.clone())
     }
 
-    /// The place of the smallest whole of `subject` that was noted.
+    /// The position of the smallest enclosing part of `subject` that was noted.
     fn nearest(&self, subject: &Subject) -> Option<Range<usize>> {
         let whole = subject.whole()?;
         self.noted(&whole).or_else(|| self.nearest(&whole))

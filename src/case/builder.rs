@@ -1,4 +1,4 @@
-//! What every part of the reading of a case shares.
+//! State shared by all parts of the reader of a case.
 
 use super::Written;
 use super::model::Model;
@@ -6,16 +6,16 @@ use super::report::Source;
 use crate::error::Subject;
 use std::ops::Range;
 
-/// Most masses of a chain.
+/// Most masses in a chain.
 pub(super) const MOST_MASSES: usize = 1_000_000;
 
-/// How the text of a file that a case names is found: its full name and its text, or why there is none.
+/// Finds a file that a case names: its full name and its text, or why it cannot be read.
 pub(super) type TableReader<'a> = &'a dyn Fn(&str) -> std::result::Result<(String, String), String>;
 
 /// Reads a case, table by table.
 pub(super) struct Builder<'a> {
     pub source: Source<'a>,
-    /// What an error may be about, and where its value stands.
+    /// Subjects that an error may name, and the positions of their values.
     pub places: Vec<(Subject, Range<usize>)>,
     pub tables: TableReader<'a>,
     pub model: Model,

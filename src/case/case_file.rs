@@ -1,4 +1,4 @@
-//! A case file that is not built yet: its values can be changed by their keys.
+//! A case file that is not built yet, so that its values can still be changed by their keys.
 
 use super::key::Key;
 use super::key_value::KeyValue;
@@ -10,9 +10,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The text of a case file and where the files that it names are; [`CaseFile::case`] builds it.
+/// The text of a case file, and the location of the files that it names; [`CaseFile::case`] builds
+/// it.
 ///
-/// Values go in by their keys, and through the reader of case files like all others: whatever a file may say can be set.
+/// A value that is set by its key goes through the same reader as the file: whatever a file can
+/// contain can be set.
 ///
 /// ```
 /// use signorini::case::CaseFile;
@@ -27,31 +29,32 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// ```
 #[derive(Debug, Clone)]
 pub struct CaseFile {
-    /// What messages call it.
+    /// Its name in messages.
     shown: String,
     text: String,
-    /// Its values, once some were changed.
+    /// Its values, once some have been changed.
     changed: Option<toml::Table>,
     /// The changes, in words.
     changes: Vec<String>,
     files: Files,
-    /// Files that were read: path and text by the name in the case.
+    /// Files that have been read: path and text, by the name used in the case.
     read: Arc<Mutex<BTreeMap<String, (String, String)>>>,
 }
 
-/// Where the files are that a case names.
+/// Location of the files that a case names.
 #[derive(Debug, Clone)]
 enum Files {
     /// In this folder.
     In(PathBuf),
-    /// Built in.
+    /// Built into the crate.
     Embedded(Embedded),
-    /// Where the run of a summary found them, unchanged since.
+    /// At the paths listed in the summary of a run, if unchanged since.
     Of(Arc<serde_json::Value>),
 }
 
 impl CaseFile {
-    /// Reads a case file, or the case of the `summary.json` of a run; tables are looked for beside it.
+    /// Reads a case file, or the case in the `summary.json` of a run; tables are looked for in the
+    /// same folder.
     ///
     /// # Errors
     /// [`Error::Io`] where the file cannot be read.
@@ -67,15 +70,16 @@ impl CaseFile {
         Ok(Self::from_text(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new(""))))
     }
 
-    /// The case of that name that comes with the crate.
+    /// The built-in case of that name.
     ///
     /// # Errors
-    /// [`Error::Unknown`], listing the names there are.
+    /// [`Error::Unknown`], listing the names that exist.
     pub fn embedded(name: &str) -> Result<Self> {
         Ok(Self::of_embedded(*Embedded::named(name)?))
     }
 
-    /// A case file from its text. Messages call it `name`, the case takes its own name from there, and tables are looked for in `folder`.
+    /// A case file from its text. `name` is used in messages and gives the case its name; tables
+    /// are looked for in `folder`.
     #[must_use]
     pub fn from_text(text: &str, name: &str, folder: impl AsRef<Path>) -> Self {
         Self::new(text, name, Files::In(folder.as_ref().to_owned()))
@@ -90,11 +94,12 @@ impl CaseFile {
         Self { shown, text, changed: None, changes: Vec::new(), files, read: Arc::default() }
     }
 
-    /// Changes the value at `key`. Whether the key takes it shows when the case is built.
+    /// Changes the value at `key`. Whether the key accepts it is checked when the case is built.
     ///
     /// # Errors
-    /// [`Error::Case`] for a text that is no TOML, [`Error::Unknown`] for a wall, load or probe that the file does not have, and
-    /// [`Error::Invalid`] for an entry of a list that it does not have.
+    /// [`Error::Case`] for a text that is not TOML, [`Error::Unknown`] for a wall, load or probe
+    /// that the file does not have, and [`Error::Invalid`] for an entry of a list that it does not
+    /// have.
     pub fn set(&mut self, key: &Key, value: &KeyValue) -> Result<()> {
         self.put(key, value)?;
         self.changes.push(format!("{key} = {value}"));
@@ -111,10 +116,11 @@ impl CaseFile {
         done
     }
 
-    /// The value at `key` in the file; none where the file leaves it out, or where `*` names several that differ.
+    /// The value at `key` in the file; `None` where the file leaves it out, or where `*` refers to
+    /// several values that differ.
     ///
     /// # Errors
-    /// [`Error::Case`] for a text that is no TOML.
+    /// [`Error::Case`] for a text that is not TOML.
     pub fn get(&self, key: &Key) -> Result<Option<KeyValue>> {
         match &self.changed {
             Some(table) => Ok(changes::get(table, key)),
@@ -123,17 +129,17 @@ impl CaseFile {
     }
 
     fn table(&self) -> Result<toml::Table> {
-        // The reader of case files says best what is wrong with a text.
+        // The reader of case files has the better message for a text that is not TOML.
         toml::from_str(&self.text).or_else(|error| {
             self.case()?;
             Err(Error::Case { report: error.to_string(), cause: None }.caused_by(error))
         })
     }
 
-    /// The text with the changes made so far, as the case is built from it.
+    /// The text, with the changes made so far, from which the case is built.
     ///
     /// # Errors
-    /// None beyond those of values that TOML cannot write.
+    /// Only for values that TOML cannot write.
     pub fn text(&self) -> Result<String> {
         match &self.changed {
             Some(table) => toml::to_string(table).map_err(|error| {
@@ -144,7 +150,7 @@ impl CaseFile {
         }
     }
 
-    /// The same file with another text, in which `changes` were made.
+    /// The same file with another text, which includes `changes`.
     pub(super) fn rewritten(&self, text: String, changes: Vec<String>) -> Self {
         let (shown, files, read) = (self.shown.clone(), self.files.clone(), Arc::clone(&self.read));
         Self { shown, text, changed: None, changes: self.changes.iter().cloned().chain(changes).collect(), files, read }
@@ -156,16 +162,18 @@ impl CaseFile {
         Path::new(&self.shown).file_stem().and_then(|stem| stem.to_str()).unwrap_or("case")
     }
 
-    /// Builds the case. Files that it names are read once, and kept.
+    /// Builds the case. The files that it names are read once and kept.
     ///
     /// # Errors
-    /// [`Error::Case`], which shows the place: file, line, column, key, and what would be accepted.
+    /// [`Error::Case`], with the position: file, line, column, key, and what would be accepted.
     pub fn case(&self) -> Result<Case> {
         self.build(None)
     }
 
-    /// Builds the case with `start` in place of its own start, if it has as many degrees of freedom (a case cut to modes has as many as modes, and
-    /// its own start must make sense, too). A rigid wall beyond which the start lies takes the body along, and leaves it its velocity.
+    /// Builds the case with `start` in place of its own initial state, if `start` has as many
+    /// degrees of freedom (a case reduced to modes has as many as modes, and its own initial state
+    /// must be valid too). If the start lies behind a rigid wall, the body is moved to the wall and
+    /// keeps its velocity.
     ///
     /// # Errors
     /// As [`CaseFile::case`].
@@ -184,9 +192,9 @@ impl CaseFile {
         Ok(Case { name: self.name().to_owned(), ..case })
     }
 
-    /// Path and text of the file that the case calls `name`, or why there is none.
+    /// Path and text of the file that the case calls `name`, or why it cannot be read.
     fn open(&self, name: &str) -> std::result::Result<(String, String), String> {
-        // A panic of another thread leaves the map as it was.
+        // A panic in another thread leaves the map valid.
         let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = read.get(name) {
             return Ok(known.clone());
@@ -208,7 +216,7 @@ impl CaseFile {
     }
 }
 
-/// Why there is no case file at `path`, and what could have been meant.
+/// The error for a case file that does not exist at `path`, with what could have been meant.
 fn unreadable(path: &Path, reason: &str) -> Error {
     let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
     let hint = match Embedded::named(stem) {

@@ -1,11 +1,11 @@
-//! Values of a case file changed by their keys, before it is built.
+//! Changes values of a case file by their keys, before it is built.
 
 use super::key::Key;
 use super::key_value::KeyValue;
 use crate::error::{Error, Result};
 use toml::{Table, Value};
 
-/// Puts `new` in the place of `key`; tables that the file left out are made.
+/// Sets `key` to `new`; tables that the file left out are created.
 pub(super) fn set(file: &mut Table, key: &Key, new: &KeyValue) -> Result<()> {
     let Some((first, rest)) = key.parts().split_first() else { return Ok(()) };
     match first.as_str() {
@@ -25,7 +25,8 @@ pub(super) fn set(file: &mut Table, key: &Key, new: &KeyValue) -> Result<()> {
     }
 }
 
-/// The value at `key`; none where the file leaves it out, or where `*` names several that differ.
+/// The value at `key`; `None` where the file leaves it out, or where `*` refers to several values
+/// that differ.
 pub(super) fn get(file: &Table, key: &Key) -> Option<KeyValue> {
     let (first, rest) = key.parts().split_first()?;
     let mut found: Vec<&Value> = vec![file.get(first)?];
@@ -58,7 +59,7 @@ fn is_named(entry: &Value, name: &str) -> bool {
     entry.get("name").and_then(Value::as_str) == Some(name)
 }
 
-/// The tables `[[wall]]`, `[[probe]]` or `[[load]]` that the second part of `key` names.
+/// The tables `[[wall]]`, `[[probe]]` or `[[load]]` to which the second part of `key` refers.
 fn entries<'a>(file: &'a mut Table, key: &Key) -> Result<Vec<&'a mut Value>> {
     let part = |index: usize| key.parts().get(index).map_or("", String::as_str);
     let (list, name) = (part(0), part(1));

@@ -12,7 +12,7 @@ use std::path::Path;
 use toml::Spanned;
 
 impl Builder<'_> {
-    /// `[system.matrices]`: a structure of three files.
+    /// Reads `[system.matrices]`: a structure from three files.
     pub fn matrices(&mut self, matrices: &file::Matrices) -> Result<Structure> {
         let mass = self.matrix("mass", &matrices.mass)?;
         let stiffness = self.matrix("stiffness", &matrices.stiffness)?;
@@ -31,7 +31,7 @@ impl Builder<'_> {
     }
 
     fn matrix(&mut self, what: &str, file: &Spanned<String>) -> Result<Symmetric> {
-        // By this key the structure would name what is wrong with it.
+        // The structure names an invalid matrix by this key.
         self.places.push((Subject::of("system").part(format!("{what} matrix")), file.span()));
         let name = file.get_ref();
         let opened = self.open(name);
@@ -52,7 +52,7 @@ impl Builder<'_> {
         })
     }
 
-    /// What `[system.damping]` says. Exactly one way.
+    /// Reads `[system.damping]`, which must specify exactly one kind of damping.
     pub fn damping(&mut self, section: Section<file::Damping>) -> Result<Damping> {
         let Section { span, value: damping } = section;
         self.places.push(("damping".into(), span.clone()));

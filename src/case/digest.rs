@@ -1,4 +1,4 @@
-//! SHA-256, by which a file that a run read, or what was asked, is known again.
+//! SHA-256, to recognise the files that a run read, and requests.
 
 use sha2::{Digest, Sha256};
 
@@ -14,7 +14,8 @@ mod tests {
 
     #[test]
     fn the_examples_of_the_standard_have_their_digests() {
-        // FIPS 180-4's examples (one block, two blocks, none), and a length that needs a block of padding of its own.
+        // Examples of FIPS 180-4 (one block, two blocks, the empty text), and a length whose
+        // padding needs another block.
         for (text, digest) in [
             ("", "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"),
             ("abc", "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"),

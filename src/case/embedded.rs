@@ -1,4 +1,4 @@
-//! The case files that come with the crate.
+//! The built-in case files.
 
 use crate::error::{Error, Result};
 
@@ -45,7 +45,8 @@ const ALL: &[Embedded] = embed![
 ];
 
 impl Embedded {
-    /// Every case: those of the source in the order of its figures, those of the field, structures.
+    /// Every case: those of the source in the order of its figures, then those of other programs
+    /// and of structures.
     #[must_use]
     pub fn all() -> &'static [Self] {
         ALL
@@ -54,7 +55,7 @@ impl Embedded {
     /// The case of that name.
     ///
     /// # Errors
-    /// [`Error::Unknown`], listing the names there are.
+    /// [`Error::Unknown`], listing the names that exist.
     pub fn named(name: &str) -> Result<&'static Self> {
         ALL.iter().find(|case| case.name == name).ok_or_else(|| Error::Unknown {
             kind: "case",
@@ -63,8 +64,9 @@ impl Embedded {
         })
     }
 
-    /// Time (s) and displacement (m) of the first impacts, and of two states, of the case `independent-code`, from 50-digit arithmetic;
-    /// `None` if the embedded table were malformed, which its test rules out.
+    /// Time (s) and displacement (m) of the first impacts, and of two states, of the case
+    /// `independent-code`, from 50-digit arithmetic; `None` if the embedded table were malformed,
+    /// which its test excludes.
     #[must_use]
     pub fn reference_points() -> Option<Vec<(f64, f64)>> {
         let lines = include_str!("../../cases/independent-code-reference.csv").lines().skip(1);

@@ -1,4 +1,4 @@
-//! The format of a case file, as serde reads it. Every value keeps the place where it stands.
+//! The format of a case file, as serde reads it. Every value keeps its position in the text.
 
 use super::value::{Number, Section, Value};
 use serde::Deserialize;
@@ -22,7 +22,7 @@ pub(super) struct File {
     pub penalty: Option<Section<Penalty>>,
 }
 
-/// Exactly one of the systems is to be set.
+/// Exactly one of the systems must be set.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct System {
@@ -90,7 +90,7 @@ pub(super) struct Matrices {
     pub stiffness: Spanned<String>,
 }
 
-/// One of frequencies and omega is to be set.
+/// One of frequencies and omega must be set.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Modal {
@@ -101,7 +101,7 @@ pub(super) struct Modal {
     pub shapes: Option<Spanned<Value>>,
 }
 
-/// Exactly one of the ways is to be set.
+/// Exactly one of these must be set.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Damping {
@@ -131,7 +131,7 @@ pub(super) struct Wall {
     pub damping: Option<Spanned<Number>>,
 }
 
-/// Exactly one of the kinds is to be set.
+/// Exactly one of the kinds must be set.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Load {

@@ -1,4 +1,4 @@
-//! The table `[initial]`: fields over the structure.
+//! Reads the table `[initial]`: fields over the structure.
 
 use super::builder::Builder;
 use super::model::Model;
@@ -7,7 +7,7 @@ use crate::error::{Result, Subject};
 use toml::Spanned;
 
 impl Builder<'_> {
-    /// What a field takes on this system.
+    /// The forms of a field that this system accepts.
     fn takes_field(&self, unit: &str) -> String {
         let last = self.n.saturating_sub(1);
         let of_dofs = format!("a list of {} numbers in {unit}, or {{ dofs = [[0 to {last}, {unit}]] }}", self.n);
@@ -18,7 +18,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A displacement or velocity of every degree of freedom; 0 where nothing is said.
+    /// A displacement or velocity of every degree of freedom; 0 where none is given.
     pub fn field(&mut self, part: &'static str, value: Option<&Spanned<Value>>) -> Result<Vec<f64>> {
         let Some(value) = value else { return Ok(vec![0.0; self.n]) };
         let (subject, key) = (Subject::from(("initial state", part)), &format!("initial.{part}"));

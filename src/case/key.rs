@@ -7,8 +7,9 @@ use std::str::FromStr;
 
 /// The path of a value in a case file: names of tables and keys, joined by dots.
 ///
-/// A `[[wall]]` or `[[probe]]` is named by its `name`, a `[[load]]` by its number from 1, as messages count them; `*` is every one
-/// of them. Entries of number lists count from 0, as degrees of freedom do.
+/// A `[[wall]]` or `[[probe]]` is addressed by its `name`, a `[[load]]` by its number from 1, as in
+/// messages; `*` stands for all of them. Entries of number lists count from 0, as degrees of
+/// freedom do.
 ///
 /// ```
 /// use signorini::case::Key;
@@ -24,7 +25,7 @@ pub struct Key {
     parts: Vec<String>,
 }
 
-/// Keys inside values that the reader of a case file checks itself: what `at` and the ends of models take.
+/// Keys inside values that the reader checks itself: those of `at` and of the ends of models.
 const INNER: [&str; 22] = [
     "wall.at",
     "wall.at.dof",
@@ -50,10 +51,10 @@ const INNER: [&str; 22] = [
     "system.modal.shapes",
 ];
 
-/// Ends of models that hold or support them, N/m; a beam's also N m/rad.
+/// Conditions at the ends of models: stiffnesses in N/m, for a beam also in N m/rad.
 const ENDS: [&str; 3] = ["system.chain", "system.bar", "system.beam"];
 
-/// Units as they stand in column names, by the path without names and numbers.
+/// Units as written in column names, by the path without names and numbers.
 const UNITS: [(&str, &[&str]); 19] = [
     ("kg", &["system.oscillator.mass", "system.chain.masses", "system.chain.mass", "system.modal.masses"]),
     ("N_s_per_m", &["system.oscillator.damping", "wall.damping", "penalty.damping"]),
@@ -109,14 +110,15 @@ impl Key {
         &self.parts
     }
 
-    /// The last part that is a word: what a column of its values is called by itself.
+    /// The last part that is a word, which is the default name of a column of its values.
     #[must_use]
     pub fn word(&self) -> &str {
         let word = |part: &&String| part.parse::<usize>().is_err() && *part != "*";
         self.parts.iter().rev().find(word).map_or("", String::as_str)
     }
 
-    /// The unit of its values as column names write it, `N_per_m`; none for what has none.
+    /// The unit of its values as written in column names, `N_per_m`; `None` for a value without a
+    /// unit.
     #[must_use]
     pub fn unit(&self) -> Option<&'static str> {
         let pattern = self.pattern();
@@ -129,13 +131,13 @@ impl Key {
         UNITS.iter().find(|(_, paths)| paths.contains(&pattern.as_str())).map(|(unit, _)| *unit)
     }
 
-    /// True for a value that makes the structure, its modes or its coordinates: `[system]`.
+    /// True for a value of `[system]`, which changes the structure, its modes or its coordinates.
     #[must_use]
     pub fn shapes_system(&self) -> bool {
         self.parts.first().is_some_and(|part| part == "system")
     }
 
-    /// The path without what names one of several: `wall.restitution`.
+    /// The path without names and numbers: `wall.restitution`.
     fn pattern(&self) -> String {
         let listed = self.parts.first().is_some_and(|first| ["wall", "load", "probe"].contains(&first.as_str()));
         let shapes = self.parts.starts_with(&["system", "modal", "shapes"].map(str::to_owned));
@@ -161,7 +163,7 @@ impl Key {
                 || ENDS.iter().any(|end| support(end)))
     }
 
-    /// The keys that could have been meant, with the names of this one.
+    /// Keys that could have been meant, with the names used in this one.
     fn alternatives(&self) -> Vec<String> {
         let first = self.parts.first().map_or("", String::as_str);
         let name = self.parts.get(1).map_or("*", String::as_str);
@@ -220,10 +222,10 @@ mod tests {
             };
             let found = key(&full).unit();
             let text = accepted(path).unwrap();
-            // "…, in N s/m" stands in the text of every number with a unit.
+            // The text of every number with a unit contains "…, in N s/m".
             let Some(at) = text.find(", in ") else { continue };
             let unit: String = text[at + 5..].chars().take_while(|c| !matches!(c, ':' | ';' | ',')).collect();
-            // Tables list units of several keys, words are in quotes.
+            // For tables the text lists the units of several keys; words are in quotes.
             if unit.contains('}') || ["quotes", "double brackets"].contains(&unit.as_str()) {
                 continue;
             }

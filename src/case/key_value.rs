@@ -1,11 +1,11 @@
-//! What a key may be set to.
+//! Values to which a key can be set.
 
 use crate::error::{Error, Result};
 use std::fmt;
 use std::str::FromStr;
 
-/// A value of a case file: a number, a word, a list, a table, or true or false. What of them a key takes is for the reader of case
-/// files to say.
+/// A value of a case file: a number, a word, a list, a table, or true or false. The reader of case
+/// files decides which of them a key accepts.
 ///
 /// ```
 /// use signorini::case::KeyValue;
@@ -24,7 +24,7 @@ impl KeyValue {
         Self(value)
     }
 
-    /// It as a number; none for what is no number.
+    /// The number, if it is one.
     #[must_use]
     pub fn number(&self) -> Option<f64> {
         match self.0 {
@@ -40,7 +40,7 @@ impl KeyValue {
         self.0.is_integer()
     }
 
-    /// It as a word; none for what is no word.
+    /// The word, if it is one.
     #[must_use]
     pub fn word(&self) -> Option<&str> {
         self.0.as_str()
@@ -71,7 +71,7 @@ impl From<&str> for KeyValue {
     }
 }
 
-/// As TOML writes it, but words without quotes: what a cell of a table shows.
+/// Written as in TOML, but words without quotes, as shown in the cell of a table.
 impl fmt::Display for KeyValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
@@ -85,7 +85,7 @@ impl fmt::Display for KeyValue {
 impl FromStr for KeyValue {
     type Err = Error;
 
-    /// Reads TOML, `0.8`, `[1, 2]`, `{ position = 1.2 }`, `"clamped"`; what is none is a word.
+    /// Reads TOML, `0.8`, `[1, 2]`, `{ position = 1.2 }`, `"clamped"`; any other text is a word.
     fn from_str(text: &str) -> Result<Self> {
         let text = text.trim();
         let table = toml::from_str::<toml::Table>(&format!("value = {text}\n"));

@@ -1,4 +1,4 @@
-//! The tables `[[load]]`.
+//! Reads the tables `[[load]]`.
 
 use super::builder::Builder;
 use super::file;
@@ -9,7 +9,7 @@ use crate::scene::Load;
 use toml::Spanned;
 
 impl Builder<'_> {
-    /// The load of table `index`.
+    /// The load in table `index`.
     pub fn load(&mut self, index: usize, load: Section<file::Load>) -> Result<Load> {
         let key = |what: &'static str| Subject::nth("load", index).part(what);
         let file::Load { at, constant, harmonic, impulse, table } = load.value;
@@ -69,7 +69,7 @@ impl Builder<'_> {
         Ok(on(Load::table(read)))
     }
 
-    /// Which columns of its file a table means, and how its numbers are written.
+    /// The columns of its file that a table refers to, and the format of the numbers.
     fn columns(&mut self, owner: &str, table: &file::Table) -> Result<TableColumns> {
         let plain = TableColumns::default();
         let name = |word: &Option<Spanned<String>>, key: &str, plain: String| match word {

@@ -1,15 +1,16 @@
-//! Methods by name, with what the case says of them.
+//! Methods by name, completed with settings of the case.
 
 use super::Case;
 use crate::error::{Error, Result};
 use crate::scheme::{Method, Scheme};
 
 impl Case {
-    /// The method that the word `name` asks for, `event`, `moreau-jean:theta=0.6` or `penalty`: a penalty without numbers has those of the case's
-    /// first law, and its integrator unless the word names one.
+    /// The method named `name`: `event`, `moreau-jean:theta=0.6` or `penalty`. A penalty without
+    /// numbers gets those of the case's first law, and the case's integrator unless the name sets
+    /// one.
     ///
     /// # Errors
-    /// [`Error::Unknown`] or [`Error::Invalid`] for a word that names none.
+    /// [`Error::Unknown`] or [`Error::Invalid`] for a name that is not a method.
     pub fn method(&self, name: &str) -> Result<Method> {
         let name = name.trim();
         let penalty = name == "penalty" || name.starts_with("penalty:");

@@ -1,4 +1,5 @@
-//! Case files: a scene, its times and its penalty as TOML, with errors that point at line and column.
+//! Case files: a scene, its times and its penalty as TOML, with errors that point at line and
+//! column.
 //!
 //! ```
 //! use signorini::case::Case;
@@ -61,43 +62,46 @@ use crate::error::{Error, Result};
 use crate::scene::{Condensation, Scene};
 use crate::time::TimeOptions;
 
-/// What a case file holds.
+/// The contents of a case file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
     /// Name of the file without folder and extension.
     pub name: String,
-    /// One line that says what the case is.
+    /// One line that describes the case.
     pub title: Option<String>,
     /// Where the case comes from.
     pub source: Option<String>,
-    /// What its system was made from.
+    /// The model from which its system was built.
     pub model: Model,
-    /// Where each wall sits, in the scene's order.
+    /// The location of each wall, in the scene's order.
     pub places: Vec<Place>,
-    /// What is simulated, in modal coordinates where the case is cut to modes; its duration is `time.end`.
+    /// The scene that is simulated, in modal coordinates if the case is reduced to modes; its
+    /// duration is `time.end`.
     pub scene: Scene,
-    /// What of the file's degrees of freedom has no mass and was condensed, before any cut; none where all have mass.
+    /// The massless degrees of freedom that were condensed, before any reduction to modes; `None`
+    /// where all have mass.
     pub condensation: Option<Condensation>,
-    /// What it was cut from, and what that cost; none for a case that runs in full.
+    /// The scene before the reduction to modes, and what the reduction cost; `None` for a case that
+    /// is not reduced.
     pub truncated: Option<Truncated>,
     /// Step, recording and statistics.
     pub time: TimeOptions,
-    /// What penalty runs use.
+    /// The springs and the integrator of penalty runs.
     pub penalty: PenaltyOptions,
-    /// What the file said that the scene no longer shows.
+    /// Contents of the file that the scene no longer shows.
     pub written: Written,
 }
 
 impl Case {
-    /// Checks the case as [`Case::parse`] does: for a case whose values were changed since.
+    /// Checks the case as [`Case::parse`] does; for a case whose values were changed afterwards.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for the first value that makes no sense.
+    /// [`Error::Invalid`] for the first invalid value.
     pub fn validate(&self) -> Result<()> {
         self.check().map_err(wording::in_keys)
     }
 
-    /// The same, with errors in the words of scene and options.
+    /// The same check, with errors in the terms of scene and options.
     fn check(&self) -> Result<()> {
         self.scene.validate()?;
         self.time.validate(self.scene.duration)?;
@@ -114,5 +118,5 @@ impl Case {
     }
 }
 
-/// Most values of a trajectory: rows times columns.
+/// Most values in a trajectory: rows times columns.
 const MOST_VALUES: f64 = 2e8;

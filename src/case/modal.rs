@@ -1,4 +1,4 @@
-//! The table `[system.modal]`: modes as finite-element programs export them.
+//! Reads the table `[system.modal]`: modes as finite-element programs export them.
 
 use super::builder::Builder;
 use super::file;
@@ -10,11 +10,11 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 use toml::Spanned;
 
-/// What the file of shapes looks like.
+/// Description of the file of shapes, for messages.
 const SHAPES: &str = "expected a row for each point: its name, then its displacement in each mode, with commas between them; a header above is passed over";
 
 impl Builder<'_> {
-    /// Modes, and the points whose shapes are known.
+    /// The modes, and the points whose shapes are known.
     pub fn modal(&mut self, modal: &file::Modal, span: Range<usize>) -> Result<ModalData> {
         let omega = match (&modal.frequencies, &modal.omega) {
             (Some(_), Some(omega)) => {
@@ -38,7 +38,7 @@ impl Builder<'_> {
         Ok(ModalData { omega, masses, ratios, points })
     }
 
-    /// A list of numbers, each times `factor`; an error of the value is under `name`.
+    /// A list of numbers, each multiplied by `factor`; errors name `name`.
     fn each(
         &mut self,
         key: &str,
@@ -62,7 +62,7 @@ impl Builder<'_> {
         Ok(values)
     }
 
-    /// A number for all `k` modes, or a list of one for each.
+    /// A number for all `k` modes, or a list with one for each.
     fn of_modes(
         &mut self,
         name: &'static str,
@@ -126,7 +126,7 @@ impl Builder<'_> {
                     let shape = items.iter().map(|item| self.finite(&key, item, wanted)).collect::<Result<_>>()?;
                     points.push(ModalPoint { name: name.get_ref().clone(), shape });
                 }
-                // In the order of the file, whatever that of the table.
+                // In the order of the file; the order in the parsed table may differ.
                 let at = |point: &ModalPoint| {
                     entries.iter().find(|e| *e.0.get_ref() == point.name).map(|e| e.0.span().start)
                 };
@@ -138,7 +138,7 @@ impl Builder<'_> {
     }
 }
 
-/// The points of a file of shapes.
+/// The points in a file of shapes.
 fn points(name: &str, text: &str, k: usize) -> Result<Vec<ModalPoint>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let source = Source { name, text };

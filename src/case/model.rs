@@ -1,10 +1,10 @@
-//! What a case's system is, and what a place on it sees.
+//! The system of a case, and the rows of locations on it.
 
 use crate::error::Result;
 use crate::scene::{Bar, Beam, Chain, ModalData, Row};
 use std::fmt;
 
-/// What the file says the system is.
+/// The system as the file describes it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Model {
@@ -36,7 +36,7 @@ impl Model {
         }
     }
 
-    /// Length of a bar or beam, m; the others have no positions.
+    /// Length of a bar or beam, m; `None` for the others, which have no positions.
     pub(super) fn length(&self) -> Option<f64> {
         match self {
             Self::Bar(bar) => Some(bar.length),
@@ -45,7 +45,8 @@ impl Model {
         }
     }
 
-    /// What a place sees; errors are those of the bar, beam or modes. Positions and points on other systems see nothing.
+    /// The row of a location; errors are those of the bar, beam or modes. Positions and points on
+    /// other systems give an empty row.
     pub(super) fn row(&self, place: &Place) -> Result<Row> {
         match (place, self) {
             (Place::Dof(i), _) => Ok(Row::dof(*i)),
@@ -59,8 +60,9 @@ impl Model {
         }
     }
 
-    /// Every place of a system of `n` degrees of freedom that moves, with its number or name: each mass, each degree of freedom of matrices, each node
-    /// of a bar or beam, each point of modes.
+    /// Every location of a system of `n` degrees of freedom that can move, with its number or name:
+    /// each mass, each degree of freedom of matrices, each node of a bar or beam, each point of
+    /// modes.
     pub(super) fn each(&self, n: usize) -> Vec<(String, Place)> {
         if let Self::Modal(modal) = self {
             let points = modal.points.iter().filter(|point| point.shape.iter().any(|x| *x != 0.0));
@@ -76,7 +78,7 @@ impl Model {
     }
 }
 
-/// Where a wall, load or probe sits, as the file says it.
+/// The location of a wall, load or probe, as the file gives it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Place {
@@ -86,19 +88,20 @@ pub enum Place {
     Position(f64),
     /// Pairs (degree of freedom, weight).
     Row(Vec<(usize, f64)>),
-    /// A stretch of a bar or beam, m from its left end: a load is spread evenly over it, a probe sees the mean.
+    /// A stretch of a bar or beam, m from its left end: a load is spread evenly over it, a probe
+    /// records the mean.
     Spread {
         /// Where it begins.
         from: f64,
         /// Where it ends.
         to: f64,
     },
-    /// Points of modes, with weights: one of weight 1, or a sum of several.
+    /// Points of modes with weights: one point of weight 1, or a sum of several.
     Points(Vec<(String, f64)>),
 }
 
 impl Place {
-    /// One point of modes.
+    /// A single point of modes.
     #[must_use]
     pub fn point(name: &str) -> Self {
         Self::Points(vec![(name.to_owned(), 1.0)])

@@ -1,13 +1,13 @@
-//! What a reader must know of a case, whatever is run of it.
+//! Notes that the reader of any run of a case must know.
 
 use super::{Case, Truncated};
 use crate::scene::WallTruncation;
 
-/// Shares below this are not worth a sentence.
+/// Shares below this are not reported.
 const WORTH_SAYING: f64 = 1e-2;
 
 impl Case {
-    /// What a reader must know of the case, in sentences: what condensing and cutting it to modes changed.
+    /// The notes of the case, in sentences: what condensation and the reduction to modes changed.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let mut notes = self.condensed();
@@ -15,7 +15,7 @@ impl Case {
         notes
     }
 
-    /// What was condensed, and the walls that felt it.
+    /// What was condensed, and the walls that this affected.
     fn condensed(&self) -> Vec<String> {
         let Some(condensation) = &self.condensation else { return Vec::new() };
         let (left, kept) = (condensation.massless.len(), condensation.kept.len());
@@ -37,7 +37,7 @@ impl Case {
         notes
     }
 
-    /// What the cut to modes cost.
+    /// What the reduction to modes cost.
     fn cut_notes(&self) -> Vec<String> {
         let Some(Truncated { whole, reduction }) = &self.truncated else { return Vec::new() };
         let mut notes = Vec::new();

@@ -1,15 +1,16 @@
-//! The `[penalty]` table.
+//! The table `[penalty]`.
 
 use crate::error::{Error, Result, Subject};
 use crate::scene::Wall;
 use crate::scheme::{Integrator, PenaltyLaw};
 
-/// What the penalty runs of a case put in place of its rigid walls. Elastic walls stay as they are.
+/// The springs that replace the rigid walls in penalty runs. Elastic walls stay as they are.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PenaltyOptions {
-    /// The laws, in the order of the file: each is a run of its own in a comparison. Empty if the case has none.
+    /// The laws, in the order of the file; a comparison makes one run with each. Empty if the case
+    /// has none.
     pub laws: Vec<PenaltyLaw>,
-    /// The integrator; none where the case leaves it to the scheme.
+    /// The integrator; `None` where the case leaves it to the scheme.
     pub integrator: Option<Integrator>,
 }
 
@@ -17,7 +18,7 @@ impl PenaltyOptions {
     /// Checks every law against the walls.
     ///
     /// # Errors
-    /// [`Error::Invalid`], its subject a part of the `penalty law` of that number.
+    /// [`Error::Invalid`] whose subject is a part of the `penalty law` of that number.
     pub fn validate(&self, walls: &[Wall]) -> Result<()> {
         for (index, law) in self.laws.iter().enumerate() {
             law.validate(walls).map_err(|error| match error {

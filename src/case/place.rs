@@ -1,4 +1,4 @@
-//! The key `at`: where walls, loads and probes sit.
+//! Reads the key `at`: the location of walls, loads and probes.
 
 use super::builder::Builder;
 use super::model::{Model, Place};
@@ -8,7 +8,8 @@ use crate::scene::Row;
 use std::ops::Range;
 use toml::Spanned;
 
-/// A place, what it sees, and what it adds to the name of what sits there: nothing, or `-` and a number where `at` says "each".
+/// A location, its row, and the suffix of the names there: empty, or `-` and a number where `at` is
+/// "each".
 #[derive(Debug)]
 pub(super) struct Site {
     pub suffix: String,
@@ -20,7 +21,7 @@ pub(super) struct Site {
 const MOST_POINTS: usize = 20;
 
 impl Builder<'_> {
-    /// What `at` takes on this system.
+    /// The values of `at` that this system accepts.
     fn takes(&self, spread: bool) -> String {
         let each = if spread { "" } else { ", or \"each\"" };
         let last = self.n.saturating_sub(1);
@@ -42,7 +43,8 @@ impl Builder<'_> {
         }
     }
 
-    /// The sites that `at` names; `owner` is what sits there, by name and as errors know it, at `span` of the file. Loads may be spread.
+    /// The locations that `at` refers to. `owner` is the wall, load or probe, by name and as the
+    /// subject of errors; its table is at `span` of the file. Only loads may be spread.
     pub fn sites(
         &mut self,
         (owner, subject): (&str, Subject),
@@ -74,7 +76,7 @@ impl Builder<'_> {
             [(kind, value)] => self.place(&key, kind, value, load)?,
             [] => return Err(self.refuse(at.span(), &key, &self.takes(load))),
             [_, _, ..] => {
-                // In the order of the file, whatever that of the table.
+                // In the order of the file; the order in the parsed table may differ.
                 let later =
                     entries.iter().map(|entry| entry.0.span()).max_by_key(|span| span.start).unwrap_or(at.span());
                 let title = format!("{key} says more than one place");
@@ -161,7 +163,7 @@ impl Builder<'_> {
         Ok(Place::Points(points))
     }
 
-    /// A number that counts a degree of freedom.
+    /// The number of a degree of freedom.
     pub fn dof(&self, key: &str, value: &Spanned<Value>) -> Result<usize> {
         let last = self.n.saturating_sub(1);
         match value.get_ref() {
@@ -221,7 +223,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The error of a bar or beam, shown at the value that it is about.
+    /// The error of a bar or beam, shown at the value that it refers to.
     fn at_value(&self, key: &str, error: Error, value: &Spanned<Value>) -> Error {
         match error {
             Error::Invalid { value: found, expected, .. } => {

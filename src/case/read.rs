@@ -1,4 +1,4 @@
-//! Cases from files, from text, and from those that come with the crate.
+//! Reads cases from files, from text, and from the built-in cases.
 
 use super::case_file::CaseFile;
 use super::{Case, Embedded};
@@ -6,28 +6,30 @@ use crate::error::Result;
 use std::path::Path;
 
 impl Case {
-    /// Reads a case file; tables are looked for beside it. From the `summary.json` of a run it reads the case of that run again, provided that
-    /// the files which it read are the same still.
+    /// Reads a case file; tables are looked for in the same folder. From the `summary.json` of a
+    /// run it reads the case of that run, provided that the files which the run read are unchanged.
     ///
     /// # Errors
-    /// [`crate::Error::Io`] where the file cannot be read, [`crate::Error::Case`] where it makes no sense.
+    /// [`crate::Error::Io`] where the file cannot be read, [`crate::Error::Case`] where its content
+    /// is invalid.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         CaseFile::read(path)?.case()
     }
 
-    /// Reads a case from its text. Messages call it `name`, the case takes its own name from there, and tables are
-    /// looked for in `folder`.
+    /// Reads a case from its text. `name` is used in messages and gives the case its name; tables
+    /// are looked for in `folder`.
     ///
     /// # Errors
-    /// [`crate::Error::Case`], which shows the place: file, line, column, key, and what would be accepted.
+    /// [`crate::Error::Case`], with the position: file, line, column, key, and what would be
+    /// accepted.
     pub fn parse(text: &str, name: &str, folder: impl AsRef<Path>) -> Result<Self> {
         CaseFile::from_text(text, name, folder).case()
     }
 
-    /// The case of that name that comes with the crate.
+    /// The built-in case of that name.
     ///
     /// # Errors
-    /// [`crate::Error::Unknown`], listing the names there are.
+    /// [`crate::Error::Unknown`], listing the names that exist.
     pub fn embedded(name: &str) -> Result<Self> {
         Embedded::named(name)?.case()
     }
@@ -37,7 +39,7 @@ impl Embedded {
     /// The case that the text holds.
     ///
     /// # Errors
-    /// None for the texts that come with the crate, which its tests read.
+    /// Never for the built-in texts, which the tests read.
     pub fn case(&self) -> Result<Case> {
         CaseFile::of_embedded(*self).case()
     }

@@ -1,4 +1,5 @@
-//! Errors that show the place in the file: what is wrong, file, line and column, the line itself, what would do.
+//! Errors that show the position in the file: what is wrong, file, line and column, the line
+//! itself, and what would be accepted.
 
 use super::accepted::accepted;
 use crate::error::{Error, nearest};
@@ -6,20 +7,20 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// A text that was read, and the name it goes by in messages.
+/// A text that was read, and its name in messages.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Source<'a> {
     pub name: &'a str,
     pub text: &'a str,
 }
 
-/// Bytes of a line that are marked, at most.
+/// Most bytes of a line that are marked.
 const MOST_MARKED: usize = 80;
 
-/// Letters of a title, at most: it may quote the file.
+/// Most characters of a title, since it may quote the file.
 const MOST_QUOTED: usize = 160;
 
-/// `title` without its middle, where it is long.
+/// `title` with its middle removed if it is long.
 fn shortened(title: &str) -> Cow<'_, str> {
     let count = title.chars().count();
     if count <= MOST_QUOTED {
@@ -54,7 +55,8 @@ impl Source<'_> {
         self.text.get(self.within(span)).unwrap_or_default()
     }
 
-    /// `span` as far as it is marked: no longer than is shown of a line, for the renderer cuts the rest of the line off.
+    /// `span`, shortened to the part of a line that is shown, since the renderer cuts off the rest
+    /// of the line.
     fn marked(&self, span: Range<usize>) -> Range<usize> {
         let Range { start, end } = self.within(span);
         let mut most = end.min(start + MOST_MARKED);
@@ -64,7 +66,7 @@ impl Source<'_> {
         start..most
     }
 
-    /// `span` on its first line only, within the text, on the borders of characters.
+    /// The part of `span` on its first line, within the text and between whole characters.
     fn within(&self, span: Range<usize>) -> Range<usize> {
         let floor = |mut at: usize| {
             at = at.min(self.text.len());
@@ -79,7 +81,7 @@ impl Source<'_> {
         start..start + line
     }
 
-    /// What the TOML reader said, in the words of a case file.
+    /// The error of the TOML reader, in the terms of a case file.
     pub fn toml(&self, mut error: toml::de::Error) -> Error {
         error.set_input(None);
         let span = error.span().unwrap_or(0..0);
@@ -139,7 +141,8 @@ impl Source<'_> {
         }
     }
 
-    /// The number with a decimal comma that is the value on the line of the byte `at`, `0,5` in `gap = 0,5`, and where its comma stands.
+    /// The number with a decimal comma on the line of the byte `at`, such as `0,5` in `gap = 0,5`,
+    /// and the position of its comma.
     fn decimal_comma(&self, at: usize) -> Option<(Range<usize>, &str)> {
         let before = self.text.get(..at)?;
         let start = before.rfind('\n').map_or(0, |end| end + 1);
@@ -155,7 +158,7 @@ impl Source<'_> {
         Some((comma..comma + 1, value))
     }
 
-    /// Path of the key that is written on the line of the byte `at`, as far as lines alone can tell.
+    /// Path of the key on the line of the byte `at`, as far as single lines show it.
     fn key_at(&self, at: usize) -> String {
         let mut table = "";
         let mut key = "";

@@ -1,19 +1,19 @@
-//! A scene that starts from where another one has ended.
+//! Makes a scene start from the final state of another one.
 
 use crate::scene::{Scene, Side, State, System};
 
-/// How often the walls are gone through that the state lies beyond.
+/// Most passes over the walls behind which the state lies.
 const PASSES: usize = 50;
 
-/// Lets `scene` start from `state`, if it has as many degrees of freedom. A rigid wall beyond which that lies takes the body along, and leaves
-/// it its velocity.
+/// Makes `scene` start from `state`, if it has as many degrees of freedom. If the state lies behind
+/// a rigid wall, the body is moved to the wall and keeps its velocity.
 pub(super) fn carry_on(scene: &mut Scene, state: &State) {
     let n = scene.system.degrees_of_freedom();
     if state.q.len() != n || state.v.len() != n {
         return;
     }
     scene.initial.clone_from(state);
-    // Several walls may want the body elsewhere: each in turn, and all of them a few times.
+    // Several walls may require different moves: each is applied in turn, in several passes.
     for _ in 0..PASSES {
         let mut moved = false;
         for wall in scene.walls.iter().filter(|wall| wall.law.is_rigid()) {
@@ -30,7 +30,8 @@ pub(super) fn carry_on(scene: &mut Scene, state: &State) {
                 scene.initial.q = vec![wall.position];
                 continue;
             }
-            // The least move that brings w = g · q onto the wall, and its rounding before it.
+            // The smallest move that brings w = g · q to the wall, and its rounding on the free
+            // side.
             let square: f64 = wall.at.entries().iter().map(|(_, weight)| weight * weight).sum();
             let size = scene.initial.q.iter().fold(wall.position.abs(), |most, q| most.max(q.abs()));
             let by = beyond + (4.0 * f64::EPSILON * size).copysign(beyond);

@@ -1,4 +1,4 @@
-//! A case from the `summary.json` of a run: the same scene again.
+//! Reads the case in the `summary.json` of a run.
 
 use super::Embedded;
 use super::digest::sha256;
@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use serde_json::Value;
 use std::path::Path;
 
-/// Name and text of the case file within `text`, a summary at `path`, and the summary.
+/// Name and text of the case file within `text`, a summary at `path`, and the parsed summary.
 pub(super) fn read(text: &str, path: &Path) -> Result<(String, String, Value)> {
     let failed = |reason: String| Error::io(path.display(), reason, true);
     let summary: Value =
@@ -22,7 +22,7 @@ pub(super) fn read(text: &str, path: &Path) -> Result<(String, String, Value)> {
     Ok((format!("{name}.toml"), case, summary))
 }
 
-/// Path and text of a file that the run of `summary` has read: it must be as it was.
+/// Path and text of a file that the run of `summary` read; it must be unchanged.
 pub(super) fn open(summary: &Value, file: &str) -> std::result::Result<(String, String), String> {
     let entry = summary["files"].as_array().and_then(|files| files.iter().find(|entry| entry["file"] == file));
     let word = |key: &str| entry.and_then(|entry| entry[key].as_str());

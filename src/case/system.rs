@@ -1,4 +1,4 @@
-//! The table `[system]`: from what an engineer measures to M, C and K.
+//! Reads the table `[system]`: from measured quantities to M, C and K.
 
 use super::accepted::accepted;
 use super::builder::{Builder, MOST_MASSES};
@@ -11,15 +11,16 @@ use crate::scene::{Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MOST_ELEMENTS, Ma
 use std::ops::Range;
 use toml::Spanned;
 
-/// A system and what it was made from.
+/// A system and the model from which it was built.
 pub(super) struct Built {
     pub model: Model,
     pub system: System,
-    /// Damping that the system has yet to be given: modal ratios once it is cut to modes; all but a matrix once what has no mass is condensed.
+    /// Damping that is still to be applied: modal ratios after the reduction to modes; every kind
+    /// but a matrix after the condensation of massless degrees of freedom.
     pub pending: Option<Damping>,
 }
 
-/// What an end may be in the file; each system takes some of them.
+/// All conditions at an end that the file can give; each system accepts some of them.
 enum End {
     Free,
     Pinned,
@@ -28,7 +29,7 @@ enum End {
 }
 
 impl Builder<'_> {
-    /// The system, and what it was made from; `cut` if it will be cut to modes.
+    /// The system and its model; `cut` if it will be reduced to modes.
     pub fn system(&mut self, section: Section<file::System>, cut: bool) -> Result<Built> {
         let Section { span, value: system } = section;
         let given: Vec<(&'static str, Range<usize>)> = [
@@ -247,7 +248,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A list of numbers, the place of each noted.
+    /// A list of numbers, with the position of each noted.
     pub fn list(&mut self, key: &str, subject: Subject, items: &[Spanned<Value>]) -> Result<Vec<f64>> {
         let mut list = Vec::with_capacity(items.len());
         for (i, item) in items.iter().enumerate() {
@@ -258,7 +259,7 @@ impl Builder<'_> {
         Ok(list)
     }
 
-    /// A whole number that counts something, at most `most`.
+    /// A whole number from 1 to `most`.
     pub fn whole(&mut self, subject: impl Into<Subject>, value: &Spanned<Number>, most: usize) -> Result<usize> {
         let subject = subject.into();
         let x = self.number(subject.clone(), value);
@@ -273,7 +274,7 @@ impl Builder<'_> {
         }
     }
 
-    /// An error at a key, with what the key takes.
+    /// An error at a key, with the accepted values of that key.
     pub fn refuse_as(&self, span: Range<usize>, key: &str) -> Error {
         self.refuse(span, key, accepted(key).unwrap_or("another value"))
     }

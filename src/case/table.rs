@@ -5,14 +5,14 @@ use crate::error::{Error, Result};
 use crate::scene::Table;
 use std::ops::Range;
 
-/// Which two columns of a file are meant, and how its numbers are written.
+/// The two columns of a file that are used, and the format of its numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableColumns {
     /// Header of the column of times, s.
     pub time: String,
     /// Header of the column of forces.
     pub force: String,
-    /// What stands between columns.
+    /// The separator between columns.
     pub delimiter: char,
     /// The decimal sign: a point or a comma.
     pub decimal: char,
@@ -27,7 +27,7 @@ impl Default for TableColumns {
 }
 
 impl TableColumns {
-    /// What such a file looks like, for messages.
+    /// Description of such a file, for messages.
     pub(super) fn expected(&self) -> String {
         let Self { time, force, .. } = self;
         match self.is_plain() {
@@ -109,7 +109,7 @@ pub(super) fn read(name: &str, text: &str, columns: &TableColumns) -> Result<Tab
     Table::new(time, force)
 }
 
-/// Where the two columns stand in a header, and how many columns it has.
+/// The indices of the two columns in a header, and the number of columns.
 struct Header {
     time: usize,
     force: usize,
@@ -141,7 +141,8 @@ impl Reader<'_> {
     fn no_column(&self, wanted: &str, names: &[&str], line: Range<usize>) -> Error {
         let listed = listed(names);
         let title = format!("the table has no column {wanted:?}; its header is {listed}");
-        // One column that holds another delimiter is a file written otherwise than said.
+        // A single column that contains another delimiter: the file is probably written with that
+        // delimiter.
         let text = self.source.slice(line.clone());
         let other = [(';', "\";\""), ('\t', "\"\\t\""), ('|', "\"|\""), (',', "\",\"")]
             .into_iter()
@@ -155,7 +156,7 @@ impl Reader<'_> {
         let field = row.get(index).unwrap_or_default();
         let written = field.trim();
         let comma = self.columns.decimal == ',';
-        // With a decimal comma a point would be one between thousands: it is refused rather than guessed at.
+        // With a decimal comma, a point would separate thousands: it is refused, not guessed.
         let x = match comma {
             true if written.contains('.') => None,
             true => written.replacen(',', ".", 1).parse::<f64>().ok(),
@@ -175,7 +176,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Where field `index` of the row on `line` stands; the whole line where quotes hide it.
+    /// The position of field `index` of the row on `line`; the whole line where quotes prevent
+    /// finding it.
     fn field(&self, line: &Range<usize>, index: usize) -> Range<usize> {
         let text = self.source.slice(line.clone());
         let (mut start, mut quoted, mut at) = (0, false, 0);
@@ -195,10 +197,10 @@ impl Reader<'_> {
     }
 }
 
-/// Most columns of a header that are listed.
+/// Most columns of a header that a message lists.
 const MOST_LISTED: usize = 24;
 
-/// The names of a header in quotes, the first of many.
+/// The names of a header in quotes; of many, the first ones.
 fn listed(names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().take(MOST_LISTED).map(|name| format!("{name:?}")).collect();
     let more = names.len().saturating_sub(MOST_LISTED);
@@ -206,7 +208,7 @@ fn listed(names: &[&str]) -> String {
     format!("{}{rest}", quoted.join(", "))
 }
 
-/// The one line within `span` that is not blank, without its end.
+/// The only line within `span` that is not blank, without its end.
 fn line_of(text: &str, span: Range<usize>) -> Range<usize> {
     let slice = text.get(span.clone()).unwrap_or_default();
     let start = span.start + (slice.len() - slice.trim_start_matches(['\r', '\n']).len());

@@ -1,11 +1,12 @@
-//! A case file with gaps for values: built many times, its text is written once.
+//! A case file with gaps for values, for cases that are built many times: the text is formatted
+//! only once.
 
 use super::case_file::CaseFile;
 use super::key::Key;
 use super::key_value::KeyValue;
 use crate::error::Result;
 
-/// The text of a case file in pieces, with a value between each two of them.
+/// The text of a case file in pieces, with a gap for a value between each two of them.
 ///
 /// ```
 /// use signorini::case::{CaseFile, Template};
@@ -21,7 +22,7 @@ pub struct Template {
     file: CaseFile,
     keys: Vec<String>,
     first: String,
-    /// The number of the key whose value comes, and the text after it.
+    /// The index of the key whose value fills the gap, and the text after the gap.
     pieces: Vec<(usize, String)>,
 }
 
@@ -32,13 +33,13 @@ impl Template {
     /// As [`CaseFile::set`].
     pub fn new(file: &CaseFile, keys: &[Key]) -> Result<Self> {
         let mut marked = file.clone();
-        // No file has a word like this.
+        // A word that no file contains marks the gap.
         let mark = |index: usize| format!("\u{1f}{index}\u{1f}");
         for (index, key) in keys.iter().enumerate() {
             marked.set(key, &KeyValue::from(mark(index).as_str()))?;
         }
         let text = marked.text()?;
-        // The writer of TOML escapes it so.
+        // The TOML writer escapes the mark in this form.
         let shown = |index: usize| format!("\"\\u001F{index}\\u001F\"");
         let mut found: Vec<(usize, usize, usize)> = Vec::new();
         for index in 0..keys.len() {

@@ -1,4 +1,4 @@
-//! Text files, and why there is none.
+//! Text files, and reasons why one cannot be read.
 
 use std::fs;
 use std::io::Read;
@@ -9,7 +9,7 @@ pub(super) const MOST_CASE_BYTES: u64 = 1 << 20;
 /// Largest table file, bytes.
 pub(super) const MOST_TABLE_BYTES: u64 = 1 << 28;
 
-/// The text of a file, or why there is none.
+/// The text of a file, or why it cannot be read.
 pub(super) fn read_text(path: &Path, most: u64) -> std::result::Result<String, String> {
     let said = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => "no such file".to_owned(),

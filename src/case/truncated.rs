@@ -1,25 +1,26 @@
-//! Cases that are cut to modes.
+//! Cases that are reduced to modes.
 
 use super::Case;
 use crate::error::{Error, Result};
 use crate::scene::{Reduction, Scene, System};
 use crate::study::truncation::Whole;
 
-/// What a case was cut from, and what is left.
+/// The scene before the reduction, and the reduction.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Truncated {
-    /// The whole structure.
+    /// The full structure.
     pub whole: Whole,
-    /// What is left; its scene is that of the case.
+    /// The reduction; its scene is that of the case.
     pub reduction: Reduction,
 }
 
 impl Case {
-    /// The same case cut to its `modes` slowest modes, whatever it was cut to before.
+    /// The same case reduced to its `modes` slowest modes, whatever its present reduction.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for an oscillator and for a count that does not fit; see [`Scene::reduced`].
+    /// [`Error::Invalid`] for an oscillator and for a count that does not fit; see
+    /// [`Scene::reduced`].
     pub fn with_modes(mut self, modes: usize) -> Result<Self> {
         if let System::Oscillator(_) = self.scene.system {
             return Err(Error::invalid("modes", modes, "none: the case has one degree of freedom"));
@@ -32,16 +33,16 @@ impl Case {
         Ok(self)
     }
 
-    /// The scene before it was cut to modes, or the scene itself.
+    /// The scene before its reduction to modes, or the scene itself.
     #[must_use]
     pub fn whole(&self) -> &Scene {
         self.truncated.as_ref().map_or(&self.scene, |truncated| &truncated.whole.scene)
     }
 
-    /// Changes the scene before it is cut to modes, and so the one that is run.
+    /// Changes the scene before the reduction to modes, and thus also the reduced one.
     ///
     /// # Errors
-    /// Those of the cut.
+    /// Those of the reduction.
     pub fn change(&mut self, change: impl Fn(&mut Scene)) -> Result<()> {
         let Some(truncated) = &self.truncated else {
             change(&mut self.scene);

@@ -1,4 +1,4 @@
-//! Values of a case file as they are written, each with the place where it stands.
+//! Values of a case file, each with its position in the text.
 
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
@@ -40,14 +40,14 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// What a key holds that may be written in several ways: which of them it takes is for the reader of the key to say.
+/// A value of a key that accepts several forms; the reader of the key decides which.
 #[derive(Debug)]
 pub(super) enum Value {
     Number(f64),
     Word(String),
     List(Vec<Spanned<Value>>),
     Table(Vec<(Spanned<String>, Spanned<Value>)>),
-    /// `true` or `false`: no key of several ways takes it.
+    /// `true` or `false`: no key of several forms accepts it.
     Truth,
 }
 
@@ -101,7 +101,7 @@ impl<'de> Deserialize<'de> for Value {
 }
 
 impl Value {
-    /// What it is, for messages.
+    /// The kind of the value, for messages.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Number(_) => "a number",
@@ -113,8 +113,8 @@ impl Value {
     }
 }
 
-/// A table and where it stands. Unlike a bare struct, which serde also reads from a list by position, it takes nothing
-/// but a table.
+/// A table and its position. Unlike a bare struct, which serde also reads from a list by position,
+/// it accepts only a table.
 #[derive(Debug)]
 pub(super) struct Section<T> {
     pub span: std::ops::Range<usize>,

@@ -1,4 +1,4 @@
-//! The tables `[[wall]]`, and the probes that stand for them.
+//! Reads the tables `[[wall]]`, and makes the default probes.
 
 use super::builder::Builder;
 use super::file;
@@ -10,11 +10,12 @@ use crate::scene::{ModalData, Probe, Row, Side, Wall, WallLaw};
 use std::ops::Range;
 use toml::Spanned;
 
-/// Most walls of a scene: what one table makes is written and drawn wall by wall.
+/// Most walls of a scene; each wall of a table has its own results.
 const MOST_WALLS: usize = 4096;
 
 impl Builder<'_> {
-    /// The walls of table `index`, the first of which is number `first` of the scene: with the name of their site, and their place.
+    /// The walls of table `index`, the first of which has index `first` in the scene: with the
+    /// suffix of their location, and their location.
     pub fn walls(
         &mut self,
         index: usize,
@@ -50,7 +51,7 @@ impl Builder<'_> {
         Ok(walls)
     }
 
-    /// Where the values of a wall stand, under the name that the scene knows it by.
+    /// Notes the positions of the values of a wall, under the name that it has in the scene.
     fn note(&mut self, number: usize, name: &str, wall: &file::Wall) {
         self.places.push((Subject::nth("wall", number).part("name"), wall.name.span()));
         let position = wall.position.as_ref().or(wall.gap.as_ref());
@@ -66,7 +67,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Side, position and what it adds to the name.
+    /// Side, position, and the suffix of its name.
     fn sides(&self, owner: &str, wall: &file::Wall, span: Range<usize>) -> Result<Vec<(Side, f64, &'static str)>> {
         let side = match wall.side.get_ref().as_str() {
             "upper" => Side::Upper,
@@ -135,8 +136,9 @@ impl Builder<'_> {
         }
     }
 
-    /// The probes of the file, or those that stand in for them: one for each place with walls, under the name of the first wall there; without walls one
-    /// in the middle of a bar or beam, else one on the first degree of freedom. With one degree of freedom there is one to look at, and it has no name.
+    /// The probes of the file, or the default ones: one at each location with walls, with the name
+    /// of the first wall there; without walls one in the middle of a bar or beam, else one at the
+    /// first degree of freedom. With one degree of freedom there is a single probe, without a name.
     pub fn probes(
         &mut self,
         probes: Vec<Section<file::Probe>>,
@@ -186,7 +188,7 @@ impl Builder<'_> {
         Ok(all)
     }
 
-    /// A name that CSV headers can carry.
+    /// A name that is valid in CSV headers.
     pub fn name(&self, key: &str, name: &Spanned<String>) -> Result<String> {
         let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         let word = name.get_ref();
@@ -196,7 +198,7 @@ impl Builder<'_> {
         Ok(word.clone())
     }
 
-    /// An error of a builder, shown at its key.
+    /// The error of a builder, shown at its key.
     pub fn at_key(&self, error: Error) -> Error {
         self.locate(error, &crate::scene::Scene::oscillator(1.0, 0.0, 0.0))
     }

@@ -1,8 +1,8 @@
-//! The keys of a case file by what they say of the scene.
+//! The keys of a case file for the values of a scene.
 
 use crate::error::{Error, Part, Subject};
 
-/// What an error is about, as a case file writes it.
+/// The subject of an error, as a case file writes it.
 pub(super) fn written(subject: &Subject) -> String {
     let (mut names, mut rest) = (Vec::new(), String::new());
     for part in subject.parts() {
@@ -17,7 +17,7 @@ pub(super) fn written(subject: &Subject) -> String {
         [key @ ("step" | "sample" | "statistics_from" | "force_averaging")] => format!("time.{key}"),
         ["static correction"] => "static_correction".to_owned(),
         ["initial state", part] => format!("initial.{part}"),
-        // Of an end of a structure the key is that of the end, and its part one of a table within.
+        // For an end of a structure the key is that of the end; its parts are inside that value.
         [table @ ("bar" | "beam"), end @ ("left" | "right"), part] => format!("system.{table}.{end}: {part}"),
         ["modal data", names @ ..] => format!("system.modal.{}", names.join(".")),
         [table @ ("oscillator" | "chain" | "bar" | "beam" | "damping"), names @ ..] => {
@@ -28,7 +28,7 @@ pub(super) fn written(subject: &Subject) -> String {
     key + &rest
 }
 
-/// The same error about the key of a case file.
+/// The same error, with the key of the case file as its subject.
 pub(super) fn in_keys(error: Error) -> Error {
     match error {
         Error::Invalid { subject, value, expected } => {

@@ -1,4 +1,4 @@
-//! What a case file said that its scene no longer shows: places, and the files it read.
+//! Contents of a case file that its scene no longer shows: locations, and the files it read.
 
 #[cfg(feature = "cli")]
 use super::Case;
@@ -10,19 +10,20 @@ use crate::scene::Damping;
 use crate::scene::Row;
 use serde::Serialize;
 
-/// What the file said, in the order of the scene.
+/// Contents of the file, in the order of the scene.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Written {
-    /// Where each load sits.
+    /// The location of each load.
     pub loads: Vec<Place>,
-    /// The file of each load that is a table, and which columns of it; none for other loads.
+    /// The file of each load that is a table, and its columns; `None` for other loads.
     pub tables: Vec<Option<(String, TableColumns)>>,
-    /// Where each probe looks.
+    /// The location of each probe.
     pub probes: Vec<Place>,
-    /// `[system.damping]`; none where the file has no such table.
+    /// `[system.damping]`; `None` where the file has no such table.
     pub damping: Option<Damping>,
-    /// Files of matrices by the key that names them: `mass`, `stiffness`, `damping`, and `matrix` of `[system.damping]`.
+    /// Files of matrices by the key that names them: `mass`, `stiffness`, `damping`, and `matrix`
+    /// of `[system.damping]`.
     pub matrices: Vec<(&'static str, String)>,
     /// Every file that was read.
     pub files: Vec<FileRead>,
@@ -34,7 +35,7 @@ pub struct Written {
 pub struct FileRead {
     /// Its name in the case file.
     pub file: String,
-    /// Where it was found; the name alone for a built-in case.
+    /// Path where it was found; only the name for a built-in case.
     pub path: String,
     /// Its length, bytes.
     pub bytes: usize,
@@ -42,17 +43,18 @@ pub struct FileRead {
     pub sha256: String,
 }
 
-/// By name and content, wherever they were found.
+/// Files are equal if their names and contents are, wherever they were found.
 impl PartialEq for FileRead {
     fn eq(&self, other: &Self) -> bool {
         (&self.file, self.bytes, &self.sha256) == (&other.file, other.bytes, &other.sha256)
     }
 }
 
-/// For summaries, which say a case again.
+/// Used by summaries, which write the case again.
 #[cfg(feature = "cli")]
 impl Case {
-    /// What the scene, condensed but not cut, sees through a place of the file; none where that touches what was condensed.
+    /// The row of a location of the file in the scene that is condensed but not reduced; `None`
+    /// where it includes condensed degrees of freedom.
     pub(crate) fn sees(&self, place: &Place) -> Option<Row> {
         let row = self.model.row(place).ok()?;
         let Some(condensation) = &self.condensation else { return Some(row) };
@@ -60,7 +62,7 @@ impl Case {
         row.entries().iter().map(kept).collect::<Option<_>>().map(Row::new)
     }
 
-    /// The number in the file of degree of freedom `i` of the scene before it was cut.
+    /// The number in the file of degree of freedom `i` of the scene before its reduction.
     pub(crate) fn numbered(&self, i: usize) -> usize {
         self.condensation.as_ref().and_then(|condensation| condensation.kept.get(i)).copied().unwrap_or(i)
     }
