@@ -1,11 +1,12 @@
-//! A scene that makes sense.
+//! A validated scene.
 
 use super::Scene;
 use crate::error::Result;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A scene that [`Scene::validate`] has passed, shared by all that take part in a run, with what its walls feel.
+/// A scene that [`Scene::validate`] has passed, shared by all parts of a run, with the mass that
+/// each of its walls feels.
 #[derive(Debug, Clone)]
 pub(crate) struct Checked {
     scene: Arc<Scene>,
@@ -22,12 +23,13 @@ impl Checked {
         Ok(Self { scene: Arc::new(scene.clone()), masses: scene.wall_masses().into() })
     }
 
-    /// The same with the walls' laws changed by `change`, which checks them; nothing else may change.
+    /// The same scene with the walls' laws changed by `change`, which must check them; nothing else
+    /// may change.
     pub fn with_laws(&self, change: impl FnOnce(&Scene) -> Result<Scene>) -> Result<Self> {
         Ok(Self { scene: Arc::new(change(&self.scene)?), masses: Arc::clone(&self.masses) })
     }
 
-    /// As [`Scene::wall_masses`], found once.
+    /// As [`Scene::wall_masses`], computed once.
     pub fn wall_masses(&self) -> &[f64] {
         &self.masses
     }

@@ -1,4 +1,4 @@
-//! What takes energy from a structure between contacts.
+//! Viscous damping of a structure.
 
 use super::Structure;
 use super::modal::{MOST_DENSE, Modes};
@@ -13,18 +13,19 @@ use nalgebra::DMatrix;
 pub enum Damping {
     /// C = 0.
     None,
-    /// Rayleigh's C = α M + β K: mode i has ζᵢ = α/2ωᵢ + β ωᵢ/2.
+    /// Rayleigh damping C = α M + β K: mode i has ζᵢ = α/2ωᵢ + β ωᵢ/2.
     Rayleigh {
-        /// α, 1/s; 0 or more. It also brakes rigid-body motions.
+        /// α, 1/s; 0 or more. It also damps rigid-body motions.
         mass: f64,
         /// β, s; 0 or more.
         stiffness: f64,
     },
-    /// C = M Φ diag(2 ζᵢ ωᵢ) Φᵀ M with the M-orthonormal modes Φ, slowest first: one ratio ζ for each mode, the last repeated; one alone is
-    /// for all. Rigid-body motions have none. C is full, so a structure beyond [`MOST_DENSE`] degrees of freedom is to be cut to modes
-    /// first.
+    /// C = M Φ diag(2 ζᵢ ωᵢ) Φᵀ M with the M-orthonormal modes Φ, slowest first: one ratio ζ per
+    /// mode; the last one holds for all further modes. Rigid-body motions are not damped. C is a
+    /// full matrix, so a structure beyond [`MOST_DENSE`] degrees of freedom must be reduced to
+    /// modes first.
     Modal(Vec<f64>),
-    /// C itself, N s/m.
+    /// The matrix C, N s/m.
     Matrix(Symmetric),
 }
 
@@ -32,8 +33,8 @@ impl Damping {
     /// C for the M and K of `structure`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under the damping's `mass`, `stiffness`, `ratios` or `matrix`; where modal ratios meet a structure too large;
-    /// or the errors of [`Modes::lowest`].
+    /// [`Error::Invalid`] under the damping's `mass`, `stiffness`, `ratios` or `matrix`; where
+    /// modal ratios meet a structure too large; or the errors of [`Modes::lowest`].
     pub fn matrix(&self, structure: &Structure) -> Result<Symmetric> {
         let n = structure.mass.size();
         match self {
@@ -73,7 +74,7 @@ fn modal(ratios: &[f64], structure: &Structure) -> Result<Symmetric> {
     }
     let ratio = |i: usize| ratios.get(i).copied().unwrap_or(last);
     let n = structure.mass.size();
-    // Uncoupled already, as after a modal reduction: C is diagonal too, whatever n.
+    // The modes are uncoupled already, as after a modal reduction: C is diagonal too, for any n.
     if structure.mass.half_bandwidth() == 0 && structure.stiffness.half_bandwidth() == 0 {
         let (m, k) = (structure.mass.diagonal_entries(), structure.stiffness.diagonal_entries());
         let mut order: Vec<usize> = (0..n).collect();
@@ -89,7 +90,8 @@ fn modal(ratios: &[f64], structure: &Structure) -> Result<Symmetric> {
         return Err(Error::invalid(("damping", "ratios"), format!("for {n} degrees of freedom"), expected));
     }
     let modes = Modes::lowest(structure, n)?;
-    // Columns √(2ζω) M φ: C is their product with their transpose, symmetric and semidefinite to the last bit.
+    // Columns √(2ζω) M φ: C is the product of this matrix with its transpose, hence exactly
+    // symmetric and semidefinite.
     let mut columns = DMatrix::zeros(n, n);
     for (i, (omega, shape)) in modes.omega.iter().zip(&modes.shapes).enumerate() {
         let mut column = vec![0.0; n];

@@ -3,12 +3,12 @@
 use std::fmt;
 use std::sync::Arc;
 
-/// A force f(t), N, of the time in s. Two are equal if they are clones of one.
+/// A force f(t), N, of the time in s. Two are equal if they are clones of the same one.
 #[derive(Clone)]
 pub struct TimeFunction(Arc<dyn Fn(f64) -> f64 + Send + Sync>);
 
 impl TimeFunction {
-    /// The function `f`, of the time alone.
+    /// The function `f`, which must depend on the time only.
     #[must_use]
     pub fn new(f: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Self(Arc::new(f))

@@ -6,10 +6,10 @@ use super::system::{finite, nonnegative, positive};
 use crate::error::{Error, Result, Subject};
 use std::f64::consts::TAU;
 
-/// Rows that a sampled function may take.
+/// Most rows of a sampled function.
 const MOST_SAMPLES: f64 = 1e7;
 
-/// A force of time, piecewise linear between rows and zero outside them.
+/// A force over time, piecewise linear between rows and zero outside them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     time: Vec<f64>,
@@ -17,10 +17,11 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table of `time` (s, strictly increasing) and `force` (N), of one length, two rows or more.
+    /// A table of `time` (s, strictly increasing) and `force` (N), of equal length with at least
+    /// two rows.
     ///
     /// # Errors
-    /// [`Error::Invalid`] naming the first row that breaks this.
+    /// [`Error::Invalid`] naming the first row that violates this.
     pub fn new(time: Vec<f64>, force: Vec<f64>) -> Result<Self> {
         if time.len() != force.len() || time.len() < 2 {
             let rows = format!("{} times and {} forces", time.len(), force.len());
@@ -51,9 +52,11 @@ impl Table {
         &self.force
     }
 
-    /// A table of the function `f` (N, of a time in s) over [`from`, `to`] that is nowhere further than `error` (N) from it, given a bound
-    /// `curvature` on |f″| there (N/s²). The rows are as far apart as that allows: a line between two of them errs by h²/8 · |f″| at
-    /// most. With it the exact scheme follows a function that it does not know in closed form, but for an error that is stated.
+    /// A table of the function `f` (N, of a time in s) over [`from`, `to`] that differs from it by
+    /// at most `error` (N), given a bound `curvature` on |f″| there (N/s²). The spacing of the rows
+    /// is the largest that this allows: linear interpolation errs by at most h²/8 · |f″|. With such
+    /// a table the exact scheme can run under a function without a closed form of the motion, with
+    /// a stated error.
     ///
     /// ```
     /// use signorini::Table;
@@ -66,8 +69,8 @@ impl Table {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Invalid`] for an interval without length, a bound or an error that makes no sense, more than 1e7 rows, or a value that is
-    /// not finite.
+    /// [`Error::Invalid`] for an interval without length, an invalid bound or error, more than 1e7
+    /// rows, or a value that is not finite.
     pub fn sampled(f: impl Fn(f64) -> f64, [from, to]: [f64; 2], curvature: f64, error: f64) -> Result<Self> {
         if !(from.is_finite() && to.is_finite() && to > from) {
             return Err(Error::invalid(
@@ -95,7 +98,8 @@ impl Table {
         Self { time: self.time.clone(), force: self.force.iter().map(|f| weight * f).collect() }
     }
 
-    /// Value and slope (N, N/s) at `t`, from the right: the piece that starts at or before `t`; zero outside the rows.
+    /// Value and slope (N, N/s) at `t`, from the right: the piece that starts at or before `t`;
+    /// zero outside the rows.
     #[must_use]
     pub fn piece(&self, t: f64) -> (f64, f64) {
         let next = self.time.partition_point(|&x| x <= t);
@@ -108,39 +112,40 @@ impl Table {
     }
 }
 
-/// What a load does in time.
+/// The time dependence of a load.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum LoadKind {
-    /// A force that never changes.
+    /// A constant force.
     Constant {
-        /// N.
+        /// Force, N.
         force: f64,
     },
     /// amplitude · sin(2π frequency t + phase).
     Harmonic {
-        /// N.
+        /// Amplitude, N.
         amplitude: f64,
-        /// Hz.
+        /// Frequency, Hz.
         frequency: f64,
-        /// rad.
+        /// Phase, rad.
         phase: f64,
     },
-    /// A blow: the momentum jumps by `impulse` at `time`.
+    /// A blow, that is an impulsive load: the momentum jumps by `impulse` at `time`.
     Impulse {
-        /// N s.
+        /// Impulse, N s.
         impulse: f64,
-        /// s, zero or more.
+        /// Time, s; zero or more.
         time: f64,
     },
     /// Tabulated, linear between rows, zero outside.
     Table(Table),
-    /// Any function of time: for the stepping schemes, which ask for it at the ends of their steps. The exact scheme has to know
-    /// the motion in closed form and refuses it; [`Table::sampled`] makes a table of it with a stated error.
+    /// Any function of time, for the stepping schemes, which evaluate it at the ends of their
+    /// steps. The exact scheme needs the motion in closed form and refuses it; [`Table::sampled`]
+    /// makes a table of it with a stated error.
     Function(TimeFunction),
 }
 
-/// One load and the row it acts through. Loads add up.
+/// One load and the row through which it acts. Loads add up.
 ///
 /// ```
 /// use signorini::{Load, Options, Row, Scene, Scheme, Table, Wall, run};
@@ -163,9 +168,9 @@ pub enum LoadKind {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Load {
-    /// What it does in time.
+    /// Its time dependence.
     pub kind: LoadKind,
-    /// The row it acts through.
+    /// The row through which it acts.
     pub at: Row,
 }
 
@@ -194,8 +199,9 @@ impl Load {
         Self::on_first(LoadKind::Table(table))
     }
 
-    /// The force `f`(t) (N, with t in s) on the first degree of freedom: see [`LoadKind::Function`]. It has to be a function of
-    /// the time alone: a scheme may ask for one instant more than once, and the judge asks again.
+    /// The force `f`(t) (N, with t in s) on the first degree of freedom: see
+    /// [`LoadKind::Function`]. It must depend on the time only: a scheme may evaluate it at one
+    /// instant more than once, and the judge evaluates it again.
     #[must_use]
     pub fn function(f: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Self::on_first(LoadKind::Function(TimeFunction::new(f)))

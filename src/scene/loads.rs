@@ -4,7 +4,8 @@ use super::forcing::Forcing;
 use super::load::Load;
 use super::row::{Row, distinct};
 
-/// All loads, sorted by where they act: one sum over time for each row, however many degrees of freedom it reaches.
+/// All loads, sorted by where they act: one sum over time for each row, however many degrees of
+/// freedom it reaches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loads {
     parts: Vec<(Row, Forcing)>,
@@ -56,7 +57,8 @@ impl Loads {
         }
     }
 
-    /// Adds `scale` times the forces at `t` (N) to `out`, one value per degree of freedom, without the blows.
+    /// Adds `scale` times the forces at `t` (N) to `out`, one value per degree of freedom, without
+    /// the blows.
     #[inline]
     pub fn add_force(&self, t: f64, scale: f64, out: &mut [f64]) {
         for (row, forcing) in &self.parts {
@@ -69,14 +71,14 @@ impl Loads {
         self.blow_by(|forcing| forcing.impulse(from, to), out)
     }
 
-    /// Writes the moment of the blows in (from, to] about `about` (s) to `out`, N s², as [`Forcing::impulse_moment`]. Returns whether it is
-    /// not zero.
+    /// Writes the moment of the blows in (from, to] about `about` (s) to `out`, N s², as
+    /// [`Forcing::impulse_moment`]. Returns whether it is not zero.
     pub fn blow_moment(&self, from: f64, to: f64, about: f64, out: &mut [f64]) -> bool {
         self.blow_by(|forcing| forcing.impulse_moment(from, to, about), out)
     }
 
-    /// Writes the sum of the blows within half a step `h` (s) of the instant `step` · h to `out`, as [`Forcing::impulse_about`]. Returns whether there
-    /// is one.
+    /// Writes the sum of the blows within half a step `h` (s) of the instant `step` · h to `out`,
+    /// as [`Forcing::impulse_about`]. Returns whether there is one.
     pub fn blow_about(&self, step: u64, h: f64, out: &mut [f64]) -> bool {
         self.blow_by(|forcing| forcing.impulse_about(step, h), out)
     }
@@ -86,7 +88,8 @@ impl Loads {
         self.blow_by(|forcing| forcing.impulse_about_since(since, step, h), out)
     }
 
-    /// Writes the blows at t = 0 to `out`, N s: the start is the state after them. Returns whether there is one.
+    /// Writes the blows at t = 0 to `out`, N s: the start is the state after them. Returns whether
+    /// there is one.
     pub fn initial_blow(&self, out: &mut [f64]) -> bool {
         self.blow_by(Forcing::initial_impulse, out)
     }

@@ -1,10 +1,10 @@
-//! Where on a structure something sits: a sparse row.
+//! Locations on a structure as sparse rows.
 
 use std::collections::HashMap;
 use std::hash::{Hash, Hasher};
 
-/// A sparse row g of weights on the degrees of freedom: the displacement seen through it is w = g · q, and a force r
-/// behind it acts on the structure as gᵀ r.
+/// A sparse row g of weights on the degrees of freedom: the displacement there is w = g · q, and a
+/// force r there acts on the structure as gᵀ r.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     entries: Vec<(usize, f64)>,
@@ -17,7 +17,8 @@ impl Row {
         Self { entries: vec![(index, 1.0)] }
     }
 
-    /// A row of (degree of freedom, weight): the difference of two is the relative motion of two masses, unequal weights are a lever.
+    /// A row of (degree of freedom, weight): the difference of two is the relative motion of two
+    /// masses, unequal weights are a lever.
     #[must_use]
     pub fn new(entries: Vec<(usize, f64)>) -> Self {
         Self { entries }
@@ -29,28 +30,29 @@ impl Row {
         &self.entries
     }
 
-    /// True if the row sees nothing: no entries, or only such as cancel.
+    /// True if the row is zero: no entries, or entries that cancel.
     pub(crate) fn is_blind(&self) -> bool {
         let weight = |i: usize| self.entries.iter().filter(|e| e.0 == i).map(|e| e.1).sum::<f64>();
         self.entries.iter().all(|&(i, _)| weight(i) == 0.0)
     }
 
-    /// w = g · q for a vector `q` of one value per degree of freedom; degrees of freedom beyond its length count as 0.
+    /// w = g · q for a vector `q` of one value per degree of freedom; degrees of freedom beyond its
+    /// length count as 0.
     #[must_use]
     pub fn dot(&self, q: &[f64]) -> f64 {
         self.entries.iter().map(|&(i, weight)| weight * q.get(i).copied().unwrap_or(0.0)).sum()
     }
 }
 
-/// The rows of a list, each once.
+/// The distinct rows of a list.
 pub(crate) struct Distinct<'a> {
     /// In the order in which they first occur.
     pub rows: Vec<&'a Row>,
-    /// Which of them each member of the list is.
+    /// For each member of the list, the index of its row.
     pub of: Vec<usize>,
 }
 
-/// The rows of a list, each once: equal rows have the same entries in the same order.
+/// The distinct rows of a list: equal rows have the same entries in the same order.
 pub(crate) fn distinct<'a>(list: impl IntoIterator<Item = &'a Row>) -> Distinct<'a> {
     let (mut known, mut rows, mut of) = (HashMap::new(), Vec::new(), Vec::new());
     for row in list {
@@ -63,7 +65,7 @@ pub(crate) fn distinct<'a>(list: impl IntoIterator<Item = &'a Row>) -> Distinct<
     Distinct { rows, of }
 }
 
-/// A row to look up by. A weight that is no number equals none, so that such a row is only ever itself another one.
+/// A row as a hash key. NaN weights differ from every number, so such a row equals only itself.
 #[derive(PartialEq)]
 struct Key<'a>(&'a Row);
 
@@ -72,7 +74,7 @@ impl Eq for Key<'_> {}
 impl Hash for Key<'_> {
     fn hash<H: Hasher>(&self, state: &mut H) {
         for &(i, weight) in &self.0.entries {
-            // Both zeros are equal, and so must their hashes be.
+            // Both zeros are equal, so their hashes must be too.
             (i, (weight + 0.0).to_bits()).hash(state);
         }
     }
@@ -81,8 +83,8 @@ impl Hash for Key<'_> {
 /// A named place whose displacement and velocity are recorded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
-    /// The name that tables and CSV headers carry; empty for the single probe of an oscillator.
+    /// The name used in tables and CSV headers; empty for the single probe of an oscillator.
     pub name: String,
-    /// Where it looks.
+    /// The row of the displacement that it records.
     pub at: Row,
 }

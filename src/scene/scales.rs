@@ -1,17 +1,20 @@
-//! Typical sizes of a scene: frequencies, and the mass a wall feels.
+//! Reference scales of a scene: frequencies, and the mass that a wall feels.
 
 use super::{Row, Scene, Structure, System, distinct};
 use crate::linear::{Factor, Symmetric};
 
-/// Iterations of the power method: a frequency that sets a scale needs no more digits than they give.
+/// Iterations of the power method: as a reference scale, a frequency needs no more digits than
+/// these give.
 const ITERATIONS: usize = 60;
 
-/// The shift of K that makes it definite, as a share of the largest ω² · M: rigid-body motions come out as slower than this.
+/// The shift that makes K definite, as a share of the largest ω² · M: rigid-body motions get a
+/// frequency below it.
 const SHIFT: f64 = 1e-12;
 
 impl System {
-    /// The slowest and the fastest circular frequency (rad/s) of the system without damping and walls: estimates, from within, that set scales. A
-    /// rigid-body motion has the frequency 0.
+    /// The slowest and the fastest circular frequency (rad/s) of the system without damping and
+    /// walls. They are estimates, within the true range, for reference scales. A rigid-body motion
+    /// has the frequency 0.
     #[must_use]
     pub fn frequencies(&self) -> [f64; 2] {
         match self {
@@ -37,11 +40,12 @@ pub(in crate::scene) fn fastest_squared(structure: &Structure, mass: Option<Fact
     power(&structure.mass, mass, &structure.stiffness).unwrap_or(0.0)
 }
 
-/// The largest λ of B x = λ A x, by the power method; none if A is not positive definite, and has no factor.
+/// The largest λ of B x = λ A x, by the power method; `None` if A is not positive definite and so
+/// has no factor.
 fn power(a: &Symmetric, factor: Option<Factor>, b: &Symmetric) -> Option<f64> {
     let n = a.size();
     let mut factor = factor?;
-    // Components along every mode, whatever symmetry the structure has.
+    // A start vector with components along every mode, whatever the symmetry of the structure.
     let mut x: Vec<f64> = (0..n).map(|i| (1.0 + 0.618_033_988_75 * i as f64).fract() - 0.3).collect();
     let mut y = vec![0.0; n];
     let mut lambda = 0.0;
@@ -64,8 +68,8 @@ fn power(a: &Symmetric, factor: Option<Factor>, b: &Symmetric) -> Option<f64> {
 }
 
 impl Scene {
-    /// The mass that each wall feels, kg, in the scene's order: 1/(g M⁻¹ gᵀ), what an impulse divided by it changes of the velocity there.
-    /// Infinite for a wall whose row sees nothing.
+    /// The mass that each wall feels, kg, in the scene's order: 1/(g M⁻¹ gᵀ). An impulse over this
+    /// mass is the change of velocity there. Infinite for a wall with a zero row.
     #[must_use]
     pub fn wall_masses(&self) -> Vec<f64> {
         match &self.system {
@@ -85,7 +89,7 @@ impl Scene {
                         }
                     }
                     if lumped {
-                        // Entry by entry: a wall costs nothing of n.
+                        // Entry by entry, so that the cost per wall does not depend on n.
                         for &(i, _) in at.entries() {
                             if let Some(x) = response.get_mut(i) {
                                 inverse += std::mem::take(x).powi(2) / s.mass.get(i, i);
@@ -98,7 +102,7 @@ impl Scene {
                     }
                     1.0 / inverse
                 };
-                // Walls of one place feel one mass.
+                // Walls at one place have the same mass.
                 let places = distinct(self.walls.iter().map(|wall| &wall.at));
                 let masses: Vec<f64> = places.rows.into_iter().map(mass).collect();
                 places.of.into_iter().filter_map(|place| masses.get(place).copied()).collect()

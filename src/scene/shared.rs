@@ -1,4 +1,4 @@
-//! A structure that many share.
+//! A structure shared by many users.
 
 use super::scales;
 use super::structure::{self, Structure};
@@ -8,8 +8,10 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, OnceLock};
 
-/// A [`Structure`] that scenes, steppers and judges share without copies of its matrices, and with it what is derived from them once: whether
-/// they make sense, the factor of M, the frequencies. A change through `DerefMut` is made to a copy, if there are others, and derives anew.
+/// A [`Structure`] that scenes, steppers and judges share without copying its matrices, together
+/// with quantities derived from them once: whether they are valid, the factor of M, the
+/// frequencies. A change through `DerefMut` applies to a copy if there are other users, and
+/// discards the derived quantities.
 #[derive(Clone, Default)]
 pub struct SharedStructure(Arc<Inner>);
 
@@ -39,7 +41,7 @@ impl SharedStructure {
         Arc::clone(self.0.operators.get_or_init(new))
     }
 
-    /// As [`System::frequencies`](super::System::frequencies), found once.
+    /// As [`System::frequencies`](super::System::frequencies), computed once.
     pub(super) fn frequencies(&self) -> [f64; 2] {
         *self.0.frequencies.get_or_init(|| scales::frequencies(self, self.mass_factor().ok()))
     }

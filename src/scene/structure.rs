@@ -1,10 +1,11 @@
-//! A structure by its matrices.
+//! A structure given by its matrices.
 
 use crate::error::{Error, Result, Subject};
 use crate::linear::{Factor, NotDefinite, Symmetric};
 
-/// M q̈ + C q̇ + K q = f by matrices, all n × n: M symmetric positive definite (kg), C (N s/m) and K (N/m) symmetric positive semidefinite. In modal
-/// coordinates all three may be diagonal, and in coordinates that are rotations the units are those of the conjugate quantities.
+/// M q̈ + C q̇ + K q = f by matrices, all n × n: M symmetric positive definite (kg), C (N s/m) and
+/// K (N/m) symmetric positive semidefinite. In modal coordinates all three may be diagonal. For
+/// coordinates that are rotations, the units are those of the conjugate quantities.
 ///
 /// ```
 /// use signorini::linear::Symmetric;
@@ -37,8 +38,8 @@ pub struct Structure {
     pub stiffness: Symmetric,
 }
 
-/// Refuses matrices that make no sense; `mass` factors M. Each matrix is factored once, which for a band costs n · width² and so little
-/// beside a run.
+/// Refuses invalid matrices; `mass` factors M. Each matrix is factored once, which for a band costs
+/// n · width² and so is cheap compared with a run.
 pub(super) fn validate(
     structure: &Structure,
     mass: impl FnOnce() -> std::result::Result<(), NotDefinite>,
@@ -69,7 +70,8 @@ pub(in crate::scene) fn matrix_of(name: &str) -> Subject {
     Subject::of("system").part(format!("{name} matrix"))
 }
 
-/// Rounding of an assembled matrix, relative to its diagonal: shifted by this much, a semidefinite one is definite.
+/// Rounding of an assembled matrix, relative to its diagonal: a semidefinite matrix shifted by this
+/// much is definite.
 const SHIFT: f64 = 1e-9;
 
 fn definite(mass: &Symmetric, factor: impl FnOnce() -> std::result::Result<(), NotDefinite>) -> Result<()> {
@@ -117,7 +119,7 @@ fn semidefinite(name: &str, matrix: &Symmetric) -> Result<()> {
         let expected = format!("at most {:?} in size, as the diagonal bounds it, of {EXPECTED}", most(i, j));
         return Err(Error::invalid(entry(i, j), format_args!("{value:?}"), expected));
     }
-    // What has a diagonal of 0 has by now nothing beside it: any shift will do.
+    // Rows with a zero diagonal have no other entries at this point: any shift works.
     let shift: Vec<f64> = diagonal.iter().map(|d| if *d > 0.0 { SHIFT * d } else { 1.0 }).collect();
     let shifted = Symmetric::sum(&[(1.0, matrix), (1.0, &Symmetric::diagonal(&shift))]);
     Factor::new(&shifted).map(|_| ()).map_err(|fault| {

@@ -1,4 +1,4 @@
-//! The linear system: what vibrates when nothing touches it.
+//! The linear system, without walls and loads.
 
 use super::shared::SharedStructure;
 use super::structure::Structure;
@@ -63,7 +63,7 @@ impl System {
         }
     }
 
-    /// aᵀ C b; for velocities (m/s) the power that damping takes, W.
+    /// aᵀ C b; for velocities (m/s) the power that damping dissipates, W.
     #[must_use]
     pub fn damping_form(&self, a: &[f64], b: &[f64]) -> f64 {
         match self {

@@ -1,4 +1,4 @@
-//! Walls: where the body may not go, and what happens when it gets there.
+//! Walls: the bounds on displacements, and the law of contact there.
 
 use super::row::Row;
 use super::system::{finite, nonnegative, positive};
@@ -24,16 +24,17 @@ impl Side {
     }
 }
 
-/// What a wall answers to a body that reaches it. Depth s is the penetration −gap, and |r| the pressure.
+/// The contact law of a wall. Depth s is the penetration −gap, and |r| the magnitude of the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum WallLaw {
     /// Signorini's condition 0 ≤ gap ⟂ |r| ≥ 0 with Newton's impact law ẇ⁺ = −e ẇ⁻.
     ///
-    /// Where several walls are struck at once the law is Moreau's (1988, doi:10.1007/978-3-7091-2624-0_1): all of them answer in one
-    /// impact, 0 ≤ ẇ⁺ + e ẇ⁻ ⟂ |p| ≥ 0 at each. Three equal masses in a row that touch, the first with a speed of 1, leave with
-    /// (−⅓, ⅔, ⅔) at e = 1, not with the (0, 0, 1) of Newton's cradle, which is a sequence of impacts: leave gaps between the masses
-    /// where that is meant.
+    /// Where several walls are struck at once the law is Moreau's (1988,
+    /// doi:10.1007/978-3-7091-2624-0_1): all of them answer in one impact, 0 ≤ ẇ⁺ + e ẇ⁻ ⟂ |p| ≥ 0
+    /// at each. Three equal masses in a row that touch, the first with a speed of 1, leave with
+    /// (−⅓, ⅔, ⅔) at e = 1, not with the (0, 0, 1) of Newton's cradle, which is a sequence of
+    /// impacts: leave gaps between the masses where that is meant.
     Rigid {
         /// Restitution e, from 0 (stays) to 1 (rebounds at full speed).
         restitution: f64,
@@ -56,8 +57,8 @@ pub enum WallLaw {
 }
 
 impl WallLaw {
-    /// Pressure |r| in newtons at depth `s` (m) and rate `rate` = ṡ (m/s); 0 outside, and 0 for a rigid wall, whose
-    /// force is no function of the state.
+    /// Force magnitude |r| in newtons at depth `s` (m) and rate `rate` = ṡ (m/s); 0 outside, and 0
+    /// for a rigid wall, whose force is not a function of the state.
     #[must_use]
     pub fn pressure(&self, s: f64, rate: f64) -> f64 {
         if s <= 0.0 {
@@ -70,7 +71,8 @@ impl WallLaw {
         }
     }
 
-    /// ∂|r|/∂s at depth `s` (m), N/m, without damping; the derivative from inside at s = 0 is not taken: 0 for s ≤ 0.
+    /// ∂|r|/∂s at depth `s` (m), N/m, without damping; 0 for s ≤ 0, also at s = 0, where the
+    /// derivative from inside differs.
     #[must_use]
     pub fn tangent(&self, s: f64) -> f64 {
         if s <= 0.0 {
@@ -96,7 +98,7 @@ impl WallLaw {
         }
     }
 
-    /// The restitution e of a rigid wall; none for the others, which have a force law instead.
+    /// The restitution e of a rigid wall; `None` for the others, which have a force law instead.
     #[must_use]
     pub fn restitution(&self) -> Option<f64> {
         if let Self::Rigid { restitution } = *self { Some(restitution) } else { None }
@@ -109,7 +111,7 @@ impl WallLaw {
     }
 }
 
-/// One wall, on one side of the place it watches.
+/// One wall, which bounds the displacement of its row on one side.
 ///
 /// ```
 /// use signorini::{Row, Wall};
@@ -126,26 +128,28 @@ impl WallLaw {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wall {
-    /// Name: letters, digits, `-` and `_`; results are asked for by it.
+    /// Name: letters, digits, `-` and `_`; results are looked up by it.
     pub name: String,
     /// Which side of the body it stands on.
     pub side: Side,
-    /// Position g, m, in the coordinate w = g · q that `at` sees.
+    /// Position g, m, in the coordinate w = g · q of the row `at`.
     pub position: f64,
-    /// What happens there.
+    /// The contact law.
     pub law: WallLaw,
-    /// The row through which it sees and pushes the structure.
+    /// The row of the bounded displacement, through which the wall also pushes.
     pub at: Row,
 }
 
 impl Wall {
-    /// A rigid upper wall (e = 1) on the first degree of freedom: the body may not go above `position` (m).
+    /// A rigid upper wall (e = 1) on the first degree of freedom: the body may not go above
+    /// `position` (m).
     #[must_use]
     pub fn upper(name: &str, position: f64) -> Self {
         Self::new(name, Side::Upper, position)
     }
 
-    /// A rigid lower wall (e = 1) on the first degree of freedom: the body may not go below `position` (m).
+    /// A rigid lower wall (e = 1) on the first degree of freedom: the body may not go below
+    /// `position` (m).
     #[must_use]
     pub fn lower(name: &str, position: f64) -> Self {
         Self::new(name, Side::Lower, position)
@@ -175,7 +179,8 @@ impl Wall {
         self.side.sign() * (w - self.position)
     }
 
-    /// Signed force r on the body (N) of an elastic or penalised wall at displacement `w` (m) and velocity `wdot` (m/s).
+    /// Signed force r on the body (N) of an elastic or penalised wall at displacement `w` (m) and
+    /// velocity `wdot` (m/s).
     #[must_use]
     pub fn law_force(&self, w: f64, wdot: f64) -> f64 {
         let sign = self.side.sign();

@@ -7,39 +7,41 @@ use crate::linear::Symmetric;
 use crate::scene::system::{nonnegative, positive};
 use crate::scene::{Row, Structure};
 
-/// What holds an end of a bar.
+/// The support of an end of a bar.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum BarEnd {
-    /// Nothing.
+    /// A free end.
     Free,
-    /// It cannot move.
+    /// A fixed end: no displacement.
     Fixed,
     /// A spring to the ground.
     Sprung {
-        /// N/m; 0 or more.
+        /// Stiffness, N/m; 0 or more.
         stiffness: f64,
     },
 }
 
-/// How the mass of an element becomes a matrix.
+/// The mass matrix of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum MassMatrix {
     /// ∫ ρ A Nᵀ N dx: frequencies are too high, at second order.
     #[default]
     Consistent,
-    /// Half of the element's mass on each of its nodes: M is diagonal; frequencies are too low, at second order. A wave then meets a wall
-    /// one node at a time, which is why impact studies often choose it.
+    /// Half of the element's mass on each of its nodes: M is diagonal; frequencies are too low, at
+    /// second order. A wave then meets a wall one node at a time, which is why impact studies often
+    /// choose it.
     Lumped,
 }
 
-/// A bar in axial motion, ρ A ü = (E A u′)′, by linear elements of equal length. With ℎ the length of an element,
+/// A bar in axial motion, ρ A ü = (E A u′)′, by linear elements of equal length. With ℎ the length
+/// of an element,
 ///
 /// K = EA/ℎ [1 −1; −1 1],  M = ρAℎ/6 [2 1; 1 2] (consistent) or ρAℎ/2 [1 0; 0 1] (lumped).
 ///
-/// Degrees of freedom are the displacements of the nodes from left to right, m, without those of fixed ends. M and K are tridiagonal.
-/// Static answers are exact at the nodes.
+/// Degrees of freedom are the displacements of the nodes from left to right, m, without those of
+/// fixed ends. M and K are tridiagonal. Static displacements are exact at the nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bar {
     /// Length, m; positive.
@@ -52,9 +54,9 @@ pub struct Bar {
     pub density: f64,
     /// Number of elements, from 1 to [`MOST_ELEMENTS`](super::MOST_ELEMENTS).
     pub elements: usize,
-    /// What holds the end at 0.
+    /// The support of the end at 0.
     pub left: BarEnd,
-    /// What holds the end at `length`.
+    /// The support of the end at `length`.
     pub right: BarEnd,
     /// The mass matrix.
     pub mass: MassMatrix,
@@ -108,7 +110,7 @@ impl Bar {
         })
     }
 
-    /// The row of the displacement at a position, m from the left end. It sees nothing at a fixed end.
+    /// The row of the displacement at a position, m from the left end. It is zero at a fixed end.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `position`, or of the bar itself.
@@ -116,8 +118,9 @@ impl Bar {
         self.mesh()?.at(position, shape)
     }
 
-    /// The row of a force spread evenly over a stretch, from and to in m from the left end: a load behind it is the resultant, N (a force
-    /// per metre times the length of the stretch), as consistent nodal forces. As a probe it sees the mean displacement of the stretch.
+    /// The row of a force spread evenly over a stretch, from and to in m from the left end: the
+    /// load is the resultant, N (a force per metre times the length of the stretch), applied as
+    /// consistent nodal forces. A probe with this row records the mean displacement of the stretch.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `from` or `to`, or of the bar itself.
@@ -125,17 +128,20 @@ impl Bar {
         self.mesh()?.spread(from, to, shape)
     }
 
-    /// The vector q of a displacement (or velocity) that is given along the bar: its values at the nodes. Errors name `subject`.
+    /// The vector q of a displacement (or velocity) that is given as a function along the bar: its
+    /// values at the nodes. Errors name `subject`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where the field is not finite, or not 0 at a fixed end; or of the bar itself.
+    /// [`Error::Invalid`] where the field is not finite, or not 0 at a fixed end; or of the bar
+    /// itself.
     pub fn field(&self, subject: impl Into<Subject>, field: &dyn Fn(f64) -> f64) -> Result<Vec<f64>> {
         let mesh = self.mesh()?;
         let values: Vec<f64> = (0..=self.elements).map(|i| field(mesh.node(i))).collect();
         mesh.gather(subject, &values)
     }
 
-    /// The vector q of a displacement (or velocity) that is linear between `points` (position m, value). Errors name `subject`.
+    /// The vector q of a displacement (or velocity) that is linear between `points` (position m,
+    /// value). Errors name `subject`.
     ///
     /// # Errors
     /// As [`Bar::field`]; and where the positions do not increase from 0 to the length.

@@ -8,15 +8,15 @@ use crate::scene::system::{nonnegative, positive};
 use crate::scene::{Row, Structure};
 use std::f64::consts::PI;
 
-/// What holds an end of a beam.
+/// The support of an end of a beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum BeamEnd {
-    /// Nothing.
+    /// A free end.
     Free,
-    /// No deflection; it may turn.
+    /// A pinned end: no deflection, free rotation.
     Pinned,
-    /// No deflection and no rotation.
+    /// A clamped end: no deflection and no rotation.
     Clamped,
     /// Springs to the ground.
     Sprung {
@@ -27,16 +27,18 @@ pub enum BeamEnd {
     },
 }
 
-/// A straight tube in bending, Euler–Bernoulli, m′ ẅ + (E I w″)″ = f, by Hermite elements of equal length with consistent mass. With
+/// A straight tube in bending, Euler–Bernoulli, m′ ẅ + (E I w″)″ = f, by Hermite elements of equal
+/// length with consistent mass. With
 ///
 /// I = π (D⁴ − d⁴)/64,  m′ = ρ π (D² − d²)/4 + added mass,  ℎ the length of an element,
 ///
 /// K = EI/ℎ³ [12 6ℎ −12 6ℎ; · 4ℎ² −6ℎ 2ℎ²; · · 12 −6ℎ; · · · 4ℎ²],
 /// M = m′ℎ/420 [156 22ℎ 54 −13ℎ; · 4ℎ² 13ℎ −3ℎ²; · · 156 −22ℎ; · · · 4ℎ²].
 ///
-/// Two degrees of freedom a node from left to right, deflection (m) and rotation w′ (rad), without those that the ends hold; the half
-/// bandwidth is 3. Frequencies are too high, at fourth order; static answers to forces and moments at nodes are exact at the nodes. Neither
-/// shear nor rotary inertia: good for wavelengths of many diameters.
+/// Two degrees of freedom per node from left to right, deflection (m) and rotation w′ (rad),
+/// without those that the supports hold; the half bandwidth is 3. Frequencies are too high, at
+/// fourth order; static deflections under forces and moments at nodes are exact at the nodes. Shear
+/// deformation and rotary inertia are neglected: the model holds for wavelengths of many diameters.
 ///
 /// ```
 /// use signorini::{Beam, BeamEnd, Damping, Scene, Wall};
@@ -71,13 +73,13 @@ pub struct Beam {
     pub outer_diameter: f64,
     /// Inner diameter d, m; 0 (a rod) or more, less than D.
     pub inner_diameter: f64,
-    /// Mass per metre beside that of the tube (fluid within, fluid moved without), kg/m; 0 or more.
+    /// Additional mass per metre (fluid inside, fluid moved outside), kg/m; 0 or more.
     pub added_mass: f64,
     /// Number of elements, from 1 to [`MOST_ELEMENTS`](super::MOST_ELEMENTS).
     pub elements: usize,
-    /// What holds the end at 0.
+    /// The support of the end at 0.
     pub left: BeamEnd,
-    /// What holds the end at `length`.
+    /// The support of the end at `length`.
     pub right: BeamEnd,
 }
 
@@ -161,7 +163,8 @@ impl Beam {
         })
     }
 
-    /// The row of the deflection at a position, m from the left end. It sees nothing at an end that is held.
+    /// The row of the deflection at a position, m from the left end. It is zero at an end that is
+    /// held.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `position`, or of the beam itself.
@@ -170,9 +173,10 @@ impl Beam {
         mesh.at(position, shape(mesh.size()))
     }
 
-    /// The row of a force spread evenly over a stretch, from and to in m from the left end: a load behind it is the resultant, N (a force
-    /// per metre times the length of the stretch), as consistent nodal forces and moments. As a probe it sees the mean deflection of the
-    /// stretch.
+    /// The row of a force spread evenly over a stretch, from and to in m from the left end: the
+    /// load is the resultant, N (a force per metre times the length of the stretch), applied as
+    /// consistent nodal forces and moments. A probe with this row records the mean deflection of
+    /// the stretch.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `from` or `to`, or of the beam itself.
@@ -181,18 +185,21 @@ impl Beam {
         mesh.spread(from, to, shape(mesh.size()))
     }
 
-    /// The vector q of a deflection (or its velocity) that is given along the beam, as [value, slope]: both at the nodes. Errors name `subject`.
+    /// The vector q of a deflection (or its velocity) that is given along the beam as a function
+    /// with values [value, slope], taken at the nodes. Errors name `subject`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where the field is not finite, or not 0 where an end is held; or of the beam itself.
+    /// [`Error::Invalid`] where the field is not finite, or not 0 where an end is held; or of the
+    /// beam itself.
     pub fn field(&self, subject: impl Into<Subject>, field: &dyn Fn(f64) -> [f64; 2]) -> Result<Vec<f64>> {
         let mesh = self.mesh()?;
         let values: Vec<f64> = (0..=self.elements).flat_map(|i| field(mesh.node(i))).collect();
         mesh.gather(subject, &values)
     }
 
-    /// The vector q of the smoothest deflection (or velocity) through `points` (position m, value): the cubic spline, which of all curves
-    /// through them bends with the least energy, with slope 0 where an end is clamped. Errors name `subject`.
+    /// The vector q of the smoothest deflection (or velocity) through `points` (position m, value):
+    /// the cubic spline, which has the least bending energy of all curves through them, with slope
+    /// 0 at a clamped end. Errors name `subject`.
     ///
     /// # Errors
     /// As [`Beam::field`]; and where the positions do not increase from 0 to the length.
@@ -205,7 +212,8 @@ impl Beam {
     }
 }
 
-/// Hermite's cubics of ξ from 0 to 1: deflection and rotation of the left node, then of the right, for an element of length `h` (m).
+/// Hermite's cubics of ξ from 0 to 1: deflection and rotation of the left node, then of the right,
+/// for an element of length `h` (m).
 fn shape(h: f64) -> impl Fn(f64) -> [f64; 4] {
     move |x| {
         let y = 1.0 - x;

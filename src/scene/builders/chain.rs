@@ -5,7 +5,8 @@ use crate::linear::Symmetric;
 use crate::scene::Structure;
 use crate::scene::system::{nonnegative, positive};
 
-/// Masses in a line, each joined to its neighbours by springs, the first and the last also to the ground:
+/// Masses in a line, each joined to its neighbours by springs, the first and the last also to the
+/// ground:
 ///
 /// mᵢ q̈ᵢ = kᵢ₋₁ (qᵢ₋₁ − qᵢ) + kᵢ (qᵢ₊₁ − qᵢ),  q₀ = qₙ₊₁ = 0.
 ///
@@ -16,7 +17,8 @@ pub struct Chain {
     pub masses: Vec<f64>,
     /// The springs between neighbours, N/m; one fewer than masses, each 0 (cut) or more.
     pub springs: Vec<f64>,
-    /// The springs from the ground to the first mass and from the last mass to the ground, N/m; 0 for a free end.
+    /// The springs from the ground to the first mass and from the last mass to the ground, N/m; 0
+    /// for a free end.
     pub grounds: [f64; 2],
 }
 
@@ -24,7 +26,8 @@ impl Chain {
     /// M and K, without damping.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `system.chain.masses`, `system.chain.springs` or `system.chain.grounds`.
+    /// [`Error::Invalid`] under `system.chain.masses`, `system.chain.springs` or
+    /// `system.chain.grounds`.
     pub fn structure(&self) -> Result<Structure> {
         let n = self.masses.len();
         if n == 0 {

@@ -1,22 +1,24 @@
-//! A line of equal elements: numbering, assembly, and what one point or stretch of it sees.
+//! A line of equal elements: numbering, assembly, and the rows of a point or a stretch.
 
 use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::Row;
 
-/// The most elements of a bar or beam. Beyond some thousand Hermite elements K is too ill conditioned for statics (its condition number grows with the
-/// fourth power), long before this bound on memory.
+/// The most elements of a bar or beam. Beyond some thousand Hermite elements K is too
+/// ill-conditioned for statics (its condition number grows with the fourth power of their number),
+/// long before this limit on memory.
 pub const MOST_ELEMENTS: usize = 100_000;
 
-/// A position this close to a node, in elements, is the node.
+/// A position within this distance of a node, in elements, counts as the node.
 const SNAP: f64 = 1e-9;
 
-/// Equal elements over [0, length], N unknowns an element and N/2 a node, numbered node by node; the fixed ones are left out of q.
+/// Equal elements over [0, length] with N unknowns per element and N/2 per node, numbered node by
+/// node; fixed unknowns are left out of q.
 #[derive(Debug, Clone)]
 pub(super) struct Mesh<const N: usize> {
     pub length: f64,
     pub elements: usize,
-    /// Unknowns that are held at 0, in the numbering that counts them; increasing, at the two ends.
+    /// Unknowns that are fixed at 0, in the numbering of all unknowns; increasing, at the two ends.
     pub fixed: Vec<usize>,
 }
 
@@ -36,13 +38,14 @@ impl<const N: usize> Mesh<N> {
         ((self.elements + 1) * N / 2).saturating_sub(self.fixed.len())
     }
 
-    /// The degree of freedom that an unknown is; none if it is fixed.
+    /// The degree of freedom of an unknown; `None` if it is fixed.
     pub fn free(&self, unknown: usize) -> Option<usize> {
         let before = self.fixed.iter().filter(|&&f| f < unknown).count();
         (!self.fixed.contains(&unknown)).then(|| unknown - before)
     }
 
-    /// The matrix of one `element`, the same for all, with `springs` (unknown, N/m or N m/rad) on the diagonal.
+    /// The matrix of one `element`, the same for all, with `springs` (unknown, N/m or N m/rad) on
+    /// the diagonal.
     pub fn assemble(&self, element: &[[f64; N]; N], springs: &[(usize, f64)]) -> Symmetric {
         let mut entries = Vec::with_capacity(self.elements * N * (N + 1) / 2 + springs.len());
         for e in 0..self.elements {
@@ -59,7 +62,7 @@ impl<const N: usize> Mesh<N> {
         Symmetric::from_entries(self.unknowns(), entries)
     }
 
-    /// The element a position (m) lies in and where in it, from 0 to 1.
+    /// The element in which a position (m) lies, and the local coordinate there, from 0 to 1.
     fn locate(&self, key: &'static str, position: f64) -> Result<(usize, f64)> {
         if !(0.0..=self.length).contains(&position) {
             let expected = format!("a position along the structure, from 0 to {:?} m", self.length);
@@ -71,14 +74,15 @@ impl<const N: usize> Mesh<N> {
         Ok((element, x - element as f64))
     }
 
-    /// The row that sees the displacement at `position` (m), by the shape functions of ξ from 0 to 1.
+    /// The row of the displacement at `position` (m), by the shape functions of ξ from 0 to 1.
     pub fn at(&self, position: f64, shape: impl Fn(f64) -> [f64; N]) -> Result<Row> {
         let (element, xi) = self.locate("position", position)?;
         let entries = shape(xi).into_iter().enumerate().filter(|&(_, weight)| weight != 0.0);
         Ok(Row::new(entries.filter_map(|(a, weight)| Some((self.free(element * N / 2 + a)?, weight))).collect()))
     }
 
-    /// The row of a unit force spread evenly over [`from`, `to`] (m): the mean of the shape functions there. Seen as a displacement it is the mean.
+    /// The row of a unit force spread evenly over [`from`, `to`] (m): the mean of the shape
+    /// functions there. As the row of a displacement it gives the mean.
     pub fn spread(&self, from: f64, to: f64, shape: impl Fn(f64) -> [f64; N]) -> Result<Row> {
         let (first, start) = self.locate("from", from)?;
         let (last, end) = self.locate("to", to)?;
@@ -88,7 +92,7 @@ impl<const N: usize> Mesh<N> {
         }
         let total = (last as f64 + end) - (first as f64 + start);
         let mut weights = vec![0.0; (last - first + 2) * N / 2];
-        // Two points of Gauss are exact for cubics.
+        // Gauss quadrature with two points is exact for cubics.
         let offset = 0.5 / 3.0_f64.sqrt();
         for element in first..=last {
             let a = if element == first { start } else { 0.0 };
@@ -102,7 +106,8 @@ impl<const N: usize> Mesh<N> {
         Ok(Row::new(entries.filter_map(|(a, weight)| Some((self.free(first * N / 2 + a)?, weight))).collect()))
     }
 
-    /// The vector q of `values` at the nodes, N/2 each in their order; fixed unknowns must be 0, up to rounding of the largest of their kind.
+    /// The vector q of `values` at the nodes, N/2 each in their order; values of fixed unknowns
+    /// must be 0, up to rounding of the largest value of their kind.
     pub fn gather(&self, subject: impl Into<Subject>, values: &[f64]) -> Result<Vec<f64>> {
         let per_node = N / 2;
         let mut q = Vec::with_capacity(self.unknowns());

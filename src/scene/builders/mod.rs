@@ -1,11 +1,12 @@
-//! Builders of structures with many degrees of freedom: what an engineer measures, made into matrices.
+//! Builders of structures with many degrees of freedom, from dimensions and material data to
+//! matrices.
 //!
 //! | type | what it builds |
 //! |---|---|
 //! | [`Chain`] | masses in a line, springs between them |
 //! | [`Bar`] | axial motion, linear elements |
 //! | [`Beam`] | bending of a tube, Hermite elements |
-//! | [`ModalData`] | modes and shapes from elsewhere |
+//! | [`ModalData`] | modes and shapes computed or measured elsewhere |
 
 mod bar;
 mod beam;

@@ -1,23 +1,25 @@
-//! A structure by its modes, as finite-element programs and modal tests give them.
+//! A structure given by its modes, as exported by finite-element programs and modal tests.
 
 use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::system::{finite, nonnegative, positive};
 use crate::scene::{Row, Structure};
 
-/// Modes of a structure: what is left of it are k uncoupled oscillators mᵢ äᵢ + 2 ζᵢ ωᵢ mᵢ ȧᵢ + mᵢ ωᵢ² aᵢ = φᵢ · f, whose modal coordinates aᵢ are the
-/// degrees of freedom, and the displacement Σ φᵢ aᵢ at each point that walls, loads and probes need.
+/// Modes of a structure. They are k uncoupled oscillators mᵢ äᵢ + 2 ζᵢ ωᵢ mᵢ ȧᵢ + mᵢ ωᵢ² aᵢ = φᵢ ·
+/// f, whose modal coordinates aᵢ are the degrees of freedom; the displacement is Σ φᵢ aᵢ at each
+/// point that walls, loads and probes need.
 ///
-/// Shapes and generalised masses belong together: φᵢᵀ M φᵢ = mᵢ. Shapes that are normalised to the mass have mᵢ = 1.
+/// The scaling of shapes and generalised masses must agree: φᵢᵀ M φᵢ = mᵢ. Mass-normalised shapes
+/// have mᵢ = 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalData {
     /// ωᵢ, rad/s, 0 for a rigid-body motion; k entries.
     pub omega: Vec<f64>,
-    /// Generalised masses mᵢ, kg for shapes without unit, 1 for shapes normalised to the mass; k entries.
+    /// Generalised masses mᵢ, kg for shapes without unit, 1 for mass-normalised shapes; k entries.
     pub masses: Vec<f64>,
     /// Damping ratios ζᵢ, shares of critical damping; k entries.
     pub ratios: Vec<f64>,
-    /// The points whose motion is known.
+    /// The points whose mode shapes are known.
     pub points: Vec<ModalPoint>,
 }
 
@@ -77,18 +79,18 @@ impl ModalData {
         Ok(Structure { mass, damping, stiffness })
     }
 
-    /// The row that sees the displacement of a point.
+    /// The row of the displacement of a point.
     ///
     /// # Errors
-    /// [`Error::Unknown`], listing the points there are.
+    /// [`Error::Unknown`], listing the points that exist.
     pub fn at(&self, point: &str) -> Result<Row> {
         self.at_sum(&[(point.to_owned(), 1.0)])
     }
 
-    /// The row that sees a sum of points with weights: the difference of two is their relative motion.
+    /// The row of a weighted sum of points: the difference of two is their relative motion.
     ///
     /// # Errors
-    /// [`Error::Unknown`], listing the points there are.
+    /// [`Error::Unknown`], listing the points that exist.
     pub fn at_sum(&self, points: &[(String, f64)]) -> Result<Row> {
         let mut sum = vec![0.0; self.omega.len()];
         for (name, weight) in points {

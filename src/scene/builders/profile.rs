@@ -1,8 +1,9 @@
-//! A field along a structure, given by points (position m, value): linear between them, or the cubic spline.
+//! A field along a structure, given at points (position m, value): linear between them, or the
+//! cubic spline.
 
 use crate::error::{Error, Result, Subject};
 
-/// Checks that the positions increase from 0 to `length` (m) and that all is finite.
+/// Checks that the positions increase from 0 to `length` (m) and that all numbers are finite.
 pub(super) fn check(subject: &Subject, points: &[(f64, f64)], length: f64) -> Result<()> {
     let expected = || format!("two points or more (position, value), positions increasing from 0 to {length:?} m");
     let (Some(first), Some(last), true) = (points.first(), points.last(), points.len() >= 2) else {
@@ -25,7 +26,7 @@ pub(super) fn check(subject: &Subject, points: &[(f64, f64)], length: f64) -> Re
     Ok(())
 }
 
-/// Index of the interval that holds `x`; `points` has two or more.
+/// Index of the interval that contains `x`; `points` has at least two entries.
 fn interval(points: &[(f64, f64)], x: f64) -> usize {
     points.partition_point(|p| p.0 <= x).clamp(1, points.len() - 1) - 1
 }
@@ -38,7 +39,8 @@ pub(super) fn linear(points: &[(f64, f64)], x: f64) -> f64 {
     y0 * (1.0 - t) + y1 * t
 }
 
-/// Slopes of the cubic spline at checked `points`: its second derivative is continuous, and 0 at an end that is not clamped; a clamped end has slope 0.
+/// Slopes of the cubic spline at checked `points`: its second derivative is continuous, and 0 at an
+/// end that is not clamped; a clamped end has slope 0.
 pub(super) fn slopes(points: &[(f64, f64)], clamped: [bool; 2]) -> Vec<f64> {
     let n = points.len();
     let secant = |i: usize| (points[i + 1].1 - points[i].1) / (points[i + 1].0 - points[i].0);

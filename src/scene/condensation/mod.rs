@@ -1,4 +1,5 @@
-//! Degrees of freedom without mass, as lumped finite-element matrices have them, condensed statically.
+//! Static condensation of degrees of freedom without mass, which lumped finite-element matrices
+//! have.
 
 mod statics;
 
@@ -9,22 +10,28 @@ use super::{Scene, System};
 use crate::error::{Error, Result, Subject};
 use statics::{Seen, Statics};
 
-/// What was condensed out of a scene, and what that leaves of its walls.
+/// What was condensed out of a scene, and the effect on its walls.
 ///
-/// With q = (a, b), b without mass, M_bb = 0 and M_ab = 0, the rows of b are statics: K_ba a + K_bb b = f_b + G_bᵀ r. So b = T a + K_bb⁻¹ (f_b +
-/// G_bᵀ r) with T = −K_bb⁻¹ K_ba, and what is left is M_aa ä + C̄ ȧ + K̄ a = f_a + Tᵀf_b + Ḡᵀr with K̄ = K_aa + K_ab T, C̄ = C_aa + C_ab T and Ḡ = G_a +
-/// G_b T: the condensation of Guyan (1965, doi 10.2514/3.2874), which is exact where nothing is left out of the inertia.
+/// With q = (a, b), where b has no mass, M_bb = 0 and M_ab = 0, the rows of b are static: K_ba a +
+/// K_bb b = f_b + G_bᵀ r. So b = T a + K_bb⁻¹ (f_b + G_bᵀ r) with T = −K_bb⁻¹ K_ba, and the rest is
+/// M_aa ä + C̄ ȧ + K̄ a = f_a + Tᵀf_b + Ḡᵀr with K̄ = K_aa + K_ab T, C̄ = C_aa + C_ab T and Ḡ = G_a
+/// + G_b T: the condensation of Guyan (1965, doi 10.2514/3.2874), which is exact here since b has
+/// no inertia.
 ///
-/// A wall that sees b pushes on statics: w = ḡ a + s r with the compliance s = g_b K_bb⁻¹ g_bᵀ. A rigid wall there is exactly an elastic one of
-/// stiffness 1/s against ḡ a, and without restitution, for what has no mass cannot rebound; an elastic one of stiffness k has 1/(1/k + s).
+/// A wall that acts on b has static compliance: w = ḡ a + s r with s = g_b K_bb⁻¹ g_bᵀ. A rigid
+/// wall there is exactly an elastic one of stiffness 1/s against ḡ a, without restitution, since a
+/// point without mass cannot rebound; an elastic wall of stiffness k becomes one of stiffness
+/// 1/(1/k + s).
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Condensation {
-    /// The degrees of freedom that are kept, in the numbering of before; entry i is degree of freedom i of the condensed scene.
+    /// The degrees of freedom that are kept, in the original numbering; entry i is degree of
+    /// freedom i of the condensed scene.
     pub kept: Vec<usize>,
-    /// Those that were condensed, in the numbering of before.
+    /// The degrees of freedom that were condensed, in the original numbering.
     pub massless: Vec<usize>,
-    /// Static compliance s of the massless part at each wall, m/N, in the scene's order; 0 where the wall sees degrees of freedom with mass only.
+    /// Static compliance s of the massless part at each wall, m/N, in the scene's order; 0 where
+    /// the wall's row includes degrees of freedom with mass only.
     pub compliance: Vec<f64>,
 }
 
@@ -43,14 +50,19 @@ impl Structure {
 }
 
 impl Scene {
-    /// The scene without the degrees of freedom that have no mass, and what was condensed. Where all have mass it is the scene itself.
+    /// The scene without its massless degrees of freedom, and what was condensed. Where all have
+    /// mass it is the scene itself.
     ///
-    /// Walls, loads, probes and start keep their meaning. What the condensed scene could not say exactly is refused.
+    /// Walls, loads, probes and initial state keep their meaning. What cannot be condensed exactly
+    /// is refused.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `system` where a massless degree of freedom has no stiffness, or damping acts on it; under `wall "…"`, `load …` or
-    /// `probe "…"` where a wall sees massless degrees of freedom that another wall or a load pushes, or has a dashpot there, and where a probe sees
-    /// such as a load or another place's wall pushes; under `initial.…` for a start that statics do not allow; or what [`Scene::validate`] says.
+    /// [`Error::Invalid`] under `system` where a massless degree of freedom has no stiffness, or
+    /// damping acts on it; under `wall "…"`, `load …` or `probe "…"` where a wall acts on massless
+    /// degrees of freedom that another wall or a load displaces too, or has a dashpot there, and
+    /// where a probe records massless degrees of freedom that a load or a wall at another place
+    /// displaces; under `initial.…` for an initial value that is not the static one; or any error
+    /// of [`Scene::validate`].
     pub fn condensed(&self) -> Result<(Self, Condensation)> {
         let System::Structure(structure) = &self.system else { return self.uncondensed() };
         let massless = structure.massless();
@@ -81,7 +93,8 @@ impl Scene {
         scene.probes.iter_mut().zip(&probes).for_each(|(probe, seen)| probe.at = seen.row.clone());
         scene.initial.q = statics.start("displacement", &self.initial.q, &kept)?;
         scene.initial.v = statics.start("velocity", &self.initial.v, &kept)?;
-        // Rigid walls are rigid still, so that a start behind one and walls that cross are refused as ever.
+        // Rigid walls are still rigid here, so that the checks of the initial state and of crossing
+        // walls apply.
         scene.validate()?;
         self.check_apart(&walls, &loads, &probes)?;
         let compliance: Vec<f64> = walls.iter().map(Seen::own).collect();
@@ -106,7 +119,8 @@ impl Scene {
         Ok((self.clone(), condensation))
     }
 
-    /// Refuses what pushes massless degrees of freedom that something else sees.
+    /// Refuses loads and walls that displace massless degrees of freedom which another row
+    /// includes.
     fn check_apart(&self, walls: &[Seen], loads: &[Seen], probes: &[Seen]) -> Result<()> {
         const GIVE: &str = "give the degrees of freedom there mass, or sit it where they have some";
         for (index, load) in loads.iter().enumerate() {
@@ -124,7 +138,8 @@ impl Scene {
         let places = distinct(self.walls.iter().map(|wall| &wall.at));
         for (i, (wall, seen)) in self.walls.iter().zip(walls).enumerate().filter(|(_, (_, seen))| seen.own() > 0.0) {
             for (j, (other, beside)) in self.walls.iter().zip(walls).enumerate().take(i) {
-                // Of two walls that face one another at one place only one is touched at a time.
+                // Of two walls that face one another at one place, only one is in contact at a
+                // time.
                 let facing = match (wall.side, other.side) {
                     (Side::Upper, Side::Lower) => wall.position >= other.position,
                     (Side::Lower, Side::Upper) => other.position >= wall.position,
@@ -149,7 +164,7 @@ impl Scene {
     }
 }
 
-/// Puts the compliance `s` (m/N) of the massless part between wall and structure.
+/// Puts the compliance `s` (m/N) of the massless part in series between wall and structure.
 fn soften(wall: &mut Wall, s: f64) -> Result<()> {
     match &mut wall.law {
         WallLaw::Rigid { .. } => wall.law = WallLaw::Elastic { stiffness: 1.0 / s, damping: 0.0 },

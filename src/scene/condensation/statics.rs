@@ -9,21 +9,22 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::result::Result as Either;
 
-/// Two places are apart if their common compliance is below this share of their own.
+/// Two places are independent if their mutual compliance is below this share of their own.
 const APART: f64 = 1e-9;
-/// K_bb is singular if taking this share from its diagonal leaves it no longer definite.
+/// K_bb counts as singular if subtracting this share of its diagonal makes it indefinite.
 const SINGULAR: f64 = 1e-12;
-/// An entry of the condensed stiffness below this share of √(kᵢᵢ kⱼⱼ) is lost in rounding, and left out.
+/// An entry of the condensed stiffness below this share of √(kᵢᵢ kⱼⱼ) is rounding, and is dropped.
 const LOST: f64 = 1e-18;
 /// A damping force on a massless degree of freedom below this share of its terms is rounding.
 const ROUNDING: f64 = 1e-9;
-/// A start given to a massless degree of freedom must agree to this share with what the others hold it at.
+/// Relative tolerance between an initial value given to a massless degree of freedom and its static
+/// value.
 const START: f64 = 1e-6;
 
 /// The statics of the massless part.
 pub(super) struct Statics<'a> {
     structure: &'a Structure,
-    /// Number among the kept (Ok) or the massless (Err).
+    /// Index among the kept (Ok) or the massless (Err) degrees of freedom.
     pub number: Vec<Either<usize, usize>>,
     factor: Factor,
     /// K_ab as (kept, massless, value).
@@ -31,7 +32,7 @@ pub(super) struct Statics<'a> {
     pub massless: Vec<usize>,
 }
 
-/// What a row sees: ḡ, g_b, and K_bb⁻¹ g_bᵀ.
+/// A row in terms of the condensed structure: ḡ, g_b, and K_bb⁻¹ g_bᵀ.
 pub(super) struct Seen {
     pub row: Row,
     inner: Vec<(usize, f64)>,
@@ -48,7 +49,7 @@ impl Seen {
         self.compliance(self)
     }
 
-    /// True if a force through the other row displaces what this one sees of the massless part.
+    /// True if a force through the other row displaces the massless part of this one.
     pub fn meets(&self, other: &Self) -> bool {
         self.compliance(other).abs() > APART * (self.own() * other.own()).sqrt()
     }
@@ -56,7 +57,8 @@ impl Seen {
 
 impl<'a> Statics<'a> {
     pub fn new(structure: &'a Structure, massless: Vec<usize>) -> Result<Self> {
-        // With a mass of 1 for the massless all else is as it should be, or is refused in the numbering that the reader knows.
+        // With a mass of 1 on the massless degrees of freedom, the remaining checks apply
+        // unchanged, and their errors use the original numbering.
         let mut one = vec![0.0; structure.mass.size()];
         massless.iter().for_each(|&b| one[b] = 1.0);
         let mass = Symmetric::sum(&[(1.0, &structure.mass), (1.0, &Symmetric::diagonal(&one))]);
@@ -87,14 +89,14 @@ impl<'a> Statics<'a> {
         Ok(Self { structure, number, factor, coupling, massless })
     }
 
-    /// What a row sees.
+    /// The condensed form of a row.
     pub fn seen(&mut self, row: &Row) -> Seen {
         let (mut outer, mut inner) = (Vec::new(), Vec::new());
         for &(i, weight) in row.entries() {
             match self.number.get(i) {
                 Some(Ok(a)) => outer.push((*a, weight)),
                 Some(Err(b)) => inner.push((*b, weight)),
-                // Left to the check of the scene, which names it.
+                // The check of the scene reports this, with the name.
                 None => outer.push((i, weight)),
             }
         }
@@ -125,7 +127,7 @@ impl<'a> Statics<'a> {
         let (mass, mut c, mut k) = (Symmetric::from_entries(n, outer(mass)), outer(damping), outer(stiffness));
         let mut diagonal = vec![0.0; n];
         k.iter().filter(|entry| entry.0 == entry.1).for_each(|&(i, _, x)| diagonal[i] = x);
-        // What of C touches the massless, by rows of the massless: C_ba and C_bb.
+        // The part of C that acts on massless degrees of freedom, by their rows: C_ba and C_bb.
         let touching: Vec<(usize, Either<usize, usize>, f64)> = self
             .structure
             .damping
@@ -178,7 +180,8 @@ impl<'a> Statics<'a> {
         Ok(Structure { mass, damping, stiffness })
     }
 
-    /// Adds column `a` of C_ab T, whose `t` is column a of T, to C̄. The damping force on the massless, C_ba + C_bb T, must be none.
+    /// Adds column `a` of C_ab T, where `t` is column a of T, to C̄. The damping force on the
+    /// massless degrees of freedom, C_ba + C_bb T, must be zero.
     fn damped(
         &self,
         a: usize,
@@ -216,7 +219,7 @@ impl<'a> Statics<'a> {
         Ok(())
     }
 
-    /// The kept part of a start; the massless part must be 0, or what statics make of the kept.
+    /// The kept part of an initial field; the massless part must be 0 or the static displacement.
     pub fn start(&mut self, part: &'static str, whole: &[f64], kept: &[usize]) -> Result<Vec<f64>> {
         if whole.len() != self.number.len() {
             let expected = format!("{}, one per degree of freedom", self.number.len());

@@ -6,10 +6,11 @@ use crate::linear::Symmetric;
 
 const FORMAT: &str = "n rows of n numbers with commas between them, without a header";
 
-/// Reads n lines of n numbers with commas between them; blank lines are passed over. Both triangles must agree to 1e-12.
+/// Reads n lines of n numbers with commas between them; blank lines are ignored. The two triangles
+/// must agree to 1e-12.
 ///
 /// # Errors
-/// [`TextError`] with the line that breaks this.
+/// [`TextError`] with the line that violates this.
 pub fn read_csv(text: &str) -> Result<Symmetric, TextError> {
     let mut entries: Vec<Entry<'_>> = Vec::new();
     let (mut row, mut n) = (0, 0);

@@ -6,12 +6,13 @@ use crate::linear::Symmetric;
 
 const HEADER: &str = "%%MatrixMarket matrix coordinate|array real|integer general|symmetric";
 
-/// Reads a matrix in Matrix Market format, coordinate or array, real or integer, general or symmetric. A general one must be symmetric to
-/// 1e-12. Entries of a symmetric coordinate matrix may stand in either triangle, each once; those of a symmetric array are the lower
-/// triangle, column by column.
+/// Reads a matrix in Matrix Market format, coordinate or array, real or integer, general or
+/// symmetric. A general one must be symmetric to 1e-12. Entries of a symmetric coordinate matrix
+/// may stand in either triangle, each once; those of a symmetric array are the lower triangle,
+/// column by column.
 ///
 /// # Errors
-/// [`TextError`] with the line that breaks this.
+/// [`TextError`] with the line that violates this.
 pub fn read_matrix_market(text: &str) -> Result<Symmetric, TextError> {
     let mut lines = lines(text);
     let header = lines.next().ok_or_else(|| at_end(text, "an empty text", HEADER))?;
@@ -38,7 +39,7 @@ pub fn read_matrix_market(text: &str) -> Result<Symmetric, TextError> {
         return Err(size.error(format!("{count} entries"), format!("at most {MOST_ENTRIES}")));
     }
     let mut entries = Vec::new();
-    // Arrays go down the columns.
+    // Arrays are stored column by column.
     let (mut row, mut column) = (0, 0);
     for line in body {
         if entries.len() == count {
@@ -62,7 +63,7 @@ pub fn read_matrix_market(text: &str) -> Result<Symmetric, TextError> {
     symmetric(n, entries, half)
 }
 
-/// Whether the format is coordinate, and whether one triangle stands for both.
+/// Whether the format is coordinate, and whether it stores one triangle only.
 fn kind(header: &Line<'_>) -> Result<(bool, bool), TextError> {
     let words: Vec<&str> = header.text.split_whitespace().collect();
     let is = |word: &str, name: &str| word.eq_ignore_ascii_case(name);

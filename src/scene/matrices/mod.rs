@@ -20,12 +20,12 @@ pub const MOST_ROWS: usize = 200_000;
 /// The most entries of a matrix that are read.
 pub const MOST_ENTRIES: usize = 4_000_000;
 
-/// What is wrong with the text of a matrix, and where.
+/// An error in the text of a matrix, and its position.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TextError {
     /// Line, from 1.
     pub line: usize,
-    /// The bytes of the text that are meant, on that line.
+    /// The bytes of the text in question, on that line.
     pub span: Range<usize>,
     /// What is wrong.
     pub message: String,
@@ -41,7 +41,8 @@ impl fmt::Display for TextError {
 
 impl std::error::Error for TextError {}
 
-/// A line of a text: its number from 1, the byte it starts at, and what it says, without its end.
+/// A line of a text: its number from 1, the byte at which it starts, and its text without the line
+/// end.
 #[derive(Debug, Clone, Copy)]
 struct Line<'a> {
     number: usize,
@@ -71,7 +72,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The lines of `text`, a byte-order mark left out.
+/// The lines of `text`, without a byte-order mark.
 fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
     let mark = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
     let mut start = mark;

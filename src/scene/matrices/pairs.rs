@@ -1,9 +1,10 @@
-//! Entries of both triangles, made into one symmetric matrix.
+//! Combines the entries of both triangles into one symmetric matrix.
 
 use super::{Line, TextError};
 use crate::linear::Symmetric;
 
-/// Two entries across the diagonal are one if they agree to this share of the larger, or of √|aᵢᵢ aⱼⱼ|.
+/// Relative tolerance between two entries across the diagonal: a share of the larger, or of √|aᵢᵢ
+/// aⱼⱼ|.
 const SYMMETRIC: f64 = 1e-12;
 
 /// One entry and the line it was read from.
@@ -15,14 +16,15 @@ pub(super) struct Entry<'a> {
     pub line: Line<'a>,
 }
 
-/// The matrix of `entries`, each place given once. If not `half`, both triangles are given and must agree: the mean is taken.
+/// The matrix of `entries`, with each position given once. If not `half`, both triangles are given
+/// and must agree; their mean is used.
 pub(super) fn symmetric(n: usize, mut entries: Vec<Entry<'_>>, half: bool) -> Result<Symmetric, TextError> {
     let place = |e: &Entry<'_>| (e.row.max(e.column), e.row.min(e.column));
     let mut diagonal = vec![0.0; n];
     for entry in entries.iter().filter(|e| e.row == e.column) {
         diagonal[entry.row] = entry.value;
     }
-    // Pairs come together, in the order of their lines.
+    // Sorted so that pairs are adjacent, in the order of their lines.
     entries.sort_by_key(|e| (place(e), e.line.number));
     let mut merged = Vec::with_capacity(entries.len());
     let mut rest = entries.as_slice();

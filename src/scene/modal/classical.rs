@@ -6,20 +6,24 @@ use crate::linear::Symmetric;
 use crate::scene::Structure;
 use nalgebra::DMatrix;
 
-/// Damping is classical if what couples modes is below this share of what damps them.
+/// Damping is classical if the terms that couple modes are below this share of those that damp
+/// them.
 const CLASSICAL: f64 = 1e-10;
-/// … or is rounding, below this share of the strongest damping of any mode.
+/// … or if they are rounding, below this share of the strongest damping of any mode.
 const ROUNDING: f64 = 1e-13;
-/// C M⁻¹ K and its transpose agree to this share of ‖C̃‖ ‖K̃‖; rounding of the products is some 1e-14.
+/// Relative tolerance, in ‖C̃‖ ‖K̃‖, between C M⁻¹ K and its transpose; rounding of the products is
+/// some 1e-14.
 const COMMUTES: f64 = 1e-12;
-/// Frequencies this close, relative to the faster, are one: their shapes may be turned among themselves.
+/// Frequencies within this relative distance count as equal: their shapes may be rotated among
+/// themselves.
 const EQUAL: f64 = 1e-9;
 
 impl Structure {
-    /// True if one basis of modes makes M, C and K diagonal (classical damping): C M⁻¹ K is symmetric (Caughey & O'Kelly 1965, doi 10.1115/1.3627262).
+    /// True if one basis of modes makes M, C and K diagonal (classical damping): C M⁻¹ K is
+    /// symmetric (Caughey & O'Kelly 1965, doi 10.1115/1.3627262).
     ///
-    /// C = 0, matrices that are all diagonal, and C = αM + βK are recognised for any size; any other C up to [`MOST_DENSE`] degrees of
-    /// freedom, beyond which the answer is no.
+    /// C = 0, matrices that are all diagonal, and C = αM + βK are recognised for any size; any
+    /// other C up to [`MOST_DENSE`] degrees of freedom, beyond which the answer is no.
     #[must_use]
     pub fn is_classically_damped(&self) -> bool {
         let n = self.mass.size();
@@ -38,8 +42,9 @@ impl Structure {
         (&product - product.transpose()).norm() <= COMMUTES * c.norm() * k.norm()
     }
 
-    /// (α, β) with C = αM + βK, entry by entry to 1e-12 of the terms; none if C is no such sum. Of two terms the smaller is known as far as
-    /// the rounding of C shows it: on a fine mesh βK may hide α.
+    /// (α, β) with C = αM + βK, entry by entry to 1e-12 of the terms; `None` if C is no such sum.
+    /// The smaller of the two terms is known only as far as the rounding of C allows: on a fine
+    /// mesh βK may hide α.
     #[must_use]
     pub fn rayleigh(&self) -> Option<(f64, f64)> {
         let m = self.mass.diagonal_entries();
@@ -47,7 +52,8 @@ impl Structure {
         if self.damping.size() != n || self.stiffness.size() != n || m.iter().any(|m| m.is_nan() || *m <= 0.0) {
             return None;
         }
-        // Least squares with every entry over √(mᵢᵢ mⱼⱼ), so that units of the degrees of freedom play no part, and each matrix over its largest.
+        // Least squares with every entry over √(mᵢᵢ mⱼⱼ), so that the units of the degrees of
+        // freedom do not matter, and each matrix over its largest entry.
         let weigh = |(i, j, value): (usize, usize, f64)| value / (m[i].sqrt() * m[j].sqrt());
         let largest = |matrix: &Symmetric| {
             let largest = matrix.entries().map(|entry| weigh(entry).abs()).fold(0.0, f64::max);
@@ -72,10 +78,10 @@ impl Structure {
         let determinant = mm * kk - mk * mk;
         let (mut alpha, mut beta) = (0.0, 0.0);
         let mut left = self.damping.clone();
-        // The second pass fits what the rounding of long sums left of the first.
+        // A second pass fits the residual that the rounding of long sums left in the first.
         for _ in 0..2 {
             let (mc, kc) = (inner(mass, (&left, unit_c)), inner(stiffness, (&left, unit_c)));
-            // K in proportion to M, as for one degree of freedom: αM alone says it.
+            // K is proportional to M, as for one degree of freedom: αM alone is enough.
             if determinant > 1e-12 * mm * kk {
                 alpha += unit_c * ((mc * kk - kc * mk) / determinant);
                 beta += unit_c / unit_k * ((kc * mm - mc * mk) / determinant);
@@ -95,8 +101,9 @@ impl Structure {
 }
 
 impl Modes {
-    /// The damping of each mode, φᵀCφ = 2ζω (1/s), if C couples none of them: off the diagonal ΦᵀCΦ is at most 1e-10 of √(diagonal ·
-    /// diagonal). Shapes of equal ω are turned among themselves to make it so. None if C couples modes: then the shapes are as before.
+    /// The damping of each mode, φᵀCφ = 2ζω (1/s), if C couples no modes: off the diagonal ΦᵀCΦ is
+    /// at most 1e-10 of √(diagonal · diagonal). Shapes of equal ω are rotated among themselves to
+    /// achieve this. `None` if C couples modes; the shapes are then unchanged.
     #[must_use]
     pub fn uncouple(&mut self, damping: &Symmetric) -> Option<Vec<f64>> {
         let k = self.count();
@@ -114,7 +121,8 @@ impl Modes {
             while to < k && self.omega[to] - self.omega[to - 1] <= EQUAL * self.omega[to].max(1e-6 * fastest) {
                 to += 1;
             }
-            // What is uncoupled stays as it is: where C is the same for all of them any turn would do, and mix what differs in ω a little.
+            // Shapes that are uncoupled already stay as they are: where C is equal for all of them
+            // any rotation would do, and would mix shapes of slightly different ω.
             if (from..to).any(|i| (from..i).any(|j| coupled(&c, i, j))) {
                 let block = c.view((from, from), (to - from, to - from)).into_owned();
                 let (_, turn) = eigen(block)?;

@@ -1,4 +1,5 @@
-//! Modes need a mass matrix that is positive definite: the check, with the row that fails it.
+//! Checks that the mass matrix is positive definite, as modes require, and finds the row that
+//! violates this.
 
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Symmetric};

@@ -1,4 +1,4 @@
-//! All modes at once, by full matrices.
+//! All modes at once, with full matrices.
 
 use super::definite::definite;
 use crate::error::{Error, Result};
@@ -15,10 +15,11 @@ pub(super) fn full(matrix: &Symmetric) -> DMatrix<f64> {
     out
 }
 
-/// Eigenvalues of a full symmetric matrix, increasing, and their unit vectors in the columns of a matrix; none if the iteration does not end.
+/// Eigenvalues of a full symmetric matrix, increasing, and their unit eigenvectors in the columns
+/// of a matrix; `None` if the iteration does not converge.
 pub(super) fn eigen(matrix: DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
     let n = matrix.nrows();
-    // nalgebra refuses both by a panic or a search without end.
+    // nalgebra would panic or iterate for ever on either.
     if n == 0 || matrix.iter().any(|x| !x.is_finite()) {
         return None;
     }
@@ -37,7 +38,7 @@ pub(super) fn congruent(mass: &Symmetric, matrix: &Symmetric) -> Result<(DMatrix
     let l = full(mass).cholesky().ok_or_else(singular)?.unpack();
     let half = l.solve_lower_triangular(&full(matrix)).ok_or_else(singular)?;
     let mut whole = l.solve_lower_triangular(&half.transpose()).ok_or_else(singular)?;
-    // Symmetric to the last bit, which rounding leaves it not.
+    // Made exactly symmetric, which rounding has prevented.
     whole = 0.5 * (&whole + whole.transpose());
     Ok((whole, l))
 }

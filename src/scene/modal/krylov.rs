@@ -8,17 +8,18 @@ use crate::scene::Structure;
 use crate::scene::scales::fastest_squared;
 use nalgebra::DMatrix;
 
-/// Start vectors: modes of one frequency are found together up to this many.
+/// Number of start vectors: up to this many modes of one frequency are found together.
 const BLOCK: usize = 4;
-/// A Ritz pair (θ, φ) counts when ‖(K + σM)⁻¹Mφ − θφ‖ is below this times θ …
+/// A Ritz pair (θ, φ) has converged if ‖(K + σM)⁻¹Mφ − θφ‖ is below this times θ …
 const TOLERANCE: f64 = 1e-11;
 /// … or below this times the largest θ, which is rounding.
 const ROUNDING: f64 = 1e-14;
 /// The first shift, as a share of the fastest ω²: large enough to make a singular K definite.
 const SHIFT: f64 = 1e-11;
 
-/// A basis V of the Krylov space of B = (K + σM)⁻¹M, orthonormal in M, grown a vector at a time: with `BLOCK` start vectors, the p-th vector's image
-/// B vₚ is orthogonalised against all of V, twice, and added to it (band Lanczos with full orthogonalisation; Ruhe 1979, doi
+/// A basis V of the Krylov space of B = (K + σM)⁻¹M, orthonormal in M, extended by one vector at a
+/// time: with `BLOCK` start vectors, the image B vₚ of the p-th vector is orthogonalised twice
+/// against all of V, and added to it (band Lanczos with full orthogonalisation; Ruhe 1979, doi
 /// 10.1090/S0025-5718-1979-0521282-9).
 struct Basis {
     mass: Operator,
@@ -43,7 +44,8 @@ impl Basis {
         Some(basis)
     }
 
-    /// Adds a start vector: arbitrary, the same in each run, then smoothed once. False if the basis spans everything already.
+    /// Adds a start vector: arbitrary but the same in each run, then smoothed once. False if the
+    /// basis spans the whole space already.
     fn start(&mut self) -> bool {
         let known = self.vectors.len();
         let mut x: Vec<f64> = (0..self.product.len()).map(|_| random(&mut self.seed)).collect();
@@ -60,7 +62,8 @@ impl Basis {
         std::mem::swap(x, &mut self.product);
     }
 
-    /// Orthogonalises `x` against the basis and adds what is left, unless it is rounding. Returns its components, the last that along the new vector.
+    /// Orthogonalises `x` against the basis and adds the remainder, unless it is rounding. Returns
+    /// its components; the last is the one along the new vector.
     fn add(&mut self, mut x: Vec<f64>) -> Vec<f64> {
         let mut components = vec![0.0; self.vectors.len()];
         let whole = self.norm(&x);
@@ -88,7 +91,8 @@ impl Basis {
         dot(x, &self.product).max(0.0).sqrt()
     }
 
-    /// Takes the image of the next vector. False where no vector is left: the basis is invariant, or all of Rⁿ.
+    /// Adds the image of the next vector. False if no vector is left: the basis is invariant, or
+    /// spans Rⁿ.
     fn expand(&mut self) -> bool {
         let Some(mut x) = self.vectors.get(self.images.len()).cloned() else { return false };
         self.image(&mut x);
@@ -97,7 +101,8 @@ impl Basis {
         true
     }
 
-    /// The Ritz values θ of the vectors expanded so far, largest first, their coefficients, and the norm of what B φ leaves beside θ φ.
+    /// The Ritz values θ of the vectors expanded so far, largest first, their coefficients, and the
+    /// norm of the residual B φ − θ φ.
     fn ritz(&self) -> Option<(Vec<f64>, DMatrix<f64>, Vec<f64>)> {
         let p = self.images.len();
         let entry = |i: usize, j: usize| self.images[j].get(i).copied().unwrap_or(0.0);
@@ -141,7 +146,8 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
     };
     let fastest = fastest_squared(structure, Some(mass)).sqrt();
     let least = SHIFT * fastest.powi(2).max(f64::MIN_POSITIVE);
-    // A shift amid the modes that are asked for keeps the digits of the slowest and the fastest of them alike. A short run says where that is.
+    // A shift within the range of the modes wanted keeps the digits of the slowest and the fastest
+    // of them alike. A short run finds that range.
     let mut scout = Basis::new(structure, least).ok_or_else(singular)?;
     let mut left = count + 6 * BLOCK;
     while left > 0 && scout.expand() {
@@ -170,7 +176,7 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
         if next >= most && (grows || basis.vectors.len() >= n) {
             return Err(failed());
         }
-        // The space is exhausted, or a mode lies outside it: another direction.
+        // The space is exhausted, or a mode lies outside it: another start vector is added.
         let narrow = !grows || (theta.len() >= count && (0..count).all(good));
         if narrow && !basis.start() {
             return Err(failed());
@@ -179,12 +185,13 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
     }
 }
 
-/// True if no mode is slower than the last of those found, beside those found: by Sylvester's law K − μM has as many negative pivots as modes below μ.
+/// True if the shapes found include all modes slower than the last of them: by Sylvester's law of
+/// inertia, K − μM has as many negative pivots as there are modes below μ.
 fn complete(structure: &Structure, theta: &[f64], sigma: f64) -> bool {
     let lambda: Vec<f64> = theta.iter().map(|theta| 1.0 / theta - sigma).collect();
     let Some(&last) = lambda.last() else { return false };
     let mu = last - 1e-7 * last.abs().max(1e-3 * sigma);
-    // All are rigid-body motions: below them is rounding.
+    // All are rigid-body motions: below them there is only rounding.
     if mu <= 1e-3 * sigma {
         return true;
     }

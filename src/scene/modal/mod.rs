@@ -1,14 +1,14 @@
-//! Modes of a structure, and scenes cut to the slowest of them.
+//! Modes of a structure, and scenes reduced to the slowest of them.
 //!
 //! | file | what it holds |
 //! |---|---|
 //! | `modes.rs` | [`Modes`]: ω and M-orthonormal shapes |
 //! | `definite.rs` | the check of the mass matrix |
-//! | `dense.rs` | all of them at once |
-//! | `krylov.rs` | the slowest of many |
-//! | `classical.rs` | whether damping couples them |
-//! | `reduction.rs` | [`Reduction`]: a scene in modal coordinates, and what was lost |
-//! | `residual.rs` | the static compliance that is left out |
+//! | `dense.rs` | all modes at once |
+//! | `krylov.rs` | the slowest modes of large structures |
+//! | `classical.rs` | whether damping couples the modes |
+//! | `reduction.rs` | [`Reduction`]: a scene in modal coordinates, and what was left out |
+//! | `residual.rs` | the static compliance of the modes left out |
 
 mod classical;
 mod definite;

@@ -7,16 +7,18 @@ use crate::linear::{Operator, Symmetric};
 use crate::scene::structure::matrix_of;
 use crate::scene::{Row, Structure};
 
-/// Up to this many degrees of freedom full matrices are made where they serve: all modes at once, modal damping.
+/// Up to this many degrees of freedom full matrices are used where they help: for all modes at
+/// once, and for modal damping.
 pub const MOST_DENSE: usize = 600;
 
-/// The most modes of a structure that is larger.
+/// The most modes of a larger structure.
 pub const MOST_MODES: usize = 500;
 
 /// Modes of the undamped structure, slowest first: K φᵢ = ωᵢ² M φᵢ, φᵢᵀ M φⱼ = δᵢⱼ.
 ///
-/// ω of a rigid-body motion is exactly 0: where φᵀKφ is no more than the rounding of K and φ makes it. The largest component of a shape, weighed by
-/// the root of its mass, is positive, so that shapes can be compared from run to run. Shapes of equal ω are any basis of their space.
+/// ω of a rigid-body motion is exactly 0, that is where φᵀKφ is no larger than the rounding in K
+/// and φ. The largest component of a shape, weighted by the root of its mass, is positive, so that
+/// shapes can be compared between runs. Shapes of equal ω are an arbitrary basis of their space.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Modes {
@@ -28,22 +30,25 @@ pub struct Modes {
 
 /// λ = φᵀKφ below this many roundings of |φ|ᵀ|K||φ| is 0 …
 const RIGID: f64 = 8.0 * f64::EPSILON;
-/// … and so is λ below this share of the largest kᵢᵢ/mᵢᵢ: what an error of 1e-11 in the shape, the most that is left, adds to its energy.
+/// … and so is λ below this share of the largest kᵢᵢ/mᵢᵢ: the energy due to an error of 1e-11 in
+/// the shape, the largest that remains.
 const SHAPE: f64 = 1e-22;
 
-/// Components within this of the largest count as the largest: the first of them has the sign, whatever rounding says.
+/// Components within this relative distance of the largest count as equal to it: the first of them
+/// determines the sign, independent of rounding.
 const TIE: f64 = 1e-6;
 
 impl Modes {
-    /// The `count` slowest modes of M and K, from 1 to n; C plays no part.
+    /// The `count` slowest modes of M and K, from 1 to n; C does not matter.
     ///
-    /// Up to [`MOST_DENSE`] degrees of freedom many modes are found all at once, by the symmetric eigenvalue problem L⁻¹ K L⁻ᵀ with M = L
-    /// Lᵀ; few modes, and those of larger structures, by Lanczos' method on (K + σM)⁻¹M, until ‖(K + σM)⁻¹Mφ − φ/(ω² + σ)‖ ≤ 1e-11/(ω² + σ)
-    /// in the norm of M. That none was missed is then counted by Sylvester's law of inertia.
+    /// Up to [`MOST_DENSE`] degrees of freedom many modes are found all at once, from the symmetric
+    /// eigenvalue problem L⁻¹ K L⁻ᵀ with M = L Lᵀ; few modes, and those of larger structures, by
+    /// the Lanczos method on (K + σM)⁻¹M, until ‖(K + σM)⁻¹Mφ − φ/(ω² + σ)‖ ≤ 1e-11/(ω² + σ) in the
+    /// norm of M. Sylvester's law of inertia then checks that none was missed.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `modes` for a count that does not fit, or that was not reached; under `system` where M is not positive
-    /// definite or K has a negative ω².
+    /// [`Error::Invalid`] under `modes` for a number of modes that is out of range or was not
+    /// reached; under `system` where M is not positive definite or K has a negative ω².
     pub fn lowest(structure: &Structure, count: usize) -> Result<Self> {
         let n = structure.mass.size();
         if count == 0 || count > n {
@@ -90,7 +95,8 @@ impl Modes {
             let lambda = form(&stiffness, &shape, &mut product);
             let magnitude: Vec<f64> = shape.iter().map(|x| x.abs()).collect();
             let rounding = RIGID * form(&size, &magnitude, &mut product) + SHAPE * fastest;
-            // A shape's own errors add to the rounding of its energy: ten times as much is still no motion that gains from the springs.
+            // Errors of the shape itself add to the rounding of its energy: within a hundred times
+            // that, a negative λ does not mean that K is indefinite.
             if lambda < -100.0 * rounding {
                 let expected = "a positive semidefinite matrix: no motion gains energy from the springs";
                 return Err(Error::invalid(
@@ -124,7 +130,7 @@ impl Modes {
         self.omega.iter().filter(|omega| **omega == 0.0).count()
     }
 
-    /// g Φ, k entries: what a row sees of each mode.
+    /// g Φ, k entries: the row in modal coordinates.
     #[must_use]
     pub fn seen(&self, row: &Row) -> Vec<f64> {
         self.shapes.iter().map(|shape| row.dot(shape)).collect()
@@ -150,12 +156,12 @@ impl Modes {
     }
 }
 
-/// The structure in units in which the largest entry on the diagonals of M and of K is 1, so that no square overflows; and what its shapes are to be
-/// multiplied by.
+/// The structure in units in which the largest diagonal entries of M and of K are 1, so that no
+/// square overflows, and the factor by which its shapes must be multiplied.
 fn scaled(structure: &Structure) -> (Structure, f64) {
     let unit = |matrix: &Symmetric| {
         let largest = matrix.diagonal_entries().into_iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-        // A power of 2 rounds nothing; a matrix of zeros stays one.
+        // Scaling by a power of 2 does not round; a matrix of zeros is not scaled.
         if largest > 0.0 { 2.0_f64.powf(largest.log2().round()) } else { 1.0 }
     };
     let mass = unit(&structure.mass);
@@ -167,7 +173,7 @@ fn scaled(structure: &Structure) -> (Structure, f64) {
     (scaled, 1.0 / mass.sqrt())
 }
 
-/// The modes of a structure whose M and K are diagonal: its own degrees of freedom.
+/// The modes of a structure whose M and K are diagonal: its degrees of freedom.
 fn uncoupled(structure: &Structure, count: usize) -> Result<Modes> {
     definite(&structure.mass)?;
     let (m, k) = (structure.mass.diagonal_entries(), structure.stiffness.diagonal_entries());

@@ -6,43 +6,44 @@ use crate::error::{Error, Result};
 use crate::linear::Symmetric;
 use crate::scene::{Damping, Row, Scene, State, Structure, System, Wall, WallLaw};
 
-/// A scene cut to its slowest modes, and what that cost.
+/// A scene reduced to its slowest modes, and what was left out.
 ///
-/// With q = Φ a, the k slowest modes: M becomes 1, K diag(ω²), C ΦᵀCΦ (stored as a diagonal where it couples nothing), a row g of a wall,
-/// load or probe g Φ, a start q ΦᵀM q. What a truncation changes at a wall is its effective mass 1/(g M⁻¹ gᵀ), which falls as modes are
-/// added and so decides what a blow with restitution does, and its static compliance g K⁻¹ gᵀ, which rises. The residual response to loads
-/// is left out of probes.
+/// With q = Φ a for the k slowest modes, M becomes 1, K diag(ω²), C ΦᵀCΦ (stored as a diagonal if
+/// it couples no modes), the row g of a wall, load or probe g Φ, and an initial q ΦᵀM q. At a wall
+/// a truncation changes the effective mass 1/(g M⁻¹ gᵀ), which falls as modes are added and
+/// determines an impact with restitution, and the static compliance g K⁻¹ gᵀ, which rises. Probes
+/// do not include the static response of the modes left out.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Reduction {
-    /// The scene in modal coordinates; walls, loads and probes are in the order they had.
+    /// The scene in modal coordinates; walls, loads and probes keep their order.
     pub scene: Scene,
     /// The modes that are kept.
     pub modes: Modes,
-    /// ω of the slowest mode that is left out, rad/s; none if all are kept.
+    /// ω of the slowest mode that is left out, rad/s; `None` if all are kept.
     pub next_omega: Option<f64>,
-    /// Degrees of freedom before.
+    /// Degrees of freedom before the reduction.
     pub degrees_of_freedom: usize,
-    /// What is left at each wall, in the scene's order.
+    /// The effect at each wall, in the scene's order.
     pub walls: Vec<WallTruncation>,
-    /// Share of the energy at the start, ½vᵀMv + ½qᵀKq, that is left out; 0 for a start without energy.
+    /// Share of the initial energy, ½vᵀMv + ½qᵀKq, that is left out; 0 if there is none.
     pub start_energy_lost: f64,
-    /// With a static correction: the largest |sᵢⱼ|/√(sᵢᵢ sⱼⱼ) of the residual compliance between walls at different places, which is
-    /// neglected. 0 without.
+    /// With a static correction: the largest |sᵢⱼ|/√(sᵢᵢ sⱼⱼ) of the residual compliance between
+    /// walls at different places, which is neglected. Without a correction 0.
     pub coupling_neglected: f64,
 }
 
-/// What truncation leaves of the structure at a wall.
+/// Effect of a truncation at a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct WallTruncation {
     /// Effective mass 1/(g M⁻¹ gᵀ) of the whole structure, kg.
     pub mass: f64,
-    /// The same of the modes that are kept, kg: no less.
+    /// Effective mass of the modes that are kept, kg: at least that of the whole structure.
     pub mass_kept: f64,
-    /// Static compliance g K⁺ gᵀ of the whole structure beside its rigid-body motions, m/N.
+    /// Static compliance g K⁺ gᵀ of the whole structure without its rigid-body motions, m/N.
     pub compliance: f64,
-    /// The same of the modes that are kept, m/N: no more.
+    /// Static compliance of the modes that are kept, m/N: at most that of the whole structure.
     pub compliance_kept: f64,
     /// True if the wall was given the residual compliance.
     pub corrected: bool,
@@ -55,27 +56,30 @@ impl WallTruncation {
         (self.compliance - self.compliance_kept).max(0.0)
     }
 
-    /// Share of the static compliance that is kept, from 0 to 1; 1 for a wall that sees none.
+    /// Share of the static compliance that is kept, from 0 to 1; 1 for a wall without compliance.
     #[must_use]
     pub fn share(&self) -> f64 {
         if self.compliance > 0.0 { (self.compliance_kept / self.compliance).min(1.0) } else { 1.0 }
     }
 }
 
-/// A residual compliance below this share of the whole is rounding: nothing is left out.
+/// A residual compliance below this share of the whole is rounding and counts as 0.
 const NOTHING: f64 = 1e-12;
 
 impl Scene {
     /// The scene in the coordinates of its `modes` slowest modes.
     ///
-    /// With `static_correction` the residual compliance s = g (K⁺ − ΦΩ⁻²Φᵀ) gᵀ of each wall, that of the modes left out, becomes a spring
-    /// between structure and wall. A rigid wall so becomes an elastic one of stiffness 1/s: what is massless neither jumps nor rebounds, so
-    /// its restitution is lost. An elastic wall of stiffness k and damping c gets k′ = 1/(1/k + s), and c (k′/k)², which takes the same
-    /// power at slow rates. Each wall is corrected by itself: s between walls at different places is neglected, and reported.
+    /// With `static_correction` the residual compliance s = g (K⁺ − ΦΩ⁻²Φᵀ) gᵀ of each wall, that
+    /// of the modes left out, becomes a spring between structure and wall. A rigid wall thus
+    /// becomes an elastic one of stiffness 1/s; it loses its restitution, since the spring has no
+    /// mass that could rebound. An elastic wall of stiffness k and damping c gets k′ = 1/(1/k + s),
+    /// and c (k′/k)², which dissipates the same power at slow rates. Each wall is corrected
+    /// separately: s between walls at different places is neglected, and reported.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `modes`: a count that does not fit, fewer than the rigid-body motions, or so few that the start comes to
-    /// lie behind a wall; under `static correction` for a φ² wall; or what [`Scene::validate`] says.
+    /// [`Error::Invalid`] under `modes` for a number of modes that is out of range, fewer than the
+    /// rigid-body motions, or so small that the reduced initial state lies behind a wall; under
+    /// `static correction` for a φ² wall; or any error of [`Scene::validate`].
     pub fn reduced(&self, modes: usize, static_correction: bool) -> Result<Reduction> {
         self.validate()?;
         let System::Structure(structure) = &self.system else {
@@ -137,7 +141,8 @@ impl Scene {
         })
     }
 
-    /// What is left at each wall, and the largest residual coupling between walls at different places.
+    /// The effect at each wall, and the largest residual coupling between walls at different
+    /// places.
     fn truncation(
         &self,
         structure: &Structure,
@@ -177,8 +182,8 @@ impl Scene {
         Ok((walls, coupling))
     }
 
-    /// The start, cut to `reduced`, must not lie behind a wall that it was not behind. A wall that it touched it touches still: its
-    /// position takes the rounding.
+    /// The reduced initial state must not lie behind a wall unless the original one did. A wall
+    /// that it touched remains touched: the wall's position absorbs the rounding.
     fn keep_start(&self, reduced: &mut Self, modes: usize) -> Result<()> {
         let rounding = 1e-12 * self.gap_scale();
         for (before, wall) in self.walls.iter().zip(&mut reduced.walls) {
@@ -198,7 +203,8 @@ impl Scene {
 }
 
 impl Reduction {
-    /// The same with C from `damping` in modal coordinates, in place of what came from the structure: modal ratios are meant.
+    /// The same reduction with C from `damping` in modal coordinates, in place of the structure's
+    /// C; intended for modal ratios.
     ///
     /// # Errors
     /// As [`Damping::matrix`].
@@ -210,7 +216,7 @@ impl Reduction {
     }
 }
 
-/// The `count` slowest modes, and ω of the next. No rigid-body motion may be left out.
+/// The `count` slowest modes, and ω of the next one. All rigid-body motions must be included.
 fn split(structure: &Structure, count: usize) -> Result<(Modes, Option<f64>)> {
     let n = structure.mass.size();
     if count == 0 || count > n {
@@ -227,7 +233,7 @@ fn split(structure: &Structure, count: usize) -> Result<(Modes, Option<f64>)> {
     }
 }
 
-/// Gives a wall the residual compliance.
+/// Adds the residual compliance to a wall.
 fn correct(wall: &mut Wall, truncation: &mut WallTruncation) -> Result<()> {
     let s = truncation.residual();
     if s <= NOTHING * truncation.compliance {

@@ -1,4 +1,4 @@
-//! The static compliance that modes leave out.
+//! The static compliance of the modes left out.
 
 use super::modes::Modes;
 use crate::error::{Error, Result};
@@ -6,14 +6,15 @@ use crate::linear::{Factor, Symmetric};
 use crate::scene::structure::matrix_of;
 use crate::scene::{Row, Structure};
 
-/// Passes at most; each leaves at most a hundredth of the error.
+/// Most iterations; each reduces the error at least a hundredfold.
 const PASSES: usize = 40;
 
-/// Solves for the response that the modes Φ leave out, x = (K⁺ − ΦΩ⁻²Φᵀ) gᵀ: that of all other modes to a static force.
+/// Computes the static response of the modes left out of Φ: x = (K⁺ − ΦΩ⁻²Φᵀ) gᵀ.
 ///
-/// With P = I − MΦΦᵀ, which takes from a force what the modes carry, K x = P gᵀ has the one solution with ΦᵀM x = 0. It is defined though K
-/// may be singular, if the rigid-body motions are among the modes. Then it is found by x ← P⊤(K + σM)⁻¹(P gᵀ + σ M x), which shrinks the
-/// error by σ/(ω² + σ) for each ω left out: σ is a hundredth of the slowest of their ω².
+/// With P = I − MΦΦᵀ, which removes from a force the part that the modes carry, K x = P gᵀ has
+/// exactly one solution with ΦᵀM x = 0, also for a singular K, if the rigid-body motions are among
+/// the modes. It is found by x ← P⊤(K + σM)⁻¹(P gᵀ + σ M x), which reduces the error by σ/(ω² + σ)
+/// for each ω left out; σ is a hundredth of the slowest of their ω².
 pub(super) struct Residual<'a> {
     mass: &'a Symmetric,
     modes: &'a Modes,
@@ -36,7 +37,7 @@ impl<'a> Residual<'a> {
         Ok(Self { mass: &structure.mass, modes, factor, sigma })
     }
 
-    /// x for a row.
+    /// The response x to a row.
     pub fn response(&mut self, row: &Row) -> Vec<f64> {
         let n = self.mass.size();
         let seen = self.modes.seen(row);
@@ -53,7 +54,7 @@ impl<'a> Residual<'a> {
             let mut y = force.clone();
             self.mass.add_product(self.sigma, &x, &mut y);
             self.factor.solve(&mut y);
-            // Rounding puts back a little of the modes.
+            // Rounding adds small components along the modes, which are removed.
             let back = self.modes.expand(&self.modes.coordinates(self.mass, &y));
             y.iter_mut().zip(&back).for_each(|(y, b)| *y -= b);
             let change = row.dot(&y) - row.dot(&x);
