@@ -1,4 +1,4 @@
-//! All loads on one degree of freedom, sorted by what they are.
+//! All loads on one degree of freedom, sorted by kind.
 
 use super::function::TimeFunction;
 use super::load::{Load, LoadKind, Table};
@@ -7,15 +7,16 @@ use std::f64::consts::TAU;
 /// One sine of a [`Forcing`]: amplitude · sin(ω t + phase).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
-    /// N.
+    /// Amplitude, N.
     pub amplitude: f64,
     /// Circular frequency ω, rad/s.
     pub omega: f64,
-    /// rad.
+    /// Phase, rad.
     pub phase: f64,
 }
 
-/// All loads on one degree of freedom, sorted by what they are, so that a step sums without branching on kinds.
+/// All loads on one degree of freedom, sorted by kind, so that a step sums them without branching
+/// on kinds.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Forcing {
     /// Sum of the constant forces, N.
@@ -26,7 +27,7 @@ pub struct Forcing {
     pub tables: Vec<Table>,
     /// The functions and their weights.
     pub functions: Vec<(f64, TimeFunction)>,
-    /// The blows (time s, impulse N s), in time order.
+    /// The blows (impulsive loads; time s, impulse N s), in order of time.
     pub impulses: Vec<(f64, f64)>,
 }
 
@@ -75,7 +76,8 @@ impl Forcing {
         tables + self.functions.iter().map(|(weight, function)| weight * function.at(t)).sum::<f64>()
     }
 
-    /// A bound on the rate at which the force changes between the jumps of tables, N/s, without the functions.
+    /// A bound on the rate of change of the force between the jumps of tables, N/s; functions are
+    /// not included.
     #[must_use]
     pub fn steepest(&self) -> f64 {
         let waves: f64 = self.harmonics.iter().map(|h| h.amplitude.abs() * h.omega).sum();
@@ -97,30 +99,33 @@ impl Forcing {
         self.impulses.iter().filter(|&&(t, _)| t > from && t <= to).map(|&(_, p)| p).sum()
     }
 
-    /// Moment of the impulses in (from, to] about `about` (s), Σ (about − t_b) J_b, N s²: over the mass, where they take a free body from
-    /// its place without them until then.
+    /// Moment of the impulses in (from, to] about `about` (s), Σ (about − t_b) J_b, N s²: divided
+    /// by the mass, the displacement that they give a free body until then.
     #[must_use]
     pub fn impulse_moment(&self, from: f64, to: f64, about: f64) -> f64 {
         self.impulses.iter().filter(|&&(t, _)| t > from && t <= to).map(|&(t, p)| (about - t) * p).sum()
     }
 
-    /// Sum of the impulses within half a step `h` (s) of the instant `step` · h, N s: each impulse after t = 0 in one step and no other.
+    /// Sum of the impulses within half a step `h` (s) of the instant `step` · h, N s: each impulse
+    /// after t = 0 belongs to exactly one step.
     #[inline]
     #[must_use]
     pub fn impulse_about(&self, step: u64, h: f64) -> f64 {
         self.impulse_about_since(0.0, step, h)
     }
 
-    /// The same of those after the time `since` (s) alone: where a motion was taken up anew, the state has those before it.
+    /// The same for the impulses after the time `since` (s) only: where a motion was set to a new
+    /// state, that state includes the earlier ones.
     #[inline]
     #[must_use]
     pub fn impulse_about_since(&self, since: f64, step: u64, h: f64) -> f64 {
-        // Neighbours meet at one product: t − h/2 of one and t + h/2 of the other would differ in the last place.
+        // The limit between two steps is one product for both: t − h/2 of one and t + h/2 of the
+        // other would differ in the last digit.
         let edge = |half_steps: f64| (half_steps * h).max(since);
         self.impulse(edge(step as f64 - 0.5), edge(step as f64 + 0.5))
     }
 
-    /// Sum of the impulses at t = 0, N s: the start is the state after them.
+    /// Sum of the impulses at t = 0, N s; the run starts from the state after them.
     #[must_use]
     pub fn initial_impulse(&self) -> f64 {
         self.impulses.iter().filter(|&&(t, _)| t == 0.0).map(|&(_, p)| p).sum()

@@ -2,12 +2,13 @@
 
 use super::forcing::{Forcing, Harmonic};
 
-/// Steps after which a sine is computed anew: 64 rotations err by 1e-14 of its amplitude at most, and
-/// one libm sine in 64 steps costs nothing that is seen.
+/// Steps after which a sine is computed anew: 64 rotations accumulate an error of at most 1e-14 of
+/// its amplitude, and one libm sine in 64 steps has no measurable cost.
 const RESTART: u64 = 64;
 
-/// One sine A sin(ωt + φ) at the instants t = kh. From one to the next it turns by ωh, a product of two
-/// rotations, where a sine costs more than all else in a step of one degree of freedom.
+/// One sine A sin(ωt + φ) at the instants t = kh. From one instant to the next its phase advances
+/// by ωh, which is a rotation (a complex product); computing the sine would cost more than all else
+/// in a step of one degree of freedom.
 #[derive(Debug, Clone, Copy)]
 struct Phasor {
     amplitude: f64,
@@ -30,8 +31,8 @@ impl Phasor {
     }
 }
 
-/// All loads on one degree of freedom, without the blows, for a scheme that asks at the instants
-/// t = kh one after another.
+/// All loads on one degree of freedom, without the blows, for a scheme that evaluates them at the
+/// instants t = kh in order.
 #[derive(Debug, Clone)]
 pub(crate) struct GridForcing {
     forcing: Forcing,
@@ -39,7 +40,7 @@ pub(crate) struct GridForcing {
     phasors: Vec<Phasor>,
     /// True if there are tables or functions.
     others: bool,
-    /// The number k of the instant that is expected next.
+    /// The index k of the instant that is expected next.
     next: u64,
 }
 
@@ -60,7 +61,8 @@ impl GridForcing {
         }
     }
 
-    /// Force at `t` (s), N. At the instant after the last one asked for the sines turn on; at any other they are computed anew.
+    /// Force at `t` (s), N. At the instant that follows the last one, the sines are rotated; at any
+    /// other instant they are computed anew.
     #[inline]
     pub fn at(&mut self, t: f64) -> f64 {
         if t == self.next as f64 * self.h && !self.next.is_multiple_of(RESTART) {
@@ -99,11 +101,12 @@ mod tests {
         let forcing = Forcing::on(0, &loads);
         for h in [1e-5, 1e-3, 0.037] {
             let mut grid = GridForcing::new(forcing.clone(), h);
-            // In order, then back to an instant long past, then far ahead.
+            // In order, then at a much earlier instant, then far ahead.
             for index in (0..2000).chain([3, 4, 5, 1_000_000, 1_000_001]) {
                 let t = f64::from(index) * h;
                 let error = (grid.at(t) - forcing.force(t)).abs();
-                // 64 rotations, each with some ulps of amplitudes 3 and 2; and ωh·k of the rotation against ωt, an ulp of the phase.
+                // 64 rotations, each with some ulps of amplitudes 3 and 2; and ωh·k of the rotation
+                // instead of ωt, an ulp of the phase.
                 let phase = 61.7 * 6.3 * t * f64::EPSILON;
                 assert!(error < 5.0 * (64.0 * 2.0 * f64::EPSILON + 2.0 * phase), "{h} {index}: {error:e}");
             }

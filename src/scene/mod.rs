@@ -1,4 +1,5 @@
-//! What is simulated: a linear system, its walls, its loads, its start and how long.
+//! The scene that is simulated: a linear system, its walls, its loads, its initial state and its
+//! duration.
 
 mod builders;
 mod checked;
@@ -48,7 +49,7 @@ pub struct State {
     pub v: Vec<f64>,
 }
 
-/// M q̈ + C q̇ + K q = f(t) + Gᵀ r(t), held by walls, from a start state over a duration.
+/// M q̈ + C q̇ + K q = f(t) + Gᵀ r(t), bounded by walls, from an initial state over a duration.
 ///
 /// ```
 /// use signorini::{Load, Scene, Wall};
@@ -76,11 +77,11 @@ pub struct Scene {
     pub walls: Vec<Wall>,
     /// The loads; they add up.
     pub loads: Vec<Load>,
-    /// What is recorded of the displacement.
+    /// Displacements and velocities that are recorded.
     pub probes: Vec<Probe>,
     /// The state before any impulse at t = 0.
     pub initial: State,
-    /// How long, s.
+    /// Duration, s.
     pub duration: f64,
 }
 
@@ -127,7 +128,7 @@ impl Scene {
         self
     }
 
-    /// The scene started from displacements (m) and velocities (m/s), one of each per degree of
+    /// The scene with initial displacements (m) and velocities (m/s), one of each per degree of
     /// freedom.
     #[must_use]
     pub fn with_initial(mut self, q: &[f64], v: &[f64]) -> Self {
@@ -154,10 +155,10 @@ impl Scene {
         })
     }
 
-    /// A typical length γ₀ of the scene, m: half the least distance between an upper and a lower
-    /// wall on one row; else the largest distance of a wall from the start; else the largest
-    /// |position|; else the start's displacement; else 1 m. Residuals and solvers are made
-    /// dimensionless by it. Zero gaps are ignored.
+    /// The reference length γ₀ of the scene, m: half the smallest distance between an upper and a
+    /// lower wall on one row; else the largest distance of a wall from the initial position; else
+    /// the largest |position| of a wall; else the initial displacement; else 1 m. Residuals and
+    /// solvers are made dimensionless by it. Zero gaps are ignored.
     #[must_use]
     pub fn gap_scale(&self) -> f64 {
         let positive = |x: &f64| x.is_finite() && *x > 0.0;
@@ -174,13 +175,14 @@ impl Scene {
             .unwrap_or(1.0)
     }
 
-    /// Distance within which a wall counts as touched, m: 1e-12 of [`Scene::gap_scale`].
+    /// Distance within which a wall counts as in contact, m: 1e-12 of [`Scene::gap_scale`].
     #[must_use]
     pub fn touching_distance(&self) -> f64 {
         1e-12 * self.gap_scale()
     }
 
-    /// Which of the distinct rows each wall has, and the lower walls of each of those rows.
+    /// For each wall, which of the distinct rows it has; and for each of those rows, its lower
+    /// walls.
     fn lower_walls(&self) -> (Vec<usize>, Vec<Vec<&Wall>>) {
         let places = distinct(self.walls.iter().map(|wall| &wall.at));
         let mut lower = vec![Vec::new(); places.rows.len()];
@@ -190,11 +192,10 @@ impl Scene {
         (places.of, lower)
     }
 
-    /// Checks everything a scheme relies on.
+    /// Checks everything that a scheme relies on.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for the first value that makes no sense: what it is, and what would be
-    /// accepted.
+    /// [`Error::Invalid`] for the first invalid value: what it is, and what would be accepted.
     pub fn validate(&self) -> Result<()> {
         #[cfg(test)]
         counted::count();
@@ -286,7 +287,7 @@ fn check_crossing(upper: &Wall, lower: &[&Wall]) -> Result<()> {
     }
 }
 
-/// How many scenes this thread has checked: what tests count.
+/// Number of scenes that this thread has checked; used by tests.
 #[cfg(test)]
 pub(crate) mod counted {
     use std::cell::Cell;
