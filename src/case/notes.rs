@@ -49,7 +49,7 @@ impl Case {
         if whole.static_correction {
             if rigid.clone().count() > 0 {
                 notes.push(
-                    "static correction: rigid walls are springs of the compliance that the modes leave out, without restitution".into(),
+                    "static correction: rigid walls are springs with the compliance of the modes left out, without restitution".into(),
                 );
             }
             if reduction.coupling_neglected > WORTH_SAYING {
@@ -60,13 +60,13 @@ impl Case {
             }
         } else if let Some((wall, left)) = rigid.max_by(|a, b| excess(a.1).total_cmp(&excess(b.1))) {
             notes.push(format!(
-                "restitution holds with the mass that {k} of {n} modes have at a wall: {:.4} kg at {:?}, where all have {:.4} kg; it falls as modes are added, and impacts grow weaker and more",
+                "restitution holds with the mass that {k} of {n} modes have at a wall: {:.4} kg at {:?}, where all modes have {:.4} kg; this mass falls as modes are added, so that impacts become weaker and more frequent",
                 left.mass_kept, wall.name, left.mass
             ));
         }
         if reduction.start_energy_lost > WORTH_SAYING {
             notes.push(format!(
-                "the modes leave out {:.1} % of the energy of the start",
+                "the modes left out hold {:.1} % of the initial energy",
                 100.0 * reduction.start_energy_lost
             ));
         }

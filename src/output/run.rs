@@ -104,7 +104,7 @@ pub fn remarks(run: &Run) -> Vec<String> {
     }
     if run.statistics.from_s > 0.0 {
         remarks.push(format!(
-            "all columns from t = {} s on: a contact counts where it begins, a force where it reaches into that",
+            "all columns refer to t >= {} s: a contact counts if it begins there, a force as far as it acts there",
             run.statistics.from_s
         ));
     }
@@ -116,7 +116,7 @@ pub fn remarks(run: &Run) -> Vec<String> {
     }
     if run.statistics.walls.iter().any(|wall| wall.arrived_less_departed_power_w < 0.0) {
         remarks.push(
-            "arrived - left below 0: load and structure worked on the body while it touched, and it left with more than it brought"
+            "arrived - left is negative: load and structure did work on the body during contact, so that it left with more energy than it arrived with"
                 .to_owned(),
         );
     }
@@ -165,7 +165,7 @@ fn solved(run: &Run) -> String {
         Scheme::Penalty { .. } => format!("{} Newton iterations", counters.newton_iterations),
         _ if counters.qp_fallbacks > 0 => {
             let (all, left) = (counters.qp_solves, counters.qp_fallbacks);
-            format!("{all} QPs by {}, {left} of them left to Clarabel", run.backend)
+            format!("{all} QPs by {}, {left} of them solved by Clarabel as fallback", run.backend)
         }
         _ => format!("{} QPs by {}", counters.qp_solves, run.backend),
     }

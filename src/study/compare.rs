@@ -284,7 +284,7 @@ fn clarabel_difference(scene: &Scene, comparison: &Comparison) -> Option<String>
     let scale = a.residuals.force_scale_n.max(f64::MIN_POSITIVE);
     // Clarabel's solution is polished by the same routine that the condensed solver uses.
     let both = if a.backend == Backend::Condensed {
-        "; both end in one exact solve, so this tells which walls push"
+        "; the same exact solve ends both, so a difference shows only where other walls push"
     } else {
         ""
     };

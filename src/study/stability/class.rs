@@ -207,7 +207,10 @@ impl Measurement {
             return (Class::Diverged, format!("speed {:.1} times the reference's", self.speed));
         }
         if self.frozen > FROZEN {
-            return (Class::Frozen, format!("opposite walls take turns in {} of the steps", percent(self.frozen)));
+            return (
+                Class::Frozen,
+                format!("opposite walls push alternately in {} of the steps", percent(self.frozen)),
+            );
         }
         if self.rms_speed < STILL {
             return (Class::Frozen, "the body stands still".to_owned());
