@@ -1,6 +1,7 @@
 //! The accepted values of each key, for messages.
 
-const SYSTEM: &str = "one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], [system.matrices], [system.modal]";
+const SYSTEM: &str = "one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], \
+                      [system.matrices], [system.modal]";
 const OSCILLATOR: &str = "the table [system.oscillator] with mass (kg), damping (N s/m) and stiffness (N/m)";
 const BAR_END: &str = "\"clamped\", \"free\" or { stiffness = N/m }, a spring to ground";
 const BEAM_END: &str =
@@ -40,7 +41,8 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("system.bar.right", BAR_END),
     (
         "system.beam",
-        "the table [system.beam] with length, youngs_modulus, density, outer_diameter, elements, left, right and, where wanted, \
+        "the table [system.beam] with length, youngs_modulus, density, outer_diameter, elements, left, right \
+         and, where wanted, \
          inner_diameter and added_mass",
     ),
     ("system.beam.length", "length = a number above 0, in m"),
@@ -58,7 +60,8 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("system.matrices.stiffness", PATH),
     (
         "system.modal",
-        "the table [system.modal] with frequencies (Hz) or omega (rad/s) and, where wanted, masses (kg), damping_ratios and shapes",
+        "the table [system.modal] with frequencies (Hz) or omega (rad/s) and, where wanted, masses (kg), \
+         damping_ratios and shapes",
     ),
     ("system.modal.frequencies", "frequencies = a list of numbers, 0 or more, in Hz: one for each mode"),
     ("system.modal.omega", "omega = a list of numbers, 0 or more, in rad/s: one for each mode"),
@@ -100,7 +103,8 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("load.impulse.time", "time = a number, 0 or more, in s"),
     (
         "load.table",
-        "table = { file = \"force.csv\" } and, where wanted, time = \"t\", force = \"F2\", delimiter = \";\", decimal = \",\", scale = 2.0",
+        "table = { file = \"force.csv\" } and, where wanted, time = \"t\", force = \"F2\", delimiter = \";\", \
+         decimal = \",\", scale = 2.0",
     ),
     ("load.table.file", "file = a path in quotes, relative to the case file"),
     ("load.table.time", "time = the header of the column of times, in quotes"),
@@ -115,7 +119,8 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("probe.name", "name = letters, digits, - and _, in quotes"),
     (
         "time",
-        "the table [time] with end (s), step (s) and, where wanted, sample (s), statistics_from (s) and force_averaging (s)",
+        "the table [time] with end (s), step (s) and, where wanted, sample (s), statistics_from (s) and \
+         force_averaging (s)",
     ),
     ("time.end", "end = a number above 0, in s"),
     ("time.step", "step = a number above 0 and below end, in s"),

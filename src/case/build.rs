@@ -79,7 +79,8 @@ impl Builder<'_> {
                 .unwrap_or(TimeOptions::FORCE_AVERAGING),
         };
         if let Some(penalty) = file.penalty.as_ref().filter(|_| self.static_correction) {
-            let help = "expected no [penalty]: with static_correction rigid walls are springs of the compliance that the modes leave out already";
+            let help = "expected no [penalty]: with static_correction rigid walls are springs of the compliance \
+                        that the modes leave out already";
             return Err(self.source.error(penalty.span.clone(), "`penalty` beside static_correction", help));
         }
         let penalty = file.penalty.map(|penalty| self.penalty(penalty.value)).transpose()?.unwrap_or_default();
@@ -138,7 +139,8 @@ impl Builder<'_> {
         for (wall, _) in soft {
             if let Some(span) = self.noted(&Subject::wall(&wall.name).part("restitution")) {
                 let title = format!("wall {:?} has restitution, and pushes degrees of freedom without mass", wall.name);
-                let help = "expected no restitution: what has no mass cannot rebound, and their stiffness makes the wall a spring; or mass there";
+                let help = "expected no restitution: what has no mass cannot rebound, and their stiffness makes \
+                            the wall a spring; or mass there";
                 return Err(self.source.error(span, &title, help));
             }
         }

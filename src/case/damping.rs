@@ -36,7 +36,8 @@ impl Builder<'_> {
         let name = file.get_ref();
         let opened = self.open(name);
         let refuse = |reason: &str| {
-            let help = "expected a Matrix Market file (.mtx) or a CSV file of all rows (.csv); its path is relative to the case file";
+            let help = "expected a Matrix Market file (.mtx) or a CSV file of all rows (.csv); its path is \
+                        relative to the case file";
             self.source.error(file.span(), &format!("{what} matrix {name:?}: {reason}"), help)
         };
         let extension = Path::new(name).extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);

@@ -11,7 +11,8 @@ use std::ops::Range;
 use toml::Spanned;
 
 /// Description of the file of shapes, for messages.
-const SHAPES: &str = "expected a row for each point: its name, then its displacement in each mode, with commas between them; a header above is passed over";
+const SHAPES: &str = "expected a row for each point: its name, then its displacement in each mode, with commas \
+                      between them; a header above is passed over";
 
 impl Builder<'_> {
     /// The modes, and the points whose shapes are known.

@@ -29,7 +29,8 @@ impl Case {
             let (walls, push, are) =
                 if names.len() == 1 { ("wall", "pushes", "is a spring") } else { ("walls", "push", "are springs") };
             notes.push(format!(
-                "the {walls} {} {push} degrees of freedom without mass, which give up to {most:.3e} m/N: what is rigid there {are} of that \
+                "the {walls} {} {push} degrees of freedom without mass, which give up to {most:.3e} m/N: what \
+                 is rigid there {are} of that \
                  compliance, without restitution; displacements recorded there are those before it gives",
                 names.join(", ")
             ));
@@ -49,18 +50,23 @@ impl Case {
         if whole.static_correction {
             if rigid.clone().count() > 0 {
                 notes.push(
-                    "static correction: rigid walls are springs with the compliance of the modes left out, without restitution".into(),
+                    "static correction: rigid walls are springs with the compliance of the modes left out, \
+                     without restitution"
+                        .into(),
                 );
             }
             if reduction.coupling_neglected > WORTH_SAYING {
                 notes.push(format!(
-                    "the residual compliance that couples walls at different places is neglected: up to {:.0} % of their own",
+                    "the residual compliance that couples walls at different places is neglected: up to {:.0} % \
+                     of their own",
                     100.0 * reduction.coupling_neglected
                 ));
             }
         } else if let Some((wall, left)) = rigid.max_by(|a, b| excess(a.1).total_cmp(&excess(b.1))) {
             notes.push(format!(
-                "restitution holds with the mass that {k} of {n} modes have at a wall: {:.4} kg at {:?}, where all modes have {:.4} kg; this mass falls as modes are added, so that impacts become weaker and more frequent",
+                "restitution holds with the mass that {k} of {n} modes have at a wall: {:.4} kg at {:?}, where \
+                 all modes have {:.4} kg; this mass falls as modes are added, so that impacts become weaker and \
+                 more frequent",
                 left.mass_kept, wall.name, left.mass
             ));
         }

@@ -30,7 +30,8 @@ impl Builder<'_> {
             let first = names.first().copied().unwrap_or("tip");
             let of = if names.is_empty() { "shapes names none".to_owned() } else { format!("of {}", names.join(", ")) };
             return format!(
-                "at = {{ point = {first:?} }} ({of}), {{ points = [[{first:?}, 1.0], [.., -1.0]] }}, {{ dof = 0 to {last} }}, a mode{each}"
+                "at = {{ point = {first:?} }} ({of}), {{ points = [[{first:?}, 1.0], [.., -1.0]] }}, {{ dof = 0 \
+                 to {last} }}, a mode{each}"
             );
         }
         let dof = format!("{{ dof = 0 to {last} }}, {{ row = [[0, 1.0], [1, -1.0]] }}");

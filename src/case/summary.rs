@@ -13,7 +13,8 @@ pub(super) fn read(text: &str, path: &Path) -> Result<(String, String, Value)> {
     let summary: Value =
         serde_json::from_str(text).map_err(|error| failed(format!("no JSON: {error}")).caused_by(error))?;
     let written = summary.get("case_file").filter(|value| value.is_object()).ok_or_else(|| {
-        let help = "a case file is a TOML text; of JSON files the summary.json of a run is read, which has a `case_file` within";
+        let help = "a case file is a TOML text; of JSON files the summary.json of a run is read, which has a \
+                    `case_file` within";
         failed(format!("no summary of a run\nhelp: {help}"))
     })?;
     let case = toml::to_string(written)

@@ -43,7 +43,8 @@ impl Builder<'_> {
         .into_iter()
         .filter_map(|(kind, span)| Some((kind, span?)))
         .collect();
-        let one = "expected one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], [system.matrices], [system.modal]";
+        let one = "expected one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], \
+                   [system.matrices], [system.modal]";
         match given.as_slice() {
             [] => return Err(self.source.error(span, "`system` says nothing of what vibrates", one)),
             [_] => {}
@@ -64,7 +65,8 @@ impl Builder<'_> {
             ] {
                 if let Some(span) = span {
                     let title = format!("`system.{key}` beside an oscillator");
-                    let help = "expected it beside a chain, bar, beam or matrices; an oscillator has one mode, and its damping in N s/m";
+                    let help = "expected it beside a chain, bar, beam or matrices; an oscillator has one mode, \
+                                and its damping in N s/m";
                     return Err(self.source.error(span, &title, help));
                 }
             }

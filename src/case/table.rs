@@ -32,13 +32,14 @@ impl TableColumns {
         let Self { time, force, .. } = self;
         match self.is_plain() {
             true => format!(
-                "expected a header with the columns {time},{force}, and below it rows of finite numbers; time = \"..\", force = \"..\", \
-                 delimiter = \";\" and decimal = \",\" beside file read other tables"
+                "expected a header with the columns {time},{force}, and below it rows of finite numbers; \
+                 time = \"..\", force = \"..\", delimiter = \";\" and decimal = \",\" beside file read other tables"
             ),
             false => {
                 let Self { delimiter, decimal, .. } = self;
                 format!(
-                    "expected a header with the columns {time:?} and {force:?}, and below it rows of finite numbers, with {delimiter:?} \
+                    "expected a header with the columns {time:?} and {force:?}, and below it rows of finite \
+                     numbers, with {delimiter:?} \
                      between columns and {decimal:?} as decimal sign"
                 )
             }

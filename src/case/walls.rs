@@ -110,7 +110,8 @@ impl Builder<'_> {
         let number = |value: &Option<Spanned<super::value::Number>>| value.as_ref().map(|x| x.get_ref().0);
         let at = |value: &Option<Spanned<super::value::Number>>| value.as_ref().map_or(0..0, Spanned::span);
         if let (Some(e), true, None) = (&wall.restitution, self.static_correction, &wall.stiffness) {
-            let help = "expected no restitution beside static_correction: the rigid wall becomes one of the compliance that the modes leave out, \
+            let help = "expected no restitution beside static_correction: the rigid wall becomes one of the \
+                        compliance that the modes leave out, \
                         which has no mass, and what has no mass cannot rebound";
             return Err(self.source.error(
                 e.span(),

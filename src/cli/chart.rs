@@ -305,7 +305,8 @@ fn worth_reading(rows: &[Best]) -> Vec<Vec<String>> {
 fn report(case: &Case, chart: &WorkPrecision, ui: &Ui) {
     let (horizon, reference) = (&chart.horizon, &chart.reference);
     ui.message(&format!(
-        "compared up to t = {:.4} s of {} s: a small change of the start grows by {:.1e} until then, {:.1e} over all ({})",
+        "compared up to t = {:.4} s of {} s: a small change of the start grows by {:.1e} until then, {:.1e} \
+         over all ({})",
         horizon.end, case.scene.duration, horizon.growth, horizon.growth_of_all, horizon.how
     ));
     ui.message(&format!(
@@ -315,10 +316,13 @@ fn report(case: &Case, chart: &WorkPrecision, ui: &Ui) {
     for floor in &chart.floors {
         match (&floor.reference, &floor.errors) {
             (Ok(own), Some(errors)) => ui.message(&format!(
-                "penalty {}: no step reduces its error against the rigid walls below {:.1e} of the gap; its own motion up to t = {:.4} s: {}, known to {:.1e}",
+                "penalty {}: no step reduces its error against the rigid walls below {:.1e} of the gap; its own \
+                 motion up to t = {:.4} s: {}, known to {:.1e}",
                 floor.law, errors.displacement, floor.end, own.how, own.uncertainty.displacement
             )),
-            (Err(error), _) => ui.message(&format!("penalty {}: no motion of its own to compare with: {error}", floor.law)),
+            (Err(error), _) => {
+                ui.message(&format!("penalty {}: no motion of its own to compare with: {error}", floor.law))
+            }
             _ => {}
         }
     }

@@ -46,7 +46,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     write_summary(&args.out, &document)?;
     if differing_arithmetic {
         ui.message(
-            "the shards come from machines whose sines and exponentials differ in their last digits: rows that are sensitive to them \
+            "the shards come from machines whose sines and exponentials differ in their last digits: rows that \
+             are sensitive to them \
              may differ from those of one machine",
         );
     }

@@ -183,7 +183,8 @@ fn set_restitution(case: &mut Case, restitution: Option<f64>) -> Result<()> {
         return Err(Error::invalid("--restitution", restitution, "a case with a rigid wall; this one has none"));
     }
     if case.truncated.as_ref().is_some_and(|truncated| truncated.whole.static_correction) {
-        let expected = "a case without static_correction: the compliance that modes leave out has no mass, and what has no mass cannot rebound";
+        let expected = "a case without static_correction: the compliance that modes leave out has no mass, and \
+                        what has no mass cannot rebound";
         return Err(Error::invalid("--restitution", restitution, expected));
     }
     case.change(|scene| {

@@ -136,7 +136,8 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let foreseen = foresee(&case.scene, &target).ok().flatten();
     if let Some(until) = foreseen {
         ui.message(&format!(
-            "beyond about t = {until:.4e} s no step keeps an error of {tolerance:e}: rounding alone grows to it; what follows is \
+            "beyond about t = {until:.4e} s no step keeps an error of {tolerance:e}: rounding alone grows to \
+             it; what follows is \
              found up to there at most"
         ));
     }

@@ -213,12 +213,14 @@ impl fmt::Display for Error {
             }
             Self::TooManyEvents { time, wall, count, window } => write!(
                 f,
-                "{count} contact events, or steps of the search for them, within {window:.3e} s at wall {wall:?}, t = {time:.6} s: more than the exact scheme follows; \
+                "{count} contact events, or steps of the search for them, within {window:.3e} s at wall \
+                 {wall:?}, t = {time:.6} s: more than the exact scheme follows; \
                  a stepping scheme (moreau-jean, paoli-schatzman) does not resolve them one by one"
             ),
             Self::Inaccurate { tolerance, reached, steps, .. } if reached.is_infinite() => write!(
                 f,
-                "an error of {tolerance:e} is out of reach: the coarsest runs that could see the motion take {steps} steps and more"
+                "an error of {tolerance:e} is out of reach: the coarsest runs that could see the motion take \
+                 {steps} steps and more"
             ),
             Self::Inaccurate { tolerance, reached, quantity, until, steps } => write!(
                 f,
@@ -228,11 +230,13 @@ impl fmt::Display for Error {
             Self::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),
             Self::Truncated { tolerance, reached, quantity, modes } => write!(
                 f,
-                "a truncation within {tolerance:e} was not reached: going to {modes} modes still changed {reached:.1e} ({quantity})"
+                "a truncation within {tolerance:e} was not reached: going to {modes} modes still changed \
+                 {reached:.1e} ({quantity})"
             ),
             Self::Unpredictable { tolerance, reached, horizon, end } => write!(
                 f,
-                "an error of {tolerance:e} is kept until t = {horizon:.6} s only ({reached:.1e} reached): rounding grows to a quarter of it soon \
+                "an error of {tolerance:e} is kept until t = {horizon:.6} s only ({reached:.1e} reached): \
+                 rounding grows to a quarter of it soon \
                  after, and no step predicts the motion up to {end} s"
             ),
         }

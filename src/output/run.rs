@@ -110,13 +110,15 @@ pub fn remarks(run: &Run) -> Vec<String> {
     }
     if let Some(stretch) = run.statistics.walls.iter().find_map(|wall| wall.force?.rms_averaged_over_s) {
         remarks.push(format!(
-            "mean of |force| over time; RMS at rigid walls of the mean over stretches of {stretch:.3e} s, since that of impulse/h has no limit \
+            "mean of |force| over time; RMS at rigid walls of the mean over stretches of {stretch:.3e} s, since \
+             that of impulse/h has no limit \
              as h → 0 (--force-averaging); 95 % intervals of both are in the summary"
         ));
     }
     if run.statistics.walls.iter().any(|wall| wall.arrived_less_departed_power_w < 0.0) {
         remarks.push(
-            "arrived - left is negative: load and structure did work on the body during contact, so that it left with more energy than it arrived with"
+            "arrived - left is negative: load and structure did work on the body during contact, so that it \
+             left with more energy than it arrived with"
                 .to_owned(),
         );
     }

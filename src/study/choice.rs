@@ -31,7 +31,8 @@ pub fn choose(scene: &Scene) -> Choice {
     } else if scene.walls.iter().all(|w| !w.law.is_rigid()) {
         "elastic walls only: θ = ½ conserves energy between and within contacts to the order of the step"
     } else {
-        "the constrained QP that honours every wall's restitution, and with θ = ½ keeps the energy of free motion exactly; at equal steps its \
+        "the constrained QP that honours every wall's restitution, and with θ = ½ keeps the energy of free \
+         motion exactly; at equal steps its \
          error was below paoli-schatzman's on the source scene"
     };
     Choice { method, reason: reason.into() }
@@ -92,7 +93,8 @@ pub fn qp_reason(method: &Method, scene: &Scene) -> String {
         (_, Backend::Clamp) => "asked for: one unknown, so the QP is a clamp",
         (_, Backend::Auto) if single => "one unknown: the QP is a clamp, exact and a few nanoseconds",
         (_, Backend::Auto) => {
-            "several unknowns: condensed onto the walls and solved exactly by block principal pivoting, warm-started; Clarabel is the fallback"
+            "several unknowns: condensed onto the walls and solved exactly by block principal pivoting, \
+             warm-started; Clarabel is the fallback"
         }
     }
     .into()
@@ -106,7 +108,8 @@ fn system(system: &System) -> String {
             let ratio = 0.5 * o.damping / (o.stiffness * o.mass).sqrt();
             let frequency = slowest / std::f64::consts::TAU;
             format!(
-                "one degree of freedom: natural frequency {frequency:.6} Hz (ω = {slowest:.6} rad/s), damping ratio {ratio:.6}"
+                "one degree of freedom: natural frequency {frequency:.6} Hz (ω = {slowest:.6} rad/s), damping \
+                 ratio {ratio:.6}"
             )
         }
         System::Structure(s) => {
@@ -152,7 +155,8 @@ fn damping(system: &System, structure: &Structure) -> String {
         true => "classical damping: the modes are uncoupled".into(),
         false if structure.mass.size() > MOST_DENSE => {
             format!(
-                "damping not known to be classical: beyond {MOST_DENSE} degrees of freedom Rayleigh's alone is recognised"
+                "damping not known to be classical: beyond {MOST_DENSE} degrees of freedom Rayleigh's alone is \
+                 recognised"
             )
         }
         false => "damping that couples the modes".into(),

@@ -212,17 +212,21 @@ fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     let any = |test: fn(&Scheme) -> bool| comparison.rows.iter().any(|r| test(&r.method.scheme));
     if any(|s| matches!(s, Scheme::Penalty { law, .. } if law.is_lossless())) {
         findings.push(if asked.iter().all(|&e| e == 1.0) {
-            "every wall has e = 1, the limit of a lossless penalty spring: QP and penalty converge to one motion, the penalty as ε → 0 and h²k_w/m → 0 both"
+            "every wall has e = 1, the limit of a lossless penalty spring: QP and penalty converge to one \
+             motion, the penalty as ε → 0 and h²k_w/m → 0 both"
                 .into()
         } else {
-        let mut distinct: Vec<f64> = Vec::new();
+            let mut distinct: Vec<f64> = Vec::new();
             for e in &asked {
                 if !distinct.contains(e) {
                     distinct.push(*e);
                 }
             }
             let e = distinct.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-            format!("the walls ask for e = {e}, a lossless penalty spring tends to e = 1: the two do not converge to one another")
+            format!(
+                "the walls ask for e = {e}, a lossless penalty spring tends to e = 1: the two do not \
+                     converge to one another"
+            )
         });
     }
     if any(|s| *s == Scheme::ImplicitEuler) && asked.iter().any(|&e| e > 0.0) {
@@ -248,12 +252,14 @@ fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
         comparison.growth_by.filter(|by| *by != Source::Saltation).map_or_else(String::new, |by| format!(" ({by})"));
     match comparison.growth.filter(|_| held) {
         Some(growth) if comparison.horizon < scene.duration => findings.push(format!(
-            "chaos: a perturbation of the start grows {growth:.1e}-fold over the run{by}, and {LARGEST_GROWTH:e}-fold by t = {:.3} s; errors are taken up \
+            "chaos: a perturbation of the start grows {growth:.1e}-fold over the run{by}, and \
+             {LARGEST_GROWTH:e}-fold by t = {:.3} s; errors are taken up \
              to then, later compare impulses, contact counts and RMS",
             comparison.horizon
         )),
         Some(growth) => findings.push(format!(
-            "not chaotic: a perturbation of the start never grows beyond {growth:.1}-fold{by}, so errors are taken over the whole run"
+            "not chaotic: a perturbation of the start never grows beyond {growth:.1}-fold{by}, so errors are \
+             taken over the whole run"
         )),
         None => {}
     }
@@ -289,7 +295,8 @@ fn clarabel_difference(scene: &Scene, comparison: &Comparison) -> Option<String>
         ""
     };
     Some(format!(
-        "{} by {} against every contact step through Clarabel ({} QPs, {} interior-point iterations): displacement differs by at most {near:.1e} of the gap \
+        "{} by {} against every contact step through Clarabel ({} QPs, {} interior-point iterations): \
+         displacement differs by at most {near:.1e} of the gap \
          up to the horizon ({all:.1e} over the run), force by {:.1e} of the largest{both}",
         own.method.scheme,
         a.backend,

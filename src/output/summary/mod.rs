@@ -119,7 +119,8 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         residuals: &run.residuals,
         impulse_whole_run_n_s,
         statistics: &run.statistics,
-        wear: "impact power only: contact is frictionless and the motion normal to the wall, so there is no sliding wear here",
+        wear: "impact power only: contact is frictionless and the motion normal to the wall, so there is no \
+               sliding wear here",
         checks,
         notes: run.notes.iter().cloned().chain(case.notes()).collect(),
     };

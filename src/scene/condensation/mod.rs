@@ -104,7 +104,8 @@ impl Scene {
             .any(|(i, j, c)| c != 0.0 && (statics.number[i].is_err() || statics.number[j].is_err()));
         for (wall, &s) in scene.walls.iter_mut().zip(&compliance).filter(|(_, s)| **s > 0.0) {
             if damped {
-                let expected = "a wall where degrees of freedom have mass: the damping matrix acts on the massless ones that it pushes";
+                let expected = "a wall where degrees of freedom have mass: the damping matrix acts on the \
+                                massless ones that it pushes";
                 return Err(Error::invalid(Subject::wall(&wall.name).part("at"), "a place without mass", expected));
             }
             soften(wall, s)?;
@@ -170,7 +171,8 @@ fn soften(wall: &mut Wall, s: f64) -> Result<()> {
         WallLaw::Rigid { .. } => wall.law = WallLaw::Elastic { stiffness: 1.0 / s, damping: 0.0 },
         WallLaw::Elastic { stiffness, damping: 0.0 } => *stiffness = 1.0 / (1.0 / *stiffness + s),
         WallLaw::Elastic { damping, .. } => {
-            let expected = "0 where the wall pushes degrees of freedom without mass: in series with their spring a dashpot has a motion of its own";
+            let expected = "0 where the wall pushes degrees of freedom without mass: in series with their \
+                            spring a dashpot has a motion of its own";
             return Err(Error::invalid(Subject::wall(&wall.name).part("damping"), format!("{damping:?}"), expected));
         }
         WallLaw::Quartic { .. } => {

@@ -207,7 +207,8 @@ impl<'a> Statics<'a> {
         let largest = size.iter().fold(0.0_f64, |most, x| most.max(*x));
         if let Some(b) = (0..t.len()).find(|&b| force[b].abs() > ROUNDING * largest) {
             let key = matrix_of("damping").row(self.massless[b]);
-            let expected = "no damping force on a degree of freedom without mass, which would creep: leave its row 0, give it mass, or say \
+            let expected = "no damping force on a degree of freedom without mass, which would creep: leave its \
+                            row 0, give it mass, or say \
                             the damping as Rayleigh's coefficients or modal ratios";
             return Err(Error::invalid(
                 key,

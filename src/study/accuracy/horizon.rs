@@ -117,8 +117,10 @@ fn sampling(statistics: &Statistics, tolerance: f64) -> Option<String> {
     let shares = statistics.walls.iter().filter_map(|wall| Some((share(wall)?, &wall.wall)));
     let (widest, wall) = shares.filter(|(share, _)| *share > tolerance).max_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(format!(
-        "the mean force of wall {wall:?} scatters along the window: its 95 % interval by ten batches is ±{:.1} % of it, wider than the \
-         {tolerance:e} asked for; the error is that of this stretch of motion, and as an average of a longer one the force is known no better \
+        "the mean force of wall {wall:?} scatters along the window: its 95 % interval by ten batches is ±{:.1} \
+         % of it, wider than the \
+         {tolerance:e} asked for; the error is that of this stretch of motion, and as an average of a longer \
+         one the force is known no better \
          than the interval",
         100.0 * widest
     ))
@@ -129,7 +131,8 @@ pub(super) fn explain(scene: &Scene, outcome: &mut Outcome) {
     let until = outcome.accuracy.until_s;
     if let Some(growth) = outcome.accuracy.growth.filter(|&g| g > LARGEST_GROWTH) {
         outcome.run.notes.push(format!(
-            "a small change of the start or of the numbers of the case grows {growth:.1e}-fold up to t = {until:.4} s: the error is that of \
+            "a small change of the start or of the numbers of the case grows {growth:.1e}-fold up to t = \
+             {until:.4} s: the error is that of \
              the calculation, for exactly these numbers"
         ));
     }
@@ -145,7 +148,8 @@ pub(super) fn explain(scene: &Scene, outcome: &mut Outcome) {
     let rigid = exact(scene, time).map(|exact| Change::of_runs(scene, &outcome.run, &exact, until));
     if let Ok(change) = rigid {
         outcome.run.notes.push(format!(
-            "the error is against {judged}: from the rigid walls the displacement lies {:.1e} of the gap away up to t = {until:.4} s, which \
+            "the error is against {judged}: from the rigid walls the displacement lies {:.1e} of the gap away \
+             up to t = {until:.4} s, which \
              no step changes",
             change.displacement
         ));
