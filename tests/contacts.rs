@@ -330,3 +330,131 @@ fn a_body_that_stands_at_a_wall_without_pressing_is_not_in_contact() {
         assert_eq!(contacts(&scene, &MOREAU_JEAN, 1e-2).len(), 1);
     }
 }
+
+/// The impulses (N s) of a scene's contacts by `scheme` in ten steps of 10 ms.
+fn impulses(scene: &Scene, scheme: &Scheme) -> Vec<f64> {
+    contacts(&scene.clone().with_duration(0.1), scheme, 1e-2).iter().map(|contact| contact.impulse).collect()
+}
+
+#[test]
+fn what_counts_as_rounding_is_measured_by_the_scene_whatever_its_signs() {
+    // As above, with loads of either sign in every form: sizes count, not signs. The place is on
+    // the other side of 0 from where the load presses, and the spring carries all of it.
+    let steady = |force: f64| {
+        let table = Table::new(vec![0.0, 9.0], vec![force, force]).expect("a sound table");
+        // A cosine of 1e-9 Hz, 1 to the last place for longer than this lasts.
+        [
+            Load::constant(force),
+            Load::table(table),
+            Load::harmonic(-force, 1e-9, -0.5 * std::f64::consts::PI),
+            Load::harmonic(force, 1e-9, 0.5 * std::f64::consts::PI),
+        ]
+    };
+    for i in 1..30 {
+        let (place, k) = (f64::from(i) / 97.0, 31.0 + f64::from(i) / 7.0);
+        for sign in [1.0, -1.0] {
+            let wall = if sign > 0.0 { Wall::upper("wall", place) } else { Wall::lower("wall", -place) };
+            let force = sign * (k * place).next_up();
+            for load in steady(force) {
+                for scheme in common::CONSTRAINED {
+                    let scene = Scene::oscillator(1.0, 0.1, k)
+                        .with_wall(wall.clone())
+                        .with_load(load.clone())
+                        .with_initial(&[sign * place], &[0.0]);
+                    assert_eq!(impulses(&scene, &scheme), Vec::<f64>::new(), "{scheme}, {load:?} at {place} m");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_force_of_any_size_is_a_force_where_nothing_larger_acts() {
+    // Half the scene's scales are 0: a free body of 1 kg is held by a stop, against a force that
+    // would drown in the rounding of 1 N, or of a spring of 1 N/m. The velocity that a step gives
+    // it is 1e-18 m/s, and moreau-jean answers just that.
+    let force = 1e-16;
+    let table = Table::new(vec![0.0, 9.0], vec![force, force]).expect("a sound table");
+    let structure = signorini::Structure {
+        mass: signorini::linear::Symmetric::diagonal(&[1.0]),
+        damping: signorini::linear::Symmetric::zeros(1),
+        stiffness: signorini::linear::Symmetric::zeros(1),
+    };
+    for scene in [Scene::oscillator(1.0, 0.0, 0.0), Scene::structure(structure)] {
+        for load in [Load::constant(force), Load::table(table.clone())] {
+            let scene = scene
+                .clone()
+                .with_wall(Wall::upper("stop", 0.5).with_restitution(0.0))
+                .with_load(load)
+                // A blow that does nothing is no force.
+                .with_load(Load::impulse(0.0, 0.0))
+                .with_initial(&[0.5], &[0.0]);
+            let found = impulses(&scene, &MOREAU_JEAN);
+            let [impulse] = found[..] else { panic!("{found:?}") };
+            // A sum of ten equal numbers.
+            assert!((impulse / (-0.1 * force) - 1.0).abs() < 1e-14, "{impulse:e} N s");
+        }
+    }
+}
+
+#[test]
+fn the_rounding_of_an_impulse_is_that_of_its_own_terms() {
+    // Each scene has one product that a sum, or a sum that a product, would make 30 times larger or
+    // more: the force pressed with is between the two, and some units in the last place larger than
+    // what is lost. It is a force.
+    //
+    // 1e4 N carried by a spring, and 1e-13 of that over it: 1e-9 N, against 2e4 N rounded to
+    // 3.6e-11 N; 1e4 N · 1e4 N would be rounded to 1.8e-7 N².
+    let (k, place) = (1e6, 1e-2);
+    let stiff = Scene::oscillator(1.0, 100.0, k)
+        .with_wall(Wall::upper("stop", place).with_restitution(0.0))
+        .with_load(Load::constant(k * place * (1.0 + 1e-13)))
+        .with_initial(&[place], &[0.0]);
+    assert_eq!(impulses(&stiff, &MOREAU_JEAN).len(), 1);
+    // And where both are small, what is lost is more than the product: 1e-6 N and 1 unit in its
+    // last place.
+    for i in 1..30 {
+        let k = 1e-4 * (1.0 + f64::from(i) / 7.0);
+        let faint = Scene::oscillator(1.0, 0.0, k)
+            .with_wall(Wall::upper("stop", place).with_restitution(0.0))
+            .with_load(Load::constant((k * place).next_up()))
+            .with_initial(&[place], &[0.0]);
+        assert_eq!(impulses(&faint, &MOREAU_JEAN), Vec::<f64>::new(), "{k} N/m");
+    }
+    // An elastic wall of 1000 N/m beside a spring of 31 N/m: 1062 N/m · place is rounded to 1.9e-12
+    // N/m · place, and 4e-13 · 31 N/m · place is pressed with, 1.2e-11; the product of the two
+    // stiffnesses would be rounded to 5.5e-11.
+    let (k, own, place) = (31.0, 1000.0, 0.3);
+    let soft = |over: f64| {
+        Scene::oscillator(1.0, 0.0, k)
+            .with_wall(Wall::upper("pad", place).with_elasticity(own, 0.0))
+            .with_load(Load::constant(k * place * (1.0 + over)))
+            .with_initial(&[place], &[0.0])
+    };
+    assert_eq!(impulses(&soft(4e-13), &MOREAU_JEAN).len(), 1);
+    // A unit in the last place of the place, times the wall's stiffness, is rounding: 1000 N/m ·
+    // 5.6e-17 m, as much as 6e-15 of the load. The load's own is 1.6 N less the wall's 300 N: sizes
+    // add up.
+    for i in 1..30 {
+        let place = 0.3 + f64::from(i) / 97.0;
+        for scheme in common::CONSTRAINED {
+            let scene = Scene::oscillator(1.0, 0.1, k)
+                .with_wall(Wall::upper("pad", place).with_elasticity(own, 0.0))
+                .with_load(Load::constant((k * place).next_up()))
+                .with_initial(&[place], &[0.0]);
+            assert_eq!(impulses(&scene, &scheme), Vec::<f64>::new(), "{scheme}, {place} m");
+        }
+    }
+    // A heavy free body at 1 mm: a displacement is rounded to 1e-3 m · 1e6 kg, not to 1e6 kg and
+    // 1e-3 m together. 2e-6 N for 10 ms are 2e-8 N s, and what is lost is 1.8e-10.
+    let heavy = Scene::oscillator(1e6, 0.0, 0.0)
+        .with_wall(Wall::upper("stop", 1e-3).with_restitution(0.0))
+        .with_load(Load::constant(2e-6))
+        .with_initial(&[1e-3], &[0.0]);
+    for scheme in [Scheme::ImplicitEuler, Scheme::PaoliSchatzman] {
+        let found = impulses(&heavy, &scheme);
+        let [impulse] = found[..] else { panic!("{scheme}: {found:?}") };
+        // Ten steps, each known to a hundredth; the first of paoli-schatzman is half a step's.
+        assert!((impulse / -2e-7 - 1.0).abs() < 0.06, "{scheme}: {impulse:e} N s");
+    }
+}
