@@ -350,6 +350,10 @@ fn what_counts_as_rounding_is_measured_by_the_scene_whatever_its_signs() {
             Load::harmonic(force, 1e-9, 0.5 * std::f64::consts::PI),
         ]
     };
+    let structure = |k: f64| {
+        let one = |x: f64| signorini::linear::Symmetric::diagonal(&[x]);
+        Scene::structure(signorini::Structure { mass: one(1.0), damping: one(0.1), stiffness: one(k) })
+    };
     for i in 1..30 {
         let (place, k) = (f64::from(i) / 97.0, 31.0 + f64::from(i) / 7.0);
         for sign in [1.0, -1.0] {
@@ -357,11 +361,14 @@ fn what_counts_as_rounding_is_measured_by_the_scene_whatever_its_signs() {
             let force = sign * (k * place).next_up();
             for load in steady(force) {
                 for scheme in common::CONSTRAINED {
-                    let scene = Scene::oscillator(1.0, 0.1, k)
-                        .with_wall(wall.clone())
-                        .with_load(load.clone())
-                        .with_initial(&[sign * place], &[0.0]);
-                    assert_eq!(impulses(&scene, &scheme), Vec::<f64>::new(), "{scheme}, {load:?} at {place} m");
+                    // As a structure, it has the loads alone to measure by.
+                    for system in [Scene::oscillator(1.0, 0.1, k), structure(k)] {
+                        let scene = system
+                            .with_wall(wall.clone())
+                            .with_load(load.clone())
+                            .with_initial(&[sign * place], &[0.0]);
+                        assert_eq!(impulses(&scene, &scheme), Vec::<f64>::new(), "{scheme}, {load:?} at {place} m");
+                    }
                 }
             }
         }
