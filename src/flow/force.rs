@@ -1,5 +1,6 @@
 //! The load over one arc, as a function of the time since its start.
 
+use super::elementary::sin_cos;
 use crate::scene::Forcing;
 
 /// One sine, A sin(ω τ + θ), with θ its phase at the arc's start.
@@ -43,7 +44,7 @@ impl LocalForce {
         }
         self.waves.clear();
         for h in &forcing.harmonics {
-            let (sin, cos) = (h.omega * start + h.phase + h.omega * late).sin_cos();
+            let (sin, cos) = sin_cos(h.omega * start + h.phase + h.omega * late);
             if h.omega == 0.0 {
                 self.constant += h.amplitude * sin;
                 continue;
@@ -60,7 +61,7 @@ impl LocalForce {
     pub fn jet(&self, tau: f64) -> [f64; 4] {
         let mut f = [self.constant + self.slope * tau, self.slope, 0.0, 0.0];
         for w in &self.waves {
-            let (s, c) = (w.omega * tau).sin_cos();
+            let (s, c) = sin_cos(w.omega * tau);
             let (sin, cos) = (w.amplitude * (w.sin * c + w.cos * s), w.amplitude * (w.cos * c - w.sin * s));
             f[0] += sin;
             f[1] += w.omega * cos;
@@ -93,7 +94,7 @@ impl LocalForce {
         let (span, mid) = (to - from, 0.5 * (from + to));
         let mut sum = (self.constant + self.slope * mid) * span;
         for w in &self.waves {
-            let (s, c) = (w.omega * mid).sin_cos();
+            let (s, c) = sin_cos(w.omega * mid);
             let half = 0.5 * w.omega * span;
             let sinc = if half == 0.0 { 1.0 } else { half.sin() / half };
             sum += w.amplitude * span * (w.sin * c + w.cos * s) * sinc;

@@ -3,8 +3,10 @@
 
 mod contact;
 mod divided;
+mod elementary;
 mod force;
 mod response;
+mod roots;
 mod series;
 
 pub(crate) use contact::{Support, Touch};
@@ -256,8 +258,9 @@ impl Arc {
     /// ẏ(τ+u) = S′(u) ẏ − κ y S(u) + ∫S′ψ′, where |S′| ≤ 1 and |S| ≤ min(u, 1/√κ, 1/2δ) at any damping.
     #[inline]
     pub(crate) fn bounds(&self, jet: &Jet, window: f64) -> [f64; 2] {
-        let (kappa, rub, inverse) = (self.response.kappa, 2.0 * self.response.sigma, self.inverse);
-        let reach = kappa * window.min(self.response.longest);
+        let equation = &self.response.equation;
+        let (kappa, rub, inverse) = (equation.kappa, 2.0 * equation.sigma, self.inverse);
+        let reach = kappa * window.min(equation.longest);
         let load = self.force.bounds.map(|b| b * inverse);
         let fourth = jet[4].abs() + reach * jet[3].abs() + window * load[1];
         // The fifth derivative at τ follows from the equation itself.

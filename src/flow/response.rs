@@ -1,28 +1,13 @@
 //! The general solution of q̈ + 2σ q̇ + κ q = φ(τ).
 
 use super::divided::divided_exp;
+use super::elementary::{exp, sin_cos};
 use super::force::LocalForce;
+use super::roots::{Equation, Roots};
 use nalgebra::Complex;
 
 /// Displacement and its first four time derivatives at one instant: m, m/s, … m/s⁴.
 pub(crate) type Jet = [f64; 5];
-
-/// The characteristic roots of λ² + 2σλ + κ = 0, both in the closed left half plane.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Roots {
-    /// λ = −σ ± iω_d.
-    Pair {
-        /// Damped circular frequency √(κ − σ²), rad/s; above 0.
-        omega: f64,
-    },
-    /// λ = −σ ± δ, both real; the slow one is −κ/(σ + δ), free of cancellation at any damping.
-    Real {
-        /// The root nearer to 0, 1/s.
-        slow: f64,
-        /// The other, 1/s.
-        fast: f64,
-    },
-}
 
 /// A particular solution to one sine, Im(gain · u(τ)).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,11 +26,8 @@ struct Part {
 /// which is never larger than the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Response {
-    /// σ = c/2m, 1/s.
-    pub sigma: f64,
-    /// κ = k/m, 1/s².
-    pub kappa: f64,
-    roots: Roots,
+    /// Kept from arc to arc while the same walls touch.
+    pub equation: Equation,
     /// Free motion. Pair: Re(Z e^{λτ}). Real: re e^{slow τ} + im S(τ), S the impulse response.
     free: Complex<f64>,
     /// Steady solution p₀ + p₁τ of the constant and ramp, m and m/s; zero where they enter from
@@ -62,8 +44,6 @@ pub(super) struct Response {
     /// Σ (ω² + κ)|P| over the steady sines, m/s²: where it exceeds force over mass, it determines
     /// the rounding error of the acceleration.
     pub steady: f64,
-    /// The largest |S|: min(1/√κ, 1/2δ), s; infinite for a free body.
-    pub longest: f64,
     /// An interval that the motion does not leave within the span, m; infinite where no bound is
     /// known.
     pub extent: [f64; 2],
@@ -80,9 +60,7 @@ const STEADY_SHARE: f64 = 0.25;
 impl Default for Response {
     fn default() -> Self {
         Self {
-            sigma: 0.0,
-            kappa: 0.0,
-            roots: Roots::Real { slow: 0.0, fast: 0.0 },
+            equation: Equation::new([1.0, 0.0, 0.0]),
             free: Complex::new(0.0, 0.0),
             line: [0.0; 2],
             rest: [0.0; 2],
@@ -90,7 +68,6 @@ impl Default for Response {
             resonant: false,
             size: [0.0; 2],
             steady: 0.0,
-            longest: f64::INFINITY,
             extent: [f64::NEG_INFINITY, f64::INFINITY],
         }
     }
@@ -106,22 +83,14 @@ impl Response {
     /// (`q`, `v`). `span` (s) is the length of the arc, `length` (m) a typical displacement of the
     /// scene.
     pub fn set(&mut self, [mass, c, k]: [f64; 3], force: &LocalForce, [q, v]: [f64; 2], span: f64, length: f64) {
-        let (sigma, kappa) = (0.5 * c / mass, k / mass);
-        (self.sigma, self.kappa) = (sigma, kappa);
-        let excess = sigma * sigma - kappa;
-        self.longest = 1.0 / kappa.sqrt();
-        self.roots = if excess < 0.0 {
-            Roots::Pair { omega: (-excess).sqrt() }
-        } else {
-            let delta = excess.sqrt();
-            self.longest = self.longest.min(0.5 / delta);
-            let slow = if kappa == 0.0 { 0.0 } else { -kappa / (sigma + delta) };
-            Roots::Real { slow, fast: -(sigma + delta) }
-        };
+        if self.equation.of != [mass, c, k] {
+            self.equation = Equation::new([mass, c, k]);
+        }
+        let Equation { sigma, kappa, .. } = self.equation;
         let length = length.max(q.abs());
         // From rest, a load of acceleration φ and circular frequency ω moves the body by about φ
         // min(τ², τ/(ω + √κ + σ)); the steady motion is φ/|D|.
-        let natural = kappa.sqrt() + sigma;
+        let natural = self.equation.natural + sigma;
         let steady = |amplitude: f64, d: f64, omega: f64| {
             let reached = span.min(1.0 / (omega + natural)) * span;
             amplitude <= STEADY_SIZE * length * d || d * reached >= STEADY_SHARE
@@ -159,8 +128,8 @@ impl Response {
             self.parts.push(Part { omega: w.omega, gain, steady: is_steady });
         }
         self.resonant = self.parts.iter().any(|p| !p.steady);
-        self.free = match self.roots {
-            Roots::Pair { omega } => Complex::new(x, -(dx + sigma * x) / omega),
+        self.free = match self.equation.roots {
+            Roots::Pair { omega, .. } => Complex::new(x, -(dx + sigma * x) / omega),
             Roots::Real { slow, .. } => Complex::new(x, dx - slow * x),
         };
         self.bound_extent(span);
@@ -168,7 +137,7 @@ impl Response {
 
     /// √κ of a body that oscillates, rad/s; 0 of one that is critically or more damped.
     pub fn oscillation(&self) -> f64 {
-        if matches!(self.roots, Roots::Pair { .. }) { self.kappa.sqrt() } else { 0.0 }
+        if matches!(self.equation.roots, Roots::Pair { .. }) { self.equation.natural } else { 0.0 }
     }
 
     /// Bounds the motion by the sizes of its terms.
@@ -177,9 +146,9 @@ impl Response {
             self.extent = [f64::NEG_INFINITY, f64::INFINITY];
             return;
         }
-        let free = match self.roots {
+        let free = match self.equation.roots {
             Roots::Pair { .. } => size_of(self.free),
-            Roots::Real { .. } => self.free.re.abs() + self.free.im.abs() * self.longest.min(span),
+            Roots::Real { .. } => self.free.re.abs() + self.free.im.abs() * self.equation.longest.min(span),
         };
         let reach = free + self.parts.iter().map(|p| size_of(p.gain)).sum::<f64>();
         let ends = [self.line[0], self.line[0] + self.line[1] * span];
@@ -198,7 +167,7 @@ impl Response {
         for part in &self.parts {
             let w = part.omega;
             if part.steady {
-                let (s, c) = (w * tau).sin_cos();
+                let (s, c) = sin_cos(w * tau);
                 let (g, w2) = (part.gain, w * w);
                 let (im, re) = (g.re * s + g.im * c, g.re * c - g.im * s);
                 x[0] += im;
@@ -225,21 +194,20 @@ impl Response {
     fn free_jet(&self, tau: f64) -> (Jet, Jet) {
         let wanted = self.resonant || self.rest != [0.0; 2];
         let mut impulse = [0.0; 5];
-        match self.roots {
-            Roots::Pair { omega } => {
-                let decay = (-self.sigma * tau).exp();
-                let (s, c) = (omega * tau).sin_cos();
-                let mut z = self.free * Complex::new(decay * c, decay * s);
-                let mut x = [0.0; 5];
-                for x in &mut x {
-                    *x = z.re;
-                    z = Complex::new(-self.sigma * z.re - omega * z.im, omega * z.re - self.sigma * z.im);
-                }
+        match self.equation.roots {
+            Roots::Pair { omega, powers } => {
+                let Equation { sigma, kappa, .. } = self.equation;
+                let decay = exp(-sigma * tau);
+                let (s, c) = sin_cos(omega * tau);
+                let z = self.free * Complex::new(decay * c, decay * s);
+                // Each derivative from z itself: a chain of products would make every one wait.
+                let [v, a, jerk, snap] = powers.map(|power| power.re * z.re - power.im * z.im);
+                let x = [z.re, v, a, jerk, snap];
                 if wanted {
                     impulse[0] = decay * s / omega;
-                    impulse[1] = decay * c - self.sigma * impulse[0];
+                    impulse[1] = decay * c - sigma * impulse[0];
                     for n in 2..5 {
-                        impulse[n] = -2.0 * self.sigma * impulse[n - 1] - self.kappa * impulse[n - 2];
+                        impulse[n] = -2.0 * sigma * impulse[n - 1] - kappa * impulse[n - 2];
                     }
                 }
                 (x, impulse)
@@ -268,9 +236,9 @@ impl Response {
 
     /// λ₁τ and λ₂τ.
     fn nodes(&self, tau: f64) -> [Complex<f64>; 2] {
-        match self.roots {
-            Roots::Pair { omega } => {
-                let z = Complex::new(-self.sigma, omega) * tau;
+        match self.equation.roots {
+            Roots::Pair { powers: [root, ..], .. } => {
+                let z = root * tau;
                 [z, z.conj()]
             }
             Roots::Real { slow, fast } => [Complex::new(slow * tau, 0.0), Complex::new(fast * tau, 0.0)],
