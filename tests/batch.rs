@@ -305,7 +305,7 @@ fn what_cannot_be_held_is_refused_by_name_or_handed_over_and_counted() {
     let mut bad = good.clone();
     bad.body.mass = -1.0;
     let error = Plan::new(0, 1).run(&[good.clone(), bad]).unwrap_err().to_string();
-    assert!(error.starts_with("oscillator 2: system.oscillator.mass is -1"), "{error}");
+    assert!(error.starts_with("oscillator 2: oscillator: mass is -1"), "{error}");
     assert!(Plan::new(0, 0).run(std::slice::from_ref(&good)).unwrap_err().to_string().starts_with("keep"));
     // Elastic walls go to the exact scheme.
     let soft = Some(Stop { position: 4e-3, law: WallLaw::Elastic { stiffness: 1e4, damping: 1.0 } });

@@ -28,7 +28,7 @@ pub use recorded::{Momentum, momentum};
 pub use residuals::Residuals;
 
 use crate::linear::Factor;
-use crate::scene::{Loads, Scene, System};
+use crate::scene::{Forcing, GridForcing, Loads, Row, Scene, System};
 use crate::step::{Balance, Contract, Path, Step};
 use beyond::{Doubts, Rounding, Worst};
 use complementarity::Pairs;
@@ -51,6 +51,9 @@ pub struct Judge {
     contract: Contract,
     h: f64,
     loads: Loads,
+    /// The loads of an oscillator at the instants of a grid, where schemes take their sines from
+    /// rotations: computed otherwise, a sine would differ by the rounding of its phase.
+    grid_load: Option<GridForcing>,
     matrices: Matrices,
     /// The walls, in the scene's order, and the indices of the rigid ones that see several degrees
     /// of freedom.
@@ -186,6 +189,9 @@ impl Judge {
             damper: zero(),
             spring: zero(),
         };
+        let direct = scene.walls.iter().all(|wall| wall.at == Row::dof(0));
+        let oscillator = matches!(scene.system, System::Oscillator(_)) && direct;
+        let grid_load = oscillator.then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
         let rigid = || scene.walls.iter().enumerate().filter(|(_, wall)| wall.law.is_rigid());
         let mut seen = zero();
         for (_, wall) in rigid() {
@@ -199,6 +205,7 @@ impl Judge {
             contract,
             h,
             loads,
+            grid_load,
             matrices: Matrices::new(&scene.system),
             sights: scene.walls.iter().map(Sight::new).collect(),
             wide: rigid().filter(|(_, wall)| wall.at.entries().len() > 1).map(|(index, _)| index).collect(),
@@ -253,12 +260,13 @@ impl Judge {
         if !fits {
             return;
         }
-        match &mut self.scratch.load_end[..] {
-            // A single store, without a call.
-            [load] => *load = 0.0,
-            loads => loads.fill(0.0),
+        match (&mut self.grid_load, step.path, &mut self.scratch.load_end[..]) {
+            (Some(forcing), Path::Grid | Path::OneRestitution, [load]) => *load = forcing.at(step.end),
+            (_, _, load) => {
+                load.fill(0.0);
+                self.loads.add_force(step.end, 1.0, load);
+            }
         }
-        self.loads.add_force(step.end, 1.0, &mut self.scratch.load_end);
         // Without blows these vectors stay zero.
         if self.loads.has_blows() {
             let struck = match self.contract.balance {

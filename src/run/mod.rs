@@ -81,7 +81,8 @@ pub fn run_with_progress<J: Judging, R: Recording>(
             report += (count / PROGRESS_SHARE).clamp(1, PROGRESS_STRIDE);
             progress(time);
         }
-        if if exact { time >= scene.duration } else { count == grid.steps } {
+        let ended = if exact { time >= scene.duration } else { count == grid.steps };
+        if ended {
             break;
         }
     }

@@ -76,7 +76,8 @@ pub enum Scheme {
         /// ρ∞ in [0, 1], what is left of the fastest free vibration after a step: 1 conserves, 0 takes it out at once.
         rho: f64,
     },
-    /// Average acceleration with the walls on the displacement: an exhibit, which gains energy.
+    /// Average acceleration with the walls on the displacement: for demonstration, since it
+    /// gains energy.
     Newmark,
     /// Rigid walls replaced by springs.
     Penalty {

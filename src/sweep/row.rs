@@ -177,7 +177,8 @@ impl Plan {
                 judge.see(&step);
             }
             count += 1;
-            if if exact { step.end >= scene.duration } else { count == grid.steps } {
+            let ended = if exact { step.end >= scene.duration } else { count == grid.steps };
+            if ended {
                 break;
             }
         }
