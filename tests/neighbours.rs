@@ -64,7 +64,7 @@ fn a_body_that_leaves_its_wall_at_the_start_is_not_held_by_it() {
         let wall = if sign > 0.0 { Wall::upper("stop", 0.25) } else { Wall::lower("stop", -0.25) };
         let free = Scene::oscillator(1.0, 0.0, 0.0)
             .with_load(Load::constant(3.0 * sign))
-            .with_initial(&[0.25 * sign], &[-1.0 * sign]);
+            .with_initial(&[0.25 * sign], &[-sign]);
         let scene = free.clone().with_wall(wall);
         for scheme in schemes().into_iter().filter(|scheme| *scheme != Scheme::PaoliSchatzman) {
             let h = 1e-3;

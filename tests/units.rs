@@ -179,8 +179,18 @@ impl Units {
         };
         let (a, b) = (&one.trajectory, &other.trajectory);
         rows(self.time, &[a.time().to_vec()], &[b.time().to_vec()], "time");
-        rows(self.length, &[one.state.q.clone()], &[other.state.q.clone()], "displacement at the end");
-        rows(self.speed(), &[one.state.v.clone()], &[other.state.v.clone()], "velocity at the end");
+        rows(
+            self.length,
+            std::slice::from_ref(&one.state.q),
+            std::slice::from_ref(&other.state.q),
+            "displacement at the end",
+        );
+        rows(
+            self.speed(),
+            std::slice::from_ref(&one.state.v),
+            std::slice::from_ref(&other.state.v),
+            "velocity at the end",
+        );
         rows(self.length, a.displacements(), b.displacements(), "displacement");
         rows(self.speed(), a.velocities(), b.velocities(), "velocity");
         rows(self.force(), a.contact_forces(), b.contact_forces(), "contact force");

@@ -14,9 +14,9 @@ use statics::{Seen, Statics};
 ///
 /// With q = (a, b), where b has no mass, M_bb = 0 and M_ab = 0, the rows of b are static: K_ba a +
 /// K_bb b = f_b + G_bᵀ r. So b = T a + K_bb⁻¹ (f_b + G_bᵀ r) with T = −K_bb⁻¹ K_ba, and the rest is
-/// M_aa ä + C̄ ȧ + K̄ a = f_a + Tᵀf_b + Ḡᵀr with K̄ = K_aa + K_ab T, C̄ = C_aa + C_ab T and Ḡ = G_a
-/// + G_b T: the condensation of Guyan (1965, doi 10.2514/3.2874), which is exact here since b has
-/// no inertia.
+/// M_aa ä + C̄ ȧ + K̄ a = f_a + Tᵀf_b + Ḡᵀr with K̄ = K_aa + K_ab T, C̄ = C_aa + C_ab T and
+/// Ḡ = G_a + G_b T: the condensation of Guyan (1965, doi 10.2514/3.2874), which is exact here since
+/// b has no inertia.
 ///
 /// A wall that acts on b has static compliance: w = ḡ a + s r with s = g_b K_bb⁻¹ g_bᵀ. A rigid
 /// wall there is exactly an elastic one of stiffness 1/s against ḡ a, without restitution, since a
