@@ -80,13 +80,23 @@ impl Elimination {
         })
     }
 
+    /// True if there are sets of rows for which it [`pays`](Self::pays).
+    pub(super) fn can_pay(&self, system: &Delassus) -> bool {
+        self.is_less_than(system, 0..self.rows.len())
+    }
+
     /// True if a pass over W with the rows that pivoting starts from costs more than the passes
     /// expected here.
     pub(super) fn pays(&self, system: &Delassus, pivoting: &Pivoting) -> bool {
+        self.is_less_than(system, pivoting.called().map(|(row, _)| row))
+    }
+
+    /// Compares the work of both ways with these rows in play.
+    fn is_less_than(&self, system: &Delassus, rows: impl Iterator<Item = usize>) -> bool {
         let (n, w) = (self.diagonal.len(), self.width);
         // Each row in play moves every row within its reach, and its line of the factor is used
         // twice.
-        let condensed: usize = pivoting.called().map(|(row, _)| 2 * system.row(row).1.len()).sum();
+        let condensed: usize = rows.map(|row| 2 * system.row(row).1.len()).sum();
         condensed > EXPECTED * n * (w + 1) * (w + 4)
     }
 

@@ -125,7 +125,7 @@ impl Solver {
             let system = Delassus::new(&problem)?;
             let pivoting = Pivoting::new(&system);
             let always = backend == Backend::Clarabel;
-            let elimination = Elimination::new(&problem).map(Box::new);
+            let elimination = Elimination::new(&problem).filter(|e| e.can_pay(&system)).map(Box::new);
             let passes = patience(m, pivoting.rank());
             Kind::Condensed(Box::new(Condensed {
                 system,
