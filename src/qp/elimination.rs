@@ -36,6 +36,8 @@ pub(super) struct Elimination {
     /// Unknown and factor g of each row, and its compliance.
     rows: Vec<(usize, f64, f64)>,
     side: Vec<Option<Side>>,
+    /// Multiplications of a pass over W with the rows in play last, which start the next programme.
+    condensed: usize,
     /// Unknowns taken out by a rigid row.
     fixed: Vec<bool>,
     /// L below its unit diagonal, stored as `band`, D and 1/D.
@@ -72,6 +74,7 @@ impl Elimination {
             band,
             diagonal: problem.a.diagonal_entries(),
             side: vec![None; rows.len()],
+            condensed: 0,
             rows,
             fixed: vec![false; n],
             pivot: vec![0.0; n],
@@ -80,24 +83,18 @@ impl Elimination {
         })
     }
 
-    /// True if there are sets of rows for which it [`pays`](Self::pays).
-    pub(super) fn can_pay(&self, system: &Delassus) -> bool {
-        self.is_less_than(system, 0..self.rows.len())
-    }
-
-    /// True if a pass over W with the rows that pivoting starts from costs more than the passes
-    /// expected here.
-    pub(super) fn pays(&self, system: &Delassus, pivoting: &Pivoting) -> bool {
-        self.is_less_than(system, pivoting.called().map(|(row, _)| row))
-    }
-
-    /// Compares the work of both ways with these rows in play.
-    fn is_less_than(&self, system: &Delassus, rows: impl Iterator<Item = usize>) -> bool {
-        let (n, w) = (self.diagonal.len(), self.width);
+    /// Notes the rows in play, from which the next programme is likely to start.
+    pub(super) fn note(&mut self, system: &Delassus, rows: &[usize]) {
         // Each row in play moves every row within its reach, and its line of the factor is used
         // twice.
-        let condensed: usize = rows.map(|row| 2 * system.row(row).1.len()).sum();
-        condensed > EXPECTED * n * (w + 1) * (w + 4)
+        self.condensed = rows.iter().map(|&row| 2 * system.row(row).1.len()).sum();
+    }
+
+    /// True if a pass over W with the rows noted last costs more than the passes expected here.
+    #[inline]
+    pub(super) fn pays(&self) -> bool {
+        let (n, w) = (self.diagonal.len(), self.width);
+        self.condensed > EXPECTED * n * (w + 1) * (w + 4)
     }
 
     /// Solves for the free motion held in `system`, starting from the active set of `pivoting`: x
@@ -128,6 +125,8 @@ impl Elimination {
                         pivoting.call(row, side);
                     }
                 }
+                let play = (0..self.side.len()).filter(|&row| self.side[row].is_some());
+                self.condensed = play.map(|row| 2 * system.row(row).1.len()).sum();
                 return Some(pivots);
             }
             pivots += changes;

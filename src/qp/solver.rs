@@ -125,7 +125,7 @@ impl Solver {
             let system = Delassus::new(&problem)?;
             let pivoting = Pivoting::new(&system);
             let always = backend == Backend::Clarabel;
-            let elimination = Elimination::new(&problem).filter(|e| e.can_pay(&system)).map(Box::new);
+            let elimination = Elimination::new(&problem).map(Box::new);
             let passes = patience(m, pivoting.rank());
             Kind::Condensed(Box::new(Condensed {
                 system,
@@ -234,7 +234,7 @@ impl Condensed {
             if system.loose {
                 pivoting.call_violated(system, rhs);
             }
-            if let Some(elimination) = self.elimination.as_mut().filter(|e| e.pays(system, pivoting))
+            if let Some(elimination) = self.elimination.as_mut().filter(|e| e.pays())
                 && let Some(pivots) = elimination.solve(system, pivoting, rhs, scale, (x, r))
             {
                 counters.pivots += pivots;
@@ -244,6 +244,9 @@ impl Condensed {
             match pivoting.solve(system, rhs, scale, self.passes, r) {
                 Ok(pivots) => {
                     counters.pivots += pivots;
+                    if let Some(elimination) = &mut self.elimination {
+                        elimination.note(system, pivoting.rows());
+                    }
                     return self.answer(rhs, solution);
                 }
                 // Whatever the error (crossing bounds included), it is reported only if the next
