@@ -84,10 +84,10 @@ impl Elimination {
     }
 
     /// Notes the rows in play, from which the next programme is likely to start.
-    pub(super) fn note(&mut self, system: &Delassus, rows: &[usize]) {
+    pub(super) fn note(&mut self, system: &Delassus, rows: impl Iterator<Item = usize>) {
         // Each row in play moves every row within its reach, and its line of the factor is used
         // twice.
-        self.condensed = rows.iter().map(|&row| 2 * system.row(row).1.len()).sum();
+        self.condensed = rows.map(|row| 2 * system.row(row).1.len()).sum();
     }
 
     /// True if a pass over W with the rows noted last costs more than the passes expected here.
@@ -125,8 +125,7 @@ impl Elimination {
                         pivoting.call(row, side);
                     }
                 }
-                let play = (0..self.side.len()).filter(|&row| self.side[row].is_some());
-                self.condensed = play.map(|row| 2 * system.row(row).1.len()).sum();
+                self.note(system, pivoting.called().map(|(row, _)| row));
                 return Some(pivots);
             }
             pivots += changes;

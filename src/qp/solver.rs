@@ -245,7 +245,7 @@ impl Condensed {
                 Ok(pivots) => {
                     counters.pivots += pivots;
                     if let Some(elimination) = &mut self.elimination {
-                        elimination.note(system, pivoting.rows());
+                        elimination.note(system, pivoting.rows().iter().copied());
                     }
                     return self.answer(rhs, solution);
                 }

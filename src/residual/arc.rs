@@ -1,6 +1,6 @@
 //! Checks of the exact motion of one degree of freedom.
 
-use super::energy::{Along, Instant, is_damped, stored};
+use super::energy::{Along, Instant, stored};
 use super::quadrature::{nodes, panels};
 use super::{Judge, PLACE_UNITS, most};
 use crate::flow::Arc;
@@ -55,7 +55,7 @@ impl Judge {
             if rigid && r == 0.0 && gap >= 0.0 {
                 continue;
             }
-            along.add_wall(at, r, stored(wall, w, r != 0.0), is_damped(wall.law));
+            along.add_wall(at, r, stored(wall, w, r != 0.0), wall.law.damping() > 0.0);
             let pressure = sign * r;
             self.force_scale = most(self.force_scale, pressure.abs());
             self.tension = most(self.tension, -pressure);

@@ -131,21 +131,9 @@ impl Rounding {
         }
     }
 
-    /// As [`Self::state`], with two velocities.
-    pub fn step(&mut self, q: &[f64], before: &[f64], after: &[f64], span: f64) {
-        for (((q, before), after), [mass, spring, dashpot]) in q.iter().zip(before).zip(after).zip(&self.root) {
-            let v = before.abs().max(after.abs());
-            let q = q.abs() + span * v;
-            self.speed = self.speed.max(v * mass);
-            self.reach = self.reach.max(q * mass);
-            self.strain = self.strain.max(q * spring);
-            self.rub = self.rub.max(v * dashpot);
-        }
-    }
-
-    /// As [`Self::step`], for n degrees of freedom of a step on a grid, in one pass.
+    /// As [`Self::state`], with two velocities of n degrees of freedom, in one pass.
     #[inline(always)]
-    pub fn step_of(&mut self, (q, before, after): (&[f64], &[f64], &[f64]), span: f64, n: usize) {
+    pub fn step(&mut self, (q, before, after): (&[f64], &[f64], &[f64]), span: f64, n: usize) {
         let (q, before, after, root) = (&q[..n], &before[..n], &after[..n], &self.root[..n]);
         let [mut speed, mut reach, mut strain, mut rub] = [self.speed, self.reach, self.strain, self.rub];
         for i in 0..n {

@@ -93,11 +93,6 @@ fn shared_restitution(scene: &Scene, wall: &Wall, back: f64) -> Option<f64> {
     (lo > hi).then_some(least)
 }
 
-/// c_a of a wall, N s/m.
-pub(super) fn damping_of(wall: &Wall) -> f64 {
-    if let WallLaw::Elastic { damping, .. } = wall.law { damping } else { 0.0 }
-}
-
 /// |r| of an elastic or penalised wall as the scheme promises it for a step.
 pub(super) fn expected_pressure(
     wall: &Wall,
@@ -108,7 +103,7 @@ pub(super) fn expected_pressure(
 ) -> f64 {
     let (s0, s1) = (-wall.gap(w0), -wall.gap(w1));
     let law = &wall.law;
-    let c = damping_of(wall);
+    let c = wall.law.damping();
     let k = if let WallLaw::Elastic { stiffness, .. } = *law { stiffness } else { 0.0 };
     let rate = (s1.max(0.0) - s0.max(0.0)) / h;
     let pressure = match at {

@@ -106,7 +106,7 @@ impl Judge {
             residual[i] = -h * load[i] - blow[i];
             inertia[i] = after[i] - before[i];
         }
-        self.rounding.step_of((shown, before, after), h, n);
+        self.rounding.step((shown, before, after), h, n);
         self.rounding.loads_of((load, load_end, extra, blow), per_h, n);
         self.rounding.book();
         path

@@ -28,7 +28,7 @@ pub use recorded::{Momentum, momentum};
 pub use residuals::Residuals;
 
 use crate::linear::Factor;
-use crate::scene::{Forcing, GridForcing, Loads, Row, Scene, System};
+use crate::scene::{Forcing, GridForcing, Loads, Scene, System};
 use crate::step::{Balance, Contract, Path, Step};
 use beyond::{Doubts, Rounding, Worst};
 use complementarity::Pairs;
@@ -189,9 +189,7 @@ impl Judge {
             damper: zero(),
             spring: zero(),
         };
-        let direct = scene.walls.iter().all(|wall| wall.at == Row::dof(0));
-        let oscillator = matches!(scene.system, System::Oscillator(_)) && direct;
-        let grid_load = oscillator.then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
+        let grid_load = scene.is_line().then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
         let rigid = || scene.walls.iter().enumerate().filter(|(_, wall)| wall.law.is_rigid());
         let mut seen = zero();
         for (_, wall) in rigid() {
@@ -279,25 +277,10 @@ impl Judge {
             }
         }
         match step.path {
-            Path::Grid if self.memory.is_some() => {
-                self.prepare(step);
-                self.see_corrected(step);
-                self.sum(step, 1.0 / self.h, n);
-                self.arrive(step);
-            }
+            Path::Grid if self.memory.is_some() => self.see_apart(step, |judge| judge.see_corrected(step)),
             Path::Grid | Path::OneRestitution => self.see_grid(step),
-            Path::Exact(arc) => {
-                self.prepare(step);
-                self.see_arc(step, arc);
-                self.sum(step, 1.0 / self.h, n);
-                self.arrive(step);
-            }
-            Path::Series(series) => {
-                self.prepare(step);
-                self.see_series(step, series);
-                self.sum(step, 1.0 / self.h, n);
-                self.arrive(step);
-            }
+            Path::Exact(arc) => self.see_apart(step, |judge| judge.see_arc(step, arc)),
+            Path::Series(series) => self.see_apart(step, |judge| judge.see_series(step, series)),
             Path::Handed { contract, step: h } => {
                 self.doubts.handed = true;
                 let own = (self.contract, self.h);
@@ -309,16 +292,20 @@ impl Judge {
         std::mem::swap(&mut self.load, &mut self.scratch.load_end);
     }
 
-    /// Updates the depths behind the walls, and makes the state at the end of a step that at the
-    /// start of the next.
-    fn arrive(&mut self, step: &Step<'_>) {
+    /// Checks a step by `see`, with its sizes noted before, and its momentum summed and the depths
+    /// behind the walls updated after. [`Judge::see_grid`] does that in its own passes.
+    fn see_apart(&mut self, step: &Step<'_>, see: impl FnOnce(&mut Self)) {
+        let n = self.q.len();
+        self.prepare(step);
+        see(self);
+        self.sum(step, 1.0 / self.h, n);
         for (wall, depth) in self.scene.walls.iter().zip(&mut self.depth) {
             *depth = depth.max(-wall.gap(wall.at.dot(step.q)));
         }
-        self.go_on(step, self.q.len());
+        self.go_on(step, n);
     }
 
-    /// As [`Self::arrive`], without the depths behind the walls.
+    /// Makes the state at the end of a step that at the start of the next.
     #[inline(always)]
     fn go_on(&mut self, step: &Step<'_>, n: usize) {
         for &index in &self.wide {

@@ -8,7 +8,6 @@ use super::energy::{Ledger, Moved};
 use super::quadrature::{Panel, nodes};
 use super::{Judge, PLACE_UNITS};
 use crate::flow::Series;
-use crate::scene::WallLaw;
 use crate::step::Step;
 
 /// Rounding error of the momenta at the ends of a stretch, in units in the last place of the run's
@@ -89,7 +88,7 @@ impl Judge {
                     }
                     continue;
                 }
-                if matches!(wall.law, WallLaw::Elastic { damping, .. } if damping > 0.0) {
+                if wall.law.damping() > 0.0 {
                     moved.push -= weight * r * rate;
                 }
                 let rounding = PLACE_UNITS * f64::EPSILON * size;

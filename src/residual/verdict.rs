@@ -2,7 +2,6 @@
 
 use super::beyond::Worst;
 use super::{Finding, Judge, Refuted};
-use crate::scene::WallLaw;
 use crate::step::{Bound, Conserves, Path, Step, Tolerance};
 
 /// Contact forces below this share of the largest force in the balance are measured by that share
@@ -19,11 +18,10 @@ impl Judge {
                 let span = (step.end - step.start).max(f64::EPSILON * step.end).max(f64::MIN_POSITIVE);
                 (span, 1.0 + step.end / span)
             }
-            Path::Handed { step: h, .. } => (h, 1.0),
-            Path::Grid | Path::OneRestitution => (self.h, 1.0),
+            Path::Grid | Path::OneRestitution | Path::Handed { .. } => (self.h, 1.0),
         };
         let way = if matches!(step.path, Path::Exact(_) | Path::Series(_)) { 0.0 } else { self.span };
-        self.rounding.step(step.q, step.velocity_before, step.velocity_after, way);
+        self.rounding.step((step.q, step.velocity_before, step.velocity_after), way, step.q.len());
         for (i, (extra, load)) in step.extra.iter().zip(&self.scratch.load_end).enumerate() {
             self.rounding.load(i, extra.abs() + load.abs());
         }
@@ -135,9 +133,7 @@ impl Judge {
             _ if self.doubts.handed => false,
             Conserves::Nothing => false,
             Conserves::RigidWalls => walls.all(|wall| wall.law.is_rigid()),
-            Conserves::UndampedWalls => {
-                !walls.any(|wall| matches!(wall.law, WallLaw::Elastic { damping, .. } if damping > 0.0))
-            }
+            Conserves::UndampedWalls => !walls.any(|wall| wall.law.damping() > 0.0),
             Conserves::Everything => true,
         }
     }

@@ -1,7 +1,7 @@
 //! Checks of the walls of a step on a grid against the scheme's promise.
 
 use super::Judge;
-use super::complementarity::{damping_of, expected_pressure, rebound, slack};
+use super::complementarity::{expected_pressure, rebound, slack};
 use crate::scene::Wall;
 use crate::step::{Bound, PromisedForce, Reached, Step};
 
@@ -106,7 +106,7 @@ impl Judge {
         self.law_error = self.law_error.max(error);
         let size = self.size(step, wall, &seen);
         let depth = (-wall.gap(seen.w.0)).max(-wall.gap(seen.w.1)).max(f64::MIN_POSITIVE);
-        let slope = wall.law.tangent(depth) + 2.0 * damping_of(wall) / self.h;
+        let slope = wall.law.tangent(depth) + 2.0 * wall.law.damping() / self.h;
         self.doubt_law(seen.index, error, slope * self.rounding.met(size, self.energy.gap_scale));
     }
 

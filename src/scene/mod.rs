@@ -175,6 +175,13 @@ impl Scene {
             .unwrap_or(1.0)
     }
 
+    /// True for one degree of freedom whose walls stand on it directly: schemes on a grid then
+    /// compute with numbers. A wall behind a lever makes the oscillator a structure of 1 × 1
+    /// matrices.
+    pub(crate) fn is_line(&self) -> bool {
+        matches!(self.system, System::Oscillator(_)) && self.walls.iter().all(|wall| wall.at == Row::dof(0))
+    }
+
     /// Distance within which a wall counts as in contact, m: 1e-12 of [`Scene::gap_scale`].
     #[must_use]
     pub fn touching_distance(&self) -> f64 {

@@ -104,6 +104,11 @@ impl WallLaw {
         if let Self::Rigid { restitution } = *self { Some(restitution) } else { None }
     }
 
+    /// The dashpot c_a of an elastic wall, N s/m; 0 for the others.
+    pub(crate) fn damping(&self) -> f64 {
+        if let Self::Elastic { damping, .. } = *self { damping } else { 0.0 }
+    }
+
     /// True for a rigid wall.
     #[must_use]
     pub fn is_rigid(&self) -> bool {

@@ -73,6 +73,14 @@ impl<S: Space> Body<S> {
         S::force(&mut self.forces, time, &mut self.load);
     }
 
+    /// Writes the loads at the present instant and the extra force of the step to `b`, N.
+    #[inline(always)]
+    pub fn applied(&self, frame: &Frame<S>, b: &mut S::Vector) {
+        for (b, (load, extra)) in b.as_mut().iter_mut().zip(self.load.as_ref().iter().zip(frame.extra.as_ref())) {
+            *b = load + extra;
+        }
+    }
+
     /// The θ-method's A = M + hθC + h²θ²K.
     pub fn theta_matrix(&self, theta: f64) -> Symmetric {
         let (m, ht) = (&self.matrices, self.h * theta);

@@ -13,11 +13,10 @@ use super::newton::{Answer, Walls};
 use super::rule::Rule;
 use super::space::{Space, zero};
 use super::staggered::{Staggered, counted_blows};
-use super::start::StartForce;
 use crate::error::{Error, Result};
 use crate::linear::Symmetric;
 use crate::qp::Backend;
-use crate::scene::{Scene, WallLaw};
+use crate::scene::Scene;
 
 #[derive(Debug)]
 pub(super) struct CentralDifference<S: Space> {
@@ -37,7 +36,7 @@ impl<S: Space> CentralDifference<S> {
         let body = Body::<S>::new(scene, h)?;
         let m = &body.matrices;
         let mut factor = S::factor(&Symmetric::sum(&[(1.0 / h, &m.mass), (0.5, &m.damping)]))?;
-        let damped = body.walls.iter().any(|wall| dashpot(&wall.law) > 0.0);
+        let damped = body.walls.iter().any(|wall| wall.law.damping() > 0.0);
         let dashpots = damped.then(|| Walls::new(&mut factor, &body, 1.0));
         let (staggered, b, change) = (Staggered::new(scene, &body)?, zero::<S>(body.n), zero::<S>(body.n));
         Ok(Self { body, staggered, factor, dashpots, b, change })
@@ -58,10 +57,10 @@ impl<S: Space> CentralDifference<S> {
             let law = |wall: usize, after: f64| {
                 let (stop, depth) = (body.walls[wall], depth(wall));
                 let rate = -stop.sign * 0.5 * (body.seen(wall, v) + after);
-                let pressure = stop.law.pressure(depth, 0.0) + dashpot(&stop.law) * rate;
+                let pressure = stop.law.pressure(depth, 0.0) + stop.law.damping() * rate;
                 // A wall found to pull lets go.
                 let holds = depth > 0.0 && pressure > 0.0;
-                let (force, slope) = if holds { (stop.sign * pressure, 0.5 * dashpot(&stop.law)) } else { (0.0, 0.0) };
+                let (force, slope) = if holds { (stop.sign * pressure, 0.5 * stop.law.damping()) } else { (0.0, 0.0) };
                 Answer { force, slope, noise: 0.0 }
             };
             let solved = dashpots.solve(law);
@@ -80,19 +79,14 @@ impl<S: Space> CentralDifference<S> {
 
 impl<S: Space> Rule<S> for CentralDifference<S> {
     fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame<S>) -> Result<()> {
-        self.body.restart(time);
-        let start = StartForce::new(scene, &self.body, &frame.q, &frame.v)?;
-        self.staggered.restart(self.body.h, &frame.v, &start.total);
-        Ok(())
+        self.staggered.restart(scene, &mut self.body, time, frame)
     }
 
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, staggered, b, .. } = self;
         let h = body.h;
         staggered.begin(step, h, frame);
-        for (b, (load, extra)) in b.as_mut().iter_mut().zip(body.load.as_ref().iter().zip(frame.extra.as_ref())) {
-            *b = load + extra;
-        }
+        body.applied(frame, b);
         S::add_product(&body.stiffness, -1.0, &frame.q, b);
         S::add_product(&body.damping, -1.0, &staggered.v, b);
         body.strike_about(step, 1.0 / h, b, frame);
@@ -116,9 +110,4 @@ impl<S: Space> Rule<S> for CentralDifference<S> {
     fn backend(&self) -> Option<Backend> {
         None
     }
-}
-
-/// c_a, N s/m; 0 for a wall without a dashpot.
-fn dashpot(law: &WallLaw) -> f64 {
-    if let WallLaw::Elastic { damping, .. } = *law { damping } else { 0.0 }
 }

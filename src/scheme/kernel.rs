@@ -16,7 +16,7 @@ use super::space::Space;
 use super::structure_event::StructureEvent;
 use super::{Integrator, Method, Scheme};
 use crate::error::{Error, Result};
-use crate::scene::{Checked, Row, Scene, System};
+use crate::scene::{Checked, Scene};
 use crate::step::Step;
 
 /// A motion. That of one degree of freedom on a grid is no pointer: a caller's loop reads its steps where they are made.
@@ -54,9 +54,7 @@ fn grid<S: Space>(scene: &Checked, method: Method, h: f64) -> Result<Grid<S>> {
 impl Kernel {
     /// `method` on `scene` with steps of `step` seconds, for the exact motion at most so long.
     pub fn new(scene: &Checked, method: Method, step: f64) -> Result<Self> {
-        // A wall behind a lever is more than numbers hold: then the oscillator is a structure of 1 × 1 matrices.
-        let direct = scene.walls.iter().all(|wall| wall.at == Row::dof(0));
-        let line = matches!(scene.system, System::Oscillator(_)) && direct;
+        let line = scene.is_line();
         Ok(match method.scheme {
             Scheme::Event if line => Self::Other(Box::new(Event::over(scene, step)?)),
             Scheme::Event => Self::Other(Box::new(StructureEvent::new(scene.shared(), step)?)),

@@ -24,7 +24,6 @@ use super::programme::Programme;
 use super::rule::Rule;
 use super::space::{Space, zero};
 use super::staggered::{Staggered, counted_blows};
-use super::start::StartForce;
 use crate::error::{Error, Result};
 use crate::linear::Symmetric;
 use crate::qp::Backend;
@@ -135,20 +134,14 @@ impl<S: Space> PaoliSchatzman<S> {
 
 impl<S: Space> Rule<S> for PaoliSchatzman<S> {
     fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame<S>) -> Result<()> {
-        self.body.restart(time);
-        // Without the walls' reaction a body at rest on a wall with e = 1 would bounce.
-        let start = StartForce::new(scene, &self.body, &frame.q, &frame.v)?;
-        self.staggered.restart(self.body.h, &frame.v, &start.total);
-        Ok(())
+        self.staggered.restart(scene, &mut self.body, time, frame)
     }
 
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, staggered, b, mean, .. } = self;
         let h = body.h;
         staggered.begin(step, h, frame);
-        for (b, (load, extra)) in b.as_mut().iter_mut().zip(body.load.as_ref().iter().zip(frame.extra.as_ref())) {
-            *b = load + extra;
-        }
+        body.applied(frame, b);
         for (mean, (q, v)) in mean.as_mut().iter_mut().zip(frame.q.as_ref().iter().zip(staggered.v.as_ref())) {
             *mean = q - 0.25 * h * v;
         }

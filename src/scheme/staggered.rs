@@ -12,6 +12,7 @@ use super::body::Body;
 use super::frame::Frame;
 use super::programme::{Programme, Seat};
 use super::space::{Space, zero};
+use super::start::StartForce;
 use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::qp::Backend;
@@ -53,10 +54,17 @@ impl<S: Space> Staggered<S> {
         })
     }
 
-    /// Starts from the velocity `v` (m/s) under the force `force` (N), walls included: v₋ = v − ½h a, with the damping that a contains
-    /// divided as an implicit half step would, (M + ½hC)a = F: h² apart, and a heavy damper does not throw v₋.
-    pub fn restart(&mut self, h: f64, v: &S::Vector, force: &S::Vector) {
-        self.b.clone_from(force);
+    /// Takes the motion up at `time` (s) from the frame's state, under all forces that act there. The
+    /// walls' reaction is among them: without it a body at rest on a wall with e = 1 would bounce.
+    /// v₋ = v − ½h a, with the damping that a contains divided as an implicit half step would,
+    /// (M + ½hC)a = F: h² apart, and a heavy damper does not throw v₋.
+    ///
+    /// # Errors
+    /// As [`StartForce::new`].
+    pub fn restart(&mut self, scene: &Scene, body: &mut Body<S>, time: f64, frame: &Frame<S>) -> Result<()> {
+        body.restart(time);
+        let (h, v) = (body.h, &frame.v);
+        self.b.clone_from(&StartForce::new(scene, body, &frame.q, v)?.total);
         S::solve(&mut self.half_step, &mut self.b);
         for ((back, v), a) in self.v.as_mut().iter_mut().zip(v.as_ref()).zip(self.b.as_ref()) {
             *back = v - 0.5 * h * a;
@@ -65,6 +73,7 @@ impl<S: Space> Staggered<S> {
         for wall in self.holding.drain(..) {
             self.held[wall] = 0.0;
         }
+        Ok(())
     }
 
     /// Begins step number `step`: the frame's extra force, constant over the step, becomes that over t ± ½h, and v₋ the velocity before. At

@@ -3,7 +3,7 @@
 
 use super::{Flows, Ledger, stored};
 use crate::flow::Arc;
-use crate::scene::{Scene, System, WallLaw};
+use crate::scene::{Scene, System};
 use crate::step::Step;
 
 /// Rounding error of the momenta at the ends of an arc, in units in the last place of the run's
@@ -127,7 +127,7 @@ impl Ledger {
             let now = stored(wall, wall.at.dot(step.q), step.force[index] != 0.0);
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);
-            if is_damped(wall.law) {
+            if wall.law.damping() > 0.0 {
                 flows.dashpot -= now - held;
             }
         }
@@ -147,10 +147,6 @@ fn numbers(scene: &Scene) -> [f64; 3] {
             system.stiffness_form(&[1.0], &[1.0]),
         ],
     }
-}
-
-pub(in super::super) fn is_damped(law: WallLaw) -> bool {
-    matches!(law, WallLaw::Elastic { damping, .. } if damping > 0.0)
 }
 
 fn first(x: &[f64]) -> f64 {

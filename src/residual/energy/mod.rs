@@ -3,7 +3,7 @@
 mod arc;
 mod series;
 
-pub(super) use arc::{Along, Instant, is_damped};
+pub(super) use arc::{Along, Instant};
 pub(super) use series::Moved;
 
 use super::matrices::{Matrices, Part};

@@ -2,7 +2,7 @@
 //! end.
 
 use super::{Flows, Ledger, stored};
-use crate::scene::{Scene, WallLaw};
+use crate::scene::Scene;
 use crate::step::Step;
 
 /// Energy flows over a stretch, J.
@@ -52,7 +52,7 @@ impl Ledger {
             let now = stored(wall, wall.at.dot(step.q), step.force[index] != 0.0);
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);
-            if matches!(wall.law, WallLaw::Elastic { damping, .. } if damping > 0.0) {
+            if wall.law.damping() > 0.0 {
                 flows.dashpot -= now - held;
             }
         }
