@@ -40,7 +40,8 @@ struct Outcome {
 }
 
 impl Outcome {
-    /// The loads of two ways differ by 1e-14 of themselves at most, and the impacts of two seconds make less than 1e4 times of it.
+    /// The loads of two ways differ by 1e-14 of themselves at most, and the impacts of two seconds
+    /// make less than 1e4 times of it.
     fn check(&self, other: &Self, s: Source) {
         let speed = s.amplitude / (s.m * s.omega);
         let pairs = [

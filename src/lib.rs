@@ -2,17 +2,19 @@
 //!
 //! # The rooms
 //!
-//! [`Scene`] says what is simulated, [`Scheme`] how time advances, [`Stepper`] does it a step at a time, [`run()`] from start to end under the eyes of
-//! [`residual::Judge`], and [`Trajectory`] is what was recorded. [`qp`] is the convex programme of a step, [`flow`] the exact motion between events.
-//! Case files come with the feature `case`, output and the tool itself with `cli`, which is the default and has `case` in it; the format of a case
-//! file is documented in [`case`].
+//! [`Scene`] says what is simulated, [`Scheme`] how time advances, [`Stepper`] does it a step at a
+//! time, [`run()`] from start to end under the eyes of [`residual::Judge`], and [`Trajectory`] is
+//! what was recorded. [`qp`] is the convex programme of a step, [`flow`] the exact motion between
+//! events. Case files come with the feature `case`, output and the tool itself with `cli`, which is
+//! the default and has `case` in it; the format of a case file is documented in [`case`].
 //!
 //! # Examples
 //!
-//! In the folder `examples/`, each run by `cargo run --release --example NAME`: `tube_contact_force` (the contact force of a tube in loose
-//! supports), `co_simulation` (a controller in another program, with repeated steps), `work_precision` (what an error costs, scheme by
-//! scheme), `poincare` (Poincaré points of an impact oscillator), `bifurcation` (the same of many at once, by [`batch`]),
-//! `hysteresis` (a sweep by rising and falling frequency).
+//! In the folder `examples/`, each run by `cargo run --release --example NAME`:
+//! `tube_contact_force` (the contact force of a tube in loose supports), `co_simulation` (a
+//! controller in another program, with repeated steps), `work_precision` (what an error costs,
+//! scheme by scheme), `poincare` (Poincaré points of an impact oscillator), `bifurcation` (the same
+//! of many at once, by [`batch`]), `hysteresis` (a sweep by rising and falling frequency).
 #![forbid(unsafe_code)]
 
 pub mod batch;

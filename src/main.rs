@@ -18,8 +18,9 @@ fn stdout() -> Stdout {
     Stdout::Open
 }
 
-/// Where stdout is closed, as by `>&-`, Rust's runtime opens /dev/null in its place before `main`, and every write to it
-/// succeeds. So it is looked at earlier, among the constructors of the process.
+/// Where stdout is closed, as by `>&-`, Rust's runtime opens /dev/null in its place before `main`,
+/// and every write to it succeeds. So it is looked at earlier, among the constructors of the
+/// process.
 #[cfg(unix)]
 mod before_main {
     use signorini::cli::Stdout;

@@ -1,4 +1,5 @@
-//! The chain of 20 masses between walls against its exact motion, up to t = 0.2 s (later it is chaotic): every scheme at its order.
+//! The chain of 20 masses between walls against its exact motion, up to t = 0.2 s (later it is
+//! chaotic): every scheme at its order.
 
 use signorini::case::Case;
 use signorini::{Integrator, Options, PenaltyLaw, Probe, Row, Scene, Scheme, Stepper, TimeOptions, Trajectory, run};
@@ -21,7 +22,8 @@ fn motion(scene: &Scene, scheme: &Scheme, step: f64) -> Trajectory {
     run.trajectory
 }
 
-/// The largest difference of any mass at any row, over the gap; and that of the walls' impulses, over their sum.
+/// The largest difference of any mass at any row, over the gap; and that of the walls' impulses,
+/// over their sum.
 fn errors(run: &Trajectory, exact: &Trajectory) -> [f64; 2] {
     let mut displacement = 0.0_f64;
     for probe in exact.probes() {
@@ -45,8 +47,9 @@ fn every_scheme_converges_to_the_exact_chain_at_its_order() {
     let scene = scene(0.12);
     let exact = motion(&scene, &Scheme::Event, 0.1);
     assert!(exact.contacts().len() > 3, "{} contacts", exact.contacts().len());
-    // Impacts at e = 0 are of order 1 in every scheme: a mass stops up to a step early or late. Where in its step decides the constant, which scatters;
-    // the worst of three neighbouring steps takes most of that out, and a quarter of an order is left for the rest.
+    // Impacts at e = 0 are of order 1 in every scheme: a mass stops up to a step early or late.
+    // Where in its step decides the constant, which scatters; the worst of three neighbouring steps
+    // takes most of that out, and a quarter of an order is left for the rest.
     for scheme in SCHEMES {
         let worst = |h: f64| {
             let neighbours = [1.0, 0.8, 0.6].map(|share| errors(&motion(&scene, &scheme, share * h), &exact));
@@ -63,7 +66,8 @@ fn every_scheme_converges_to_the_exact_chain_at_its_order() {
 
 #[test]
 fn every_scheme_is_near_the_exact_chain_as_long_as_it_is_predictable() {
-    // Between 0.12 s and 0.2 s there are contacts that barely happen, past which errors fall more slowly than the step: one step is held, to a bound.
+    // Between 0.12 s and 0.2 s there are contacts that barely happen, past which errors fall more
+    // slowly than the step: one step is held, to a bound.
     let scene = scene(0.2);
     let exact = motion(&scene, &Scheme::Event, 0.1);
     for scheme in SCHEMES {
@@ -90,7 +94,8 @@ fn penalties_converge_to_the_exact_motion_between_their_springs() {
         // The exact scheme follows linear springs too.
         let springs = Stepper::new(&scene(0.2), &scheme, 1e-3).unwrap().scene().clone();
         let exact = motion(&springs, &Scheme::Event, 0.1);
-        // Implicit Euler damps the springs it does not resolve: its order shows at a finer step only.
+        // Implicit Euler damps the springs it does not resolve: its order shows at a finer step
+        // only.
         let steps = if order < 2.0 { [4e-6, 2.5e-7] } else { [5e-5, 6.25e-6] };
         let [coarse, fine] = steps.map(|h| errors(&motion(&scene(0.2), &scheme, h), &exact));
         println!("{scheme}: {coarse:?} to {fine:?}");

@@ -346,7 +346,8 @@ fn a_run_of_a_structure_names_its_probes_and_walls_and_tells_its_truncation() {
     let more = json(&dir.path().join("more/summary.json"));
     for (index, wall) in ["support-upper", "support-lower"].into_iter().enumerate() {
         let check = &summary["truncation"]["walls"][index];
-        // The window is the whole run here; its impulse is summed in ten batches, which rounds elsewhere: some ulps of 1 N s.
+        // The window is the whole run here; its impulse is summed in ten batches, which rounds
+        // elsewhere: some ulps of 1 N s.
         for (number, run) in [&summary, &more].into_iter().enumerate() {
             let whole = run["impulse_whole_run_n_s"][wall].as_f64().unwrap();
             assert!((check["impulse_n_s"][number].as_f64().unwrap() - whole).abs() <= 1e-14);

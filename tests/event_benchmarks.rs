@@ -171,7 +171,8 @@ fn two_walls_at_one_place_hold_the_body_and_the_pressed_one_carries() {
 
 #[test]
 fn a_damped_elastic_wall_lets_go_where_its_force_vanishes() {
-    // Free mass onto a spring and dashpot, v0 = 1: s = e^{−ζωt} sin(ω_d t)/ω_d; k s + c ṡ = 0 inside the wall.
+    // Free mass onto a spring and dashpot, v0 = 1: s = e^{−ζωt} sin(ω_d t)/ω_d; k s + c ṡ = 0
+    // inside the wall.
     let (k, c): (f64, f64) = (100.0, 4.0);
     let scene = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::upper("wall", 0.5).with_elasticity(k, c))

@@ -1,4 +1,5 @@
-//! The source scene against its solution in 50-digit arithmetic (exact flow between events, independent of this crate).
+//! The source scene against its solution in 50-digit arithmetic (exact flow between events,
+//! independent of this crate).
 
 use signorini::Contact;
 use signorini::scheme::event::Event;

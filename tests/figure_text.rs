@@ -76,7 +76,8 @@ fn a_million_points_stay_small_and_keep_their_extremes() {
     points[765_432].1 = -9.0;
     let svg = line(points.clone()).to_svg();
     assert!(svg.len() < 300_000, "{} bytes", svg.len());
-    // The frame holds [-9, 7] with 6 % of 16 above and below: the extremes stand at 0.96/17.92 of its 260 units.
+    // The frame holds [-9, 7] with 6 % of 16 above and below: the extremes stand at 0.96/17.92 of
+    // its 260 units.
     let document = roxmltree::Document::parse(&svg).unwrap();
     let window = document.descendants().filter(|node| node.has_tag_name("svg")).nth(1).unwrap();
     let top: f64 = window.attribute("y").unwrap().parse().unwrap();

@@ -1,4 +1,5 @@
-//! `--format`: pictures as SVG, PDF and PNG, or one clear refusal in a program that cannot write them.
+//! `--format`: pictures as SVG, PDF and PNG, or one clear refusal in a program that cannot write
+//! them.
 #![cfg(feature = "cli")]
 
 use std::path::Path;
@@ -8,7 +9,8 @@ fn signorini(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_signorini")).arg("-q").args(arguments).output().unwrap()
 }
 
-/// Requests of every command that draws, for results in `out`; only `stability` takes more than some seconds.
+/// Requests of every command that draws, for results in `out`; only `stability` takes more than
+/// some seconds.
 fn drawing(out: &str) -> Vec<Vec<&str>> {
     vec![
         vec!["run", "rigid-walls-sine", "--end", "0.5", "--no-verdict", "--out", out],

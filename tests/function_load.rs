@@ -36,13 +36,14 @@ fn a_sine_as_a_function_is_the_same_load_to_every_stepping_scheme_and_to_the_jud
                 assert_eq!(a.residuals, b.residuals, "{scheme}");
                 continue;
             }
-            // The sine of one degree of freedom turns from step to step, and is off by 16 ulps of its
-            // amplitude at most, which the impacts of half a second multiply by less than 1e3.
+            // The sine of one degree of freedom turns from step to step, and is off by 16 ulps of
+            // its amplitude at most, which the impacts of half a second multiply by less than 1e3.
             let pairs = a.trajectory.displacement().iter().zip(b.trajectory.displacement());
             let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(apart < 1e-14, "{scheme}: {apart:e}");
             assert_eq!(a.trajectory.contacts().len(), b.trajectory.contacts().len(), "{scheme}");
-            // The judge evaluates both by libm: what it finds is rounding of forces of some newtons.
+            // The judge evaluates both by libm: what it finds is rounding of forces of some
+            // newtons.
             let balance = (a.residuals.force_balance - b.residuals.force_balance).abs();
             assert!(balance < 1e-12, "{scheme}: {balance:e}");
         }

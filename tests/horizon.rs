@@ -51,7 +51,8 @@ fn the_saltation_matrices_give_the_growth_that_perturbed_runs_show() {
             let scene = scene.clone().with_duration(duration);
             let exact = *Growth::of(&scene).unwrap().factor.last().unwrap();
             let measured = by_differences(&scene);
-            // Central differences of 1e-7: truncation grows with the square of the growth, at most 2e-4 here.
+            // Central differences of 1e-7: truncation grows with the square of the growth, at most
+            // 2e-4 here.
             assert!((exact / measured - 1.0).abs() < 1e-3, "{exact} against {measured} after {duration} s");
         }
     }
@@ -59,7 +60,8 @@ fn the_saltation_matrices_give_the_growth_that_perturbed_runs_show() {
 
 #[test]
 fn the_source_scene_is_chaotic_at_e_1_and_forgets_its_start_at_e_08() {
-    // Known of this scene: two starts 1e-16 apart are 8 times that apart after 1 s and some 1e11 after 10 s, in displacement alone.
+    // Known of this scene: two starts 1e-16 apart are 8 times that apart after 1 s and some 1e11
+    // after 10 s, in displacement alone.
     let growth = Growth::of(&source(1.0).with_duration(10.0)).unwrap();
     let after = growth.until(1.0);
     assert!((5.0..50.0).contains(&after), "{after}");

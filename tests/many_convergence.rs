@@ -1,5 +1,5 @@
-//! Chains of three masses: every scheme at its order, against the modes where nothing is touched, against a much finer run of another
-//! scheme where it is.
+//! Chains of three masses: every scheme at its order, against the modes where nothing is touched,
+//! against a much finer run of another scheme where it is.
 
 mod common;
 mod random_structures;
@@ -57,7 +57,8 @@ fn free_motion_converges_to_the_modes_at_the_order_of_every_scheme() {
     let mut list: Vec<(Scheme, f64)> = CONSTRAINED.map(|s| (s, 2.0)).to_vec();
     list.extend(INTEGRATORS.map(|i| (spring(1e4, i), 2.0)));
     for (scheme, order) in &mut list {
-        // A damper at the mean velocity, but the stiffness at t: of order two as well. Implicit rules are of order one.
+        // A damper at the mean velocity, but the stiffness at t: of order two as well. Implicit
+        // rules are of order one.
         let implicit = matches!(scheme, Scheme::Penalty { integrator: Integrator::ImplicitEuler, .. });
         if implicit
             || *scheme == Scheme::ImplicitEuler
@@ -96,7 +97,8 @@ fn plastic_impacts_of_a_chain_converge_to_one_motion() {
         let errors = [20_u64, 80, 320].map(|per| (1.0 / per as f64, far(&rows(&scene, &scheme, per, end), &reference)));
         let order = slope(&errors);
         println!("{scheme}: {order} {errors:?}");
-        // One at least; impact times fall where they fall in a step, so that the slope of three runs scatters.
+        // One at least; impact times fall where they fall in a step, so that the slope of three
+        // runs scatters.
         assert!(order > 0.75 && errors[2].1 < 1e-2, "{scheme}: {order} {errors:?}");
     }
 }

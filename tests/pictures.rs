@@ -1,5 +1,5 @@
-//! The pictures of `run` and `compare`, read back: what they show of long runs, where curves meet walls, and whether
-//! texts are kept apart.
+//! The pictures of `run` and `compare`, read back: what they show of long runs, where curves meet
+//! walls, and whether texts are kept apart.
 #![cfg(feature = "cli")]
 
 use signorini::output::figure::{Curve, Figure, Mark, Panel};
@@ -76,7 +76,8 @@ fn heights(svg: &str, colour: &str) -> (Vec<f64>, Vec<f64>) {
 #[test]
 fn peaks_of_the_exact_motion_reach_the_walls_between_the_rows() {
     let folder = tempfile::tempdir().unwrap();
-    // Rows of 10 ms: the fastest arrival, 0.3 m/s, passes 3 mm of the 5 mm gap from one to the next.
+    // Rows of 10 ms: the fastest arrival, 0.3 m/s, passes 3 mm of the 5 mm gap from one to the
+    // next.
     let sparse = ["run", "rigid-walls-sine", "--scheme", "event", "--sample", "1e-2", "--from", "0", "--to", "2"];
     drawn(folder.path(), &sparse);
     let (curve, walls) = heights(&read(folder.path(), "displacement.svg"), "#000000");

@@ -1,9 +1,11 @@
-//! The public API as a listing, compared with `tests/public_api.txt`: a change of it is seen and meant.
+//! The public API as a listing, compared with `tests/public_api.txt`: a change of it is seen and
+//! meant.
 //!
 //! `SIGNORINI_UPDATE_API=1 cargo test --test public_api` writes the listing anew.
 //!
-//! The listing is read off the sources: what `lib.rs` and the modules that it makes public declare or hand on, each with its
-//! fields, variants, methods and traits. Modules under `#[doc(hidden)]` are no part of it.
+//! The listing is read off the sources: what `lib.rs` and the modules that it makes public declare
+//! or hand on, each with its fields, variants, methods and traits. Modules under `#[doc(hidden)]`
+//! are no part of it.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -12,7 +14,8 @@ use std::path::{Path, PathBuf};
 
 const LISTING: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/public_api.txt");
 
-/// A source file without comments and tests, by items: the lines of each at no indent, with its attributes.
+/// A source file without comments and tests, by items: the lines of each at no indent, with its
+/// attributes.
 struct Source {
     path: PathBuf,
     items: Vec<String>,

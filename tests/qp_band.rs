@@ -1,5 +1,5 @@
-//! The programme with its unknowns eliminated on a narrow band: against the optimality conditions and
-//! against Clarabel, on matrices whose answer to a force reaches many rows.
+//! The programme with its unknowns eliminated on a narrow band: against the optimality conditions
+//! and against Clarabel, on matrices whose answer to a force reaches many rows.
 
 mod qp_support;
 
@@ -63,8 +63,8 @@ fn programmes_on_a_band_meet_the_optimality_conditions_and_agree_with_clarabel()
             let case = Case { problem: problem.clone(), b, lo, hi, scale: size };
             let found = condensed.solve(&case.rhs()).unwrap_or_else(|e| panic!("{trial}.{step}: {e}"));
             let residual = judge.judge(&case.rhs(), size, found);
-            // The tolerance of the sign test; the condition of A is 1e5 at most, of which the judge's
-            // own inverse leaves 1e-11 in what it takes for free motion.
+            // The tolerance of the sign test; the condition of A is 1e5 at most, of which the
+            // judge's own inverse leaves 1e-11 in what it takes for free motion.
             assert!(residual.worst() <= 1e-11, "{trial}.{step}: {residual:?}");
             let reference = clarabel.solve(&case.rhs()).unwrap_or_else(|e| panic!("{trial}.{step}: {e}"));
             let most = |x: &[f64]| x.iter().fold(size, |most, v| f64::max(most, v.abs()));

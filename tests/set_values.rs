@@ -53,7 +53,8 @@ fn a_value_that_is_set_does_what_the_same_value_in_the_file_does() {
 
 #[test]
 fn what_a_case_has_at_each_of_its_keys_makes_the_same_case_again() {
-    // Read each number by its key and set it to itself: the case stays as it was, whatever is written how.
+    // Read each number by its key and set it to itself: the case stays as it was, whatever is
+    // written how.
     let keys = [
         "system.oscillator.mass",
         "system.chain.springs",

@@ -8,9 +8,10 @@ use signorini::{Options, Row, Scheme, Wall, run};
 
 #[test]
 fn touching_equal_masses_leave_as_moreaus_law_has_it() {
-    // Three masses of 1 kg in a row that touch; the first is struck from the left and has 1 m/s. Newton's cradle would send the last one off
-    // alone, (0, 0, 1): that is two impacts one after the other. Moreau's law takes them at once, ẇ⁺ = −e ẇ at the contact that is
-    // struck and ẇ⁺ = 0 at the one that is at rest, with impulses of 4/3 and 2/3 N s at e = 1.
+    // Three masses of 1 kg in a row that touch; the first is struck from the left and has 1 m/s.
+    // Newton's cradle would send the last one off alone, (0, 0, 1): that is two impacts one after
+    // the other. Moreau's law takes them at once, ẇ⁺ = −e ẇ at the contact that is struck and ẇ⁺ =
+    // 0 at the one that is at rest, with impulses of 4/3 and 2/3 N s at e = 1.
     for (e, leaves, impulses) in [
         (1.0, [-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0], [4.0 / 3.0, 2.0 / 3.0]),
         (0.5, [0.0, 0.5, 0.5], [1.0, 0.5]),

@@ -143,12 +143,14 @@ fn states(scene: &Scene, scheme: &Scheme, steps: u32, extra: f64) -> Vec<(f64, f
 
 #[test]
 fn a_force_given_step_by_step_does_what_a_constant_load_does() {
-    // Over a quarter of a second: to the start of chaos, with impacts. Rounding enters in another order: 1e-12 of the gap.
+    // Over a quarter of a second: to the start of chaos, with impacts. Rounding enters in another
+    // order: 1e-12 of the gap.
     for scheme in schemes() {
         let loaded = states(&source(0.8, 0.8).with_load(Load::constant(1.5)), &scheme, 2500, 0.0);
         let pushed = states(&source(0.8, 0.8), &scheme, 2500, 1.5);
-        // Staggered schemes extrapolate the step before the start with the load but without the extra force: h² apart in what damping and
-        // stiffness feel of it, some 1e-7 of the gap after two impacts.
+        // Staggered schemes extrapolate the step before the start with the load but without the
+        // extra force: h² apart in what damping and stiffness feel of it, some 1e-7 of the gap
+        // after two impacts.
         let staggered = matches!(scheme.contract().balance, Balance::Staggered(_));
         let (close, least) = if staggered { (1e-6, 1e-4) } else { (1e-12, 1e-12) };
         for (i, (a, b)) in loaded.iter().zip(&pushed).enumerate() {
@@ -251,7 +253,8 @@ fn a_blow_at_the_start_is_the_velocity_it_gives_and_one_in_mid_run_arrives_in_ti
         let with_wall = |scene: &Scene| scene.clone().with_wall(Wall::upper("far", 1.0));
         let (a, b) = (go(&with_wall(&struck), 1e-3), go(&with_wall(&moving), 1e-3));
         assert_eq!((a.displacement(), a.velocity()), (b.displacement(), b.velocity()), "{scheme}");
-        // At half time, on a grid instant and between two: free motion of an undamped mass, 1 N s on 1 kg.
+        // At half time, on a grid instant and between two: free motion of an undamped mass, 1 N s
+        // on 1 kg.
         for time in [0.5, 0.5003] {
             let mass = Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::impulse(1.0, time));
             let t = go(&with_wall(&mass).with_duration(1.0), 1e-3);
@@ -327,7 +330,8 @@ fn the_first_row_of_an_exact_run_has_the_force_of_a_body_that_starts_at_rest_on_
 
 #[test]
 fn a_wall_behind_a_lever_meets_an_oscillator_where_it_meets_the_structure() {
-    // Seen through 2 q a wall at 0.2 m stands at q = 0.1 m, and a spring there is four times as stiff.
+    // Seen through 2 q a wall at 0.2 m stands at q = 0.1 m, and a spring there is four times as
+    // stiff.
     let direct = Wall::upper("stop", 0.1).with_restitution(0.5);
     let spring = Wall::lower("spring", -0.1).with_elasticity(4e3, 4.0);
     let lever = |mut wall: Wall, k: f64| {
@@ -348,7 +352,8 @@ fn a_wall_behind_a_lever_meets_an_oscillator_where_it_meets_the_structure() {
         let (a, b) = (run(&scene), run(&levers));
         assert!(b.residuals.complementarity < 1e-9, "{scheme}: {:?}", b.residuals);
         assert_eq!(a.trajectory.contacts().len(), b.trajectory.contacts().len(), "{scheme}");
-        // The impacts of a second carry rounding from one to the next, each by a factor of some units.
+        // The impacts of a second carry rounding from one to the next, each by a factor of some
+        // units.
         for (a, b) in a.trajectory.displacement().iter().zip(b.trajectory.displacement()) {
             assert!((a - b).abs() < 1e-9, "{scheme}: {a}, {b}");
         }

@@ -1,4 +1,5 @@
-//! Many points over two axes, binned as fast as they come: the size of the picture is bounded whatever their number.
+//! Many points over two axes, binned as fast as they come: the size of the picture is bounded
+//! whatever their number.
 
 use super::axis::{Axis, Extent, Scale};
 use super::legend::Legend;
@@ -55,7 +56,8 @@ pub struct Scatter {
 }
 
 impl Scatter {
-    /// An empty frame over those ranges; labels say quantity and unit. `groups` are one or two, with their labels for the legend.
+    /// An empty frame over those ranges; labels say quantity and unit. `groups` are one or two,
+    /// with their labels for the legend.
     #[must_use]
     pub fn new(
         title: impl Into<String>,

@@ -36,13 +36,15 @@ pub struct Args {
     file: String,
     #[command(flatten)]
     changes: Changes,
-    /// Vary a value by its key: FROM:TO:POINTS, FROM:TO:POINTS:log, a list A,B,C, or FROM:TO with --random; may be given several times
+    /// Vary a value by its key: FROM:TO:POINTS, FROM:TO:POINTS:log, a list A,B,C, or FROM:TO with
+    /// --random; may be given several times
     #[arg(long, value_name = "KEY=VALUES")]
     vary: Vec<String>,
     /// Pass through the first --vary in this direction, with the state carried on: up, down, both
     #[arg(long, value_name = "WORD")]
     follow: Option<Follow>,
-    /// Measures of every row, such as contacts, impulse, force_rms, impact_power, displacement_max, period
+    /// Measures of every row, such as contacts, impulse, force_rms, impact_power, displacement_max,
+    /// period
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     measure: Vec<Measure>,
     /// Keep instants of every row: periods (once a forcing period) or impacts

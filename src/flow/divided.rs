@@ -17,8 +17,9 @@ const SERIES_TERMS: usize = 30;
 /// a double root and vanishing stiffness are coinciding nodes, where the divided difference stays
 /// regular.
 ///
-/// Far nodes: exp[z₀ … z_n] = (exp[z₀ … z_{n−1}] − exp[z₁ … z_n])/(z₀ − z_n) with the farthest pair at the ends. Near
-/// nodes: e^{z̄} Σ_k h_k(z − z̄)/(k + n)! with h_k the complete symmetric polynomials.
+/// Far nodes: exp[z₀ … z_n] = (exp[z₀ … z_{n−1}] − exp[z₁ … z_n])/(z₀ − z_n) with the farthest pair
+/// at the ends. Near nodes: e^{z̄} Σ_k h_k(z − z̄)/(k + n)! with h_k the complete symmetric
+/// polynomials.
 pub(super) fn divided_exp<const N: usize>(nodes: [Complex<f64>; N]) -> Complex<f64> {
     divided(&nodes)
 }
@@ -59,7 +60,8 @@ fn divided(nodes: &[Complex<f64>]) -> Complex<f64> {
 fn series(nodes: &[Complex<f64>]) -> Complex<f64> {
     let count = nodes.len();
     let mean = nodes.iter().sum::<Complex<f64>>() / count as f64;
-    // symmetric[i] = h_k of the first i + 1 nodes; h_k(z₀ … z_i) = h_k(z₀ … z_{i−1}) + z_i h_{k−1}(z₀ … z_i).
+    // symmetric[i] = h_k of the first i + 1 nodes; h_k(z₀ … z_i) = h_k(z₀ … z_{i−1}) + z_i
+    // h_{k−1}(z₀ … z_i).
     let mut symmetric = [Complex::new(1.0, 0.0); 4];
     let mut factor: f64 = (1..count).map(|i| 1.0 / i as f64).product();
     let mut sum = Complex::new(factor, 0.0);

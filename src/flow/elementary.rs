@@ -1,6 +1,6 @@
-//! Sine, cosine and exponential to about one unit in the last place, by additions and products alone:
-//! inlined, they cost a third of the calls into the system's mathematics library, and their bits are
-//! the same on every machine.
+//! Sine, cosine and exponential to about one unit in the last place, by additions and products
+//! alone: inlined, they cost a third of the calls into the system's mathematics library, and their
+//! bits are the same on every machine.
 
 /// Beyond this many radians the reduction below loses digits.
 const FAR: f64 = 1e6;
@@ -98,7 +98,8 @@ mod tests {
 
     #[test]
     fn sine_and_cosine_are_those_of_the_library_to_an_ulp() {
-        // Both are within 0.8 units in the last place of the truth: they differ by at most one or two.
+        // Both are within 0.8 units in the last place of the truth: they differ by at most one or
+        // two.
         for x in samples(9.9e5).chain(samples(7.0)).chain([0.0, 1e-300, 0.5, 1.0]) {
             let ((s, c), (sin, cos)) = (sin_cos(x), x.sin_cos());
             let near = |a: f64, b: f64| a.to_bits().abs_diff(b.to_bits()) <= 1;
@@ -108,7 +109,8 @@ mod tests {
 
     #[test]
     fn multiples_of_a_quarter_turn_keep_their_small_value() {
-        // The double nearest to nπ/2 is off by up to half an ulp, which is the sine or cosine there.
+        // The double nearest to nπ/2 is off by up to half an ulp, which is the sine or cosine
+        // there.
         for n in (1..600_000u32).step_by(7) {
             let x = f64::from(n) * std::f64::consts::FRAC_PI_2;
             let ((s, c), (sin, cos)) = (sin_cos(x), x.sin_cos());

@@ -20,8 +20,8 @@ use response::Response;
 
 /// A stretch of exact motion on which the set of touching walls does not change.
 ///
-/// Either the body flows, m q̈ + (c + Σc_a) q̇ + (k + Σk_a) q = f(t) + Σk_a g over the touching elastic walls a, or it
-/// rests against a rigid wall, where q̇ = 0 and r = k q − f(t) − Σr_a.
+/// Either the body flows, m q̈ + (c + Σc_a) q̇ + (k + Σk_a) q = f(t) + Σk_a g over the touching
+/// elastic walls a, or it rests against a rigid wall, where q̇ = 0 and r = k q − f(t) − Σr_a.
 ///
 /// Times are those of the scene, valid from [`Arc::start`] to [`Arc::end`]. With τ = t − start the
 /// flow is
@@ -116,7 +116,8 @@ impl Arc {
         (self.end, self.span) = (end, span);
     }
 
-    /// Time since the start, s: exactly 0 and the length at the ends, whatever these times have lost to rounding.
+    /// Time since the start, s: exactly 0 and the length at the ends, whatever these times have
+    /// lost to rounding.
     fn since(&self, t: f64) -> f64 {
         if t == self.end {
             self.span
@@ -151,7 +152,8 @@ impl Arc {
         self.support.is_some()
     }
 
-    /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at the end.
+    /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at
+    /// the end.
     #[must_use]
     pub fn state(&self, t: f64) -> (f64, f64) {
         let [q, v, ..] = self.jet(self.since(t));
@@ -252,10 +254,12 @@ impl Arc {
         self.pressing(support, 0.0)[0].abs() <= noise && self.force.variation(self.span) <= noise
     }
 
-    /// Bounds on the magnitudes of the fourth and fifth derivative of q over [τ, τ + `window`], given `jet` at τ.
+    /// Bounds on the magnitudes of the fourth and fifth derivative of q over [τ, τ + `window`],
+    /// given `jet` at τ.
     ///
     /// Each derivative y of q solves ÿ + 2σẏ + κy = ψ with ψ a derivative of the load, so that
-    /// ẏ(τ+u) = S′(u) ẏ − κ y S(u) + ∫S′ψ′, where |S′| ≤ 1 and |S| ≤ min(u, 1/√κ, 1/2δ) at any damping.
+    /// ẏ(τ+u) = S′(u) ẏ − κ y S(u) + ∫S′ψ′, where |S′| ≤ 1 and |S| ≤ min(u, 1/√κ, 1/2δ) at any
+    /// damping.
     #[inline]
     pub(crate) fn bounds(&self, jet: &Jet, window: f64) -> [f64; 2] {
         let equation = &self.response.equation;

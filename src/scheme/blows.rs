@@ -1,4 +1,5 @@
-//! The blows of a scene as a step takes them: momentum, the velocity that it makes, and where it takes the structure within the step.
+//! The blows of a scene as a step takes them: momentum, the velocity that it makes, and where it
+//! takes the structure within the step.
 
 use super::frame::Frame;
 use super::space::{Space, zero};
@@ -12,7 +13,8 @@ pub(super) struct Blows<S: Space> {
     /// M.
     inertia: S::Factor,
     blow: S::Vector,
-    /// Where they take the displacement beside the rule of the step, m, and what they make of the velocity, m/s.
+    /// Where they take the displacement beside the rule of the step, m, and what they make of the
+    /// velocity, m/s.
     pub shift: S::Vector,
     pub given: S::Vector,
 }
@@ -38,7 +40,8 @@ impl<S: Space> Blows<S> {
         any
     }
 
-    /// As [`Body::strike_about`](super::body::Body::strike_about), with the time at which the motion began.
+    /// As [`Body::strike_about`](super::body::Body::strike_about), with the time at which the
+    /// motion began.
     #[inline(never)]
     pub fn strike_about(
         &mut self,

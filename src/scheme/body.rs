@@ -29,7 +29,8 @@ pub(super) struct Body<S: Space> {
     /// When the motion began or was taken up anew, s.
     pub since: f64,
     forces: S::Forces,
-    /// The loads at the present instant and at the one before, N: a scheme moves them on once a step.
+    /// The loads at the present instant and at the one before, N: a scheme moves them on once a
+    /// step.
     pub load: S::Vector,
     load_before: S::Vector,
     /// q + hθv, m.
@@ -87,7 +88,8 @@ impl<S: Space> Body<S> {
         Symmetric::sum(&[(1.0, &m.mass), (ht, &m.damping), (ht * ht, &m.stiffness)])
     }
 
-    /// Writes h[f_θ + f_x − C v − K(q + hθv)] to `b`, N s, and notes the velocity before the step. Once a step.
+    /// Writes h[f_θ + f_x − C v − K(q + hθv)] to `b`, N s, and notes the velocity before the step.
+    /// Once a step.
     #[inline(always)]
     pub fn theta_momentum(&mut self, theta: f64, frame: &mut Frame<S>, b: &mut S::Vector) {
         let (h, ht) = (self.h, self.h * theta);
@@ -122,8 +124,8 @@ impl<S: Space> Body<S> {
         }
     }
 
-    /// Adds the blows in (from, to] (s), times `scale`, to `b`, and writes the velocity that they leave to the frame, given that before
-    /// the step. Returns whether there was one.
+    /// Adds the blows in (from, to] (s), times `scale`, to `b`, and writes the velocity that they
+    /// leave to the frame, given that before the step. Returns whether there was one.
     #[inline]
     pub fn strike(&mut self, (from, to): (f64, f64), scale: f64, b: &mut S::Vector, frame: &mut Frame<S>) -> bool {
         self.blows.as_mut().is_some_and(|blows| blows.strike((from, to), scale, b, frame))
@@ -136,8 +138,8 @@ impl<S: Space> Body<S> {
         self.blows.as_mut().is_some_and(|blows| blows.strike_about((since, step, h), scale, b, frame))
     }
 
-    /// Finds where the blows in each (from, to] take the displacement by `about` (s) beside what a step makes of their sum: [`Body::shift`].
-    /// Returns whether there was one.
+    /// Finds where the blows in each (from, to] take the displacement by `about` (s) beside what a
+    /// step makes of their sum: [`Body::shift`]. Returns whether there was one.
     #[inline]
     pub fn find_blows(&mut self, spans: &[(f64, f64, f64)]) -> bool {
         self.blows.as_mut().is_some_and(|blows| blows.find(spans))
@@ -150,7 +152,8 @@ impl<S: Space> Body<S> {
         }
     }
 
-    /// Takes the structure to where the blows of the step leave it, unless a rigid wall that pushes was what they drove into.
+    /// Takes the structure to where the blows of the step leave it, unless a rigid wall that pushes
+    /// was what they drove into.
     #[inline]
     pub fn land(&mut self, spans: &[(f64, f64, f64)], frame: &mut Frame<S>) {
         if self.find_blows(spans) && !self.answers(&frame.pushing) {
@@ -170,7 +173,8 @@ impl<S: Space> Body<S> {
         stop.law.is_rigid() && self.blows.as_deref().is_some_and(into)
     }
 
-    /// Adds −`scale` C d to `b`: what the damper feels of the way on which the blows found take the displacement.
+    /// Adds −`scale` C d to `b`: what the damper feels of the way on which the blows found take the
+    /// displacement.
     pub fn damp_shift(&self, scale: f64, b: &mut S::Vector) {
         if let Some(blows) = &self.blows {
             S::add_product(&self.damping, -scale, &blows.shift, b);

@@ -1,10 +1,13 @@
-//! `penalty` with the `central-difference` integrator: the explicit rule M(v₊ − v₋)/h = f − C(v₋ + v₊)/2 − K q + r(q).
+//! `penalty` with the `central-difference` integrator: the explicit rule
 //!
-//! Stable while h²(K + k_w)/M ≤ 4; beyond that the walls throw the body back faster than it came. Smooth dampers are taken at the mean
-//! velocity, so they cost no stability. Order 2 where the step resolves the walls.
+//! M(v₊ − v₋)/h = f − C(v₋ + v₊)/2 − K q + r(q).
 //!
-//! (M/h + C/2)(v₊ − v₋) = f − C v₋ − K q + J/h + Gᵀ r, where r is known but for the walls' dashpots, which feel the mean of v₋ and v₊ and never
-//! pull.
+//! Stable while h²(K + k_w)/M ≤ 4; beyond that the walls throw the body back faster than it came.
+//! Smooth dampers are taken at the mean velocity, so they cost no stability. Order 2 where the step
+//! resolves the walls.
+//!
+//! (M/h + C/2)(v₊ − v₋) = f − C v₋ − K q + J/h + Gᵀ r, where r is known but for the walls'
+//! dashpots, which feel the mean of v₋ and v₊ and never pull.
 
 use super::Counters;
 use super::body::Body;
@@ -42,7 +45,8 @@ impl<S: Space> CentralDifference<S> {
         Ok(Self { body, staggered, factor, dashpots, b, change })
     }
 
-    /// Adds the forces of the walls that the structure is behind. Out of line: most steps are before all of them.
+    /// Adds the forces of the walls that the structure is behind. Out of line: most steps are
+    /// before all of them.
     #[inline(never)]
     fn press(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, staggered, factor, dashpots, b, change } = self;

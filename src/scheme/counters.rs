@@ -20,7 +20,8 @@ pub struct Counters {
     pub events: u64,
     /// Evaluations of the closed-form motion by the exact scheme's search for events.
     pub flow_evaluations: u64,
-    /// Steps in which opposite walls took turns, so that the body stood still between them: the step is too large.
+    /// Steps in which opposite walls took turns, so that the body stood still between them: the
+    /// step is too large.
     pub frozen_steps: u64,
     /// Steps by which the exact scheme had moreau-jean cross stretches that it cannot close.
     pub handed_steps: u64,

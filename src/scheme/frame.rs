@@ -5,8 +5,8 @@ use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Path, Step};
 
-/// What a scheme reads and writes of each step; lent out as a [`Step`]. Vectors over degrees of freedom have n entries, those over walls as
-/// many as there are.
+/// What a scheme reads and writes of each step; lent out as a [`Step`]. Vectors over degrees of
+/// freedom have n entries, those over walls as many as there are.
 #[derive(Debug)]
 pub(super) struct Frame<S: Space> {
     pub start: f64,
@@ -17,7 +17,8 @@ pub(super) struct Frame<S: Space> {
     /// Velocities that enter and leave the momentum balance, m/s.
     pub before: S::Vector,
     pub after: S::Vector,
-    /// Velocity that a wall answers, m/s: `before` and the blows of the step; good where there are blows.
+    /// Velocity that a wall answers, m/s: `before` and the blows of the step; good where there are
+    /// blows.
     pub struck: S::Vector,
     /// True if the step had a blow.
     pub blown: bool,
@@ -27,7 +28,8 @@ pub(super) struct Frame<S: Space> {
     pub impulse: Vec<f64>,
     pub force: Vec<f64>,
     jump: Vec<f64>,
-    /// True if all walls took one restitution in the step, because with their own no displacement keeps all bounds.
+    /// True if all walls took one restitution in the step, because with their own no displacement
+    /// keeps all bounds.
     pub one_restitution: bool,
     /// Walls whose impulse is not zero; all others have an impulse and a force of zero.
     pub pushing: Vec<usize>,
@@ -82,7 +84,8 @@ impl<S: Space> Frame<S> {
         }
     }
 
-    /// Forgets the walls of the last step, or of one that is solved once more. Out of line: most steps touch none.
+    /// Forgets the walls of the last step, or of one that is solved once more. Out of line: most
+    /// steps touch none.
     #[inline(never)]
     pub fn let_go(&mut self) {
         for wall in self.pushing.drain(..) {
@@ -117,7 +120,8 @@ impl<S: Space> Frame<S> {
         Error::NotFinite { time: self.end, step, what }
     }
 
-    /// Step number `index`, with the contacts that it closed. Inlined, so that a caller pays for the fields it reads only.
+    /// Step number `index`, with the contacts that it closed. Inlined, so that a caller pays for
+    /// the fields it reads only.
     #[inline(always)]
     pub fn step<'a>(&'a self, index: u64, closed: &'a [Contact]) -> Step<'a> {
         Step {
@@ -138,7 +142,8 @@ impl<S: Space> Frame<S> {
     }
 }
 
-/// True if every number is finite. Without a branch an entry, so that the compiler looks at several at once.
+/// True if every number is finite. Without a branch an entry, so that the compiler looks at several
+/// at once.
 #[inline]
 pub(super) fn all_finite(x: &[f64]) -> bool {
     x.iter().fold(true, |all, x| all & x.is_finite())

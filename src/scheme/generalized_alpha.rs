@@ -1,37 +1,47 @@
 //! `generalized-alpha`: nonsmooth generalized-α, the walls on the displacement and on the velocity.
 //!
-//! Chen, Acary, Virlez & Brüls 2013, Int. J. Numer. Methods Engrg. 96, doi:10.1002/nme.4563, and Brüls, Acary & Cardona 2014, Comput.
-//! Methods Appl. Mech. Engrg. 281, doi:10.1016/j.cma.2014.07.025. Chung & Hulbert's rule carries an auxiliary acceleration a of the
+//! Chen, Acary, Virlez & Brüls 2013, Int. J. Numer. Methods Engrg. 96, doi:10.1002/nme.4563, and
+//! Brüls, Acary & Cardona 2014, Comput. Methods Appl. Mech. Engrg. 281,
+//! doi:10.1016/j.cma.2014.07.025. Chung & Hulbert's rule carries an auxiliary acceleration a of the
 //! smooth forces, which are those of the state that the walls leave,
 //!
-//! M[(1−α_m)a⁺ + α_m a] = (1−α_f)F⁺ + α_f F,   F = f − Cv − Kq + r_elastic at (t, q, v), F⁺ at (t⁺, q⁺, v⁺);
+//! M[(1−α_m)a⁺ + α_m a] = (1−α_f)F⁺ + α_f F,
 //!
-//! the rigid walls act beside it, on the displacement by a correction U and on the velocity by their impulses p:
+//! F = f − Cv − Kq + r_elastic at (t, q, v), F⁺ at (t⁺, q⁺, v⁺);
+//!
+//! the rigid walls act beside it, on the displacement by a correction U and on the velocity by
+//! their impulses p:
 //!
 //! q⁺ = q + hv + h²[(½−β)a + βa⁺] + U,            0 ≤ gap(q⁺) ⟂ |ν| ≥ 0,
 //!
-//! v⁺ = v + h[(1−γ)a + γa⁺] + M⁻¹Gᵀp,             0 ≤ ±(ẇ⁺ + εẇ) ⟂ |p| ≥ 0 at the walls that are closed at q⁺,
+//! v⁺ = v + h[(1−γ)a + γa⁺] + M⁻¹Gᵀp, 0 ≤ ±(ẇ⁺ + εẇ) ⟂ |p| ≥ 0 at the walls that are closed at q⁺,
 //!
-//! with ε = e where the body approaches or rests, 1 where it separates; ẇ is the velocity after the step's blows, so v⁺ = −v is among the
-//! motions allowed: there is always one. A body at rest keeps v = 0, so that M a = F and p = −hF: the force at rest is the static
-//! one at every step. (With the smooth force at a state before the walls' correction it is too small, by a factor of
-//! 1 + (1−α_f)(hc/m + h²k/2m) for one degree of freedom.)
+//! with ε = e where the body approaches or rests, 1 where it separates; ẇ is the velocity after the
+//! step's blows, so v⁺ = −v is among the motions allowed: there is always one. A body at rest keeps
+//! v = 0, so that M a = F and p = −hF: the force at rest is the static one at every step. (With the
+//! smooth force at a state before the walls' correction it is too small, by a factor of 1 +
+//! (1−α_f)(hc/m + h²k/2m) for one degree of freedom.)
 //!
-//! The papers solve for U and p together; their problem is not symmetric. Here they follow one another, each a convex programme. With
-//! μ = (1−α_m)/(1−α_f) and q̂, v̂ what is known of q⁺, v⁺ without a⁺, Δ = q⁺ − q̂,
+//! The papers solve for U and p together; their problem is not symmetric. Here they follow one
+//! another, each a convex programme. With μ = (1−α_m)/(1−α_f) and q̂, v̂ what is known of q⁺, v⁺
+//! without a⁺, Δ = q⁺ − q̂,
 //!
 //! S Δ = b + Gᵀν,   S = [μM + hγC + h²βK]/(h²β);     T(v⁺ − v_c) = μ Gᵀp,   T = μM + hγC,
 //!
-//! where v_c is the velocity that the rule gives at q⁺ without p. Without damping U is that of the papers, M U = Gᵀν/μ. With it, U
-//! differs by what p does through C in a step; and where a rigid wall is met the damper in b feels v̂ less h(1−γ/2β)a, so that a body at
-//! rest is not moved by an a that the walls annul (at ρ∞ = 1, where γ = 2β, that is nothing).
+//! where v_c is the velocity that the rule gives at q⁺ without p. Without damping U is that of the
+//! papers, M U = Gᵀν/μ. With it, U differs by what p does through C in a step; and where a rigid
+//! wall is met the damper in b feels v̂ less h(1−γ/2β)a, so that a body at rest is not moved by an
+//! a that the walls annul (at ρ∞ = 1, where γ = 2β, that is nothing).
 //!
-//! No rigid wall is ever passed, and no force of one enters the rule's memory a. In return nothing accounts for the work that the smooth
-//! force does on U: each impact makes or loses energy of order h.
+//! No rigid wall is ever passed, and no force of one enters the rule's memory a. In return nothing
+//! accounts for the work that the smooth force does on U: each impact makes or loses energy of
+//! order h.
 //!
-//! An extra force over the step moves the velocity by hM⁻¹f_x and the displacement by half a step of that, a blow at t_b the velocity by
-//! M⁻¹J and the displacement by (t⁺ − t_b) of that, outside of a. The rule has the damper feel J from the middle of the step on (the sum
-//! over all later steps counts, and γ = ½ + α_f − α_m makes it so): −C d with M d = (t⁺ − h/2 − t_b)J is added to the momentum.
+//! An extra force over the step moves the velocity by hM⁻¹f_x and the displacement by half a step
+//! of that, a blow at t_b the velocity by M⁻¹J and the displacement by (t⁺ − t_b) of that, outside
+//! of a. The rule has the damper feel J from the middle of the step on (the sum over all later
+//! steps counts, and γ = ½ + α_f − α_m makes it so): −C d with M d = (t⁺ − h/2 − t_b)J is added to
+//! the momentum.
 
 use super::Counters;
 use super::body::Body;
@@ -52,7 +62,8 @@ pub(super) struct GeneralizedAlpha<S: Space> {
     body: Body<S>,
     /// α_m, α_f, β, γ.
     alpha: [f64; 4],
-    /// h(1−γ/2β), s: the share of a that the damper does not feel where a wall is met; 0 without damping.
+    /// h(1−γ/2β), s: the share of a that the damper does not feel where a wall is met; 0 without
+    /// damping.
     unfelt: f64,
     /// True if a rigid wall is closed at the step's start.
     closed: bool,
@@ -154,8 +165,8 @@ impl<S: Space> GeneralizedAlpha<S> {
         }
     }
 
-    /// q⁺, v⁺ without the rigid walls' impulses unless one was met, a⁺ likewise, and the elastic walls' forces. Returns whether a rigid
-    /// wall was met.
+    /// q⁺, v⁺ without the rigid walls' impulses unless one was met, a⁺ likewise, and the elastic
+    /// walls' forces. Returns whether a rigid wall was met.
     fn displace(&mut self, step: u64, frame: &mut Frame<S>) -> Result<bool> {
         let met = if self.unfelt == 0.0 {
             self.place(step, frame, 0.0)?
@@ -178,7 +189,8 @@ impl<S: Space> GeneralizedAlpha<S> {
         Ok(met)
     }
 
-    /// Solves for Δ, the damper not feeling a and the extra force over `unfelt` (s). Returns whether a rigid wall pushes.
+    /// Solves for Δ, the damper not feeling a and the extra force over `unfelt` (s). Returns
+    /// whether a rigid wall pushes.
     fn place(&mut self, step: u64, frame: &Frame<S>, unfelt: f64) -> Result<bool> {
         let h = self.body.h;
         for wall in self.pushing.drain(..) {
@@ -252,7 +264,8 @@ impl<S: Space> GeneralizedAlpha<S> {
         }
     }
 
-    /// Adds −`share` M⁻¹C d to v̂, with d the way on which the blows take the body beside the half step that the rule gives their velocity.
+    /// Adds −`share` M⁻¹C d to v̂, with d the way on which the blows take the body beside the half
+    /// step that the rule gives their velocity.
     fn damp_blows(&mut self, share: f64, frame: &Frame<S>) {
         let Self { body, b, v, mass, .. } = self;
         if body.find_blows(&[(frame.start, frame.end, frame.end - 0.5 * body.h)]) {
@@ -263,8 +276,8 @@ impl<S: Space> GeneralizedAlpha<S> {
         }
     }
 
-    /// True if a rigid wall that is closed at q⁺ is what the blows drive into: it keeps the body from that way, and what they would lose to the
-    /// damper on it is the wall's.
+    /// True if a rigid wall that is closed at q⁺ is what the blows drive into: it keeps the body
+    /// from that way, and what they would lose to the damper on it is the wall's.
     fn answers(&self, frame: &Frame<S>) -> bool {
         let Self { body, multiplier, .. } = self;
         let closed =

@@ -1,4 +1,5 @@
-//! A scheme on a grid: its rule, the frame that the rule fills, and the contact episodes that its steps make.
+//! A scheme on a grid: its rule, the frame that the rule fills, and the contact episodes that its
+//! steps make.
 
 use super::Counters;
 use super::frame::Frame;
@@ -24,7 +25,8 @@ pub(super) struct Grid<S: Space> {
 }
 
 impl<S: Space> Grid<S> {
-    /// The start of `scene`, whose walls feel `masses` (kg), by `rule`, whose steps of `h` seconds keep `contract`.
+    /// The start of `scene`, whose walls feel `masses` (kg), by `rule`, whose steps of `h` seconds
+    /// keep `contract`.
     pub fn new(scene: &Scene, masses: &[f64], mut rule: Box<dyn Rule<S>>, contract: Contract, h: f64) -> Result<Self> {
         let frame = Frame::new(scene)?;
         rule.restart(scene, 0.0, &frame)?;

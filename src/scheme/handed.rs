@@ -1,6 +1,7 @@
 //! What the exact scheme did not follow itself.
 
-/// A stretch that the exact scheme handed to moreau-jean: more impacts crowd there than it follows one by one.
+/// A stretch that the exact scheme handed to moreau-jean: more impacts crowd there than it follows
+/// one by one.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Handed {

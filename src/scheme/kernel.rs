@@ -1,4 +1,5 @@
-//! The motion that was asked for: a scheme's rule over the space that the scene calls for, or the exact motion.
+//! The motion that was asked for: a scheme's rule over the space that the scene calls for, or the
+//! exact motion.
 
 use super::central_difference::CentralDifference;
 use super::event::Event;
@@ -19,7 +20,8 @@ use crate::error::{Error, Result};
 use crate::scene::{Checked, Scene};
 use crate::step::Step;
 
-/// A motion. That of one degree of freedom on a grid is no pointer: a caller's loop reads its steps where they are made.
+/// A motion. That of one degree of freedom on a grid is no pointer: a caller's loop reads its steps
+/// where they are made.
 #[derive(Debug)]
 #[allow(clippy::large_enum_variant)]
 pub(super) enum Kernel {

@@ -1,6 +1,7 @@
 //! One degree of freedom: numbers, and a clamp for every programme.
 //!
-//! Walls stand on the degree of freedom itself: behind a lever an oscillator is [`Matrices`](super::matrices::Matrices) of one row.
+//! Walls stand on the degree of freedom itself: behind a lever an oscillator is
+//! [`Matrices`](super::matrices::Matrices) of one row.
 
 use super::space::{Solve, Space, indefinite};
 use crate::error::Result;

@@ -1,4 +1,5 @@
-//! Several degrees of freedom: vectors, matrices and their factors, and programmes condensed onto the walls.
+//! Several degrees of freedom: vectors, matrices and their factors, and programmes condensed onto
+//! the walls.
 
 use super::space::{Solve, Space, indefinite};
 use crate::error::Result;

@@ -6,7 +6,8 @@ use crate::qp::Backend;
 use std::fmt;
 use std::str::FromStr;
 
-/// What one run is made with. Written `moreau-jean`, `moreau-jean:theta=0.6,qp=clarabel`, `penalty:epsilon=1e-9` and the like.
+/// What one run is made with. Written `moreau-jean`, `moreau-jean:theta=0.6,qp=clarabel`,
+/// `penalty:epsilon=1e-9` and the like.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Method {
     /// How time advances.

@@ -58,7 +58,8 @@ use crate::step::{
     Balance, Bound, Conserves, Contract, Elastic, Law, Promise, PromisedForce, Reached, Rigid, Tolerances,
 };
 
-/// A way to advance time. What each realises and where it fails stands in the README's table of schemes.
+/// A way to advance time. What each realises and where it fails stands in the README's table of
+/// schemes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Scheme {
@@ -73,7 +74,8 @@ pub enum Scheme {
     },
     /// Nonsmooth generalized-α: the walls on the displacement, then on the velocity.
     GeneralizedAlpha {
-        /// ρ∞ in [0, 1], what is left of the fastest free vibration after a step: 1 conserves, 0 takes it out at once.
+        /// ρ∞ in [0, 1], what is left of the fastest free vibration after a step: 1 conserves, 0
+        /// takes it out at once.
         rho: f64,
     },
     /// Average acceleration with the walls on the displacement: for demonstration, since it
@@ -91,7 +93,8 @@ pub enum Scheme {
 }
 
 impl Scheme {
-    /// True for a scheme whose steps that meet a wall solve a quadratic programme; a penalty solves by Newton's method, the exact scheme by hand.
+    /// True for a scheme whose steps that meet a wall solve a quadratic programme; a penalty solves
+    /// by Newton's method, the exact scheme by hand.
     #[must_use]
     pub fn has_qp(&self) -> bool {
         !matches!(self, Self::Penalty { .. } | Self::Event)
@@ -147,8 +150,8 @@ fn end_position() -> Promise {
     }
 }
 
-/// The rule's weights (Chung & Hulbert 1993, doi:10.1115/1.2900803, eqs 17, 20 and 25): order 2, and the least damping of slow vibrations
-/// that ρ∞ allows.
+/// The rule's weights (Chung & Hulbert 1993, doi:10.1115/1.2900803, eqs 17, 20 and 25): order 2,
+/// and the least damping of slow vibrations that ρ∞ allows.
 fn generalized_alpha(rho: f64) -> Balance {
     let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
     let gamma = 0.5 + alpha_f - alpha_m;

@@ -1,7 +1,8 @@
 //! `moreau-jean`: the impact law on the velocity, for the walls the body is about to reach.
 //!
-//! Jean 1999, Comput. Methods Appl. Mech. Engrg. 177, doi:10.1016/S0045-7825(98)00383-1; Acary & Brogliato 2008, doi:10.1007/978-3-540-75392-6,
-//! ch. 10. With v⁺ = v + δ, v_θ = v + θδ, q⁺ = q + h v_θ,
+//! Jean 1999, Comput. Methods Appl. Mech. Engrg. 177, doi:10.1016/S0045-7825(98)00383-1; Acary &
+//! Brogliato 2008, doi:10.1007/978-3-540-75392-6, ch. 10. With v⁺ = v + δ,
+//! v_θ = v + θδ, q⁺ = q + h v_θ,
 //!
 //! M δ = h[f_θ − C v_θ − K(q + hθ v_θ)] + J − C d + p
 //!
@@ -9,17 +10,19 @@
 //!
 //! minimise ½ A δ² − b δ   subject to   ẇ⁺ + ε ẇ ≤ 0 (upper), ≥ 0 (lower),    A = M + hθC + h²θ²K,
 //!
-//! with J the load impulses in the step and d what they add to the displacement beside the rule for it (see [`crate::step::Balance`]),
-//! over the walls that q + ½h v reaches, with ε = e where the body approaches or rests, 1 where it separates; in both the velocity ẇ is that
-//! after the blow J/M of the step, so that a body struck at rest on a wall rebounds like one that arrives.
-//! With θ = ½, e = 1, no damping and no load the energy is conserved exactly.
+//! with J the load impulses in the step and d what they add to the displacement beside the rule for
+//! it (see [`crate::step::Balance`]), over the walls that q + ½h v reaches, with ε = e where the
+//! body approaches or rests, 1 where it separates; in both the velocity ẇ is that after the blow
+//! J/M of the step, so that a body struck at rest on a wall rebounds like one that arrives. With
+//! θ = ½, e = 1, no damping and no load the energy is conserved exactly.
 //!
-//! No wall acts on the displacement: a body that comes to rest on one stays as deep behind it as its last impact left it, by up to
-//! ½h times the speed of arrival, and while it stays the force is that of its place: smaller by k times that depth than at the face, for a
-//! spring k that the body hangs on. To lift it to the face takes work, which would be energy from nowhere to this rule.
+//! No wall acts on the displacement: a body that comes to rest on one stays as deep behind it as
+//! its last impact left it, by up to ½h times the speed of arrival, and while it stays the force is
+//! that of its place: smaller by k times that depth than at the face, for a spring k that the body
+//! hangs on. To lift it to the face takes work, which would be energy from nowhere to this rule.
 //!
-//! Order 1 through impacts. Where h v exceeds the gap, opposite walls take turns and the body stands still between them: such steps are
-//! counted.
+//! Order 1 through impacts. Where h v exceeds the gap, opposite walls take turns and the body
+//! stands still between them: such steps are counted.
 
 use super::Counters;
 use super::body::Body;
@@ -39,7 +42,8 @@ pub(super) struct MoreauJean<S: Space> {
     b: S::Vector,
     /// q + ½hv, with the velocity that the walls answer.
     ahead: S::Vector,
-    /// The side from which a row's rigid walls pushed in the last step, as the sign of their force, 0 if none did; and the rows where it is not 0.
+    /// The side from which a row's rigid walls pushed in the last step, as the sign of their force,
+    /// 0 if none did; and the rows where it is not 0.
     last: Vec<f64>,
     pushed: Vec<usize>,
     frozen: u64,
@@ -56,7 +60,8 @@ impl<S: Space> MoreauJean<S> {
         Ok(Self { body, theta, programme, b, ahead, last, pushed, frozen: 0 })
     }
 
-    /// Solves for δ, and the walls' impulses, where the row `first` may be met and none before it. Out of line: most steps meet none.
+    /// Solves for δ, and the walls' impulses, where the row `first` may be met and none before it.
+    /// Out of line: most steps meet none.
     #[inline(never)]
     fn meet(&mut self, first: usize, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, programme, ahead, .. } = self;
@@ -99,8 +104,9 @@ impl<S: Space> MoreauJean<S> {
         self.programme.solve(&self.b, (frame.start, step), &mut frame.impulse, &mut frame.pushing)
     }
 
-    /// The same where the blows take the structure beside the rule, and so do what the damper feels. What a rigid wall answers stays as it
-    /// is, which is known only when the walls have been asked without. Returns whether the blows carry the structure on.
+    /// The same where the blows take the structure beside the rule, and so do what the damper
+    /// feels. What a rigid wall answers stays as it is, which is known only when the walls have
+    /// been asked without. Returns whether the blows carry the structure on.
     #[inline(never)]
     fn carry(&mut self, step: u64, frame: &mut Frame<S>) -> Result<bool> {
         let found = self.body.find_blows(&[(frame.start, frame.end, frame.end - self.body.h * self.theta)]);
@@ -115,7 +121,8 @@ impl<S: Space> MoreauJean<S> {
         Ok(true)
     }
 
-    /// The forces of a step with impulses; counts it if the walls on opposite sides of one place took turns.
+    /// The forces of a step with impulses; counts it if the walls on opposite sides of one place
+    /// took turns.
     #[inline(never)]
     fn watch(&mut self, frame: &mut Frame<S>) {
         let row_of = |wall: usize| self.programme.row_of(wall);

@@ -9,7 +9,8 @@ use std::str::FromStr;
 pub const NAMES: [&str; 7] =
     ["implicit-euler", "paoli-schatzman", "moreau-jean", "generalized-alpha", "newmark", "penalty", "event"];
 
-/// ρ∞ of generalized-alpha where none is given: a fifth of the fastest free vibration is taken out in each step, next to nothing of what is resolved.
+/// ρ∞ of generalized-alpha where none is given: a fifth of the fastest free vibration is taken out
+/// in each step, next to nothing of what is resolved.
 const RHO: f64 = 0.8;
 
 impl fmt::Display for Scheme {
@@ -68,8 +69,9 @@ impl Settings {
 impl FromStr for Scheme {
     type Err = Error;
 
-    /// Parses a name as [`fmt::Display`] writes it; settings may be left out where they have a default (θ = ½, ρ∞ = 0.8, the discrete-gradient
-    /// integrator, no damping), but a penalty needs its epsilon or its stiffness.
+    /// Parses a name as [`fmt::Display`] writes it; settings may be left out where they have a
+    /// default (θ = ½, ρ∞ = 0.8, the discrete-gradient integrator, no damping), but a penalty needs
+    /// its epsilon or its stiffness.
     fn from_str(text: &str) -> Result<Self> {
         let (name, settings) = text.split_once(':').unwrap_or((text, ""));
         let keys: &[&str] = match name {

@@ -2,16 +2,19 @@
 //!
 //! y = y₀ + S r(y),    S = G A⁻¹ Gᵀ · scale (m × m, semidefinite),
 //!
-//! where each force rᵢ(yᵢ) never rises with yᵢ. These are the optimality conditions of a convex function: semismooth Newton (Qi & Sun 1993,
-//! doi:10.1007/BF01581275) on the forces with a line search on that function's derivative settles for any start, and without the search in a
-//! handful of iterations. For laws that are linear by pieces it ends.
+//! where each force rᵢ(yᵢ) never rises with yᵢ. These are the optimality conditions of a convex
+//! function: semismooth Newton (Qi & Sun 1993, doi:10.1007/BF01581275) on the forces with a line
+//! search on that function's derivative settles for any start, and without the search in a handful
+//! of iterations. For laws that are linear by pieces it ends.
 
 use super::body::Body;
 use super::space::{Space, zero};
 
-/// Newton's method needs a handful of iterations; more than this many means that numbers are not finite.
+/// Newton's method needs a handful of iterations; more than this many means that numbers are not
+/// finite.
 const LIMIT: usize = 200;
-/// From this iteration on a step must go downhill all the way: before, a little beyond the valley is allowed.
+/// From this iteration on a step must go downhill all the way: before, a little beyond the valley
+/// is allowed.
 const STRICT: usize = 20;
 /// How far beyond: the slope there over that at the start.
 const BEYOND: f64 = 0.1;
@@ -47,7 +50,8 @@ pub(super) struct Walls {
     step: Vec<f64>,
     shift: Vec<f64>,
     active: Vec<usize>,
-    /// The lower Cholesky factor of I + E S E on the walls in play, by rows with stride m, and E = √slope.
+    /// The lower Cholesky factor of I + E S E on the walls in play, by rows with stride m, and E =
+    /// √slope.
     factor: Vec<f64>,
     root: Vec<f64>,
     u: Vec<f64>,
@@ -112,7 +116,8 @@ impl Walls {
                 let answer = law(i, self.y[i]);
                 (self.force[i], self.slope[i]) = (answer.force, answer.slope);
                 let mismatch = answer.force - self.guess[i];
-                // y is known to the rounding of its terms only, and the force to what the law makes of that.
+                // y is known to the rounding of its terms only, and the force to what the law makes
+                // of that.
                 let size = answer.force.abs() + self.guess[i].abs() + answer.slope * (self.size[i] + answer.noise);
                 settled &= mismatch.abs() <= units * size;
                 worst = f64::max(worst, mismatch.abs());

@@ -1,21 +1,27 @@
 //! `paoli-schatzman`: central differences with the restitution written into the bound.
 //!
-//! Paoli & Schatzman 2002, SIAM J. Numer. Anal. 40(2), doi:10.1137/S003614290037873X. With q⁺ = q + Δ and q⁻ = q − h v₋,
+//! Paoli & Schatzman 2002, SIAM J. Numer. Anal. 40(2), doi:10.1137/S003614290037873X. With q⁺ = q +
+//! Δ and q⁻ = q − h v₋,
 //!
-//! M(Δ/h − v₋)/h + C(Δ/h + v₋)/2 + K(¼q⁻ + ½q + ¼q⁺) = f(t) + r        (blows: see [`crate::step::Balance`])
+//! M(Δ/h − v₋)/h + C(Δ/h + v₋)/2 + K(¼q⁻ + ½q + ¼q⁺) = f(t) + r (blows: see
+//! [`crate::step::Balance`])
 //!
 //! is the optimality condition A Δ = b + r of
 //!
-//! minimise ½ A Δ² − b Δ   subject to   (1+e_l)g_l − e_l q⁻ ≤ q⁺ ≤ (1+e_u)g_u − e_u q⁻,    A = M/h² + C/2h + K/4.
+//! minimise ½ A Δ² − b Δ   subject to   (1+e_l)g_l − e_l q⁻ ≤ q⁺ ≤ (1+e_u)g_u − e_u q⁻,
 //!
-//! The multiplier r is the force at t. The velocity between the grid's instants is what the scheme carries: v₋ and
-//! v₊ = Δ/h; without walls it is the trapezoidal rule on the half steps, so it conserves their energy.
+//! with A = M/h² + C/2h + K/4.
+//!
+//! The multiplier r is the force at t. The velocity between the grid's instants is what the scheme
+//! carries: v₋ and v₊ = Δ/h; without walls it is the trapezoidal rule on the half steps, so it
+//! conserves their energy.
 //!
 //! Order 2 at e = 0, 1 at e > 0, where a wall is penetrated by up to 2ehv/(1+e).
 //!
-//! Where e differs between walls on rows that depend on one another (two masses and their distance), and one of them is penetrated, these
-//! bounds may contradict. With one e they never do, since q⁺ = (1+e)q_a − e q⁻ keeps them for every admissible q_a: such a step is made
-//! with the smallest e for all walls.
+//! Where e differs between walls on rows that depend on one another (two masses and their
+//! distance), and one of them is penetrated, these bounds may contradict. With one e they never do,
+//! since q⁺ = (1+e)q_a − e q⁻ keeps them for every admissible q_a: such a step is made with the
+//! smallest e for all walls.
 
 use super::Counters;
 use super::body::Body;
@@ -77,7 +83,8 @@ impl<S: Space> PaoliSchatzman<S> {
         solved
     }
 
-    /// The bounds of the rows, in Δ, with the restitution `one` for all rigid walls or the own of each.
+    /// The bounds of the rows, in Δ, with the restitution `one` for all rigid walls or the own of
+    /// each.
     #[inline]
     fn bind(&mut self, frame: &Frame<S>, one: Option<f64>) {
         let h = self.body.h;
@@ -105,7 +112,8 @@ impl<S: Space> PaoliSchatzman<S> {
         }
     }
 
-    /// The smallest e of the rigid walls of a row, if with its own e for each the bounds of a lower and an upper one would cross, `back` being w⁻.
+    /// The smallest e of the rigid walls of a row, if with its own e for each the bounds of a lower
+    /// and an upper one would cross, `back` being w⁻.
     fn shared_restitution(&self, row: usize, back: f64) -> Option<f64> {
         let (mut lo, mut hi, mut least) = (f64::NEG_INFINITY, f64::INFINITY, 1.0_f64);
         for seat in self.programme.seats(row) {
@@ -118,8 +126,8 @@ impl<S: Space> PaoliSchatzman<S> {
         (lo > hi).then_some(least)
     }
 
-    /// What a rigid wall answers the damper does not feel of the blows, which is known only when the walls have been asked without: makes
-    /// the step once more where it does.
+    /// What a rigid wall answers the damper does not feel of the blows, which is known only when
+    /// the walls have been asked without: makes the step once more where it does.
     #[inline(never)]
     fn damp_blows(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let h = self.body.h;
@@ -148,7 +156,8 @@ impl<S: Space> Rule<S> for PaoliSchatzman<S> {
         S::add_product(&body.mass, 1.0 / h, &staggered.v, b);
         S::add_product(&body.damping, -0.5, &staggered.v, b);
         S::add_product(&body.stiffness, -1.0, mean, b);
-        // A blow comes first, and the wall answers the velocity it leaves: q⁻ in the bound is where that would have come from.
+        // A blow comes first, and the wall answers the velocity it leaves: q⁻ in the bound is where
+        // that would have come from.
         frame.blown = body.strike_about(step, 1.0 / h, b, frame);
         self.settle(step, frame)?;
         if self.body.blows.is_some() {

@@ -1,19 +1,23 @@
-//! `penalty`: every rigid wall becomes a spring, and each step solves for the velocity by Newton's method.
+//! `penalty`: every rigid wall becomes a spring, and each step solves for the velocity by Newton's
+//! method.
 //!
 //! With v_θ = (1−θ)v + θv⁺, q⁺ = q + h v_θ as in the velocity-level scheme, the balance
 //!
 //! A (v_θ − v)/θ = b + h Σ ± P̄(s, s⁺),    A = M + hθC + h²θ²K,
 //!
-//! holds a mean pressure P̄ per wall: (1−θ)|r|(s) + θ|r|(s⁺) for `trapezoidal` (θ = ½) and `implicit-euler` (θ = 1), or, with θ = ½, the
-//! discrete gradient ΔU/Δs of the wall's energy (Gonzalez 1996, doi:10.1007/BF02440162), which keeps the energy of the penalised system at
-//! any step. (With a displacement for unknown, v⁺ would be a quotient by h, whose rounding has a constant part: the energy drifts by 1e-16
-//! a step. The mean velocity is small where a stiff wall turns the body round, and so is the work of its rounding.) The trapezoidal rule
-//! does not, once h²k_w/m is not small: "unconditionally stable" is a statement about linear systems. Order 2 at θ = ½, 1 at θ = 1, which
-//! loses energy instead.
+//! holds a mean pressure P̄ per wall: (1−θ)|r|(s) + θ|r|(s⁺) for `trapezoidal` (θ = ½) and
+//! `implicit-euler` (θ = 1), or, with θ = ½, the discrete gradient ΔU/Δs of the wall's energy
+//! (Gonzalez 1996, doi:10.1007/BF02440162), which keeps the energy of the penalised system at any
+//! step. (With a displacement for unknown, v⁺ would be a quotient by h, whose rounding has a
+//! constant part: the energy drifts by 1e-16 a step. The mean velocity is small where a stiff wall
+//! turns the body round, and so is the work of its rounding.) The trapezoidal rule does not, once
+//! h²k_w/m is not small: "unconditionally stable" is a statement about linear systems. Order 2 at
+//! θ = ½, 1 at θ = 1, which loses energy instead.
 //!
-//! One degree of freedom: Newton's method on v_θ itself, in a bracket. Several: the walls' velocities y = G v_θ obey y = y_free + θh W P̄(y)
-//! with W = G A⁻¹ Gᵀ, which is solved first. One Newton step for all of v_θ follows: it takes out the rounding of that detour, which a stiff
-//! wall would turn into work.
+//! One degree of freedom: Newton's method on v_θ itself, in a bracket. Several: the walls'
+//! velocities y = G v_θ obey y = y_free + θh W P̄(y) with W = G A⁻¹ Gᵀ, which is solved first. One
+//! Newton step for all of v_θ follows: it takes out the rounding of that detour, which a stiff wall
+//! would turn into work.
 
 use super::Counters;
 use super::body::Body;
@@ -25,7 +29,8 @@ use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
 
-/// Newton's method with a bracket needs a handful of iterations; more than this many means that numbers are not finite.
+/// Newton's method with a bracket needs a handful of iterations; more than this many means that
+/// numbers are not finite.
 const NEWTON_LIMIT: u64 = 200;
 
 /// How a step averages the pressure of a wall.
@@ -92,8 +97,8 @@ impl<S: Space> Penalty<S> {
         Answer { force: stop.sign * pressure, slope: h * tangent, noise: s0.abs() / h }
     }
 
-    /// v_θ of one degree of freedom in a step that may meet a wall, whose impulses it writes: the root of (A/θ)(v_θ − v) − b − h Gᵀ P̄, a
-    /// function that increases with it.
+    /// v_θ of one degree of freedom in a step that may meet a wall, whose impulses it writes: the
+    /// root of (A/θ)(v_θ − v) − b − h Gᵀ P̄, a function that increases with it.
     #[inline(never)]
     fn meet_alone(&mut self, frame: &mut Frame<S>, step: u64) -> Result<f64> {
         let (h, theta, v, b) = (self.body.h, self.theta, frame.v[0], self.b[0]);
@@ -122,8 +127,8 @@ impl<S: Space> Penalty<S> {
                 size += h * weight.abs() * (force.abs() + tangent * (noise + (weight * mean).abs()));
             }
             let next = mean - residual / slope;
-            // Below two units of rounding of the terms that cancel, the residual is noise. Newton comes from one side: the last
-            // correction takes that bias out of the energy.
+            // Below two units of rounding of the terms that cancel, the residual is noise. Newton
+            // comes from one side: the last correction takes that bias out of the energy.
             if residual.abs() <= 2.0 * f64::EPSILON * size {
                 found = Some(next);
                 break;
@@ -151,7 +156,8 @@ impl<S: Space> Penalty<S> {
         Ok(mean)
     }
 
-    /// δ of a step that may meet a wall, whose impulses it writes. Out of line: most steps are none.
+    /// δ of a step that may meet a wall, whose impulses it writes. Out of line: most steps are
+    /// none.
     #[inline(never)]
     fn meet(&mut self, frame: &mut Frame<S>, step: u64) -> Result<()> {
         let (h, theta) = (self.body.h, self.theta);
@@ -214,7 +220,8 @@ impl<S: Space> Rule<S> for Penalty<S> {
         frame.begin(step, h);
         body.theta_momentum(theta, frame, b);
         body.strike((frame.start, frame.end), 1.0, b, frame);
-        // No wall is rigid here: the blows take the structure all their way, which the damper feels.
+        // No wall is rigid here: the blows take the structure all their way, which the damper
+        // feels.
         let blown = body.find_blows(&[(frame.start, frame.end, frame.end - h * theta)]);
         if blown {
             body.damp_shift(1.0, b);
@@ -257,7 +264,8 @@ impl<S: Space> Rule<S> for Penalty<S> {
     }
 }
 
-/// Mean pressure of a law over a step of `h` seconds from depth `s0` to `s1`, and its derivative with respect to `s1`: it never falls with that.
+/// Mean pressure of a law over a step of `h` seconds from depth `s0` to `s1`, and its derivative
+/// with respect to `s1`: it never falls with that.
 #[inline]
 fn mean_pressure(law: &WallLaw, mean: Mean, theta: f64, h: f64, s0: f64, s1: f64) -> (f64, f64) {
     if s0 <= 0.0 && s1 <= 0.0 {
@@ -282,7 +290,8 @@ fn mean_pressure(law: &WallLaw, mean: Mean, theta: f64, h: f64, s0: f64, s1: f64
     (pressure, tangent)
 }
 
-/// ΔU/Δs between two depths, and its derivative with respect to the second; without division by zero.
+/// ΔU/Δs between two depths, and its derivative with respect to the second; without division by
+/// zero.
 fn discrete_gradient(law: &WallLaw, s0: f64, s1: f64) -> (f64, f64) {
     if s0 <= 0.0 && s1 <= 0.0 {
         return (0.0, 0.0);

@@ -5,10 +5,11 @@ use crate::scene::{Side, Wall, WallLaw};
 use std::fmt;
 use std::str::FromStr;
 
-/// The spring that stands in for every rigid wall of a scene in a penalty run. Elastic walls stay as they are.
+/// The spring that stands in for every rigid wall of a scene in a penalty run. Elastic walls stay
+/// as they are.
 ///
-/// Both are springs that lose nothing (but for the damping of the linear one): the stiffer, the nearer to rigid walls
-/// of restitution 1, whatever restitution the walls carry.
+/// Both are springs that lose nothing (but for the damping of the linear one): the stiffer, the
+/// nearer to rigid walls of restitution 1, whatever restitution the walls carry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum PenaltyLaw {
@@ -32,7 +33,8 @@ impl PenaltyLaw {
     /// The φ² law spans from the wall to the nearest wall on the other side of the same row.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where the φ² law finds no wall on the other side, or none a positive distance away.
+    /// [`Error::Invalid`] where the φ² law finds no wall on the other side, or none a positive
+    /// distance away.
     pub fn at(&self, wall: &Wall, walls: &[Wall]) -> Result<WallLaw> {
         match *self {
             _ if !wall.law.is_rigid() => Ok(wall.law),
@@ -86,7 +88,8 @@ impl PenaltyLaw {
     }
 }
 
-/// Distance from `wall` to the nearest wall that faces it on its row, m; none where that is not positive.
+/// Distance from `wall` to the nearest wall that faces it on its row, m; none where that is not
+/// positive.
 fn span(wall: &Wall, walls: &[Wall]) -> Option<f64> {
     let facing = walls.iter().filter(|other| other.side != wall.side && other.at == wall.at);
     facing.map(|other| wall.side.sign() * (other.position - wall.position)).reduce(f64::min).filter(|span| *span > 0.0)
@@ -111,7 +114,8 @@ pub enum Integrator {
     Trapezoidal,
     /// Implicit Euler: order 1, damps; the step silently sets a restitution below 1.
     ImplicitEuler,
-    /// Central difference: explicit, order 2, unstable once the wall is stiffer than the step resolves.
+    /// Central difference: explicit, order 2, unstable once the wall is stiffer than the step
+    /// resolves.
     CentralDifference,
     /// The discrete gradient: order 2, keeps the energy of the penalised system at any step.
     #[default]

@@ -1,17 +1,19 @@
-//! `implicit-euler` (θ = 1) and `newmark` (β = ¼, γ = ½, that is θ = ½): the wall as a bound on the displacement at t⁺.
+//! `implicit-euler` (θ = 1) and `newmark` (β = ¼, γ = ½, that is θ = ½): the wall as a bound on the
+//! displacement at t⁺.
 //!
 //! With q⁺ = q + Δ, v⁺ = (Δ/h − (1−θ)v)/θ and F = f − C v − K q, the balance
 //!
 //! M(v⁺ − v) = h[(1−θ)(F + r) + θ(F⁺ + r⁺)] + J − C d
 //!
-//! with J the load impulses in the step and d what they add to the displacement beside the rule for it (see [`crate::step::Balance`]),
-//! is, divided by hθ, the optimality condition A Δ = b + r⁺ of
+//! with J the load impulses in the step and d what they add to the displacement beside the rule for
+//! it (see [`crate::step::Balance`]), is, divided by hθ, the optimality condition A Δ = b + r⁺ of
 //!
 //! minimise ½ A Δ² − b Δ   subject to   g_l ≤ q + Δ ≤ g_u,    A = M/(hθ)² + C/(hθ) + K.
 //!
-//! θ = ½ is Newmark's average-acceleration rule (Newmark 1959, J. Eng. Mech. Div. ASCE 85(3)) with the constraint at t⁺:
-//! it returns a restitution between 1/3 and 3 by chance of the phase and gains energy. It is here to be looked at.
-//! θ = 1 returns e = 0 whatever the wall says. Order 1; it damps, and the force of an impact grows like 1/h.
+//! θ = ½ is Newmark's average-acceleration rule (Newmark 1959, J. Eng. Mech. Div. ASCE 85(3)) with
+//! the constraint at t⁺: it returns a restitution between 1/3 and 3 by chance of the phase and
+//! gains energy. It is here to be looked at. θ = 1 returns e = 0 whatever the wall says. Order 1;
+//! it damps, and the force of an impact grows like 1/h.
 
 use super::Counters;
 use super::body::Body;
@@ -79,8 +81,8 @@ impl<S: Space> Position<S> {
         }
     }
 
-    /// On a rigid wall means on it: w + (g − w) may miss g by the last bit. With one degree of freedom only: of several walls' rows each would
-    /// move the others.
+    /// On a rigid wall means on it: w + (g − w) may miss g by the last bit. With one degree of
+    /// freedom only: of several walls' rows each would move the others.
     #[inline(never)]
     fn place(&self, frame: &mut Frame<S>) {
         for &wall in frame.pushing.iter().filter(|&&wall| self.body.walls[wall].law.is_rigid()) {

@@ -2,8 +2,9 @@
 //!
 //! minimise ½ xᵀA x − bᵀx over lᵢ ≤ gᵢ·x ≤ uᵢ, elastic rows yielding with a compliance.
 //!
-//! Rigid walls at one place (one row g) share a row of the programme: the tightest bound of each side counts, and walls that stand at that
-//! bound share its force equally. An elastic wall has a row of its own.
+//! Rigid walls at one place (one row g) share a row of the programme: the tightest bound of each
+//! side counts, and walls that stand at that bound share its force equally. An elastic wall has a
+//! row of its own.
 
 use super::Counters;
 use super::space::{Solve, Space};
@@ -30,7 +31,8 @@ pub(super) struct Programme<S: Space> {
     seats: Vec<Seat>,
     starts: Vec<usize>,
     row_of: Vec<usize>,
-    /// The open interval of g·q, m, in which a row's rigid walls are not touched; empty for an elastic wall, which asks for a look in every step.
+    /// The open interval of g·q, m, in which a row's rigid walls are not touched; empty for an
+    /// elastic wall, which asks for a look in every step.
     clear: Vec<(f64, f64)>,
     /// Bounds of each row in the step, and the rows that have one.
     lo: Vec<f64>,
@@ -41,12 +43,13 @@ pub(super) struct Programme<S: Space> {
     bound: Vec<f64>,
 }
 
-/// Bounds of walls at one place that differ by less than this share of their size are one: their walls share the force.
+/// Bounds of walls at one place that differ by less than this share of their size are one: their
+/// walls share the force.
 const ONE_PLACE: f64 = 1e-12;
 
 impl<S: Space> Programme<S> {
-    /// The programme with curvature `a`, a typical length `scale` of g·x, and the compliance of each elastic wall's row as a function of
-    /// its stiffness and damping.
+    /// The programme with curvature `a`, a typical length `scale` of g·x, and the compliance of
+    /// each elastic wall's row as a function of its stiffness and damping.
     pub fn new(
         scene: &Scene,
         a: Symmetric,
@@ -134,14 +137,16 @@ impl<S: Space> Programme<S> {
         S::dot(&self.rows, row, x)
     }
 
-    /// True if no wall of a row is touched at the displacement `w` (m), with twice the touching distance to spare, and none asks for a look.
+    /// True if no wall of a row is touched at the displacement `w` (m), with twice the touching
+    /// distance to spare, and none asks for a look.
     #[inline]
     pub fn is_clear(&self, row: usize, w: f64) -> bool {
         let (lo, hi) = self.clear[row];
         lo < w && w < hi
     }
 
-    /// The first row that [`Programme::is_clear`] does not hold for at the displacements `q` (m); none if it holds for all.
+    /// The first row that [`Programme::is_clear`] does not hold for at the displacements `q` (m);
+    /// none if it holds for all.
     #[inline]
     pub fn first_near(&self, q: &S::Vector) -> Option<usize> {
         self.clear
@@ -194,7 +199,8 @@ impl<S: Space> Programme<S> {
         }
     }
 
-    /// Binds row `row` on behalf of the wall at `seat`: g·x ≤ `value` for an upper wall, ≥ for a lower one. The tightest of a row counts.
+    /// Binds row `row` on behalf of the wall at `seat`: g·x ≤ `value` for an upper wall, ≥ for a
+    /// lower one. The tightest of a row counts.
     #[inline]
     pub fn bind(&mut self, row: usize, seat: usize, value: f64) {
         // The first of a row: what others stood for in an earlier step is none of this one's.
@@ -217,8 +223,8 @@ impl<S: Space> Programme<S> {
         (self.lo[row], self.hi[row]) = (0.0, 0.0);
     }
 
-    /// Solves: the minimiser is [`Programme::x`] until the next call. Writes the multiplier of each wall that pushes to `force`, which is
-    /// all zero before, and its index to `pushing`.
+    /// Solves: the minimiser is [`Programme::x`] until the next call. Writes the multiplier of each
+    /// wall that pushes to `force`, which is all zero before, and its index to `pushing`.
     #[inline]
     pub fn solve(
         &mut self,

@@ -8,12 +8,15 @@ use crate::qp::Backend;
 use crate::scene::Scene;
 use std::fmt::Debug;
 
-/// A rule that takes the state from one instant of the grid to the next, with the constants and the memory that it has beside the state.
+/// A rule that takes the state from one instant of the grid to the next, with the constants and the
+/// memory that it has beside the state.
 pub(super) trait Rule<S: Space>: Debug + Send {
-    /// Takes the motion up at `time` (s), from the frame's state: at the start, and wherever the state is set. All memory is set here.
+    /// Takes the motion up at `time` (s), from the frame's state: at the start, and wherever the
+    /// state is set. All memory is set here.
     fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame<S>) -> Result<()>;
 
-    /// Makes step number `step`: moves the frame's state, and writes what the step shows of itself. The frame's extra force is set.
+    /// Makes step number `step`: moves the frame's state, and writes what the step shows of itself.
+    /// The frame's extra force is set.
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()>;
 
     /// Adds what the rule has cost.

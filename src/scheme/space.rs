@@ -1,5 +1,5 @@
-//! What the schemes on a grid compute with: numbers for one degree of freedom, vectors and matrices for several. Each scheme is written
-//! once, over either.
+//! What the schemes on a grid compute with: numbers for one degree of freedom, vectors and matrices
+//! for several. Each scheme is written once, over either.
 
 use crate::error::{Error, Result};
 use crate::linear::Symmetric;
@@ -8,7 +8,8 @@ use crate::scene::{Load, Row, SharedStructure};
 use std::fmt::Debug;
 use std::ops::IndexMut;
 
-/// Vectors over degrees of freedom, and what acts on them: [`Line`](super::line::Line) and [`Matrices`](super::matrices::Matrices).
+/// Vectors over degrees of freedom, and what acts on them: [`Line`](super::line::Line) and
+/// [`Matrices`](super::matrices::Matrices).
 pub(super) trait Space: Debug + Sized + 'static {
     /// n numbers.
     type Vector: Debug + Clone + Send + AsRef<[f64]> + AsMut<[f64]> + IndexMut<usize, Output = f64>;

@@ -1,12 +1,14 @@
-//! What the staggered schemes share, which carry the velocity half a step behind the displacement: its start, where they count blows and
-//! extra forces, and the velocity that they report at t⁺, from v₊ at t⁺ − ½h.
+//! What the staggered schemes share, which carry the velocity half a step behind the displacement:
+//! its start, where they count blows and extra forces, and the velocity that they report at t⁺,
+//! from v₊ at t⁺ − ½h.
 //!
 //! Half a step under the smooth force, v⁺ = v₊ + δ, is the minimiser of
 //!
 //! ½ δᵀ(M + ½hC)δ − ½h(f⁺ − K q⁺ − C v₊ + Gᵀ r⁺)ᵀδ   subject to   G δ ≥ 0 (lower), ≤ 0 (upper)
 //!
-//! over the rigid walls that q⁺ touches: the structure is not accelerated further into them. At an elastic wall too stiff for the step v₊ is all that
-//! is known: there G δ = 0. A blow since t⁺ − ½h is not in v₊ yet, and is added.
+//! over the rigid walls that q⁺ touches: the structure is not accelerated further into them. At an
+//! elastic wall too stiff for the step v₊ is all that is known: there G δ = 0. A blow since t⁺ − ½h
+//! is not in v₊ yet, and is added.
 
 use super::body::Body;
 use super::frame::Frame;
@@ -54,10 +56,10 @@ impl<S: Space> Staggered<S> {
         })
     }
 
-    /// Takes the motion up at `time` (s) from the frame's state, under all forces that act there. The
-    /// walls' reaction is among them: without it a body at rest on a wall with e = 1 would bounce.
-    /// v₋ = v − ½h a, with the damping that a contains divided as an implicit half step would,
-    /// (M + ½hC)a = F: h² apart, and a heavy damper does not throw v₋.
+    /// Takes the motion up at `time` (s) from the frame's state, under all forces that act there.
+    /// The walls' reaction is among them: without it a body at rest on a wall with e = 1 would
+    /// bounce. v₋ = v − ½h a, with the damping that a contains divided as an implicit half step
+    /// would, (M + ½hC)a = F: h² apart, and a heavy damper does not throw v₋.
     ///
     /// # Errors
     /// As [`StartForce::new`].
@@ -76,8 +78,9 @@ impl<S: Space> Staggered<S> {
         Ok(())
     }
 
-    /// Begins step number `step`: the frame's extra force, constant over the step, becomes that over t ± ½h, and v₋ the velocity before. At
-    /// t = 0 the first half acts before the start, on nothing: v₋ is extrapolated without it.
+    /// Begins step number `step`: the frame's extra force, constant over the step, becomes that
+    /// over t ± ½h, and v₋ the velocity before. At t = 0 the first half acts before the start, on
+    /// nothing: v₋ is extrapolated without it.
     #[inline]
     pub fn begin(&mut self, step: u64, h: f64, frame: &mut Frame<S>) {
         frame.begin(step, h);
@@ -89,12 +92,14 @@ impl<S: Space> Staggered<S> {
         frame.before.clone_from(&self.v);
     }
 
-    /// Ends step number `step`, which has moved the frame's displacement with the velocity `self.v` = v₊: shows that, moves the loads on and
-    /// writes the velocity at the end, under the caller's extra force and after the blows since.
+    /// Ends step number `step`, which has moved the frame's displacement with the velocity `self.v`
+    /// = v₊: shows that, moves the loads on and writes the velocity at the end, under the caller's
+    /// extra force and after the blows since.
     pub fn finish(&mut self, body: &mut Body<S>, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let h = body.h;
         frame.after.clone_from(&self.v);
-        // The blows come half a step about the instants in the momentum balance, which counts each from one of them.
+        // The blows come half a step about the instants in the momentum balance, which counts each
+        // from one of them.
         let (start, middle, end) = (step as f64 * h, (step as f64 + 0.5) * h, (step + 1) as f64 * h);
         body.land(&[(start, middle, start), (middle, end, end)], frame);
         body.load_at(frame.end);
@@ -149,7 +154,8 @@ impl<S: Space> Staggered<S> {
     }
 }
 
-/// The blows that the momentum balance of step number `step` counts as at its start, and that instant: (from, to, t), s.
+/// The blows that the momentum balance of step number `step` counts as at its start, and that
+/// instant: (from, to, t), s.
 #[inline]
 pub(super) fn counted_blows(step: u64, h: f64) -> (f64, f64, f64) {
     // The edges of `Forcing::impulse_about`.

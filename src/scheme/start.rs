@@ -1,6 +1,7 @@
 //! What acts at the start.
 //!
-//! A rigid wall that the structure touches at rest answers with whatever keeps it from accelerating through: with ẅ = G M⁻¹(F + Gᵀ r),
+//! A rigid wall that the structure touches at rest answers with whatever keeps it from accelerating
+//! through: with ẅ = G M⁻¹(F + Gᵀ r),
 //!
 //! minimise ½ aᵀM a − Fᵀa   subject to   ẅ ≥ 0 (lower), ≤ 0 (upper)
 //!
@@ -26,7 +27,8 @@ pub(super) struct StartForce<S: Space> {
 }
 
 impl<S: Space> StartForce<S> {
-    /// Without the rigid walls, at displacement `q` and velocity `v`, those after any blow at that instant.
+    /// Without the rigid walls, at displacement `q` and velocity `v`, those after any blow at that
+    /// instant.
     pub fn smooth(body: &Body<S>, q: &S::Vector, v: &S::Vector) -> Self {
         let mut total = body.load.clone();
         S::add_product(&body.damping, -1.0, v, &mut total);

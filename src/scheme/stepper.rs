@@ -24,11 +24,13 @@ use crate::time::MOST_STEPS;
 /// # Ok::<(), signorini::Error>(())
 /// ```
 ///
-/// A stepper goes on for as long as it is asked to, whatever the scheme: the duration of the scene is where [`run()`](crate::run()) ends,
-/// and no limit here. The exact scheme, whose steps end at events, ends one there too. Loads go on past it: constant and harmonic
-/// ones as before, blows at their times, tables by their rows and as zero after the last.
+/// A stepper goes on for as long as it is asked to, whatever the scheme: the duration of the scene
+/// is where [`run()`](crate::run()) ends, and no limit here. The exact scheme, whose steps end at
+/// events, ends one there too. Loads go on past it: constant and harmonic ones as before, blows at
+/// their times, tables by their rows and as zero after the last.
 ///
-/// A step allocates nothing, apart from Clarabel's own single allocation where that solver was asked for.
+/// A step allocates nothing, apart from Clarabel's own single allocation where that solver was
+/// asked for.
 #[derive(Debug)]
 pub struct Stepper {
     scene: Checked,
@@ -43,8 +45,9 @@ pub struct Stepper {
 }
 
 impl Stepper {
-    /// A stepper for `scene` by `method`, a [`Scheme`] or a [`Method`], with steps of `step` seconds. For the exact scheme, which steps
-    /// from event to event, `step` is the longest stretch of one step.
+    /// A stepper for `scene` by `method`, a [`Scheme`] or a [`Method`], with steps of `step`
+    /// seconds. For the exact scheme, which steps from event to event, `step` is the longest
+    /// stretch of one step.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a scene, scheme or step that makes no sense.
@@ -72,14 +75,15 @@ impl Stepper {
     /// Advances by one step.
     ///
     /// # Errors
-    /// [`Error::Qp`], [`Error::Newton`], [`Error::NotFinite`] or [`Error::TooManyEvents`], with the time and the step.
+    /// [`Error::Qp`], [`Error::Newton`], [`Error::NotFinite`] or [`Error::TooManyEvents`], with the
+    /// time and the step.
     #[inline(always)]
     pub fn step(&mut self) -> Result<Step<'_>> {
         self.advance(None)
     }
 
-    /// Advances by one step under an extra force (N, one value per degree of freedom), constant over the step: for
-    /// co-simulation with another program.
+    /// Advances by one step under an extra force (N, one value per degree of freedom), constant
+    /// over the step: for co-simulation with another program.
     ///
     /// # Errors
     /// As [`Stepper::step`]; [`Error::Invalid`] for a force of the wrong length or not finite.
@@ -112,19 +116,21 @@ impl Stepper {
         Ok(self.kernel.step(index))
     }
 
-    /// Puts the scene into `state` at `time` (s), forwards or backwards: so a co-simulation repeats a step, or restarts from
-    /// what it has saved of [`Stepper::time`] and [`Stepper::state`]. The state is that after whatever happened at that instant: a
-    /// load's impulse at `time` is in it.
+    /// Puts the scene into `state` at `time` (s), forwards or backwards: so a co-simulation repeats
+    /// a step, or restarts from what it has saved of [`Stepper::time`] and [`Stepper::state`]. The
+    /// state is that after whatever happened at that instant: a load's impulse at `time` is in it.
     ///
-    /// A scheme on a grid goes on from a multiple of its step; the exact scheme from any time. `moreau-jean`, `implicit-euler`
-    /// and the penalty's other one-step rules then make the same steps as if they had come there by themselves. `paoli-schatzman`,
-    /// `generalized-alpha`, `newmark` and the penalty's `central-difference` carry more than the state from step to step (accelerations, a
-    /// velocity half a step back) and begin anew as at a start; so does a contact of the exact scheme that has lasted. Contact episodes
-    /// under way are forgotten. A [`Recorder`](crate::Recorder) or [`Judge`](crate::residual::Judge) that has watched so far cannot go on
-    /// watching.
+    /// A scheme on a grid goes on from a multiple of its step; the exact scheme from any time.
+    /// `moreau-jean`, `implicit-euler` and the penalty's other one-step rules then make the same
+    /// steps as if they had come there by themselves. `paoli-schatzman`, `generalized-alpha`,
+    /// `newmark` and the penalty's `central-difference` carry more than the state from step to step
+    /// (accelerations, a velocity half a step back) and begin anew as at a start; so does a contact
+    /// of the exact scheme that has lasted. Contact episodes under way are forgotten. A
+    /// [`Recorder`](crate::Recorder) or [`Judge`](crate::residual::Judge) that has watched so far
+    /// cannot go on watching.
     ///
-    /// The work counters go on. An extra force ([`Stepper::step_with`]) is not part of the state. The exact scheme sets itself up
-    /// anew, which for a large structure costs more than a step.
+    /// The work counters go on. An extra force ([`Stepper::step_with`]) is not part of the state.
+    /// The exact scheme sets itself up anew, which for a large structure costs more than a step.
     ///
     /// ```
     /// use signorini::{Scene, Scheme, Stepper, Wall};
@@ -144,8 +150,9 @@ impl Stepper {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a time that is negative, not finite or no multiple of the step of a scheme on a grid, a state of the wrong
-    /// length or not finite, or for the exact scheme one behind a rigid wall. The stepper is then as it was.
+    /// [`Error::Invalid`] for a time that is negative, not finite or no multiple of the step of a
+    /// scheme on a grid, a state of the wrong length or not finite, or for the exact scheme one
+    /// behind a rigid wall. The stepper is then as it was.
     pub fn set_state(&mut self, time: f64, state: &State) -> Result<()> {
         let exact = self.scheme == Scheme::Event;
         let index = self.index_at(time, exact)?;
@@ -254,7 +261,8 @@ impl Stepper {
     }
 }
 
-/// The scene, if its walls are such that a quadratic programme can hold them: the φ² law is none of those.
+/// The scene, if its walls are such that a quadratic programme can hold them: the φ² law is none of
+/// those.
 fn without_quartic(scene: &Checked) -> Result<&Checked> {
     match scene.walls.iter().find(|wall| matches!(wall.law, WallLaw::Quartic { .. })) {
         Some(wall) => Err(Error::invalid(

@@ -23,7 +23,8 @@ impl Stop {
         self.sign * (self.g - w)
     }
 
-    /// The larger of the depth and zero, as a coordinate: where a dashpot's plate stands when the body is at `w`.
+    /// The larger of the depth and zero, as a coordinate: where a dashpot's plate stands when the
+    /// body is at `w`.
     #[inline]
     pub fn plate(&self, w: f64) -> f64 {
         if self.upper { w.max(self.g) } else { w.min(self.g) }

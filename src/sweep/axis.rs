@@ -78,7 +78,8 @@ pub enum Values {
         /// How many, two or more.
         points: u64,
     },
-    /// Drawn evenly between two bounds, or evenly in the logarithm; with a [`Random`](super::Random) design.
+    /// Drawn evenly between two bounds, or evenly in the logarithm; with a
+    /// [`Random`](super::Random) design.
     Range {
         /// Lower bound.
         from: f64,
@@ -246,7 +247,8 @@ impl Axis {
         }
     }
 
-    /// The numbers of its values in the order in which a chain passes through them, with the direction of each.
+    /// The numbers of its values in the order in which a chain passes through them, with the
+    /// direction of each.
     pub(super) fn order(&self) -> Vec<(u64, Option<&'static str>)> {
         let mut up: Vec<u64> = (0..self.count()).collect();
         if self.follow == Follow::No {
@@ -263,7 +265,8 @@ impl Axis {
         }
     }
 
-    /// Names of its columns: its own, where several keys are tied under one name, then one a key. `whole` tells keys of one last word apart.
+    /// Names of its columns: its own, where several keys are tied under one name, then one a key.
+    /// `whole` tells keys of one last word apart.
     pub(super) fn columns(&self, whole: bool) -> Vec<String> {
         let unit = self.targets.first().and_then(|(target, _)| target.unit());
         match (&self.name, self.targets.as_slice()) {

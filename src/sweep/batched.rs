@@ -95,7 +95,8 @@ impl Plan {
                 Err(error) => row.fail(&error),
             }
             if row.status == Status::Ok && self.is_judged(point.row) {
-                // The lanes make no steps that could be judged: those of the scheme that they stand for are.
+                // The lanes make no steps that could be judged: those of the scheme that they stand
+                // for are.
                 let judged = self.row(point, None);
                 if judged.status == Status::Refuted {
                     (row.status, row.error) = (judged.status, judged.error);

@@ -98,7 +98,8 @@ struct FigureTable {
 }
 
 impl Sweep {
-    /// True if the text is that of a sweep file: TOML with a key `case`, which case files do not have.
+    /// True if the text is that of a sweep file: TOML with a key `case`, which case files do not
+    /// have.
     #[must_use]
     pub fn is_file(text: &str) -> bool {
         toml::from_str::<toml::Table>(text).is_ok_and(|table| table.contains_key("case"))
@@ -116,7 +117,8 @@ impl Sweep {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Io`] where it cannot be read, [`Error::Case`] for what is no sweep file, with line and column, and what the parts of a sweep refuse.
+    /// [`Error::Io`] where it cannot be read, [`Error::Case`] for what is no sweep file, with line
+    /// and column, and what the parts of a sweep refuse.
     pub fn read(path: &Path) -> Result<Self> {
         let failed = |reason: String| Error::io(path.display(), reason, true);
         let length = std::fs::metadata(path).map_err(|error| failed(error.to_string()))?.len();

@@ -28,7 +28,8 @@ pub(super) enum State {
 }
 
 impl Plan {
-    /// What is asked, as the folder remembers it: rows of two requests that are equal here have the same bits on one machine.
+    /// What is asked, as the folder remembers it: rows of two requests that are equal here have the
+    /// same bits on one machine.
     pub(crate) fn request(&self) -> Map<String, Value> {
         let sweep = &self.sweep;
         let axes: Vec<Value> = self.axis_columns().map(|(axis, column)| described(axis, column)).collect();
@@ -73,7 +74,8 @@ fn described(axis: &Axis, column: &str) -> Value {
     json!({ "column": column, "keys": keys, "count": axis.count(), "values": format!("{:?}", axis.values), "follow": format!("{:?}", axis.follow) })
 }
 
-/// A digest of the sines and exponentials of this machine: its mathematical library decides on their last bits, and so on those of the rows.
+/// A digest of the sines and exponentials of this machine: its mathematical library decides on
+/// their last bits, and so on those of the rows.
 pub(super) fn arithmetic() -> String {
     let mut bytes = Vec::new();
     for i in 0..4096 {

@@ -32,7 +32,8 @@ pub(super) fn has_sine(scene: &Scene) -> bool {
 /// The least time, s, after which all loads of `scene` repeat themselves.
 ///
 /// # Errors
-/// [`Error::Invalid`] where there is none: no sine, a load that does not repeat, or frequencies without a common period.
+/// [`Error::Invalid`] where there is none: no sine, a load that does not repeat, or frequencies
+/// without a common period.
 pub(super) fn period(scene: &Scene) -> Result<f64> {
     let refuse = |found: String, why: &str| {
         Err(Error::invalid("forcing period", found, format!("{why}; give settle and keep in seconds")))

@@ -99,7 +99,8 @@ impl Picture {
         })
     }
 
-    /// Tells `take` the number of the row and the values of `columns` of every instant that is drawn.
+    /// Tells `take` the number of the row and the values of `columns` of every instant that is
+    /// drawn.
     fn samples(&self, source: &Source<'_>, columns: &[&String], mut take: impl FnMut(u64, &[f64])) -> Result<()> {
         let table = Table::open(&source.folder.join(SAMPLES))?;
         let row = table.column("row")?;

@@ -1,7 +1,9 @@
-//! `rows.journal`: the rows that are done, in the order in which they were, each whole or not at all.
+//! `rows.journal`: the rows that are done, in the order in which they were, each whole or not at
+//! all.
 //!
-//! A block is a line `@ROW LENGTH CRC` and LENGTH bytes: the state at the end of the row, in hexadecimal, on a line of its own (empty where
-//! nothing follows it), the row's line of `sweep.csv`, its lines of `samples.csv`. Whatever is cut off or damaged, as after a power cut or
+//! A block is a line `@ROW LENGTH CRC` and LENGTH bytes: the state at the end of the row, in
+//! hexadecimal, on a line of its own (empty where nothing follows it), the row's line of
+//! `sweep.csv`, its lines of `samples.csv`. Whatever is cut off or damaged, as after a power cut or
 //! on a full disk, ends the journal there: what comes after is done again.
 
 use crate::error::{Error, Result};
@@ -82,8 +84,8 @@ impl Block {
 }
 
 impl Journal {
-    /// Opens the journal in `folder` for `rows` rows, `place` telling of the number of a row which of them it is, and reads what is in it, or throws that
-    /// away to begin `anew`.
+    /// Opens the journal in `folder` for `rows` rows, `place` telling of the number of a row which
+    /// of them it is, and reads what is in it, or throws that away to begin `anew`.
     ///
     /// # Errors
     /// [`Error::Io`] where it cannot be opened, or another process has it.
@@ -137,7 +139,8 @@ impl Journal {
     /// Adds a row.
     ///
     /// # Errors
-    /// [`Error::Io`] where the disk refuses; it says that nothing done so far is lost, and how to go on.
+    /// [`Error::Io`] where the disk refuses; it says that nothing done so far is lost, and how to
+    /// go on.
     pub fn add(&mut self, row: u64, place: usize, block: &Block) -> Result<()> {
         let body = block.bytes();
         let header = format!("@{row} {} {:08x}\n", body.len(), crc32(&[&row.to_le_bytes(), &body]));

@@ -18,8 +18,8 @@ pub enum Scope {
 
 /// One measure of a row: a column for each wall, each probe, or the row.
 ///
-/// All of them are of one window, from `statistics_from`, or the end of `settle`, to the end; they are those of
-/// [`Statistics`](crate::Statistics) where it has them.
+/// All of them are of one window, from `statistics_from`, or the end of `settle`, to the end; they
+/// are those of [`Statistics`](crate::Statistics) where it has them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Measure {
@@ -69,9 +69,11 @@ pub enum Measure {
     VelocityMax,
     /// Impacts at all walls over forcing periods.
     ImpactsPerPeriod,
-    /// The least number of forcing periods after which the motion repeats itself; none up to 32 leaves the cell empty.
+    /// The least number of forcing periods after which the motion repeats itself; none up to 32
+    /// leaves the cell empty.
     Period,
-    /// Growth of a change of the start over the window, 1/s: the largest Lyapunov exponent of a long one; by the batch engine alone.
+    /// Growth of a change of the start over the window, 1/s: the largest Lyapunov exponent of a
+    /// long one; by the batch engine alone.
     Lyapunov,
 }
 

@@ -92,7 +92,8 @@ fn expanded(folders: &[PathBuf]) -> Result<Vec<PathBuf>> {
 /// Puts the shards in `folders` together in `out`.
 ///
 /// # Errors
-/// [`Error::Io`], a wrong request: a shard that is missing, not finished, there twice, or of another request; an `out` with other results.
+/// [`Error::Io`], a wrong request: a shard that is missing, not finished, there twice, or of
+/// another request; an `out` with other results.
 pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged> {
     let mut parts = expanded(folders)?.iter().map(|folder| Part::read(folder)).collect::<Result<Vec<_>>>()?;
     parts.sort_by_key(|part| part.shard.index());

@@ -1,8 +1,9 @@
 //! Sweeps: one case, what of it is varied, and what is asked of every row.
 //!
-//! A [`Sweep`] says what; [`Sweep::plan`] checks it and numbers its rows; [`Plan::rows`] computes them in memory, [`Plan::run_into`] into a
-//! folder, from where an interrupted one goes on. Every number of a row follows from the row alone: threads, shards and interruptions change no
-//! bit. Rows that fail are rows with their reason.
+//! A [`Sweep`] says what; [`Sweep::plan`] checks it and numbers its rows; [`Plan::rows`] computes
+//! them in memory, [`Plan::run_into`] into a folder, from where an interrupted one goes on. Every
+//! number of a row follows from the row alone: threads, shards and interruptions change no bit.
+//! Rows that fail are rows with their reason.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -22,9 +23,9 @@
 //! | `table`, `columns` | the tables read again |
 //! | `shard`, `merge` | parts, and the whole of them |
 //!
-//! The rows of one thread do not wait for those of another, and a chain of followed rows runs on one. Threads are plain ones that take the
-//! next chain when they have done one: work is handed out in the order of the rows, which keeps the journal nearly sorted, and nothing has
-//! to be balanced.
+//! The rows of one thread do not wait for those of another, and a chain of followed rows runs on
+//! one. Threads are plain ones that take the next chain when they have done one: work is handed out
+//! in the order of the rows, which keeps the journal nearly sorted, and nothing has to be balanced.
 //!
 #![doc = include_str!("../../docs/sweep.md")]
 

@@ -15,7 +15,8 @@ const GAUSS: [(f64, f64); 4] = [
 /// Halvings of a bracket: to the last digit of a double.
 const HALVINGS: u32 = 60;
 
-/// Golden section, and how often it shrinks a bracket: an extreme is flat, and known to 1e-16 where its place is to 1e-8.
+/// Golden section, and how often it shrinks a bracket: an extreme is flat, and known to 1e-16 where
+/// its place is to 1e-8.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 const SECTIONS: u32 = 40;
 
@@ -33,8 +34,9 @@ pub(super) struct Seen {
 
 /// Watches the probes of a scene from a time on.
 ///
-/// Between the ends of an exact stretch an extreme is a zero of the velocity, found between instants at which the fastest motion has turned by
-/// an eighth of a cycle, and then to rounding. A scheme on a grid has extremes at its instants, and the trapezoidal rule.
+/// Between the ends of an exact stretch an extreme is a zero of the velocity, found between
+/// instants at which the fastest motion has turned by an eighth of a cycle, and then to rounding. A
+/// scheme on a grid has extremes at its instants, and the trapezoidal rule.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
     from: f64,
@@ -137,7 +139,8 @@ impl Seen {
     }
 }
 
-/// Stretches in which the speed may have a peak: about an instant with lower ones on both sides, and at the ends, where one side is not seen.
+/// Stretches in which the speed may have a peak: about an instant with lower ones on both sides,
+/// and at the ends, where one side is not seen.
 fn brackets(instants: &[(f64, f64, f64)]) -> Vec<[f64; 2]> {
     let peak = |three: &[(f64, f64, f64)]| match three {
         &[(a, _, va), (_, _, middle), (b, _, vb)] if middle.abs() >= va.abs().max(vb.abs()) => Some([a, b]),

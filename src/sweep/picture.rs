@@ -12,7 +12,8 @@ use std::str::FromStr;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// A measure over one axis, a curve for each wall or probe, each direction and each value of other axes; points in a random design.
+    /// A measure over one axis, a curve for each wall or probe, each direction and each value of
+    /// other axes; points in a random design.
     Line,
     /// A measure over two axes, as colours.
     Heat,
@@ -39,8 +40,8 @@ impl FromStr for Kind {
     }
 }
 
-/// Which picture is drawn; what is left out follows from the sweep. Columns go by their names, or by these without wall and unit:
-/// `approach_speed`.
+/// Which picture is drawn; what is left out follows from the sweep. Columns go by their names, or
+/// by these without wall and unit: `approach_speed`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Picture {
     /// What it shows.
@@ -109,11 +110,12 @@ impl Picture {
         Self { kind, x: word("x"), y: word("y"), z: word("z"), wall: word("wall") }
     }
 
-    /// Draws the picture of the tables in `folder`, which `request` is of, in each of `formats`; gives the paths. A table of which there is nothing
-    /// to draw has none.
+    /// Draws the picture of the tables in `folder`, which `request` is of, in each of `formats`;
+    /// gives the paths. A table of which there is nothing to draw has none.
     ///
     /// # Errors
-    /// [`Error::Unknown`] for a column that the tables do not have, [`Error::Io`] where they cannot be read or the picture cannot be written.
+    /// [`Error::Unknown`] for a column that the tables do not have, [`Error::Io`] where they cannot
+    /// be read or the picture cannot be written.
     pub(crate) fn draw(
         &self,
         folder: &Path,

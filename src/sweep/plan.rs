@@ -1,4 +1,5 @@
-//! The rows of a sweep: which values each has, and what it leaves behind. Everything of a row follows from its number.
+//! The rows of a sweep: which values each has, and what it leaves behind. Everything of a row
+//! follows from its number.
 
 use super::axis::{Axis, Follow, Target};
 use super::forcing;
@@ -51,7 +52,8 @@ impl Sweep {
     /// The rows of this sweep, after everything has been checked that can be before they run.
     ///
     /// # Errors
-    /// [`Error::Invalid`], [`Error::Unknown`] or [`Error::Case`] for what makes no sense, naming it and what would be accepted.
+    /// [`Error::Invalid`], [`Error::Unknown`] or [`Error::Case`] for what makes no sense, naming it
+    /// and what would be accepted.
     pub fn plan(self) -> Result<Plan> {
         if self.axes.is_empty() {
             let expected = "one [[vary]] or more (--vary KEY=FROM:TO:POINTS)";
@@ -222,12 +224,14 @@ impl Plan {
         self.order.len() as u64
     }
 
-    /// Draws its picture from the tables in `folder`, as `sweep.svg`, `sweep.pdf` or `sweep.png`; gives the paths.
+    /// Draws its picture from the tables in `folder`, as `sweep.svg`, `sweep.pdf` or `sweep.png`;
+    /// gives the paths.
     pub(crate) fn draw(&self, folder: &Path, formats: &[Format]) -> Result<Vec<PathBuf>> {
         self.sweep.picture.draw(folder, &self.request(), &self.sweep.title, formats)
     }
 
-    /// Its picture, as SVG text, from the tables in `folder`, to which [`Plan::run_into`] has written them; none where there is nothing to draw.
+    /// Its picture, as SVG text, from the tables in `folder`, to which [`Plan::run_into`] has
+    /// written them; none where there is nothing to draw.
     ///
     /// # Errors
     /// [`Error::Io`] for tables that cannot be read.
@@ -295,7 +299,8 @@ impl Plan {
         }
     }
 
-    /// The case of `point`, from the state `start` where it follows another row, and what it runs by.
+    /// The case of `point`, from the state `start` where it follows another row, and what it runs
+    /// by.
     pub(super) fn build(&self, point: &Point, start: Option<&State>) -> Result<(Case, Method)> {
         let mut values = Vec::new();
         let mut scheme = None;
@@ -360,7 +365,8 @@ impl Plan {
                     Err(error) => failure = failure.or(Some(error)),
                 }
             }
-            // Values that go together with those of another axis alone, such as both walls moved past the body, are judged row by row.
+            // Values that go together with those of another axis alone, such as both walls moved
+            // past the body, are judged row by row.
             if let Some(error) = failure.filter(|_| self.sweep.axes.len() == 1 || !self.any_works()) {
                 return Err(error);
             }

@@ -37,8 +37,9 @@ pub enum Kernel {
     /// A stepper a row: every case and scheme.
     #[default]
     Scalar,
-    /// [`batch`](crate::batch): oscillators side by side, by the scheme `event`, many times as fast. Its digits differ from the scalar ones in
-    /// the last places, which chaos makes all places; so it is asked for, and never taken by itself.
+    /// [`batch`](crate::batch): oscillators side by side, by the scheme `event`, many times as
+    /// fast. Its digits differ from the scalar ones in the last places, which chaos makes all
+    /// places; so it is asked for, and never taken by itself.
     Batch,
 }
 
@@ -129,7 +130,8 @@ impl Sweep {
         Ok(self)
     }
 
-    /// The same over one dimension more. Of several, the last one turns fastest, but for the followed one, which turns faster still.
+    /// The same over one dimension more. Of several, the last one turns fastest, but for the
+    /// followed one, which turns faster still.
     #[must_use]
     pub fn vary(mut self, axis: Axis) -> Self {
         self.axes.push(axis);
@@ -150,8 +152,8 @@ impl Sweep {
         self
     }
 
-    /// The same by a scheme, written as on the command line: `event`, `moreau-jean:theta=0.6`, `penalty:epsilon=1e-9`. Without, the scheme
-    /// is the one that `run` would choose for the case.
+    /// The same by a scheme, written as on the command line: `event`, `moreau-jean:theta=0.6`,
+    /// `penalty:epsilon=1e-9`. Without, the scheme is the one that `run` would choose for the case.
     #[must_use]
     pub fn by(mut self, scheme: &str) -> Self {
         self.scheme = Some(scheme.to_owned());
@@ -176,8 +178,8 @@ impl Sweep {
         self
     }
 
-    /// The same with so many rows judged step by step, evenly spread over all of them; a row that breaks what its scheme promises has
-    /// the status `refuted`.
+    /// The same with so many rows judged step by step, evenly spread over all of them; a row that
+    /// breaks what its scheme promises has the status `refuted`.
     #[must_use]
     pub fn judged(mut self, rows: u64) -> Self {
         self.judged = rows;

@@ -87,11 +87,13 @@ pub struct Row {
     pub status: Status,
     /// Why, in a sentence; empty for `ok`.
     pub error: String,
-    /// The measures, as in their columns; none where a measure has no value, and in a row that failed.
+    /// The measures, as in their columns; none where a measure has no value, and in a row that
+    /// failed.
     pub measures: Vec<Option<f64>>,
     /// Its instants.
     pub samples: Vec<Sample>,
-    /// The state at its end, from which the next row of a followed axis starts; none where it failed.
+    /// The state at its end, from which the next row of a followed axis starts; none where it
+    /// failed.
     pub end: Option<State>,
 }
 
@@ -113,7 +115,8 @@ struct Done {
 }
 
 impl Plan {
-    /// Computes the row of `point`, from the state `start` where it follows another. A row's numbers depend on nothing else.
+    /// Computes the row of `point`, from the state `start` where it follows another. A row's
+    /// numbers depend on nothing else.
     pub(super) fn row(&self, point: &Point, start: Option<&State>) -> Row {
         let mut row = self.blank(point);
         match self.build(point, start).and_then(|(case, method)| self.perform(case, method, self.is_judged(point.row)))
@@ -158,7 +161,8 @@ impl Plan {
         let scene = &Checked::new(&case.scene)?;
         let mut time = case.time;
         let exact = method.scheme == Scheme::Event;
-        // Nothing is recorded: the bound on rows is none of a row's. A spacing that is given stays, since steps end on its rows, as in `run`.
+        // Nothing is recorded: the bound on rows is none of a row's. A spacing that is given stays,
+        // since steps end on its rows, as in `run`.
         time.sample = time.sample.or(Some(scene.duration));
         let grid =
             if exact { TimeGrid::exact(scene.duration, &time) } else { TimeGrid::stepping(scene.duration, &time) }?;
@@ -194,7 +198,8 @@ impl Plan {
     }
 }
 
-/// An error in one line: of one that shows a place of the case file, what is wrong and what would do.
+/// An error in one line: of one that shows a place of the case file, what is wrong and what would
+/// do.
 fn sentence(error: &Error) -> String {
     let text = error.to_string();
     let told: Vec<&str> = match error {

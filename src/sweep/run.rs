@@ -1,4 +1,5 @@
-//! Rows computed on several threads: into memory, or into a folder, from where they can be gone on with.
+//! Rows computed on several threads: into memory, or into a folder, from where they can be gone on
+//! with.
 
 use super::batched::TOGETHER;
 use super::finish::{Tables, write_tables};
@@ -66,7 +67,8 @@ pub struct Finished {
 }
 
 impl Plan {
-    /// All rows, in their order, on so many threads. For what fits into memory; [`Plan::run_into`] is for the rest.
+    /// All rows, in their order, on so many threads. For what fits into memory; [`Plan::run_into`]
+    /// is for the rest.
     ///
     /// # Errors
     /// None of a row: those are in [`Row::status`] and [`Row::error`].
@@ -81,11 +83,13 @@ impl Plan {
         Ok(rows)
     }
 
-    /// Runs the sweep into `folder`: `sweep.csv`, `samples.csv` where instants are asked for, and `request.json`. Killed at any instant and started
-    /// again it goes on, and ends with the same bytes, whatever the number of threads. `progress` is told now and then how far it is.
+    /// Runs the sweep into `folder`: `sweep.csv`, `samples.csv` where instants are asked for, and
+    /// `request.json`. Killed at any instant and started again it goes on, and ends with the same
+    /// bytes, whatever the number of threads. `progress` is told now and then how far it is.
     ///
     /// # Errors
-    /// [`Error::Io`] for a folder of another request, one in which another process is at work, and a disk that refuses.
+    /// [`Error::Io`] for a folder of another request, one in which another process is at work, and
+    /// a disk that refuses.
     pub fn run_into(&self, folder: &Path, manner: Manner, progress: &dyn Fn(Progress)) -> Result<Finished> {
         let started = Instant::now();
         let folder = manner.shard.folder(folder);
@@ -159,8 +163,9 @@ impl Plan {
         Ok(journal)
     }
 
-    /// Computes the chains of `shard` on `threads` threads, each from where it was `found`, and hands every row to `take` in the order of its chain;
-    /// ends early where that returns false, or `stop` is set. Chains are begun in their order: rows of a journal are nearly so.
+    /// Computes the chains of `shard` on `threads` threads, each from where it was `found`, and
+    /// hands every row to `take` in the order of its chain; ends early where that returns false, or
+    /// `stop` is set. Chains are begun in their order: rows of a journal are nearly so.
     fn compute(
         &self,
         shard: Shard,

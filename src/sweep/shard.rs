@@ -6,7 +6,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// Part `index` of `of`: the chains `index` − 1, `index` − 1 + `of`, …, which evens out what is dear and what is cheap.
+/// Part `index` of `of`: the chains `index` − 1, `index` − 1 + `of`, …, which evens out what is
+/// dear and what is cheap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     /// From 1 to `of`.

@@ -71,8 +71,9 @@ impl Strobe {
     }
 }
 
-/// The least number of periods N up to 32 for which the last 3 N of `states`, one a `period` (s), are those N before, to 1e-3 of `length` (m)
-/// and of the speed that it makes with the period; none where there is none. An N of which fewer were kept is not looked at.
+/// The least number of periods N up to 32 for which the last 3 N of `states`, one a `period` (s),
+/// are those N before, to 1e-3 of `length` (m) and of the speed that it makes with the period; none
+/// where there is none. An N of which fewer were kept is not looked at.
 pub(super) fn repeats(states: &[&State], period: f64, length: f64) -> Option<usize> {
     let omega = std::f64::consts::TAU / period;
     let near = |a: &State, b: &State| {

@@ -1,7 +1,8 @@
 //! Reference values of the penalty.
 
-/// Displacements (m) of the source scene under the φ² penalty, every 50 ms from 0.05 s to 2 s, for each ε: from a high-order adaptive
-/// solver with event location; two such solvers agree to 2e-10 m.
+/// Displacements (m) of the source scene under the φ² penalty, every 50 ms from 0.05 s to 2 s, for
+/// each ε: from a high-order adaptive solver with event location; two such solvers agree to 2e-10
+/// m.
 pub const PENALTY: [(f64, [f64; 40]); 3] = [
     (
         1e-12,

@@ -1,4 +1,5 @@
-//! Programmes of a beam on many supports, in sequence, for tests and benches: more rows than unknowns.
+//! Programmes of a beam on many supports, in sequence, for tests and benches: more rows than
+//! unknowns.
 
 use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, Solver};
@@ -28,9 +29,11 @@ impl Beam {
     }
 }
 
-/// Steps of moreau-jean (e = 0, θ = ½, h = 1 ms) of a pinned beam with `modes` modes, the first at 20 Hz, between `supports` equal supports
-/// with stops 1 µm below and above: pressed down by its weight, and shaken by `shake` m/s² in every mode. Bounds are 0 where a stop
-/// is reached and infinite elsewhere. The first 50 steps, in which it falls, are left out; only programmes that meet a bound are kept.
+/// Steps of moreau-jean (e = 0, θ = ½, h = 1 ms) of a pinned beam with `modes` modes, the first at
+/// 20 Hz, between `supports` equal supports with stops 1 µm below and above: pressed down by its
+/// weight, and shaken by `shake` m/s² in every mode. Bounds are 0 where a stop is reached and
+/// infinite elsewhere. The first 50 steps, in which it falls, are left out; only programmes that
+/// meet a bound are kept.
 pub fn programmes(modes: usize, supports: usize, shake: f64, count: usize) -> (Beam, Vec<Step>) {
     let (h, gap, pi) = (STEP, GAP, std::f64::consts::PI);
     let rate: Vec<f64> = (1..=modes).map(|j| 40.0 * pi * (j * j) as f64).collect();

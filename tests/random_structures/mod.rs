@@ -4,7 +4,8 @@
 use signorini::linear::Symmetric;
 use signorini::{Load, Row, Scene, Structure, Wall};
 
-/// Numbers drawn one after the other from a seed (a linear congruential generator, Knuth's multiplier).
+/// Numbers drawn one after the other from a seed (a linear congruential generator, Knuth's
+/// multiplier).
 pub struct Draws(u64);
 
 impl Draws {
@@ -43,7 +44,8 @@ pub fn scene(mass: Symmetric, damping: Symmetric, stiffness: Symmetric) -> Scene
     scene.with_initial(&vec![0.0; n], &vec![0.0; n])
 }
 
-/// A chain of `n` masses of 1 kg, springs of `k` (N/m) between neighbours and to both ends, and damping `beta` (s) times the stiffness.
+/// A chain of `n` masses of 1 kg, springs of `k` (N/m) between neighbours and to both ends, and
+/// damping `beta` (s) times the stiffness.
 pub fn chain(n: usize, k: f64, beta: f64) -> Scene {
     let stiffness = |k: f64| {
         let between = (1..n).map(move |i| (i, i - 1, -k));

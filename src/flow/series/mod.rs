@@ -11,7 +11,8 @@
 //! much larger than the motion itself and no digits cancel, and the series goes on until its terms
 //! are below rounding. There is no discretisation error.
 //!
-//! An elastic wall that touches gives r⁽ᵏ⁾ = −k_a (w − g)⁽ᵏ⁾ − c_a w⁽ᵏ⁺¹⁾. Rigid walls in lasting contact give the r⁽ᵏ⁾ for which G q⁽ᵏ⁺²⁾ = 0.
+//! An elastic wall that touches gives r⁽ᵏ⁾ = −k_a (w − g)⁽ᵏ⁾ − c_a w⁽ᵏ⁺¹⁾. Rigid walls in lasting
+//! contact give the r⁽ᵏ⁾ for which G q⁽ᵏ⁺²⁾ = 0.
 
 mod body;
 mod hold;
@@ -83,8 +84,8 @@ impl Series {
         self.n
     }
 
-    /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at the end, into slices of n entries;
-    /// others are left as they are.
+    /// Displacement (m) and velocity (m/s) at `t`, from the right at the start and from the left at
+    /// the end, into slices of n entries; others are left as they are.
     pub fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
         if q.len() != self.n || v.len() != self.n {
             return;
@@ -124,7 +125,8 @@ impl Series {
         acting.keep(value(self.force(acting.slot), x))
     }
 
-    /// Impulse of wall `wall` on the structure over [from, to] within the stretch, N s, in closed form.
+    /// Impulse of wall `wall` on the structure over [from, to] within the stretch, N s, in closed
+    /// form.
     #[must_use]
     pub fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
         let Some(acting) = self.of_wall(wall) else { return 0.0 };

@@ -40,7 +40,8 @@ const LAST: f64 = 1e-18;
 /// own oscillations.
 const FEWEST: usize = 8;
 
-/// If the last term is above this share of the largest, the fastest rate was underestimated and the stretch is cut.
+/// If the last term is above this share of the largest, the fastest rate was underestimated and the
+/// stretch is cut.
 const TRUNCATION: f64 = 1e-16;
 
 impl Series {

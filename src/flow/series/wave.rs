@@ -24,7 +24,8 @@ impl Wave {
         }
     }
 
-    /// Adds the Taylor coefficients in x of the loads, order `k`, to `force`; k goes up by one each time.
+    /// Adds the Taylor coefficients in x of the loads, order `k`, to `force`; k goes up by one each
+    /// time.
     pub(super) fn push(waves: &mut [Self], body: &SeriesBody, (start, unit): (f64, f64), k: usize, force: &mut [f64]) {
         let mut waves = waves.iter_mut();
         for (row, forcing) in &body.loads {

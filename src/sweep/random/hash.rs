@@ -1,7 +1,7 @@
 //! Numbers that look random, from numbers that count.
 
-/// 64 bits that depend on all of `seed`, `point` and `dimension`: the finaliser of SplitMix64 (Steele, Lea & Flood 2014,
-/// doi:10.1145/2660193.2660195) after each of them.
+/// 64 bits that depend on all of `seed`, `point` and `dimension`: the finaliser of SplitMix64
+/// (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195) after each of them.
 pub(super) fn mix(seed: u64, point: u64, dimension: u64) -> u64 {
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
     let step = |state: u64, x: u64| finish(state.wrapping_add(GOLDEN) ^ finish(x.wrapping_add(GOLDEN)));
@@ -25,7 +25,8 @@ mod tests {
 
     #[test]
     fn draws_are_even_and_neighbours_have_nothing_in_common() {
-        // Mean 1/2 and variance 1/12 of 1e5 draws scatter by 1/√(12·1e5) = 9e-4; correlations of neighbours by 1/√1e5 = 3e-3.
+        // Mean 1/2 and variance 1/12 of 1e5 draws scatter by 1/√(12·1e5) = 9e-4; correlations of
+        // neighbours by 1/√1e5 = 3e-3.
         let n = 100_000;
         let draw = |point, dimension| unit(mix(7, point, dimension)) - 0.5;
         let mean = |f: &dyn Fn(u64) -> f64| (0..n).map(f).sum::<f64>() / n as f64;

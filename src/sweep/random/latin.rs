@@ -1,8 +1,10 @@
-//! Latin hypercubes without a table: the slice of a point is a permutation of its number, computed by itself.
+//! Latin hypercubes without a table: the slice of a point is a permutation of its number, computed
+//! by itself.
 
 use super::hash::{mix, unit};
 
-/// Coordinate of point `point` of `points` in `dimension`: McKay, Beckman & Conover 1979 (doi:10.1080/00401706.1979.10489755).
+/// Coordinate of point `point` of `points` in `dimension`: McKay, Beckman & Conover 1979
+/// (doi:10.1080/00401706.1979.10489755).
 pub(super) fn share(seed: u64, points: u64, point: u64, dimension: u64) -> f64 {
     let slice = permuted(point, points, mix(seed, u64::MAX, dimension));
     let within = unit(mix(seed, point, dimension));
@@ -12,8 +14,9 @@ pub(super) fn share(seed: u64, points: u64, point: u64, dimension: u64) -> f64 {
 
 /// Where the permutation `key` of 0, …, `count` − 1 takes `index`.
 ///
-/// A Feistel network of four rounds permutes the least square of a power of two that holds `count`; what it takes outside is taken on until it
-/// falls inside (Black & Rogaway 2002, doi:10.1007/3-540-45760-7_9: cycle walking).
+/// A Feistel network of four rounds permutes the least square of a power of two that holds `count`;
+/// what it takes outside is taken on until it falls inside (Black & Rogaway 2002,
+/// doi:10.1007/3-540-45760-7_9: cycle walking).
 fn permuted(index: u64, count: u64, key: u64) -> u64 {
     if count < 2 {
         return 0;

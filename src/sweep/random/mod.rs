@@ -1,5 +1,5 @@
-//! Random designs: every coordinate of every point is a function of seed, point and dimension alone, so that rows can be computed in any
-//! order, on any machine, and again.
+//! Random designs: every coordinate of every point is a function of seed, point and dimension
+//! alone, so that rows can be computed in any order, on any machine, and again.
 
 mod hash;
 mod latin;
@@ -18,7 +18,8 @@ use std::str::FromStr;
 pub enum Design {
     /// Independent of one another.
     Uniform,
-    /// Latin hypercube: each range is cut into as many slices as there are points, and each slice has one.
+    /// Latin hypercube: each range is cut into as many slices as there are points, and each slice
+    /// has one.
     LatinHypercube,
     /// Sobol's sequence, up to [`MOST_DIMENSIONS`] dimensions.
     Sobol,
@@ -54,7 +55,8 @@ pub struct Random {
     pub design: Design,
     /// How many there are.
     pub points: u64,
-    /// What they are drawn from. Sobol's sequence without a seed is the plain one; with a seed it is scrambled.
+    /// What they are drawn from. Sobol's sequence without a seed is the plain one; with a seed it
+    /// is scrambled.
     pub seed: Option<u64>,
 }
 

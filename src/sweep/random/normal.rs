@@ -3,7 +3,8 @@
 use crate::error::{Error, Result};
 use std::f64::consts::{PI, SQRT_2};
 
-/// A normal distribution, cut off where bounds are given: values beyond them are never drawn, and those within keep their proportions.
+/// A normal distribution, cut off where bounds are given: values beyond them are never drawn, and
+/// those within keep their proportions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Normal {
     /// Mean, before it is cut off.
@@ -45,7 +46,8 @@ impl Normal {
         if low >= high || low.is_nan() || high.is_nan() {
             return refuse("most", high, format!("a number above least, {low:?}"));
         }
-        // Beyond five deviations on one side nothing is left that double precision could tell apart.
+        // Beyond five deviations on one side nothing is left that double precision could tell
+        // apart.
         let far = 5.0 * self.deviation;
         if low > self.mean + far || high < self.mean - far {
             let (what, x) = if low > self.mean { ("least", low) } else { ("most", high) };
@@ -55,8 +57,8 @@ impl Normal {
     }
 }
 
-/// Φ(x), the share of the standard normal distribution below `x`: by its series up to |x| = 3, beyond by Laplace's continued fraction
-/// (Abramowitz & Stegun 26.2.11 and 26.2.14).
+/// Φ(x), the share of the standard normal distribution below `x`: by its series up to |x| = 3,
+/// beyond by Laplace's continued fraction (Abramowitz & Stegun 26.2.11 and 26.2.14).
 fn below(x: f64) -> f64 {
     let density = (-0.5 * x * x).exp() / (SQRT_2 * PI.sqrt());
     if x.abs() > 3.0 {
@@ -73,7 +75,8 @@ fn below(x: f64) -> f64 {
     0.5 + density * sum
 }
 
-/// Φ⁻¹(p): Wichura's algorithm AS 241, PPND16, to about 1e-16 (Applied Statistics 37(3), 1988, doi:10.2307/2347330).
+/// Φ⁻¹(p): Wichura's algorithm AS 241, PPND16, to about 1e-16 (Applied Statistics 37(3), 1988,
+/// doi:10.2307/2347330).
 fn quantile(p: f64) -> f64 {
     let ratio = |r: f64, above: [f64; 8], below: [f64; 7]| {
         let over = above.iter().rev().fold(0.0, |sum, c| sum * r + c);
@@ -163,7 +166,8 @@ mod tests {
 
     #[test]
     fn quantiles_have_their_tabulated_values() {
-        // To the digits in which they are commonly tabulated; the algorithm's own test values in the paper are the first two.
+        // To the digits in which they are commonly tabulated; the algorithm's own test values in
+        // the paper are the first two.
         for (p, x) in [
             (0.25, -0.674_489_750_196_081_7),
             (0.001, -3.090_232_306_167_813),

@@ -9,7 +9,8 @@ pub const MOST_DIMENSIONS: usize = 32;
 /// Bits of a coordinate.
 const BITS: usize = 32;
 
-/// The direction numbers of Joe & Kuo (SIAM J. Sci. Comput. 30, 2008, doi:10.1137/070709359): `new-joe-kuo-6`, with their licence.
+/// The direction numbers of Joe & Kuo (SIAM J. Sci. Comput. 30, 2008, doi:10.1137/070709359):
+/// `new-joe-kuo-6`, with their licence.
 const JOE_KUO: &str = include_str!("joe-kuo.txt");
 
 /// Direction numbers v₁, v₂, … of each dimension, the first bit on top.
@@ -25,8 +26,8 @@ static DIRECTIONS: LazyLock<Vec<[u32; BITS]>> = LazyLock::new(|| {
     std::iter::once(first).chain(further).collect()
 });
 
-/// Direction numbers from the coefficients `a` of a primitive polynomial of degree `m.len()` and the first of them, by the recurrence
-/// of Bratley & Fox (1988, doi:10.1145/42288.214372).
+/// Direction numbers from the coefficients `a` of a primitive polynomial of degree `m.len()` and
+/// the first of them, by the recurrence of Bratley & Fox (1988, doi:10.1145/42288.214372).
 fn directions(a: u32, m: &[u32]) -> [u32; BITS] {
     let degree = m.len();
     let mut v = [0; BITS];
@@ -43,8 +44,8 @@ fn directions(a: u32, m: &[u32]) -> [u32; BITS] {
     v
 }
 
-/// Coordinate `dimension` of point `point`: in the order of Gray's code (Antonov & Saleev 1979) and plain without a seed, as most
-/// programs have it; with a seed scrambled, which keeps its evenness.
+/// Coordinate `dimension` of point `point`: in the order of Gray's code (Antonov & Saleev 1979) and
+/// plain without a seed, as most programs have it; with a seed scrambled, which keeps its evenness.
 pub(super) fn share(seed: Option<u64>, point: u64, dimension: usize) -> f64 {
     let gray = point ^ (point >> 1);
     let numbers = DIRECTIONS.get(dimension % MOST_DIMENSIONS).into_iter().flatten().enumerate();
@@ -53,8 +54,8 @@ pub(super) fn share(seed: Option<u64>, point: u64, dimension: usize) -> f64 {
     f64::from(bits) / 2.0_f64.powi(BITS as i32)
 }
 
-/// Owen's nested scrambling by a hash in which every bit depends on those above it alone (Burley, Practical hash-based Owen scrambling,
-/// JCGT 9(4), 2020, after Laine & Karras 2011).
+/// Owen's nested scrambling by a hash in which every bit depends on those above it alone (Burley,
+/// Practical hash-based Owen scrambling, JCGT 9(4), 2020, after Laine & Karras 2011).
 fn scrambled(bits: u32, seed: u32) -> u32 {
     let mut x = bits.reverse_bits();
     x = x.wrapping_add(seed);
@@ -71,7 +72,8 @@ mod tests {
 
     #[test]
     fn the_first_points_are_the_published_ones() {
-        // The first ten points in three dimensions, as printed by the program that Joe & Kuo publish with their numbers.
+        // The first ten points in three dimensions, as printed by the program that Joe & Kuo
+        // publish with their numbers.
         let published = [
             [0.0, 0.0, 0.0],
             [0.5, 0.5, 0.5],
