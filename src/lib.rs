@@ -27,6 +27,7 @@ pub mod cli;
 mod contact;
 mod error;
 pub mod flow;
+mod interrupt;
 pub mod linear;
 mod notes;
 // What the tool leaves behind, for its benchmarks and tests.
@@ -47,6 +48,7 @@ mod time;
 mod trajectory;
 
 pub use error::{Cause, Error, Part, Result, Subject};
+pub use interrupt::Interrupt;
 pub use residual::{Finding, Refuted};
 pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{

@@ -2,6 +2,7 @@
 //! that follows from them.
 
 use crate::error::{Error, Result};
+use serde::{Deserialize, Serialize};
 
 /// Maximum number of steps of a run: minutes for a scheme of one degree of freedom, and far from
 /// the end of a `u64`.
@@ -11,7 +12,7 @@ pub const MOST_ROWS: f64 = 1e7;
 
 /// Step, recording and statistics of a run: a case's `[time]` table without `end`, which is the
 /// duration of the scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TimeOptions {
     /// Step requested of the stepping schemes, s: above 0, below the end. A run shortens it so that
     /// it divides the duration.
@@ -91,7 +92,7 @@ impl TimeOptions {
 
 /// Equal steps that end exactly at the end of the run, and equally spaced rows that coincide with
 /// steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct TimeGrid {
     /// The end, s.

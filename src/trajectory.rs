@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::scene::{Row, Scene};
 use crate::step::{Contact, Path, Step};
+use serde::{Deserialize, Serialize};
 
 /// A motion sampled at given times; the contact impulses between the samples are recorded in full.
 ///
@@ -28,7 +29,8 @@ use crate::step::{Contact, Path, Step};
 /// assert!((impulses - contacts).abs() < 1e-12 && impulses < 0.0);
 /// # Ok::<(), signorini::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Columns")]
 pub struct Trajectory {
     walls: Vec<String>,
     probes: Vec<String>,
@@ -38,6 +40,36 @@ pub struct Trajectory {
     force: Vec<Vec<f64>>,
     impulse: Vec<Vec<f64>>,
     contacts: Vec<Contact>,
+}
+
+/// A trajectory as it was written down, perhaps by another program.
+#[derive(Deserialize)]
+struct Columns {
+    walls: Vec<String>,
+    probes: Vec<String>,
+    time: Vec<f64>,
+    displacement: Vec<Vec<f64>>,
+    velocity: Vec<Vec<f64>>,
+    force: Vec<Vec<f64>>,
+    impulse: Vec<Vec<f64>>,
+    contacts: Vec<Contact>,
+}
+
+impl TryFrom<Columns> for Trajectory {
+    type Error = &'static str;
+
+    fn try_from(columns: Columns) -> std::result::Result<Self, Self::Error> {
+        let Columns { walls, probes, time, displacement, velocity, force, impulse, contacts } = columns;
+        let fit = |names: &[String], columns: [&Vec<Vec<f64>>; 2]| {
+            let mut all = columns.iter().flat_map(|columns| columns.iter());
+            columns.iter().all(|columns| columns.len() == names.len()) && all.all(|column| column.len() == time.len())
+        };
+        let sound = fit(&probes, [&displacement, &velocity]) && fit(&walls, [&force, &impulse]);
+        match sound && contacts.iter().all(|contact| contact.wall < walls.len()) {
+            true => Ok(Self { walls, probes, time, displacement, velocity, force, impulse, contacts }),
+            false => Err("a column for each wall and probe, all of one length, and contacts at these walls"),
+        }
+    }
 }
 
 impl Trajectory {

@@ -66,7 +66,7 @@ mod tests {
             refuted: Refuted::Penetration,
             residual: 26.6,
             tolerance: 1e-6,
-            reason: "rounding",
+            reason: "rounding".into(),
             time_s: 266.0,
             wall: Some("stop".into()),
         };

@@ -117,6 +117,8 @@ pub enum Error {
         /// The most modes that were tried.
         modes: usize,
     },
+    /// An [`Interrupt`](crate::Interrupt) stopped the computation.
+    Stopped,
     /// Runs that violated what their schemes promise: the judge's findings, in words.
     Refuted {
         /// The runs, each with its findings.
@@ -227,6 +229,7 @@ impl fmt::Display for Error {
                 "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
                  the displacement keeps it until t = {until:.6} s"
             ),
+            Self::Stopped => f.write_str("stopped before its end, as asked"),
             Self::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),
             Self::Truncated { tolerance, reached, quantity, modes } => write!(
                 f,

@@ -1,14 +1,42 @@
 //! A symmetric matrix by the rows of its lower triangle.
 
+use serde::{Deserialize, Serialize};
+
 /// A symmetric n × n matrix; entries below the diagonal stand for both triangles. The diagonal is
 /// always stored.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct Symmetric {
     /// Where each row starts in the two arrays below; n + 1 entries.
     starts: Vec<usize>,
     /// Columns of a row, increasing; the last is the diagonal.
     columns: Vec<usize>,
     values: Vec<f64>,
+}
+
+/// A matrix as it was written down, perhaps by another program.
+#[derive(Deserialize)]
+struct Stored {
+    starts: Vec<usize>,
+    columns: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl TryFrom<Stored> for Symmetric {
+    type Error = &'static str;
+
+    fn try_from(Stored { starts, columns, values }: Stored) -> Result<Self, Self::Error> {
+        let rows = starts.windows(2).enumerate();
+        let increasing = |row: &[usize]| row.windows(2).all(|pair| pair[0] < pair[1]);
+        let mut sound = rows.map(|(i, span)| {
+            columns.get(span[0]..span[1]).is_some_and(|row| row.last() == Some(&i) && increasing(row))
+        });
+        let ends = starts.first() == Some(&0) && starts.last() == Some(&columns.len());
+        match ends && columns.len() == values.len() && sound.all(|row| row) {
+            true => Ok(Self { starts, columns, values }),
+            false => Err("rows that are no lower triangle with its diagonal"),
+        }
+    }
 }
 
 impl Default for Symmetric {

@@ -1,11 +1,12 @@
 //! The choice of solver.
 
 use crate::error::Error;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// The solver of the programme.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Backend {
     /// One unknown: [`Backend::Clamp`]; several: [`Backend::Condensed`].

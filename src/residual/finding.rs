@@ -1,10 +1,11 @@
 //! A finding: a promise of a scheme's contract that the steps of a run did not keep.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::fmt;
 
 /// Which promise a run broke.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Refuted {
@@ -30,7 +31,7 @@ pub enum Refuted {
 
 /// A broken promise: which, by how much, when and where. A run with a finding is wrong; do not use
 /// its numbers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Finding {
     /// Which promise.
@@ -41,7 +42,7 @@ pub struct Finding {
     /// The limit in the scheme's [`Tolerances`](crate::step::Tolerances).
     pub tolerance: f64,
     /// Why that limit was chosen.
-    pub reason: &'static str,
+    pub reason: Cow<'static, str>,
     /// End of the step with the largest residual, s; for sums over the run (energy ledger,
     /// impulses), the end of the run so far.
     pub time_s: f64,

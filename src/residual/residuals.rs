@@ -3,11 +3,11 @@
 use super::Energy;
 #[cfg(doc)]
 use crate::step::Promise;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Residuals of a run against the contract of its scheme, over all steps, however few rows were
 /// recorded.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Residuals {
     /// Largest |min(γ/γ₀, |r|/r₀)| over steps and rigid walls, and of | |r| − law |/r₀ over elastic

@@ -120,7 +120,7 @@ impl Judge {
             refuted,
             residual: worst.value,
             tolerance: allowed.limit,
-            reason: allowed.reason,
+            reason: allowed.reason.into(),
             time_s: worst.time,
             wall: worst.wall.and_then(|wall| self.scene.walls.get(wall)).map(|wall| wall.name.clone()),
         }

@@ -8,10 +8,16 @@ use crate::scene::State;
 use crate::scheme::{Counters, Handed, Scheme};
 use crate::time::TimeGrid;
 use crate::trajectory::Trajectory;
+use serde::{Deserialize, Serialize};
 
 /// A finished run: judged and recorded, unless the [`Options`](super::Options) left one of them
 /// out.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(bound(
+    serialize = "J::Verdict: Serialize, J::Findings: Serialize, R::Motion: Serialize, R::Statistics: Serialize",
+    deserialize = "J::Verdict: Deserialize<'de>, J::Findings: Deserialize<'de>, R::Motion: Deserialize<'de>, \
+                   R::Statistics: Deserialize<'de>"
+))]
 #[non_exhaustive]
 pub struct Run<J: Judging = Judged, R: Recording = Recorded> {
     /// The scheme that made it.

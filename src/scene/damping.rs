@@ -6,9 +6,10 @@ use super::system::nonnegative;
 use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
 
 /// Viscous damping: how C follows from M and K.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Damping {
     /// C = 0.

@@ -4,16 +4,33 @@ use super::function::TimeFunction;
 use super::row::Row;
 use super::system::{finite, nonnegative, positive};
 use crate::error::{Error, Result, Subject};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Most rows of a sampled function.
 const MOST_SAMPLES: f64 = 1e7;
 
 /// A force over time, piecewise linear between rows and zero outside them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Columns")]
 pub struct Table {
     time: Vec<f64>,
     force: Vec<f64>,
+}
+
+/// A table as it was written down, perhaps by another program.
+#[derive(Deserialize)]
+struct Columns {
+    time: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl TryFrom<Columns> for Table {
+    type Error = Error;
+
+    fn try_from(Columns { time, force }: Columns) -> Result<Self> {
+        Self::new(time, force)
+    }
 }
 
 impl Table {
@@ -113,7 +130,7 @@ impl Table {
 }
 
 /// The time dependence of a load.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum LoadKind {
     /// A constant force.
@@ -141,7 +158,8 @@ pub enum LoadKind {
     Table(Table),
     /// Any function of time, for the stepping schemes, which evaluate it at the ends of their
     /// steps. The exact scheme needs the motion in closed form and refuses it; [`Table::sampled`]
-    /// makes a table of it with a stated error.
+    /// makes a table of it with a stated error. It cannot be serialised.
+    #[serde(skip)]
     Function(TimeFunction),
 }
 
@@ -166,7 +184,7 @@ pub enum LoadKind {
 /// assert_eq!(between.at.dot(&[0.3, 0.1]), 0.3 - 0.1);
 /// # Ok::<(), signorini::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Load {
     /// Its time dependence.
     pub kind: LoadKind,

@@ -37,11 +37,12 @@ pub use system::{Oscillator, System};
 pub use wall::{Side, Wall, WallLaw};
 
 use crate::error::{Error, Result, Subject};
+use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use system::{finite, positive};
 
 /// Displacements and velocities at one instant.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// q, m; one value per degree of freedom.
     pub q: Vec<f64>,
@@ -69,7 +70,7 @@ pub struct State {
 /// assert!(refused.to_string().contains("at most 0.005"));
 /// # Ok::<(), signorini::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// M, C, K.
     pub system: System,

@@ -1,11 +1,12 @@
 //! Locations on a structure as sparse rows.
 
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::hash::{Hash, Hasher};
 
 /// A sparse row g of weights on the degrees of freedom: the displacement there is w = g · q, and a
 /// force r there acts on the structure as gᵀ r.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     entries: Vec<(usize, f64)>,
 }
@@ -81,7 +82,7 @@ impl Hash for Key<'_> {
 }
 
 /// A named place whose displacement and velocity are recorded.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Probe {
     /// The name used in tables and CSV headers; empty for the single probe of an oscillator.
     pub name: String,

@@ -4,6 +4,7 @@ use super::scales;
 use super::structure::{self, Structure};
 use crate::error::Result;
 use crate::linear::{Factor, NotDefinite, Operator};
+use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, OnceLock};
@@ -12,7 +13,8 @@ use std::sync::{Arc, OnceLock};
 /// with quantities derived from them once: whether they are valid, the factor of M, the
 /// frequencies. A change through `DerefMut` applies to a copy if there are other users, and
 /// discards the derived quantities.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, Deserialize)]
+#[serde(from = "Structure")]
 pub struct SharedStructure(Arc<Inner>);
 
 #[derive(Default)]
@@ -78,6 +80,12 @@ impl Clone for Inner {
 impl From<Structure> for SharedStructure {
     fn from(structure: Structure) -> Self {
         Self(Arc::new(structure.into()))
+    }
+}
+
+impl Serialize for SharedStructure {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        (**self).serialize(serializer)
     }
 }
 

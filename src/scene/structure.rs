@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result, Subject};
 use crate::linear::{Factor, NotDefinite, Symmetric};
+use serde::{Deserialize, Serialize};
 
 /// M q̈ + C q̇ + K q = f by matrices, all n × n: M symmetric positive definite (kg), C (N s/m) and
 /// K (N/m) symmetric positive semidefinite. In modal coordinates all three may be diagonal. For
@@ -28,7 +29,7 @@ use crate::linear::{Factor, NotDefinite, Symmetric};
 /// assert!(displacement.iter().any(|&q| q > 0.99e-3)); // it has met its stop
 /// # Ok::<(), signorini::Error>(())
 /// ```
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Structure {
     /// M.
     pub mass: Symmetric,

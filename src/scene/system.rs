@@ -4,9 +4,10 @@ use super::shared::SharedStructure;
 use super::structure::Structure;
 use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
+use serde::{Deserialize, Serialize};
 
 /// One degree of freedom, m q̈ + c q̇ + k q = f.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Oscillator {
     /// Mass m, kg; positive.
     pub mass: f64,
@@ -17,7 +18,7 @@ pub struct Oscillator {
 }
 
 /// M q̈ + C q̇ + K q = f, symmetric, M positive definite, C and K positive semidefinite.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum System {
     /// A single degree of freedom: three numbers, no matrices.

@@ -3,9 +3,10 @@
 use super::row::Row;
 use super::system::{finite, nonnegative, positive};
 use crate::error::{Error, Result, Subject};
+use serde::{Deserialize, Serialize};
 
 /// The side of the body on which a wall stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Side {
     /// The body may not go below the position; the wall pushes up, r ≥ 0.
     Lower,
@@ -25,7 +26,7 @@ impl Side {
 }
 
 /// The contact law of a wall. Depth s is the penetration −gap, and |r| the magnitude of the force.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum WallLaw {
     /// Signorini's condition 0 ≤ gap ⟂ |r| ≥ 0 with Newton's impact law ẇ⁺ = −e ẇ⁻.
@@ -131,7 +132,7 @@ impl WallLaw {
 /// let between = Wall { at: Row::new(vec![(1, 1.0), (0, -1.0)]), ..Wall::lower("bumper", -1e-3) };
 /// assert!(between.gap(between.at.dot(&[0.0, -2e-3])) < 0.0); // they would overlap
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Wall {
     /// Name: letters, digits, `-` and `_`; results are looked up by it.
     pub name: String,

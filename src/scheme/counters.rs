@@ -1,7 +1,9 @@
 //! What a run has cost.
 
+use serde::{Deserialize, Serialize};
+
 /// What a run has cost, in units that do not depend on the machine.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Counters {
     /// Steps taken (for the exact scheme: arcs between events).

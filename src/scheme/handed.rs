@@ -1,8 +1,10 @@
 //! What the exact scheme did not follow itself.
 
+use serde::{Deserialize, Serialize};
+
 /// A stretch that the exact scheme handed to moreau-jean: more impacts crowd there than it follows
 /// one by one.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Handed {
     /// From when, s.

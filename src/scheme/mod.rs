@@ -57,10 +57,11 @@ pub use stepper::Stepper;
 use crate::step::{
     Balance, Bound, Conserves, Contract, Elastic, Law, Promise, PromisedForce, Reached, Rigid, Tolerances,
 };
+use serde::{Deserialize, Serialize};
 
 /// A way to advance time. What each realises and where it fails stands in the README's table of
 /// schemes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Scheme {
     /// Backward Euler with the walls on the displacement: e = 0, whatever the walls say.

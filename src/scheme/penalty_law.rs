@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::scene::{Side, Wall, WallLaw};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
@@ -10,7 +11,7 @@ use std::str::FromStr;
 ///
 /// Both are springs that lose nothing (but for the damping of the linear one): the stiffer, the
 /// nearer to rigid walls of restitution 1, whatever restitution the walls carry.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum PenaltyLaw {
     /// The φ² law: energy φ²/(2ε) with φ = (u − g_u)(u − g_l) > 0. Needs an upper and a lower wall.
@@ -107,7 +108,7 @@ impl fmt::Display for PenaltyLaw {
 }
 
 /// How a penalty run advances in time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Integrator {
     /// The trapezoidal rule: order 2, gains energy once the wall is stiffer than the step resolves.

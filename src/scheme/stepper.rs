@@ -3,6 +3,7 @@
 use super::kernel::Kernel;
 use super::{Handed, Method, Scheme};
 use crate::error::{Error, Result, Subject};
+use crate::interrupt::Asking;
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene, State, Wall, WallLaw};
 use crate::scheme::Counters;
@@ -41,6 +42,7 @@ pub struct Stepper {
     index: u64,
     /// Steps made before the state was last set, and the index they led to then.
     before: (u64, u64),
+    asking: Asking,
     kernel: Kernel,
 }
 
@@ -69,14 +71,14 @@ impl Stepper {
         let kernel = Kernel::new(&scene, Method { scheme, backend }, step)?;
         let backend = kernel.motion().backend().unwrap_or(backend);
         let contract = scheme.contract();
-        Ok(Self { scene, scheme, contract, step, backend, index: 0, before: (0, 0), kernel })
+        Ok(Self { scene, scheme, contract, step, backend, index: 0, before: (0, 0), asking: Asking::here(), kernel })
     }
 
     /// Advances by one step.
     ///
     /// # Errors
     /// [`Error::Qp`], [`Error::Newton`], [`Error::NotFinite`] or [`Error::TooManyEvents`], with the
-    /// time and the step.
+    /// time and the step; [`Error::Stopped`] under an [`Interrupt`](crate::Interrupt).
     #[inline(always)]
     pub fn step(&mut self) -> Result<Step<'_>> {
         self.advance(None)
@@ -111,6 +113,7 @@ impl Stepper {
     #[inline(always)]
     fn advance(&mut self, extra: Option<&[f64]>) -> Result<Step<'_>> {
         let index = self.index;
+        self.asking.pass(index)?;
         self.kernel.advance(index, extra)?;
         self.index += 1;
         Ok(self.kernel.step(index))
@@ -177,6 +180,7 @@ impl Stepper {
         let (made, from) = self.before;
         self.before = (made + (self.index - from), index);
         self.index = index;
+        self.asking.restart();
         Ok(())
     }
 

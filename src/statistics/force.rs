@@ -3,7 +3,7 @@
 use super::batch::{BATCHES, half_width};
 use crate::scene::Scene;
 use crate::step::{Path, Step};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Maximum number of averaging intervals in a window; they are longer where a window would hold
 /// more. They cost time where a contact lasts.
@@ -13,7 +13,7 @@ const MOST_STRETCHES: f64 = 1e6;
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 
 /// The force of one wall over the window.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ForceStatistics {
     /// Impulse of the wall on the body over the window, N s; signed as the force.

@@ -14,10 +14,10 @@ pub use force::{ForceStatistics, Forces};
 use crate::scene::{Scene, Wall};
 use crate::step::Contact;
 use batch::{BATCHES, batch_of, half_width, ratio_half_width};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Mean and largest of a set of magnitudes, one per episode; both `None` if the set is empty.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Summary {
     /// Arithmetic mean over the episodes, not over time.
@@ -39,7 +39,7 @@ impl Summary {
 
 /// Half widths of the 95 % intervals, by batch means, of the quantities drawn from a wall's
 /// contacts; there are none where fewer than ten contacts began in the window.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct HalfWidths {
     /// Of the rate of contacts, 1/s.
@@ -61,7 +61,7 @@ pub struct HalfWidths {
 
 /// Contacts at one wall within the window. An episode counts if it begins in the window; contact
 /// time counts as far as it lies in the window.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct WallStatistics {
     /// The wall's name.
@@ -95,7 +95,7 @@ pub struct WallStatistics {
 }
 
 /// Contact statistics of a run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Statistics {
     /// Start of the window, s.

@@ -7,9 +7,10 @@ pub use contract::{Balance, Conserves, Contract, Tolerance, Tolerances};
 pub use promise::{Bound, Elastic, Law, Promise, PromisedForce, Reached, Rigid};
 
 use crate::flow::{Arc, Series};
+use serde::{Deserialize, Serialize};
 
 /// One episode of contact at one wall.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
     /// Index of the wall in the scene.
     pub wall: usize,

@@ -11,6 +11,7 @@ use super::row::{Row, Status};
 use super::shard::Shard;
 use super::table::TABLE;
 use crate::error::{Error, Result};
+use crate::interrupt::Carried;
 use crate::output::atomic::check_folder;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -127,9 +128,11 @@ impl Plan {
         let (sender, receiver) = sync_channel::<(u64, Block)>(WAITING * threads);
         let outcome = std::thread::scope(|scope| {
             let (found, stop) = (&found, &stop);
+            let interrupt = Carried::here();
             let workers = scope.spawn(move || {
                 let sender: SyncSender<(u64, Block)> = sender;
-                self.compute(shard, threads, stop, found, &|row| sender.send((row.number, self.block(row))).is_ok())
+                let take = |row: Row| sender.send((row.number, self.block(row))).is_ok();
+                interrupt.over(|| self.compute(shard, threads, stop, found, &take))
             });
             let mut told = Instant::now();
             let mut written = Ok(());
@@ -176,6 +179,7 @@ impl Plan {
     ) -> Result<()> {
         let chains = shard.chains(self.chains);
         let next = AtomicU64::new(0);
+        let interrupt = Carried::here();
         let together = if self.sweep.kernel == Kernel::Batch { TOGETHER } else { 1 };
         let work = || -> Result<()> {
             loop {
@@ -186,7 +190,12 @@ impl Plan {
                 if self.sweep.kernel == Kernel::Batch {
                     let open = (own..chains.min(own + together)).filter(|own| found.chain(*own).0 == 0);
                     let points: Vec<Point> = open.map(|own| self.point(shard.chain(own), 0)).collect();
-                    if stop.load(Ordering::Relaxed) || !self.batched(&points).into_iter().all(take) {
+                    if stop.load(Ordering::Relaxed) {
+                        return Ok(());
+                    }
+                    let rows = self.batched(&points);
+                    interrupt.check()?;
+                    if !rows.into_iter().all(take) {
                         return Ok(());
                     }
                     continue;
@@ -197,6 +206,7 @@ impl Plan {
                         return Ok(());
                     }
                     let row = self.row(&self.point(shard.chain(own), along), state.as_ref());
+                    interrupt.check()?;
                     // A row that failed leaves no state: the next one starts as the case does.
                     state = row.end.clone().filter(|_| self.sweep.followed().is_some());
                     if !take(row) {
@@ -206,7 +216,7 @@ impl Plan {
             }
         };
         std::thread::scope(|scope| {
-            let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+            let workers: Vec<_> = (0..threads).map(|_| scope.spawn(|| interrupt.over(work))).collect();
             workers.into_iter().try_for_each(|worker| worker.join().unwrap_or_else(|_| Err(lost())))
         })
     }

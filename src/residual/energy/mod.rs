@@ -9,13 +9,13 @@ pub(super) use series::Moved;
 use super::matrices::{Matrices, Part};
 use crate::scene::{Forcing, Scene, Wall, WallLaw};
 use crate::step::{Balance, Contract, Step};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The energy ledger of a run, J. E is kinetic and strain energy plus what elastic and penalised
 /// walls store while they touch.
 ///
 /// For a staggered scheme E is the energy at half steps, which is the one it conserves.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Energy {
     /// E at the start.

@@ -6,9 +6,10 @@ use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::system::{nonnegative, positive};
 use crate::scene::{Row, Structure};
+use serde::{Deserialize, Serialize};
 
 /// The support of an end of a bar.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum BarEnd {
     /// A free end.
@@ -23,7 +24,7 @@ pub enum BarEnd {
 }
 
 /// The mass matrix of an element.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum MassMatrix {
     /// ∫ ρ A Nᵀ N dx: frequencies are too high, at second order.

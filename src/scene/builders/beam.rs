@@ -6,10 +6,11 @@ use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::system::{nonnegative, positive};
 use crate::scene::{Row, Structure};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// The support of an end of a beam.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum BeamEnd {
     /// A free end.

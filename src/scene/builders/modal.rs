@@ -4,6 +4,7 @@ use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::system::{finite, nonnegative, positive};
 use crate::scene::{Row, Structure};
+use serde::{Deserialize, Serialize};
 
 /// Modes of a structure. They are k uncoupled oscillators mᵢ äᵢ + 2 ζᵢ ωᵢ mᵢ ȧᵢ + mᵢ ωᵢ² aᵢ = φᵢ ·
 /// f, whose modal coordinates aᵢ are the degrees of freedom; the displacement is Σ φᵢ aᵢ at each
@@ -11,7 +12,7 @@ use crate::scene::{Row, Structure};
 ///
 /// The scaling of shapes and generalised masses must agree: φᵢᵀ M φᵢ = mᵢ. Mass-normalised shapes
 /// have mᵢ = 1.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ModalData {
     /// ωᵢ, rad/s, 0 for a rigid-body motion; k entries.
     pub omega: Vec<f64>,
@@ -24,7 +25,7 @@ pub struct ModalData {
 }
 
 /// One point of a structure, in one direction.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ModalPoint {
     /// Its name.
     pub name: String,

@@ -3,6 +3,7 @@
 use super::ExactWall;
 use super::guard::{EventCounters, Guard, WINDOWS};
 use crate::error::{Error, Result};
+use crate::interrupt::Asking;
 
 /// The marks at which steps end, which are multiples of a stride and the end of the scene, and the
 /// work done so far.
@@ -15,13 +16,15 @@ pub(in crate::scheme) struct Clock {
     /// Number of multiples of the stride passed.
     marks: u64,
     guard: Guard,
+    /// A single step may search for long.
+    asking: Asking,
     /// The wall of the last event.
     pub last_wall: Option<usize>,
 }
 
 impl Clock {
     pub fn new(duration: f64, stride: f64) -> Self {
-        Self { duration, stride, marks: 0, guard: Guard::default(), last_wall: None }
+        Self { duration, stride, marks: 0, guard: Guard::default(), asking: Asking::here(), last_wall: None }
     }
 
     /// Continues from `time` (s); the work counters are kept.
@@ -64,8 +67,10 @@ impl Clock {
     }
 
     /// # Errors
-    /// [`Error::TooManyEvents`], or evaluations, in the window that `time` (s) is in.
+    /// [`Error::TooManyEvents`], or evaluations, in the window that `time` (s) is in;
+    /// [`Error::Stopped`].
     pub fn check(&mut self, time: f64, barriers: &[ExactWall]) -> Result<()> {
+        self.asking.pass(self.guard.total.evaluations)?;
         let window = self.duration / WINDOWS;
         let Some(count) = self.guard.exceeded(time, window) else { return Ok(()) };
         let wall = self.last_wall.and_then(|i| barriers.get(i)).or(barriers.first());

@@ -177,7 +177,7 @@ mod tests {
             refuted: Refuted::MomentumBalance,
             residual: 1.0,
             tolerance: 1e-9,
-            reason: "a run made wrong for this test",
+            reason: "a run made wrong for this test".into(),
             time_s: 0.5,
             wall: None,
         };

@@ -6,6 +6,7 @@ use super::ruler::{Range, Ruler};
 use super::scale::Scale;
 use super::watch::{Record, STARTS, nudged, watch};
 use crate::error::Result;
+use crate::interrupt::Carried;
 use crate::scene::{Scene, System};
 use crate::scheme::{Integrator, PenaltyLaw, Scheme};
 use rayon::prelude::*;
@@ -192,6 +193,7 @@ impl Plan {
     /// Errors of a reference run; a run of a map that fails is a cell with the reason in it.
     pub fn run(self, progress: &(dyn Fn(u64) + Sync)) -> Result<Maps> {
         let done = AtomicU64::new(0);
+        let interrupt = Carried::here();
         let tell = |steps: u64| progress(done.fetch_add(steps, Ordering::Relaxed) + steps);
         let h = self.reference_step();
         let reference = |(scene, scheme): &(Scene, Scheme)| -> Result<Ruler> {
@@ -203,20 +205,22 @@ impl Plan {
             };
             Ok(Ruler::new(&(0..STARTS).map(run).collect::<Result<Vec<_>>>()?, scene, &self.scale))
         };
-        let rulers: Vec<Ruler> = self.references.par_iter().map(reference).collect::<Result<_>>()?;
+        let rulers: Vec<Ruler> =
+            self.references.par_iter().map(|r| interrupt.over(|| reference(r))).collect::<Result<_>>()?;
         let ruled: Vec<(&Subject, &Ruler)> =
             self.subjects.iter().zip(self.rulers.iter().filter_map(|i| rulers.get(*i))).collect();
         // The most expensive tasks first, so that no thread is left with one of them at the end.
         let tasks: Vec<_> = self.steps.iter().flat_map(|h| ruled.iter().map(move |r| (*h, *r))).collect();
         let cell = |(h, (subject, ruler)): (f64, (&Subject, &Ruler))| {
-            let cell = subject.cell(ruler, &self.scale, h, self.horizon);
+            let cell = interrupt.over(|| subject.cell(ruler, &self.scale, h, self.horizon));
             tell(self.cost(h));
             cell
         };
         let cells: Vec<Cell> = tasks.into_par_iter().with_max_len(1).map(cell).collect();
         let row = |(i, (subject, ruler)): (usize, &(&Subject, &Ruler))| {
             let cells: Vec<Cell> = cells.iter().skip(i).step_by(ruled.len()).cloned().collect();
-            let safe = subject.own.then(|| Safe::find(subject, &cells, ruler, &self.scale, self.horizon));
+            let find = || Safe::find(subject, &cells, ruler, &self.scale, self.horizon);
+            let safe = subject.own.then(|| interrupt.over(find));
             Row { subject: (*subject).clone(), cells, contacts: ruler.contacts, safe }
         };
         let rows = ruled.par_iter().enumerate().map(row).collect();
