@@ -46,6 +46,11 @@ impl Band {
     #[inline]
     pub(super) fn add_product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         let (x, out) = (&x[..self.n], &mut out[..self.n]);
+        if let [(0, own), (1, off)] = self.diagonals.as_slice()
+            && self.n > 1
+        {
+            return add_tridiagonal(scale, own, off, x, out);
+        }
         for (d, values) in &self.diagonals {
             if *d == 0 {
                 for ((y, a), x) in out.iter_mut().zip(values).zip(x) {
@@ -61,6 +66,20 @@ impl Band {
             }
         }
     }
+}
+
+/// [`Band::add_product`] for a tridiagonal matrix of n > 1 rows, in one pass over `out`: the same
+/// operations on each entry in the same order.
+#[inline]
+fn add_tridiagonal(scale: f64, own: &[f64], off: &[f64], x: &[f64], out: &mut [f64]) {
+    let n = out.len();
+    let (own, off, x) = (&own[..n], &off[..n - 1], &x[..n]);
+    out[0] = out[0] + scale * own[0] * x[0] + scale * off[0] * x[1];
+    let inside = own[1..].iter().zip(off.windows(2)).zip(x.windows(3));
+    for (y, ((own, off), x)) in out[1..].iter_mut().zip(inside) {
+        *y = *y + scale * own * x[1] + scale * off[0] * x[0] + scale * off[1] * x[2];
+    }
+    out[n - 1] = out[n - 1] + scale * own[n - 1] * x[n - 1] + scale * off[n - 2] * x[n - 2];
 }
 
 /// L D Lᵀ of a positive definite band matrix.

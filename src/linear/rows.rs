@@ -6,6 +6,8 @@ pub struct Rows {
     columns: usize,
     starts: Vec<usize>,
     entries: Vec<(usize, f64)>,
+    /// True if every row has one entry, as walls on degrees of freedom have: row i is entry i.
+    single: bool,
 }
 
 impl Rows {
@@ -17,7 +19,8 @@ impl Rows {
             entries.extend(row.iter().copied().filter(|entry| entry.0 < columns));
             starts.push(entries.len());
         }
-        Self { columns, starts, entries }
+        let single = starts.iter().enumerate().all(|(i, &start)| start == i);
+        Self { columns, starts, entries, single }
     }
 
     /// n.
@@ -46,6 +49,10 @@ impl Rows {
     #[inline]
     #[must_use]
     pub fn dot(&self, i: usize, x: &[f64]) -> f64 {
+        if self.single {
+            let value = |&(j, value): &(usize, f64)| Some(value * x.get(j)?);
+            return self.entries.get(i).and_then(value).unwrap_or(0.0);
+        }
         self.row(i).iter().map(|&(j, value)| value * x.get(j).copied().unwrap_or(0.0)).sum()
     }
 

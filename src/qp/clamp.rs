@@ -238,7 +238,8 @@ impl Clamp {
 
     pub(super) fn solve(&mut self, rhs: &Rhs, solution: &mut Solution) -> Result<(), Failure> {
         rhs.shape(1, self.rows.len())?;
-        rhs.check(self.scale)?;
+        super::finite("b", rhs.b, f64::is_finite)?;
+        rhs.check(self.scale, 0..self.rows.len())?;
         for (i, (row, &g)) in self.rows.iter_mut().zip(&self.coefficient).enumerate() {
             let (lo, hi) = meet(rhs.lo[i], rhs.hi[i]);
             (row.lo, row.hi) = if g > 0.0 {

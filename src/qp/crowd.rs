@@ -91,6 +91,7 @@ impl Crowd {
         system: &Delassus,
         pivoting: &mut Pivoting,
         rhs: &Rhs,
+        bounded: &[usize],
         scale: f64,
         r: &mut [f64],
     ) -> Result<u64, Failure> {
@@ -111,7 +112,7 @@ impl Crowd {
         } else {
             self.play.rows().for_each(|(row, side)| pivoting.call(row, side));
         }
-        Ok(pivots + pivoting.solve(system, rhs, scale, PASSES, r)?)
+        Ok(pivots + pivoting.solve(system, rhs, bounded, scale, PASSES, r)?)
     }
 
     /// Finds the rows that touch under the forces r.

@@ -95,9 +95,6 @@ impl Seen {
 pub(super) struct Delassus {
     factor: Factor,
     g: Rows,
-    /// `Some` if every row has one entry, as walls on degrees of freedom have: the column and value
-    /// of each, read without searching.
-    single: Option<Vec<(usize, f64)>>,
     /// W by rows, m of them.
     w: Runs,
     /// A⁻¹Gᵀ by columns, m of them, each a run over the n unknowns; `None` above [`MOST_COLUMNS`]
@@ -111,7 +108,8 @@ pub(super) struct Delassus {
     /// True if every row moves almost only under its own force: the rows that the free motion
     /// violates are then the rows in play.
     pub(super) loose: bool,
-    /// G x without any row, m entries.
+    /// G x without any row, m entries; those of rows without a bound are from an earlier programme,
+    /// until [`Self::complete`].
     pub(super) y: Vec<f64>,
 }
 
@@ -172,9 +170,8 @@ impl Delassus {
             let others: f64 = row.iter().enumerate().map(|(k, v)| v.abs() / weight[first + k]).sum();
             others - weight[i] <= LOOSE * weight[i]
         });
-        let single = (0..m).all(|i| g.row(i).len() == 1).then(|| (0..m).map(|i| g.row(i)[0]).collect());
         let solving = factor.work();
-        Ok(Self { factor, g, single, w, columns, solving, weight, loose, y: vec![0.0; m] })
+        Ok(Self { factor, g, w, columns, solving, weight, loose, y: vec![0.0; m] })
     }
 
     /// m.
@@ -213,30 +210,30 @@ impl Delassus {
         self.w.add(i, r, y);
     }
 
-    /// Computes the free motion under b, x and y without any force on rows. True if all of it is
-    /// finite and within bounds.
+    /// Computes the free motion under b: x, without any force on rows.
     #[inline]
-    pub(super) fn release(&mut self, rhs: &Rhs, x: &mut [f64]) -> bool {
-        x.copy_from_slice(rhs.b);
+    pub(super) fn release(&mut self, b: &[f64], x: &mut [f64]) {
+        x.copy_from_slice(b);
         self.factor.solve(x);
-        match &self.single {
-            Some(rows) => {
-                for (y, &(column, value)) in self.y.iter_mut().zip(rows) {
-                    *y = value * x[column];
-                }
-            }
-            None => self.g.product(x, &mut self.y),
-        }
-        // Without branches, so that several rows are compared at once; a NaN fails every
-        // comparison.
+    }
+
+    /// Computes y of the rows `bounded` for the free motion x. True if all of them are within their
+    /// bounds.
+    #[inline]
+    pub(super) fn is_free(&mut self, rhs: &Rhs, bounded: &[usize], x: &[f64]) -> bool {
         let mut inside = true;
-        for ((&y, &lo), &hi) in self.y.iter().zip(rhs.lo).zip(rhs.hi) {
-            inside &= (lo <= y) & (y <= hi);
-        }
-        for value in x.iter() {
-            inside &= value.abs() < f64::INFINITY;
+        for &row in bounded {
+            let y = self.g.dot(row, x);
+            self.y[row] = y;
+            // A NaN fails every comparison.
+            inside &= (rhs.lo[row] <= y) & (y <= rhs.hi[row]);
         }
         inside
+    }
+
+    /// Computes y of all rows for the free motion x.
+    pub(super) fn complete(&mut self, x: &[f64]) {
+        self.g.product(x, &mut self.y);
     }
 
     /// Turns the free motion x into x = A⁻¹(b + Gᵀ r), where r is 0 on all rows but `rows`.

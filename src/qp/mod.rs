@@ -124,13 +124,18 @@ impl Rhs<'_> {
         shape("upper bounds", m, self.hi.len())
     }
 
-    /// Checks that b is finite, l < +∞, u > −∞, and that no row's own bounds cross by more than
-    /// rounding.
-    fn check(&self, scale: f64) -> Result<(), Failure> {
-        finite("b", self.b, |v| v.is_finite())?;
-        finite("lower bound", self.lo, |v| v < f64::INFINITY)?;
-        finite("upper bound", self.hi, |v| v > f64::NEG_INFINITY)?;
-        for (row, (&lo, &hi)) in self.lo.iter().zip(self.hi).enumerate() {
+    /// Checks that l < +∞, u > −∞, and that no row's own bounds cross by more than rounding, for the
+    /// rows `bounded`.
+    fn check(&self, scale: f64, bounded: impl IntoIterator<Item = usize>) -> Result<(), Failure> {
+        for row in bounded {
+            let (lo, hi) = (self.lo[row], self.hi[row]);
+            // False for a NaN too.
+            if !(lo < f64::INFINITY) {
+                return Err(Failure::NotFinite { what: "lower bound", index: row });
+            }
+            if !(hi > f64::NEG_INFINITY) {
+                return Err(Failure::NotFinite { what: "upper bound", index: row });
+            }
             if lo > hi && lo - hi > ROUNDING * scale.max(lo.abs()).max(hi.abs()) {
                 return Err(Failure::Infeasible { row, against: row });
             }

@@ -60,6 +60,8 @@ const SMALL: f64 = 1e-6;
 /// The state of every row, kept from programme to programme.
 pub(super) struct Pivoting {
     side: Vec<Option<Side>>,
+    /// The rows with a bound in the last programme: no other is on a bound.
+    bounded: Vec<usize>,
     block: Block,
     /// y under the forces of a pass.
     y: Vec<f64>,
@@ -119,6 +121,7 @@ impl Pivoting {
         let m = system.count();
         Self {
             side: vec![None; m],
+            bounded: Vec::with_capacity(m),
             block: Block::new(system),
             y: vec![0.0; m],
             wrong: Vec::with_capacity(m),
@@ -143,10 +146,12 @@ impl Pivoting {
 
     /// Puts the rows that the free motion violates on the bounds they violate, and frees the
     /// others.
-    pub(super) fn call_violated(&mut self, system: &Delassus, rhs: &Rhs) {
-        for (((side, &y), &lo), &hi) in self.side.iter_mut().zip(&system.y).zip(rhs.lo).zip(rhs.hi) {
+    pub(super) fn call_violated(&mut self, system: &Delassus, rhs: &Rhs, bounded: &[usize]) {
+        self.bounded.drain(..).for_each(|row| self.side[row] = None);
+        for &row in bounded {
+            let y = system.y[row];
             // Looked up rather than branched on: which rows are violated cannot be predicted.
-            *side = STATES[usize::from(y < lo) + 2 * usize::from(y > hi)];
+            self.side[row] = STATES[usize::from(y < rhs.lo[row]) + 2 * usize::from(y > rhs.hi[row])];
         }
     }
 
@@ -160,29 +165,33 @@ impl Pivoting {
         self.block.rows()
     }
 
-    /// Starts from the states of the rows and ends with the exact r (m entries). Signs of gaps are
+    /// Starts from the states of the rows and ends with the exact r (m entries). `bounded` are the
+    /// rows with a bound, increasing. Signs of gaps are
     /// tested relative to `scale`, or to the row's free motion where that is larger. Returns the
     /// number of exchanges.
     pub(super) fn solve(
         &mut self,
         system: &Delassus,
         rhs: &Rhs,
+        bounded: &[usize],
         scale: f64,
         passes: usize,
         r: &mut [f64],
     ) -> Result<u64, Failure> {
-        // Each row is written, and the count moved on only if the row stays: again without a
-        // branch.
-        let mut count = 0;
-        self.next.resize(self.side.len(), 0);
-        for (row, ((side, &lo), &hi)) in self.side.iter_mut().zip(rhs.lo).zip(rhs.hi).enumerate() {
-            let bound = if *side == Some(Side::Lower) { lo } else { hi };
-            let stays = side.is_some() & bound.is_finite();
-            *side = if stays { *side } else { None };
-            self.next[count] = row;
-            count += usize::from(stays);
+        // Rows that had a bound in the last programme and have none in this one have none to stand
+        // on.
+        let stays = |row: usize, side: Side| if side == Side::Lower { rhs.lo[row] } else { rhs.hi[row] }.is_finite();
+        for row in self.bounded.drain(..) {
+            self.side[row] = self.side[row].filter(|&side| stays(row, side));
         }
-        self.next.truncate(count);
+        self.bounded.extend_from_slice(bounded);
+        self.next.clear();
+        for &row in bounded {
+            self.side[row] = self.side[row].filter(|&side| stays(row, side));
+            if self.side[row].is_some() {
+                self.next.push(row);
+            }
+        }
         r.fill(0.0);
         let (mut least, mut patience, mut pivots, mut joins) = (usize::MAX, PATIENCE, 0, 0);
         // Rounding of forces passed on between rows is allowed for only where pivoting fails
@@ -190,7 +199,7 @@ impl Pivoting {
         let (mut tolerance, mut ulps, mut circle) = (ROUNDING, 0.0, Circle::default());
         for _ in 0..passes {
             self.block.set(system, &self.next);
-            self.look(system, rhs, scale, tolerance, ulps, r);
+            self.look(system, rhs, bounded, (scale, tolerance, ulps), r);
             if self.wrong.is_empty() && joins < JOINS {
                 self.join(system, rhs, scale, tolerance, r);
                 joins += 1;
@@ -227,7 +236,14 @@ impl Pivoting {
     }
 
     /// One pass: forces r, the motion y they cause, and the rows whose state is wrong, increasing.
-    fn look(&mut self, system: &Delassus, rhs: &Rhs, scale: f64, tolerance: f64, ulps: f64, r: &mut [f64]) {
+    fn look(
+        &mut self,
+        system: &Delassus,
+        rhs: &Rhs,
+        bounded: &[usize],
+        (scale, tolerance, ulps): (f64, f64, f64),
+        r: &mut [f64],
+    ) {
         let side = &mut self.side;
         let bound = |row: usize, side: &[Option<Side>]| side[row].map_or(0.0, |side| side.bound(rhs, row));
         let length = |row: usize| scale.max(system.y[row].abs());
@@ -255,7 +271,8 @@ impl Pivoting {
             }
         }
         let pulling = self.wrong.len();
-        for (row, ((&y, &lo), &hi)) in self.y.iter().zip(rhs.lo).zip(rhs.hi).enumerate() {
+        for &row in bounded {
+            let (y, lo, hi) = (self.y[row], rhs.lo[row], rhs.hi[row]);
             if (y < lo) | (y > hi) {
                 // A force has 16 digits, so no row's motion is more accurate than ulps of the
                 // motion that the largest force causes.

@@ -21,6 +21,8 @@ pub struct Solver {
     reason: &'static str,
     solution: Solution,
     counters: SolverCounters,
+    /// The rows of the last programme that have a bound, where the caller has not listed them.
+    bounded: Vec<usize>,
 }
 
 /// What a solver has done since it was made.
@@ -140,7 +142,16 @@ impl Solver {
             }))
         };
         let solution = Solution { x: vec![0.0; n], multiplier: vec![0.0; m] };
-        Ok(Self { kind, n, m, scale, reason, solution, counters: SolverCounters::default() })
+        Ok(Self {
+            kind,
+            n,
+            m,
+            scale,
+            reason,
+            solution,
+            counters: SolverCounters::default(),
+            bounded: Vec::with_capacity(m),
+        })
     }
 
     /// The minimiser and its multipliers for b and bounds of this step. After a failure the solver
@@ -156,6 +167,23 @@ impl Solver {
     /// than rounding; [`Failure::NotSolved`] if Clarabel was requested and fails, or where no
     /// method settles.
     pub fn solve(&mut self, rhs: &Rhs) -> Result<&Solution, Failure> {
+        rhs.shape(self.n, self.m)?;
+        let mut bounded = std::mem::take(&mut self.bounded);
+        bounded.clear();
+        let is_bounded = |row: &usize| rhs.lo[*row] != f64::NEG_INFINITY || rhs.hi[*row] != f64::INFINITY;
+        bounded.extend((0..self.m).filter(is_bounded));
+        let solved = self.solve_bounded(rhs, &bounded);
+        self.bounded = bounded;
+        solved?;
+        Ok(&self.solution)
+    }
+
+    /// The same for a caller that knows which rows have a bound: `bounded`, increasing and below m;
+    /// all others have −∞ and +∞. The cost of a programme then depends on their number, not on m.
+    ///
+    /// # Errors
+    /// As [`Solver::solve`].
+    pub(crate) fn solve_bounded(&mut self, rhs: &Rhs, bounded: &[usize]) -> Result<(), Failure> {
         self.counters.solves += 1;
         match &mut self.kind {
             Kind::Clamp(clamp) => {
@@ -164,15 +192,21 @@ impl Solver {
             }
             Kind::Condensed(condensed) => {
                 rhs.shape(self.n, self.m)?;
-                if condensed.system.release(rhs, &mut self.solution.x) {
+                let Solution { x, multiplier } = &mut self.solution;
+                condensed.system.release(rhs.b, x);
+                if !x.iter().fold(true, |all, x| all & x.is_finite()) {
+                    super::finite("b", rhs.b, f64::is_finite)?;
+                    super::finite("free motion", x, f64::is_finite)?;
+                }
+                if condensed.system.is_free(rhs, bounded, x) {
                     self.counters.free += 1;
-                    self.solution.multiplier.fill(0.0);
+                    multiplier.fill(0.0);
                 } else {
-                    condensed.solve(rhs, self.scale, &mut self.solution, &mut self.counters)?;
+                    condensed.solve(rhs, bounded, self.scale, &mut self.solution, &mut self.counters)?;
                 }
             }
         }
-        Ok(&self.solution)
+        Ok(())
     }
 
     /// The last solution; meaningless before the first solve and after a failure.
@@ -216,23 +250,25 @@ impl fmt::Debug for Solver {
 }
 
 impl Condensed {
-    /// Solves for the free motion held in `system` and `solution`, which touches or violates a
-    /// bound or is not finite.
+    /// Solves for the free motion held in `system` and `solution`, which violates one of the bounds
+    /// of the rows `bounded`.
     fn solve(
         &mut self,
         rhs: &Rhs,
+        bounded: &[usize],
         scale: f64,
         solution: &mut Solution,
         counters: &mut SolverCounters,
     ) -> Result<(), Failure> {
         let Solution { x, multiplier: r } = solution;
-        rhs.check(scale)?;
-        super::finite("free motion", x, |v| v.is_finite())?;
-        super::finite("free displacement of row", &self.system.y, |v| v.is_finite())?;
+        rhs.check(scale, bounded.iter().copied())?;
+        if let Some(&index) = bounded.iter().find(|&&row| !self.system.y[row].is_finite()) {
+            return Err(Failure::NotFinite { what: "free displacement of row", index });
+        }
         let Self { system, pivoting, .. } = self;
         if !self.always {
             if system.loose {
-                pivoting.call_violated(system, rhs);
+                pivoting.call_violated(system, rhs, bounded);
             }
             if let Some(elimination) = self.elimination.as_mut().filter(|e| e.pays())
                 && let Some(pivots) = elimination.solve(system, pivoting, rhs, scale, (x, r))
@@ -241,7 +277,7 @@ impl Condensed {
                 counters.eliminated += 1;
                 return super::finite("solution", x, |v| v.is_finite());
             }
-            match pivoting.solve(system, rhs, scale, self.passes, r) {
+            match pivoting.solve(system, rhs, bounded, scale, self.passes, r) {
                 Ok(pivots) => {
                     counters.pivots += pivots;
                     if let Some(elimination) = &mut self.elimination {
@@ -253,8 +289,9 @@ impl Condensed {
                 // method fails too.
                 Err(_) if pivoting.rank() < r.len() && r.len() <= MOST_ROWS => {
                     counters.crowded += 1;
+                    system.complete(x);
                     let crowd = self.crowd.get_or_insert_with(|| Box::new(Crowd::new(system)));
-                    if let Ok(pivots) = crowd.solve(system, pivoting, rhs, scale, r) {
+                    if let Ok(pivots) = crowd.solve(system, pivoting, rhs, bounded, scale, r) {
                         counters.pivots += pivots;
                         return self.answer(rhs, solution);
                     }
@@ -263,6 +300,7 @@ impl Condensed {
                 Err(_) => counters.fallbacks += 1,
             }
         }
+        system.complete(x);
         let largest = system.y.iter().fold(scale, |most, y| f64::max(most, y.abs()));
         let violation = violation(system, rhs, NOISE * largest);
         if violation <= 0.0 {
@@ -277,7 +315,7 @@ impl Condensed {
             counters.iterations += iterations;
             self.start.clear();
             self.start.extend(pivoting.called());
-            if let Ok(pivots) = pivoting.solve(system, rhs, scale, passes(r.len()), r) {
+            if let Ok(pivots) = pivoting.solve(system, rhs, bounded, scale, passes(r.len()), r) {
                 counters.pivots += pivots;
                 return self.answer(rhs, solution);
             }
@@ -301,7 +339,7 @@ impl Condensed {
         pivoting.clear();
         play.rows().for_each(|(row, side)| pivoting.call(row, side));
         // Pivoting from this active set divides the forces among dependent rows, if it settles.
-        if pivoting.solve(system, rhs, scale, passes(r.len()), r).is_err() {
+        if pivoting.solve(system, rhs, bounded, scale, passes(r.len()), r).is_err() {
             r.copy_from_slice(&forces);
         }
         let all: Vec<usize> = (0..r.len()).collect();

@@ -98,7 +98,7 @@ impl Solve<[f64; 1]> for Clamp {
     }
 
     #[inline]
-    fn solve(&mut self, b: &[f64; 1], lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
+    fn solve(&mut self, b: &[f64; 1], (lo, hi): (&[f64], &[f64]), _: &[usize]) -> std::result::Result<(), Failure> {
         let free = b[0] * self.inverse;
         self.x[0] = free;
         // A free motion that is no number is for the state's check to refuse.
@@ -107,7 +107,7 @@ impl Solve<[f64; 1]> for Clamp {
     }
 
     #[inline]
-    fn release(&mut self, b: &[f64; 1], _: &[f64], _: &[f64]) -> std::result::Result<(), Failure> {
+    fn release(&mut self, b: &[f64; 1], _: (&[f64], &[f64])) -> std::result::Result<(), Failure> {
         self.x[0] = b[0] * self.inverse;
         self.met = false;
         Ok(())

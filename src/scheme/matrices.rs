@@ -81,13 +81,18 @@ impl Solve<Vec<f64>> for qp::Solver {
     }
 
     #[inline]
-    fn solve(&mut self, b: &Vec<f64>, lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
-        self.solve(&Rhs { b, lo, hi }).map(|_| ())
+    fn solve(
+        &mut self,
+        b: &Vec<f64>,
+        (lo, hi): (&[f64], &[f64]),
+        bounded: &[usize],
+    ) -> std::result::Result<(), Failure> {
+        self.solve_bounded(&Rhs { b, lo, hi }, bounded)
     }
 
     #[inline]
-    fn release(&mut self, b: &Vec<f64>, lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
-        self.solve(&Rhs { b, lo, hi }).map(|_| ())
+    fn release(&mut self, b: &Vec<f64>, (lo, hi): (&[f64], &[f64])) -> std::result::Result<(), Failure> {
+        self.solve_bounded(&Rhs { b, lo, hi }, &[])
     }
 
     #[inline]

@@ -242,7 +242,7 @@ impl<S: Space> Programme<S> {
     /// The same where no row has a bound.
     #[inline]
     pub fn release(&mut self, b: &S::Vector, (time, step): (f64, u64)) -> Result<()> {
-        let released = self.solver.release(b, &self.lo, &self.hi);
+        let released = self.solver.release(b, (&self.lo, &self.hi));
         released.map_err(|fault| self.refusal(&fault, time, step))
     }
 
@@ -255,11 +255,15 @@ impl<S: Space> Programme<S> {
         force: &mut [f64],
         pushing: &mut Vec<usize>,
     ) -> Result<()> {
-        if let Err(fault) = self.solver.solve(b, &self.lo, &self.hi) {
+        if !self.bounded.is_sorted() {
+            self.bounded.sort_unstable();
+        }
+        if let Err(fault) = self.solver.solve(b, (&self.lo, &self.hi), &self.bounded) {
             return Err(self.refusal(&fault, time, step));
         }
         let Some(multiplier) = self.solver.multiplier() else { return Ok(()) };
-        for (row, &r) in multiplier.iter().enumerate() {
+        for &row in &self.bounded {
+            let r = multiplier[row];
             if r == 0.0 {
                 continue;
             }

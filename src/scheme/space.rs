@@ -53,10 +53,10 @@ pub(super) trait Space: Debug + Sized + 'static {
 pub(super) trait Solve<Vector>: Debug + Sized + Send {
     /// As [`qp::Solver::new`].
     fn new(problem: Problem, backend: Backend, scale: f64) -> std::result::Result<Self, Failure>;
-    /// As [`qp::Solver::solve`].
-    fn solve(&mut self, b: &Vector, lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure>;
-    /// The same where no row has a bound, which are `lo` and `hi`.
-    fn release(&mut self, b: &Vector, lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure>;
+    /// As [`qp::Solver::solve`]. Only the rows `bounded`, increasing, have a bound.
+    fn solve(&mut self, b: &Vector, bounds: (&[f64], &[f64]), bounded: &[usize]) -> std::result::Result<(), Failure>;
+    /// The same where no row has a bound.
+    fn release(&mut self, b: &Vector, bounds: (&[f64], &[f64])) -> std::result::Result<(), Failure>;
     /// The minimiser last found.
     fn x(&self) -> &Vector;
     /// Its multipliers; none where every row keeps its bounds by itself.
