@@ -196,10 +196,12 @@ impl Figure {
         }
         let marks = self.panels.iter().flat_map(|p| &p.marks).filter(|m| m.upright).map(|m| m.value);
         let forward = self.x_scale == Scale::Linear && self.panels.iter().all(Panel::goes_forward);
-        let share = match forward {
-            true if self.panels.iter().all(|p| p.stems.is_empty()) => 0.0,
-            true => 0.01,
-            false => 0.05,
+        let share = if !forward {
+            0.05
+        } else if self.panels.iter().any(|p| !p.stems.is_empty()) {
+            0.01
+        } else {
+            0.0
         };
         let extent = include_marks(extent, marks, self.x_scale).padded(share, self.x_scale);
         Axis::across(self.x_scale, extent, width)

@@ -13,11 +13,14 @@ pub(super) type Spot = Option<(f64, f64)>;
 /// repeat earlier ones.
 pub(super) fn thin(spots: &[Spot], budget: usize) -> Vec<Vec<(f64, f64)>> {
     let drawn = spots.iter().flatten().count();
-    match never_goes_back(spots) {
-        true if drawn > budget => columns(spots, budget / 4),
+    let forward = never_goes_back(spots);
+    if forward && drawn > budget {
+        columns(spots, budget / 4)
+    } else if !forward && drawn > budget.min(1000) {
         // An orbit drawn many times over fills the gaps of its own dashes.
-        false if drawn > budget.min(1000) => strokes(spots, budget),
-        _ => runs(spots.iter().copied()),
+        strokes(spots, budget)
+    } else {
+        runs(spots.iter().copied())
     }
 }
 

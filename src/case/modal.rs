@@ -185,8 +185,5 @@ fn points(name: &str, text: &str, k: usize) -> Result<Vec<ModalPoint>> {
         }
         points.push(ModalPoint { name: point, shape });
     }
-    match points.is_empty() {
-        true => Err(source.error(text.len()..text.len(), "no points", SHAPES)),
-        false => Ok(points),
-    }
+    if points.is_empty() { Err(source.error(text.len()..text.len(), "no points", SHAPES)) } else { Ok(points) }
 }

@@ -30,19 +30,18 @@ impl TableColumns {
     /// Description of such a file, for messages.
     pub(super) fn expected(&self) -> String {
         let Self { time, force, .. } = self;
-        match self.is_plain() {
-            true => format!(
+        if self.is_plain() {
+            format!(
                 "expected a header with the columns {time},{force}, and below it rows of finite numbers; \
                  time = \"..\", force = \"..\", delimiter = \";\" and decimal = \",\" beside file read other tables"
-            ),
-            false => {
-                let Self { delimiter, decimal, .. } = self;
-                format!(
-                    "expected a header with the columns {time:?} and {force:?}, and below it rows of finite \
+            )
+        } else {
+            let Self { delimiter, decimal, .. } = self;
+            format!(
+                "expected a header with the columns {time:?} and {force:?}, and below it rows of finite \
                      numbers, with {delimiter:?} \
                      between columns and {decimal:?} as decimal sign"
-                )
-            }
+            )
         }
     }
 
@@ -158,10 +157,12 @@ impl Reader<'_> {
         let written = field.trim();
         let comma = self.columns.decimal == ',';
         // With a decimal comma, a point would separate thousands: it is refused, not guessed.
-        let x = match comma {
-            true if written.contains('.') => None,
-            true => written.replacen(',', ".", 1).parse::<f64>().ok(),
-            false => written.parse::<f64>().ok(),
+        let x = if !comma {
+            written.parse::<f64>().ok()
+        } else if written.contains('.') {
+            None
+        } else {
+            written.replacen(',', ".", 1).parse::<f64>().ok()
         };
         match x.filter(|x| x.is_finite()) {
             Some(x) => Ok(x),

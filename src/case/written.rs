@@ -71,9 +71,10 @@ impl Case {
 impl FileRead {
     /// The file of that name, found at `path`.
     pub(super) fn new(file: &str, path: &str, text: &str) -> Self {
-        let path = match std::path::Path::new(path).exists() {
-            true => std::path::absolute(path).map_or_else(|_| path.to_owned(), |path| path.display().to_string()),
-            false => path.to_owned(),
+        let path = if std::path::Path::new(path).exists() {
+            std::path::absolute(path).map_or_else(|_| path.to_owned(), |path| path.display().to_string())
+        } else {
+            path.to_owned()
         };
         Self { file: file.to_owned(), path, bytes: text.len(), sha256: sha256(text.as_bytes()) }
     }

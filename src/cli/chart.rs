@@ -163,9 +163,10 @@ impl Args {
             let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
             (steps.coarsest, steps.finest) = (Some(number(coarse)?), Some(number(fine)?));
         }
-        match self.longest.is_finite() && self.longest > 0.0 {
-            true => Ok(Effort { steps, repeats: self.repeats, most_seconds: self.longest }),
-            false => Err(Error::invalid("--longest", self.longest, "a finite number above 0")),
+        if self.longest.is_finite() && self.longest > 0.0 {
+            Ok(Effort { steps, repeats: self.repeats, most_seconds: self.longest })
+        } else {
+            Err(Error::invalid("--longest", self.longest, "a finite number above 0"))
         }
     }
 }

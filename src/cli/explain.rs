@@ -155,9 +155,10 @@ fn setup(case: &Case, choice: &Choice) -> Vec<String> {
 
 /// The duration of a run in words, estimated from a short piece of it.
 fn duration(estimate: &Estimate) -> String {
-    match estimate.seconds.is_finite() {
-        true => format!("about {} of stepping", words(estimate.seconds)),
-        false => "no end in sight".to_owned(),
+    if estimate.seconds.is_finite() {
+        format!("about {} of stepping", words(estimate.seconds))
+    } else {
+        "no end in sight".to_owned()
     }
 }
 

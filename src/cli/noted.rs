@@ -17,9 +17,8 @@ pub(super) fn of_rows(comparison: &Comparison) -> Vec<String> {
             }
         }
     }
-    let said = |(note, methods): (&str, Vec<String>)| match methods.len() == count {
-        true => note.to_owned(),
-        false => format!("{}: {note}", methods.join(", ")),
+    let said = |(note, methods): (&str, Vec<String>)| {
+        if methods.len() == count { note.to_owned() } else { format!("{}: {note}", methods.join(", ")) }
     };
     notes.into_iter().map(said).collect()
 }

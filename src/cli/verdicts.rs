@@ -42,8 +42,9 @@ pub(super) fn line(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Str
             None => format!("{scheme} was not checked"),
         });
     }
-    match parts.is_empty() {
-        true => "the exact scheme has no step".into(),
-        false => format!("half the step changes: {}", parts.join("; ")),
+    if parts.is_empty() {
+        "the exact scheme has no step".into()
+    } else {
+        format!("half the step changes: {}", parts.join("; "))
     }
 }

@@ -62,6 +62,8 @@ pub enum Error {
         wall: Option<String>,
         /// What failed.
         reason: String,
+        /// The solver's error, when it gave one: a [`crate::qp::Failure`].
+        cause: Option<Cause>,
     },
     /// Newton's method did not converge within a step.
     Newton {
@@ -151,6 +153,16 @@ impl Error {
         Self::Io { path: path.to_string(), reason: reason.into(), request, cause: None }
     }
 
+    /// An [`Error::Qp`]: the programme of the step that starts at `time` (s) was not solved, and
+    /// `failure` says why.
+    pub(crate) fn qp(
+        (time, step): (f64, u64),
+        wall: Option<String>,
+        failure: impl std::error::Error + Send + Sync + 'static,
+    ) -> Self {
+        Self::Qp { time, step, wall, reason: failure.to_string(), cause: Some(Cause::new(failure)) }
+    }
+
     /// The same error with its cause, for variants that have one.
     pub(crate) fn caused_by(mut self, error: impl std::error::Error + Send + Sync + 'static) -> Self {
         if let Self::Case { cause, .. } | Self::Io { cause, .. } = &mut self {
@@ -198,7 +210,7 @@ impl fmt::Display for Error {
             }
             Self::Case { report, .. } => f.write_str(report),
             Self::Io { path, reason, .. } => write!(f, "{path}: {reason}"),
-            Self::Qp { time, step, wall, reason } => {
+            Self::Qp { time, step, wall, reason, .. } => {
                 write!(f, "the QP of step {step} at t = {time} s was not solved")?;
                 if let Some(wall) = wall {
                     write!(f, " (wall {wall:?})")?;
@@ -249,7 +261,9 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
-            Self::Case { cause, .. } | Self::Io { cause, .. } => cause.as_ref().map(Cause::error),
+            Self::Case { cause, .. } | Self::Io { cause, .. } | Self::Qp { cause, .. } => {
+                cause.as_ref().map(Cause::error)
+            }
             _ => None,
         }
     }

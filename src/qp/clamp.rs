@@ -135,10 +135,15 @@ fn yield_to(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> f64 {
         if a * (place - free) <= pull { left = f64::max(left, place) } else { right = f64::min(right, place) }
     }
     // Between them a row acts if its bound lies at or beyond the far end; δ = x − b/a.
-    let bound = |row: &ScalarRow| match row.compliance > 0.0 {
-        true if row.lo >= right => Some(row.lo),
-        true if row.hi <= left => Some(row.hi),
-        _ => None,
+    let bound = |row: &ScalarRow| {
+        let elastic = row.compliance > 0.0;
+        if elastic && row.lo >= right {
+            Some(row.lo)
+        } else if elastic && row.hi <= left {
+            Some(row.hi)
+        } else {
+            None
+        }
     };
     let (mut pull, mut slope, mut stiffest) = (0.0, a, None);
     for (i, row) in rows.iter().enumerate() {
@@ -199,10 +204,13 @@ fn unsound(rows: &[ScalarRow]) -> Failure {
 impl ScalarRow {
     /// Force of an elastic row at x.
     fn elastic(&self, x: f64) -> f64 {
-        match self.compliance > 0.0 {
-            true if x < self.lo => (self.lo - x) / self.compliance,
-            true if x > self.hi => (self.hi - x) / self.compliance,
-            _ => 0.0,
+        let elastic = self.compliance > 0.0;
+        if elastic && x < self.lo {
+            (self.lo - x) / self.compliance
+        } else if elastic && x > self.hi {
+            (self.hi - x) / self.compliance
+        } else {
+            0.0
         }
     }
 }

@@ -242,12 +242,12 @@ impl Elimination {
             let wanted = match state {
                 Some(side) => {
                     let force = self.force(row, rhs);
-                    match side.sign() * force < 0.0 {
-                        // Both bounds coincide: a force of either sign is allowed.
-                        true if lo >= hi => Some(if force > 0.0 { Side::Lower } else { Side::Upper }),
-                        true => None,
-                        false => continue,
+                    let pulls = side.sign() * force < 0.0;
+                    if !pulls {
+                        continue;
                     }
+                    // Where both bounds coincide, a force of either sign is allowed.
+                    (lo >= hi).then_some(if force > 0.0 { Side::Lower } else { Side::Upper })
                 }
                 None => {
                     let (column, g, _) = self.rows[row];

@@ -102,9 +102,10 @@ impl Relations {
                 let mut sum = dot(&other[..common], &self.weighed[..common]);
                 sum -= dot(&gram[start..start + j], &gram[at..at + j]);
                 // D of the row itself is a lower bound of the pivot.
-                gram.push(match i == j {
-                    true => (sum.max(0.0) + system.square(self.rows[i])).sqrt(),
-                    false => sum / gram[start + j],
+                gram.push(if i == j {
+                    (sum.max(0.0) + system.square(self.rows[i])).sqrt()
+                } else {
+                    sum / gram[start + j]
                 });
             }
         }

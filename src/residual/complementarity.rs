@@ -124,10 +124,13 @@ pub(super) fn expected_pressure(
     pressure.max(0.0)
 }
 
-/// ΔU/Δs, the mean of |r|(s) over depths from `s0` to `s1`: ΔU/Δs, by Simpson's rule, which is
+/// The mean of |r|(s) over depths from `s0` to `s1`, which is ΔU/Δs: by Simpson's rule, which is
 /// exact for these polynomials.
 fn mean_pressure(law: &WallLaw, s0: f64, s1: f64) -> f64 {
     let (a, b) = (s0.max(0.0), s1.max(0.0));
+    if a == 0.0 && b == 0.0 {
+        return 0.0;
+    }
     let p = |s: f64| law.pressure(s, 0.0);
     let mean = (p(a) + 4.0 * p(0.5 * (a + b)) + p(b)) / 6.0;
     // Both depths are ≥ 0: the whole way is inside the wall.
@@ -187,6 +190,33 @@ mod tests {
                 let most = (count as f64 / gap).min(count as f64 / force);
                 assert!(least <= found && found <= most, "{count}, {gap}, {force}: {least} <= {found} <= {most}");
             }
+        }
+    }
+
+    #[test]
+    fn the_mean_pressure_of_a_spring_is_its_energy_over_the_depth() {
+        let spring = WallLaw::Elastic { stiffness: 8.0, damping: 0.0 };
+        // Outside the wall, also at rest there, where ΔU/Δs is 0/0; half inside; all inside; at
+        // rest inside, where the mean is the pressure. All values are exact in binary.
+        for (s0, s1, mean) in [
+            (-1.0, -2.0, 0.0),
+            (-1.0, -1.0, 0.0),
+            (-1.0, 0.0, 0.0),
+            (0.0, 0.0, 0.0),
+            (-1.0, 1.0, 0.5 * 8.0 / 2.0),
+            (1.0, -3.0, 0.5 * 8.0 / 4.0),
+            (1.0, 2.0, 0.5 * 8.0 * (4.0 - 1.0)),
+            (2.0, 2.0, 8.0 * 2.0),
+        ] {
+            // Simpson's sum divides by 6: one rounding, and one more of the division by Δs.
+            let found = mean_pressure(&spring, s0, s1);
+            assert!((found - mean).abs() <= 2.0 * f64::EPSILON * mean, "{s0}, {s1}: {found}, expected {mean}");
+        }
+        let quartic = WallLaw::Quartic { epsilon: 2.0, span: 1.0 };
+        for (s0, s1) in [(-1.0, 1.0), (0.5, 2.0), (3.0, -0.25)] {
+            let mean = (quartic.energy(s1) - quartic.energy(s0)) / (s1 - s0);
+            let found = mean_pressure(&quartic, s0, s1);
+            assert!((found - mean).abs() <= 8.0 * f64::EPSILON * mean, "{s0}, {s1}: {found}, expected {mean}");
         }
     }
 

@@ -154,10 +154,10 @@ impl Judge {
             if !reached {
                 self.law_error = self.law_error.max(pressure.abs());
             }
-            match reached {
-                _ if edge => {}
-                true => self.doubt_rebound(index, slack, step, pressure),
-                false => self.doubt_law(index, pressure.abs(), 0.0),
+            if !edge && reached {
+                self.doubt_rebound(index, slack, step, pressure);
+            } else if !edge {
+                self.doubt_law(index, pressure.abs(), 0.0);
             }
         }
         reached && promise.velocity == Some(Reached::Closed)

@@ -68,9 +68,12 @@ impl PenaltyLaw {
     /// # Errors
     /// [`Error::Invalid`] naming `epsilon`, `stiffness` or `damping`.
     pub fn validate(&self, walls: &[Wall]) -> Result<()> {
-        let positive = |key: &'static str, x: f64| match x.is_finite() && x > 0.0 {
-            true => Ok(()),
-            false => Err(Error::invalid(key, format_args!("{x:?}"), "a finite number above 0")),
+        let positive = |key: &'static str, x: f64| {
+            if x.is_finite() && x > 0.0 {
+                Ok(())
+            } else {
+                Err(Error::invalid(key, format_args!("{x:?}"), "a finite number above 0"))
+            }
         };
         let key = match *self {
             Self::Quartic { epsilon } => positive("epsilon", epsilon).map(|()| "epsilon")?,

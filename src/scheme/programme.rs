@@ -323,5 +323,21 @@ impl<S: Space> Programme<S> {
 }
 
 fn failure(failure: &Failure, wall: Option<String>, time: f64, step: u64) -> Error {
-    Error::Qp { time, step, wall, reason: failure.to_string() }
+    Error::qp((time, step), wall, *failure)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::error::Error as _;
+
+    #[test]
+    fn the_error_of_a_step_has_the_failure_of_the_solver_as_its_source() {
+        let infeasible = Failure::Infeasible { row: 1, against: 0 };
+        let error = failure(&infeasible, Some("stop".into()), 0.5, 12);
+        assert_eq!(error.source().and_then(|source| source.downcast_ref()), Some(&infeasible));
+        let text = error.to_string();
+        assert!(text.contains("step 12") && text.contains("t = 0.5 s") && text.contains("\"stop\""), "{text}");
+        assert!(text.ends_with(&infeasible.to_string()), "{text}");
+    }
 }

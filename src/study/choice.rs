@@ -47,9 +47,10 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         Ok(run) => run,
         Err(error) => {
             let restitution_0 = |w: &Wall| w.law == WallLaw::Rigid { restitution: 0.0 };
-            let (scheme, why) = match scene.walls.iter().all(restitution_0) {
-                true => (Scheme::PaoliSchatzman, "with e = 0 at every wall paoli-schatzman is of order 2"),
-                false => (Scheme::MoreauJean { theta: 0.5 }, "the constrained QP honours every wall's restitution"),
+            let (scheme, why) = if scene.walls.iter().all(restitution_0) {
+                (Scheme::PaoliSchatzman, "with e = 0 at every wall paoli-schatzman is of order 2")
+            } else {
+                (Scheme::MoreauJean { theta: 0.5 }, "the constrained QP honours every wall's restitution")
             };
             return Choice {
                 method: Method::new(scheme),
@@ -151,15 +152,15 @@ fn damping(system: &System, structure: &Structure) -> String {
     if widths == [0; 3] {
         return "classical damping: the coordinates are uncoupled".into();
     }
-    match structure.is_classically_damped() {
-        true => "classical damping: the modes are uncoupled".into(),
-        false if structure.mass.size() > MOST_DENSE => {
-            format!(
-                "damping not known to be classical: beyond {MOST_DENSE} degrees of freedom Rayleigh's alone is \
-                 recognised"
-            )
-        }
-        false => "damping that couples the modes".into(),
+    if structure.is_classically_damped() {
+        "classical damping: the modes are uncoupled".into()
+    } else if structure.mass.size() > MOST_DENSE {
+        format!(
+            "damping not known to be classical: beyond {MOST_DENSE} degrees of freedom Rayleigh's alone is \
+             recognised"
+        )
+    } else {
+        "damping that couples the modes".into()
     }
 }
 

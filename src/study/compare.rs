@@ -312,8 +312,9 @@ fn clarabel_difference(scene: &Scene, comparison: &Comparison) -> Option<String>
 /// The first failure among the rows, if every method failed.
 pub fn any_succeeded(comparison: &Comparison) -> Result<()> {
     let mut failures = comparison.rows.iter().map(|row| row.outcome.as_ref().err());
-    match failures.clone().all(|failure| failure.is_some()) {
-        true => failures.find_map(|failure| failure).map_or(Ok(()), |error: &Error| Err(error.clone())),
-        false => Ok(()),
+    if failures.clone().all(|failure| failure.is_some()) {
+        failures.find_map(|failure| failure).map_or(Ok(()), |error: &Error| Err(error.clone()))
+    } else {
+        Ok(())
     }
 }

@@ -158,9 +158,10 @@ impl fmt::Display for Verdict {
         for wall in self.foremost() {
             write!(f, "; wall {:?}: impulse {}", wall.wall, relative(wall.impulse_n_s))?;
             let [before, after] = wall.contacts;
-            match before == after {
-                true => write!(f, ", {before} contacts as before")?,
-                false => write!(f, ", contacts {before} → {after}")?,
+            if before == after {
+                write!(f, ", {before} contacts as before")?
+            } else {
+                write!(f, ", contacts {before} → {after}")?
             }
             if let [Some(before), Some(after)] = wall.peak_force_n {
                 write!(f, ", peak force {}", relative([before, after]))?;

@@ -188,10 +188,8 @@ impl Ledger {
             let rate = 0.5 * (wall.at.dot(before) + wall.at.dot(after));
             let (w0, w1) = (wall.at.dot(q0), wall.at.dot(q1));
             let touches = p != 0.0;
-            let now = match staggered {
-                true => half(wall, w0, h * wall.at.dot(after), touches),
-                false => stored(wall, w1, touches),
-            };
+            let now =
+                if staggered { half(wall, w0, h * wall.at.dot(after), touches) } else { stored(wall, w1, touches) };
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);
             if let WallLaw::Elastic { damping, .. } = wall.law

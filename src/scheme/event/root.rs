@@ -96,10 +96,12 @@ impl Below {
             return None;
         }
         let lowest = s - rate / curve;
-        Some(match self.passes_touch {
-            false if lowest < window => Step::Touch(lowest),
-            false => Step::Free(window),
-            true => Step::Free((s + past).min(window)),
+        Some(if self.passes_touch {
+            Step::Free((s + past).min(window))
+        } else if lowest < window {
+            Step::Touch(lowest)
+        } else {
+            Step::Free(window)
         })
     }
 

@@ -179,12 +179,12 @@ impl StructureEvent {
         match solver.solve(&Rhs { b: &self.rhs, lo: &self.lo, hi: &self.hi }) {
             Ok(_) => Ok(true),
             Err(Failure::Infeasible { .. } | Failure::NotSolved { .. }) => Ok(false),
-            Err(fault) => Err(Error::Qp { time, step, wall: None, reason: fault.to_string() }),
+            Err(failure) => Err(Error::qp((time, step), None, failure)),
         }
     }
 
     pub(super) fn unsolved(&self, reason: &str) -> Error {
-        Error::Qp { time: self.time, step: self.steps, wall: None, reason: reason.to_owned() }
+        Error::Qp { time: self.time, step: self.steps, wall: None, reason: reason.to_owned(), cause: None }
     }
 
     /// Sets the restitution to 0 in the closed rows whose flight after the impact is the tail of an

@@ -202,8 +202,8 @@ mod tests {
     }
 
     #[test]
-    fn the_second_of_two_dips_is_found() {
-        // cos 2x + 0.3, whose first root is ½ arccos(−0.3).
+    fn the_first_root_and_the_lowest_value_of_a_cosine_are_found_to_rounding() {
+        // The series of cos 2x + 0.3: its root is ½ arccos(−0.3), and on [0, 1] it falls throughout.
         let mut c = [0.0; TERMS];
         let mut term = 1.0;
         for (k, c) in c.iter_mut().enumerate() {
@@ -216,5 +216,16 @@ mod tests {
         let x = first_root(&c, 1.0).unwrap();
         assert!((x - 0.5 * (-0.3_f64).acos()).abs() < 1e-15, "{x}");
         assert!((highest(&c, -1.0, 1.0) - (-0.3 - 2.0_f64.cos())).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_root_behind_a_dip_that_misses_is_found() {
+        // ((x − 0.2)² + 1e-3)(0.7 − x): the dip at 0.2 stays above 0, the only root is 0.7.
+        let (d, e) = (0.2_f64.powi(2) + 1e-3, 0.7);
+        let c = [d * e, -d - 0.4 * e, e + 0.4, -1.0];
+        let x = first_root(&c, 1.0).unwrap();
+        // Rounding of the coefficients (≤ 1.1) over the slope at the root, 0.251.
+        assert!((x - e).abs() <= 8.0 * f64::EPSILON * 1.1 / 0.251, "{x}");
+        assert_eq!(first_root(&c, 0.69), None);
     }
 }

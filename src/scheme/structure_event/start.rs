@@ -94,8 +94,8 @@ impl StructureEvent {
         let (mass, rows) = (self.scene.system.structure().mass.clone(), &self.body.rows);
         let problem = qp::Problem { a: mass, g: rows.clone(), compliance: vec![0.0; rows.count()] };
         let (time, step) = (self.time, self.steps);
-        let refused = |f: qp::Failure| Error::Qp { time, step, wall: None, reason: f.to_string() };
-        self.solver = Some(qp::Solver::new(problem, Backend::Condensed, SCALE).map_err(refused)?);
+        let solver = qp::Solver::new(problem, Backend::Condensed, SCALE);
+        self.solver = Some(solver.map_err(|failure| Error::qp((time, step), None, failure))?);
         Ok(())
     }
 

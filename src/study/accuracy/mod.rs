@@ -122,10 +122,7 @@ fn finish(
         short.then_some(Error::Unpredictable { tolerance: target.tolerance, reached, horizon, end: scene.duration })
     };
     let run = if until_s < scene.duration {
-        let time = match stepping {
-            true => judged.coarse.options(refined.level, &target.time),
-            false => target.time,
-        };
+        let time = if stepping { judged.coarse.options(refined.level, &target.time) } else { target.time };
         let options = Options::new(time);
         run_with_progress(scene, &method, &options, progress)?
     } else {

@@ -87,9 +87,10 @@ impl Yardstick {
         };
         let names = || self.scene.walls.iter().map(|w| w.name.as_str());
         let total: f64 = names().map(|name| of(&self.trajectory, name).abs()).sum();
-        match total > 0.0 {
-            true => names().map(|name| (of(run, name) - of(&self.trajectory, name)).abs() / total).collect(),
-            false => Vec::new(),
+        if total > 0.0 {
+            names().map(|name| (of(run, name) - of(&self.trajectory, name)).abs() / total).collect()
+        } else {
+            Vec::new()
         }
     }
 
