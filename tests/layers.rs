@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms from the ground up: each may import those before it.
-const ROOMS: [&str; 20] = [
+const ROOMS: [&str; 21] = [
     "error",
     "interrupt",
     "linear",
@@ -12,6 +12,7 @@ const ROOMS: [&str; 20] = [
     "qp",
     "flow",
     "step",
+    "variation",
     "contact",
     "trajectory",
     "time",
@@ -28,11 +29,12 @@ const ROOMS: [&str; 20] = [
 ];
 
 /// Pairs of rooms that must not import each other although the order would allow it.
-const STRANGERS: [(&str, &str); 7] = [
+const STRANGERS: [(&str, &str); 8] = [
     ("qp", "scene"),
     ("residual", "qp"),
     ("residual", "scheme"),
     ("flow", "qp"),
+    ("variation", "qp"),
     ("study", "case"),
     ("study", "output"),
     ("sweep", "qp"),

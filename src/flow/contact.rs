@@ -33,6 +33,11 @@ impl Arc {
         if touches { self.force_at(wall, t, self.state(t)) } else { 0.0 }
     }
 
+    /// True if the elastic wall `wall` touches during the arc.
+    pub(crate) fn touches_wall(&self, wall: usize) -> bool {
+        self.touching.iter().any(|touch| touch.wall == wall)
+    }
+
     /// As [`Arc::contact_force`], where the state (m, m/s) at `t` is known already.
     pub(crate) fn force_at(&self, wall: usize, t: f64, (q, v): (f64, f64)) -> f64 {
         if let Some(support) = self.support.filter(|s| s.wall == wall) {

@@ -5,11 +5,13 @@ mod contact;
 mod divided;
 mod elementary;
 mod force;
+mod propagator;
 mod response;
 mod roots;
 mod series;
 
 pub(crate) use contact::{Support, Touch};
+pub(crate) use propagator::{Propagator, held};
 pub(crate) use response::Jet;
 pub use series::Series;
 pub(crate) use series::{Held, Hold, SeriesBody, Start as SeriesStart, TERMS, Touching, value};

@@ -222,7 +222,9 @@ impl Hold {
         self.change(body, v, scratch, |_| 0.0);
     }
 
-    fn change(&self, body: &SeriesBody, x: &mut [f64], scratch: &mut [f64], wanted: impl Fn(&Held) -> f64) {
+    /// Changes `x` by the least change in the metric of M after which each held row sees what is
+    /// `wanted` of it.
+    pub fn change(&self, body: &SeriesBody, x: &mut [f64], scratch: &mut [f64], wanted: impl Fn(&Held) -> f64) {
         for _ in 0..self.passes {
             for (b, held) in scratch.iter_mut().zip(self.independent()) {
                 *b = wanted(held) - body.rows.dot(held.row, x);

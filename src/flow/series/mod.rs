@@ -117,6 +117,18 @@ impl Series {
         v.iter_mut().for_each(|v| *v *= inverse);
     }
 
+    /// Acceleration (m/s²) at the end, from the left, into a slice of n entries.
+    pub(crate) fn acceleration_at_end(&self, out: &mut [f64]) {
+        let (x, inverse) = (self.span(), 1.0 / (self.unit * self.unit));
+        out.fill(0.0);
+        for k in (2..self.terms).rev() {
+            let factor = (k * (k - 1)) as f64 * inverse;
+            for (out, a) in out.iter_mut().zip(self.term(k)) {
+                *out = *out * x + factor * a;
+            }
+        }
+    }
+
     /// Force of wall `wall` on the structure at `t`, N, signed: 0 if it does not act.
     #[must_use]
     pub fn contact_force(&self, wall: usize, t: f64) -> f64 {
@@ -145,6 +157,12 @@ impl Series {
     /// Walls that act, each with the force polynomial in x of its row and its share of it.
     pub(crate) fn acting(&self) -> impl Iterator<Item = (usize, &[f64], f64)> {
         self.acting.iter().map(|a| (a.wall, self.force(a.slot), a.share))
+    }
+
+    /// Walls that act, each with whether it is one that holds a row; the others are elastic walls
+    /// that touch.
+    pub(crate) fn acting_walls(&self) -> impl Iterator<Item = (usize, bool)> {
+        self.acting.iter().map(|a| (a.wall, a.sign.is_some()))
     }
 
     /// The force polynomial of held row number `held`, N: positive where lower walls push.

@@ -1,0 +1,184 @@
+//! Lyapunov exponents.
+
+use super::no_derivative::NoDerivative;
+use super::product::Variation;
+use crate::error::{Error, Result};
+use crate::scene::{LoadKind, Scene};
+use crate::step::Step;
+use std::f64::consts::TAU;
+
+/// Number of blocks into which the window is divided for the standard error.
+const BLOCKS: usize = 40;
+
+/// What is left of a change below this share of it is the rounding error of making it orthogonal to
+/// others.
+const NOTHING: f64 = 1e-14;
+
+/// A Lyapunov exponent over a window.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exponent {
+    /// Mean growth of a change of the start, 1/s: ln|δ(end)|/|δ(begin)| over the length. −∞ where
+    /// nothing is left of it.
+    pub per_s: f64,
+    /// Standard error of that mean, 1/s, from blocks of the window: s/√40 with s the standard
+    /// deviation of their means. `None` for a window with steps in fewer than two blocks, and for
+    /// −∞, which is exact.
+    pub error_per_s: Option<f64>,
+}
+
+/// The largest Lyapunov exponents of a run of the scheme `event`, over a window [from, to].
+///
+/// As many changes of the start as exponents are asked for are carried along ([`Variation`]). After
+/// each step they are made orthogonal and scaled to size 1 (Benettin et al. 1980,
+/// doi:10.1007/BF02128236); the mean of the logarithms of the factors are the exponents, the
+/// largest first. Before the window the changes turn into the directions that grow most. The size
+/// is √(|δq|² + |δq̇/ω|²) with ω the fastest circular frequency of structure and loads; of a long
+/// window the exponents do not depend on it.
+///
+/// For one degree of freedom with rigid walls flows shrink areas by exp(−c t/m), and impacts by e².
+/// So the two exponents add up to −c/m + 2 Σ ν ln e, with ν the impacts per second on each wall. A
+/// run that rests on a wall forgets its start, and has −∞. On a periodic motion the running mean
+/// swings about ln|μ|/T, with μ a Floquet multiplier and T the period, by less and less as 1/t.
+#[derive(Debug)]
+pub struct Exponents {
+    variation: Variation,
+    /// The changes, orthogonal and of size 1: δq and δq̇/ω.
+    changes: Vec<f64>,
+    /// The number of exponents.
+    count: usize,
+    omega: f64,
+    window: [f64; 2],
+    blocks: Vec<Block>,
+    /// Factors of the last step.
+    factors: Vec<f64>,
+}
+
+/// What has been seen of one block.
+#[derive(Debug, Clone)]
+struct Block {
+    /// s.
+    length: f64,
+    /// Sum of the logarithms of each change.
+    logs: Vec<f64>,
+}
+
+impl Exponents {
+    /// The `count` largest exponents of runs of `scene`, from the time `from` (s) to `to` (s).
+    ///
+    /// # Errors
+    /// As [`Scene::validate`]; [`Error::Invalid`] for no exponents, more than 2n of them, or a
+    /// window without length.
+    pub fn new(scene: &Scene, count: usize, [from, to]: [f64; 2]) -> Result<Self> {
+        let variation = Variation::new(scene)?;
+        let size = 2 * variation.degrees_of_freedom();
+        if count == 0 || count > size {
+            return Err(Error::invalid("exponents", count, format!("from 1 to {size}, two per degree of freedom")));
+        }
+        if !(from.is_finite() && to.is_finite() && from < to) {
+            return Err(Error::invalid("window", format_args!("from {from:?} to {to:?}"), "two times, s, in order"));
+        }
+        let fastest = scene.loads.iter().filter_map(|load| match load.kind {
+            LoadKind::Harmonic { frequency, .. } => Some(TAU * frequency),
+            _ => None,
+        });
+        let own = scene.system.frequencies()[1];
+        let omega = Some(fastest.fold(own, f64::max)).filter(|omega| *omega > 0.0).unwrap_or(1.0 / (to - from));
+        // Directions with a part in every one of the state, independent of one another.
+        let mut changes: Vec<f64> =
+            (0..size * count).map(|i| (1.0 + 0.618_033_988_75 * i as f64).fract() - 0.3).collect();
+        let mut factors = vec![1.0; count];
+        orthogonalise(&mut changes, size, &mut factors);
+        Ok(Self {
+            variation,
+            changes,
+            count,
+            omega,
+            window: [from, to],
+            blocks: vec![Block { length: 0.0, logs: vec![0.0; count] }; BLOCKS],
+            factors,
+        })
+    }
+
+    /// Goes on over `step`. Steps that begin before the window turn the changes only; those that
+    /// begin after its end are left out.
+    ///
+    /// # Errors
+    /// [`NoDerivative`]; the exponents mean nothing from then on.
+    pub fn see(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
+        let [from, to] = self.window;
+        if step.start >= to {
+            return Ok(());
+        }
+        let (size, omega) = (2 * self.variation.degrees_of_freedom(), self.omega);
+        let scale = |changes: &mut [f64], by: f64| {
+            for change in changes.chunks_exact_mut(size) {
+                change[size / 2..].iter_mut().for_each(|v| *v *= by);
+            }
+        };
+        scale(&mut self.changes, omega);
+        self.variation.carry(step, &mut self.changes)?;
+        scale(&mut self.changes, 1.0 / omega);
+        orthogonalise(&mut self.changes, size, &mut self.factors);
+        if step.start >= from {
+            let share = (step.start - from) / (to - from);
+            let block = ((share * BLOCKS as f64) as usize).min(BLOCKS - 1);
+            if let Some(block) = self.blocks.get_mut(block) {
+                block.length += step.end - step.start;
+                block.logs.iter_mut().zip(&self.factors).for_each(|(sum, factor)| *sum += factor.ln());
+            }
+        }
+        Ok(())
+    }
+
+    /// The largest exponent.
+    #[must_use]
+    pub fn largest(&self) -> Exponent {
+        self.exponent(0)
+    }
+
+    /// All that were asked for, the largest first.
+    #[must_use]
+    pub fn all(&self) -> Vec<Exponent> {
+        (0..self.count).map(|which| self.exponent(which)).collect()
+    }
+
+    fn exponent(&self, which: usize) -> Exponent {
+        let log = |block: &Block| block.logs.get(which).copied().unwrap_or(0.0);
+        let (sum, length) = self.blocks.iter().fold((0.0, 0.0), |(s, l), b| (s + log(b), l + b.length));
+        let per_s = if sum == f64::NEG_INFINITY { sum } else { sum / length };
+        let seen: Vec<&Block> = self.blocks.iter().filter(|block| block.length > 0.0).collect();
+        let error = |count: f64| {
+            // Blocks are of nearly equal length: their ends are ends of steps.
+            let square = |block: &&Block| (block.length / length * count * (log(block) / block.length - per_s)).powi(2);
+            (seen.iter().map(square).sum::<f64>() / (count - 1.0) / count).sqrt()
+        };
+        Exponent { per_s, error_per_s: (seen.len() > 1 && per_s.is_finite()).then(|| error(seen.len() as f64)) }
+    }
+}
+
+/// Makes changes of `size` entries each orthogonal to those before them, and scales them to 1 by
+/// `factors`: the diagonal of R in a QR decomposition. A change of which nothing but rounding is left
+/// becomes 0, and stays it.
+fn orthogonalise(changes: &mut [f64], size: usize, factors: &mut [f64]) {
+    for (k, factor) in factors.iter_mut().enumerate() {
+        let (before, rest) = changes.split_at_mut(k * size);
+        let change = &mut rest[..size];
+        let norm = |change: &[f64]| change.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let least = NOTHING * norm(change);
+        // Twice, since the first pass leaves rounding of the parts that it takes away.
+        for _ in 0..2 {
+            for other in before.chunks_exact(size) {
+                let along: f64 = other.iter().zip(&*change).map(|(a, b)| a * b).sum();
+                change.iter_mut().zip(other).for_each(|(c, o)| *c -= along * o);
+            }
+        }
+        let left = norm(change);
+        if left > least {
+            change.iter_mut().for_each(|x| *x /= left);
+            *factor = left;
+        } else {
+            change.fill(0.0);
+            *factor = 0.0;
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Saltation matrices of several degrees of freedom, without writing them out.
+//!
+//! Rows J receive an impulse at an instant: rows i that were in flight, struck at the speed vᵢ with
+//! restitution eᵢ (0 where they come to rest), and rows held before, which only pass it on. With
+//! D = M⁻¹Gᵀ(G M⁻¹Gᵀ)⁻¹ over J and dᵢ its columns,
+//!
+//! δq⁺ = δq − Σ (1 + eᵢ) dᵢ Gᵢδq,   δq̇⁺ = δq̇ − D (1 + e) G δq̇ + Σ wᵢ Gᵢδq,
+//!
+//! where wᵢ = (a⁺ − R a⁻)/vᵢ. With the accelerations put in, and Q the projection onto what the rows
+//! held after the instant leave free,
+//!
+//! wᵢ = (1 + eᵢ) dᵢ Gᵢa⁻/vᵢ − Q M⁻¹Gₕᵀ rₕ/vᵢ + Q M⁻¹((1 + eᵢ) C dᵢ + Gₐᵀ Δrₐ/vᵢ).
+//!
+//! The first term is left out for a row that comes to rest (Q takes it away). In the second, rₕ are
+//! the reactions of rows that the impact lets go. In the last, Δrₐ is what the jump of the velocity
+//! adds to the force of an elastic wall: (1 + eᵢ) c_a Gₐdᵢ vᵢ while it pushes. So the matrix of
+//! coming to rest has no speed in it, and that of an impact acts on a change by a few products of
+//! vectors.
+
+use crate::flow::{Hold, Propagator, held};
+
+/// A row struck in flight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Struck {
+    pub row: usize,
+    /// e, 0 where the row comes to rest.
+    pub restitution: f64,
+    /// v = G q̇⁻, m/s, signed.
+    pub speed: f64,
+    /// G a⁻/v, 1/s; 0 where the row comes to rest.
+    pub pull: f64,
+}
+
+/// The saltation matrix of one instant.
+#[derive(Debug)]
+pub(super) struct Jump {
+    struck: Vec<Struck>,
+    /// The rows J.
+    rows: Hold,
+    /// (1 + eᵢ) dᵢ and wᵢ of each struck row, n entries each.
+    shifts: Vec<f64>,
+    kicks: Vec<f64>,
+    /// What a row sees of a change, and what it is to see of the velocity afterwards.
+    seen: Vec<f64>,
+    wanted: Vec<f64>,
+    zero: Vec<f64>,
+    work: Vec<f64>,
+}
+
+/// Two rows feel each other if an impulse on one moves the other by more than this share of itself.
+const APART: f64 = 1e-12;
+
+impl Jump {
+    /// With room for a structure of `n` degrees of freedom and `rows` rows.
+    pub fn with_room(n: usize, rows: usize) -> Self {
+        Self {
+            struck: Vec::with_capacity(rows),
+            rows: Hold::with_room(rows),
+            shifts: Vec::with_capacity(n),
+            kicks: Vec::with_capacity(n),
+            seen: vec![0.0; rows],
+            wanted: vec![0.0; rows],
+            zero: vec![0.0; n],
+            work: vec![0.0; n],
+        }
+    }
+
+    /// Begins the matrix of an instant at which the rows of `struck` are struck and the rows
+    /// `passing` pass impulses on.
+    pub fn begin(&mut self, flow: &mut Propagator, struck: &[Struck], passing: impl Iterator<Item = usize> + Clone) {
+        self.struck.clear();
+        self.struck.extend_from_slice(struck);
+        let Self { struck, rows, shifts, work, .. } = self;
+        rows.set(&flow.body, struck.iter().map(|s| s.row).chain(passing).map(held), std::iter::empty());
+        shifts.clear();
+        for s in &*struck {
+            work.fill(0.0);
+            rows.change(&flow.body, work, &mut flow.scratch, |held| if held.row == s.row { 1.0 } else { 0.0 });
+            shifts.extend(work.iter().map(|d| (1.0 + s.restitution) * d));
+        }
+    }
+
+    /// True if two of the struck rows feel each other: an impulse on one moves the other, or changes
+    /// the drag on it.
+    pub fn is_coupled(&mut self, flow: &Propagator) -> bool {
+        let Self { struck, rows, zero, work, .. } = self;
+        if struck.len() > 1 && rows.rows().len() > struck.len() {
+            return true;
+        }
+        let body = &flow.body;
+        let mut drag = |of: usize, on: usize| {
+            let mut y = vec![0.0; zero.len()];
+            body.add_column(of, 1.0, &mut y);
+            work.fill(0.0);
+            body.add_force(zero, &y, work);
+            body.answer(on, work)
+        };
+        let mut feels = |i: usize, j: usize| {
+            let large = |a: f64, b: f64| APART * (a * b).abs().sqrt();
+            body.delassus(i, j).abs() > large(body.delassus(i, i), body.delassus(j, j))
+                || drag(i, j).abs() > large(drag(i, i), drag(j, j))
+        };
+        (1..struck.len()).any(|k| (0..k).any(|j| feels(struck[k].row, struck[j].row)))
+    }
+
+    /// Computes the wᵢ. `after` are the rows held after the instant; `push` adds Gₐᵀ Δrₐ/vᵢ − Gₕᵀ
+    /// rₕ/vᵢ of a struck row to a force, given its (1 + eᵢ) dᵢ.
+    pub fn kick(
+        &mut self,
+        flow: &mut Propagator,
+        after: &Hold,
+        mut push: impl FnMut(&Propagator, &Struck, &[f64], &mut [f64]),
+    ) {
+        let Self { struck, shifts, kicks, zero, work, .. } = self;
+        kicks.clear();
+        for (s, shift) in struck.iter().zip(shifts.chunks_exact(zero.len())) {
+            work.fill(0.0);
+            flow.body.add_force(zero, shift, work);
+            // That was −C (1 + e) d.
+            work.iter_mut().for_each(|f| *f = -*f);
+            push(flow, s, shift, work);
+            flow.body.solve(work);
+            after.stop(&flow.body, work, &mut flow.scratch);
+            work.iter_mut().zip(shift).for_each(|(w, d)| *w += s.pull * d);
+            kicks.extend_from_slice(work);
+        }
+    }
+
+    /// Applies the matrix to each of `columns`, changes of 2n entries.
+    pub fn apply_to(&mut self, flow: &mut Propagator, columns: &mut [f64]) {
+        let n = self.zero.len();
+        for change in columns.chunks_exact_mut(2 * n) {
+            let (q, v) = change.split_at_mut(n);
+            self.apply(flow, q, v);
+        }
+    }
+
+    fn apply(&mut self, flow: &mut Propagator, q: &mut [f64], v: &mut [f64]) {
+        let Self { struck, rows, shifts, kicks, seen, wanted, .. } = self;
+        let n = q.len();
+        for s in &*struck {
+            seen[s.row] = flow.body.rows.dot(s.row, q);
+            wanted[s.row] = -s.restitution * flow.body.rows.dot(s.row, v);
+        }
+        let restituted = |row: usize| struck.iter().any(|s| s.row == row);
+        rows.change(&flow.body, v, &mut flow.scratch, |h| if restituted(h.row) { wanted[h.row] } else { 0.0 });
+        for (s, (shift, kick)) in struck.iter().zip(shifts.chunks_exact(n).zip(kicks.chunks_exact(n))) {
+            let by = seen[s.row];
+            q.iter_mut().zip(shift).for_each(|(q, d)| *q -= by * d);
+            v.iter_mut().zip(kick).for_each(|(v, w)| *v += by * w);
+        }
+    }
+}

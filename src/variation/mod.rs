@@ -1,0 +1,51 @@
+//! The derivative of a motion with respect to its start, along an exact run.
+//!
+//! A change δx = (δq, δq̇) of the start is carried along by the flow between events, δẋ = A δx, and
+//! at an event by a saltation matrix S ([`saltation`]), since a changed motion meets the wall at
+//! another instant. The derivative of the state at the end with respect to that at the start is the
+//! product of them all (Leine & Nijmeijer 2004, doi:10.1007/978-3-540-44398-8, ch. 7). It is exact:
+//! nothing is differenced, and an error of the run is the only one.
+//!
+//! | type | what it holds |
+//! |---|---|
+//! | [`OscillatorVariation`] | the 2 × 2 matrix of each step of one degree of freedom |
+//! | [`Variation`] | carries any number of columns δx over the steps, for any number of degrees of freedom |
+//! | [`Product`] | the matrix of a whole run: over a period, its eigenvalues are the Floquet multipliers |
+//! | [`Exponents`] | Lyapunov exponents over a window, with their standard error |
+//!
+//! All of them watch the [`Step`](crate::Step)s of the scheme `event`. Where the derivative does not
+//! exist, or is not known, they say so by [`NoDerivative`], and give no number.
+//!
+//! ```
+//! use signorini::variation::Product;
+//! use signorini::{Load, Scene, Scheme, Stepper, Wall};
+//!
+//! let scene = Scene::oscillator(1.0, 0.2, 100.0)
+//!     .with_wall(Wall::upper("upper", 5e-3).with_restitution(0.8))
+//!     .with_load(Load::harmonic(3.0, 5.0, 0.0));
+//! let mut stepper = Stepper::new(&scene, &Scheme::Event, 1.0)?;
+//! let (mut product, mut impacts) = (Product::new(&scene)?, 0);
+//! while stepper.time() < 1.0 {
+//!     let step = stepper.step()?;
+//!     impacts += i32::from(step.jump[0] != 0.0);
+//!     product.see(&step)?;
+//! }
+//! // Flows shrink areas by exp(−c t/m), impacts by e².
+//! let area = product.matrix().determinant();
+//! let expected = (-0.2_f64).exp() * 0.64_f64.powi(impacts);
+//! assert!((area / expected - 1.0).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod exponents;
+mod jump;
+mod no_derivative;
+mod oscillator;
+mod product;
+pub mod saltation;
+mod structure;
+
+pub use exponents::{Exponent, Exponents};
+pub use no_derivative::NoDerivative;
+pub use oscillator::OscillatorVariation;
+pub use product::{Product, Variation};
