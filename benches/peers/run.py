@@ -17,7 +17,7 @@ from pathlib import Path
 
 import scene as scenes
 
-PEERS = ("scipy", "cvode", "mujoco", "opensees", "siconos")
+PEERS = ("scipy", "cvode", "cvode_c", "diffrax", "mujoco", "opensees", "siconos")
 COLUMNS = ("program", "method", "setting", "error_over_gap", "seconds", "remark")
 HERE = Path(__file__).absolute().parent
 LONGEST = 5.0  # s; a run longer than this is not repeated
