@@ -30,6 +30,7 @@ pub mod flow;
 mod interrupt;
 pub mod linear;
 mod notes;
+pub mod orbit;
 // What the tool leaves behind, for its benchmarks and tests.
 #[cfg(feature = "cli")]
 #[doc(hidden)]

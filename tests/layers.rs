@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms from the ground up: each may import those before it.
-const ROOMS: [&str; 21] = [
+const ROOMS: &[&str] = &[
     "error",
     "interrupt",
     "linear",
@@ -21,6 +21,7 @@ const ROOMS: [&str; 21] = [
     "scheme",
     "batch",
     "run",
+    "orbit",
     "study",
     "case",
     "output",
@@ -29,7 +30,7 @@ const ROOMS: [&str; 21] = [
 ];
 
 /// Pairs of rooms that must not import each other although the order would allow it.
-const STRANGERS: [(&str, &str); 8] = [
+const STRANGERS: &[(&str, &str)] = &[
     ("qp", "scene"),
     ("residual", "qp"),
     ("residual", "scheme"),
@@ -38,6 +39,7 @@ const STRANGERS: [(&str, &str); 8] = [
     ("study", "case"),
     ("study", "output"),
     ("sweep", "qp"),
+    ("orbit", "case"),
 ];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -126,6 +126,11 @@ pub enum Error {
         /// The runs, each with its findings.
         runs: Vec<String>,
     },
+    /// A periodic orbit was looked for and not found, or a branch of orbits could not be followed.
+    NoOrbit {
+        /// Why.
+        reason: String,
+    },
     /// The motion is predictable for a shorter time than the run lasts.
     Unpredictable {
         /// The error asked for.
@@ -161,6 +166,11 @@ impl Error {
         failure: impl std::error::Error + Send + Sync + 'static,
     ) -> Self {
         Self::Qp { time, step, wall, reason: failure.to_string(), cause: Some(Cause::new(failure)) }
+    }
+
+    /// An [`Error::NoOrbit`].
+    pub(crate) fn no_orbit(reason: impl Into<String>) -> Self {
+        Self::NoOrbit { reason: reason.into() }
     }
 
     /// The same error with its cause, for variants that have one.
@@ -243,6 +253,7 @@ impl fmt::Display for Error {
             ),
             Self::Stopped => f.write_str("stopped before its end, as asked"),
             Self::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),
+            Self::NoOrbit { reason } => write!(f, "no periodic orbit: {reason}"),
             Self::Truncated { tolerance, reached, quantity, modes } => write!(
                 f,
                 "a truncation within {tolerance:e} was not reached: going to {modes} modes still changed \

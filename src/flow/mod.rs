@@ -292,6 +292,11 @@ impl Arc {
         !self.touching.is_empty()
     }
 
+    /// The elastic walls that touch, by their index in the scene.
+    pub(crate) fn touching(&self) -> impl Iterator<Item = usize> + '_ {
+        self.touching.iter().map(|wall| wall.wall)
+    }
+
     /// An interval that the motion does not leave during the arc, m.
     pub(crate) fn extent(&self) -> [f64; 2] {
         self.response.extent

@@ -1,0 +1,130 @@
+//! Whether a body can follow an orbit: it passes through no wall, and walls only push.
+
+use super::extremes::extremes;
+use super::periodic::Orbit;
+use super::problem::Problem;
+use super::signature::Kind;
+use crate::error::Result;
+use crate::flow::Arc;
+
+/// Where the motion between events comes nearest to a wall that it does not meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// The gap there, m; below 0 where the motion passes through the wall.
+    pub gap: f64,
+    /// Index of the wall in the scene.
+    pub wall: usize,
+    /// The event after which it happens.
+    pub flight: usize,
+    /// When, in cycles of the forcing period from t = 0.
+    pub phase: f64,
+}
+
+/// What separates an orbit from one that no body can follow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Admissible {
+    /// The least number of an event (of a release there is none), m/s; infinite without events.
+    pub least_speed: f64,
+    /// The nearest approach to a wall inside a flight; `None` where no flight has an extreme.
+    pub nearest: Option<Nearest>,
+    /// The least force with which a wall carries a body at rest, N; infinite without a rest. It is 0
+    /// at the release itself, which is left out.
+    pub least_push: f64,
+    /// The largest |displacement|, m; of accumulating impacts only the first counts.
+    pub largest: f64,
+}
+
+impl Admissible {
+    /// True if a body can follow the orbit.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.least_speed > 0.0 && self.least_push > 0.0 && self.nearest.is_none_or(|nearest| nearest.gap > 0.0)
+    }
+
+    /// Why no body can follow the orbit; `None` if one can. `walls` are the names.
+    #[must_use]
+    pub fn reason(&self, scene: &crate::scene::Scene) -> Option<String> {
+        if self.least_speed <= 0.0 {
+            return Some(format!("an event has the speed {:.3e} m/s, out of its wall", self.least_speed));
+        }
+        if self.least_push <= 0.0 {
+            return Some(format!("a wall pulls the body at rest with {:.3e} N", -self.least_push));
+        }
+        let nearest = self.nearest.filter(|nearest| nearest.gap <= 0.0)?;
+        let wall = scene.walls.get(nearest.wall).map_or("", |wall| wall.name.as_str());
+        Some(format!("the motion passes {:.3e} m through wall {wall:?} at {:.6} cycles", -nearest.gap, nearest.phase))
+    }
+}
+
+impl Problem {
+    /// Whether a body can follow `orbit`: speeds towards the walls, no wall passed inside a flight
+    /// (from the exact extremes), and a wall that carries the body pushes all the time.
+    ///
+    /// # Errors
+    /// As [`Problem::correct`] for an orbit that does not belong to this problem.
+    pub fn admissible(&self, orbit: &Orbit) -> Result<Admissible> {
+        self.check(orbit)?;
+        let signature = &orbit.signature;
+        let mut arc = self.arc();
+        let mut found =
+            Admissible { least_speed: f64::INFINITY, nearest: None, least_push: f64::INFINITY, largest: 0.0 };
+        if signature.events.is_empty() {
+            let cycles = signature.cycles();
+            self.fly(&mut arc, self.quiet()?, [0.0, cycles * self.forcing_period()], &[], None);
+            self.near(&arc, 0, 0.0, &mut found);
+            return Ok(found);
+        }
+        let touching = self.touching(signature);
+        for (index, event) in signature.events.iter().enumerate() {
+            let Some(stop) = self.stop(event.wall) else { continue };
+            if event.kind != Kind::Release {
+                found.least_speed = found.least_speed.min(orbit.speeds[index]);
+            }
+            let from = stop.after(event.kind, orbit.speeds[index]);
+            found.largest = found.largest.max(from.state[0].abs());
+            let until = match orbit.phases.get(index + 1) {
+                Some(phase) => *phase,
+                None => orbit.phases[0] + signature.cycles(),
+            };
+            let start = orbit.phases[index] * self.forcing_period();
+            let span = until * self.forcing_period() - start;
+            match event.kind {
+                // What accumulates is run by the exact scheme, which looks for itself.
+                Kind::Chatter => {}
+                Kind::Rest => {
+                    self.fly(&mut arc, from.state, [start, span], &touching[index], Some(event.wall));
+                    found.least_push = found.least_push.min(self.pushes(&arc, event.wall, span));
+                }
+                _ => {
+                    self.fly(&mut arc, from.state, [start, span], &touching[index], None);
+                    self.near(&arc, index, orbit.phases[index], &mut found);
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    fn near(&self, arc: &Arc, flight: usize, phase: f64, found: &mut Admissible) {
+        extremes(arc, arc.end() - arc.start(), |tau, q| {
+            found.largest = found.largest.max(q.abs());
+            for (wall, stop) in self.stops().iter().enumerate() {
+                if arc.touching().any(|touching| touching == wall) {
+                    continue;
+                }
+                let gap = stop.gap(q);
+                if found.nearest.is_none_or(|nearest| gap < nearest.gap) {
+                    let phase = phase + tau / self.forcing_period();
+                    found.nearest = Some(Nearest { gap, wall, flight, phase });
+                }
+            }
+        });
+    }
+
+    /// The least force of `wall` on the body that rests on it over `span` (s), less its end; N.
+    fn pushes(&self, arc: &Arc, wall: usize, span: f64) -> f64 {
+        const SAMPLES: u32 = 64;
+        let at = |i: u32| arc.start() + span * f64::from(i) / f64::from(SAMPLES);
+        let push = |t: f64| -self.stop(wall).map_or(0.0, |stop| stop.toward) * arc.contact_force(wall, t);
+        (0..SAMPLES).map(at).map(push).fold(f64::INFINITY, f64::min)
+    }
+}

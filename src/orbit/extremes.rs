@@ -1,0 +1,88 @@
+//! The extremes of the displacement inside a flight: roots of the velocity, not samples.
+
+use crate::flow::Arc;
+
+/// Length of a window of the search, over the shortest period of motion and load, over 2π.
+const WINDOW: f64 = 0.25;
+
+/// Most windows of one flight.
+const MOST_WINDOWS: f64 = 1e5;
+
+/// Where the search begins after a start with velocity 0, in windows.
+const SOON: f64 = 1e-2;
+
+/// Halvings and secant steps that locate a root.
+const STEPS: usize = 80;
+
+/// Calls `see` with the time since the start (s) and the displacement (m) of each extreme of `arc`
+/// strictly inside its `span` (s), in order.
+///
+/// The velocity is a sum of exponentials and sines; in a window of a quarter of the shortest
+/// period over 2π it has more than one root only if the acceleration has one there too, at which it
+/// is then looked at.
+pub(super) fn extremes(arc: &Arc, span: f64, mut see: impl FnMut(f64, f64)) {
+    let fastest = arc.fastest_motion();
+    let windows = (span * fastest / WINDOW).ceil().clamp(4.0, MOST_WINDOWS);
+    let width = span / windows;
+    let value = |tau: f64, order: usize| arc.jet(tau)[order];
+    // A velocity of 0 at the start is no extreme inside: what follows soon decides the sign.
+    let first = arc.start_jet();
+    let mut before = (0.0, first[1], first[2]);
+    if first[1] == 0.0 {
+        let soon = SOON * width;
+        let jet = arc.jet(soon);
+        before = (soon, jet[1], jet[2]);
+    }
+    for index in 1..=windows as u64 {
+        let tau = if index == windows as u64 { span } else { width * index as f64 };
+        let jet = arc.jet(tau);
+        let after = (tau, jet[1], jet[2]);
+        let mut root = |from: f64, to: f64| {
+            let tau = bisect(|tau| value(tau, 1), from, to);
+            if tau > 0.0 && tau < span {
+                see(tau, value(tau, 0));
+            }
+        };
+        if before.1 * after.1 < 0.0 || (before.1.signum() != after.1.signum() && after.1 != 0.0) {
+            root(before.0, after.0);
+        } else if before.2 * after.2 < 0.0 {
+            let turn = bisect(|tau| value(tau, 2), before.0, after.0);
+            if value(turn, 1) * after.1 < 0.0 {
+                root(before.0, turn);
+                root(turn, after.0);
+            }
+        }
+        before = after;
+    }
+}
+
+/// A root of `f` between `from` and `to`, where its signs differ, to the last digits: the secant
+/// where it stays inside and converges, else halves (the Illinois method).
+pub(super) fn bisect(f: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
+    let (mut a, mut b) = (from, to);
+    let (mut fa, mut fb) = (f(a), f(b));
+    for _ in 0..STEPS {
+        let mut c = b - fb * (b - a) / (fb - fa);
+        let inside = c.is_finite() && (c - a) * (c - b) < 0.0;
+        if !inside {
+            c = 0.5 * (a + b);
+        }
+        if c == a || c == b {
+            break;
+        }
+        let fc = f(c);
+        if fc == 0.0 {
+            return c;
+        }
+        if fc * fb < 0.0 {
+            (a, fa) = (b, fb);
+        } else {
+            fa *= 0.5;
+        }
+        (b, fb) = (c, fc);
+        if (b - a).abs() <= 2.0 * f64::EPSILON * b.abs() {
+            break;
+        }
+    }
+    b
+}

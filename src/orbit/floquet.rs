@@ -1,0 +1,127 @@
+//! Floquet multipliers: how a small change of an orbit has grown one period later.
+
+use super::periodic::Orbit;
+use super::problem::{Problem, StopLaw};
+use super::signature::Kind;
+use crate::error::Result;
+
+/// The Floquet multipliers of an orbit of one degree of freedom.
+///
+/// The derivative of the state one period later with respect to the state now is the product of the
+/// propagators Φ of the flights and of the saltation matrices S of the events (Leine & Nijmeijer
+/// 2004, doi:10.1007/978-3-540-44398-8), in the order in which they happen; the multipliers are its
+/// eigenvalues. For an impact at velocity q̇ with accelerations a⁻ before and a⁺ after it,
+///
+/// S = [[−e, 0], [(a⁺ + e a⁻)/q̇, −e]],
+///
+/// which grows without bound towards a grazing impact. A rest forgets everything: S = 0. The product
+/// of all is e₁² e₂² … exp(−cT/m).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Floquet {
+    /// Both multipliers over the period of the orbit, real and imaginary part, the larger first.
+    pub multipliers: [[f64; 2]; 2],
+    /// For a symmetric orbit the multipliers of its half map (half an orbit and the mirror), whose
+    /// squares `multipliers` are.
+    pub half: Option<[[f64; 2]; 2]>,
+    /// Trace of the derivative, that of the half map for a symmetric orbit.
+    pub trace: f64,
+    /// Its determinant.
+    pub determinant: f64,
+}
+
+impl Floquet {
+    /// True if both multipliers lie inside the unit circle: what runs settle on.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
+    }
+
+    /// Of a derivative of that trace and determinant, over half an orbit or a whole one.
+    fn new(trace: f64, determinant: f64, half: bool) -> Self {
+        let own = eigenvalues(trace, determinant);
+        let square = |[re, im]: [f64; 2]| [re * re - im * im, 2.0 * re * im];
+        if half {
+            Self { multipliers: own.map(square), half: Some(own), trace, determinant }
+        } else {
+            Self { multipliers: own, half: None, trace, determinant }
+        }
+    }
+}
+
+/// Both roots of μ² − trace μ + determinant, without cancellation in the smaller.
+fn eigenvalues(trace: f64, determinant: f64) -> [[f64; 2]; 2] {
+    let mean = 0.5 * trace;
+    let square = mean * mean - determinant;
+    if square < 0.0 {
+        let imaginary = (-square).sqrt();
+        return [[mean, imaginary], [mean, -imaginary]];
+    }
+    let large = mean + square.sqrt().copysign(mean);
+    let small = if large == 0.0 { 0.0 } else { determinant / large };
+    [[large, 0.0], [small, 0.0]]
+}
+
+type Matrix = [[f64; 2]; 2];
+
+fn product(a: Matrix, b: Matrix) -> Matrix {
+    let entry = |i: usize, j: usize| a[i][0] * b[0][j] + a[i][1] * b[1][j];
+    [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
+}
+
+impl Problem {
+    /// The Floquet multipliers of `orbit`. At an impact of speed 0 they are infinite.
+    ///
+    /// # Errors
+    /// As [`Problem::correct`] for an orbit that does not belong to this problem.
+    pub fn floquet(&self, orbit: &Orbit) -> Result<Floquet> {
+        self.check(orbit)?;
+        let signature = &orbit.signature;
+        let sign = if signature.symmetric { -1.0 } else { 1.0 };
+        let mut arc = self.arc();
+        if signature.events.is_empty() {
+            self.fly(&mut arc, [0.0; 2], [0.0, signature.cycles() * self.forcing_period()], &[], None);
+            let [[a, b], [c, d]] = arc.propagator();
+            return Ok(Floquet::new(sign * (a + d), a * d - b * c, signature.symmetric));
+        }
+        if signature.rests() {
+            return Ok(Floquet::new(0.0, 0.0, signature.symmetric));
+        }
+        let touching = self.touching(signature);
+        let count = signature.events.len();
+        // The accelerations at both ends of each flight, and its propagator.
+        let mut flights = Vec::with_capacity(count);
+        for (index, event) in signature.events.iter().enumerate() {
+            let Some(stop) = self.stop(event.wall) else { continue };
+            let from = stop.after(event.kind, orbit.speeds[index]);
+            let until = match orbit.phases.get(index + 1) {
+                Some(phase) => *phase,
+                None => orbit.phases[0] + signature.cycles(),
+            };
+            let start = orbit.phases[index] * self.forcing_period();
+            let span = until * self.forcing_period() - start;
+            self.fly(&mut arc, from.state, [start, span], &touching[index], None);
+            flights.push((arc.start_jet()[2], arc.jet(span)[2], arc.propagator()));
+        }
+        let mut whole = [[1.0, 0.0], [0.0, 1.0]];
+        let mut determinant = 1.0;
+        for (index, event) in signature.events.iter().enumerate() {
+            let (Some(stop), Some((after, _, phi))) = (self.stop(event.wall), flights.get(index)) else { continue };
+            let before = match index {
+                0 => flights.last().map_or(0.0, |flight| sign * flight.1),
+                _ => flights[index - 1].1,
+            };
+            let saltation = match (event.kind, stop.law) {
+                (Kind::Impact, StopLaw::Rigid(e)) => {
+                    let velocity = stop.toward * orbit.speeds[index];
+                    [[-e, 0.0], [(after + e * before) / velocity, -e]]
+                }
+                (Kind::Enter, StopLaw::Elastic { damping, .. }) => [[1.0, 0.0], [-damping / self.body().mass, 1.0]],
+                _ => [[1.0, 0.0], [0.0, 1.0]],
+            };
+            let size = |m: &Matrix| m[0][0] * m[1][1] - m[0][1] * m[1][0];
+            determinant *= size(&saltation) * size(phi);
+            whole = product(*phi, product(saltation, whole));
+        }
+        Ok(Floquet::new(sign * (whole[0][0] + whole[1][1]), determinant, signature.symmetric))
+    }
+}

@@ -1,0 +1,186 @@
+//! The free exact run over one orbit: does it come back, through the same events?
+
+use super::periodic::Orbit;
+use super::problem::{Problem, StopLaw};
+use super::signature::Kind;
+use super::watch::Watch;
+use crate::error::{Error, Result};
+use crate::scene::State;
+use crate::scheme::{Scheme, Stepper};
+use crate::step::Path;
+
+/// How near the free run must come back, in gaps, and gaps times the forcing's Ω …
+const CLOSES: f64 = 1e-10;
+
+/// … or, for an orbit whose multipliers amplify rounding, within this many units in the last place
+/// times the largest of them.
+const UNITS: f64 = 1e3;
+
+/// One wall over one period of an orbit.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct WallShare {
+    /// Contact episodes that ended.
+    pub contacts: u64,
+    /// Impulse on the body, N s, signed as the force.
+    pub impulse: f64,
+    /// The largest finite |force|, N; 0 where there were impacts only.
+    pub peak_force: f64,
+    /// The largest speed at which the wall was met, m/s.
+    pub approach_speed: f64,
+}
+
+/// An instant of an orbit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instant {
+    /// s, from the start of the forcing's period 0.
+    pub time: f64,
+    /// m.
+    pub displacement: f64,
+    /// m/s.
+    pub velocity: f64,
+    /// Force of each wall on the body, N, in the scene's order; impacts have none.
+    pub forces: Vec<f64>,
+}
+
+/// What the free run over one period of an orbit showed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// How far it ended from where it began: the larger of displacement in gaps and velocity in gaps
+    /// times the forcing's Ω.
+    pub closure: f64,
+    /// What that may be: 1e-10, or what the orbit's multipliers make of rounding.
+    pub tolerance: f64,
+    /// True if the run went through the events of the orbit, in order, and no other.
+    pub same_events: bool,
+    /// The walls, in the scene's order.
+    pub walls: Vec<WallShare>,
+    /// The motion, in order of time; both sides of each impact.
+    pub motion: Vec<Instant>,
+}
+
+impl Judged {
+    /// True if the free run is the orbit.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.same_events && self.closure <= self.tolerance
+    }
+}
+
+impl Problem {
+    /// Runs the body freely over one period of `orbit`, by the exact scheme, from a state on it
+    /// between two events; `points` instants of the motion are kept beside the events.
+    ///
+    /// # Errors
+    /// Those of a run; [`Error::NoOrbit`] for an orbit without a stretch of free flight.
+    pub fn judge(&self, orbit: &Orbit, points: u32) -> Result<Judged> {
+        self.check(orbit)?;
+        let whole = orbit.unfolded(self.mirror());
+        let [length, speed] = self.scales();
+        let (start, state) = self.midway(&whole)?;
+        let end = start + whole.period();
+        let mut scene = self.scene().clone();
+        scene.duration = end + whole.period();
+        let mut stepper = Stepper::new(&scene, &Scheme::Event, 2.0 * end)?;
+        stepper.set_state(start, &State { q: vec![state[0]], v: vec![state[1]] })?;
+        let mut watch = Watch::new(self);
+        let mut walls = vec![WallShare::default(); self.stops().len()];
+        let mut motion = Vec::new();
+        let spacing = whole.period() / f64::from(points.max(1));
+        let mut closure = f64::INFINITY;
+        while closure.is_infinite() {
+            let step = stepper.step()?;
+            let Path::Exact(arc) = step.path else { continue };
+            watch.see(&step);
+            let last = step.end >= end;
+            let until = if last { end } else { step.end };
+            let instants = ((until - arc.start()) / spacing).ceil().max(1.0);
+            for index in 0..=instants as u64 {
+                let time = if index == instants as u64 { until } else { arc.start() + spacing * index as f64 };
+                let (displacement, velocity) = arc.state(time);
+                let forces: Vec<f64> = (0..walls.len()).map(|wall| arc.contact_force(wall, time)).collect();
+                for (share, force) in walls.iter_mut().zip(&forces) {
+                    share.peak_force = share.peak_force.max(force.abs());
+                }
+                motion.push(Instant { time, displacement, velocity, forces });
+            }
+            for (index, share) in walls.iter_mut().enumerate() {
+                let jump = if last { 0.0 } else { step.jump.get(index).copied().unwrap_or(0.0) };
+                share.impulse += jump + arc.contact_impulse(index, arc.start(), until);
+            }
+            for contact in step.closed.iter().filter(|_| !last) {
+                if let Some(share) = walls.get_mut(contact.wall) {
+                    share.contacts += 1;
+                    share.approach_speed = share.approach_speed.max(contact.approach_speed);
+                }
+            }
+            if last {
+                let (q, v) = arc.state(end);
+                closure = ((q - state[0]).abs() / length).max((v - state[1]).abs() / speed);
+            }
+        }
+        let end_phase = end / self.forcing_period();
+        let seen: Vec<_> = watch.passages.iter().filter(|passage| passage.phase < end_phase).collect();
+        let largest = self.floquet(orbit)?.multipliers.iter().fold(0.0_f64, |top, m| top.max(m[0].hypot(m[1])));
+        Ok(Judged {
+            closure,
+            tolerance: CLOSES.max(UNITS * f64::EPSILON * largest),
+            same_events: self.same_events(&whole, start, &seen),
+            walls,
+            motion,
+        })
+    }
+
+    fn same_events(&self, whole: &Orbit, start: f64, seen: &[&super::watch::Passage]) -> bool {
+        let start = start / self.forcing_period();
+        let turn = whole.signature.cycles();
+        let until = |phase: &f64| (phase - start).rem_euclid(turn);
+        let nearest = whole.phases.iter().enumerate().min_by(|(_, a), (_, b)| until(a).total_cmp(&until(b)));
+        let first = nearest.map_or(0, |(index, _)| index);
+        let mut events = whole.signature.events.clone();
+        if !events.is_empty() {
+            events.rotate_left(first);
+        }
+        // Impacts that accumulate are one event of the orbit.
+        let rigid_rest = |wall: usize| matches!(self.stop(wall).map(|s| s.law), Some(StopLaw::Rigid(e)) if e > 0.0);
+        let mut index = 0;
+        for passage in seen {
+            let Some(expected) = events.get(index) else { return false };
+            let chattering = expected.kind == Kind::Chatter && expected.wall == passage.event.wall;
+            match passage.event.kind {
+                Kind::Impact if chattering => {}
+                Kind::Rest if chattering && rigid_rest(passage.event.wall) => index += 1,
+                _ if passage.event == *expected => index += 1,
+                _ => return false,
+            }
+        }
+        index == events.len()
+    }
+
+    /// A time (s) and the state in the middle of the longest free flight of `whole`.
+    fn midway(&self, whole: &Orbit) -> Result<(f64, [f64; 2])> {
+        let period = self.forcing_period();
+        if whole.phases.is_empty() {
+            return Ok((0.0, self.quiet()?));
+        }
+        let touching = self.touching(&whole.signature);
+        let turn = whole.signature.cycles();
+        let mut best: Option<(f64, f64, [f64; 2])> = None;
+        for (index, event) in whole.signature.events.iter().enumerate() {
+            let (Some(stop), Some(phase)) = (self.stop(event.wall), whole.phases.get(index)) else { continue };
+            let until = whole.phases.get(index + 1).copied().unwrap_or_else(|| whole.phases[0] + turn);
+            let span = (until - phase) * period;
+            let free =
+                touching.get(index).is_none_or(Vec::is_empty) && !matches!(event.kind, Kind::Rest | Kind::Chatter);
+            if free && best.is_none_or(|(_, longest, _)| span > longest) {
+                best = Some((phase * period, span, stop.after(event.kind, whole.speeds[index]).state));
+            }
+        }
+        let (start, span, state) = best.ok_or_else(|| Error::no_orbit("the orbit has no stretch of free flight"))?;
+        let mut arc = self.arc();
+        // A start before t = 0 is moved by whole turns.
+        let start = start - (start / (turn * period)).floor() * turn * period;
+        self.fly(&mut arc, state, [start, 0.5 * span], &[], None);
+        let (q, v) = arc.state(arc.end());
+        Ok((arc.end(), [q, v]))
+    }
+}

@@ -1,0 +1,37 @@
+//! Periodic orbits: found, corrected to rounding, and told apart by their Floquet multipliers.
+//!
+//! An orbit is its *signature*, the cyclic list of its events (which wall, and what happens there),
+//! and the instant and speed of each event. These are the unknowns of its equations ("explicit
+//! times"): the flow between two events is known in closed form, and the equations stay analytic
+//! where an impact becomes grazing, at which the map from period to period has a singularity
+//! (Nordmark 1991, doi:10.1016/0022-460X(91)90592-8).
+//!
+//! [`Problem`] takes a scene of one degree of freedom; [`Problem::settled`] finds the orbit on which
+//! a run settles, [`closed_forms`] lists all of one impact a turn,
+//! [`Problem::correct`] solves the equations from any start, [`Problem::floquet`] gives the
+//! multipliers, [`Problem::admissible`] says whether a body can follow the orbit, and
+//! [`Problem::judge`] lets one do so.
+
+mod admissible;
+mod closed;
+mod equations;
+mod extremes;
+mod floquet;
+mod forcing;
+mod judge;
+mod newton;
+mod periodic;
+mod problem;
+mod settled;
+mod signature;
+mod symmetry;
+mod watch;
+
+pub use admissible::{Admissible, Nearest};
+pub use closed::{ClosedForm, closed_forms};
+pub use floquet::Floquet;
+pub(crate) use forcing::{forcing_period, frequencies};
+pub use judge::{Instant, Judged, WallShare};
+pub use periodic::Orbit;
+pub use problem::Problem;
+pub use signature::{Event, Kind, MOST_EVENTS, MOST_PERIODS, Signature};

@@ -1,0 +1,83 @@
+//! A periodic orbit: its events, and when and how fast each of them happens.
+
+use super::signature::{Event, Signature};
+
+/// A periodic orbit of one degree of freedom, by its events.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orbit {
+    /// Its events in order, and how they close.
+    pub signature: Signature,
+    /// The instant of each event, in cycles of the forcing period from t = 0; increasing.
+    pub phases: Vec<f64>,
+    /// The number of each event (see [`Kind`](super::Kind)), m/s; below 0 for an orbit that passes
+    /// through the wall there, which no body does.
+    pub speeds: Vec<f64>,
+    /// The forcing period, s.
+    pub forcing_period: f64,
+}
+
+impl Orbit {
+    /// The period, s.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        f64::from(self.signature.periods) * self.forcing_period
+    }
+
+    /// The same orbit with all of its events: the mirror half of a symmetric one added. `mirror` is
+    /// the wall opposite to each wall.
+    pub(super) fn unfolded(&self, mirror: Option<&[usize]>) -> Self {
+        let (true, Some(mirror)) = (self.signature.symmetric, mirror) else { return self.clone() };
+        let mut whole = self.clone();
+        whole.signature.symmetric = false;
+        for (index, event) in self.signature.events.iter().enumerate() {
+            let wall = mirror.get(event.wall).copied().unwrap_or(event.wall);
+            whole.signature.events.push(Event { wall, ..*event });
+            whole.phases.extend(self.phases.get(index).map(|phase| phase + self.signature.cycles()));
+            whole.speeds.extend(self.speeds.get(index));
+        }
+        whole
+    }
+
+    /// The same orbit from its event `first` on, which comes into the first forcing period.
+    pub(super) fn rotated(&self, first: usize) -> Self {
+        let count = self.phases.len();
+        if count == 0 {
+            return self.clone();
+        }
+        let first = first % count;
+        let mut orbit = self.clone();
+        orbit.signature.events.rotate_left(first);
+        orbit.speeds.rotate_left(first);
+        orbit.phases.rotate_left(first);
+        let turn = self.signature.cycles();
+        let start = orbit.phases.first().map_or(0.0, |phase| phase.floor());
+        for (index, phase) in orbit.phases.iter_mut().enumerate() {
+            *phase += if index + first >= count { turn } else { 0.0 } - start;
+        }
+        orbit
+    }
+
+    /// True if both are one orbit, whichever event they begin with: all instants within `near`
+    /// cycles and all speeds within `near` of the largest. Both must be unfolded.
+    pub(super) fn is(&self, other: &Self, near: f64) -> bool {
+        let count = self.phases.len();
+        if count != other.phases.len() || self.signature.periods != other.signature.periods {
+            return false;
+        }
+        let (turn, top) = (self.signature.cycles(), self.speeds.iter().fold(0.0_f64, |top, v| top.max(v.abs())));
+        let apart = |a: f64, b: f64| {
+            let cycles = a - b;
+            (cycles - (cycles / turn).round() * turn).abs()
+        };
+        // Orbits are the same after whole forcing periods, too.
+        let same = |shift: usize, later: u32| {
+            (0..count).all(|i| {
+                let j = (i + shift) % count;
+                self.signature.events.get(i) == other.signature.events.get(j)
+                    && apart(self.phases[i] + f64::from(later), other.phases[j]) <= near
+                    && (self.speeds[i] - other.speeds[j]).abs() <= near * top
+            })
+        };
+        count == 0 || (0..count).any(|shift| (0..self.signature.periods).any(|later| same(shift, later)))
+    }
+}

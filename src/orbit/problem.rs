@@ -1,0 +1,250 @@
+//! What periodic orbits are looked for in: a body of one degree of freedom, its walls and loads.
+
+use super::forcing::forcing_period;
+use super::signature::{Kind, Signature};
+use super::symmetry::mirror;
+use crate::error::{Error, Result, Subject};
+use crate::flow::{Arc, Start, Support, Touch};
+use crate::scene::{Forcing, Oscillator, Scene, System, WallLaw};
+
+/// A scene of one degree of freedom whose loads repeat themselves: what periodic orbits are looked
+/// for in.
+///
+/// ```
+/// use signorini::orbit::Problem;
+/// use signorini::{Load, Scene, Wall};
+///
+/// // 1 kg, 0.2 N s/m, 100 N/m between walls at ±5 mm under 3 sin(2π 5 t) N: the symmetric orbit of
+/// // two impacts a period on which runs settle, and its Floquet multipliers.
+/// let scene = Scene::oscillator(1.0, 0.2, 100.0)
+///     .with_wall(Wall::upper("upper", 5e-3).with_restitution(0.8))
+///     .with_wall(Wall::lower("lower", -5e-3).with_restitution(0.8))
+///     .with_load(Load::harmonic(3.0, 5.0, 0.0));
+/// let problem = Problem::new(scene)?;
+/// let orbit = problem.settled(200)?;
+/// assert!((orbit.speeds[0] - 0.169_410_591_358_373_5).abs() < 1e-12); // m/s
+/// let multipliers = problem.floquet(&orbit)?.multipliers;
+/// assert!(multipliers.iter().all(|m| m[0].hypot(m[1]) < 1.0)); // stable
+/// # Ok::<(), signorini::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Problem {
+    scene: Scene,
+    body: Oscillator,
+    forcing: Forcing,
+    stops: Vec<Stop>,
+    period: f64,
+    length: f64,
+    mirror: Option<Vec<usize>>,
+}
+
+/// A wall, as an orbit meets it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stop {
+    /// g, m.
+    pub position: f64,
+    /// The direction into the wall: +1 for an upper wall, −1 for a lower one.
+    pub toward: f64,
+    pub law: StopLaw,
+}
+
+/// Its law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum StopLaw {
+    /// With restitution e.
+    Rigid(f64),
+    /// k_a, N/m, and c_a, N s/m.
+    Elastic { stiffness: f64, damping: f64 },
+}
+
+/// A state q (m), q̇ (m/s) that depends on the number v of an event, and its derivative with v.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct OnWall {
+    pub state: [f64; 2],
+    pub rate: [f64; 2],
+}
+
+impl Stop {
+    /// The state just before an event of number `v` (m/s).
+    pub fn before(&self, kind: Kind, v: f64) -> OnWall {
+        let on_face = |d: f64| OnWall { state: [self.position, d * v], rate: [0.0, d] };
+        match (kind, self.law) {
+            (Kind::Leave | Kind::Again, StopLaw::Elastic { stiffness, damping }) => {
+                // k_a s + c_a ṡ = 0 at the speed v out of the wall.
+                let depth = self.toward * damping / stiffness;
+                OnWall { state: [self.position + depth * v, -self.toward * v], rate: [depth, -self.toward] }
+            }
+            _ => on_face(self.toward),
+        }
+    }
+
+    /// The state just after it.
+    pub fn after(&self, kind: Kind, v: f64) -> OnWall {
+        let scaled = |factor: f64| {
+            let d = self.toward * factor;
+            OnWall { state: [self.position, d * v], rate: [0.0, d] }
+        };
+        match (kind, self.law) {
+            (Kind::Impact | Kind::Chatter, StopLaw::Rigid(e)) => scaled(-e),
+            (Kind::Rest | Kind::Release, _) => scaled(0.0),
+            _ => self.before(kind, v),
+        }
+    }
+
+    /// Distance of `q` (m) to the wall, m; below 0 behind its face.
+    pub fn gap(&self, q: f64) -> f64 {
+        self.toward * (self.position - q)
+    }
+}
+
+impl Problem {
+    /// Takes `scene` apart.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a scene that does not validate, has several degrees of freedom, no
+    /// wall, a wall of the φ² penalty or behind a lever, or loads without a common period.
+    pub fn new(scene: Scene) -> Result<Self> {
+        scene.validate()?;
+        let System::Oscillator(body) = scene.system else {
+            let n = scene.system.degrees_of_freedom();
+            return Err(Error::invalid(
+                "system",
+                format!("one of {n} degrees of freedom"),
+                "one degree of freedom: orbits of structures are not looked for yet (a sweep shows where they settle)",
+            ));
+        };
+        if !scene.is_line() {
+            return Err(Error::invalid("wall", "behind a lever", "walls that stand on the body itself"));
+        }
+        if scene.walls.is_empty() {
+            return Err(Error::invalid("wall", "none", "a wall: without one all motions settle on the same"));
+        }
+        let stop = |wall: &crate::scene::Wall| {
+            let law = match wall.law {
+                WallLaw::Rigid { restitution } => StopLaw::Rigid(restitution),
+                WallLaw::Elastic { stiffness, damping } => StopLaw::Elastic { stiffness, damping },
+                WallLaw::Quartic { .. } => {
+                    let key = Subject::wall(&wall.name).part("law");
+                    return Err(Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall"));
+                }
+            };
+            Ok(Stop { position: wall.position, toward: -wall.side.sign(), law })
+        };
+        let stops = scene.walls.iter().map(stop).collect::<Result<Vec<_>>>()?;
+        let period = forcing_period(&scene)?;
+        let forcing = Forcing::on(0, &scene.loads);
+        let (length, mirror) = (scene.gap_scale(), mirror(&scene, period));
+        Ok(Self { scene, body, forcing, stops, period, length, mirror })
+    }
+
+    /// The scene.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The forcing period, s: that of all sines together.
+    #[must_use]
+    pub fn forcing_period(&self) -> f64 {
+        self.period
+    }
+
+    /// True if the scene looks the same in the mirror q → −q half a forcing period later.
+    #[must_use]
+    pub fn is_symmetric(&self) -> bool {
+        self.mirror.is_some()
+    }
+
+    pub(super) fn body(&self) -> Oscillator {
+        self.body
+    }
+
+    pub(super) fn stop(&self, wall: usize) -> Option<&Stop> {
+        self.stops.get(wall)
+    }
+
+    pub(super) fn stops(&self) -> &[Stop] {
+        &self.stops
+    }
+
+    pub(super) fn mirror(&self) -> Option<&[usize]> {
+        self.mirror.as_deref()
+    }
+
+    /// A typical displacement, m, and the speed that it makes with the forcing's Ω, m/s.
+    pub(super) fn scales(&self) -> [f64; 2] {
+        [self.length, self.length * std::f64::consts::TAU / self.period]
+    }
+
+    /// An arc to be filled by [`Problem::fly`].
+    pub(super) fn arc(&self) -> Arc {
+        Arc::new(self.body, self.stops.len(), self.forcing.harmonics.len())
+    }
+
+    /// Lets the body go from `state` (m, m/s) at `start` (s) for `span` (s) against the elastic
+    /// walls `touching`; or rests it on the wall `support`.
+    pub(super) fn fly(
+        &self,
+        arc: &mut Arc,
+        state: [f64; 2],
+        [start, span]: [f64; 2],
+        touching: &[usize],
+        support: Option<usize>,
+    ) {
+        let from =
+            Start { time: start, late: 0.0, state, forcing: &self.forcing, extra: 0.0, span, length: self.length };
+        let touch = |&wall: &usize| match self.stops.get(wall)?.law {
+            StopLaw::Elastic { stiffness, damping } => {
+                Some(Touch { wall, position: self.stops.get(wall)?.position, stiffness, damping })
+            }
+            StopLaw::Rigid(_) => None,
+        };
+        let support = support.and_then(|wall| Some(Support { wall, side: self.scene.walls.get(wall)?.side }));
+        arc.begin(&from, touching.iter().filter_map(touch), support);
+    }
+
+    /// For each event the elastic walls that touch after it.
+    pub(super) fn touching(&self, signature: &Signature) -> Vec<Vec<usize>> {
+        let mut now: Vec<usize> = Vec::new();
+        let mut after = Vec::with_capacity(signature.events.len());
+        // The first turn finds with what the second begins.
+        for turn in 0..2 {
+            for event in &signature.events {
+                match event.kind {
+                    Kind::Enter | Kind::Again if !now.contains(&event.wall) => now.push(event.wall),
+                    Kind::Leave => now.retain(|&wall| wall != event.wall),
+                    _ => {}
+                }
+                if turn == 1 {
+                    after.push(now.clone());
+                }
+            }
+            if let (true, Some(mirror)) = (signature.symmetric, &self.mirror) {
+                now = now.iter().filter_map(|&wall| mirror.get(wall).copied()).collect();
+            }
+        }
+        after
+    }
+
+    /// The motion (m, m/s) at t = 0 that no wall meets and that repeats itself: (1 − E) x₀ is the
+    /// response from rest over one period, E = e^{AT}.
+    ///
+    /// # Errors
+    /// [`Error::NoOrbit`] at the resonance of an undamped body, which has none.
+    pub(super) fn quiet(&self) -> Result<[f64; 2]> {
+        let mut arc = self.arc();
+        self.fly(&mut arc, [0.0; 2], [0.0, self.period], &[], None);
+        let (q, v) = arc.state(arc.end());
+        let [[a, b], [c, d]] = arc.propagator();
+        let (a, d) = (1.0 - a, 1.0 - d);
+        let determinant = a * d - b * c;
+        let state = [(d * q + b * v) / determinant, (c * q + a * v) / determinant];
+        if state.iter().all(|x| x.is_finite()) && determinant.abs() > 1e-12 {
+            Ok(state)
+        } else {
+            Err(Error::no_orbit(
+                "the motion without walls does not repeat itself: the load is in resonance, or the body free",
+            ))
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! From a run that has settled to a periodic orbit.
+
+use super::periodic::Orbit;
+use super::problem::{Problem, StopLaw};
+use super::signature::{Kind, Signature};
+use super::watch::{Passage, Watch};
+use crate::error::{Error, Result};
+use crate::scheme::{Scheme, Stepper};
+
+/// Most forcing periods that a settled run is looked at for repeating itself.
+const LONGEST: u32 = 32;
+
+/// How near the events must come back: in cycles, and in gaps times the forcing's Ω.
+const NEAR: f64 = 1e-3;
+
+/// How often they must have come back.
+const REPEATS: usize = 3;
+
+/// Two halves of an orbit within this of each other are one half and its mirror.
+const MIRRORED: f64 = 1e-7;
+
+impl Problem {
+    /// The periodic orbit on which a run from the scene's initial state settles: `settle` forcing
+    /// periods are run by the exact scheme, then as many as show that the events repeat themselves
+    /// three times after up to 32 forcing periods; what they are then corrected by
+    /// [`Problem::correct`] to rounding. An orbit that is its own mirror image is returned as its
+    /// half.
+    ///
+    /// # Errors
+    /// [`Error::NoOrbit`] where the events do not repeat themselves, or no orbit is found near them;
+    /// those of a run.
+    pub fn settled(&self, settle: u32) -> Result<Orbit> {
+        self.settled_with(settle, &|_| {})
+    }
+
+    /// The same; `progress` is told the share of the run that is done.
+    ///
+    /// # Errors
+    /// As [`Problem::settled`].
+    pub fn settled_with(&self, settle: u32, progress: &dyn Fn(f64)) -> Result<Orbit> {
+        let period = self.forcing_period();
+        let most = settle.saturating_add((REPEATS as u32 + 2) * LONGEST);
+        let mut scene = self.scene().clone();
+        scene.duration = f64::from(most) * period;
+        let mut stepper = Stepper::new(&scene, &Scheme::Event, 16.0 * period)?;
+        let mut watch = Watch::new(self);
+        let mut look = settle.saturating_add(8);
+        while look <= most {
+            let until = f64::from(look) * period;
+            while stepper.time() < until {
+                watch.see(&stepper.step()?);
+                progress(stepper.time() / scene.duration);
+            }
+            let settled = watch.passages.partition_point(|passage| passage.phase < f64::from(settle));
+            let passages = watch.passages.get(settled..).unwrap_or_default();
+            if passages.is_empty() && look == most {
+                return self.still();
+            }
+            if let Some(found) = repeated(passages, self) {
+                return self.from_run(found);
+            }
+            if look == most {
+                break;
+            }
+            look = (2 * look - settle).min(most);
+        }
+        Err(Error::no_orbit(format!(
+            "the events do not repeat themselves within {LONGEST} forcing periods after {settle} of them: the motion \
+             is chaotic or has not settled yet (settle longer, or start elsewhere)"
+        )))
+    }
+
+    /// The motion that touches no wall.
+    fn still(&self) -> Result<Orbit> {
+        self.quiet()?;
+        let symmetric = self.is_symmetric();
+        let signature = Signature { events: Vec::new(), periods: 1, symmetric };
+        Ok(Orbit { signature, phases: Vec::new(), speeds: Vec::new(), forcing_period: self.forcing_period() })
+    }
+
+    fn from_run(&self, (periods, passages): (u32, Vec<Passage>)) -> Result<Orbit> {
+        let mut passages = gathered(passages, self);
+        let first = passages.iter().position(|passage| passage.event.kind == Kind::Release).unwrap_or(0);
+        passages.rotate_left(first);
+        let count = passages.len();
+        for passage in passages.iter_mut().skip(count - first) {
+            passage.phase += f64::from(periods);
+        }
+        let orbit = Orbit {
+            signature: Signature {
+                events: passages.iter().map(|passage| passage.event).collect(),
+                periods,
+                symmetric: false,
+            },
+            phases: passages.iter().map(|passage| passage.phase).collect(),
+            speeds: passages.iter().map(|passage| passage.speed).collect(),
+            forcing_period: self.forcing_period(),
+        };
+        if orbit.signature.chatters() {
+            // Run from one release to the next, the orbit is exact already.
+            return Ok(orbit.rotated(0));
+        }
+        let whole = self.correct(&orbit)?;
+        match self.folded(&whole) {
+            Some(half) => self.correct(&half),
+            None => Ok(whole),
+        }
+    }
+
+    /// The half of `orbit`, if the other half is its mirror image.
+    pub(super) fn folded(&self, orbit: &Orbit) -> Option<Orbit> {
+        self.mirror()?;
+        let signature = &orbit.signature;
+        let count = signature.events.len();
+        if count % 2 != 0 || signature.periods % 2 == 0 || signature.symmetric {
+            return None;
+        }
+        let half = Orbit {
+            signature: Signature {
+                events: signature.events.get(..count / 2)?.to_vec(),
+                periods: signature.periods,
+                symmetric: true,
+            },
+            phases: orbit.phases.get(..count / 2)?.to_vec(),
+            speeds: orbit.speeds.get(..count / 2)?.to_vec(),
+            forcing_period: orbit.forcing_period,
+        };
+        half.unfolded(self.mirror()).is(orbit, MIRRORED).then_some(half)
+    }
+}
+
+/// The least number of forcing periods after which the last of `passages` repeat themselves, and
+/// those of one such stretch.
+fn repeated(passages: &[Passage], problem: &Problem) -> Option<(u32, Vec<Passage>)> {
+    let [_, speed] = problem.scales();
+    // A body released from rest goes the same way each time: the load alone decides when.
+    let released = |passage: &Passage| passage.event.kind == Kind::Release;
+    let anchor = passages.iter().rposition(released).or_else(|| passages.len().checked_sub(1))?;
+    let last = passages.get(anchor)?;
+    for (index, passage) in passages.iter().enumerate().take(anchor).rev() {
+        let cycles = last.phase - passage.phase;
+        if cycles > f64::from(LONGEST) + 0.5 {
+            break;
+        }
+        if passage.event != last.event || cycles.round() < 1.0 || (cycles - cycles.round()).abs() > NEAR {
+            continue;
+        }
+        let count = anchor - index;
+        let same = |a: &Passage, b: &Passage| {
+            a.event == b.event
+                && (a.phase - b.phase - cycles.round()).abs() <= NEAR
+                && (a.speed - b.speed).abs() <= NEAR * speed
+        };
+        let enough = released(last)
+            || (anchor + 1 >= (REPEATS + 1) * count
+                && (0..REPEATS * count).all(|back| same(&passages[anchor - back], &passages[anchor - back - count])));
+        if enough {
+            return Some((cycles.round() as u32, passages[index + 1..=anchor].to_vec()));
+        }
+    }
+    None
+}
+
+/// The passages with each accumulation of impacts as one event.
+fn gathered(passages: Vec<Passage>, problem: &Problem) -> Vec<Passage> {
+    let mut kept: Vec<Passage> = Vec::new();
+    for mut passage in passages {
+        let wall = passage.event.wall;
+        let bounces = matches!(problem.stop(wall).map(|stop| stop.law), Some(StopLaw::Rigid(e)) if e > 0.0);
+        if passage.event.kind == Kind::Rest && bounces {
+            while let Some(before) = kept.last()
+                && before.event.kind == Kind::Impact
+                && before.event.wall == wall
+                && before.speed > passage.speed
+            {
+                passage = *before;
+                kept.pop();
+            }
+            passage.event.kind = Kind::Chatter;
+        }
+        kept.push(passage);
+    }
+    kept
+}

@@ -1,0 +1,44 @@
+//! The mirror symmetry of a scene: q → −q half a forcing period later.
+
+use crate::scene::{LoadKind, Scene};
+
+/// A harmonic is an odd multiple of the fundamental to this share.
+const NEAR: f64 = 1e-9;
+
+/// For each wall of `scene` the one that stands opposite to it, if the scene looks the same in the
+/// mirror q → −q half a forcing period (s) later: sines of odd multiples of the fundamental alone,
+/// and every wall with an equal one opposite.
+pub(super) fn mirror(scene: &Scene, period: f64) -> Option<Vec<usize>> {
+    let mut constant = 0.0;
+    for load in &scene.loads {
+        match load.kind {
+            LoadKind::Constant { force } => constant += force,
+            LoadKind::Harmonic { amplitude, frequency, phase } if frequency == 0.0 => {
+                constant += amplitude * phase.sin();
+            }
+            LoadKind::Harmonic { frequency, amplitude, .. } => {
+                let order = frequency * period;
+                let odd = order.round().rem_euclid(2.0) == 1.0 && (order - order.round()).abs() <= NEAR * order;
+                if !odd && amplitude != 0.0 {
+                    return None;
+                }
+            }
+            _ => return None,
+        }
+    }
+    if constant != 0.0 {
+        return None;
+    }
+    let mut taken = vec![false; scene.walls.len()];
+    let mut opposite = Vec::with_capacity(scene.walls.len());
+    for wall in &scene.walls {
+        let fits = |(index, other): (usize, &crate::scene::Wall)| {
+            let opposite = other.side != wall.side && other.position == -wall.position && other.at == wall.at;
+            !taken[index] && opposite && other.law == wall.law
+        };
+        let index = scene.walls.iter().enumerate().position(fits)?;
+        taken[index] = true;
+        opposite.push(index);
+    }
+    Some(opposite)
+}

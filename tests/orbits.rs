@@ -1,0 +1,371 @@
+//! Periodic orbits against closed forms evaluated with sixty digits, and against the free run.
+
+use signorini::orbit::{ClosedForm, Event, Kind, Orbit, Problem, Signature, closed_forms};
+use signorini::{Error, Load, Scene, Scheme, State, Stepper, Wall};
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// The oscillator of the source at a frequency (Hz) and restitution.
+fn source(frequency: f64, restitution: f64) -> Scene {
+    Scene::oscillator(1.0, 0.2, 100.0)
+        .with_wall(Wall::upper("upper", 5e-3).with_restitution(restitution))
+        .with_wall(Wall::lower("lower", -5e-3).with_restitution(restitution))
+        .with_load(Load::harmonic(3.0, frequency, 0.0))
+}
+
+/// Dankowicz & Schilder 2013, example 15.2 (doi:10.1137/1.9781611972573), under A cos t.
+fn coco(amplitude: f64) -> Scene {
+    Scene::oscillator(1.0, 0.1, 1.0)
+        .with_wall(Wall::upper("stop", 1.0).with_restitution(0.8))
+        .with_load(Load::harmonic(amplitude, 1.0 / TAU, FRAC_PI_2))
+}
+
+/// A ball on a moving table, in its frame, at the table's acceleration `gamma` g.
+fn ball(gamma: f64) -> Scene {
+    Scene::oscillator(1.0, 0.0, 0.0)
+        .with_wall(Wall::lower("table", 0.0).with_restitution(0.7))
+        .with_load(Load::constant(-9.81))
+        .with_load(Load::harmonic(9.81 * gamma, 10.0, 0.0))
+}
+
+/// Equal to `share` of the value: the references have thirty digits, the orbits the rounding of a
+/// few flights, amplified by at most the inverse distance of a multiplier from 1.
+fn near(found: f64, expected: f64, share: f64) {
+    assert!((found - expected).abs() <= share * expected.abs(), "{found:e} for {expected:e}");
+}
+
+fn of_speed(scene: &Scene, speed: f64) -> ClosedForm {
+    let found = closed_forms(scene, 1).unwrap();
+    found.into_iter().find(|orbit| (orbit.speed / speed - 1.0).abs() < 1e-6).expect("an orbit of that speed")
+}
+
+#[test]
+fn a_settled_run_leads_to_the_symmetric_orbit() {
+    let problem = Problem::new(source(5.0, 0.8)).unwrap();
+    let orbit = problem.settled(200).unwrap();
+    assert!(orbit.signature.symmetric && orbit.signature.periods == 1 && orbit.phases.len() == 1);
+    near(orbit.speeds[0], 0.169_410_591_358_373_47, 1e-12);
+    let upper = orbit.signature.events[0].wall == 0;
+    let phase = (orbit.phases[0] + if upper { 0.0 } else { 0.5 }).rem_euclid(1.0);
+    near(TAU * phase, 1.741_232_823_663_744_7, 1e-12);
+    let floquet = problem.floquet(&orbit).unwrap();
+    near(floquet.trace, -1.318_546_497_591_139, 1e-11);
+    near(floquet.determinant, 0.627_327_150_916_323_4, 1e-13);
+    let half = floquet.half.unwrap()[0];
+    near(half[0], -0.659_273_248_795_569_5, 1e-11);
+    near(half[1], 0.438_960_060_072_506_4, 1e-11);
+    near(floquet.multipliers[0][0], 0.241_955_282_238_606_48, 1e-10);
+    assert!(floquet.is_stable() && problem.admissible(&orbit).unwrap().holds());
+    let judged = problem.judge(&orbit, 100).unwrap();
+    assert!(judged.holds(), "{} {}", judged.closure, judged.same_events);
+    // Momentum: m (1 + e) v at each wall, the upper one pushes down.
+    for (wall, sign) in [(0, -1.0), (1, 1.0)] {
+        near(judged.walls[wall].impulse, sign * 1.8 * orbit.speeds[0], 1e-9);
+        assert_eq!(judged.walls[wall].contacts, 1);
+    }
+}
+
+#[test]
+fn closed_forms_list_the_unstable_twin() {
+    let scene = source(5.0, 0.8);
+    let problem = Problem::new(scene.clone()).unwrap();
+    let twin = of_speed(&scene, 0.032_944_907_242_849_2);
+    assert!(twin.symmetric && !twin.is_stable());
+    near(twin.speed, 0.032_944_907_242_849_203, 1e-12);
+    near(twin.multipliers[0][0], 280.168_518_443_668_34, 1e-10);
+    // Newton stays where the closed form is.
+    let orbit = problem.correct(&twin.orbit(&problem)).unwrap();
+    near(orbit.speeds[0], twin.speed, 1e-12);
+    let half = problem.floquet(&orbit).unwrap().half.unwrap();
+    near(half[0][0], 16.738_235_224_887_61, 1e-11);
+    near(half[1][0], 0.037_478_691_301_259_43, 1e-11);
+    assert!(problem.admissible(&orbit).unwrap().holds());
+    assert!(problem.judge(&orbit, 10).unwrap().holds());
+}
+
+#[test]
+fn the_impact_oscillator_of_the_continuation_book() {
+    for (amplitude, speed, trace) in [
+        (1.0, 1.695_732_937_594_882, -1.168_590_628_683_059),
+        (0.2, 0.298_612_852_056_333_86, -1.140_047_386_516_420_5),
+    ] {
+        let problem = Problem::new(coco(amplitude)).unwrap();
+        // The start of the book's demo: −1.36 after the impact, at the phase 0.076.
+        let guess = Orbit {
+            signature: Signature::impacts(&[0], 1),
+            phases: vec![0.076 / TAU],
+            speeds: vec![1.7 * amplitude],
+            forcing_period: problem.forcing_period(),
+        };
+        let orbit = problem.correct(&guess).unwrap();
+        near(orbit.speeds[0], speed, 1e-11);
+        let floquet = problem.floquet(&orbit).unwrap();
+        near(floquet.trace, trace, 1e-11);
+        near(floquet.determinant, 0.341_432_378_298_306_1, 1e-12);
+        let listed = of_speed(problem.scene(), speed);
+        near(listed.phase, orbit.phases[0], 1e-11);
+        if amplitude == 1.0 {
+            near(TAU * orbit.phases[0], 0.075_952_164_938_312_39, 1e-10);
+        }
+    }
+}
+
+#[test]
+fn the_ball_on_the_table() {
+    let problem = Problem::new(ball(1.1)).unwrap();
+    // Γ cos φ = π (1 − e)/(1 + e) on the branch with sin φ > 0.
+    let phase = (std::f64::consts::PI * 0.3 / 1.7 / 1.1).acos() / TAU;
+    for start in [phase, phase + 0.02] {
+        let guess = Orbit {
+            signature: Signature::impacts(&[0], 1),
+            phases: vec![start],
+            speeds: vec![0.6],
+            forcing_period: problem.forcing_period(),
+        };
+        let orbit = problem.correct(&guess).unwrap();
+        near(orbit.speeds[0], 0.577_058_823_529_411_76, 1e-11);
+        let floquet = problem.floquet(&orbit).unwrap();
+        near(floquet.trace, -1.255_716_098_812_231_1, 1e-11);
+        near(floquet.determinant, 0.49, 1e-12);
+        assert!(problem.judge(&orbit, 10).unwrap().holds());
+    }
+    // Its steady motion without the table is not determined.
+    assert!(closed_forms(problem.scene(), 1).unwrap_err().to_string().contains("springs hold"));
+}
+
+#[test]
+fn an_orbit_that_rests_on_both_walls() {
+    let problem = Problem::new(source(1.0, 0.0)).unwrap();
+    let orbit = problem.settled(3).unwrap();
+    assert!(orbit.signature.symmetric && orbit.signature.rests());
+    let [release, arrival] = [orbit.phases[0], orbit.phases[1]];
+    assert_eq!(orbit.signature.events[0].kind, Kind::Release);
+    assert_eq!(orbit.signature.events[1].kind, Kind::Rest);
+    let upper = orbit.signature.events[0].wall == 0;
+    near(TAU * (release + if upper { 0.0 } else { 0.5 }).rem_euclid(1.0), 2.974_144_574_370_104, 1e-12);
+    near(arrival - release, 0.154_599_125_818_999_76, 1e-12);
+    near(orbit.speeds[1], 0.174_133_447_977_690_1, 1e-12);
+    let floquet = problem.floquet(&orbit).unwrap();
+    assert_eq!(floquet.multipliers, [[0.0; 2]; 2]);
+    let judged = problem.judge(&orbit, 2000).unwrap();
+    assert!(judged.holds(), "{judged:?}");
+    // F − k g = 2.5 N, at an instant of the 2000: (2π/2000)²/8 of it at most below.
+    near(judged.walls[0].peak_force, 2.5, 1e-5);
+    assert!(problem.admissible(&orbit).unwrap().holds());
+}
+
+#[test]
+fn an_orbit_in_which_impacts_accumulate_is_run_from_its_release() {
+    let problem = Problem::new(source(1.0, 0.5)).unwrap();
+    let orbit = problem.settled(5).unwrap();
+    assert!(orbit.signature.chatters(), "{:?}", orbit.signature);
+    let judged = problem.judge(&orbit, 50).unwrap();
+    assert!(judged.holds(), "{} {}", judged.closure, judged.same_events);
+    assert_eq!(problem.floquet(&orbit).unwrap().multipliers, [[0.0; 2]; 2]);
+    let refused = problem.correct(&orbit).unwrap_err();
+    assert!(matches!(refused, Error::NoOrbit { .. }) && refused.to_string().contains("accumulate"));
+}
+
+#[test]
+fn a_quiet_motion_is_an_orbit_without_events() {
+    let problem = Problem::new(source(9.0, 0.5).with_initial(&[-1e-3], &[0.0])).unwrap();
+    let orbit = problem.settled(400).unwrap();
+    assert!(orbit.phases.is_empty());
+    let floquet = problem.floquet(&orbit).unwrap();
+    // Over a half period: e^{−cT/4m} in size.
+    near(floquet.determinant, (-0.2 / 18.0_f64).exp(), 1e-13);
+    assert!(problem.judge(&orbit, 10).unwrap().holds());
+    let nearest = problem.admissible(&orbit).unwrap().nearest.unwrap();
+    let omega = TAU * 9.0;
+    let amplitude = 3.0 / ((100.0 - omega * omega).powi(2) + (0.2 * omega).powi(2)).sqrt();
+    near(nearest.gap, 5e-3 - amplitude, 1e-12);
+}
+
+#[test]
+fn elastic_walls_and_dashpots() {
+    for damping in [0.0, 20.0] {
+        let scene = Scene::oscillator(1.0, 0.2, 100.0)
+            .with_wall(Wall::upper("upper", 5e-3).with_elasticity(1e5, damping))
+            .with_wall(Wall::lower("lower", -4e-3).with_restitution(0.6))
+            .with_load(Load::harmonic(3.0, 4.0, 0.3));
+        let problem = Problem::new(scene).unwrap();
+        let orbit = problem.settled(300).unwrap();
+        let kinds: Vec<Kind> = orbit.signature.events.iter().map(|event| event.kind).collect();
+        assert!(kinds.contains(&Kind::Enter) && kinds.contains(&Kind::Leave), "{kinds:?}");
+        let judged = problem.judge(&orbit, 100).unwrap();
+        assert!(judged.holds(), "{damping}: {} {}", judged.closure, judged.same_events);
+        against_differences(&problem, &orbit);
+    }
+}
+
+/// The state one orbit after `start` (s), by the free exact run.
+fn one_turn(problem: &Problem, orbit: &Orbit, start: f64, state: [f64; 2]) -> [f64; 2] {
+    let end = start + orbit.period();
+    let mut scene = problem.scene().clone();
+    scene.duration = end;
+    let mut stepper = Stepper::new(&scene, &Scheme::Event, end).unwrap();
+    stepper.set_state(start, &State { q: vec![state[0]], v: vec![state[1]] }).unwrap();
+    while stepper.time() < end {
+        stepper.step().unwrap();
+    }
+    let state = stepper.state();
+    [state.q[0], state.v[0]]
+}
+
+/// Trace and determinant of the derivative of the free run over one orbit.
+fn against_differences(problem: &Problem, orbit: &Orbit) {
+    let judged = problem.judge(orbit, 1).unwrap();
+    let first = &judged.motion[0];
+    let base = [first.displacement, first.velocity];
+    let column = |k: usize| {
+        let h = [1e-9, 1e-8][k];
+        let mut ends = [1.0, -1.0].map(|sign: f64| {
+            let mut state = base;
+            state[k] += sign * h;
+            one_turn(problem, orbit, first.time, state)
+        });
+        let [up, down] = &mut ends;
+        [(up[0] - down[0]) / (2.0 * h), (up[1] - down[1]) / (2.0 * h)]
+    };
+    let (a, b) = (column(0), column(1));
+    let floquet = problem.floquet(orbit).unwrap();
+    let m = floquet.multipliers;
+    let (trace, product) = (m[0][0] + m[1][0], m[0][0] * m[1][0] - m[0][1] * m[1][1]);
+    // Central differences with steps of 1e-6 of the state: 1e-5 of the larger entries remain.
+    let size = a.iter().chain(&b).fold(1.0_f64, |top, x| top.max(x.abs()));
+    assert!((a[0] + b[1] - trace).abs() < 1e-4 * size, "{} {trace}", a[0] + b[1]);
+    assert!((a[0] * b[1] - a[1] * b[0] - product).abs() < 1e-4 * size, "{product}");
+}
+
+#[test]
+fn multipliers_are_those_of_differences_of_the_free_run() {
+    for (frequency, restitution) in [(5.0, 0.8), (4.4, 0.8), (3.7, 0.5), (6.0, 0.9)] {
+        let problem = Problem::new(source(frequency, restitution)).unwrap();
+        let Ok(orbit) = problem.settled(600) else { continue };
+        if !orbit.signature.rests() {
+            against_differences(&problem, &orbit);
+        }
+    }
+    let problem = Problem::new(source(5.0, 0.8)).unwrap();
+    against_differences(&problem, &of_speed(problem.scene(), 0.032_944_907_242_849_2).orbit(&problem));
+}
+
+/// A generator of numbers in [−1, 1) that needs no crate.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+#[test]
+fn newton_reaches_orbits_with_large_multipliers_from_three_per_cent_away() {
+    let mut numbers = Numbers(7);
+    // The unstable symmetric orbit towards the grazing frequency.
+    for (frequency, least) in [(5.0, 2e2), (4.22, 1e5), (4.2109, 1e8)] {
+        let problem = Problem::new(source(frequency, 0.8)).unwrap();
+        let twin = closed_forms(problem.scene(), 1)
+            .unwrap()
+            .into_iter()
+            .filter(|orbit| orbit.symmetric)
+            .max_by(|a, b| a.multipliers[0][0].total_cmp(&b.multipliers[0][0]))
+            .unwrap();
+        assert!(twin.multipliers[0][0] > least, "{}", twin.multipliers[0][0]);
+        let orbit = problem.correct(&twin.orbit(&problem)).unwrap();
+        let reached = (0..200)
+            .filter(|_| {
+                let mut start = orbit.clone();
+                start.phases[0] *= 1.0 + 0.03 * numbers.next();
+                start.speeds[0] *= 1.0 + 0.03 * numbers.next();
+                problem.correct(&start).is_ok_and(|found| {
+                    (found.phases[0] - orbit.phases[0]).abs() < 1e-8
+                        && (found.speeds[0] / orbit.speeds[0] - 1.0).abs() < 1e-6
+                })
+            })
+            .count();
+        assert!(reached >= 199, "{frequency} Hz: {reached}");
+    }
+}
+
+#[test]
+fn force_and_gap_scale_alike_and_mirrors_have_mirrored_orbits() {
+    let orbit = |scene: Scene| {
+        let problem = Problem::new(scene).unwrap();
+        problem.settled(400).unwrap()
+    };
+    let walls = |scale: f64, gaps: [f64; 2]| {
+        Scene::oscillator(1.0, 0.2, 100.0)
+            .with_wall(Wall::upper("upper", scale * gaps[0]).with_restitution(0.7))
+            .with_wall(Wall::lower("lower", -scale * gaps[1]).with_restitution(0.7))
+    };
+    let plain = orbit(walls(1.0, [5e-3, 4e-3]).with_load(Load::harmonic(3.0, 5.0, 0.2)));
+    let twice = orbit(walls(2.0, [5e-3, 4e-3]).with_load(Load::harmonic(6.0, 5.0, 0.2)));
+    let mirror = orbit(walls(1.0, [4e-3, 5e-3]).with_load(Load::harmonic(-3.0, 5.0, 0.2)));
+    assert!(!plain.signature.events.is_empty() && plain.signature.events == twice.signature.events);
+    for i in 0..plain.phases.len() {
+        near(twice.speeds[i], 2.0 * plain.speeds[i], 1e-9);
+        near(twice.phases[i], plain.phases[i], 1e-9);
+        near(mirror.speeds[i], plain.speeds[i], 1e-9);
+        let opposite = Event { wall: 1 - plain.signature.events[i].wall, ..plain.signature.events[i] };
+        assert_eq!(mirror.signature.events[i], opposite);
+    }
+}
+
+#[test]
+fn signatures_are_written_and_read() {
+    let scene = source(5.0, 0.8);
+    for (text, written) in
+        [("UL", "UL"), ("upper,lower", "UL"), ("ulu", "ULU"), ("upper:rest upper:release", "upper:rest upper:release")]
+    {
+        let signature = Signature::parse(text, 1, &scene).unwrap();
+        assert_eq!(signature.written(&scene), written);
+        assert_eq!(Signature::parse(&signature.written(&scene), 1, &scene).unwrap(), signature);
+    }
+    for (text, periods, words) in [
+        ("UX", 1, "no wall is named \"UX\""),
+        ("upper:stop", 1, "no kind of event is named \"stop\""),
+        ("upper:enter", 1, "is enter at wall \"upper\", which is rigid"),
+        ("upper:rest", 1, "without its release"),
+        ("UL", 0, "1 to 64"),
+        ("UL", 65, "1 to 64"),
+    ] {
+        let refused = Signature::parse(text, periods, &scene).unwrap_err();
+        assert!(refused.is_request() && refused.to_string().contains(words), "{text}: {refused}");
+    }
+}
+
+#[test]
+fn what_has_no_orbit_is_refused_with_the_reason() {
+    let two = Scene::oscillator(1.0, 0.2, 100.0).with_load(Load::harmonic(3.0, 5.0, 0.0));
+    let blown = source(5.0, 0.8).with_load(Load::impulse(1.0, 0.5));
+    let apart = source(5.0, 0.8).with_load(Load::harmonic(1.0, 2.0_f64.sqrt(), 0.0));
+    let chain = signorini::Chain { masses: vec![1.0; 2], springs: vec![50.0], grounds: [100.0; 2] };
+    let structure = Scene::structure(chain.structure().unwrap())
+        .with_wall(Wall::upper("u", 1e-3))
+        .with_load(Load::harmonic(3.0, 5.0, 0.0));
+    for (scene, words) in [
+        (two, "without one all motions settle"),
+        (blown, "load 2 does not repeat"),
+        (apart, "Hz have none"),
+        (structure, "one of 2 degrees of freedom"),
+    ] {
+        let refused = Problem::new(scene).unwrap_err();
+        assert!(refused.is_request() && refused.to_string().contains(words), "{refused}");
+    }
+    let problem = Problem::new(source(5.0, 0.8)).unwrap();
+    let start = |phases: Vec<f64>, speeds: Vec<f64>| Orbit {
+        signature: Signature::impacts(&[0, 1], 1),
+        phases,
+        speeds,
+        forcing_period: 0.2,
+    };
+    for (orbit, request, words) in [
+        (start(vec![0.1], vec![0.1]), true, "1 phases and 1 speeds"),
+        (start(vec![0.1, f64::NAN], vec![0.1, 0.1]), true, "finite numbers"),
+        (start(vec![0.9, 0.1], vec![0.1, 0.1]), false, "no periodic orbit"),
+    ] {
+        let refused = problem.correct(&orbit).unwrap_err();
+        assert!(refused.is_request() == request && refused.to_string().contains(words), "{refused}");
+    }
+}
