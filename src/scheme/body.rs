@@ -90,6 +90,10 @@ impl<S: Space> Body<S> {
 
     /// Writes h[f_θ + f_x − C v − K(q + hθv)] to `b`, N s, and notes the velocity before the step.
     /// Once a step.
+    ///
+    /// Not as h(f_θ + f_x) − h(C + hθK)v − hK q with both matrices kept, which takes a pass less:
+    /// rounded apart from each other, they act as a small damper, which changed the energy by 2e-12
+    /// of itself in 1e7 steps that conserve it to 1e-15 in this form.
     #[inline(always)]
     pub fn theta_momentum(&mut self, theta: f64, frame: &mut Frame<S>, b: &mut S::Vector) {
         let (h, ht) = (self.h, self.h * theta);
