@@ -7,7 +7,8 @@ mod random_structures;
 use common::{CONSTRAINED, INTEGRATORS, MOREAU_JEAN, spring};
 use random_structures::{at, on};
 use signorini::linear::Symmetric;
-use signorini::{Integrator, Load, Options, Path, PenaltyLaw, Row, Scene, Scheme, Stepper, Wall, run};
+use signorini::qp::Backend;
+use signorini::{Integrator, Load, Method, Options, Path, PenaltyLaw, Row, Scene, Scheme, Stepper, Wall, run};
 
 const GENERALIZED_ALPHA: Scheme = Scheme::GeneralizedAlpha { rho: 0.8 };
 
@@ -92,6 +93,8 @@ fn a_body_pressed_onto_a_wall_rests_there_though_others_stand_around() {
         for _ in 0..5 {
             let step = stepper.step().expect("a step");
             assert_eq!((step.q[0], step.v[0], step.impulse[1]), (0.0, 0.0, 0.0), "{scheme}");
+            // Instants of impulses belong to the exact scheme.
+            assert_eq!((step.jump, step.force[1]), (&[0.0, 0.0][..], 0.0), "{scheme}");
             // From the first step on the floor carries the load: h · 5 N.
             close(step.impulse[0], 0.05, 4.0, 0.05, &scheme.to_string());
         }
@@ -175,8 +178,11 @@ fn elastic_walls_follow_their_law_in_every_scheme() {
         .with_initial(&[q0], &[1.0]);
     for scheme in CONSTRAINED.into_iter().chain([GENERALIZED_ALPHA]) {
         let (mut stepper, mut q, mut pushed) = (stepper(&scene, &scheme, h), q0, 0);
+        let (mut impulses, mut contacts) = (0.0, 0.0);
         for _ in 0..60 {
             let step = stepper.step().expect("a step");
+            impulses += step.impulse[0];
+            contacts += step.closed.iter().map(|contact| contact.impulse).sum::<f64>();
             let (s0, s1) = (q - g, step.q[0] - g);
             let (force, pressure) = match scheme {
                 Scheme::MoreauJean { theta } => {
@@ -196,6 +202,36 @@ fn elastic_walls_follow_their_law_in_every_scheme() {
             q = step.q[0];
         }
         assert!(pushed > 2 && pushed < 50, "{scheme}: {pushed}");
+        // Every step of a contact is part of its episode.
+        close(contacts, impulses, 64.0, impulses.abs(), &scheme.to_string());
+    }
+}
+
+#[test]
+fn an_extra_force_moves_a_free_body_as_the_same_load_does() {
+    // h f = 1 N s, and others.
+    for force in [2.0, 3.0, -0.7] {
+        for scheme in CONSTRAINED.into_iter().chain([GENERALIZED_ALPHA]) {
+            let scene = Scene::oscillator(4.0, 0.0, 0.0).with_wall(Wall::upper("far", 9.0));
+            let mut stepper = stepper(&scene, &scheme, 0.5);
+            let step = stepper.step_with(&[force]).expect("a step");
+            close(step.v[0], 0.5 * force / 4.0, 8.0, 1.0, &scheme.to_string());
+        }
+    }
+}
+
+#[test]
+fn a_wall_gives_back_the_blow_that_drives_a_damped_body_into_it_once() {
+    // At rest on the floor under 5 N, with a blow of 1 N s within the second step.
+    let scene = Scene::oscillator(2.0, 3.0, 0.0)
+        .with_wall(Wall::lower("floor", 0.0).with_restitution(0.0))
+        .with_load(Load::constant(-5.0))
+        .with_load(Load::impulse(-1.0, 0.013));
+    for scheme in CONSTRAINED.into_iter().chain([GENERALIZED_ALPHA]).filter(|scheme| *scheme != Scheme::Newmark) {
+        let mut stepper = stepper(&scene, &scheme, 0.01);
+        let total: f64 = (0..10).map(|_| stepper.step().expect("a step").impulse[0]).sum();
+        assert_eq!(stepper.state().v, [0.0], "{scheme}");
+        close(total, 1.5, 16.0, 1.5, &scheme.to_string());
     }
 }
 
@@ -207,7 +243,7 @@ fn a_body_behind_a_lever_stands_exactly_on_its_wall() {
         let g = 0.1 + 1e-3 * (f64::from(i) * std::f64::consts::SQRT_2).fract();
         let scene = Scene::oscillator(1.0, 0.0, 0.0)
             .with_wall(at(Wall::upper("stop", g), Row::new(vec![(0, 2.0)])))
-            .with_initial(&[0.04 + 1e-5 * f64::from(i)], &[1.0]);
+            .with_initial(&[-0.02 - 1e-5 * f64::from(i) * std::f64::consts::PI], &[1.0]);
         let mut stepper = stepper(&scene, &Scheme::ImplicitEuler, 0.1);
         let step = stepper.step().expect("a step");
         assert!(step.force[0] < 0.0);
@@ -308,6 +344,16 @@ fn counters_tell_how_often_each_solver_worked() {
         assert_eq!((counters.interior_point_iterations, counters.pivots, counters.newton_iterations), (0, 0, 0));
         assert_eq!(counters.qp_fallbacks, 0, "{scheme}");
     }
+    // The same by an interior point, and with two bodies by pivoting: a handful for each programme.
+    let interior = Method { scheme: MOREAU_JEAN, backend: Backend::Clarabel };
+    let counters = run(&scene, &interior, &Options::with_step(1e-2)).expect("a run").counters;
+    assert!((10..=500).contains(&counters.interior_point_iterations), "{counters:?}");
+    let pivots = |seed| {
+        let scene = random_structures::random_scene(&mut random_structures::Draws::new(seed)).with_duration(0.5);
+        run(&scene, &MOREAU_JEAN, &Options::with_step(2e-3)).expect("a run").counters.pivots
+    };
+    let total: u64 = (0..20).map(pivots).sum();
+    assert!((1..=20 * 250 * 8).contains(&total), "{total} pivots in 20 runs of 250 steps");
     for integrator in INTEGRATORS {
         let counters = run(&scene, &spring(1e4, integrator), &Options::with_step(1e-2)).expect("a run").counters;
         assert_eq!(counters.qp_solves, 0);

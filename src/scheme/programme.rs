@@ -328,8 +328,39 @@ fn failure(failure: &Failure, wall: Option<String>, time: f64, step: u64) -> Err
 
 #[cfg(test)]
 mod tests {
+    use super::super::line::Line;
     use super::*;
     use std::error::Error as _;
+
+    #[test]
+    fn a_wall_that_is_not_bound_in_a_step_does_not_share_its_force() {
+        let scene =
+            Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("one", 1.0)).with_wall(Wall::upper("other", 1.0));
+        let unit = Symmetric::diagonal(&[1.0]);
+        let mut programme = Programme::<Line>::new(&scene, unit, 1.0, |_, _| 0.0, Backend::Auto).expect("sound");
+        // Minimise ½x² − 3x for x ≤ 1: the bound pulls with −2.
+        let mut solve = |bound: &[usize]| {
+            programme.free();
+            bound.iter().for_each(|&seat| programme.bind(0, seat, 1.0));
+            let mut force = [0.0; 2];
+            programme.solve(&[3.0], (0.0, 0), &mut force, &mut Vec::new()).expect("solved");
+            force
+        };
+        assert_eq!(solve(&[0, 1]), [-1.0, -1.0]);
+        assert_eq!(solve(&[1]), [0.0, -2.0]);
+        assert_eq!(solve(&[0]), [-2.0, 0.0]);
+        // What it cost is added to what was counted before.
+        let mut counters = Counters {
+            qp_solves: 10,
+            interior_point_iterations: 20,
+            pivots: 30,
+            qp_fallbacks: 40,
+            ..Counters::default()
+        };
+        programme.count(&mut counters);
+        assert_eq!((counters.qp_solves, counters.interior_point_iterations), (13, 20));
+        assert_eq!((counters.pivots, counters.qp_fallbacks), (30, 40));
+    }
 
     #[test]
     fn the_error_of_a_step_has_the_failure_of_the_solver_as_its_source() {
