@@ -5,7 +5,7 @@
 //! masses), so that no number is rounded otherwise than before: results agree to the bit. A size
 //! anywhere that is not made of the scene's own, be it the start of a sum or of a largest value,
 //! shows in one of the two.
-#![cfg(feature = "cli")]
+#![cfg(feature = "case")]
 
 mod common;
 mod random_structures;
@@ -14,9 +14,10 @@ use common::{INTEGRATORS, MOREAU_JEAN, elastic, source};
 use random_structures::{Draws, random_scene};
 use serde_json::Value;
 use signorini::linear::Symmetric;
+use signorini::residual::Judge;
 use signorini::{
-    Load, LoadKind, Options, PenaltyLaw, Run, Scene, Scheme, SharedStructure, Structure, System, Table, TimeOptions,
-    Wall, WallLaw, run,
+    Finding, Load, LoadKind, Options, PenaltyLaw, Run, Scene, Scheme, SharedStructure, Stepper, Structure, System,
+    Table, TimeOptions, Wall, WallLaw, run,
 };
 
 /// How many of the new units an old one is.
@@ -299,4 +300,105 @@ fn structures_move_alike_in_all_units() {
     // The φ² law needs walls that face each other, which few of them have; the other 10 of the 14
     // schemes run on nearly all.
     assert!(ran >= 100, "{ran}");
+}
+
+/// What is wrong with a run that a judge sees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Fault {
+    /// All wall forces and impulses that the judge is shown are larger by this share.
+    Pushed(f64),
+    /// All velocities after a step are larger by this share.
+    Fast(f64),
+    /// All displacements are larger by this share.
+    Far(f64),
+    /// The judge's walls stand farther out by this share, and its springs are stiffer.
+    Walls(f64),
+    /// The judge's loads are larger by this share.
+    Loads(f64),
+}
+
+/// Findings of a judge over `steps` steps, in the units given.
+fn accused(scene: &Scene, scheme: Scheme, (h, steps): (f64, u32), fault: Fault, units: Units) -> Option<Vec<Finding>> {
+    let mut other = scene.clone();
+    if let Fault::Walls(share) = fault {
+        for wall in &mut other.walls {
+            wall.position *= 1.0 + share;
+            if let WallLaw::Elastic { stiffness, .. } = &mut wall.law {
+                *stiffness *= 1.0 + share;
+            }
+        }
+    }
+    if let Fault::Loads(share) = fault {
+        for load in &mut other.loads {
+            match &mut load.kind {
+                LoadKind::Constant { force } => *force *= 1.0 + share,
+                LoadKind::Harmonic { amplitude, .. } => *amplitude *= 1.0 + share,
+                LoadKind::Impulse { impulse, .. } => *impulse *= 1.0 + share,
+                _ => {}
+            }
+        }
+    }
+    let (scheme, h) = (units.scheme(scheme), h * units.time);
+    let mut stepper = Stepper::new(&units.scene(scene), &scheme, h).ok()?;
+    let mut judged = units.scene(&other);
+    if let Scheme::Penalty { law, .. } = scheme {
+        judged = judged.penalised(law).ok()?;
+    }
+    let state = stepper.state();
+    let mut judge = Judge::new(&judged, stepper.contract(), h, &state.q, &state.v);
+    let times = |values: &[f64], factor: f64| values.iter().map(|x| x * factor).collect::<Vec<_>>();
+    let (push, fast, far) = match fault {
+        Fault::Pushed(share) => (1.0 + share, 1.0, 1.0),
+        Fault::Fast(share) => (1.0, 1.0 + share, 1.0),
+        Fault::Far(share) => (1.0, 1.0, 1.0 + share),
+        _ => (1.0, 1.0, 1.0),
+    };
+    for _ in 0..steps {
+        let mut step = stepper.step().ok()?;
+        let (q, v, after) = (times(step.q, far), times(step.v, fast), times(step.velocity_after, fast));
+        let [impulse, jump, force] = [step.impulse, step.jump, step.force].map(|values| times(values, push));
+        (step.q, step.v, step.velocity_after) = (&q, &v, &after);
+        (step.impulse, step.jump, step.force) = (&impulse, &jump, &force);
+        judge.see(&step);
+    }
+    Some(judge.findings())
+}
+
+#[test]
+fn a_fault_is_found_alike_in_all_units() {
+    let mut scenes = vec![
+        ("rigid walls".to_owned(), source(0.8, 0.4)),
+        ("an elastic wall".into(), elastic(3.0, 0.5).with_load(Load::constant(1.0))),
+        ("a blow".into(), elastic(0.0, 1.0).with_load(Load::impulse(0.1, 0.3))),
+    ];
+    for seed in 0..6 {
+        let scene = random_scene(&mut Draws::new(seed)).with_duration(0.25);
+        if !scene.walls.is_empty() {
+            scenes.push((format!("seed {seed}"), scene));
+        }
+    }
+    let faults = [Fault::Pushed(1e-3), Fault::Fast(1e-3), Fault::Far(1e-3), Fault::Walls(1e-2), Fault::Loads(1e-2)];
+    let units = Units { length: 1.0, mass: 1.0, time: 1.0 };
+    let (mut found, mut exact) = (0, 0);
+    for (name, scene) in &scenes {
+        for scheme in schemes().into_iter().chain([Scheme::Event]) {
+            for fault in faults {
+                let accused = |units| accused(scene, scheme, (two(-10), 200), fault, units);
+                let Some(one) = accused(units) else { continue };
+                for units in [Units::SMALL, Units::LARGE] {
+                    let what = format!("{name}, {scheme}, {fault:?}, {units:?}");
+                    let other = accused(units).unwrap_or_else(|| panic!("{what}: no run"));
+                    assert_eq!(one.len(), other.len(), "{what}: {one:?}, in other units {other:?}");
+                    for (one, other) in one.iter().zip(&other) {
+                        let mut expected = one.clone();
+                        expected.time_s *= units.time;
+                        assert_eq!(*other, expected, "{what}");
+                    }
+                }
+                found += one.len();
+                exact += if scheme == Scheme::Event { one.len() } else { 0 };
+            }
+        }
+    }
+    assert!(found > 500 && exact > 20, "{found} findings, {exact} of them of exact motion");
 }
