@@ -54,8 +54,8 @@ pub use interrupt::Interrupt;
 pub use residual::{Finding, Refuted};
 pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{
-    Bar, BarEnd, Beam, BeamEnd, Chain, Condensation, Damping, MOST_DENSE, MOST_ELEMENTS, MOST_MODES, MassMatrix,
-    ModalData, ModalPoint, Modes, Reduction, WallTruncation, matrices,
+    Bar, BarEnd, Beam, BeamEnd, Chain, Condensation, Damping, Flat, Flats, MOST_DENSE, MOST_ELEMENTS, MOST_FLATS,
+    MOST_MODES, MassMatrix, ModalData, ModalPoint, Modes, PlaneRows, Reduction, WallTruncation, heading, matrices,
 };
 pub use scene::{
     Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, Row, Scene, SharedStructure, Side, State, Structure,

@@ -472,7 +472,7 @@ const WRONG_TUBES: &[Wrong] = &[
     ("a probe without a place", "at = { position = 1.5 }\n", "", "32:1", &["`at` is missing in probe \"middle\""]),
     ("a probe of bad name", "name = \"middle\"", "name = \"the middle\"", "33:8", &["probe 1: name", "letters"]),
     ("two probes of one name", "[time]", "[[probe]]\nname = \"middle\"\nat = { dof = 3 }\n[time]", "37:8", &["probe 2: name", "a name of its own"]),
-    ("an unknown key of a probe", "at = { position = 1.5 }", "where = 1.5", "34:1", &["unknown key `where`", "name or at"]),
+    ("an unknown key of a probe", "at = { position = 1.5 }", "where = 1.5", "34:1", &["unknown key `where`", "name, at, direction"]),
 ];
 
 #[rustfmt::skip]

@@ -4,7 +4,8 @@
 
 use super::builder::{Builder, MOST_MASSES, TableReader};
 use super::file::{self, File};
-use super::model::{Model, Place};
+use super::model::Model;
+use super::planes::Planes;
 use super::report::Source;
 use super::start;
 use super::value::{Number, Section};
@@ -32,6 +33,7 @@ pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>, start: Optio
         places: Vec::new(),
         tables,
         model: Model::Oscillator,
+        planes: Planes::One,
         n: 1,
         static_correction: false,
         written: Written::default(),
@@ -43,33 +45,40 @@ impl Builder<'_> {
     fn case(&mut self, file: File, start: Option<&State>) -> Result<Case> {
         let modes = self.modes(&file.system.value)?;
         let built = self.system(file.system, modes.is_some())?;
-        (self.model, self.n) = (built.model, built.system.degrees_of_freedom());
+        (self.model, self.planes) = (built.model, built.planes);
+        let total = built.system.degrees_of_freedom();
+        self.n = if let Planes::Two(n) = self.planes { n } else { total };
+        if let (Some(more), Planes::Two(n)) = (modes.filter(|modes| *modes > self.n), self.planes) {
+            let expected = format!("from 1 to {n}, the degrees of freedom of one plane");
+            return Err(self.at_key(Error::invalid("modes", more, expected)));
+        }
+        let modes = modes.map(|modes| modes * self.planes.modes());
         let time = file.time.value;
         let mut scene = Scene {
             system: built.system,
             walls: Vec::new(),
             loads: Vec::new(),
             probes: Vec::new(),
-            initial: State { q: vec![0.0; self.n], v: vec![0.0; self.n] },
+            initial: State { q: vec![0.0; total], v: vec![0.0; total] },
             duration: self.number("duration", &time.end),
         };
         if let Some(Section { value: initial, .. }) = file.initial {
             scene.initial.q = self.field("displacement", initial.displacement.as_ref())?;
             scene.initial.v = self.field("velocity", initial.velocity.as_ref())?;
         }
-        let mut places: Vec<Place> = Vec::new();
-        let mut names = Vec::new();
+        let mut walls = Vec::new();
         for (index, wall) in file.wall.into_iter().enumerate() {
-            for (wall, site, place) in self.walls(index, scene.walls.len(), wall)? {
-                scene.walls.push(wall);
-                names.push(site);
-                places.push(place);
-            }
+            walls.extend(self.walls(index, walls.len(), wall)?);
+        }
+        for (index, support) in file.support.into_iter().enumerate() {
+            walls.extend(self.support(index, walls.len(), support)?);
         }
         for (index, load) in file.load.into_iter().enumerate() {
             scene.loads.push(self.load(index, load)?);
         }
-        scene.probes = self.probes(file.probe, &scene.walls, &names, &places)?;
+        scene.probes = self.probes(file.probe, &walls)?;
+        let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
+        scene.walls = all;
         let time = TimeOptions {
             step: self.number("step", &time.step),
             sample: self.optional("sample", time.sample.as_ref()),
@@ -92,6 +101,7 @@ impl Builder<'_> {
             title: file.title,
             source: file.source,
             model: self.model.clone(),
+            planes: self.planes,
             places,
             scene,
             condensation,
@@ -106,7 +116,12 @@ impl Builder<'_> {
         case.check().map_err(|error| self.locate(error, &case.scene))?;
         if let Some(modes) = modes {
             let ratios = built.pending.filter(|damping| matches!(damping, Damping::Modal(_)));
-            let whole = Whole { scene: case.scene.clone(), damping: ratios, static_correction: self.static_correction };
+            let whole = Whole {
+                scene: case.scene.clone(),
+                damping: ratios,
+                static_correction: self.static_correction,
+                planes: self.planes.modes(),
+            };
             let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
             case.scene = reduction.scene.clone();
             if let Some(start) = start {

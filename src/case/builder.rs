@@ -2,6 +2,7 @@
 
 use super::Written;
 use super::model::Model;
+use super::planes::Planes;
 use super::report::Source;
 use crate::error::Subject;
 use std::ops::Range;
@@ -19,7 +20,8 @@ pub(super) struct Builder<'a> {
     pub places: Vec<(Subject, Range<usize>)>,
     pub tables: TableReader<'a>,
     pub model: Model,
-    /// Degrees of freedom of the whole structure.
+    pub planes: Planes,
+    /// Degrees of freedom of the structure in one plane; of matrices, of both.
     pub n: usize,
     pub static_correction: bool,
     pub written: Written,

@@ -9,7 +9,7 @@ use toml::{Table, Value};
 pub(super) fn set(file: &mut Table, key: &Key, new: &KeyValue) -> Result<()> {
     let Some((first, rest)) = key.parts().split_first() else { return Ok(()) };
     match first.as_str() {
-        "wall" | "probe" | "load" => {
+        "wall" | "support" | "probe" | "load" => {
             for entry in entries(file, key)? {
                 put(entry, rest.get(1..).unwrap_or_default(), key, &new.0)?;
             }
@@ -31,7 +31,7 @@ pub(super) fn get(file: &Table, key: &Key) -> Option<KeyValue> {
     let (first, rest) = key.parts().split_first()?;
     let mut found: Vec<&Value> = vec![file.get(first)?];
     for (index, part) in rest.iter().enumerate() {
-        let named = index == 0 && ["wall", "probe"].contains(&first.as_str());
+        let named = index == 0 && ["wall", "support", "probe"].contains(&first.as_str());
         let mut next = Vec::new();
         for value in found {
             match value {
@@ -59,7 +59,7 @@ fn is_named(entry: &Value, name: &str) -> bool {
     entry.get("name").and_then(Value::as_str) == Some(name)
 }
 
-/// The tables `[[wall]]`, `[[probe]]` or `[[load]]` to which the second part of `key` refers.
+/// The tables `[[wall]]`, `[[support]]`, `[[probe]]` or `[[load]]` to which the second part of `key` refers.
 fn entries<'a>(file: &'a mut Table, key: &Key) -> Result<Vec<&'a mut Value>> {
     let part = |index: usize| key.parts().get(index).map_or("", String::as_str);
     let (list, name) = (part(0), part(1));
@@ -75,6 +75,7 @@ fn entries<'a>(file: &'a mut Table, key: &Key) -> Result<Vec<&'a mut Value>> {
     let kind = match list {
         "load" => "load",
         "probe" => "probe",
+        "support" => "support",
         _ => "wall",
     };
     match names.iter().position(|known| known == name) {

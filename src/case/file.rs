@@ -14,6 +14,8 @@ pub(super) struct File {
     #[serde(default)]
     pub wall: Vec<Section<Wall>>,
     #[serde(default)]
+    pub support: Vec<Section<Support>>,
+    #[serde(default)]
     pub load: Vec<Section<Load>>,
     pub initial: Option<Section<Initial>>,
     #[serde(default)]
@@ -33,6 +35,7 @@ pub(super) struct System {
     pub matrices: Option<Section<Matrices>>,
     pub modal: Option<Section<Modal>>,
     pub damping: Option<Section<Damping>>,
+    pub planes: Option<Spanned<Number>>,
     pub modes: Option<Spanned<Number>>,
     pub static_correction: Option<Spanned<bool>>,
 }
@@ -123,9 +126,27 @@ pub(super) struct Rayleigh {
 pub(super) struct Wall {
     pub name: Spanned<String>,
     pub at: Option<Spanned<Value>>,
+    pub direction: Option<Spanned<Number>>,
     pub side: Spanned<String>,
     pub position: Option<Spanned<Number>>,
     pub gap: Option<Spanned<Number>>,
+    pub restitution: Option<Spanned<Number>>,
+    pub stiffness: Option<Spanned<Number>>,
+    pub damping: Option<Spanned<Number>>,
+}
+
+/// One of `directions` and `sides` must be set.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Support {
+    pub name: Spanned<String>,
+    pub at: Option<Spanned<Value>>,
+    pub shape: Spanned<String>,
+    pub directions: Option<Spanned<Vec<Spanned<Number>>>>,
+    pub sides: Option<Spanned<Number>>,
+    pub turn: Option<Spanned<Number>>,
+    pub gap: Spanned<Value>,
+    pub centre: Option<Spanned<Vec<Spanned<Number>>>>,
     pub restitution: Option<Spanned<Number>>,
     pub stiffness: Option<Spanned<Number>>,
     pub damping: Option<Spanned<Number>>,
@@ -136,6 +157,7 @@ pub(super) struct Wall {
 #[serde(deny_unknown_fields)]
 pub(super) struct Load {
     pub at: Option<Spanned<Value>>,
+    pub direction: Option<Spanned<Value>>,
     pub constant: Option<Section<Constant>>,
     pub harmonic: Option<Section<Harmonic>>,
     pub impulse: Option<Section<Impulse>>,
@@ -186,6 +208,7 @@ pub(super) struct Initial {
 pub(super) struct Probe {
     pub name: Spanned<String>,
     pub at: Option<Spanned<Value>>,
+    pub direction: Option<Spanned<Number>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -2,46 +2,79 @@
 
 use super::builder::Builder;
 use super::model::Model;
+use super::planes::Planes;
 use super::value::Value;
 use crate::error::{Result, Subject};
 use toml::Spanned;
 
+/// A field that is read: its key, the subject of errors and its unit.
+struct Field {
+    key: String,
+    subject: Subject,
+    unit: &'static str,
+}
+
 impl Builder<'_> {
-    /// The forms of a field that this system accepts.
-    fn takes_field(&self, unit: &str) -> String {
-        let last = self.n.saturating_sub(1);
-        let of_dofs = format!("a list of {} numbers in {unit}, or {{ dofs = [[0 to {last}, {unit}]] }}", self.n);
+    /// The forms of a field of `n` degrees of freedom that this system accepts.
+    fn takes_field(&self, unit: &str, n: usize) -> String {
+        let last = n.saturating_sub(1);
+        let of_dofs = format!("a list of {n} numbers in {unit}, or {{ dofs = [[0 to {last}, {unit}]] }}");
         match self.model.length() {
+            Some(_) if n != self.n => format!("{{ y = .., z = .. }}, {of_dofs}"),
             Some(length) => format!("{{ profile = [[0.0 m, {unit}], .., [{length:?} m, {unit}]] }}, {of_dofs}"),
-            None if self.n == 1 => format!("a number, in {unit}"),
+            None if n == 1 => format!("a number, in {unit}"),
+            None if n != self.n => format!("{{ y = .., z = .. }}, {of_dofs}"),
             None => of_dofs,
         }
     }
 
     /// A displacement or velocity of every degree of freedom; 0 where none is given.
     pub fn field(&mut self, part: &'static str, value: Option<&Spanned<Value>>) -> Result<Vec<f64>> {
-        let Some(value) = value else { return Ok(vec![0.0; self.n]) };
-        let (subject, key) = (Subject::from(("initial state", part)), &format!("initial.{part}"));
+        let total = self.total();
+        let Some(value) = value else { return Ok(vec![0.0; total]) };
+        let subject = Subject::from(("initial state", part));
         self.places.push((subject.clone(), value.span()));
-        let wanted = self.takes_field(if part == "velocity" { "m/s" } else { "m" });
+        let unit = if part == "velocity" { "m/s" } else { "m" };
+        let field = |name: &str| Field { key: format!("initial.{part}{name}"), subject: subject.clone(), unit };
+        match (self.planes, value.get_ref()) {
+            (Planes::Two(n), Value::Table(planes))
+                if planes.iter().all(|(name, _)| ["y", "z"].contains(&name.get_ref().as_str())) =>
+            {
+                let mut both = vec![0.0; total];
+                for (name, value) in planes {
+                    let of_plane = self.over(&field(&format!(".{}", name.get_ref())), value, n)?;
+                    let from = if name.get_ref() == "y" { 0 } else { n };
+                    both.iter_mut().skip(from).zip(of_plane).for_each(|(all, x)| *all = x);
+                }
+                Ok(both)
+            }
+            _ => self.over(&field(""), value, total),
+        }
+    }
+
+    /// A field of `n` degrees of freedom: those of one plane, or all.
+    fn over(&mut self, field: &Field, value: &Spanned<Value>, n: usize) -> Result<Vec<f64>> {
+        let (key, wanted) = (&field.key, self.takes_field(field.unit, n));
         match value.get_ref() {
-            Value::Number(x) if self.n == 1 => Ok(vec![*x]),
-            Value::List(items) if !matches!(self.model, Model::Oscillator) => {
-                if items.len() != self.n {
+            Value::Number(x) if n == 1 => Ok(vec![*x]),
+            Value::List(items) if self.has_fields() => {
+                if items.len() != n {
                     let title = format!("{key} has {} values", items.len());
                     return Err(self.source.error(value.span(), &title, &format!("expected {wanted}")));
                 }
                 items.iter().map(|item| self.finite(key, item, &wanted)).collect()
             }
-            Value::Table(entries) if !matches!(self.model, Model::Oscillator) => match entries.as_slice() {
-                [(name, points)] if name.get_ref() == "profile" => self.profile((key, subject), name, points, &wanted),
+            Value::Table(entries) if self.has_fields() => match entries.as_slice() {
+                [(name, points)] if name.get_ref() == "profile" && n == self.n => {
+                    self.profile(field, name, points, &wanted)
+                }
                 [(name, list)] if name.get_ref() == "dofs" => {
-                    let mut field = vec![0.0; self.n];
+                    let mut values = vec![0.0; n];
                     for (dof, x) in self.pairs(&format!("{key}.dofs"), list, &wanted)? {
-                        let i = self.dof(&format!("{key}.dofs"), dof)?;
-                        field[i] = self.finite(&format!("{key}.dofs"), x, &wanted)?;
+                        let i = self.dof(&format!("{key}.dofs"), dof, n)?;
+                        values[i] = self.finite(&format!("{key}.dofs"), x, &wanted)?;
                     }
-                    Ok(field)
+                    Ok(values)
                 }
                 [(name, _)] => {
                     let title = format!("unknown key `{}` in `{key}`", name.get_ref());
@@ -56,9 +89,15 @@ impl Builder<'_> {
         }
     }
 
+    /// True where a field may be given by its degrees of freedom: not for an oscillator in one
+    /// plane.
+    fn has_fields(&self) -> bool {
+        !matches!(self.model, Model::Oscillator) || self.planes.is_two()
+    }
+
     fn profile(
         &mut self,
-        (key, subject): (&str, Subject),
+        Field { key, subject, .. }: &Field,
         name: &Spanned<String>,
         list: &Spanned<Value>,
         wanted: &str,
@@ -71,8 +110,8 @@ impl Builder<'_> {
             }
         }
         match &self.model {
-            Model::Bar(bar) => bar.field_through(subject, &points).map_err(|error| self.at_key(error)),
-            Model::Beam(beam) => beam.field_through(subject, &points).map_err(|error| self.at_key(error)),
+            Model::Bar(bar) => bar.field_through(subject.clone(), &points).map_err(|error| self.at_key(error)),
+            Model::Beam(beam) => beam.field_through(subject.clone(), &points).map_err(|error| self.at_key(error)),
             other => {
                 let title = format!("`{key}`: a {} has no positions", other.kind());
                 Err(self.source.error(name.span(), &title, &format!("expected {wanted}")))

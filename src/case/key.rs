@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 /// The path of a value in a case file: names of tables and keys, joined by dots.
 ///
-/// A `[[wall]]` or `[[probe]]` is addressed by its `name`, a `[[load]]` by its number from 1, as in
+/// A `[[wall]]`, `[[support]]` or `[[probe]]` is addressed by its `name`, a `[[load]]` by its number from 1, as in
 /// messages; `*` stands for all of them. Entries of number lists count from 0, as degrees of
 /// freedom do.
 ///
@@ -26,13 +26,20 @@ pub struct Key {
 }
 
 /// Keys inside values that the reader checks itself: those of `at` and of the ends of models.
-const INNER: [&str; 22] = [
+const INNER: [&str; 37] = [
     "wall.at",
     "wall.at.dof",
     "wall.at.point",
     "wall.at.points",
     "wall.at.position",
     "wall.at.row",
+    "wall.at.y",
+    "wall.at.z",
+    "support.at",
+    "support.at.dof",
+    "support.at.position",
+    "support.at.y",
+    "support.at.z",
     "load.at",
     "load.at.dof",
     "load.at.point",
@@ -40,14 +47,22 @@ const INNER: [&str; 22] = [
     "load.at.position",
     "load.at.row",
     "load.at.spread",
+    "load.at.y",
+    "load.at.z",
     "probe.at",
     "probe.at.dof",
     "probe.at.point",
     "probe.at.points",
     "probe.at.position",
     "probe.at.row",
+    "probe.at.y",
+    "probe.at.z",
     "initial.displacement.dofs",
     "initial.velocity.dofs",
+    "initial.displacement.y",
+    "initial.displacement.z",
+    "initial.velocity.y",
+    "initial.velocity.z",
     "system.modal.shapes",
 ];
 
@@ -55,10 +70,19 @@ const INNER: [&str; 22] = [
 const ENDS: [&str; 3] = ["system.chain", "system.bar", "system.beam"];
 
 /// Units as written in column names, by the path without names and numbers.
-const UNITS: [(&str, &[&str]); 19] = [
+const UNITS: [(&str, &[&str]); 20] = [
     ("kg", &["system.oscillator.mass", "system.chain.masses", "system.chain.mass", "system.modal.masses"]),
-    ("N_s_per_m", &["system.oscillator.damping", "wall.damping", "penalty.damping"]),
-    ("N_per_m", &["system.oscillator.stiffness", "system.chain.springs", "wall.stiffness", "penalty.stiffness"]),
+    ("N_s_per_m", &["system.oscillator.damping", "wall.damping", "support.damping", "penalty.damping"]),
+    (
+        "N_per_m",
+        &[
+            "system.oscillator.stiffness",
+            "system.chain.springs",
+            "wall.stiffness",
+            "support.stiffness",
+            "penalty.stiffness",
+        ],
+    ),
     (
         "m",
         &[
@@ -69,13 +93,19 @@ const UNITS: [(&str, &[&str]); 19] = [
             "wall.position",
             "wall.gap",
             "wall.at.position",
+            "support.gap",
+            "support.centre",
+            "support.at.position",
             "load.at.position",
             "load.at.spread",
             "probe.at.position",
             "initial.displacement",
             "initial.displacement.dofs",
+            "initial.displacement.y",
+            "initial.displacement.z",
         ],
     ),
+    ("deg", &["wall.direction", "support.directions", "support.turn", "load.direction", "probe.direction"]),
     ("Pa", &["system.bar.youngs_modulus", "system.beam.youngs_modulus"]),
     ("kg_per_m3", &["system.bar.density", "system.beam.density"]),
     ("m2", &["system.bar.area"]),
@@ -98,7 +128,7 @@ const UNITS: [(&str, &[&str]); 19] = [
     ("N", &["load.constant.force", "load.harmonic.amplitude"]),
     ("rad", &["load.harmonic.phase"]),
     ("N_s", &["load.impulse.impulse"]),
-    ("m_per_s", &["initial.velocity", "initial.velocity.dofs"]),
+    ("m_per_s", &["initial.velocity", "initial.velocity.dofs", "initial.velocity.y", "initial.velocity.z"]),
     ("m3_per_N", &["penalty.epsilon"]),
     ("N_per_m", &["system.chain.left.stiffness", "system.chain.right.stiffness", "system.bar.left.stiffness"]),
     ("N_per_m", &["system.bar.right.stiffness", "system.beam.left.stiffness", "system.beam.right.stiffness"]),
@@ -139,7 +169,8 @@ impl Key {
 
     /// The path without names and numbers: `wall.restitution`.
     fn pattern(&self) -> String {
-        let listed = self.parts.first().is_some_and(|first| ["wall", "load", "probe"].contains(&first.as_str()));
+        let listed =
+            self.parts.first().is_some_and(|first| ["wall", "support", "load", "probe"].contains(&first.as_str()));
         let shapes = self.parts.starts_with(&["system", "modal", "shapes"].map(str::to_owned));
         let named = |index: usize, part: &str| {
             (listed && index == 1) || (shapes && index == 3) || part == "*" || part.parse::<usize>().is_ok()
@@ -150,7 +181,7 @@ impl Key {
 
     fn is_known(&self) -> bool {
         let pattern = self.pattern();
-        let listed = ["wall", "load", "probe"].contains(&pattern.as_str());
+        let listed = ["wall", "support", "load", "probe"].contains(&pattern.as_str());
         let support = |end: &str| {
             ["left", "right"].iter().any(|side| {
                 let [stiffness, rotational] = ["stiffness", "rotational"].map(|what| format!("{end}.{side}.{what}"));
@@ -170,7 +201,7 @@ impl Key {
         let known: Vec<String> = paths()
             .filter(|path| path.split('.').next() == Some(first))
             .map(|path| match path.split_once('.') {
-                Some((list @ ("wall" | "load" | "probe"), rest)) => format!("{list}.{name}.{rest}"),
+                Some((list @ ("wall" | "support" | "load" | "probe"), rest)) => format!("{list}.{name}.{rest}"),
                 _ => path.to_owned(),
             })
             .filter(|path| path.contains('.'))
@@ -216,7 +247,7 @@ mod tests {
         let mut with_units = 0;
         for path in paths().filter(|path| path.contains('.')) {
             let full = match path.split_once('.') {
-                Some((list @ ("wall" | "probe"), rest)) => format!("{list}.a.{rest}"),
+                Some((list @ ("wall" | "support" | "probe"), rest)) => format!("{list}.a.{rest}"),
                 Some(("load", rest)) => format!("load.1.{rest}"),
                 _ => path.to_owned(),
             };

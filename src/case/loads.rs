@@ -3,7 +3,7 @@
 use super::builder::Builder;
 use super::file;
 use super::table::{self, TableColumns};
-use super::value::Section;
+use super::value::{Number, Section, Value};
 use crate::error::{Result, Subject};
 use crate::scene::Load;
 use toml::Spanned;
@@ -12,7 +12,7 @@ impl Builder<'_> {
     /// The load in table `index`.
     pub fn load(&mut self, index: usize, load: Section<file::Load>) -> Result<Load> {
         let key = |what: &'static str| Subject::nth("load", index).part(what);
-        let file::Load { at, constant, harmonic, impulse, table } = load.value;
+        let file::Load { at, direction, constant, harmonic, impulse, table } = load.value;
         self.places.push((Subject::nth("load", index), load.span.clone()));
         let given: Vec<_> = [
             ("constant", constant.as_ref().map(|s| s.span.clone())),
@@ -33,6 +33,8 @@ impl Builder<'_> {
         let owner = format!("load {}", index + 1);
         let mut sites = self.sites((&owner, Subject::nth("load", index)), at.as_ref(), load.span.clone(), true)?;
         let site = sites.pop().ok_or_else(|| self.refuse(load.span.clone(), &owner, "a place"))?;
+        let direction = direction.map(|value| self.angle(&owner, &value)).transpose()?;
+        let site = self.towards(site, direction.as_ref(), &owner, &load.span)?;
         self.written.loads.push(site.place.clone());
         self.written.tables.push(None);
         let on = |load: Load| Load { at: site.row.clone(), ..load };
@@ -67,6 +69,14 @@ impl Builder<'_> {
             *table = Some((file.clone(), columns));
         }
         Ok(on(Load::table(read)))
+    }
+
+    /// The direction of a load.
+    fn angle(&self, owner: &str, direction: &Spanned<Value>) -> Result<Spanned<Number>> {
+        match direction.get_ref() {
+            Value::Number(x) => Ok(Spanned::new(direction.span(), Number(*x))),
+            _ => Err(self.refuse(direction.span(), &format!("{owner}: direction"), "a finite number, in deg")),
+        }
     }
 
     /// The columns of its file that a table refers to, and the format of the numbers.

@@ -19,6 +19,7 @@ mod case_file;
 mod changes;
 mod damping;
 mod digest;
+mod direction;
 mod embedded;
 mod file;
 mod initial;
@@ -31,10 +32,12 @@ mod model;
 mod notes;
 mod penalty;
 mod place;
+mod planes;
 mod read;
 mod report;
 mod start;
 mod summary;
+mod supports;
 mod system;
 mod table;
 mod template;
@@ -53,10 +56,11 @@ pub use key::Key;
 pub use key_value::KeyValue;
 pub use model::{Model, Place};
 pub use penalty::PenaltyOptions;
+pub use planes::Planes;
 pub use table::TableColumns;
 pub use template::Template;
 pub use truncated::Truncated;
-pub use written::{FileRead, Written};
+pub use written::{FileRead, Support, Written};
 
 use crate::error::{Error, Result};
 use crate::scene::{Condensation, Scene};
@@ -73,6 +77,8 @@ pub struct Case {
     pub source: Option<String>,
     /// The model from which its system was built.
     pub model: Model,
+    /// The planes in which it moves.
+    pub planes: Planes,
     /// The location of each wall, in the scene's order.
     pub places: Vec<Place>,
     /// The scene that is simulated, in modal coordinates if the case is reduced to modes; its
@@ -99,6 +105,11 @@ impl Case {
     /// [`Error::Invalid`] for the first invalid value.
     pub fn validate(&self) -> Result<()> {
         self.check().map_err(wording::in_keys)
+    }
+
+    /// True where walls, loads and probes have a place: not for one degree of freedom.
+    pub(crate) fn has_places(&self) -> bool {
+        !matches!(self.model, Model::Oscillator) || self.planes.is_two()
     }
 
     /// The same check, with errors in the terms of scene and options.

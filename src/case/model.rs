@@ -57,6 +57,8 @@ impl Model {
             (Place::Spread { from, to }, Self::Beam(beam)) => beam.spread(*from, *to),
             (Place::Points(points), Self::Modal(modal)) => modal.at_sum(points),
             (Place::Position(_) | Place::Spread { .. } | Place::Points(_), _) => Ok(Row::new(Vec::new())),
+            // These have rows only together with the planes.
+            (Place::Rows { .. } | Place::Towards { .. }, _) => Ok(Row::new(Vec::new())),
         }
     }
 
@@ -98,6 +100,21 @@ pub enum Place {
     },
     /// Points of modes with weights: one point of weight 1, or a sum of several.
     Points(Vec<(String, f64)>),
+    /// For matrices of both planes: pairs (degree of freedom, weight) of the displacement along +y,
+    /// and of that along +z.
+    Rows {
+        /// Along +y.
+        y: Vec<(usize, f64)>,
+        /// Along +z.
+        z: Vec<(usize, f64)>,
+    },
+    /// A place in two planes, in one direction.
+    Towards {
+        /// The place in the cross-section.
+        place: Box<Place>,
+        /// The direction, degrees from +y towards +z.
+        degrees: f64,
+    },
 }
 
 impl Place {
@@ -113,10 +130,9 @@ impl fmt::Display for Place {
         match self {
             Self::Dof(i) => write!(f, "degree of freedom {i}"),
             Self::Position(x) => write!(f, "{x} m along it"),
-            Self::Row(entries) => {
-                let term = |(i, weight): &(usize, f64)| format!("{weight} q{i}");
-                f.write_str(&entries.iter().map(term).collect::<Vec<_>>().join(" + "))
-            }
+            Self::Row(entries) => f.write_str(&sum(entries)),
+            Self::Rows { y, z } => write!(f, "y = {}, z = {}", sum(y), sum(z)),
+            Self::Towards { place, degrees } => write!(f, "{place}, towards {degrees}°"),
             Self::Points(points) => match points.as_slice() {
                 [(name, 1.0)] => write!(f, "the point {name:?}"),
                 _ => {
@@ -127,4 +143,10 @@ impl fmt::Display for Place {
             Self::Spread { from, to } => write!(f, "from {from} to {to} m along it"),
         }
     }
+}
+
+/// A weighted sum of degrees of freedom, in words.
+fn sum(entries: &[(usize, f64)]) -> String {
+    let term = |(i, weight): &(usize, f64)| format!("{weight} q{i}");
+    entries.iter().map(term).collect::<Vec<_>>().join(" + ")
 }

@@ -12,7 +12,19 @@ impl Case {
     pub fn notes(&self) -> Vec<String> {
         let mut notes = self.condensed();
         notes.extend(self.cut_notes());
+        notes.extend(self.open_supports());
         notes
+    }
+
+    /// Supports that the structure may leave, since their flats stand within a half turn.
+    fn open_supports(&self) -> impl Iterator<Item = String> {
+        let open = self.written.supports.iter().filter(|support| support.flats.is_open());
+        open.map(|support| {
+            format!(
+                "the flats of support {:?} stand within a half turn: it bounds the motion on their side only",
+                support.flats.name
+            )
+        })
     }
 
     /// What was condensed, and the walls that this affected.

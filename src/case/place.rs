@@ -2,6 +2,7 @@
 
 use super::builder::Builder;
 use super::model::{Model, Place};
+use super::planes::Planes;
 use super::value::Value;
 use crate::error::{Error, Result, Subject};
 use crate::scene::Row;
@@ -10,7 +11,7 @@ use toml::Spanned;
 
 /// A location, its row, and the suffix of the names there: empty, or `-` and a number where `at` is
 /// "each".
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Site {
     pub suffix: String,
     pub place: Place,
@@ -19,6 +20,11 @@ pub(super) struct Site {
 
 /// Most points of modes that a message lists.
 const MOST_POINTS: usize = 20;
+
+/// True for the name of a plane.
+fn is_plane(name: &str) -> bool {
+    name == "y" || name == "z"
+}
 
 impl Builder<'_> {
     /// The values of `at` that this system accepts.
@@ -34,7 +40,13 @@ impl Builder<'_> {
                  to {last} }}, a mode{each}"
             );
         }
-        let dof = format!("{{ dof = 0 to {last} }}, {{ row = [[0, 1.0], [1, -1.0]] }}");
+        let dof = match self.planes {
+            Planes::Named => {
+                let row = "{ row = [[0, 1.0], [1, -1.0]] } without direction";
+                return format!("at = {{ y = [[0, 1.0]], z = [[1, 1.0]] }}, degrees of freedom 0 to {last}, or {row}");
+            }
+            _ => format!("{{ dof = 0 to {last} }}, {{ row = [[0, 1.0], [1, -1.0]] }}"),
+        };
         match self.model.length() {
             Some(length) if spread => {
                 format!("at = {{ position = 0 to {length:?} m }}, {{ spread = [from, to] }} in m, {dof}")
@@ -65,6 +77,7 @@ impl Builder<'_> {
         if let Value::Word(word) = at.get_ref()
             && word == "each"
             && !load
+            && self.planes != Planes::Named
         {
             let site = |(i, place): (String, Place)| {
                 let row = self.model.row(&place)?;
@@ -74,6 +87,9 @@ impl Builder<'_> {
         }
         let Value::Table(entries) = at.get_ref() else { return Err(self.refuse(at.span(), &key, &self.takes(load))) };
         let place = match entries.as_slice() {
+            [_] | [_, _] if self.planes == Planes::Named && entries.iter().all(|entry| is_plane(entry.0.get_ref())) => {
+                self.rows_of(&key, entries)?
+            }
             [(kind, value)] => self.place(&key, kind, value, load)?,
             [] => return Err(self.refuse(at.span(), &key, &self.takes(load))),
             [_, _, ..] => {
@@ -85,7 +101,12 @@ impl Builder<'_> {
             }
         };
         let row = self.model.row(&place).map_err(|error| self.at_value(&key, error, &entries[0].1))?;
-        if row.entries().iter().all(|entry| entry.1 == 0.0) {
+        let free = |row: &[(usize, f64)]| row.iter().any(|entry| entry.1 != 0.0);
+        let moves = match &place {
+            Place::Rows { y, z } => free(y) || free(z),
+            _ => free(row.entries()),
+        };
+        if !moves {
             let title = format!("{key}: nothing moves there");
             return Err(self.source.error(
                 at.span(),
@@ -99,8 +120,12 @@ impl Builder<'_> {
     fn place(&mut self, key: &str, kind: &Spanned<String>, value: &Spanned<Value>, load: bool) -> Result<Place> {
         let on_line = matches!(self.model, Model::Bar(_) | Model::Beam(_));
         match kind.get_ref().as_str() {
-            "dof" => Ok(Place::Dof(self.dof(&format!("{key}: dof"), value)?)),
-            "row" => self.row(&format!("{key}: row"), value),
+            "dof" if self.planes == Planes::Named => {
+                let title = format!("{key}: a degree of freedom of matrices in two planes has no direction");
+                Err(self.source.error(kind.span(), &title, &format!("expected {}", self.takes(load))))
+            }
+            "dof" => Ok(Place::Dof(self.dof(&format!("{key}: dof"), value, self.n)?)),
+            "row" => Ok(Place::Row(self.row(&format!("{key}: row"), value)?)),
             word @ ("point" | "points") if matches!(self.model, Model::Modal(_)) => {
                 self.points(&format!("{key}: {word}"), value)
             }
@@ -164,21 +189,32 @@ impl Builder<'_> {
         Ok(Place::Points(points))
     }
 
-    /// The number of a degree of freedom.
-    pub fn dof(&self, key: &str, value: &Spanned<Value>) -> Result<usize> {
-        let last = self.n.saturating_sub(1);
+    /// The rows along y and along z of matrices of both planes.
+    fn rows_of(&mut self, key: &str, entries: &[(Spanned<String>, Spanned<Value>)]) -> Result<Place> {
+        let (mut y, mut z) = (Vec::new(), Vec::new());
+        for (plane, value) in entries {
+            let row = self.row(&format!("{key}: {}", plane.get_ref()), value)?;
+            if plane.get_ref() == "y" { y = row } else { z = row }
+        }
+        Ok(Place::Rows { y, z })
+    }
+
+    /// The number of one of `n` degrees of freedom.
+    pub fn dof(&self, key: &str, value: &Spanned<Value>, n: usize) -> Result<usize> {
+        let last = n.saturating_sub(1);
         match value.get_ref() {
             Value::Number(x) if x.fract() == 0.0 && (0.0..=last as f64).contains(x) => Ok(*x as usize),
             _ => Err(self.refuse(value.span(), key, &format!("a degree of freedom, a whole number from 0 to {last}"))),
         }
     }
 
-    fn row(&self, key: &str, value: &Spanned<Value>) -> Result<Place> {
+    /// Weights of degrees of freedom, in two planes of both.
+    fn row(&self, key: &str, value: &Spanned<Value>) -> Result<Vec<(usize, f64)>> {
         let wanted = "pairs of a degree of freedom and a weight, each once: [[0, 1.0], [1, -1.0]]";
         let entries = self.pairs(key, value, wanted)?;
         let mut row: Vec<(usize, f64)> = Vec::new();
         for (dof, weight) in entries {
-            let i = self.dof(&format!("{key}: degree of freedom"), dof)?;
+            let i = self.dof(&format!("{key}: degree of freedom"), dof, self.total())?;
             if row.iter().any(|entry| entry.0 == i) {
                 return Err(self.refuse(
                     dof.span(),
@@ -192,7 +228,7 @@ impl Builder<'_> {
         if row.iter().all(|entry| entry.1 == 0.0) {
             return Err(self.refuse(value.span(), key, &format!("{wanted}, one of the weights not 0")));
         }
-        Ok(Place::Row(row))
+        Ok(row)
     }
 
     /// A list of pairs.

@@ -119,7 +119,7 @@ impl Source<'_> {
             let key = self.slice(span.clone());
             let title = format!("duplicate key `{key}`");
             let help = match key {
-                "wall" | "load" | "probe" => accepted(key).unwrap_or_default(),
+                "wall" | "support" | "load" | "probe" => accepted(key).unwrap_or_default(),
                 _ => "each key once in a table",
             };
             return self.error(span, &title, &format!("expected {help}"));

@@ -4,6 +4,7 @@ use super::accepted::accepted;
 use super::builder::{Builder, MOST_MASSES};
 use super::file;
 use super::model::Model;
+use super::planes::Planes;
 use super::value::{Number, Section, Value};
 use super::wording::written;
 use crate::error::{Error, Result, Subject};
@@ -15,6 +16,7 @@ use toml::Spanned;
 pub(super) struct Built {
     pub model: Model,
     pub system: System,
+    pub planes: Planes,
     /// Damping that is still to be applied: modal ratios after the reduction to modes; every kind
     /// but a matrix after the condensation of massless degrees of freedom.
     pub pending: Option<Damping>,
@@ -57,6 +59,7 @@ impl Builder<'_> {
         let table = if given[0].0 == "modal" { "modal data" } else { given[0].0 };
         self.places.push(("system".into(), given[0].1.clone()));
         self.places.push((table.into(), given[0].1.clone()));
+        let two = self.two_planes(system.planes.as_ref(), given[0].0)?;
         if let Some(oscillator) = system.oscillator {
             for (key, span) in [
                 ("damping", system.damping.as_ref().map(|s| s.span.clone())),
@@ -75,7 +78,14 @@ impl Builder<'_> {
             let damping = self.number(("oscillator", "damping"), &o.damping);
             let stiffness = self.number(("oscillator", "stiffness"), &o.stiffness);
             let system = System::Oscillator(Oscillator { mass, damping, stiffness });
-            return Ok(Built { model: Model::Oscillator, system, pending: None });
+            let (system, planes) = match two {
+                false => (system, Planes::One),
+                true => {
+                    system.validate().map_err(|error| self.at_key(error))?;
+                    (system.structure().in_two_planes().into(), Planes::Two(1))
+                }
+            };
+            return Ok(Built { model: Model::Oscillator, system, planes, pending: None });
         }
         let (mut own_damping, mut pending) = (None, None);
         let (model, structure) = if let Some(chain) = system.chain {
@@ -117,7 +127,38 @@ impl Builder<'_> {
                 damping => structure = structure.with_damping(&damping).map_err(|error| self.at_key(error))?,
             }
         }
-        Ok(Built { model, system: structure.into(), pending })
+        let planes = match (two, &model) {
+            (false, _) => Planes::One,
+            (true, Model::Matrices(_)) => Planes::Named,
+            (true, _) => {
+                let n = structure.mass.size();
+                structure = structure.in_two_planes();
+                // A ratio is that of a mode of one plane; in two planes there are two of each.
+                if let Some(Damping::Modal(ratios)) = &mut pending {
+                    *ratios = ratios.iter().flat_map(|&ratio| [ratio; 2]).collect();
+                }
+                Planes::Two(n)
+            }
+        };
+        Ok(Built { model, system: structure.into(), planes, pending })
+    }
+
+    /// True for `planes = 2`, which `kind` must allow.
+    fn two_planes(&mut self, planes: Option<&Spanned<Number>>, kind: &str) -> Result<bool> {
+        let Some(planes) = planes else { return Ok(false) };
+        match (planes.get_ref().0, kind) {
+            (1.0, _) => Ok(false),
+            (2.0, "oscillator" | "chain" | "beam" | "matrices") => Ok(true),
+            (2.0, kind) => {
+                let title = format!("`system.planes` is 2 beside a {kind}");
+                let why = match kind {
+                    "bar" => "a bar moves along itself; a tube in bending is a beam",
+                    _ => "of modes each point has the direction of its shape: name one point for y and one for z",
+                };
+                Err(self.source.error(planes.span(), &title, &format!("expected no planes: {why}")))
+            }
+            _ => Err(self.refuse_as(planes.span(), "system.planes")),
+        }
     }
 
     fn chain(&mut self, chain: file::Chain) -> Result<Chain> {

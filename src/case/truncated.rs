@@ -16,7 +16,8 @@ pub struct Truncated {
 }
 
 impl Case {
-    /// The same case reduced to its `modes` slowest modes, whatever its present reduction.
+    /// The same case reduced to its `modes` slowest modes, in two planes of each of them, whatever
+    /// its present reduction.
     ///
     /// # Errors
     /// [`Error::Invalid`] for an oscillator and for a count that does not fit; see
@@ -27,9 +28,14 @@ impl Case {
         }
         let whole = match self.truncated.take() {
             Some(truncated) => truncated.whole,
-            None => Whole { scene: self.scene.clone(), damping: None, static_correction: false },
+            None => Whole {
+                scene: self.scene.clone(),
+                damping: None,
+                static_correction: false,
+                planes: self.planes.modes(),
+            },
         };
-        self.cut(whole, modes)?;
+        self.cut(whole, modes.saturating_mul(self.planes.modes()))?;
         Ok(self)
     }
 

@@ -4,34 +4,36 @@ use super::builder::Builder;
 use super::file;
 use super::model::{Model, Place};
 use super::place::Site;
-use super::value::Section;
+use super::planes::Planes;
+use super::value::{Number, Section};
 use crate::error::{Error, Result, Subject};
 use crate::scene::{ModalData, Probe, Row, Side, Wall, WallLaw};
 use std::ops::Range;
 use toml::Spanned;
 
 /// Most walls of a scene; each wall of a table has its own results.
-const MOST_WALLS: usize = 4096;
+pub(super) const MOST_WALLS: usize = 4096;
+
+/// A wall of the scene, the name of its table with the suffix of its location, and its location.
+pub(super) struct NewWall {
+    pub wall: Wall,
+    pub site: String,
+    pub place: Place,
+}
 
 impl Builder<'_> {
-    /// The walls of table `index`, the first of which has index `first` in the scene: with the
-    /// suffix of their location, and their location.
-    pub fn walls(
-        &mut self,
-        index: usize,
-        first: usize,
-        section: Section<file::Wall>,
-    ) -> Result<Vec<(Wall, String, Place)>> {
+    /// The walls of table `index`, the first of which has index `first` in the scene.
+    pub fn walls(&mut self, index: usize, first: usize, section: Section<file::Wall>) -> Result<Vec<NewWall>> {
         let Section { span, value: wall } = section;
         let base = self.name(&format!("wall {}: name", index + 1), &wall.name)?;
         let owner = format!("wall {base:?}");
         let sides = self.sides(&owner, &wall, span.clone())?;
-        let law = self.law_of(&owner, &wall)?;
+        let law = self.law_of(&owner, [&wall.restitution, &wall.stiffness, &wall.damping])?;
         let mut walls = Vec::new();
         let sites = self.sites((&owner, Subject::wall(&base)), wall.at.as_ref(), span.clone(), false)?;
         let count = first + sites.len() * sides.len();
         if count > MOST_WALLS {
-            let place = wall.at.as_ref().map_or(span, Spanned::span);
+            let place = wall.at.as_ref().map_or(span.clone(), Spanned::span);
             return Err(self.source.error(
                 place,
                 &format!("{owner} makes {count} walls"),
@@ -39,13 +41,14 @@ impl Builder<'_> {
             ));
         }
         for site in sites {
+            let site = self.towards(site, wall.direction.as_ref(), &owner, &span)?;
             let name = format!("{base}{}", site.suffix);
             for &(side, position, suffix) in &sides {
                 let full = format!("{name}{suffix}");
                 self.note(first + walls.len(), &full, &wall);
                 let Site { place, row, .. } = &site;
-                let built = Wall { name: full, side, position, law, at: row.clone() };
-                walls.push((built, name.clone(), place.clone()));
+                let wall = Wall { name: full, side, position, law, at: row.clone() };
+                walls.push(NewWall { wall, site: name.clone(), place: place.clone() });
             }
         }
         Ok(walls)
@@ -106,10 +109,12 @@ impl Builder<'_> {
         }
     }
 
-    fn law_of(&self, owner: &str, wall: &file::Wall) -> Result<WallLaw> {
-        let number = |value: &Option<Spanned<super::value::Number>>| value.as_ref().map(|x| x.get_ref().0);
-        let at = |value: &Option<Spanned<super::value::Number>>| value.as_ref().map_or(0..0, Spanned::span);
-        if let (Some(e), true, None) = (&wall.restitution, self.static_correction, &wall.stiffness) {
+    /// The law of a wall or support from its restitution, stiffness and damping.
+    pub fn law_of(&self, owner: &str, values: [&Option<Spanned<Number>>; 3]) -> Result<WallLaw> {
+        let number = |value: &Option<Spanned<Number>>| value.as_ref().map(|x| x.get_ref().0);
+        let at = |value: &Option<Spanned<Number>>| value.as_ref().map_or(0..0, Spanned::span);
+        let [restitution, stiffness, damping] = values;
+        if let (Some(e), true, None) = (restitution, self.static_correction, stiffness) {
             let help = "expected no restitution beside static_correction: the rigid wall becomes one of the \
                         compliance that the modes leave out, \
                         which has no mass, and what has no mass cannot rebound";
@@ -119,18 +124,18 @@ impl Builder<'_> {
                 help,
             ));
         }
-        match (number(&wall.restitution), number(&wall.stiffness), number(&wall.damping)) {
+        match (number(restitution), number(stiffness), number(damping)) {
             (None, None, None) => Ok(WallLaw::Rigid { restitution: 1.0 }),
             (Some(restitution), None, None) => Ok(WallLaw::Rigid { restitution }),
             (None, Some(stiffness), damping) => Ok(WallLaw::Elastic { stiffness, damping: damping.unwrap_or(0.0) }),
             (Some(_), Some(_), _) => Err(self.source.error(
-                at(&wall.restitution),
+                at(restitution),
                 &format!("{owner} has both restitution and stiffness"),
                 "expected restitution for a rigid wall, or stiffness for an elastic one; what an elastic wall gives \
                  back follows from its stiffness and damping",
             )),
             (_, None, Some(_)) => Err(self.source.error(
-                at(&wall.damping),
+                at(damping),
                 &format!("{owner} has damping without stiffness"),
                 "expected stiffness beside it, in N/m (an elastic wall); a rigid wall loses energy by restitution",
             )),
@@ -140,50 +145,67 @@ impl Builder<'_> {
     /// The probes of the file, or the default ones: one at each location with walls, with the name
     /// of the first wall there; without walls one in the middle of a bar or beam, else one at the
     /// first degree of freedom. With one degree of freedom there is a single probe, without a name.
-    pub fn probes(
-        &mut self,
-        probes: Vec<Section<file::Probe>>,
-        walls: &[Wall],
-        sites: &[String],
-        places: &[Place],
-    ) -> Result<Vec<Probe>> {
+    pub fn probes(&mut self, probes: Vec<Section<file::Probe>>, walls: &[NewWall]) -> Result<Vec<Probe>> {
         let mut all: Vec<Probe> = Vec::new();
         if probes.is_empty() {
-            if self.n == 1 {
-                return Ok(vec![Probe { name: String::new(), at: Row::dof(0) }]);
-            }
-            for ((wall, site), place) in walls.iter().zip(sites).zip(places) {
-                if all.iter().all(|probe| probe.at != wall.at) {
-                    self.written.probes.push(place.clone());
-                    all.push(Probe { name: site.clone(), at: wall.at.clone() });
-                }
-            }
-            if all.is_empty() {
-                let (name, place) = match (self.model.length(), &self.model) {
-                    (Some(length), _) => ("middle", Place::Position(0.5 * length)),
-                    (None, Model::Modal(ModalData { points, .. })) if !points.is_empty() => {
-                        (points[0].name.as_str(), Place::point(&points[0].name))
-                    }
-                    _ => ("dof-0", Place::Dof(0)),
-                };
-                let at = self.model.row(&place).map_err(|error| self.at_key(error))?;
-                all.push(Probe { name: name.to_owned(), at });
-                self.written.probes.push(place);
-            }
-            return Ok(all);
+            return self.default_probes(walls);
         }
         for (index, Section { span, value: probe }) in probes.into_iter().enumerate() {
             let key = format!("probe {}: name", index + 1);
             let base = self.name(&key, &probe.name)?;
-            for site in
-                self.sites((&format!("probe {base:?}"), Subject::probe(&base)), probe.at.as_ref(), span, false)?
-            {
-                let name = format!("{base}{}", site.suffix);
-                if all.iter().any(|other| other.name == name) {
-                    return Err(self.refuse(probe.name.span(), &key, "a name of its own for each probe"));
+            let owner = format!("probe {base:?}");
+            for site in self.sites((&owner, Subject::probe(&base)), probe.at.as_ref(), span.clone(), false)? {
+                let ways = match &probe.direction {
+                    Some(_) => vec![("", self.towards(site, probe.direction.as_ref(), &owner, &span)?)],
+                    None => self.both_ways(&site)?,
+                };
+                for (way, Site { suffix, place, row }) in ways {
+                    let name = format!("{base}{suffix}{way}");
+                    if all.iter().any(|other| other.name == name) {
+                        return Err(self.refuse(probe.name.span(), &key, "a name of its own for each probe"));
+                    }
+                    self.written.probes.push(place);
+                    all.push(Probe { name, at: row });
                 }
-                self.written.probes.push(site.place);
-                all.push(Probe { name, at: site.row });
+            }
+        }
+        Ok(all)
+    }
+
+    /// One probe at each location with walls, in two planes one along y and one along z; without
+    /// walls, at one location that the system has.
+    fn default_probes(&mut self, walls: &[NewWall]) -> Result<Vec<Probe>> {
+        if self.total() == 1 {
+            return Ok(vec![Probe { name: String::new(), at: Row::dof(0) }]);
+        }
+        let mut all: Vec<Probe> = Vec::new();
+        for NewWall { wall, site, place } in walls {
+            let site = match place {
+                Place::Towards { place, .. } => {
+                    Site { suffix: site.clone(), place: Place::clone(place), row: Row::new(Vec::new()) }
+                }
+                _ => Site { suffix: site.clone(), place: place.clone(), row: wall.at.clone() },
+            };
+            for (way, Site { suffix, place, row }) in self.both_ways(&site)? {
+                if all.iter().all(|probe| probe.at != row) {
+                    self.written.probes.push(place);
+                    all.push(Probe { name: format!("{suffix}{way}"), at: row });
+                }
+            }
+        }
+        if all.is_empty() {
+            let (name, place) = match (self.model.length(), &self.model, self.planes) {
+                (_, _, Planes::Named) => ("dof-0", Place::Row(vec![(0, 1.0)])),
+                (Some(length), _, _) => ("middle", Place::Position(0.5 * length)),
+                (None, Model::Modal(ModalData { points, .. }), _) if !points.is_empty() => {
+                    (points[0].name.as_str(), Place::point(&points[0].name))
+                }
+                _ => ("dof-0", Place::Dof(0)),
+            };
+            let (suffix, row) = (name.to_owned(), self.model.row(&place).map_err(|error| self.at_key(error))?);
+            for (way, Site { suffix, place, row }) in self.both_ways(&Site { suffix, place, row })? {
+                self.written.probes.push(place);
+                all.push(Probe { name: format!("{suffix}{way}"), at: row });
             }
         }
         Ok(all)

@@ -5,9 +5,9 @@ use super::Case;
 use super::Place;
 use super::digest::sha256;
 use super::table::TableColumns;
-use crate::scene::Damping;
+use crate::scene::{Damping, Flats};
 #[cfg(feature = "cli")]
-use crate::scene::Row;
+use crate::scene::{Row, Wall};
 use serde::Serialize;
 
 /// Contents of the file, in the order of the scene.
@@ -20,6 +20,8 @@ pub struct Written {
     pub tables: Vec<Option<(String, TableColumns)>>,
     /// The location of each probe.
     pub probes: Vec<Place>,
+    /// Each `[[support]]`.
+    pub supports: Vec<Support>,
     /// `[system.damping]`; `None` where the file has no such table.
     pub damping: Option<Damping>,
     /// Files of matrices by the key that names them: `mass`, `stiffness`, `damping`, and `matrix`
@@ -27,6 +29,18 @@ pub struct Written {
     pub matrices: Vec<(&'static str, String)>,
     /// Every file that was read.
     pub files: Vec<FileRead>,
+}
+
+/// A support of the file, and its walls in the scene.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Support {
+    /// The flats, with their place on the system of the file.
+    pub flats: Flats,
+    /// The location that they surround.
+    pub place: Place,
+    /// Index of its first wall in the scene; the others follow.
+    pub first: usize,
 }
 
 /// A file that a case read.
@@ -56,10 +70,26 @@ impl Case {
     /// The row of a location of the file in the scene that is condensed but not reduced; `None`
     /// where it includes condensed degrees of freedom.
     pub(crate) fn sees(&self, place: &Place) -> Option<Row> {
-        let row = self.model.row(place).ok()?;
-        let Some(condensation) = &self.condensation else { return Some(row) };
+        let row = self.planes.row(&self.model, place).ok()?;
+        self.kept(&row)
+    }
+
+    /// The row on the system of the file in the scene that is condensed but not reduced.
+    fn kept(&self, row: &Row) -> Option<Row> {
+        let Some(condensation) = &self.condensation else { return Some(row.clone()) };
         let kept = |&(i, weight): &(usize, f64)| Some((condensation.kept.binary_search(&i).ok()?, weight));
         row.entries().iter().map(kept).collect::<Option<_>>().map(Row::new)
+    }
+
+    /// The support whose walls in the scene begin with wall `index`, if they are as the file gave
+    /// them.
+    pub(crate) fn support_at(&self, index: usize) -> Option<&Support> {
+        let support = self.written.supports.iter().find(|support| support.first == index)?;
+        let made = support.flats.walls().ok()?;
+        let there = self.whole().walls.get(index..index + made.len())?;
+        let same =
+            |(wall, made): (&Wall, &Wall)| self.kept(&made.at).is_some_and(|at| *wall == Wall { at, ..made.clone() });
+        there.iter().zip(&made).all(same).then_some(support)
     }
 
     /// The number in the file of degree of freedom `i` of the scene before its reduction.

@@ -4,11 +4,11 @@
 use super::pace::{Estimate, estimate, words};
 use super::request::Changes;
 use super::ui::Ui;
-use crate::case::{Case, Model};
+use crate::case::{Case, Model, Support};
 use crate::error::Result;
 use crate::notes;
 use crate::output::summary;
-use crate::scene::{Scene, System, WallLaw};
+use crate::scene::{Flats, Scene, System, WallLaw};
 use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
 use crate::study::choice::{self, Choice};
 use serde_json::{Value, json};
@@ -68,6 +68,7 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     };
     let mut model = what(case);
     model.extend(choice::body(&case.scene));
+    model.extend(supports(case));
     model.extend(walls(case));
     model.push(choice::loads(&case.scene));
     model.extend(case.notes().iter().map(|note| format!("note: {note}")));
@@ -121,6 +122,7 @@ fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     let walls: Vec<Value> = choice::walls(&case.scene).iter().enumerate().map(|(i, words)| seen(i, words)).collect();
     let mut model = what(case);
     model.extend(choice::body(&case.scene));
+    model.extend(supports(case));
     model.push(choice::loads(&case.scene));
     Ok(json!({
         "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
@@ -226,7 +228,8 @@ const MOST_WALLS: usize = 12;
 /// The structure as the file describes it, and its reduction; nothing for an oscillator.
 fn what(case: &Case) -> Vec<String> {
     let what = match &case.model {
-        Model::Oscillator => return Vec::new(),
+        Model::Oscillator if !case.planes.is_two() => return Vec::new(),
+        Model::Oscillator => "an oscillator".to_owned(),
         Model::Chain(_) => "a chain".to_owned(),
         Model::Bar(bar) => format!("a bar of {} m, {} elements", bar.length, bar.elements),
         Model::Beam(beam) => format!(
@@ -239,20 +242,48 @@ fn what(case: &Case) -> Vec<String> {
         Model::Matrices(_) => "a structure by its matrices".to_owned(),
         Model::Modal(_) => "a structure by its modes".to_owned(),
     };
+    let what = if case.planes.is_two() { format!("{what}, in two planes") } else { what };
     let mut lines = Vec::new();
     if let Some(truncated) = &case.truncated {
         let next = truncated.reduction.next_omega.map_or("nothing is left out".to_owned(), |omega| {
             format!("the next, left out, has {:.6} Hz", omega / std::f64::consts::TAU)
         });
         let n = truncated.reduction.degrees_of_freedom;
-        lines.push(format!(
-            "{what}: {n} degrees of freedom, cut to {} modes; {next}",
-            truncated.reduction.modes.count()
-        ));
+        let each = if case.planes.modes() > 1 { " in each plane" } else { "" };
+        let modes = truncated.reduction.modes.count() / case.planes.modes();
+        lines.push(format!("{what}: {n} degrees of freedom, cut to {modes} modes{each}; {next}"));
     } else {
         lines.push(format!("{what}, in full"));
     }
     lines
+}
+
+/// Each support, and what its flats are to the schemes.
+fn supports(case: &Case) -> Vec<String> {
+    let line = |support: &Support| {
+        let Flats { name, flats, centre, .. } = &support.flats;
+        let mut gaps: Vec<f64> = flats.iter().map(|flat| flat.gap).collect();
+        gaps.sort_by(f64::total_cmp);
+        let gap = match (gaps.first(), gaps.last()) {
+            (Some(least), Some(most)) if least < most => format!("gaps of {least} to {most} m"),
+            (Some(gap), _) => format!("a gap of {gap} m"),
+            _ => String::new(),
+        };
+        let directions: Vec<String> =
+            flats.iter().take(MOST_WALLS).map(|flat| format!("{}°", flat.direction)).collect();
+        let more = if flats.len() > MOST_WALLS { ", .." } else { "" };
+        let off = match centre {
+            [0.0, 0.0] => String::new(),
+            [y, z] => format!(", its centre at ({y}, {z}) m"),
+        };
+        format!(
+            "support {name:?}, on {}: {} flats towards {}{more}, {gap}{off}; each flat is a wall along its normal,              without friction, under every scheme's law of walls",
+            support.place,
+            flats.len(),
+            directions.join(", ")
+        )
+    };
+    case.written.supports.iter().take(MOST_WALLS).map(line).collect()
 }
 
 /// Each wall, its location, and the share of the structure's compliance there that a truncation
@@ -260,7 +291,7 @@ fn what(case: &Case) -> Vec<String> {
 fn walls(case: &Case) -> Vec<String> {
     let mut lines = choice::walls(&case.scene);
     for (index, line) in lines.iter_mut().enumerate() {
-        if let (Some(place), false) = (case.places.get(index), matches!(case.model, Model::Oscillator)) {
+        if let Some(place) = case.places.get(index).filter(|_| case.has_places()) {
             line.push_str(&format!(", on {place}"));
         }
         if let Some(left) = case.truncated.as_ref().and_then(|t| t.reduction.walls.get(index)) {

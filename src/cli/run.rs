@@ -192,7 +192,7 @@ fn enough_modes(case: &Case, target: &Target, ui: &Ui) -> Result<(Case, Option<C
     let chosen = choose_modes(&truncated.whole, start, &method, &case.time, target.tolerance, &mut progress);
     bar.finish();
     let chosen = chosen?;
-    Ok((case.clone().with_modes(chosen.modes)?, Some(chosen)))
+    Ok((case.clone().with_modes(chosen.modes / case.planes.modes())?, Some(chosen)))
 }
 
 /// Unknowns times steps of the last run of a refinement, relative to one degree of freedom.

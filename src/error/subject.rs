@@ -53,6 +53,12 @@ impl Subject {
         Self(vec![Part::Named("probe", name.to_owned())])
     }
 
+    /// The support of that name.
+    #[must_use]
+    pub fn support(name: &str) -> Self {
+        Self(vec![Part::Named("support", name.to_owned())])
+    }
+
     /// Item `index`, from 0, of several of a kind: a load, a wall, a penalty law.
     #[must_use]
     pub fn nth(kind: &'static str, index: usize) -> Self {

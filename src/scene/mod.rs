@@ -12,10 +12,12 @@ mod load;
 mod loads;
 pub mod matrices;
 mod modal;
+mod planes;
 mod row;
 mod scales;
 mod shared;
 mod structure;
+mod support;
 mod system;
 mod wall;
 
@@ -29,10 +31,12 @@ pub(crate) use grid_forcing::GridForcing;
 pub use load::{Load, LoadKind, Table};
 pub use loads::Loads;
 pub use modal::{MOST_DENSE, MOST_MODES, Modes, Reduction, WallTruncation};
+pub use planes::{PlaneRows, heading};
 pub(crate) use row::distinct;
 pub use row::{Probe, Row};
 pub use shared::SharedStructure;
 pub use structure::Structure;
+pub use support::{Flat, Flats, MOST_FLATS};
 pub use system::{Oscillator, System};
 pub use wall::{Side, Wall, WallLaw};
 

@@ -1,8 +1,8 @@
 //! The case of a run in the keys of a case file: what a summary needs so that the run can be
 //! repeated.
 
-use crate::case::{Case, Model, Place};
-use crate::scene::{BarEnd, BeamEnd, Damping, Load, LoadKind, MassMatrix, Row, Side, System, Wall, WallLaw};
+use crate::case::{Case, Model, Place, Support};
+use crate::scene::{BarEnd, BeamEnd, Damping, Flats, Load, LoadKind, MassMatrix, Row, Side, System, Wall, WallLaw};
 use crate::scheme::PenaltyLaw;
 use crate::time::TimeOptions;
 use serde_json::{Map, Value, json};
@@ -11,16 +11,24 @@ use serde_json::{Map, Value, json};
 /// program.
 pub(super) fn case_file(case: &Case) -> Value {
     let whole = case.whole();
-    let several = !matches!(case.model, Model::Oscillator);
+    let several = case.has_places();
     let mut out = Map::new();
     let text = |word: &Option<String>| word.as_ref().map(|word| json!(word));
     put(&mut out, "title", text(&case.title));
     put(&mut out, "source", text(&case.source));
     out.insert("system".to_owned(), system(case));
-    let walls = whole.walls.iter().enumerate();
-    let walls: Vec<Value> =
-        walls.map(|(i, w)| wall(case, w, case.places.get(i).filter(|_| several), several)).collect();
+    let (mut walls, mut supports, mut next) = (Vec::new(), Vec::new(), 0);
+    while let Some(one) = whole.walls.get(next) {
+        if let Some(flats) = case.support_at(next) {
+            supports.push(support(flats));
+            next += flats.flats.flats.len();
+        } else {
+            walls.push(wall(case, one, case.places.get(next).filter(|_| several), several));
+            next += 1;
+        }
+    }
     put(&mut out, "wall", some(walls));
+    put(&mut out, "support", some(supports));
     let loads: Vec<Value> = whole.loads.iter().enumerate().map(|(i, l)| load(case, i, l, several)).collect();
     put(&mut out, "load", some(loads));
     let mut initial = Map::new();
@@ -30,8 +38,12 @@ pub(super) fn case_file(case: &Case) -> Value {
     let probes = whole.probes.iter().enumerate().filter(|(_, probe)| several || !probe.name.is_empty());
     let probes: Vec<Value> = probes
         .map(|(i, probe)| {
-            let at = at(case, case.written.probes.get(i), &probe.at);
-            if several { json!({ "name": probe.name, "at": at }) } else { json!({ "name": probe.name }) }
+            let mut out = Map::new();
+            out.insert("name".to_owned(), json!(probe.name));
+            if several {
+                put_place(&mut out, case, case.written.probes.get(i), &probe.at);
+            }
+            Value::Object(out)
         })
         .collect();
     put(&mut out, "probe", some(probes));
@@ -65,7 +77,9 @@ fn system(case: &Case) -> Value {
         (Model::Oscillator, System::Oscillator(o)) => {
             json!({ "mass": o.mass, "damping": o.damping, "stiffness": o.stiffness })
         }
-        (Model::Oscillator, _) => Value::Null,
+        (Model::Oscillator, System::Structure(s)) => {
+            json!({ "mass": s.mass.get(0, 0), "damping": s.damping.get(0, 0), "stiffness": s.stiffness.get(0, 0) })
+        }
         (Model::Chain(chain), _) => {
             let mut inner = Map::new();
             // Equal masses are written as a count and one value.
@@ -125,8 +139,9 @@ fn system(case: &Case) -> Value {
             Value::Object(inner)
         }
     };
+    put(&mut out, "planes", case.planes.is_two().then(|| json!(2)));
     if let Some(truncated) = &case.truncated {
-        out.insert("modes".to_owned(), json!(truncated.reduction.modes.count()));
+        out.insert("modes".to_owned(), json!(truncated.reduction.modes.count() / case.planes.modes()));
         let corrected = truncated.whole.static_correction;
         put(&mut out, "static_correction", corrected.then_some(Value::Bool(true)));
     }
@@ -161,26 +176,36 @@ fn beam_end(end: BeamEnd) -> Value {
 fn wall(case: &Case, wall: &Wall, place: Option<&Place>, several: bool) -> Value {
     let mut out = Map::new();
     out.insert("name".to_owned(), json!(wall.name));
-    put(&mut out, "at", several.then(|| at(case, place, &wall.at)));
+    if several {
+        put_place(&mut out, case, place, &wall.at);
+    }
     out.insert("side".to_owned(), json!(if wall.side == Side::Upper { "upper" } else { "lower" }));
     out.insert("position".to_owned(), json!(wall.position));
-    match wall.law {
+    if let WallLaw::Quartic { .. } = wall.law {
+        return Value::Null;
+    }
+    put_law(&mut out, wall.law);
+    Value::Object(out)
+}
+
+/// Puts a law that a case file can express.
+fn put_law(out: &mut Map<String, Value>, law: WallLaw) {
+    match law {
         // Where a static correction replaces the restitution, the file must not name one.
-        WallLaw::Rigid { restitution } => {
-            put(&mut out, "restitution", (restitution != 1.0).then(|| json!(restitution)));
-        }
+        WallLaw::Rigid { restitution } => put(out, "restitution", (restitution != 1.0).then(|| json!(restitution))),
         WallLaw::Elastic { stiffness, damping } => {
             out.insert("stiffness".to_owned(), json!(stiffness));
-            put(&mut out, "damping", (damping != 0.0).then(|| json!(damping)));
+            put(out, "damping", (damping != 0.0).then(|| json!(damping)));
         }
-        WallLaw::Quartic { .. } => return Value::Null,
+        WallLaw::Quartic { .. } => {}
     }
-    Value::Object(out)
 }
 
 fn load(case: &Case, index: usize, load: &Load, several: bool) -> Value {
     let mut out = Map::new();
-    put(&mut out, "at", several.then(|| at(case, case.written.loads.get(index), &load.at)));
+    if several {
+        put_place(&mut out, case, case.written.loads.get(index), &load.at);
+    }
     let (kind, value) = match &load.kind {
         LoadKind::Constant { force } => ("constant", json!({ "force": force })),
         LoadKind::Harmonic { amplitude, frequency, phase } => {
@@ -205,23 +230,62 @@ fn load(case: &Case, index: usize, load: &Load, several: bool) -> Value {
     Value::Object(out)
 }
 
-/// The location that the scene has as `row`: as the file gave it, or as the row itself where the
-/// location was changed or condensed.
-fn at(case: &Case, place: Option<&Place>, row: &Row) -> Value {
+/// Puts the location that the scene has as `row`: as the file gave it, with its direction, or as
+/// the row itself where the location was changed or condensed.
+fn put_place(map: &mut Map<String, Value>, case: &Case, place: Option<&Place>, row: &Row) {
     match place.filter(|place| case.sees(place).is_some_and(|seen| seen == *row)) {
-        Some(Place::Dof(i)) => json!({ "dof": i }),
-        Some(Place::Position(x)) => json!({ "position": x }),
-        Some(Place::Spread { from, to }) => json!({ "spread": [from, to] }),
-        Some(Place::Points(points)) => match points.as_slice() {
+        Some(Place::Towards { place, degrees }) => {
+            map.insert("at".to_owned(), at(place));
+            map.insert("direction".to_owned(), json!(degrees));
+        }
+        Some(place) if !matches!(place, Place::Row(_)) => {
+            map.insert("at".to_owned(), at(place));
+        }
+        _ => {
+            let entries: Vec<(usize, f64)> =
+                row.entries().iter().map(|&(i, weight)| (case.numbered(i), weight)).collect();
+            map.insert("at".to_owned(), json!({ "row": entries }));
+        }
+    }
+}
+
+/// A location, without its direction.
+fn at(place: &Place) -> Value {
+    match place {
+        Place::Dof(i) => json!({ "dof": i }),
+        Place::Position(x) => json!({ "position": x }),
+        Place::Spread { from, to } => json!({ "spread": [from, to] }),
+        Place::Points(points) => match points.as_slice() {
             [(name, 1.0)] => json!({ "point": name }),
             _ => json!({ "points": points }),
         },
-        Some(Place::Row(_)) | None => {
-            let entries: Vec<(usize, f64)> =
-                row.entries().iter().map(|&(i, weight)| (case.numbered(i), weight)).collect();
-            json!({ "row": entries })
+        Place::Row(entries) => json!({ "row": entries }),
+        Place::Rows { y, z } => {
+            let mut out = Map::new();
+            for (plane, row) in [("y", y), ("z", z)] {
+                put(&mut out, plane, (!row.is_empty()).then(|| json!(row)));
+            }
+            Value::Object(out)
         }
+        Place::Towards { place, .. } => at(place),
     }
+}
+
+fn support(support: &Support) -> Value {
+    let Flats { name, flats, centre, law, .. } = &support.flats;
+    let mut out = Map::new();
+    out.insert("name".to_owned(), json!(name));
+    out.insert("at".to_owned(), at(&support.place));
+    out.insert("shape".to_owned(), json!("flats"));
+    out.insert("directions".to_owned(), flats.iter().map(|flat| flat.direction).collect());
+    let gap = match flats.split_first() {
+        Some((first, rest)) if rest.iter().all(|flat| flat.gap == first.gap) => json!(first.gap),
+        _ => flats.iter().map(|flat| flat.gap).collect(),
+    };
+    out.insert("gap".to_owned(), gap);
+    put(&mut out, "centre", (*centre != [0.0; 2]).then(|| json!(centre)));
+    put_law(&mut out, *law);
+    Value::Object(out)
 }
 
 /// An initial field: a number for one degree of freedom, else pairs for the entries that are not 0;
@@ -231,7 +295,7 @@ fn field(case: &Case, values: &[f64]) -> Option<Value> {
         values.iter().enumerate().filter(|(_, x)| **x != 0.0).map(|(i, &x)| (case.numbered(i), x)).collect();
     match (&case.model, pairs.first()) {
         (_, None) => None,
-        (Model::Oscillator, Some((_, x))) => Some(json!(x)),
+        (Model::Oscillator, Some((_, x))) if !case.has_places() => Some(json!(x)),
         (_, Some(_)) => Some(json!({ "dofs": pairs })),
     }
 }

@@ -14,7 +14,7 @@ pub(super) fn scene(case: &Case) -> Value {
         out.insert("structure".to_owned(), structure(case));
     }
     let masses = case.scene.wall_masses();
-    let several = !matches!(case.model, Model::Oscillator);
+    let several = case.has_places();
     let walls = whole.walls.iter().enumerate().map(|(index, w)| {
         let mut value = wall(w);
         if let (Some(place), Some(mass), true, Some(map)) =
@@ -31,6 +31,7 @@ pub(super) fn scene(case: &Case) -> Value {
         }
         value
     });
+    out.insert("planes".to_owned(), json!(if case.planes.is_two() { 2 } else { 1 }));
     out.insert("walls".to_owned(), walls.collect());
     out.insert("duration_s".to_owned(), json!(case.scene.duration));
     Value::Object(out)
@@ -134,6 +135,14 @@ fn at(place: &Place) -> Value {
         Place::Row(entries) => json!({ "row": entries }),
         Place::Spread { from, to } => json!({ "spread_m": [from, to] }),
         Place::Points(points) => json!({ "points": points }),
+        Place::Rows { y, z } => json!({ "row_y": y, "row_z": z }),
+        Place::Towards { place, degrees } => {
+            let mut place = at(place);
+            if let Some(map) = place.as_object_mut() {
+                map.insert("direction_deg".to_owned(), json!(degrees));
+            }
+            place
+        }
     }
 }
 

@@ -67,11 +67,23 @@ impl Modes {
         if structure.mass.half_bandwidth() == 0 && structure.stiffness.half_bandwidth() == 0 {
             return uncoupled(structure, count);
         }
+        if let Some(half) = twin(structure) {
+            return Ok(Self::lowest(&half, count.div_ceil(2))?.in_two_planes(count));
+        }
         let all_at_once = n <= MOST_DENSE && (n <= 40 || 3 * count > n);
         let (scaled, unit) = scaled(structure);
         let mut shapes = if all_at_once { dense::lowest(&scaled, count)? } else { krylov::lowest(&scaled, count)? };
         shapes.iter_mut().flatten().for_each(|x| *x *= unit);
         Self::finish(structure, shapes)
+    }
+
+    /// The `count` slowest modes of two equal planes, of each of which these are the modes: each
+    /// first in the plane y, then in the plane z.
+    fn in_two_planes(self, count: usize) -> Self {
+        let still = vec![0.0; self.shapes.first().map_or(0, Vec::len)];
+        let both = |shape: Vec<f64>| [[shape.as_slice(), &still].concat(), [still.as_slice(), &shape].concat()];
+        let shapes = self.shapes.into_iter().flat_map(both).take(count).collect();
+        Self { omega: self.omega.into_iter().flat_map(|omega| [omega; 2]).take(count).collect(), shapes }
     }
 
     /// ω, order and sign of shapes that are M-orthonormal already.
@@ -154,6 +166,23 @@ impl Modes {
         }
         q
     }
+}
+
+/// M and K of one half of the degrees of freedom where the other half has the same and the two do
+/// not feel each other, as the two planes of a tube. Their modes are found once. Besides, modes of
+/// equal ω are an arbitrary basis of their space: so each of them lies in one plane.
+fn twin(structure: &Structure) -> Option<Structure> {
+    let n = structure.mass.size();
+    let half = |matrix: &Symmetric| {
+        let entries = || matrix.entries().filter(|entry| entry.2 != 0.0);
+        let first = || entries().filter(|entry| entry.0 < n / 2);
+        let second = entries().filter(|entry| entry.0 >= n / 2);
+        let same = second.map(|(i, j, value)| (i - n / 2, j.wrapping_sub(n / 2), value)).eq(first());
+        same.then(|| Symmetric::from_entries(n / 2, first()))
+    };
+    let sizes = n.is_multiple_of(2) && structure.stiffness.size() == n;
+    let (mass, stiffness) = if sizes { half(&structure.mass).zip(half(&structure.stiffness))? } else { return None };
+    Some(Structure { mass, damping: Symmetric::zeros(n / 2), stiffness })
 }
 
 /// The structure in units in which the largest diagonal entries of M and of K are 1, so that no

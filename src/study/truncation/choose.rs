@@ -98,7 +98,7 @@ pub fn choose_modes(
     let mut levels = vec![ModesLevel { modes: start, change: None, quantity: None }];
     let (mut modes, mut quiet) = (start, 0);
     while modes < most && quiet < QUIET_INCREASES {
-        modes = (modes + modes.div_ceil(2)).min(most);
+        modes = (modes + modes.div_ceil(2)).next_multiple_of(whole.planes.max(1)).min(most);
         let next = make(modes)?;
         let truncation = Truncation::between(whole, [&last.0, &next.0], [&last.1, &next.1]);
         let (change, quantity) = truncation.worst();

@@ -32,6 +32,8 @@ pub struct Whole {
     pub damping: Option<Damping>,
     /// True if walls get the compliance of the modes left out.
     pub static_correction: bool,
+    /// Planes that have each mode, 1 or 2: numbers of modes are multiples of it.
+    pub planes: usize,
 }
 
 impl Whole {

@@ -1,0 +1,94 @@
+//! Structures that move in two planes, and directions in their cross-section.
+
+use super::{Row, Structure};
+use crate::linear::Symmetric;
+
+/// The unit vector (cos α, sin α) of the direction α in degrees, from +y towards +z. Multiples of
+/// 90° are exact, so that a direction along an axis leaves the other plane alone.
+#[must_use]
+pub fn heading(degrees: f64) -> [f64; 2] {
+    let turn = degrees.rem_euclid(360.0);
+    match turn {
+        0.0 | 360.0 => [1.0, 0.0],
+        90.0 => [0.0, 1.0],
+        180.0 => [-1.0, 0.0],
+        270.0 => [0.0, -1.0],
+        _ => {
+            let (sin, cos) = turn.to_radians().sin_cos();
+            [cos, sin]
+        }
+    }
+}
+
+impl Structure {
+    /// The structure in two planes that do not feel each other: diag(M, M), diag(C, C),
+    /// diag(K, K). Its 2n degrees of freedom are the n of this structure in the plane y, then the n
+    /// in the plane z.
+    #[must_use]
+    pub fn in_two_planes(&self) -> Self {
+        let doubled = |matrix: &Symmetric| {
+            let n = matrix.size();
+            let shifted = |by: usize| matrix.entries().map(move |(i, j, value)| (i + by, j + by, value));
+            Symmetric::from_entries(2 * n, shifted(0).chain(shifted(n)))
+        };
+        Self { mass: doubled(&self.mass), damping: doubled(&self.damping), stiffness: doubled(&self.stiffness) }
+    }
+}
+
+/// One place on a structure that moves in two planes: the displacement there is (g_y · q, g_z · q).
+///
+/// ```
+/// use signorini::PlaneRows;
+///
+/// // The second of three masses in each plane; a wall, load or probe there, 30° from +y towards +z.
+/// let place = PlaneRows::doubled(&signorini::Row::dof(1), 3);
+/// let seen = place.along(30.0).dot(&[0.0, 2.0, 0.0, 0.0, 1.0, 0.0]);
+/// assert!((seen - (2.0 * 0.75_f64.sqrt() + 0.5)).abs() < 1e-15);
+/// assert_eq!(place.along(90.0), signorini::Row::dof(4));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneRows {
+    /// The row of the displacement along +y.
+    pub y: Row,
+    /// The row of the displacement along +z.
+    pub z: Row,
+}
+
+impl PlaneRows {
+    /// The place that has the row `row` in each plane of [`Structure::in_two_planes`], where a
+    /// plane has `n` degrees of freedom.
+    #[must_use]
+    pub fn doubled(row: &Row, n: usize) -> Self {
+        let z = row.entries().iter().map(|&(i, weight)| (i + n, weight)).collect();
+        Self { y: row.clone(), z: Row::new(z) }
+    }
+
+    /// The row of the displacement in a direction, in degrees from +y towards +z: cos α g_y +
+    /// sin α g_z.
+    #[must_use]
+    pub fn along(&self, degrees: f64) -> Row {
+        let part = |row: &Row, share: f64| {
+            let entries = row.entries().iter().map(move |&(i, weight)| (i, share * weight));
+            entries.filter(|_| share != 0.0).collect::<Vec<_>>()
+        };
+        let [cos, sin] = heading(degrees);
+        Row::new([part(&self.y, cos), part(&self.z, sin)].concat())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::heading;
+
+    #[test]
+    fn directions_along_the_axes_are_exact_and_turn_from_y_to_z() {
+        for (degrees, [y, z]) in [(0.0, [1.0, 0.0]), (90.0, [0.0, 1.0]), (-90.0, [0.0, -1.0]), (540.0, [-1.0, 0.0])] {
+            assert_eq!(heading(degrees), [y, z], "{degrees}");
+        }
+        // 30°, whose cosine and sine are √3/2 and 1/2, here and a whole turn on.
+        for degrees in [30.0, 390.0, -330.0] {
+            let [y, z] = heading(degrees);
+            assert!((y - 0.75_f64.sqrt()).abs() < 2e-16 && (z - 0.5).abs() < 2e-16, "{degrees}: {y} {z}");
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Wrong case files of structures in two planes: each gives one error that names file, line,
+//! column, key and what would be accepted.
+#![cfg(feature = "cli")]
+
+use signorini::case::Case;
+
+/// A valid case file. Each wrong one differs from it in one place.
+const RIGHT: &str = r#"[system]
+planes = 2
+modes = 3
+
+[system.beam]
+length = 3.0
+youngs_modulus = 2e11
+density = 7850.0
+outer_diameter = 0.02
+elements = 8
+left = "pinned"
+right = "pinned"
+
+[system.damping]
+ratios = [0.01, 0.02]
+
+[[wall]]
+name = "stop"
+at = { position = 2.0 }
+direction = 30
+side = "upper"
+position = 1e-3
+
+[[support]]
+name = "bars"
+at = { position = 1.0 }
+shape = "flats"
+directions = [0, 120, 240]
+gap = [1e-3, 2e-3, 1e-3]
+centre = [0.0, 0.0]
+restitution = 0.5
+
+[[load]]
+at = { position = 0.5 }
+direction = 90
+harmonic = { amplitude = 3.0, frequency = 5.0 }
+
+[[probe]]
+name = "middle"
+at = { position = 1.5 }
+
+[initial]
+displacement = { y = { profile = [[0.0, 0.0], [3.0, 0.0]] } }
+
+[time]
+end = 2.0
+step = 1e-3
+"#;
+
+/// What is wrong; the text of `RIGHT` that is replaced, and its replacement; line:column of the
+/// error; what the message must contain.
+type Wrong = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
+
+#[rustfmt::skip]
+const WRONG: &[Wrong] = &[
+    // Planes.
+    ("three planes", "planes = 2", "planes = 3", "2:10", &["system.planes", "planes = 1, or 2"]),
+    ("half a plane", "planes = 2", "planes = 1.5", "2:10", &["system.planes", "1, or 2"]),
+    ("text for planes", "planes = 2", "planes = \"two\"", "2:10", &["system.planes", "a number"]),
+    ("fields of two planes in one", "planes = 2\n", "", "42:18", &["unknown key `y`", "profile"]),
+    // Directions.
+    ("a wall without direction", "direction = 30\n", "", "17:1", &["`direction` is missing in wall \"stop\"", "in deg"]),
+    ("a wall to nowhere", "direction = 30", "direction = nan", "20:13", &["wall \"stop\": direction", "finite"]),
+    ("a wall both ways", "direction = 30", "direction = \"both\"", "20:13", &["wall.direction", "a number, in deg"]),
+    ("a load without direction", "direction = 90\n", "", "33:1", &["`direction` is missing in load 1", "in deg"]),
+    ("a load to infinity", "direction = 90", "direction = inf", "35:13", &["load 1: direction", "finite"]),
+    ("a load upwards", "direction = 90", "direction = \"up\"", "35:13", &["load 1: direction", "in deg"]),
+    ("a direction of a row", "at = { position = 2.0 }", "at = { row = [[1, 1.0]] }", "20:13", &["a row and a direction", "no direction beside row"]),
+    ("a direction of a probe's row", "at = { position = 1.5 }", "at = { row = [[1, 1.0]] }\ndirection = 0", "41:13", &["a row and a direction"]),
+    ("a row beyond both planes", "at = { position = 2.0 }\ndirection = 30", "at = { row = [[32, 1.0]] }", "19:16", &["wall \"stop\": at: row", "from 0 to 31"]),
+    ("a degree of freedom of the other plane", "at = { position = 2.0 }", "at = { dof = 16 }", "19:14", &["wall \"stop\": at: dof", "from 0 to 15"]),
+    ("a wall at an end that is held", "at = { position = 2.0 }", "at = { position = 0.0 }", "19:6", &["nothing moves there"]),
+    ("rows of planes on a beam", "at = { position = 2.0 }", "at = { y = [[0, 1.0]] }", "19:8", &["unknown key `y`", "position"]),
+    // Supports.
+    ("a support without a place", "at = { position = 1.0 }\n", "", "24:1", &["`at` is missing in support \"bars\"", "position"]),
+    ("a support everywhere", "at = { position = 1.0 }", "at = \"each\"", "26:6", &["support \"bars\": at", "one place"]),
+    ("a support of a row", "at = { position = 1.0 }", "at = { row = [[1, 1.0]] }", "26:6", &["support \"bars\": at", "one place"]),
+    ("a support of no shape", "shape = \"flats\"\n", "", "24:1", &["`shape` is missing in `support`", "flats"]),
+    ("a star", "shape = \"flats\"", "shape = \"star\"", "27:9", &["support \"bars\": shape", "\"flats\""]),
+    ("no flats", "directions = [0, 120, 240]\ngap = [1e-3, 2e-3, 1e-3]", "directions = []\ngap = 1e-3", "28:14", &["directions is 0 flats", "from 1 to 360"]),
+    ("a direction twice", "[0, 120, 240]", "[0, 120, 480]", "28:23", &["for the second time", "each direction once"]),
+    ("a flat nowhere", "[0, 120, 240]", "[0, nan, 240]", "28:18", &["directions: value 2 is NaN", "finite"]),
+    ("directions and sides", "[0, 120, 240]", "[0, 120, 240]\nsides = 3", "29:9", &["directions and sides", "sides = 3"]),
+    ("directions and a turn", "[0, 120, 240]", "[0, 120, 240]\nturn = 3", "29:8", &["directions and sides", "turn"]),
+    ("no sides", "directions = [0, 120, 240]", "sides = 0", "28:9", &["support \"bars\": sides", "1 to 360"]),
+    ("too many sides", "directions = [0, 120, 240]", "sides = 361", "28:9", &["support \"bars\": sides", "1 to 360"]),
+    ("half a side", "directions = [0, 120, 240]", "sides = 2.5", "28:9", &["support \"bars\": sides", "whole number"]),
+    ("sides turned to nowhere", "directions = [0, 120, 240]", "sides = 3\nturn = inf", "29:8", &["support \"bars\": turn", "finite"]),
+    ("neither directions nor sides", "directions = [0, 120, 240]\n", "", "24:1", &["`directions` is missing", "sides = 3"]),
+    ("no gap", "gap = [1e-3, 2e-3, 1e-3]\n", "", "24:1", &["`gap` is missing in `support`", "in m"]),
+    ("a negative gap", "gap = [1e-3, 2e-3, 1e-3]", "gap = -1e-3", "29:7", &["support \"bars\": gap", "-0.001", "0 or more"]),
+    ("a negative gap among others", "2e-3, 1e-3]", "2e-3, -1e-3]", "29:20", &["gap: value 3 is -0.001", "0 or more"]),
+    ("a gap that is no number", "gap = [1e-3, 2e-3, 1e-3]", "gap = nan", "29:7", &["gap: value 1 is NaN", "0 or more"]),
+    ("a gap too few", "gap = [1e-3, 2e-3, 1e-3]", "gap = [1e-3, 2e-3]", "29:7", &["support \"bars\": gap", "a list of 3"]),
+    ("a gap in words", "gap = [1e-3, 2e-3, 1e-3]", "gap = \"small\"", "29:7", &["support \"bars\": gap", "a number"]),
+    ("a centre of one number", "centre = [0.0, 0.0]", "centre = [0.0]", "30:10", &["support \"bars\": centre", "[y, z]"]),
+    ("a centre nowhere", "centre = [0.0, 0.0]", "centre = [0.0, nan]", "30:10", &["centre is NaN", "finite"]),
+    ("restitution beside stiffness", "restitution = 0.5", "restitution = 0.5\nstiffness = 1e6", "31:15", &["support \"bars\" has both restitution and stiffness"]),
+    ("restitution above 1", "restitution = 0.5", "restitution = 1.5", "31:15", &["restitution is 1.5", "from 0 to 1"]),
+    ("a dashpot of a rigid support", "restitution = 0.5", "damping = 3.0", "31:11", &["support \"bars\" has damping without stiffness"]),
+    ("a support that begins behind a flat", "centre = [0.0, 0.0]", "centre = [5e-3, 0.0]", "43:16", &["initial.displacement", "bars-flat-2"]),
+    ("two supports of one name", "[[load]]", "[[support]]\nname = \"bars\"\nat = { position = 2.0 }\nshape = \"flats\"\nsides = 4\ngap = 1e-3\n\n[[load]]", "34:8", &["support \"bars\": name", "a name of its own"]),
+    ("a wall with the name of a flat", "name = \"stop\"", "name = \"bars-flat-1\"", "25:8", &["name", "another wall has"]),
+    ("an unknown key of a support", "shape = \"flats\"", "shape = \"flats\"\nfriction = 0.2", "28:1", &["unknown key `friction`", "restitution"]),
+    // Fields.
+    ("a list of one plane", "displacement = { y = { profile = [[0.0, 0.0], [3.0, 0.0]] } }", "displacement = [0.0, 0.0]", "43:16", &["initial.displacement has 2 values", "32 numbers"]),
+    ("a profile of both planes", "{ y = { profile = [[0.0, 0.0], [3.0, 0.0]] } }", "{ profile = [[0.0, 0.0], [3.0, 0.0]] }", "43:18", &["unknown key `profile`", "y = .., z = .."]),
+    ("a number for a plane", "{ y = { profile = [[0.0, 0.0], [3.0, 0.0]] } }", "{ z = 1.0 }", "43:22", &["initial.displacement.z", "takes no number", "profile"]),
+    ("more modes than a plane has", "modes = 3", "modes = 17", "3:9", &["modes", "16"]),
+];
+
+#[test]
+fn the_case_that_the_wrong_ones_start_from_is_right() {
+    let case = Case::parse(RIGHT, "right.toml", "").unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(case.scene.walls.len(), 4);
+    assert_eq!(case.scene.probes.len(), 2);
+}
+
+#[test]
+fn every_wrong_case_file_is_refused_at_its_place() {
+    let mut failures = String::new();
+    for (what, old, new, place, words) in WRONG {
+        assert!(RIGHT.contains(old), "{what}: nothing to replace");
+        let text = RIGHT.replacen(old, new, 1);
+        let said = match Case::parse(&text, "wrong.toml", "") {
+            Ok(_) => "ACCEPTED".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        let at = format!("--> wrong.toml:{place}\n");
+        let fits = said.starts_with("error: ")
+            && said.contains(&at)
+            && said.contains("expected")
+            && words.iter().all(|word| said.contains(word))
+            && said.is_ascii();
+        if !fits {
+            failures += &format!("{what}: wanted {place} and {words:?}\n{said}\n\n");
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn a_system_that_has_no_two_planes_says_what_to_do() {
+    let rest = "[time]\nend = 1.0\nstep = 1e-3\n";
+    for (system, words) in [
+        (
+            "[system.bar]\nlength = 1.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\nelements = 4\nleft = \"free\"\nright = \"clamped\"\n",
+            "a tube in bending is a beam",
+        ),
+        ("[system.modal]\nfrequencies = [1.0, 2.0]\nshapes = { tip = [1.0, 2.0] }\n", "one point for y and one for z"),
+    ] {
+        let said =
+            Case::parse(&format!("[system]\nplanes = 2\n{system}{rest}"), "wrong.toml", "").unwrap_err().to_string();
+        assert!(said.contains("--> wrong.toml:2:10\n") && said.contains(words), "{said}");
+    }
+    let oscillator = "[system]\nplanes = 1\n[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0\n";
+    for (wrong, words) in [
+        ("[[support]]\nname = \"s\"\nshape = \"flats\"\nsides = 4\ngap = 1e-3\n", "expected planes = 2"),
+        ("[[load]]\ndirection = 0\nconstant = { force = 1.0 }\n", "moves in one plane"),
+        ("[[probe]]\nname = \"p\"\ndirection = 0\n", "moves in one plane"),
+    ] {
+        let said = Case::parse(&format!("{oscillator}{wrong}{rest}"), "wrong.toml", "").unwrap_err().to_string();
+        assert!(said.contains(words), "{said}");
+    }
+}
+
+#[test]
+fn flats_on_one_side_are_no_error_but_a_note() {
+    let open = RIGHT.replace("[0, 120, 240]", "[0, 10, 20]");
+    let case = Case::parse(&open, "open.toml", "").unwrap_or_else(|error| panic!("{error}"));
+    assert!(case.notes().iter().any(|note| note.contains("\"bars\" stand within a half turn")), "{:?}", case.notes());
+    let closed = Case::parse(RIGHT, "closed.toml", "").unwrap_or_else(|error| panic!("{error}"));
+    assert!(closed.notes().iter().all(|note| !note.contains("half turn")));
+}
