@@ -59,6 +59,12 @@ impl Interrupt {
         if self.is_stopped() { Err(Error::Stopped) } else { outcome }
     }
 
+    /// The interrupt over the caller, to be put over what it does on other threads.
+    #[must_use]
+    pub fn current() -> Option<Self> {
+        CURRENT.with_borrow(Option::clone)
+    }
+
     /// True once the answer was yes.
     #[must_use]
     pub fn is_stopped(&self) -> bool {
@@ -86,7 +92,7 @@ pub(crate) struct Carried(Option<Interrupt>);
 impl Carried {
     /// The one over the caller.
     pub fn here() -> Self {
-        Self(CURRENT.with_borrow(Option::clone))
+        Self(Interrupt::current())
     }
 
     /// Does `work` under it.

@@ -43,7 +43,7 @@ pub enum MassMatrix {
 ///
 /// Degrees of freedom are the displacements of the nodes from left to right, m, without those of
 /// fixed ends. M and K are tridiagonal. Static displacements are exact at the nodes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Bar {
     /// Length, m; positive.
     pub length: f64,

@@ -62,7 +62,7 @@ pub enum BeamEnd {
 /// assert!(reduction.walls[0].share() > 0.9999);
 /// # Ok::<(), signorini::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Beam {
     /// Length, m; positive.
     pub length: f64,

@@ -1,0 +1,165 @@
+//! Case files.
+
+use crate::error::{raise, wrong};
+use crate::place::Model;
+use crate::run::{Plan, Run};
+use crate::scene::{Origin, Scene};
+use crate::work::compute;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict};
+use signorini as sg;
+use signorini::case::{CaseFile, KeyValue};
+use std::path::PathBuf;
+
+/// A case file: its scene, and the times at which it is run. See ``load``.
+#[pyclass(frozen, module = "signorini")]
+pub struct Case {
+    pub file: CaseFile,
+    case: sg::case::Case,
+    scene: Py<Scene>,
+}
+
+/// A value of a case file.
+pub fn value(key: &str, value: &Bound<'_, PyAny>) -> PyResult<KeyValue> {
+    if value.is_instance_of::<PyBool>() {
+        return Ok(KeyValue::from(value.extract::<bool>()?));
+    }
+    if let Ok(whole) = value.extract::<i64>() {
+        return Ok(KeyValue::from(whole));
+    }
+    if let Ok(number) = value.extract::<f64>() {
+        return Ok(KeyValue::from(number));
+    }
+    if let Ok(word) = value.extract::<String>() {
+        return Ok(KeyValue::from(word.as_str()));
+    }
+    if let Ok(list) = value.extract::<Vec<f64>>() {
+        return format!("{list:?}").parse().map_err(raise);
+    }
+    Err(wrong(key, value.repr()?, "a number, True or False, a text, or a list of numbers"))
+}
+
+/// Reads a case file, or takes the built-in case of that name.
+///
+/// Parameters
+/// ----------
+/// case : str or path
+///     A file (``case.toml``, or the ``summary.json`` of a run), or the name of a built-in case.
+/// set : mapping of str to value, optional
+///     Values to change, by the keys of the case format: ``{"wall.*.restitution": 0.8}``.
+///
+/// Returns
+/// -------
+/// Case
+///
+/// Raises
+/// ------
+/// ValueError
+///     For a case that makes no sense: file, line, key, and what would be accepted.
+/// OSError
+///     For a file that cannot be read.
+///
+/// Examples
+/// --------
+/// >>> import signorini as sg
+/// >>> case = sg.load("rigid-walls-sine", set={"wall.upper.position": 6e-3})
+/// >>> case.scene.walls[0].position, case.step
+/// (0.006, 0.0001)
+#[pyfunction]
+#[pyo3(signature = (case, *, set=None))]
+pub fn load(py: Python<'_>, case: PathBuf, set: Option<Bound<'_, PyDict>>) -> PyResult<Case> {
+    let mut file = compute(py, || match case.to_str() {
+        Some(name) if !name.contains(['/', '\\', '.']) => CaseFile::embedded(name),
+        _ => CaseFile::read(&case),
+    })?;
+    for (key, new) in set.iter().flatten() {
+        let key = key.extract::<String>()?;
+        file.set(&key.parse().map_err(raise)?, &value(&key, &new)?).map_err(raise)?;
+    }
+    let case = compute(py, || file.case())?;
+    let model = match &case.model {
+        sg::case::Model::Bar(bar) => Model::Bar(bar.clone()),
+        sg::case::Model::Beam(beam) => Model::Beam(beam.clone()),
+        sg::case::Model::Modal(modal) => Model::Modal(modal.clone()),
+        _ => Model::Numbered,
+    };
+    let origin = case.truncated.as_ref().map(|truncated| {
+        let sg::study::truncation::Whole { scene, damping, static_correction } = truncated.whole.clone();
+        Box::new(Origin { scene, damping, modes: Some(truncated.reduction.modes.count()), static_correction })
+    });
+    let scene = Py::new(py, Scene { scene: case.scene.clone(), model, origin })?;
+    Ok(Case { file, case, scene })
+}
+
+#[pymethods]
+impl Case {
+    /// The name of the file without folder and extension.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.case.name
+    }
+
+    /// One line that describes the case.
+    #[getter]
+    fn title(&self) -> Option<&str> {
+        self.case.title.as_deref()
+    }
+
+    /// The scene that it describes.
+    #[getter]
+    fn scene(&self, py: Python<'_>) -> Py<Scene> {
+        self.scene.clone_ref(py)
+    }
+
+    /// Its step, s.
+    #[getter]
+    fn step(&self) -> f64 {
+        self.case.time.step
+    }
+
+    /// Time between two recorded rows, s; None for every step.
+    #[getter]
+    fn sample(&self) -> Option<f64> {
+        self.case.time.sample
+    }
+
+    /// Where the window of its statistics begins, s.
+    #[getter]
+    fn statistics_from(&self) -> f64 {
+        self.case.time.statistics_from
+    }
+
+    /// The text of the case file, with the values that were set.
+    #[getter]
+    fn text(&self) -> PyResult<String> {
+        self.file.text().map_err(raise)
+    }
+
+    /// Runs its scene with the step, the rows and the window of the file, unless others are given;
+    /// else as ``Scene.run``.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> sg.load("rigid-walls-sine", set={"time.end": 2.0}).run()
+    /// <Run: moreau-jean, 2001 rows to 2.0 s, 20 contacts>
+    #[pyo3(signature = (scheme=None, *, step=None, accuracy=None))]
+    fn run(&self, py: Python<'_>, scheme: Option<&str>, step: Option<f64>, accuracy: Option<f64>) -> PyResult<Py<Run>> {
+        let (scene, time) = (self.scene.bind(py), &self.case.time);
+        if let Some(tolerance) = accuracy {
+            return Run::to_accuracy(scene, scheme, step, tolerance, time.sample, time.statistics_from);
+        }
+        let mut plan =
+            Plan::new(&scene.get().scene, scheme, step.or(Some(time.step)), time.sample, time.statistics_from)?;
+        plan.time.force_averaging = time.force_averaging;
+        if let Some(name) = scheme {
+            plan.method = self.case.method(name).map_err(raise)?;
+        }
+        Run::make(scene, plan)
+    }
+
+    fn __repr__(&self) -> String {
+        let title = self.case.title.as_deref().unwrap_or("without a title");
+        format!("<Case {}: {title}>", self.case.name)
+    }
+}

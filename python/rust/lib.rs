@@ -1,0 +1,50 @@
+//! The compiled half of the Python package: thin classes over the library, without numerics of
+//! their own. What needs no Rust is in `src/signorini/`.
+
+#![deny(unsafe_code)]
+
+mod array;
+mod builders;
+mod case;
+mod error;
+mod load;
+mod pickle;
+mod place;
+mod run;
+mod scene;
+mod stepper;
+mod study;
+mod sweep;
+mod wall;
+mod work;
+
+use pyo3::prelude::*;
+
+/// The compiled half of the package signorini.
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::builders::{_bar, _beam, _chain, _matrices, _modal, _oscillator};
+    #[pymodule_export]
+    use super::case::{Case, load};
+    #[pymodule_export]
+    use super::error::{AccuracyWarning, DivergedError, NotSolvedError, RefutedError, RunError, TooManyEventsError};
+    #[pymodule_export]
+    use super::load::Load;
+    #[pymodule_export]
+    use super::run::Run;
+    #[pymodule_export]
+    use super::scene::{Rayleigh, Scene};
+    #[pymodule_export]
+    use super::stepper::Stepper;
+    #[pymodule_export]
+    use super::study::{_bifurcation, _chart, _compare, _stability};
+    #[pymodule_export]
+    use super::sweep::{_columns, _run_many};
+    #[pymodule_export]
+    use super::wall::Wall;
+
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "Python's name")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

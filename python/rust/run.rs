@@ -1,0 +1,426 @@
+//! A finished run.
+
+use crate::array::{Array, view};
+use crate::error::{AccuracyWarning, RefutedError, raise, wrong};
+use crate::pickle::{Reduced, pickled, unpickled};
+use crate::scene::Scene;
+use crate::work::{compute, compute_beside};
+use numpy::IntoPyArray;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyList};
+use signorini as sg;
+use signorini::study::accuracy::{Target, reach};
+use signorini::study::verdict::Verdict;
+
+/// How a scene is run.
+#[derive(Debug, Clone, Copy)]
+pub struct Plan {
+    pub method: sg::Method,
+    pub time: sg::TimeOptions,
+}
+
+impl Plan {
+    pub fn new(
+        scene: &sg::Scene,
+        scheme: Option<&str>,
+        step: Option<f64>,
+        sample: Option<f64>,
+        statistics_from: f64,
+    ) -> PyResult<Self> {
+        let method = match scheme {
+            Some(name) => name.parse::<sg::Method>().map_err(raise)?,
+            None => sg::study::choice::choose(scene).method,
+        };
+        let step = match (step, method.scheme) {
+            (Some(step), _) => step,
+            // It has none; half the duration passes every check of a step.
+            (None, sg::Scheme::Event) => 0.5 * scene.duration,
+            (None, _) => return Err(wrong("step", "missing", &format!("the step of {method} in s, or accuracy"))),
+        };
+        let time = sg::TimeOptions { sample, statistics_from, ..sg::TimeOptions::with_step(step) };
+        Ok(Self { method, time })
+    }
+}
+
+/// A finished run: see `Scene.run`. Its arrays are read-only views of its memory, which they keep
+/// alive. Runs can be pickled.
+#[pyclass(frozen, module = "signorini")]
+pub struct Run {
+    run: sg::Run,
+    time: sg::TimeOptions,
+    scene: Py<Scene>,
+    /// How the accuracy asked for was reached, as JSON.
+    accuracy: Option<String>,
+}
+
+impl Run {
+    /// Runs `scene`.
+    pub fn make(scene: &Bound<'_, Scene>, plan: Plan) -> PyResult<Py<Self>> {
+        let inner = &scene.get().scene;
+        let run = compute(scene.py(), || sg::run(inner, &plan.method, &sg::Options::new(plan.time)))?;
+        Self::judged(scene, run, plan.time, None)
+    }
+
+    /// Runs it to an accuracy.
+    pub fn to_accuracy(
+        scene: &Bound<'_, Scene>,
+        scheme: Option<&str>,
+        step: Option<f64>,
+        tolerance: f64,
+        sample: Option<f64>,
+        statistics_from: f64,
+    ) -> PyResult<Py<Self>> {
+        if let Some(step) = step {
+            return Err(wrong("step", format!("{step:?}"), "none beside accuracy, which finds the step"));
+        }
+        let py = scene.py();
+        let inner = &scene.get().scene;
+        let step = 0.5 * inner.duration;
+        let time = sg::TimeOptions { sample, statistics_from, ..sg::TimeOptions::with_step(step) };
+        let method = scheme.map(|name| name.parse().map_err(raise)).transpose()?;
+        let target = Target { method, ..Target::new(tolerance, time) };
+        let outcome = compute_beside(py, || reach(inner, &target, &mut |_| {}), &mut |_| Ok(()))?;
+        let refuted = outcome.run.refuted().is_some();
+        if let Some(shortfall) = outcome.shortfall.filter(|_| !refuted) {
+            let text = std::ffi::CString::new(shortfall.to_string()).unwrap_or_default();
+            PyErr::warn(py, &py.get_type::<AccuracyWarning>(), &text, 1)?;
+        }
+        let time = sg::TimeOptions { step: outcome.run.grid.step, ..time };
+        let accuracy = serde_json::to_string(&outcome.accuracy).unwrap_or_default();
+        Self::judged(scene, outcome.run, time, Some(accuracy))
+    }
+
+    /// The run, unless the judge refutes it.
+    fn judged(
+        scene: &Bound<'_, Scene>,
+        run: sg::Run,
+        time: sg::TimeOptions,
+        accuracy: Option<String>,
+    ) -> PyResult<Py<Self>> {
+        let py = scene.py();
+        let refuted = run.refuted();
+        let made = Py::new(py, Self { run, time, scene: scene.clone().unbind(), accuracy })?;
+        match refuted {
+            None => Ok(made),
+            Some(error) => {
+                let error = RefutedError::new_err(error.to_string());
+                error.value(py).setattr("run", made)?;
+                Err(error)
+            }
+        }
+    }
+
+    /// A run of a study.
+    pub fn of(scene: &Bound<'_, Scene>, run: sg::Run, time: sg::TimeOptions) -> Self {
+        Self { run, time, scene: scene.clone().unbind(), accuracy: None }
+    }
+
+    fn method(&self) -> sg::Method {
+        sg::Method { scheme: self.run.scheme, backend: self.run.backend }
+    }
+
+    /// Calls a function of the Python side, which does what needs no Rust.
+    fn by_python<'py>(slf: &Bound<'py, Self>, function: &str) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("signorini._run")?.call_method1(function, (slf,))
+    }
+}
+
+#[pymethods]
+impl Run {
+    /// The scene that was run.
+    #[getter]
+    fn scene(&self, py: Python<'_>) -> Py<Scene> {
+        self.scene.clone_ref(py)
+    }
+
+    /// The scheme, in words.
+    #[getter]
+    fn scheme(&self) -> String {
+        self.run.scheme.to_string()
+    }
+
+    /// The step, s; None of the exact scheme.
+    #[getter]
+    fn step(&self) -> Option<f64> {
+        (self.run.scheme != sg::Scheme::Event).then_some(self.run.grid.step)
+    }
+
+    /// Times of the rows, s; shape (rows,).
+    #[getter]
+    fn time<'py>(slf: &Bound<'py, Self>) -> Array<'py> {
+        view(slf, slf.get().run.trajectory.time())
+    }
+
+    /// Displacement of the first probe, m; shape (rows,), or (0,) without a probe.
+    #[getter]
+    fn displacement<'py>(slf: &Bound<'py, Self>) -> Array<'py> {
+        view(slf, slf.get().run.trajectory.displacement())
+    }
+
+    /// Velocity of the first probe, m/s; shape (rows,), or (0,) without a probe.
+    #[getter]
+    fn velocity<'py>(slf: &Bound<'py, Self>) -> Array<'py> {
+        view(slf, slf.get().run.trajectory.velocity())
+    }
+
+    /// Displacement (m) and velocity (m/s) of a probe, each of shape (rows,).
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a name that no probe has; it lists those there are.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> chain = sg.chain([1.0, 1.0], [100.0], velocity=[0.0, 1.0], probes={"end": 1})
+    /// >>> q, v = chain.run("event").probe("end")
+    /// >>> float(v[0])
+    /// 1.0
+    fn probe<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<(Array<'py>, Array<'py>)> {
+        let (q, v) = slf.get().run.trajectory.probe(name).map_err(raise)?;
+        Ok((view(slf, q), view(slf, v)))
+    }
+
+    /// Force of a wall on the body, N; shape (rows,). An upper wall pushes down, ≤ 0.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a name that no wall has; it lists those there are.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> run = sg.load("elastic-wall").run()
+    /// >>> bool((run.contact_force(run.walls[0]) != 0.0).any())
+    /// True
+    fn contact_force<'py>(slf: &Bound<'py, Self>, wall: &str) -> PyResult<Array<'py>> {
+        Ok(view(slf, slf.get().run.trajectory.contact_force(wall).map_err(raise)?))
+    }
+
+    /// Impulse of a wall on the body since the row before, N s; shape (rows,).
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a name that no wall has; it lists those there are.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> run = sg.load("rigid-walls-sine").run()
+    /// >>> abs(run.contact_impulse("upper").sum() - run.impulse("upper")) < 1e-12
+    /// np.True_
+    fn contact_impulse<'py>(slf: &Bound<'py, Self>, wall: &str) -> PyResult<Array<'py>> {
+        Ok(view(slf, slf.get().run.trajectory.contact_impulse(wall).map_err(raise)?))
+    }
+
+    /// Impulse of a wall on the body over the whole run, N s.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> sg.load("rigid-walls-sine").run().impulse("upper") < 0.0
+    /// True
+    fn impulse(&self, wall: &str) -> PyResult<f64> {
+        self.run.trajectory.impulse(wall).map_err(raise)
+    }
+
+    /// The names of the walls.
+    #[getter]
+    fn walls(&self) -> Vec<String> {
+        self.run.trajectory.walls().to_vec()
+    }
+
+    /// The names of the probes.
+    #[getter]
+    fn probes(&self) -> Vec<String> {
+        self.run.trajectory.probes().to_vec()
+    }
+
+    /// The state at the end, m and m/s; shape (degrees of freedom,) each.
+    #[getter]
+    fn state<'py>(slf: &Bound<'py, Self>) -> (Array<'py>, Array<'py>) {
+        let state = &slf.get().run.state;
+        (view(slf, &state.q), view(slf, &state.v))
+    }
+
+    /// Wall-clock seconds that it took.
+    #[getter]
+    fn seconds(&self) -> f64 {
+        self.run.seconds
+    }
+
+    /// What a reader of the results must know, in sentences.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.run.notes.clone()
+    }
+
+    /// What the judge refutes, in sentences; empty for a sound run.
+    #[getter]
+    fn findings(&self) -> Vec<String> {
+        self.run.findings.iter().map(ToString::to_string).collect()
+    }
+
+    /// The contact episodes as a structured array with the fields ``wall`` (name), ``start`` and
+    /// ``end`` (s), ``impulse`` (N s), ``peak_force`` (N), ``approach_speed`` and
+    /// ``departure_speed`` (m/s); nan where there is no value.
+    #[getter]
+    fn contacts<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::by_python(slf, "contacts")
+    }
+
+    /// All rows, by the column names that ``trajectory.csv`` has.
+    #[getter]
+    fn columns<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::by_python(slf, "columns")
+    }
+
+    /// Contact statistics of each wall over the window, by its name, with the keys of
+    /// ``summary.json``; ``half_width_95`` holds the half widths of 95 % intervals.
+    #[getter]
+    fn statistics<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::by_python(slf, "statistics")
+    }
+
+    /// Residuals, statistics, counters, and the accuracy reached where one was asked for.
+    #[getter]
+    fn summary<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::by_python(slf, "summary")
+    }
+
+    /// The rows as a pandas DataFrame.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> run = sg.load("rigid-walls-sine").run()
+    /// >>> run.to_pandas().shape
+    /// (10001, 7)
+    fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::by_python(slf, "to_pandas")
+    }
+
+    /// Draws displacement, velocity and contact forces or impulses with matplotlib.
+    ///
+    /// Parameters
+    /// ----------
+    /// axes : sequence of three matplotlib axes, optional
+    ///     Made if left out.
+    ///
+    /// Returns
+    /// -------
+    /// sequence of matplotlib axes
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> axes = sg.load("rigid-walls-sine").run().plot()
+    /// >>> axes[0].get_ylabel()
+    /// 'displacement (mm)'
+    #[pyo3(signature = (axes=None))]
+    fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("signorini._plot")?.call_method1("run", (slf, axes))
+    }
+
+    /// The refinement verdict: the run with half the step (the exact scheme: with other roundings)
+    /// beside this one. ``text`` says it in a sentence.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> verdict = sg.load("rigid-walls-sine", set={"time.end": 2.0}).run().verdict()
+    /// >>> verdict["walls"][0]["contacts"]
+    /// [10, 10]
+    fn verdict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let scene = &self.scene.get().scene;
+        let (run, method, time) = (&self.run, self.method(), &self.time);
+        let verdict = compute_beside(py, || Verdict::of(scene, &method, run, time, &mut |_| {}), &mut |_| Ok(()))?;
+        let dict = loads(py, &serde_json::to_string(&verdict).unwrap_or_default())?;
+        dict.set_item("text", verdict.to_string())?;
+        Ok(dict)
+    }
+
+    /// Columns of the contacts.
+    fn _contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let contacts = self.run.trajectory.contacts();
+        let column = |f: &dyn Fn(&sg::Contact) -> f64| contacts.iter().map(f).collect::<Vec<f64>>().into_pyarray(py);
+        let or_nan = |x: Option<f64>| x.unwrap_or(f64::NAN);
+        let dict = PyDict::new(py);
+        dict.set_item("wall", contacts.iter().map(|c| c.wall as i64).collect::<Vec<_>>().into_pyarray(py))?;
+        dict.set_item("start", column(&|c| c.start))?;
+        dict.set_item("end", column(&|c| or_nan(c.end)))?;
+        dict.set_item("impulse", column(&|c| c.impulse))?;
+        dict.set_item("peak_force", column(&|c| or_nan(c.peak_force)))?;
+        dict.set_item("approach_speed", column(&|c| c.approach_speed))?;
+        dict.set_item("departure_speed", column(&|c| or_nan(c.departure_speed)))?;
+        Ok(dict)
+    }
+
+    fn _summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let run = &self.run;
+        let value = serde_json::json!({
+            "scheme": run.scheme.to_string(),
+            "residuals": run.residuals,
+            "statistics": run.statistics,
+            "counters": run.counters,
+            "seconds": run.seconds,
+            "notes": run.notes,
+            "findings": run.findings,
+        });
+        let dict = loads(py, &value.to_string())?;
+        if let Some(accuracy) = &self.accuracy {
+            dict.set_item("accuracy", loads(py, accuracy)?)?;
+        }
+        Ok(dict)
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::by_python(slf, "html")
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<Reduced<'py, (&'static str, Py<Scene>, Bound<'py, PyBytes>)>> {
+        let this = slf.get();
+        let (version, bytes) = pickled(slf.py(), &(&this.run, &this.time, &this.accuracy))?;
+        Ok((slf.get_type().getattr("_restore")?, (version, this.scene.clone_ref(slf.py()), bytes)))
+    }
+
+    #[staticmethod]
+    fn _restore(version: &str, scene: Py<Scene>, bytes: &[u8]) -> PyResult<Self> {
+        let (run, time, accuracy) = unpickled(version, bytes)?;
+        Ok(Self { run, time, scene, accuracy })
+    }
+
+    fn __repr__(&self) -> String {
+        let motion = &self.run.trajectory;
+        let refuted = if self.run.findings.is_empty() { "" } else { "refuted " };
+        format!(
+            "<{refuted}Run: {}, {} rows to {:?} s, {} contacts>",
+            self.run.scheme,
+            motion.time().len(),
+            self.run.grid.end,
+            motion.contacts().len()
+        )
+    }
+}
+
+/// JSON as Python's objects.
+pub fn loads<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("json")?.call_method1("loads", (text,))
+}
+
+/// A list of what `items` give.
+pub fn list<'py, T: IntoPyObject<'py>>(
+    py: Python<'py>,
+    items: impl IntoIterator<Item = T>,
+) -> PyResult<Bound<'py, PyList>> {
+    let list = PyList::empty(py);
+    for item in items {
+        list.append(item)?;
+    }
+    Ok(list)
+}

@@ -1,0 +1,379 @@
+//! Scenes.
+
+use crate::error::{raise, wrong, wrong_type};
+use crate::load::Load;
+use crate::pickle::{Reduced, State, pickled, unpickled};
+use crate::place::{Model, Place};
+use crate::run::{Plan, Run};
+use crate::wall::Wall;
+use crate::work::compute;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use serde::{Deserialize, Serialize};
+use signorini as sg;
+
+/// M q̈ + C q̇ + K q = f(t) + Gᵀ r(t), bounded by walls, over a duration. Scenes are made by
+/// ``oscillator``, ``chain``, ``bar``, ``beam``, ``matrices``, ``modal`` and ``load``, never change,
+/// are equal by value, and can be pickled.
+#[pyclass(frozen, eq, module = "signorini", from_py_object)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Scene {
+    /// What is run.
+    pub scene: sg::Scene,
+    /// How its places are understood.
+    pub model: Model,
+    /// What it was made from, where that differs.
+    pub origin: Option<Box<Origin>>,
+}
+
+/// A scene before it is damped, condensed, or reduced to modes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Origin {
+    pub scene: sg::Scene,
+    pub damping: Option<sg::Damping>,
+    pub modes: Option<usize>,
+    pub static_correction: bool,
+}
+
+impl Origin {
+    /// The scene that is run.
+    fn built(&self) -> sg::Result<sg::Scene> {
+        let massless = |s: &sg::SharedStructure| !s.massless().is_empty();
+        let mut scene = match &self.scene.system {
+            sg::System::Structure(structure) if massless(structure) => self.scene.condensed()?.0,
+            _ => self.scene.clone(),
+        };
+        let damping = self.damping.as_ref();
+        if let Some(modes) = self.modes {
+            let reduction = scene.reduced(modes, self.static_correction)?;
+            scene = damping.map_or(Ok(reduction.clone()), |damping| reduction.with_damping(damping))?.scene;
+        } else if let (Some(damping), sg::System::Structure(structure)) = (damping, &scene.system) {
+            scene.system = (**structure).clone().with_damping(damping)?.into();
+        }
+        scene.validate()?;
+        Ok(scene)
+    }
+}
+
+/// Damping of a structure: a share of critical damping for all modes or one a mode, or Rayleigh's.
+pub struct Damping(sg::Damping);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Damping {
+    type Error = PyErr;
+
+    fn extract(damping: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(Rayleigh { mass, stiffness }) = damping.extract() {
+            return Ok(Self(sg::Damping::Rayleigh { mass, stiffness }));
+        }
+        match damping.extract() {
+            Ok(Values::One(ratio)) => Ok(Self(sg::Damping::Modal(vec![ratio]))),
+            Ok(Values::Several(ratios)) => Ok(Self(sg::Damping::Modal(ratios))),
+            Err(_) => Err(wrong_type(&damping, "a number, a sequence of numbers, or a Rayleigh")),
+        }
+    }
+}
+
+/// Rayleigh damping, C = mass · M + stiffness · K (1/s, s).
+///
+/// Examples
+/// --------
+/// >>> import signorini as sg
+/// >>> sg.Rayleigh(0.1, 1e-5)
+/// Rayleigh(0.1, 1e-5)
+#[pyclass(frozen, eq, get_all, module = "signorini", from_py_object)]
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rayleigh {
+    /// Factor of M, 1/s.
+    mass: f64,
+    /// Factor of K, s.
+    stiffness: f64,
+}
+
+#[pymethods]
+impl Rayleigh {
+    #[new]
+    #[pyo3(signature = (mass, stiffness))]
+    fn new(mass: f64, stiffness: f64) -> Self {
+        Self { mass, stiffness }
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Rayleigh({:?}, {:?})", self.mass, self.stiffness)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Reduced<'py, (f64, f64)> {
+        (slf.get_type().into_any(), (slf.get().mass, slf.get().stiffness))
+    }
+}
+
+/// One number, or one for each degree of freedom.
+pub enum Values {
+    One(f64),
+    Several(Vec<f64>),
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Values {
+    type Error = PyErr;
+
+    fn extract(values: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(number) = values.extract() {
+            return Ok(Self::One(number));
+        }
+        let expected = "a number, or a sequence of numbers in one dimension";
+        values.extract().map(Self::Several).map_err(|_| wrong_type(&values, expected))
+    }
+}
+
+impl Values {
+    fn put(self, name: &str, to: &mut Vec<f64>) -> PyResult<()> {
+        match self {
+            Self::One(x) if to.len() == 1 => *to = vec![x],
+            Self::One(x) => {
+                return Err(wrong(name, format!("{x:?}"), &format!("{} values, one per degree of freedom", to.len())));
+            }
+            Self::Several(values) => *to = values,
+        }
+        Ok(())
+    }
+}
+
+impl Scene {
+    pub fn new(scene: sg::Scene, model: Model) -> Self {
+        Self { scene: scene, model, origin: None }
+    }
+}
+
+#[pymethods]
+impl Scene {
+    /// The scene with other values of what is named; the rest stays.
+    ///
+    /// Parameters
+    /// ----------
+    /// walls : sequence of Wall, optional
+    /// loads : sequence of Load, optional
+    /// probes : mapping of str to place, optional
+    ///     Places whose displacement and velocity are recorded, by name.
+    /// displacement, velocity : float or sequence of float, optional
+    ///     The start, m and m/s: one value per degree of freedom.
+    /// duration : float, optional
+    ///     s.
+    /// damping : float, sequence of float or Rayleigh, optional
+    ///     Of a structure: a share of critical damping for all modes, one for each, or Rayleigh's.
+    /// modes : int, optional
+    ///     Reduce a structure to this many modes, the slowest.
+    /// static_correction : bool, optional
+    ///     Whether walls get the compliance of the modes left out.
+    ///
+    /// Returns
+    /// -------
+    /// Scene
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For the first value that makes no sense: which, and what would be accepted.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> free = sg.oscillator(1.0, 0.2, 100.0)
+    /// >>> free.replace(walls=[sg.Wall.upper("stop", 5e-3)], velocity=0.1).run("event").impulse("stop") < 0
+    /// True
+    #[pyo3(signature = (*, walls=None, loads=None, probes=None, displacement=None, velocity=None, duration=None,
+                        damping=None, modes=None, static_correction=None))]
+    #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
+    fn replace(
+        &self,
+        py: Python<'_>,
+        walls: Option<Vec<Wall>>,
+        loads: Option<Vec<Load>>,
+        probes: Option<Bound<'_, PyDict>>,
+        displacement: Option<Values>,
+        velocity: Option<Values>,
+        duration: Option<f64>,
+        damping: Option<Damping>,
+        modes: Option<usize>,
+        static_correction: Option<bool>,
+    ) -> PyResult<Self> {
+        let mut origin = self.origin.as_deref().cloned().unwrap_or_else(|| Origin {
+            scene: self.scene.clone(),
+            damping: None,
+            modes: None,
+            static_correction: false,
+        });
+        let scene = &mut origin.scene;
+        let n = scene.system.degrees_of_freedom();
+        if let Some(walls) = walls {
+            let stand = |Wall { wall, place }: Wall| {
+                let at = self.model.row(&format!("wall {:?}", wall.name), &place, n)?;
+                Ok(sg::Wall { at, ..wall })
+            };
+            scene.walls = walls.into_iter().map(stand).collect::<PyResult<_>>()?;
+        }
+        if let Some(loads) = loads {
+            let act = |(i, Load { load, place }): (usize, Load)| {
+                let at = self.model.row(&format!("load {}", i + 1), &place, n)?;
+                Ok(sg::Load { at, ..load })
+            };
+            scene.loads = loads.into_iter().enumerate().map(act).collect::<PyResult<_>>()?;
+        }
+        if let Some(probes) = probes {
+            let see = |(name, place): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+                let (name, place) = (name.extract::<String>()?, place.extract::<Place>()?);
+                let at = self.model.row(&format!("probe {name:?}"), &place, n)?;
+                Ok(sg::Probe { name, at })
+            };
+            scene.probes = probes.iter().map(see).collect::<PyResult<_>>()?;
+        }
+        displacement.map_or(Ok(()), |values| values.put("displacement", &mut scene.initial.q))?;
+        velocity.map_or(Ok(()), |values| values.put("velocity", &mut scene.initial.v))?;
+        scene.duration = duration.unwrap_or(scene.duration);
+        if let (Some(_), sg::System::Oscillator(_)) = (&damping, &scene.system) {
+            return Err(wrong(
+                "damping",
+                "given beside that of the oscillator",
+                "none: `oscillator` takes it, in N s/m",
+            ));
+        }
+        origin.damping = damping.map(|damping| damping.0).or(origin.damping);
+        origin.modes = modes.or(origin.modes);
+        origin.static_correction = static_correction.unwrap_or(origin.static_correction);
+        let built = compute(py, || origin.built())?;
+        let same = origin.damping.is_none() && origin.modes.is_none() && built.initial.q.len() == n;
+        Ok(Self { scene: built, model: self.model.clone(), origin: (!same).then(|| Box::new(origin)) })
+    }
+
+    /// Runs the scene to its end.
+    ///
+    /// Parameters
+    /// ----------
+    /// scheme : str, optional
+    ///     A scheme in the words of the command-line tool: ``"moreau-jean"``, ``"event"``,
+    ///     ``"penalty:epsilon=1e-9"``, ``"moreau-jean:theta=0.6,qp=clarabel"``; chosen if left out.
+    /// step : float, optional
+    ///     s. Every scheme but ``event`` needs one, or ``accuracy``.
+    /// accuracy : float, optional
+    ///     The error to keep, as a share of the gap; scheme and step that keep it are found.
+    ///     `AccuracyWarning` tells where it is not kept to the end.
+    /// sample : float, optional
+    ///     Time between two recorded rows, s; every step, or a thousand rows of ``event``.
+    /// statistics_from : float
+    ///     Where the window of the statistics begins, s.
+    ///
+    /// Returns
+    /// -------
+    /// Run
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a wrong request.
+    /// RunError
+    ///     For a run that failed: `DivergedError`, `TooManyEventsError`, `NotSolvedError`, or
+    ///     `RefutedError`, whose ``run`` is the run that broke the scheme's promises.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> scene = sg.load("rigid-walls-sine").scene.replace(duration=2.0)
+    /// >>> scene.run("moreau-jean", step=1e-4)
+    /// <Run: moreau-jean, 20001 rows to 2.0 s, 20 contacts>
+    #[pyo3(signature = (scheme=None, *, step=None, accuracy=None, sample=None, statistics_from=0.0))]
+    fn run(
+        slf: &Bound<'_, Self>,
+        scheme: Option<&str>,
+        step: Option<f64>,
+        accuracy: Option<f64>,
+        sample: Option<f64>,
+        statistics_from: f64,
+    ) -> PyResult<Py<Run>> {
+        if let Some(tolerance) = accuracy {
+            return Run::to_accuracy(slf, scheme, step, tolerance, sample, statistics_from);
+        }
+        Run::make(slf, Plan::new(&slf.get().scene, scheme, step, sample, statistics_from)?)
+    }
+
+    /// The walls, in the order of the results.
+    #[getter]
+    fn walls<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.given().walls.iter().map(|wall| Wall { wall: wall.clone(), place: self.place(&wall.at) }))
+    }
+
+    /// The loads.
+    #[getter]
+    fn loads<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.given().loads.iter().map(|load| Load { load: load.clone(), place: self.place(&load.at) }))
+    }
+
+    /// The names of the probes; an oscillator has one without a name.
+    #[getter]
+    fn probes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.scene.probes.iter().map(|probe| &probe.name))
+    }
+
+    /// s.
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.scene.duration
+    }
+
+    /// The number of degrees of freedom that are stepped: of a scene reduced to modes, the modes.
+    #[getter]
+    fn degrees_of_freedom(&self) -> usize {
+        self.scene.system.degrees_of_freedom()
+    }
+
+    /// Half the least distance between two walls, m: errors are shares of it.
+    #[getter]
+    fn gap_scale(&self) -> f64 {
+        self.scene.gap_scale()
+    }
+
+    fn __repr__(&self) -> String {
+        let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let body = match (&self.scene.system, &self.origin) {
+            (sg::System::Oscillator(o), _) => {
+                format!("oscillator of {:?} kg, {:?} N s/m, {:?} N/m", o.mass, o.damping, o.stiffness)
+            }
+            (_, Some(origin)) if origin.modes.is_some() => {
+                format!("{} of {} modes", self.degrees_of_freedom(), origin.scene.system.degrees_of_freedom())
+            }
+            _ => count(self.degrees_of_freedom(), "degree") + " of freedom",
+        };
+        let (walls, loads) = (count(self.scene.walls.len(), "wall"), count(self.scene.loads.len(), "load"));
+        format!("<Scene: {body}, {walls}, {loads}, {:?} s>", self.scene.duration)
+    }
+
+    fn __str__(&self) -> String {
+        use sg::study::choice::{body, loads, walls};
+        let mut lines = body(&self.scene);
+        lines.extend(walls(&self.scene));
+        lines.push(format!("{}, {:?} s", loads(&self.scene), self.scene.duration));
+        lines.join("\n")
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, State<'py>>> {
+        Ok((slf.get_type().getattr("_restore")?, pickled(slf.py(), slf.get())?))
+    }
+
+    #[staticmethod]
+    fn _restore(version: &str, bytes: &[u8]) -> PyResult<Self> {
+        let scene: Self = unpickled(version, bytes)?;
+        scene.scene.validate().map_err(raise)?;
+        Ok(scene)
+    }
+}
+
+impl Scene {
+    /// The scene in the coordinates in which it was given.
+    fn given(&self) -> &sg::Scene {
+        self.origin.as_ref().map_or(&self.scene, |origin| &origin.scene)
+    }
+
+    fn place(&self, row: &sg::Row) -> Place {
+        match self.given().system {
+            sg::System::Oscillator(_) if *row == sg::Row::dof(0) => Place::Only,
+            _ => Place::Row(row.entries().to_vec()),
+        }
+    }
+}

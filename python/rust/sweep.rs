@@ -1,0 +1,127 @@
+//! Many runs side by side: a row of numbers of each, and no motions.
+
+use crate::run::Plan;
+use crate::scene::Scene;
+use crate::work::{compute_beside, kept};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use signorini as sg;
+use signorini::WallStatistics;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// A number of a wall; nan where there is none.
+type Number = fn(&WallStatistics) -> f64;
+
+/// The columns of a wall: how it is called, with the wall's name for {}, and where it comes from.
+const COLUMNS: [(&str, Number); 13] = [
+    ("contacts_{}", |w| w.contacts as f64),
+    ("contact_rate_{}_per_s", |w| w.contact_rate_per_s),
+    ("contact_rate_half_width_95_{}_per_s", |w| w.half_width_95.map_or(f64::NAN, |h| h.contact_rate_per_s)),
+    ("contact_time_ratio_{}", |w| w.contact_time_ratio),
+    ("impulse_{}_N_s", |w| w.force.map_or(f64::NAN, |f| f.impulse_n_s)),
+    ("force_mean_{}_N", |w| w.force.map_or(f64::NAN, |f| f.mean_n)),
+    ("force_mean_half_width_95_{}_N", |w| w.force.and_then(|f| f.mean_half_width_95_n).unwrap_or(f64::NAN)),
+    ("force_rms_{}_N", |w| w.force.map_or(f64::NAN, |f| f.rms_n)),
+    ("peak_force_{}_N", |w| w.episode_peak_force_n.max.unwrap_or(f64::NAN)),
+    ("impulse_max_{}_N_s", |w| w.episode_impulse_n_s.max.unwrap_or(f64::NAN)),
+    ("impact_power_{}_W", |w| w.impact_power_w),
+    ("impact_power_half_width_95_{}_W", |w| w.half_width_95.map_or(f64::NAN, |h| h.impact_power_w)),
+    ("arrived_less_departed_power_{}_W", |w| w.arrived_less_departed_power_w),
+];
+
+/// The names of the columns for walls of these names.
+#[pyfunction]
+pub fn _columns(walls: Vec<String>) -> Vec<String> {
+    walls.iter().flat_map(|wall| COLUMNS.map(|(name, _)| name.replace("{}", wall))).collect()
+}
+
+/// A row of numbers a scene, and why there is none.
+type Rows<'py> = (Bound<'py, PyArray2<f64>>, Vec<Option<String>>);
+
+/// Runs scenes on threads without the interpreter's lock.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
+pub fn _run_many<'py>(
+    py: Python<'py>,
+    scenes: Vec<Scene>,
+    scheme: Option<&str>,
+    step: Option<f64>,
+    statistics_from: f64,
+    judge: bool,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Rows<'py>> {
+    let names = |scene: &Scene| scene.scene.walls.iter().map(|wall| wall.name.clone()).collect::<Vec<_>>();
+    let walls = scenes.first().map_or_else(Vec::new, names);
+    if let Some(other) = scenes.iter().map(names).find(|other| *other != walls) {
+        let text = format!(
+            "walls are {}; expected {}, as in the first scene: rows of one table have one set of columns",
+            other.join(", "),
+            walls.join(", ")
+        );
+        return Err(PyValueError::new_err(text));
+    }
+    let width = COLUMNS.len() * walls.len();
+    let plans = scenes
+        .iter()
+        .map(|scene| {
+            // Two rows: nothing of the motion is kept.
+            Plan::new(&scene.scene, scheme, step, Some(scene.scene.duration), statistics_from)
+        })
+        .collect::<PyResult<Vec<_>>>()?;
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new((vec![f64::NAN; width * scenes.len()], vec![None; scenes.len()]));
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let (Some(scene), Some(plan)) = (scenes.get(index), plans.get(index)) else { return };
+            let outcome = numbers(&scene.scene, plan, judge);
+            let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+            match outcome {
+                Ok(row) => done.0[width * index..width * (index + 1)].copy_from_slice(&row),
+                // The next runs stop at once, too.
+                Err(sg::Error::Stopped) => return,
+                Err(error) => {
+                    done.1[index] = Some(kept().map_or_else(|| error.to_string(), |raised| raised.to_string()))
+                }
+            }
+        }
+    };
+    let threads = threads.clamp(1, scenes.len().max(1));
+    let mut watch = |py: Python<'_>| match &progress {
+        Some(progress) => {
+            let share = next.load(Ordering::Relaxed).saturating_sub(threads);
+            progress.bind(py).call1((share,)).map(drop)
+        }
+        None => Ok(()),
+    };
+    compute_beside(py, || on_threads(threads, &work), &mut watch)?;
+    let (table, errors) = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    Ok((PyArray1::from_vec(py, table).reshape([scenes.len(), width])?, errors))
+}
+
+/// Does `work` on several threads, under the interrupt that is over this one.
+fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) -> sg::Result<()> {
+    let interrupt = sg::Interrupt::current();
+    let under = || match &interrupt {
+        Some(interrupt) => interrupt.over(|| Ok(work())),
+        None => Ok(work()),
+    };
+    std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(under)).collect();
+        let own = under();
+        others.into_iter().try_for_each(|other| other.join().unwrap_or(Ok(()))).and(own)
+    })
+}
+
+/// The numbers of one run.
+fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Vec<f64>> {
+    let options = sg::Options::new(plan.time);
+    let statistics = match judge {
+        true => sg::run(scene, &plan.method, &options)?.unrefuted()?.statistics,
+        false => sg::run(scene, &plan.method, &options.unjudged())?.statistics,
+    };
+    Ok(statistics.walls.iter().flat_map(|wall| COLUMNS.map(|(_, number)| number(wall))).collect())
+}

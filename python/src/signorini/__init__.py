@@ -1,0 +1,76 @@
+"""Vibrating structures between walls: contact forces by one convex QP per time step, by penalty, and exactly.
+
+>>> import signorini as sg
+>>> scene = sg.oscillator(
+...     1.0, 0.2, 100.0,  # kg, N s/m, N/m
+...     walls=[sg.Wall.upper("upper", 5e-3, restitution=0.8), sg.Wall.lower("lower", -5e-3, restitution=0.8)],
+...     loads=[sg.Load.harmonic(3.0, 5.0)],
+...     duration=2.0,
+... )
+>>> run = scene.run("moreau-jean", step=1e-4)
+>>> run
+<Run: moreau-jean, 20001 rows to 2.0 s, 20 contacts>
+>>> bool((run.contact_force("upper") <= 0.0).all())
+True
+
+All values are in SI units. Forces of walls are signed: a lower wall pushes up, an upper wall down.
+"""
+
+from ._builders import SceneOptions, bar, beam, chain, matrices, modal, oscillator, support
+from ._core import (
+    AccuracyWarning,
+    Case,
+    DivergedError,
+    Load,
+    NotSolvedError,
+    Rayleigh,
+    RefutedError,
+    Run,
+    RunError,
+    Scene,
+    Stepper,
+    TooManyEventsError,
+    Wall,
+    __version__,
+    load,
+)
+from ._studies import Bifurcation, Chart, Comparison, Stability, bifurcation, chart, compare, stability
+from ._sweep import Table, grid, run_many, sweep
+
+__all__ = [
+    "AccuracyWarning",
+    "Bifurcation",
+    "Case",
+    "Chart",
+    "Comparison",
+    "DivergedError",
+    "Load",
+    "NotSolvedError",
+    "Rayleigh",
+    "RefutedError",
+    "Run",
+    "RunError",
+    "Scene",
+    "SceneOptions",
+    "Stability",
+    "Stepper",
+    "Table",
+    "TooManyEventsError",
+    "Wall",
+    "__version__",
+    "bar",
+    "beam",
+    "bifurcation",
+    "chain",
+    "chart",
+    "compare",
+    "grid",
+    "load",
+    "matrices",
+    "modal",
+    "oscillator",
+    "run_many",
+    "stability",
+    "support",
+    "sweep",
+]

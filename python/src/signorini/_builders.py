@@ -1,0 +1,354 @@
+"""Scenes from numbers, dimensions, matrices and modes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, TypedDict, Unpack
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._core import Load, Rayleigh, Scene, Wall
+from ._types import Place, Support
+
+
+class SceneOptions(TypedDict, total=False):
+    """What every function that makes a scene takes besides its own arguments: see `Scene.replace`."""
+
+    walls: Sequence[Wall]
+    loads: Sequence[Load]
+    probes: Mapping[str, Place]
+    displacement: float | Sequence[float] | npt.NDArray[np.float64]
+    velocity: float | Sequence[float] | npt.NDArray[np.float64]
+    duration: float
+
+
+class ReducedOptions(SceneOptions, total=False):
+    """The same for structures that may be reduced to modes."""
+
+    modes: int
+    static_correction: bool
+
+
+class StructureOptions(ReducedOptions, total=False):
+    """The same for structures whose damping is not among their own arguments."""
+
+    damping: float | Sequence[float] | Rayleigh
+
+
+def oscillator(mass: float, damping: float, stiffness: float, **scene: Unpack[SceneOptions]) -> Scene:
+    """One degree of freedom, m q̈ + c q̇ + k q = f, at rest at 0 for one second unless told otherwise.
+
+    Parameters
+    ----------
+    mass, damping, stiffness : float
+        kg, N s/m, N/m.
+    **scene
+        Walls, loads and so on: see `Scene.replace`.
+
+    Raises
+    ------
+    ValueError
+        For the first value that makes no sense: which, and what would be accepted.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> sg.oscillator(1.0, 0.2, 100.0, walls=[sg.Wall.upper("stop", 5e-3)])
+    <Scene: oscillator of 1.0 kg, 0.2 N s/m, 100.0 N/m, 1 wall, 0 loads, 1.0 s>
+    """
+    return _core._oscillator(mass, damping, stiffness).replace(**scene)
+
+
+def chain(
+    masses: Sequence[float] | npt.NDArray[np.float64],
+    springs: Sequence[float] | npt.NDArray[np.float64],
+    *,
+    grounds: tuple[float, float] = (0.0, 0.0),
+    **scene: Unpack[StructureOptions],
+) -> Scene:
+    """Masses in a line with springs between neighbours.
+
+    Parameters
+    ----------
+    masses : sequence of float
+        n masses, kg.
+    springs : sequence of float
+        n - 1 stiffnesses, N/m.
+    grounds : pair of float
+        Stiffnesses that hold the first and the last mass, N/m.
+    **scene
+        Walls, loads and so on, whose places are numbers of masses from 0: see `Scene.replace`.
+
+    Raises
+    ------
+    ValueError
+        For the first value that makes no sense.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> stop = sg.Wall.upper("stop", 1e-3, restitution=0.5, at=1)
+    >>> sg.chain([2.0, 2.0], [1e4], grounds=(3e4, 0.0), walls=[stop], velocity=[0.0, 0.1])
+    <Scene: 2 degrees of freedom, 1 wall, 0 loads, 1.0 s>
+    """
+    return _core._chain(masses, springs, grounds).replace(**scene)
+
+
+def bar(
+    *,
+    length: float,
+    area: float,
+    youngs_modulus: float,
+    density: float,
+    elements: int,
+    left: Support = "free",
+    right: Support = "free",
+    lumped: bool = False,
+    **scene: Unpack[StructureOptions],
+) -> Scene:
+    """A bar in axial motion, by linear elements of equal length.
+
+    Parameters
+    ----------
+    length, area, youngs_modulus, density : float
+        m, m², Pa, kg/m³.
+    elements : int
+        1 to 100 000.
+    left, right : str or float
+        ``"free"``, ``"fixed"``, or the stiffness of a spring to the ground, N/m.
+    lumped : bool
+        Whether the mass of an element sits at its nodes.
+    **scene
+        Walls, loads and so on, whose places are positions in m from the left: see `Scene.replace`.
+
+    Raises
+    ------
+    ValueError
+        For the first value that makes no sense.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> sg.bar(length=1.0, area=1e-4, youngs_modulus=2e11, density=7850.0, elements=50, left="fixed",
+    ...        walls=[sg.Wall.upper("stop", 1e-4, at=1.0)], modes=10)
+    <Scene: 10 of 50 modes, 1 wall, 0 loads, 1.0 s>
+    """
+    made = _core._bar(length, area, youngs_modulus, density, elements, left, right, lumped)
+    return made.replace(**scene)
+
+
+def beam(
+    *,
+    length: float,
+    youngs_modulus: float,
+    density: float,
+    outer_diameter: float,
+    elements: int,
+    inner_diameter: float = 0.0,
+    added_mass: float = 0.0,
+    left: Support = "pinned",
+    right: Support = "pinned",
+    **scene: Unpack[StructureOptions],
+) -> Scene:
+    """A tube or rod in bending, by Euler–Bernoulli elements of equal length.
+
+    Parameters
+    ----------
+    length, youngs_modulus, density : float
+        m, Pa, kg/m³.
+    outer_diameter, inner_diameter : float
+        m; a rod has no inner one.
+    added_mass : float
+        Mass of the fluid that moves with it, kg/m.
+    elements : int
+        1 to 100 000.
+    left, right : str or pair of float
+        ``"free"``, ``"pinned"``, ``"clamped"``, or the stiffnesses of springs, N/m and N m/rad.
+    **scene
+        Walls, loads and so on, whose places are positions in m from the left: see `Scene.replace`.
+
+    Raises
+    ------
+    ValueError
+        For the first value that makes no sense.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> sg.beam(length=3.0, youngs_modulus=2e11, density=7850.0, outer_diameter=19.05e-3,
+    ...         inner_diameter=15.75e-3, added_mass=0.565, elements=30,
+    ...         walls=sg.support("first", 2e-4, at=1.0, restitution=0.5),
+    ...         loads=[sg.Load.harmonic(10.0, 25.0, at=0.5)], modes=20, damping=0.01, duration=0.2)
+    <Scene: 20 of 60 modes, 2 walls, 1 load, 0.2 s>
+    """
+    made = _core._beam(
+        length, youngs_modulus, density, outer_diameter, inner_diameter, added_mass, elements, left, right
+    )
+    return made.replace(**scene)
+
+
+def matrices(
+    mass: Any, stiffness: Any, damping: Any | None = None, **scene: Unpack[ReducedOptions]
+) -> Scene:
+    """A structure by its matrices.
+
+    Parameters
+    ----------
+    mass, stiffness : array of shape (n, n), or a sparse matrix of SciPy
+        Symmetric, kg and N/m. Degrees of freedom without mass are condensed.
+    damping : array of shape (n, n), sparse matrix, float, sequence of float or Rayleigh, optional
+        N s/m; or as in `Scene.replace`.
+    **scene
+        Walls, loads and so on, whose places are degrees of freedom from 0: see `Scene.replace`.
+
+    Raises
+    ------
+    ValueError
+        For matrices of wrong shapes, not symmetric or not definite, and other values that make no
+        sense.
+    TypeError
+        For entries that are no numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import signorini as sg
+    >>> sg.matrices(np.eye(2), np.array([[4e4, -1e4], [-1e4, 1e4]]), sg.Rayleigh(0.0, 1e-4))
+    <Scene: 2 degrees of freedom, 0 walls, 0 loads, 1.0 s>
+    """
+    n, m = _lower("mass", mass)
+    size, k = _lower("stiffness", stiffness)
+    sizes = {"stiffness": size}
+    c: _Entries = (np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0))
+    if hasattr(damping, "tocoo") or (damping is not None and np.ndim(damping) == 2):
+        sizes["damping"], c = _lower("damping", damping)
+        damping = None
+    for name, size in sizes.items():
+        if size != n:
+            raise ValueError(f"{name} matrix is {size} × {size}; expected {n} × {n}, as the mass")
+    return _core._matrices(n, m, c, k).replace(damping=damping, **scene)
+
+
+_Entries = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.float64]]
+
+# Assembled matrices are symmetric to the rounding of their sums.
+_ASYMMETRY = 1e-9
+
+
+def _lower(name: str, matrix: Any) -> tuple[int, _Entries]:
+    """Size and the entries of the lower triangle of a symmetric matrix."""
+    if hasattr(matrix, "tocoo"):
+        coo = matrix.tocoo()
+        shape, rows, columns, values = coo.shape, coo.row, coo.col, coo.data
+    else:
+        full = np.asarray(matrix)
+        if full.ndim != 2:
+            raise ValueError(f"{name} matrix is of shape {full.shape}; expected (n, n)")
+        shape = full.shape
+        rows, columns = np.nonzero(full)
+        values = full[rows, columns]
+    if shape[0] != shape[1] or shape[0] == 0:
+        raise ValueError(f"{name} matrix is of shape {tuple(shape)}; expected (n, n), n from 1")
+    values = np.asarray(values)
+    if values.dtype.kind not in "fiub":
+        raise TypeError(f"{name} matrix is of dtype {values.dtype}; expected real numbers")
+    values = values.astype(np.float64)
+    n = int(shape[0])
+    # Duplicates of a sparse matrix are summed, so triangles are compared as sums over one key.
+    key = np.maximum(rows, columns).astype(np.int64) * n + np.minimum(rows, columns)
+    sign = np.sign(np.asarray(rows, np.int64) - np.asarray(columns, np.int64))
+    keys, where = np.unique(key, return_inverse=True)
+    skew = np.bincount(where, weights=sign * values, minlength=len(keys))
+    size = np.bincount(where, weights=np.abs(values), minlength=len(keys))
+    wrong = np.flatnonzero(np.abs(skew) > _ASYMMETRY * size)
+    if wrong.size:
+        i, j = divmod(int(keys[wrong[0]]), n)
+        raise ValueError(
+            f"{name} matrix, row {i + 1}, column {j + 1} differs from row {j + 1}, column {i + 1}; "
+            "expected a symmetric matrix"
+        )
+    keep = rows >= columns
+    index = (np.asarray(rows[keep], np.int64), np.asarray(columns[keep], np.int64))
+    return n, (*index, values[keep])
+
+
+def modal(
+    frequencies: Sequence[float] | npt.NDArray[np.float64],
+    shapes: Mapping[str, Sequence[float] | npt.NDArray[np.float64]],
+    *,
+    masses: Sequence[float] | npt.NDArray[np.float64] | None = None,
+    ratios: float | Sequence[float] | npt.NDArray[np.float64] = 0.0,
+    **scene: Unpack[SceneOptions],
+) -> Scene:
+    """A structure by its modes, from a finite-element program or a modal test.
+
+    Parameters
+    ----------
+    frequencies : sequence of float
+        Hz, 0 for a rigid-body motion; one a mode.
+    shapes : mapping of str to sequence of float
+        The mode shapes at each named point, one value a mode.
+    masses : sequence of float, optional
+        Generalised masses, kg; 1 for mass-normalised shapes, the default.
+    ratios : float or sequence of float
+        Shares of critical damping, for all modes or one a mode.
+    **scene
+        Walls, loads and so on, whose places are names of points: see `Scene.replace`.
+
+    Raises
+    ------
+    ValueError
+        For the first value that makes no sense.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> sg.modal([12.0, 48.0], {"tip": [1.0, -1.0]}, ratios=0.01, walls=[sg.Wall.upper("stop", 1e-3, at="tip")])
+    <Scene: 2 degrees of freedom, 1 wall, 0 loads, 1.0 s>
+    """
+    omega = 2.0 * np.pi * np.asarray(frequencies, np.float64)
+    k = len(omega)
+    each = np.full(k, float(ratios)) if isinstance(ratios, (int, float)) else ratios
+    points = [(name, list(shape)) for name, shape in shapes.items()]
+    return _core._modal(omega, np.ones(k) if masses is None else masses, each, points).replace(**scene)
+
+
+def support(
+    name: str,
+    gap: float,
+    *,
+    at: Place = None,
+    centre: float = 0.0,
+    restitution: float | None = None,
+    stiffness: float | None = None,
+    damping: float | None = None,
+) -> list[Wall]:
+    """A loose support: the walls ``name-upper`` and ``name-lower`` at ``centre`` ± ``gap``.
+
+    Parameters
+    ----------
+    name : str
+    gap : float
+        Distance of each wall from the centre, m; 0 or more.
+    at, restitution, stiffness, damping
+        As in `Wall.upper`.
+    centre : float
+        m.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> sg.support("first", 2e-4, at=1.0, restitution=0.5)[0]
+    Wall.upper("first-upper", 0.0002, restitution=0.5, at=1.0)
+    """
+    if not gap >= 0.0:
+        raise ValueError(f"support {name!r}: gap is {gap!r}; expected a number of m, 0 or more")
+    upper = Wall.upper(
+        f"{name}-upper", centre + gap, restitution=restitution, stiffness=stiffness, damping=damping, at=at
+    )
+    lower = Wall.lower(
+        f"{name}-lower", centre - gap, restitution=restitution, stiffness=stiffness, damping=damping, at=at
+    )
+    return [upper, lower]

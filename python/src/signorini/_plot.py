@@ -1,0 +1,132 @@
+"""Pictures with matplotlib, which is asked for here only, in the look of the tool's figures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from ._core import Run
+    from ._studies import Bifurcation, Chart, Stability
+
+# Neighbours differ in lightness as well as in hue (after Okabe and Ito), and in dashes and markers.
+COLOURS = ("#000000", "#0072b2", "#d55e00", "#56b4e9", "#7b3294", "#e69f00", "#00614a", "#8a8a8a")
+DASHES = ("-", (0, (7, 2.5)), (0, (2, 2)), (0, (7, 2, 1.5, 2)), (0, (12, 3)), (0, (4, 1.5)))
+MARKERS = "os^DxvP*<>"
+TONES = {
+    "stable": "#f7f7f7",
+    "dissipative": "#b5cfe6",
+    "frozen": "#dc9a33",
+    "astray": "#c0452a",
+    "gaining": "#4b2357",
+    "diverged": "#111111",
+}
+
+# 160 mm, the width of a figure in a paper.
+_WIDTH = 6.3
+
+
+def _frame(ax: Any, x: str | None, y: str) -> None:
+    ax.grid(color="#e6e6e6", linewidth=0.6)
+    ax.set_axisbelow(True)
+    ax.set_ylabel(y)
+    if x is not None:
+        ax.set_xlabel(x)
+
+
+def _new(rows: int, height: float) -> Any:
+    import matplotlib.pyplot as plt
+
+    _, axes = plt.subplots(rows, 1, sharex=True, layout="constrained", figsize=(_WIDTH, height))
+    return axes
+
+
+def _legend(ax: Any) -> None:
+    """A legend above the axes, where no curve is."""
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 0.97), ncols=4, fontsize="small", frameon=False)
+
+
+def run(made: Run, axes: Any = None) -> Any:
+    """Displacement between its walls, velocity, and what the walls gave: see `Run.plot`."""
+    axes = _new(3, 5.6) if axes is None else axes
+    position, speed, wall_axes = axes
+    for name, dash in zip(made.probes, DASHES * (1 + len(made.probes) // len(DASHES))):
+        q, v = made.probe(name)
+        style: dict[str, Any] = {"color": COLOURS[0], "linewidth": 1.2, "linestyle": dash, "label": name}
+        position.plot(made.time, 1e3 * q, **style)
+        speed.plot(made.time, v, **style)
+    # On a structure a wall bounds the displacement of its own place, which need not be a probe's.
+    if made.scene.degrees_of_freedom == 1:
+        for wall in made.scene.walls:
+            position.axhline(1e3 * wall.position, color="#8a8a8a", linewidth=1.5)
+    _frame(position, None, "displacement (mm)")
+    _frame(speed, None, "velocity (m/s)")
+    episodes = made.contacts
+    # The force of an impact is not finite: impulses are drawn where all contacts are impacts.
+    lasting = bool(np.isfinite(episodes["peak_force"]).any())
+    for number, wall_name in enumerate(made.walls):
+        colour = COLOURS[1 + number % (len(COLOURS) - 1)]
+        if lasting:
+            wall_axes.plot(made.time, made.contact_force(wall_name), color=colour, linewidth=1.0, label=wall_name)
+        else:
+            own = episodes[episodes["wall"] == wall_name]
+            wall_axes.vlines(own["start"], 0.0, own["impulse"], color=colour, linewidth=1.0)
+            marker = MARKERS[number % len(MARKERS)]
+            wall_axes.plot(own["start"], own["impulse"], marker, color=colour, markersize=3, label=wall_name)
+    _frame(wall_axes, "time (s)", "contact force (N)" if lasting else "contact impulse (N s)")
+    if 1 < len(made.probes) <= 8:
+        _legend(position)
+    if 0 < len(made.walls) <= 8:
+        _legend(wall_axes)
+    return axes
+
+
+def chart(made: Chart, quantity: str, ax: Any = None) -> Any:
+    """Computing time against error: see `Chart.plot`."""
+    ax = _new(1, 4.4) if ax is None else ax
+    errors, seconds = made.table[f"{quantity}_error"], made.table["seconds"]
+    for number, method in enumerate(dict.fromkeys(made.table["method"])):
+        own = (made.table["method"] == method) & np.isfinite(errors) & (errors > 0.0)
+        if own.any():
+            colour, marker = COLOURS[number % len(COLOURS)], MARKERS[number % len(MARKERS)]
+            ax.loglog(errors[own], seconds[own], marker=marker, color=colour, linewidth=1.0, markersize=4, label=method)
+    _frame(ax, f"error of the {quantity.replace('_', ' ')}", "computing time (s)")
+    ax.legend(loc="best", fontsize="x-small")
+    return ax
+
+
+def stability(made: Stability, ax: Any = None) -> Any:
+    """The class of every step, a line a scheme: see `Stability.plot`."""
+    schemes = list(dict.fromkeys(made.safe["scheme"]))
+    ax = _new(1, 1.2 + 0.35 * len(schemes)) if ax is None else ax
+    values = dict(zip(made.safe["scheme"], made.safe["value"], strict=True))
+    table = made.table
+    for name, tone in TONES.items():
+        own = [
+            cell == name and value == values.get(scheme)
+            for cell, scheme, value in zip(table["class"], table["scheme"], table["value"], strict=True)
+        ]
+        rows = [schemes.index(scheme) for scheme in table["scheme"][own]]
+        ax.scatter(table["step_s"][own], rows, marker="s", s=60, color=tone, edgecolor="k", linewidth=0.4, label=name)
+    ax.set_xscale("log")
+    ax.set_yticks(range(len(schemes)), schemes)
+    ax.invert_yaxis()
+    _frame(ax, "step (s)", "")
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.35), ncols=6, fontsize="x-small", frameon=False)
+    return ax
+
+
+def bifurcation(made: Bifurcation, column: str, ax: Any = None) -> Any:
+    """Every sample over the value: see `Bifurcation.plot`."""
+    ax = _new(1, 4.0) if ax is None else ax
+    for number, direction in enumerate(dict.fromkeys(made.table["direction"])):
+        own = made.table["direction"] == direction
+        # Smaller ones on larger ones, so that both show where they agree.
+        marker: dict[str, Any] = {"color": COLOURS[number % len(COLOURS)], "linestyle": "none", "marker": "o"}
+        marker |= {"markersize": 3.0 - 1.6 * number, "markeredgewidth": 0}
+        ax.plot(made.table["value"][own], made.table[column][own], label=direction or None, **marker)
+    _frame(ax, made.key, column)
+    if any(made.table["direction"]):
+        ax.legend(loc="best", fontsize="small", markerscale=4)
+    return ax

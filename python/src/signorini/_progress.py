@@ -1,0 +1,44 @@
+"""How far a long computation is, on the terminal."""
+
+from __future__ import annotations
+
+import sys
+import time
+from types import TracebackType
+from typing import Self
+
+_PATIENCE = 1.0
+_INTERVAL = 0.2
+
+
+class Progress:
+    """A line on stderr, if that is a terminal, after the first second."""
+
+    def __init__(self, total: int, wanted: bool, done: int = 0) -> None:
+        self.total, self.done, self.found = total, done, done
+        self.wanted = wanted and sys.stderr is not None and sys.stderr.isatty()
+        self.started = self.told = time.monotonic()
+        self.shown = False
+
+    def tell(self, further: int) -> None:
+        """So many more than are counted are done."""
+        now = time.monotonic()
+        if not self.wanted or now - self.started < _PATIENCE or now - self.told < _INTERVAL:
+            return
+        self.told, self.shown = now, True
+        done = min(self.done + further, self.total)
+        rate = (done - self.found) / (now - self.started)
+        left = f", {(self.total - done) / rate:.0f} s left" if rate > 0 else ""
+        print(f"\r{done} of {self.total} runs{left}\033[K", end="", file=sys.stderr, flush=True)
+
+    def step(self, further: int) -> None:
+        """So many more are done, and counted."""
+        self.done += further
+        self.tell(0)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        if self.shown:
+            print("\r\033[K", end="", file=sys.stderr, flush=True)

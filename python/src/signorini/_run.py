@@ -1,0 +1,87 @@
+"""What a run can be turned into: called by the compiled class."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from ._core import Run
+
+_NUMBERS = ("start", "end", "impulse", "peak_force", "approach_speed", "departure_speed")
+
+
+def contacts(run: Run) -> npt.NDArray[np.void]:
+    """The contact episodes, as `Run.contacts` says."""
+    columns = run._contacts()
+    names = np.array(run.walls or [""])
+    table = np.empty(len(columns["wall"]), [("wall", names.dtype), *((name, np.float64) for name in _NUMBERS)])
+    table["wall"] = names[columns["wall"]]
+    for name in _NUMBERS:
+        table[name] = columns[name]
+    table.flags.writeable = False
+    return table
+
+
+def _words(names: list[str]) -> list[str]:
+    """Names as the headers of CSV files have them: ``-`` becomes ``_``, equal ones get numbers."""
+    words: list[str] = []
+    for name in names:
+        word = name.replace("-", "_")
+        number, base = 2, word
+        while word in words:
+            word, number = f"{base}_{number}", number + 1
+        words.append(word)
+    return words
+
+
+def columns(run: Run) -> dict[str, npt.NDArray[np.float64]]:
+    """All rows, as `Run.columns` says."""
+    out = {"time_s": run.time}
+    for name, word in zip(run.probes, _words(run.probes), strict=True):
+        suffix = f"_{word}" if word else ""
+        out[f"displacement{suffix}_m"], out[f"velocity{suffix}_m_per_s"] = run.probe(name)
+    for name, word in zip(run.walls, _words(run.walls), strict=True):
+        out[f"contact_force_{word}_N"] = run.contact_force(name)
+        out[f"contact_impulse_{word}_N_s"] = run.contact_impulse(name)
+    return out
+
+
+def summary(run: Run) -> dict[str, Any]:
+    """Everything but the motion, as `Run.summary` says."""
+    return run._summary()
+
+
+def statistics(run: Run) -> dict[str, dict[str, Any]]:
+    """The statistics of each wall, as `Run.statistics` says."""
+    return {wall["wall"]: wall for wall in run._summary()["statistics"]["walls"]}
+
+
+def to_pandas(run: Run) -> pd.DataFrame:
+    """The rows as a frame."""
+    import pandas as pd
+
+    return pd.DataFrame(columns(run))
+
+
+def html(run: Run) -> str:
+    """A table of the walls, for notebooks."""
+    head = ("wall", "contacts", "impulse (N s)", "largest impulse (N s)", "largest force (N)", "impact power (W)")
+
+    def number(x: float | None) -> str:
+        return "–" if x is None else f"{x:.4g}"
+
+    lines = []
+    for name, wall in statistics(run).items():
+        cells = [escape(name), str(wall["contacts"]), number(run.impulse(name))]
+        cells += [number(wall["episode_impulse_n_s"]["max"]), number(wall["episode_peak_force_n"]["max"])]
+        cells.append(number(wall["impact_power_w"]))
+        lines.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
+    notes = "".join(f"<li>{escape(note)}</li>" for note in run.notes)
+    header = "".join(f"<th>{title}</th>" for title in head)
+    return f"<p>{escape(repr(run))}</p><table><tr>{header}</tr>{''.join(lines)}</table><ul>{notes}</ul>"

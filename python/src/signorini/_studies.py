@@ -1,0 +1,309 @@
+"""Studies of one scene by several runs, as tables."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core, _plot
+from ._core import Case, Run, Scene
+from ._sweep import Table
+
+
+def _table(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> Table:
+    """Columns of the rows; None is nan in a column of numbers, and stays in one of ``words``."""
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    strings = set(words)
+    columns: dict[str, list[Any]] = {name: [row.get(name) for row in rows] for name in names}
+    return {
+        name: np.array(column, object if name in strings else np.float64) for name, column in columns.items()
+    }
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Methods side by side: see `compare`."""
+
+    table: Table
+    """A row a method: ``method``, ``error`` (share of the gap, up to the horizon), ``agrees_until_s``,
+    ``restitution`` (median of what it realised), ``step_ns``, ``failure`` and ``refuted`` (words)."""
+    runs: list[Run | None]
+    """The runs, as the rows; None where one failed."""
+    findings: list[str]
+    """What the comparison shows, in sentences."""
+    horizon: float
+    """Until when errors are meaningful, s."""
+
+    def __repr__(self) -> str:
+        lines = ["method                             error   agrees until (s)   ns a step"]
+        for i, method in enumerate(self.table["method"]):
+            error, until, cost = (self.table[name][i] for name in ("error", "agrees_until_s", "step_ns"))
+            lines.append(f"{method:<32}{error:>8.1e}{until:>19.4g}{cost:>12.3g}")
+        return "\n".join(lines + self.findings)
+
+
+def compare(
+    scene: Scene,
+    methods: Sequence[str],
+    *,
+    step: float,
+    sample: float | None = None,
+    statistics_from: float = 0.0,
+) -> Comparison:
+    """Run a scene by several methods, and compare them with its exact motion.
+
+    Parameters
+    ----------
+    methods : sequence of str
+        Schemes, as in `Scene.run`.
+    step, sample, statistics_from : float
+        s, as in `Scene.run`.
+
+    Raises
+    ------
+    ValueError
+        For a wrong request.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> case = sg.load("rigid-walls-sine")
+    >>> comparison = sg.compare(case.scene, ["moreau-jean", "penalty:epsilon=1e-9"], step=case.step)
+    >>> list(comparison.table["method"])
+    ['moreau-jean', 'penalty:epsilon=1e-9', 'event']
+    """
+    rows, findings, horizon = _core._compare(scene, list(methods), step, sample, statistics_from)
+    runs = [row.pop("run") for row in rows]
+    return Comparison(_table(rows, ("method", "failure", "refuted")), runs, findings, horizon)
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Computing time against error: see `chart`."""
+
+    table: Table
+    """A row a method and step: ``method``, ``kind``, ``step_s``, ``seconds``, ``displacement_error``,
+    ``impulse_error``, ``contact_time_error`` (shares), ``failure`` (words)."""
+    reference: str
+    """What errors are taken against."""
+    horizon: float
+    """Until when errors are taken, s."""
+
+    def cheapest(self, error: float, quantity: str = "displacement") -> tuple[str, float, float] | None:
+        """The fastest method and step with at most this error: method, step (s), seconds.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> scene = sg.load("rigid-walls-sine").scene.replace(duration=0.5)
+        >>> sg.chart(scene, ["event"], repeats=1).cheapest(1e-12)[0]
+        'event'
+        """
+        errors, seconds = self.table[f"{quantity}_error"], self.table["seconds"]
+        reached = np.flatnonzero(errors <= error)
+        if reached.size == 0:
+            return None
+        best = reached[np.argmin(seconds[reached])]
+        return self.table["method"][best], float(self.table["step_s"][best]), float(seconds[best])
+
+    def plot(self, quantity: str = "displacement", ax: Any = None) -> Any:
+        """Draw it with matplotlib; ``quantity`` is displacement, impulse or contact_time.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> scene = sg.load("rigid-walls-sine").scene.replace(duration=0.5)
+        >>> sg.chart(scene, ["moreau-jean"], levels=3, repeats=1).plot().get_ylabel()
+        'computing time (s)'
+        """
+        return _plot.chart(self, quantity, ax)
+
+
+def chart(
+    scene: Scene,
+    methods: Sequence[str] | None = None,
+    *,
+    coarsest: float | None = None,
+    finest: float | None = None,
+    levels: int | None = None,
+    repeats: int = 5,
+    most_seconds: float = 1.0,
+) -> Chart:
+    """Measure computing time against error, for methods over a range of steps.
+
+    Parameters
+    ----------
+    methods : sequence of str, optional
+        Schemes, as in `Scene.run`; all without a penalty if left out.
+    coarsest, finest : float, optional
+        The range of steps, s.
+    levels : int, optional
+        How many steps.
+    repeats : int
+        Timed runs of each point, of which the fastest counts.
+    most_seconds : float
+        A run that is expected to take longer is left out, and its row says so.
+
+    Raises
+    ------
+    ValueError
+        For a wrong request.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> scene = sg.load("rigid-walls-sine").scene.replace(duration=0.5)
+    >>> made = sg.chart(scene, ["event", "moreau-jean"], levels=3, repeats=1)
+    >>> made.cheapest(1e-12)[0]
+    'event'
+    """
+    names = None if methods is None else list(methods)
+    rows, reference, horizon = _core._chart(scene, names, coarsest, finest, levels, repeats, most_seconds)
+    return Chart(_table(rows, ("method", "kind", "failure")), reference, horizon)
+
+
+@dataclass(frozen=True)
+class Stability:
+    """Where each scheme fails: see `stability`."""
+
+    table: Table
+    """A row a scheme, parameter and step: ``scheme``, ``parameter`` and its ``value``, ``step_s``,
+    ``class`` (stable, dissipative, frozen, astray, gaining, diverged) and its ``reason``."""
+    safe: Table
+    """A row a scheme at the scene's own parameters: its largest ``safe_step_s`` (nan: there is
+    none), and what is ``beyond`` it, in words."""
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the classes with matplotlib, at the scene's own parameters.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> made = sg.stability(sg.load("bouncing-ball").scene, finest=0.03, per_decade=2, contacts=4)
+        >>> made.plot().get_xlabel()
+        'step (s)'
+        """
+        return _plot.stability(self, ax)
+
+
+def stability(
+    scene: Scene,
+    *,
+    finest: float | None = None,
+    coarsest: float | None = None,
+    per_decade: float | None = None,
+    contacts: int | None = None,
+) -> Stability:
+    """Find where each scheme fails, and its largest safe step. It takes seconds to minutes.
+
+    Parameters
+    ----------
+    finest, coarsest : float, optional
+        The range of steps, times the angular frequency of the scene: 1e-4 to 3.2.
+    per_decade : float, optional
+        Steps tried in each decade.
+    contacts : int, optional
+        How many contacts the runs see.
+
+    Raises
+    ------
+    ValueError
+        For a scene without walls, or a wrong number.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> made = sg.stability(sg.load("bouncing-ball").scene, finest=0.03, per_decade=2, contacts=4)
+    >>> bool((made.table["step_s"] > 0.0).all())
+    True
+    """
+    cells, safe = _core._stability(scene, finest, coarsest, per_decade, contacts)
+    words = ("scheme", "parameter", "class", "reason", "beyond")
+    return Stability(_table(cells, words), _table(safe, words))
+
+
+@dataclass(frozen=True)
+class Bifurcation:
+    """What a motion settles to, over the values of a key: see `bifurcation`."""
+
+    table: Table
+    """A row a sample: ``value``, ``direction`` (up, down or None), ``error``; of impacts ``wall``,
+    ``time_s``, ``phase_cycles``, ``approach_speed_m_per_s``, ``departure_speed_m_per_s``,
+    ``impulse_N_s``; of periods ``time_s``, ``displacement_m``, ``velocity_m_per_s``."""
+    key: str
+    """What was varied."""
+
+    def plot(self, column: str | None = None, ax: Any = None) -> Any:
+        """Draw a column over the values with matplotlib.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+        >>> made = sg.bifurcation(case, "load.1.harmonic.frequency", [4.8, 5.0], settle=20, keep=5)
+        >>> made.plot().get_xlabel()
+        'load.1.harmonic.frequency'
+        """
+        impacts = "approach_speed_m_per_s" in self.table
+        return _plot.bifurcation(self, column or ("approach_speed_m_per_s" if impacts else "displacement_m"), ax)
+
+
+def bifurcation(
+    case: Case,
+    key: str,
+    values: Iterable[float] | npt.NDArray[np.float64],
+    *,
+    scheme: str = "event",
+    settle: int = 200,
+    keep: int = 30,
+    follow: str = "both",
+    samples: str = "impacts",
+    threads: int | None = None,
+) -> Bifurcation:
+    """Step a value of a case up and down while the state is carried on, and sample what it settles to.
+
+    Parameters
+    ----------
+    case : Case
+        From `load`.
+    key : str
+        What is varied, by the keys of the case format: ``"load.1.harmonic.frequency"``.
+    values : iterable of float
+        Rising.
+    scheme : str
+        As in `Scene.run`.
+    settle, keep : int
+        Periods of the load that are let pass, and that are sampled, at each value.
+    follow : str
+        ``"up"``, ``"down"`` or ``"both"``; ``"no"`` starts each value from the case's own start.
+    samples : str
+        ``"impacts"``, or ``"periods"``: the first probe once a period, a Poincaré section.
+    threads : int, optional
+        All cores if left out; values that follow one another run on one.
+
+    Raises
+    ------
+    ValueError
+        For a wrong request.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+    >>> made = sg.bifurcation(case, "load.1.harmonic.frequency", [4.8, 5.0, 5.2], settle=50, keep=5)
+    >>> sorted(set(made.table["direction"]))
+    ['down', 'up']
+    """
+    count = threads or os.cpu_count() or 1
+    rows = _core._bifurcation(case, key, list(values), scheme, settle, keep, follow, samples, count)
+    failed = [row for row in rows if row["error"] is not None]
+    if failed:
+        first = f"{failed[0]['value']!r}: {failed[0]['error']}"
+        warnings.warn(f"not every value has a sound motion; the first at {first}", RuntimeWarning, stacklevel=2)
+    return Bifurcation(_table(rows, ("direction", "error", "wall")), key)

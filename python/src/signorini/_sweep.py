@@ -1,0 +1,307 @@
+"""Many runs: on this machine's cores, or on those of any executor."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import os
+import time
+import warnings
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import BrokenExecutor, as_completed
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._core import Scene, _columns, _run_many
+from ._progress import Progress
+from ._store import Store
+
+Table = dict[str, npt.NDArray[Any]]
+"""Columns of equal length, by name."""
+
+_Rows = tuple[npt.NDArray[np.float64], list[str | None]]
+
+# A task of two seconds costs a scheduler a thousandth more than its work, and is all that a lost
+# machine loses; where that makes few tasks, shorter ones, but long beside what a task costs.
+_SECONDS_PER_TASK = 2.0
+_LEAST_SECONDS = 0.05
+_TASKS = 64
+_TRIED = 8
+
+
+def grid(**axes: Iterable[Any]) -> list[dict[str, Any]]:
+    """Every combination of the values of ``axes``, the last axis fastest.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> sg.grid(gap=[1e-3, 2e-3], restitution=[0.5, 0.8])[1]
+    {'gap': 0.001, 'restitution': 0.8}
+    """
+    return [dict(zip(axes, point, strict=True)) for point in itertools.product(*axes.values())]
+
+
+def run_many(
+    scenes: Iterable[Scene],
+    scheme: str | None = None,
+    *,
+    step: float | None = None,
+    statistics_from: float = 0.0,
+    judge: bool = True,
+    threads: int | None = None,
+    progress: bool = True,
+) -> Table:
+    """Run scenes side by side on this machine's cores; the motions themselves are not kept.
+
+    Parameters
+    ----------
+    scenes : iterable of Scene
+        With walls of the same names.
+    scheme, step, statistics_from
+        As in `Scene.run`.
+    judge : bool
+        Whether every run is checked step by step; it takes most of the time of a short run.
+    threads : int, optional
+        All cores if left out.
+    progress : bool
+        Whether a terminal shows how far it is, after a second.
+
+    Returns
+    -------
+    dict of str to numpy.ndarray of shape (scenes,)
+        What each wall felt over the window of the statistics, with half widths of 95 % intervals;
+        ``error`` is None, or says why a row has no numbers.
+
+    Raises
+    ------
+    ValueError
+        For a wrong request.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> scene = sg.load("rigid-walls-sine").scene
+    >>> table = sg.run_many([scene.replace(duration=d) for d in (0.5, 1.0)], "event")
+    >>> table["contacts_upper"]
+    array([3., 5.])
+    """
+    scenes = list(scenes)
+    options = _options(scheme, step, statistics_from, judge, threads)
+    names = [wall.name for wall in scenes[0].walls] if scenes else []
+    with Progress(len(scenes), progress) as shown:
+        rows = _run_many(scenes, *options, shown.tell)
+    return _table(names, rows)
+
+
+def sweep(
+    make: Callable[..., Scene],
+    points: Iterable[Mapping[str, Any]],
+    scheme: str | None = None,
+    *,
+    step: float | None = None,
+    statistics_from: float = 0.0,
+    judge: bool = True,
+    threads: int | None = None,
+    executor: Any = None,
+    chunk: int | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    progress: bool = True,
+) -> Table:
+    """Run ``make(**point)`` for every point. The table is the same to the last bit wherever it is run.
+
+    Parameters
+    ----------
+    make : callable
+        Returns the Scene of a point. For an executor of other processes it has to be pickled: a
+        function of a module (Dask also takes one of a notebook).
+    points : iterable of mapping
+        All with the same names; `grid` makes them.
+    scheme, step, statistics_from, judge
+        As in `run_many`.
+    threads : int, optional
+        Threads of this process: all cores; with an executor, threads of each of its tasks: one.
+    executor : concurrent.futures.Executor, optional
+        Where to run instead of here: a ``ProcessPoolExecutor``, that of a Dask client
+        (``client.get_executor(pure=False)``), ``mpi4py.futures.MPIPoolExecutor`` and the like.
+    chunk : int, optional
+        Points of one of its tasks; else found from the time that some of the points take here.
+    folder : path, optional
+        Finished rows are kept there; a sweep that is repeated takes them from there, and goes on
+        after an interruption.
+    progress : bool
+        Whether a terminal shows how far it is, after a second.
+
+    Returns
+    -------
+    dict of str to numpy.ndarray of shape (points,)
+        The columns of the points, then those of `run_many`. A point whose scene is refused, or whose
+        run fails, is a row with the reason in ``error``; a warning says how many.
+
+    Raises
+    ------
+    ValueError
+        For a wrong request.
+    Exception
+        Whatever ``make`` raises besides ValueError.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> def make(gap):
+    ...     walls = sg.support("stop", gap, restitution=0.8)
+    ...     return sg.oscillator(1.0, 0.2, 100.0, walls=walls, loads=[sg.Load.harmonic(3.0, 5.0)], duration=4.0)
+    >>> table = sg.sweep(make, sg.grid(gap=[2e-3, 4e-3, 6e-3]), "event")
+    >>> table["gap"], table["contacts_stop-upper"] > 0
+    (array([0.002, 0.004, 0.006]), array([ True,  True,  True]))
+    """
+    points = [dict(point) for point in points]
+    names = list(points[0]) if points else []
+    for i, point in enumerate(points):
+        if list(point) != names:
+            raise ValueError(f"point {i} has {', '.join(point)}; expected {', '.join(names)}, as the first point")
+    options = _options(scheme, step, statistics_from, judge, threads if executor is None else threads or 1)
+    walls = _first_walls(make, points)
+    width = len(_columns(walls))
+    values, errors = np.full((len(points), width), np.nan), list[str | None]([None] * len(points))
+    store = Store(folder, make, points, options, width)
+    missing = store.missing(values, errors)
+
+    def take(indices: Sequence[int], rows: _Rows) -> None:
+        for row, index in enumerate(indices):
+            values[index], errors[index] = rows[0][row], rows[1][row]
+        store.add(indices, rows)
+
+    with Progress(len(points), progress, len(points) - len(missing)) as shown:
+        if executor is None:
+            # In pieces, so that what is done can be kept, and shown.
+            size = len(missing) if folder is None else _size(make, points, missing, walls, options)
+            for piece in _pieces(missing, size):
+                take(piece, _task(make, [points[i] for i in piece], walls, options, shown.tell))
+                shown.step(len(piece))
+        elif missing:
+            size = chunk or _size(make, points, missing, walls, options)
+            _send(executor, make, points, _pieces(missing, size), walls, options, take, shown)
+    table: Table = {name: np.array([point[name] for point in points]) for name in names}
+    table |= _table(walls, (values, errors))
+    failed = [text for text in errors if text is not None]
+    if failed:
+        warnings.warn(f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}", RuntimeWarning, stacklevel=2)
+    return table
+
+
+_Options = tuple[str | None, float | None, float, bool, int]
+
+
+def _options(
+    scheme: str | None, step: float | None, statistics_from: float, judge: bool, threads: int | None
+) -> _Options:
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads is {threads}; expected 1 or more")
+    return scheme, step, statistics_from, judge, threads or os.cpu_count() or 1
+
+
+def _table(walls: Sequence[str], rows: _Rows) -> Table:
+    values, errors = rows
+    table: Table = {name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(_columns(list(walls)))}
+    table["error"] = np.array(errors, object)
+    return table
+
+
+def _first_walls(make: Callable[..., Scene], points: Sequence[Mapping[str, Any]]) -> list[str]:
+    """The walls of the first point that has a scene. A defect of ``make`` is told before anything runs."""
+    for point in points:
+        try:
+            scene = make(**point)
+        except ValueError:
+            continue
+        if not isinstance(scene, Scene):
+            raise TypeError(f"make returned {scene!r}; expected a Scene")
+        return [wall.name for wall in scene.walls]
+    return []
+
+
+def _task(
+    make: Callable[..., Scene],
+    points: Sequence[Mapping[str, Any]],
+    walls: Sequence[str],
+    options: _Options,
+    tell: Callable[[int], None] | None = None,
+) -> _Rows:
+    """The rows of some points; this is what executors are given."""
+    values = np.full((len(points), len(_columns(list(walls)))), np.nan)
+    errors: list[str | None] = [None] * len(points)
+    scenes, rows = [], []
+    for row, point in enumerate(points):
+        try:
+            scene = make(**point)
+        except ValueError as error:
+            errors[row] = str(error)
+            continue
+        names = [wall.name for wall in scene.walls]
+        if names == list(walls):
+            scenes.append(scene)
+            rows.append(row)
+        else:
+            errors[row] = f"walls are {', '.join(names)}; expected {', '.join(walls)}, as at the first point"
+    made, failed = _run_many(scenes, *options, tell)
+    values[rows] = made
+    for row, text in zip(rows, failed, strict=True):
+        errors[row] = text
+    return values, errors
+
+
+def _pieces(indices: Sequence[int], size: int) -> list[Sequence[int]]:
+    return [indices[i : i + size] for i in range(0, len(indices), max(1, size))]
+
+
+def _size(
+    make: Callable[..., Scene],
+    points: Sequence[Mapping[str, Any]],
+    missing: Sequence[int],
+    walls: Sequence[str],
+    options: _Options,
+) -> int:
+    """Points of a task, from the time that some of them, spread over the sweep, take here."""
+    tried = missing[:: max(1, math.ceil(len(missing) / _TRIED))]
+    started = time.perf_counter()
+    _task(make, [points[i] for i in tried], walls, (*options[:4], 1))
+    seconds = max((time.perf_counter() - started) / max(1, len(tried)), 1e-7)
+    most = min(_SECONDS_PER_TASK / seconds, len(missing) / _TASKS)
+    return max(1, math.ceil(max(most, _LEAST_SECONDS / seconds)))
+
+
+def _send(
+    executor: Any,
+    make: Callable[..., Scene],
+    points: Sequence[Mapping[str, Any]],
+    pieces: Sequence[Sequence[int]],
+    walls: Sequence[str],
+    options: _Options,
+    take: Callable[[Sequence[int], _Rows], None],
+    shown: Progress,
+) -> None:
+    """Gives each piece to the executor; what a broken pool has lost is run here."""
+    futures = {executor.submit(_task, make, [points[i] for i in p], walls, options): p for p in pieces}
+    lost = []
+    try:
+        for future in as_completed(futures):
+            piece = futures[future]
+            try:
+                take(piece, future.result())
+            except BrokenExecutor:
+                lost.append(piece)
+                continue
+            shown.step(len(piece))
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        raise
+    if lost:
+        text = f"a worker of the executor was lost: {len(lost)} of {len(pieces)} tasks are run here again"
+        warnings.warn(text, RuntimeWarning, stacklevel=3)
+    for piece in lost:
+        take(piece, _task(make, [points[i] for i in piece], walls, options))
+        shown.step(len(piece))

@@ -1,0 +1,90 @@
+"""Ctrl-C ends long work soon, and what was written stays; in a process of its own, with its signals."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import signorini as sg
+
+PROGRAM = """
+import time
+import signorini as sg
+
+def make(restitution):
+    walls = [sg.Wall.upper("upper", 5e-3, restitution=restitution)]
+    load = sg.Load.harmonic(3.0, 5.0)
+    return sg.oscillator(1.0, 0.2, 100.0, walls=walls, loads=[load], duration={duration})
+
+scene = make(0.8)
+case = sg.load("rigid-walls-sine", set={{"wall.*.restitution": 0.8, "time.sample": 1.0}})
+print("ready", flush=True)
+try:
+    {call}
+except KeyboardInterrupt:
+    print("stopped", time.time(), flush=True)
+"""
+
+CALLS = [
+    "scene.run('moreau-jean', step=1e-4, sample=1e3)",
+    "scene.run('event', sample=1e3)",
+    "scene.run('moreau-jean', accuracy=1e-7, sample=1e3)",
+    "sg.compare(scene, ['moreau-jean'], step=1e-4, sample=1e3)",
+    "sg.chart(scene, ['moreau-jean'], most_seconds=1e6)",
+    "sg.stability(scene, contacts=1_000_000)",
+    "sg.run_many([scene] * 4, 'moreau-jean', step=1e-4)",
+    "sg.bifurcation(case, 'load.1.harmonic.frequency', [4.9, 5.0], settle=4_000_000)",
+    "sg.Stepper(scene, 'moreau-jean', 1e-4).advance(1e6)",
+    "sg.Stepper(scene, 'moreau-jean', 1e-4).advance(1e6, lambda t, q, v: 0.0)",
+    "sg.sweep(make, sg.grid(restitution=[0.7, 0.8]), 'moreau-jean', step=1e-4)",
+    "scene.replace(loads=[sg.Load.function(lambda t: 0.0)]).run('moreau-jean', step=1e-4, sample=1e3)",
+]
+
+
+def interrupted(call: str, duration: float, after: float) -> float:
+    """Seconds from the signal to the exception."""
+    program = [sys.executable, "-c", PROGRAM.format(call=call, duration=duration)]
+    child = subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert child.stdout is not None
+    assert child.stdout.readline() == "ready\n"
+    time.sleep(after)
+    sent = time.time()
+    child.send_signal(signal.SIGINT)
+    out, errors = child.communicate(timeout=60)
+    word, when = out.split() if out else ("", "nan")
+    assert word == "stopped", f"{call}: {out}{errors}"
+    return float(when) - sent
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of Windows")
+@pytest.mark.parametrize("call", CALLS)
+def test_ctrl_c_ends_it(call: str) -> None:
+    # 0.2 s on an idle machine; the bound is for one that does other things as well.
+    assert interrupted(call, 1e6, 0.3) < 5.0
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of Windows")
+def test_a_sweep_goes_on_from_what_it_had_kept(tmp_path: Path) -> None:
+    grid = "sg.grid(restitution=[0.5 + 0.001 * i for i in range(400)])"
+    call = f"sg.sweep(make, {grid}, 'moreau-jean', step=1e-4, threads=1, folder={str(tmp_path)!r})"
+    interrupted(call, 20.0, 2.0)
+    kept = {path: path.read_bytes() for path in tmp_path.glob("*.npz")}
+    assert kept and not list(tmp_path.glob("*.part"))
+
+    def make(restitution: float) -> sg.Scene:
+        walls = [sg.Wall.upper("upper", 5e-3, restitution=restitution)]
+        load = sg.Load.harmonic(3.0, 5.0)
+        return sg.oscillator(1.0, 0.2, 100.0, walls=walls, loads=[load], duration=20.0)
+
+    points = sg.grid(restitution=[0.5 + 0.001 * i for i in range(40)])
+    again = sg.sweep(make, points, "moreau-jean", step=1e-4, folder=tmp_path)
+    # Nothing that was there is written anew, and the table is that of one sweep.
+    assert {path: path.read_bytes() for path in kept} == kept
+    whole = sg.sweep(make, points, "moreau-jean", step=1e-4)
+    for name, column in whole.items():
+        np.testing.assert_array_equal(again[name], column)

@@ -1,0 +1,134 @@
+"""Runs: their arrays, contacts, statistics and verdicts."""
+
+import pickle
+import threading
+import time
+import warnings
+
+import numpy as np
+import pytest
+
+import signorini as sg
+
+
+def test_a_run_has_its_motion_and_contacts(scene: sg.Scene) -> None:
+    run = scene.run("moreau-jean", step=1e-4)
+    assert run.time.shape == run.displacement.shape == run.contact_force("upper").shape == (20001,)
+    assert run.time[-1] == 2.0
+    assert (run.contact_force("upper") <= 0.0).all() and (run.contact_force("lower") >= 0.0).all()
+    # The impulses of the rows are those of the episodes: both count every step, in another order.
+    episodes = run.contacts
+    own = episodes[episodes["wall"] == "upper"]["impulse"].sum()
+    assert run.impulse("upper") == pytest.approx(own, rel=1e-12)
+    # Momentum: what load, spring and walls gave is what the mass has at the end. The integrals are
+    # trapezoidal sums of 1e-4 s, whose error is of the order of the step.
+    t, q, v = run.time, run.displacement, run.velocity
+    force = 3.0 * np.sin(2 * np.pi * 5.0 * t) - 100.0 * q - 0.2 * v
+    given = np.trapezoid(force, t) + run.impulse("upper") + run.impulse("lower")
+    assert run.velocity[-1] == pytest.approx(given, abs=1e-4)
+
+
+def test_arrays_are_read_only_views_that_outlive_the_run(scene: sg.Scene) -> None:
+    run = scene.run("event")
+    views = [run.time, run.displacement, run.velocity, run.contact_force("upper"), *run.state]
+    for array in views:
+        base: object = array.base
+        assert base is run and not array.flags.owndata and not array.flags.writeable
+    # The same memory every time: nothing is copied.
+    assert run.time.ctypes.data == run.time.ctypes.data
+    kept, copy = run.displacement, run.displacement.copy()
+    del run, views, array, base
+    np.testing.assert_array_equal(kept, copy)
+    with pytest.raises(ValueError, match="read-only"):
+        kept[0] = 1.0
+
+
+def test_columns_are_those_of_the_csv_file(scene: sg.Scene) -> None:
+    run = scene.run("event", sample=0.1)
+    names = ["time_s", "displacement_m", "velocity_m_per_s", "contact_force_upper_N", "contact_impulse_upper_N_s"]
+    names += ["contact_force_lower_N", "contact_impulse_lower_N_s"]
+    assert list(run.columns) == names
+    frame = run.to_pandas()
+    assert list(frame.columns) == names and len(frame) == 21
+    np.testing.assert_array_equal(frame["displacement_m"], run.displacement)
+
+
+def test_names_become_words_and_equal_ones_get_numbers() -> None:
+    chain = sg.chain([1.0] * 3, [1e3] * 2, probes={"a-b": 0, "a_b": 1}, velocity=[0.1, 0.0, 0.0])
+    assert list(chain.run("event").columns)[1::2] == ["displacement_a_b_m", "displacement_a_b_2_m"]
+
+
+def test_statistics_are_by_wall(scene: sg.Scene) -> None:
+    run = scene.replace(duration=20.0).run("event", statistics_from=10.0)
+    upper = run.statistics["upper"]
+    episodes = run.contacts
+    own = episodes[(episodes["wall"] == "upper") & (episodes["start"] >= 10.0)]
+    assert upper["contacts"] == len(own)
+    # ½ m v² of every impact over the window, m = 1 kg; sums in another order.
+    assert upper["impact_power_w"] == pytest.approx(0.5 * (own["approach_speed"] ** 2).sum() / 10.0, rel=1e-12)
+    assert upper["half_width_95"]["impact_power_w"] > 0.0
+    assert run.summary["residuals"]["complementarity"] < 1e-12
+    assert "impact power" in run._repr_html_()
+
+
+def test_the_verdict_says_what_half_the_step_changes(scene: sg.Scene) -> None:
+    verdict = scene.run("moreau-jean", step=1e-3).verdict()
+    assert "half the step" in verdict["text"]
+    impulse, finer = verdict["walls"][0]["impulse_n_s"]
+    assert finer == scene.run("moreau-jean", step=5e-4).impulse("upper") != impulse
+
+
+def test_an_accuracy_is_kept_or_a_warning_says_until_when(scene: sg.Scene) -> None:
+    exact = scene.run("event", sample=0.05)
+    run = scene.run("moreau-jean", accuracy=1e-2, sample=0.05)
+    assert run.summary["accuracy"]["reached"] <= 1e-2
+    # Judged here against the exact motion, at the rows of both: 1 % of the gap of 5 mm.
+    assert abs(run.displacement - exact.displacement).max() <= 1e-2 * scene.gap_scale
+    walls = [sg.Wall.upper("upper", 5e-3), sg.Wall.lower("lower", -5e-3)]
+    chaotic = scene.replace(duration=30.0, walls=walls)
+    with pytest.warns(sg.AccuracyWarning, match="until t ="):
+        assert chaotic.run("event", accuracy=1e-6).summary["accuracy"]["until_s"] < 30.0
+
+
+def test_runs_survive_pickling(scene: sg.Scene) -> None:
+    run = scene.run("moreau-jean", step=1e-3)
+    back = pickle.loads(pickle.dumps(run))
+    assert back.scene == scene and repr(back) == repr(run)
+    for name, column in run.columns.items():
+        np.testing.assert_array_equal(back.columns[name], column)
+    assert back.contacts.tobytes() == run.contacts.tobytes()
+    assert back.summary == run.summary
+
+
+def test_other_threads_go_on_during_a_run(scene: sg.Scene) -> None:
+    long = scene.replace(duration=1000.0)
+    done: list[sg.Run] = []
+    thread = threading.Thread(target=lambda: done.append(long.run("moreau-jean", step=1e-4, sample=1.0)))
+    thread.start()
+    ticks = 0
+    while thread.is_alive():
+        time.sleep(1e-3)
+        ticks += 1
+    # It takes a second or so: with the lock held there would be none.
+    assert ticks > 20 and len(done) == 1
+
+
+def test_a_refuted_run_is_an_error_that_holds_it() -> None:
+    # A force that is not a function of the time: the judge, who asks it again, finds momentum missing.
+    count = iter(range(10**9))
+    load = sg.Load.function(lambda t: float(next(count) % 7))
+    scene = sg.oscillator(1.0, 0.0, 100.0, loads=[load])
+    with pytest.raises(sg.RefutedError, match="momentum balance") as caught:
+        scene.run("moreau-jean", step=1e-3)
+    assert caught.value.run.findings and repr(caught.value.run).startswith("<refuted Run")
+    assert isinstance(caught.value, sg.RunError) and isinstance(caught.value, RuntimeError)
+
+
+def test_plots(scene: sg.Scene) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        axes = scene.run("event").plot()
+        axes[0].figure.canvas.draw()
+        lasting = sg.load("elastic-wall").run().plot()
+    assert axes[2].get_ylabel() == "contact impulse (N s)"
+    assert lasting[2].get_ylabel() == "contact force (N)"

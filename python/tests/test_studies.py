@@ -1,0 +1,83 @@
+"""Studies of several runs."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import signorini as sg
+
+
+def test_compare_takes_errors_against_the_exact_motion(scene: sg.Scene) -> None:
+    made = sg.compare(scene, ["moreau-jean", "penalty:epsilon=1e-9"], step=1e-3, sample=0.01)
+    assert list(made.table["method"]) == ["moreau-jean", "penalty:epsilon=1e-9", "event"]
+    stepped, _, exact = made.runs
+    assert stepped is not None and exact is not None
+    within = stepped.time <= made.horizon
+    error = abs(stepped.displacement - exact.displacement)[within].max() / scene.gap_scale
+    assert made.table["error"][0] == pytest.approx(error, rel=1e-12)
+    # What the scheme realised is what the walls ask for, to rounding of its momentum balance.
+    assert made.table["restitution"][0] == pytest.approx(0.8, rel=1e-9)
+    assert any("do not converge to one another" in text for text in made.findings)
+    assert "moreau-jean" in repr(made)
+
+
+def test_a_method_that_fails_is_a_row(scene: sg.Scene) -> None:
+    one = scene.replace(walls=[sg.Wall.upper("upper", 5e-3, restitution=0.8)])
+    made = sg.compare(one, ["penalty:epsilon=1e-9", "moreau-jean"], step=1e-3)
+    assert made.runs[0] is None and "nothing facing the wall" in made.table["failure"][0]
+    assert made.table["failure"][1] is None and np.isnan(made.table["error"][0])
+
+
+def test_chart_finds_the_cheapest(scene: sg.Scene) -> None:
+    made = sg.chart(scene.replace(duration=1.0), ["event", "moreau-jean", "paoli-schatzman"], levels=4, repeats=1)
+    assert made.cheapest(1e-12) is not None and made.cheapest(1e-300) is None
+    own = made.table["method"] == "moreau-jean"
+    step, error = made.table["step_s"][own], made.table["displacement_error"][own]
+    # Of order 1 through impacts: over the range of steps the error falls, and by no more than the square.
+    slope = np.log(error[0] / error[-1]) / np.log(step[0] / step[-1])
+    assert 0.5 < slope < 2.0
+    assert np.isnan(made.table["step_s"][made.table["method"] == "event"]).all()
+    made.plot("impulse").figure.canvas.draw()
+    plt.close("all")
+
+
+def test_stability_tells_newmark_from_moreau_jean(scene: sg.Scene) -> None:
+    made = sg.stability(scene, finest=3e-3, per_decade=2, contacts=20)
+    classes = {
+        name: {c for c, s in zip(made.table["class"], made.table["scheme"], strict=True) if s.startswith(name)}
+        for name in ("moreau-jean", "newmark")
+    }
+    assert "stable" in classes["moreau-jean"]
+    # Newmark realises a restitution by chance, up to 3: it gains energy at some steps.
+    assert classes["newmark"] & {"gaining", "diverged"}
+    assert list(made.safe) == ["scheme", "parameter", "value", "safe_step_s", "beyond"]
+    made.plot().figure.canvas.draw()
+    plt.close("all")
+
+
+def test_bifurcation_settles_to_the_closed_orbit() -> None:
+    case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+    made = sg.bifurcation(case, "load.1.harmonic.frequency", np.array([5.0, 5.1]), settle=300, keep=10)
+    table = made.table
+    assert set(table["direction"]) == {"up", "down"}
+    up = (table["value"] == 5.0) & (table["direction"] == "up")
+    # The settled orbit at 5 Hz, from 50-digit arithmetic: one impact a period at each wall.
+    assert up.sum() == 20
+    np.testing.assert_allclose(table["approach_speed_m_per_s"][up], 0.169410591, rtol=1e-8)
+    section = sg.bifurcation(case, "load.1.harmonic.frequency", [5.0], settle=300, keep=4, samples="periods", follow="no")
+    # A Poincaré section of a motion of one period is one point; it has settled to rounding.
+    assert np.ptp(section.table["displacement_m"]) < 1e-12
+    made.plot().figure.canvas.draw()
+    section.plot().figure.canvas.draw()
+    plt.close("all")
+
+
+def test_studies_fail_as_runs_do() -> None:
+    ball = sg.oscillator(1.0, 0.0, 0.0)
+    with pytest.raises(ValueError, match="no scheme is named"):
+        sg.chart(ball, ["nonsense"])
+    # Between walls of a picometre there are more events than the exact scheme follows.
+    case = sg.load("rigid-walls-sine", set={"wall.upper.position": 1e-12, "wall.lower.position": 0.0})
+    with pytest.warns(RuntimeWarning, match="not every value has a sound motion"):
+        made = sg.bifurcation(case, "load.1.harmonic.frequency", [5.0], settle=100, keep=10)
+    assert made.table["error"][0] is not None

@@ -1,0 +1,149 @@
+"""Many runs: one table, the same wherever they are run."""
+
+import os
+import sys
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import signorini as sg
+
+sys.path.insert(0, str(Path(__file__).parent))
+import cluster
+
+POINTS = sg.grid(gap=np.linspace(2e-3, 8e-3, 60), restitution=[0.5, 0.8])
+
+
+def assert_same(table: sg.Table, other: sg.Table) -> None:
+    """The same to the last bit."""
+    assert list(table) == list(other)
+    for name, column in table.items():
+        if column.dtype == object:
+            assert list(column) == list(other[name])
+        else:
+            assert column.tobytes() == other[name].tobytes(), name
+
+
+@pytest.fixture(scope="module")
+def whole() -> sg.Table:
+    return sg.sweep(cluster.make, POINTS, "event", threads=1)
+
+
+def test_a_row_is_what_its_run_says(whole: sg.Table) -> None:
+    for row in (0, 17, 119):
+        made = cluster.make(**POINTS[row])
+        run = made.run("event", sample=4.0)
+        upper = run.statistics["stop-upper"]
+        assert whole["gap"][row] == POINTS[row]["gap"]
+        assert whole["contacts_stop-upper"][row] == upper["contacts"]
+        assert whole["impact_power_stop-upper_W"][row] == upper["impact_power_w"]
+        # Impulses of the window, which is the whole run, and of the rows: sums in another order.
+        assert whole["impulse_stop-upper_N_s"][row] == pytest.approx(run.impulse("stop-upper"), rel=1e-12)
+        half = upper["half_width_95"]
+        if half is not None:
+            assert whole["impact_power_half_width_95_stop-upper_W"][row] == half["impact_power_w"]
+    assert all(error is None for error in whole["error"])
+
+
+def test_threads_and_the_judge_change_no_bit(whole: sg.Table) -> None:
+    assert_same(sg.sweep(cluster.make, POINTS, "event", threads=2), whole)
+    assert_same(sg.sweep(cluster.make, POINTS, "event", judge=False), whole)
+    assert_same(sg.run_many([cluster.make(**p) for p in POINTS], "event"), {k: whole[k] for k in list(whole)[2:]})
+
+
+@pytest.mark.parametrize("chunk", [None, 7])
+def test_executors_give_the_same_table(whole: sg.Table, chunk: int | None) -> None:
+    with ThreadPoolExecutor(2) as executor:
+        assert_same(sg.sweep(cluster.make, POINTS, "event", executor=executor, chunk=chunk), whole)
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as executor:
+        assert_same(sg.sweep(cluster.make, POINTS, "event", executor=executor, chunk=chunk), whole)
+
+
+def test_what_a_broken_pool_loses_is_run_again(
+    whole: sg.Table, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SIGNORINI_TEST_PID", str(os.getpid()))
+    points = [point | {"flag": str(tmp_path / "died")} for point in POINTS]
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as executor:
+        with pytest.warns(RuntimeWarning, match="run here again"):
+            table = sg.sweep(cluster.deadly, points, "event", executor=executor, chunk=10)
+    assert (tmp_path / "died").exists()
+    del table["flag"]
+    assert_same({name: table[name] for name in whole}, whole)
+
+
+def test_points_that_fail_are_rows_with_a_reason() -> None:
+    points = sg.grid(gap=[4e-3, -1e-3, 6e-3])
+    with pytest.warns(RuntimeWarning, match=r"1 of 3 rows failed; the first: support 'stop': gap is -0\.001"):
+        table = sg.sweep(cluster.make, points, "event")
+    assert np.isnan(table["contacts_stop-upper"]).tolist() == [False, True, False]
+    assert [error is None for error in table["error"]] == [True, False, True]
+    # The exact scheme gives up between walls of a picometre.
+    with pytest.warns(RuntimeWarning, match="contact events"):
+        sg.sweep(lambda gap: cluster.make(gap, 1.0).replace(velocity=1.0), [{"gap": 1e-12}], "event")
+
+
+def test_walls_are_those_of_the_first_point() -> None:
+    def make(name: str) -> sg.Scene:
+        return sg.oscillator(1.0, 0.0, 1.0, walls=[sg.Wall.upper(name, 1.0)])
+
+    with pytest.warns(RuntimeWarning, match="walls are b; expected a"):
+        table = sg.sweep(make, sg.grid(name=["a", "b"]), "event")
+    assert table["error"][0] is None
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_defect_of_make_is_told_at_once(threads: int) -> None:
+    ran: list[float] = []
+
+    def make(gap: float) -> sg.Scene:
+        ran.append(gap)
+        return undefined(gap)  # type: ignore[name-defined,no-any-return] # noqa: F821
+
+    with pytest.raises(NameError):
+        sg.sweep(make, sg.grid(gap=[1.0, 2.0]), "event", threads=threads)
+    assert ran == [1.0]
+
+
+def test_a_callable_that_cannot_be_pickled_is_told() -> None:
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as executor:
+        with pytest.raises(Exception, match="pickle"):
+            sg.sweep(lambda gap: cluster.make(gap), sg.grid(gap=[4e-3]), "event", executor=executor)
+    closed = ThreadPoolExecutor(1)
+    closed.shutdown()
+    with pytest.raises(RuntimeError, match="shutdown"):
+        sg.sweep(cluster.make, sg.grid(gap=[4e-3]), "event", executor=closed)
+
+
+def test_a_folder_keeps_rows_of_equal_scenes_only(tmp_path: Path, whole: sg.Table) -> None:
+    def count() -> int:
+        return sum(len(np.load(path)["digests"]) for path in tmp_path.glob("*.npz"))
+
+    options: dict[str, Any] = {"folder": tmp_path}
+    sg.sweep(cluster.make, POINTS[:50], "event", **options)
+    assert count() == 50
+    assert_same(sg.sweep(cluster.make, POINTS, "event", **options), whole)
+    assert count() == len(POINTS)
+    # Another window, another scheme: other rows.
+    sg.sweep(cluster.make, POINTS[:2], "event", statistics_from=1.0, **options)
+    sg.sweep(cluster.make, POINTS[:2], "moreau-jean", step=1e-3, **options)
+    assert count() == len(POINTS) + 4
+    with ThreadPoolExecutor(2) as executor:
+        assert_same(sg.sweep(cluster.make, POINTS, "event", executor=executor, **options), whole)
+    assert count() == len(POINTS) + 4
+
+
+def test_nothing_to_run() -> None:
+    assert list(sg.run_many([], "event")) == ["error"]
+    assert list(sg.sweep(cluster.make, [], "event")) == ["error"]
+    assert sg.grid() == [{}]
+
+
+def test_progress_is_for_terminals(capsys: pytest.CaptureFixture[str]) -> None:
+    sg.sweep(cluster.make, POINTS, "event")
+    out, errors = capsys.readouterr()
+    assert (out, errors) == ("", "")
