@@ -1,18 +1,19 @@
-//! The lanes: each seat holds an oscillator until that is done, and then the next.
+//! The loop over a group of lanes: each lane computes one oscillator until it is done, and then the
+//! next.
 
 use super::seat::{Group, Guest, Results};
 use super::state::State;
 use super::vector::{Mask, Vector};
 use pulp::{Simd, WithSimd};
 
-/// Impacts in a period beyond which a lane is handed over: no motion of ordinary size has that
-/// many.
+/// Maximum number of impacts in a period; with more, the oscillator is left to the scheme `event`.
 const MOST_IMPACTS: f64 = 4096.0;
 
-/// A share of a step below which a lane that cannot be decided is handed over: a graze to rounding.
+/// Smallest share of a step that is tried: an oscillator undecided there (a grazing contact, to
+/// rounding) is left to the scheme `event`.
 const LEAST_SHARE: f64 = 1e-6;
 
-/// Oscillators to follow, with at most `W` sines each.
+/// The oscillators to compute, with at most `W` sines each.
 pub(super) struct Engine<'a, const W: usize> {
     pub guests: &'a [Guest<'a>],
     pub results: Results<'a>,
@@ -54,8 +55,8 @@ impl<const W: usize> WithSimd for Engine<'_, W> {
             if !(ended.strobed | lost | ((lower | upper) & arrived)).any() {
                 continue;
             }
-            // What happened: lost, a period over, at the lower or the upper wall with next to no
-            // speed.
+            // What happened: undecided, end of a period, arrival at the lower or the upper wall
+            // almost without speed.
             let one = zero.all(1.0);
             let (lost, strobed) = (lost.pick(one, zero), ended.strobed.pick(one, zero));
             let (lower, upper) = ((lower & arrived).pick(one, zero), (upper & arrived).pick(one, zero));

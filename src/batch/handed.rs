@@ -1,4 +1,4 @@
-//! An oscillator that the lanes do not hold, followed by the scheme `event`.
+//! An oscillator that the lanes do not support, computed by the scheme `event`.
 
 use super::lane::Lane;
 use super::outcome::{AtWall, By, Outcome, grown};
@@ -9,34 +9,36 @@ use crate::scene::Oscillator;
 use crate::scheme::{Scheme, Stepper};
 use crate::step::{Path, Step};
 
-/// Where turns are looked for: so many times in a radian of the fastest rate.
+/// Number of places per radian of the fastest motion at which turning points are looked for.
 const LOOKS: f64 = 4.0;
 
-/// Halvings after which the place of a turn is known to rounding.
+/// Number of bisections after which a turning point is known to rounding.
 const HALVINGS: usize = 52;
 
-/// The window of one oscillator as it passes.
+/// The results of one oscillator over its window.
 struct Window {
     walls: [AtWall; 2],
     extent: [f64; 2],
-    /// A change of the start: displacement, velocity times a step of the lanes.
+    /// A small change of the initial state, carried along: displacement, and velocity times a step
+    /// of the lanes.
     tangent: [f64; 2],
     /// Damping and acceleration at the end of the last arc, unless its end was an impact.
     last: Option<[f64; 2]>,
-    /// ln of its size when the window began, less what was scaled out since.
+    /// ln of its size when the window began, minus ln of the factors by which it was scaled down
+    /// since.
     began: f64,
     /// Fastest rate, 1/s.
     rate: f64,
 }
 
-/// Follows `lane` for `settle` periods and then one for each of `strobes`.
+/// Computes `settle` periods of `lane`, and then one for each of `strobes`.
 pub(super) fn follow(lane: &Lane, settle: u32, strobes: &mut [[f64; 2]]) -> Result<Outcome> {
     let periods = u64::from(settle) + strobes.len() as u64;
     let scene = lane.scene(periods as f64 * lane.period);
     let mut stepper = Stepper::new(&scene, &Scheme::Event, lane.period)?;
     let mut window = Window::new(lane);
     let has_lower = usize::from(lane.lower.is_some());
-    // The scene's walls are those that there are, the lower one first.
+    // The scene has only the walls that exist, the lower one first.
     let slot = |wall: usize| if wall < has_lower { 0 } else { 1 };
     let mut passed = 0;
     if settle == 0 {
@@ -46,7 +48,7 @@ pub(super) fn follow(lane: &Lane, settle: u32, strobes: &mut [[f64; 2]]) -> Resu
         let step = stepper.step()?;
         window.see(&step, &slot);
         let (end, state) = (step.end, [step.q, step.v].map(|x| x.first().copied().unwrap_or(0.0)));
-        // Half a unit of rounding of the time is no period.
+        // A remainder of half a unit of rounding of the time is not a period.
         if end < (passed + 1) as f64 * lane.period * (1.0 - 1e-14) {
             continue;
         }
@@ -95,7 +97,7 @@ impl Window {
         self.began = self.size().ln();
     }
 
-    /// Scales the change of the start to size 1, unless it is nothing.
+    /// Scales the change of the initial state to size 1, unless it is zero.
     fn scale(&mut self) {
         let size = self.size();
         if size > 0.0 {
@@ -125,9 +127,9 @@ impl Window {
         self.reach(arc);
     }
 
-    /// The change of the start over a step: by the free flow, by elastic walls that are met or
-    /// left, by an impact at the end (Leine & Nijmeijer 2004, doi:10.1007/978-3-540-44398-8, ch.
-    /// 7).
+    /// Propagates the change of the initial state over a step: free motion, entry into and exit
+    /// from elastic walls, an impact at the end (Leine & Nijmeijer 2004,
+    /// doi:10.1007/978-3-540-44398-8, ch. 7).
     fn carry(&mut self, step: &Step<'_>, arc: &Arc, after: f64) {
         let jumped = step.jump.iter().any(|&p| p != 0.0);
         if step.end > step.start {
@@ -154,7 +156,7 @@ impl Window {
         }
     }
 
-    /// The extremes of an arc: at its ends, and at the turns within.
+    /// The extremes of an arc: at its ends, and at the turning points between them.
     fn reach(&mut self, arc: &Arc) {
         let (from, to) = (arc.start(), arc.end());
         let mut see = |q: f64| self.extent = [self.extent[0].min(q), self.extent[1].max(q)];

@@ -3,8 +3,8 @@
 use crate::error::{Error, Result};
 use crate::scene::{Load, LoadKind, Oscillator, Row, Scene, Side, System, Wall, WallLaw};
 
-/// Multiples of a frequency, of a period, that are whole to this share of themselves are whole:
-/// rounding of both.
+/// Relative tolerance within which a frequency times a period counts as an integer: rounding of
+/// both.
 const WHOLE: f64 = 1e-9;
 
 /// A wall of an oscillator.
@@ -21,7 +21,7 @@ pub struct Stop {
 pub struct Sine {
     /// N.
     pub amplitude: f64,
-    /// Periods of the sine in one of the load, 1 or more.
+    /// Number of periods of the sine in one period T, 1 or more.
     pub multiple: u32,
     /// rad.
     pub phase: f64,
@@ -56,24 +56,24 @@ pub struct Lane {
     pub upper: Option<Stop>,
     /// f₀, N.
     pub constant: f64,
-    /// T, s: a strobe is taken once in each.
+    /// T, s: the state is recorded once per period.
     pub period: f64,
     /// The sines of the load.
     pub sines: Vec<Sine>,
-    /// Displacement at the start, m.
+    /// Initial displacement, m.
     pub displacement: f64,
-    /// Velocity there, m/s.
+    /// Initial velocity, m/s.
     pub velocity: f64,
 }
 
 impl Lane {
-    /// The oscillator of `scene` with strobes every `period` (s); the duration of the scene is not
-    /// asked for.
+    /// The oscillator of `scene`, whose state is recorded every `period` (s); the duration of the
+    /// scene is ignored.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a scene that does not validate, or that a lane does not hold: a
-    /// structure, a second wall on one side, the φ² penalty, a blow, a table, a function of time, a
-    /// sine that has no whole number of its periods in `period`.
+    /// [`Error::Invalid`] for an invalid scene, or one that a lane cannot represent: a structure, a
+    /// second wall on one side, the φ² penalty, an impulse, a table, a function of time, a sine
+    /// that does not have an integer number of periods in `period`.
     pub fn of(scene: &Scene, period: f64) -> Result<Self> {
         scene.validate()?;
         let System::Oscillator(body) = scene.system else {
@@ -130,10 +130,10 @@ impl Lane {
         Ok(lane)
     }
 
-    /// Checks everything that the engine relies on.
+    /// Checks all values.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for the first value that makes no sense.
+    /// [`Error::Invalid`] for the first invalid value.
     pub fn validate(&self) -> Result<()> {
         if !(self.period.is_finite() && self.period > 0.0) {
             return Err(Error::invalid("period", format_args!("{:?}", self.period), "a finite number above 0, s"));
@@ -149,7 +149,7 @@ impl Lane {
         self.scene(self.period).validate()
     }
 
-    /// A displacement of ordinary size, m: [`Scene::gap_scale`] of its scene.
+    /// A typical displacement, m: [`Scene::gap_scale`] of its scene.
     pub(super) fn length(&self) -> f64 {
         let positive = |x: &f64| *x > 0.0;
         let both = self.lower.zip(self.upper).map(|(l, u)| 0.5 * (u.position - l.position));

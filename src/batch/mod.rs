@@ -1,22 +1,23 @@
 //! Many oscillators at once: the exact motion of each from impact to impact, several side by side
 //! in the lanes of a processor.
 //!
-//! [`Lane`] is one oscillator, [`Plan`] says how long each is followed, and [`Batch`] is what came
-//! of them: the states once a period of the load, impacts and impulses, extremes, the growth of a
-//! change of the start. It is what sweeps, bifurcation diagrams and basins of attraction are made
-//! of. Nothing is discretised: every lane agrees with the scheme `event` to rounding, and to what
-//! the motion itself makes of rounding.
+//! [`Lane`] is one oscillator, [`Plan`] says for how long each is computed, and [`Batch`] holds the
+//! results: the states once per period of the load, impacts and impulses, extremes, the growth of a
+//! small change of the initial state. Sweeps, bifurcation diagrams and basins of attraction are
+//! computed from these. Nothing is discretised: every lane agrees with the scheme `event` up to
+//! rounding errors, and their growth where the motion is chaotic.
 //!
-//! Each lane is at its own instant. It marches in steps of fixed length, for which its motion is a
-//! few products (`series.rs`), up to the step on which it could meet a wall, or its period ends.
-//! When all lanes have come to such a step, one round serves them together: a power series for the
-//! step, the root of the gap by Halley's method, and a certificate that nothing was missed before
-//! it (`state.rs`).
+//! Each lane has its own time. It advances in steps of fixed length, which take a few products each
+//! (`series.rs`), up to the step in which it could meet a wall, or its period ends. When all lanes
+//! have reached such a step, it is computed for all of them together: a power series for the step,
+//! the root of the gap by Halley's method, and a bound which proves that no earlier contact was
+//! missed (`state.rs`).
 //!
-//! Bits. What a lane computes depends on its own numbers alone, not on its neighbours, its place,
-//! or the number of threads. See [`Width`] for what holds from machine to machine. Oscillators that
-//! the lanes do not hold (elastic walls, more than four sines, a graze to rounding) are followed by
-//! the scheme `event`; [`Outcome::by`] says which, [`Batch::handed`] how many.
+//! The result of a lane depends to the bit on its own numbers alone, not on its neighbours, its
+//! place, or the number of threads. [`Width`] says what is equal between machines. Oscillators that
+//! the lanes do not support (elastic walls, more than four sines, a contact that grazes to
+//! rounding) are computed by the scheme `event`; [`Outcome::by`] says which, [`Batch::handed`] how
+//! many.
 //!
 //! ```
 //! use signorini::batch::{Lane, Plan};

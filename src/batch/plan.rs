@@ -1,4 +1,4 @@
-//! How long a batch is followed, and on what.
+//! The duration of a batch, and the threads and instructions that compute it.
 
 use super::lane::Lane;
 use super::outcome::{Batch, Outcome};
@@ -8,39 +8,39 @@ use crate::error::{Error, Result, Subject};
 use std::num::NonZero;
 use std::sync::Mutex;
 
-/// Oscillators that a thread takes at a time.
+/// Number of oscillators that a thread takes at a time.
 const SHARE: usize = 256;
 
-/// Strobes of a batch at most: 16 bytes each.
+/// Maximum number of recorded states of a batch: 16 bytes each.
 const MOST_STROBES: usize = 1 << 32;
 
-/// How long a batch is followed, and on what.
+/// The duration of a batch, and the threads and instructions that compute it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Plan {
-    /// Periods of each lane before the window.
+    /// Periods of each oscillator before the window.
     pub settle: u32,
     /// Periods of the window, 1 or more.
     pub keep: u32,
-    /// Threads; 0 for as many as the machine has. Results do not depend on it.
+    /// Number of threads; 0 for all cores of the machine. Results do not depend on it.
     pub threads: usize,
-    /// Lanes side by side.
+    /// The instructions, which decide how many lanes are computed together.
     pub width: Width,
 }
 
 impl Plan {
-    /// `settle` periods, then a window of `keep`, on all threads and the widest lanes that this
-    /// machine has.
+    /// `settle` periods, then a window of `keep`, on all cores and with the widest instructions of
+    /// this machine.
     #[must_use]
     pub fn new(settle: u32, keep: u32) -> Self {
         Self { settle, keep, threads: 0, width: Width::Widest }
     }
 
-    /// Follows every oscillator.
+    /// Computes every oscillator.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for an oscillator that does not validate, a window without a period,
-    /// lanes that this machine does not have. An oscillator that could not be followed is an error
-    /// in its own place of [`Batch::outcomes`].
+    /// [`Error::Invalid`] for an invalid oscillator, a window without a period, instructions that
+    /// this machine does not have. The error of an oscillator that could not be computed is in its
+    /// place of [`Batch::outcomes`].
     pub fn run(&self, lanes: &[Lane]) -> Result<Batch> {
         self.width.check()?;
         if self.keep == 0 {
@@ -68,7 +68,7 @@ impl Plan {
         let shares = lanes.chunks(SHARE).zip(outcomes.chunks_mut(SHARE)).zip(strobes.chunks_mut(SHARE * keep));
         let queue = Mutex::new(shares);
         let work = || loop {
-            // A thread that panicked has left the queue whole: what it took is taken.
+            // A thread that panicked leaves the queue valid, without the oscillators that it took.
             let next = queue.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).next();
             let Some(((lanes, outcomes), strobes)) = next else { return };
             Work { lanes, outcomes, strobes, settle: self.settle, keep: self.keep }.run(self.width);

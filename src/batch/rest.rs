@@ -1,47 +1,48 @@
-//! Rest on a wall: how it begins, how long it lasts, what it presses.
+//! Rest on a wall: when it begins, how long it lasts, and the force.
 
 use super::series::{Series, sin_cos};
 
-/// A flight after an impact is the tail of an accumulation if it is lower than this share of the
-/// oscillator's length …
+/// A flight after an impact is the tail of an accumulation of impacts if its height is below this
+/// share of the oscillator's typical displacement …
 pub(super) const TAIL_HEIGHT: f64 = 1e-12;
 
-/// … and if the pressing changes by less than this share until the impacts have accumulated; both
-/// as in the scheme `event`.
+/// … and if the pressing acceleration changes by less than this share until the impacts have
+/// accumulated; both as in the scheme `event`.
 const TAIL_CHANGE: f64 = 1e-6;
 
-/// A flight of fewer units in the last place of the period than this is not resolved.
+/// A flight shorter than this number of units in the last place of the period is not resolved.
 const TIME_UNITS: f64 = 8.0;
 
-/// Steps of the search for a release at most: it converges like Newton's method, slowly only where
-/// the pressing touches 0.
+/// Maximum number of iterations in the search for a release: it converges like Newton's method, and
+/// slowly only if the pressing acceleration touches 0.
 const MOST_STEPS: usize = 200;
 
-/// Where crests of the pressing are looked for: so many times in a radian of the fastest sine.
+/// Number of places per radian of the fastest sine at which maxima of the pressing acceleration are
+/// looked for.
 const LOOKS: f64 = 4.0;
 
-/// Halvings after which the place of a crest is known to rounding of its height.
+/// Number of bisections after which a maximum is known to rounding.
 const HALVINGS: usize = 30;
 
 /// What follows an impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Arrival {
-    /// The body flies on.
+    /// The body leaves the wall.
     Flies,
-    /// It stays.
+    /// It stays on the wall.
     Rests,
-    /// Rounding decides: the pressing is none to rounding.
+    /// Undecided: the pressing acceleration is zero to rounding.
     Unclear,
 }
 
 /// When a rest ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Release {
-    /// Here, in steps of the period.
+    /// At this time, in steps of the lane since the period began.
     At(f64),
     /// Not before the time asked for.
     Later,
-    /// The pressing touches 0 to rounding.
+    /// Undecided: the pressing acceleration touches 0 to rounding.
     Unclear,
 }
 
@@ -49,14 +50,14 @@ pub(super) enum Release {
 ///
 /// p(t) = −away (p₀ − κg + Σ A sin(θt + φ)) ≥ 0,
 ///
-/// in metres a step squared, with away = 1 on a lower wall and −1 on an upper one. The body leaves
-/// where p falls through 0.
+/// in metres per step squared, with away = 1 on a lower wall and −1 on an upper one. The body
+/// leaves when p falls through 0.
 pub(super) struct Rest<'a> {
     series: &'a Series,
     away: f64,
     /// p₀ − κg.
     constant: f64,
-    /// A pressing below this is rounding.
+    /// A pressing acceleration below this is rounding error.
     noise: f64,
 }
 
@@ -78,11 +79,11 @@ impl<'a> Rest<'a> {
         [-self.away * p, -self.away * rate]
     }
 
-    /// What follows an impact at `t` that leaves `speed` (m a step) by restitution `e`; `length`
-    /// (m) is a displacement of ordinary size, `position` the wall's.
+    /// What follows an impact at `t` after which the body has `speed` (m per step), with
+    /// restitution `e`; `length` (m) is a typical displacement, `position` that of the wall.
     pub fn arrival(&self, t: f64, speed: f64, e: f64, length: f64, position: f64) -> Arrival {
         let [still, rate] = self.press(t);
-        // Drag on the way off presses, too.
+        // The damping force on the way off the wall presses, too.
         let press = still + self.series.alpha * speed;
         if press.abs() <= self.noise {
             return if speed > 0.0 { Arrival::Flies } else { Arrival::Unclear };
@@ -100,10 +101,10 @@ impl<'a> Rest<'a> {
         if height < TAIL_HEIGHT * length && closed { Arrival::Rests } else { Arrival::Flies }
     }
 
-    /// When the body leaves, at `from` or later and before `to` (steps).
+    /// The time at which the body leaves, at `from` or later and before `to` (steps).
     ///
-    /// With B = Σ|A|θ² no less than |p″|, p(t + s) ≥ p + p′s − ½Bs²: a step to the root of that
-    /// passes no root of p, and near one it is Newton's.
+    /// With B = Σ|A|θ² ≥ |p″|, p(t + s) ≥ p + p′s − ½Bs²: a step to the root of this bound does not
+    /// pass a root of p, and near one it is a Newton step.
     pub fn release(&self, from: f64, to: f64) -> Release {
         let curve: f64 = self.series.waves.iter().map(|w| w.amplitude.abs() * w.theta * w.theta).sum();
         let mut t = from;
@@ -115,7 +116,8 @@ impl<'a> Rest<'a> {
             let root = (rate * rate + 2.0 * curve * p).sqrt();
             let step = if rate < 0.0 { 2.0 * p / (root - rate) } else { (root + rate) / curve };
             let next = t + step;
-            // Without a load that changes there is no step: 0/0 is no number, and longer than any.
+            // For a constant load the step is 0/0, NaN, and the comparison takes it as longer than
+            // any time.
             if next >= to || next.is_nan() {
                 return Release::Later;
             }
@@ -127,7 +129,7 @@ impl<'a> Rest<'a> {
         Release::Unclear
     }
 
-    /// ∫p over [`from`, `to`], m a step: A Δ sin(mid) sin(θΔ/2)/(θΔ/2) for a sine.
+    /// ∫p over [`from`, `to`], m per step: A Δ sin(mid) sin(θΔ/2)/(θΔ/2) for a sine.
     pub fn impulse(&self, from: f64, to: f64) -> f64 {
         let (span, mid) = (to - from, 0.5 * (from + to));
         let mut sum = self.constant * span;
@@ -139,7 +141,7 @@ impl<'a> Rest<'a> {
         (-self.away * sum).max(0.0)
     }
 
-    /// The largest p over [`from`, `to`], m a step squared.
+    /// The largest p over [`from`, `to`], m per step squared.
     pub fn highest(&self, from: f64, to: f64) -> f64 {
         let fastest = self.series.waves.iter().map(|w| w.theta).fold(0.0, f64::max);
         let looks = ((to - from) * fastest * LOOKS).ceil().clamp(1.0, 1e6) as u32;

@@ -1,4 +1,5 @@
-//! The seats of a group of lanes: who sits where, since when, and what has been counted for them.
+//! The assignment of oscillators to a group of lanes: which oscillator each lane computes ("the
+//! guest in its seat"), since when, and what has been counted for it.
 
 use super::lane::{Lane, Stop};
 use super::outcome::{AtWall, By, Outcome, grown};
@@ -10,23 +11,23 @@ use super::vector::Vector;
 use crate::scene::WallLaw;
 use pulp::Simd;
 
-/// Lanes at most.
+/// Maximum number of lanes.
 pub(super) const SEATS: usize = 8;
 
-/// Beyond this size, or below its inverse, the carried change of the start is scaled.
+/// Beyond this size, or below its inverse, the carried change of the initial state is scaled.
 const LARGE: f64 = 1e100;
 
-/// An oscillator that the lanes hold.
+/// An oscillator that the lanes support.
 pub(super) struct Guest<'a> {
-    /// Its number in the batch's share.
+    /// Its number in the share of the batch.
     pub index: usize,
     pub lane: &'a Lane,
     pub series: Series,
 }
 
-/// Where the results of guests go.
+/// The memory for the results.
 pub(super) struct Results<'a> {
-    /// One for each oscillator of the share; left empty for what could not be followed.
+    /// One for each oscillator of the share; empty for an oscillator that could not be computed.
     pub outcomes: &'a mut [Option<Outcome>],
     /// `keep` for each.
     pub strobes: &'a mut [[f64; 2]],
@@ -34,28 +35,28 @@ pub(super) struct Results<'a> {
     pub keep: u32,
 }
 
-/// Who sits in a lane.
+/// The oscillator in a lane.
 #[derive(Clone, Copy, Default)]
 struct Seat {
-    /// Index into the guests; none if the seat is empty.
+    /// Index of the oscillator; `None` if the lane is empty.
     of: Option<usize>,
-    /// Periods passed.
+    /// Periods completed.
     passed: u32,
-    /// ln of the size of the change of the start when the window began, less what has been scaled
-    /// out since.
+    /// ln of the size of the change of the initial state when the window began, minus ln of the
+    /// factors by which it was scaled down since.
     began: f64,
-    /// The largest pressure of a rest so far in the window, m a step squared, per wall; 0 without
-    /// one.
+    /// The largest pressing acceleration of a rest so far in the window, m per step squared, per
+    /// wall; 0 without a rest.
     peak: [f64; 2],
 }
 
-/// What is counted, per wall (lower, upper).
+/// Counts per wall (lower, upper).
 #[derive(Clone, Copy)]
 struct Tally<S: Simd> {
     /// Impacts in the period.
     recent: Vector<S>,
     impacts: [Vector<S>; 2],
-    /// Σ(1 + e)|w| and the largest, m a step.
+    /// Σ(1 + e)|w| and the largest term, m per step.
     impulse: [Vector<S>; 2],
     largest: [Vector<S>; 2],
 }
@@ -64,7 +65,7 @@ struct Tally<S: Simd> {
 pub(super) struct Group<S: Simd, const W: usize> {
     pub constants: Constants<S, W>,
     pub state: State<S, W>,
-    /// 1 where somebody sits, 0 elsewhere.
+    /// 1 in lanes with an oscillator, 0 in the others.
     pub busy: Vector<S>,
     tally: Tally<S>,
     seats: [Seat; SEATS],
@@ -83,7 +84,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
         }
     }
 
-    /// Counts what came of a stretch.
+    /// Counts the impacts of a stretch.
     #[inline(always)]
     pub fn count(&mut self, ended: &Ended<S>) {
         let tally = &mut self.tally;
@@ -106,8 +107,8 @@ impl<S: Simd, const W: usize> Group<S, W> {
         self.tally.recent
     }
 
-    /// Puts the next oscillator into a lane, or leaves it empty: one that starts at rest on a wall
-    /// and cannot be followed, or is over before it leaves, makes place for the one after it.
+    /// Assigns the next oscillator to a lane, or leaves the lane empty. An oscillator that starts
+    /// at rest on a wall, and stays there to its end or cannot be decided, is skipped.
     pub fn fill(&mut self, slot: usize, guests: &[Guest], next: &mut usize, results: &mut Results) {
         loop {
             let of = Some(*next).filter(|n| *n < guests.len());
@@ -144,7 +145,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
                 now.put(slot, start.get(slot));
             }
         }
-        // A change of displacement and velocity alike.
+        // The change of the initial state: equal parts of displacement and velocity.
         a.tangent[0].put(slot, 1.0);
         a.tangent[1].put(slot, REACH);
         a.high.put(slot, k.upper.get(slot));
@@ -153,7 +154,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
         self.tally.recent.put(slot, 0.0);
     }
 
-    /// The window begins in this lane.
+    /// Begins the window of this lane.
     fn begin(&mut self, slot: usize) {
         let tally = &mut self.tally;
         let all = [&mut tally.impacts, &mut tally.impulse, &mut tally.largest];
@@ -167,17 +168,17 @@ impl<S: Simd, const W: usize> Group<S, W> {
         }
     }
 
-    /// Size of the change of the start: displacement, and velocity over the fastest rate of the
-    /// lane.
+    /// Size of the change of the initial state: displacement, and velocity over the fastest rate of
+    /// the lane.
     fn size(&self, slot: usize) -> f64 {
         let [du, dw] = self.state.tangent;
         let (du, dw) = (du.get(slot), dw.get(slot) / REACH);
         (du * du + dw * dw).sqrt()
     }
 
-    /// A body has come to the wall (0 lower, 1 upper) with next to no speed left: it flies on, or
-    /// rests until it is let go. True if the seat is free again: the last period is over, or
-    /// rounding decides.
+    /// The body has reached the wall (0 lower, 1 upper) almost without speed: it leaves again, or
+    /// rests until it is released. Returns true if the lane is free again, since the last period is
+    /// over or the outcome is undecided.
     pub fn arrive(&mut self, slot: usize, wall: usize, guests: &[Guest], results: &mut Results) -> bool {
         let Some(Guest { lane, series, .. }) = self.guest(slot, guests) else { return true };
         let (stop, away) = if wall == 0 { (lane.lower, 1.0) } else { (lane.upper, -1.0) };
@@ -189,7 +190,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
             Arrival::Unclear => return true,
             Arrival::Rests => {}
         }
-        // The impact leaves no speed. Whatever came before is forgotten.
+        // No speed is left, and nothing of the motion before matters any more.
         if let Some(impulse) = self.tally.impulse.get_mut(wall) {
             impulse.put(slot, impulse.get(slot) - speed);
         }
@@ -220,19 +221,19 @@ impl<S: Simd, const W: usize> Group<S, W> {
         }
     }
 
-    /// The guest in a lane.
+    /// The oscillator in a lane.
     fn guest<'g, 'a>(&self, slot: usize, guests: &'g [Guest<'a>]) -> Option<&'g Guest<'a>> {
         guests.get(self.seats.get(slot)?.of?)
     }
 
-    /// Notes a pressure of a rest that reaches into the window.
+    /// Records the pressing acceleration of a rest that reaches into the window.
     fn note(&mut self, slot: usize, wall: usize, peak: f64) {
         if let Some(known) = self.seats.get_mut(slot).and_then(|seat| seat.peak.get_mut(wall)) {
             *known = known.max(peak);
         }
     }
 
-    /// Lets a body go that rested up to `t` in its period.
+    /// Releases a body that rested up to `t` in its period.
     fn lift(&mut self, slot: usize, t: f64, series: &Series) {
         self.state.t.put(slot, t);
         for (wave, [sin, cos]) in series.waves.iter().zip(&mut self.state.phase) {
@@ -242,8 +243,8 @@ impl<S: Simd, const W: usize> Group<S, W> {
         }
     }
 
-    /// A period has ended in this lane: true if it was the last, or if the motion has left the
-    /// numbers.
+    /// Ends a period of this lane. Returns true if it was the last, or if the state became infinite
+    /// or NaN.
     pub fn strobe(&mut self, slot: usize, guests: &[Guest], results: &mut Results) -> bool {
         let Some(Guest { index, lane, series }) = self.guest(slot, guests) else { return true };
         let (u, w) = (self.state.u.get(slot), self.state.w.get(slot));
@@ -277,7 +278,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
         true
     }
 
-    /// What came of the guest in a lane over a window of `length` (s).
+    /// The result of the oscillator in a lane over a window of `length` (s).
     fn outcome(&self, slot: usize, lane: &Lane, series: &Series, length: f64) -> Option<Outcome> {
         let seat = self.seats.get(slot)?;
         let unit = lane.body.mass / series.step;

@@ -1,6 +1,6 @@
-//! What a lane's motion over one step of its march is made of: constants of the lane.
+//! The constants of a lane, from which its motion over one step follows.
 //!
-//! Time counts in steps of d seconds, z = τ/d, and velocity in metres a step, w = q̇ d. Then
+//! Time is measured in steps of d seconds, z = τ/d, and velocity in metres per step, w = q̇ d. Then
 //!
 //! u″ + αu′ + κu = p + Σ A sin(θz + φ),  α = cd/m, κ = kd²/m, p = f₀d²/m, A ← Ad²/m, θ = ωd.
 //!
@@ -10,32 +10,32 @@
 //!
 //! u(z) = u + w S(z) + (p − κu) I(z) + A s F(z) + A c G(z).
 //!
-//! There is no steady part and so no resonance, no special case of a vanishing stiffness, none of
-//! strong damping: all four functions are entire in every parameter. They enter by their power
-//! series; d is chosen so that no rate of the lane moves by more than [`REACH`] radians in a step,
-//! and [`ORDER`] terms then leave [`REACH`]^17/17! = 7e-18.
+//! There is no stationary solution in it, and so no special case of resonance, of zero stiffness or
+//! of strong damping: all four functions are entire in every parameter. They are computed by their
+//! power series; d is chosen so that no rate of the lane advances by more than [`REACH`] radians in
+//! a step, and the error after [`ORDER`] terms is then [`REACH`]^17/17! = 7e-18.
 
 use super::lane::Lane;
 
-/// Coefficients, of z to z¹⁶: there is no constant term.
+/// Number of coefficients, of z to z¹⁶: there is no constant term.
 pub(super) const ORDER: usize = 16;
 
-/// Radians of the fastest rate in a step.
+/// Maximum angle of the fastest rate in a step, rad.
 pub(super) const REACH: f64 = 0.7;
 
-/// Steps in a period of the load beyond which the scalar scheme, which steps as the motion asks, is
-/// the better one.
+/// Maximum number of steps in a period of the load; beyond it the scheme `event`, whose steps adapt
+/// to the motion, is faster.
 const MOST_STEPS: f64 = 2048.0;
 
-/// Terms of the series from which the constants of a whole step are summed.
+/// Number of terms of the series from which the constants of a whole step are summed.
 const TERMS: usize = 32;
 
 /// Responses to one sine.
 #[derive(Debug, Clone)]
 pub(super) struct Wave {
-    /// A, m a step squared.
+    /// A, m per step squared.
     pub amplitude: f64,
-    /// θ, rad a step.
+    /// θ, rad per step.
     pub theta: f64,
     /// cos θ and sin θ.
     pub turn: [f64; 2],
@@ -52,13 +52,13 @@ pub(super) struct Wave {
 pub(super) struct Series {
     /// d, s.
     pub step: f64,
-    /// Steps in a period: no whole number.
+    /// Number of steps in a period, not an integer in general.
     pub steps: f64,
     /// α, κ and p.
     pub alpha: f64,
     pub kappa: f64,
     pub push: f64,
-    /// |p| + Σ|A|: what the load does not exceed, m a step squared.
+    /// |p| + Σ|A|: an upper bound of the load, m per step squared.
     pub load: f64,
     /// S and I: coefficients of z, z² …
     pub impulse: [f64; ORDER],

@@ -1,4 +1,4 @@
-//! A group of lanes under way: their constants, their states, and one step of the march.
+//! A group of lanes: their constants, their states, and one step of fixed length.
 
 use super::lane::{Lane, Stop};
 use super::rest::TAIL_HEIGHT;
@@ -29,35 +29,35 @@ pub(super) struct Constants<S: Simd, const W: usize> {
     pub whole: [Vector<S>; 3],
     pub bound: [Vector<S>; 3],
     pub waves: [Waves<S>; W],
-    /// Positions of the walls, m: infinite where there is none.
+    /// Positions of the walls, m; infinite for a wall that does not exist.
     pub lower: Vector<S>,
     pub upper: Vector<S>,
     /// e of the walls.
     pub restitution: [Vector<S>; 2],
-    /// The square of a speed after an impact, (m a step)², above which the body does not come to
+    /// The square of a speed after an impact, (m per step)², above which the body does not come to
     /// rest.
     pub tail: Vector<S>,
-    /// An acceleration below this is rounding, m a step squared.
+    /// An acceleration below this is rounding error, m per step squared.
     pub noise: Vector<S>,
 }
 
-/// What changes from event to event.
+/// The state of every lane.
 #[derive(Clone, Copy)]
 pub(super) struct State<S: Simd, const W: usize> {
     /// Steps since the period began.
     pub t: Vector<S>,
-    /// Displacement, m, and velocity, m a step.
+    /// Displacement, m, and velocity, m per step.
     pub u: Vector<S>,
     pub w: Vector<S>,
     /// Sine and cosine of the phase of every sine of the load.
     pub phase: [[Vector<S>; 2]; W],
-    /// A change of the start, carried along: of displacement, of velocity.
+    /// A small change of the initial state, carried along: of displacement, of velocity.
     pub tangent: [Vector<S>; 2],
-    /// The largest and the least displacement in the window; before it the walls, which are what
-    /// the motion is held against.
+    /// The largest and the smallest displacement in the window; before the window, the positions of
+    /// the walls.
     pub high: Vector<S>,
     pub low: Vector<S>,
-    /// The share of a step that is looked at next: 1 unless a whole one could not be decided.
+    /// The share of a step that is tried next: 1 unless a whole step could not be decided.
     pub share: Vector<S>,
 }
 
@@ -84,7 +84,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         }
     }
 
-    /// Puts an oscillator into lane `slot`.
+    /// Assigns an oscillator to lane `slot`.
     pub fn put(&mut self, slot: usize, lane: &Lane, series: &Series) {
         self.steps.put(slot, series.steps);
         self.alpha.put(slot, series.alpha);
@@ -95,7 +95,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         put_all(&mut self.whole, slot, &series.whole);
         put_all(&mut self.bound, slot, &series.bound);
         for (index, wave) in self.waves.iter_mut().enumerate() {
-            // A sine that the lane does not have has no amplitude.
+            // Sines that the oscillator does not have get amplitude 0.
             let (theta, turn, start, of, whole) = match series.waves.get(index) {
                 Some(w) => (w.theta, w.turn, w.start, w.series, w.whole),
                 None => (0.0, [1.0, 0.0], [0.0, 1.0], [[0.0; ORDER]; 2], [[0.0; 2]; 2]),
@@ -114,7 +114,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         let far = [lane.lower, lane.upper].into_iter().flatten().fold(0.0, |far: f64, s| far.max(s.position.abs()));
         let most = series.load + series.kappa * far;
         self.noise.put(slot, 16.0 * f64::EPSILON * most);
-        // Twice the largest v²/2p of such a flight, with the rounding of the wall's place.
+        // Twice the largest v²/2p of such a flight, with the rounding error of the wall's position.
         self.tail.put(slot, 4.0 * most * (TAIL_HEIGHT * lane.length() + 8.0 * f64::EPSILON * far));
         for (e, stop) in self.restitution.iter_mut().zip([lane.lower, lane.upper]) {
             let value = match stop.map(|s| s.law) {
@@ -125,14 +125,14 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         }
     }
 
-    /// Every lane on by a whole step, and where it could have met a wall or a new extreme of its
-    /// window on the way.
+    /// Advances every lane by a whole step, and returns in which lanes it could have met a wall or
+    /// passed an extreme of its window.
     ///
     /// Over a step of length h the motion is within |u⁗|z²(h − z)²/24 of the cubic that has its
     /// values and slopes at both ends. In Bernstein form that cubic has the control points u₀, u₀ +
     /// w₀h/3, u₁ − w₁h/3, u₁ with weights B₀ … B₃ ≥ 0 of sum 1, and z²(h − z)² ≤ h⁴(B₁ + B₂)/12. So
-    /// where u₀ and u₁ are before a wall, and the two inner points by |u⁗|h⁴/288 at least, the
-    /// motion is before it throughout: a graze is never passed.
+    /// where u₀ and u₁ are before a wall, and the two inner points are before it by at least
+    /// |u⁗|h⁴/288, the motion is before it throughout the step: no grazing contact is missed.
     #[inline(always)]
     pub fn march(&self, a: &State<S, W>) -> (State<S, W>, Mask<S>) {
         let p = self.kappa.taken_from(a.u, self.push);
@@ -167,7 +167,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         b1.fma(a.w.abs(), b2.fma(a.u.abs(), b0))
     }
 
-    /// Phases and tangents `z` on.
+    /// Advances phases and carried changes by `z`.
     #[inline(always)]
     pub fn turn(&self, a: &mut State<S, W>, z: Vector<S>) {
         for (wave, [sin, cos]) in self.waves.iter().zip(&mut a.phase) {
@@ -184,8 +184,8 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         a.tangent = [dw.fma(s, du * stay), dw.fma(rate, -(self.kappa * s * du))];
     }
 
-    /// Starts a new period in the lanes where `begun`: the time and the phases are known there
-    /// exactly, so that rounding does not gather.
+    /// Starts a new period in the lanes where `begun`: time and phases are known exactly there, and
+    /// are set, so that rounding errors do not accumulate.
     #[inline(always)]
     pub fn restart(&self, a: &mut State<S, W>, begun: Mask<S>) {
         a.t = begun.pick(a.t.all(0.0), a.t);

@@ -1,39 +1,39 @@
-//! What happens next in a lane that could not march: an impact, a turn of the motion, the end of a
-//! period, or nothing.
+//! The next event of a lane that could not make a whole step: an impact, a turning point, the end
+//! of a period, or none.
 
 use super::series::ORDER;
 use super::state::{Constants, State, rates};
 use super::vector::{Mask, Vector, polynomial};
 use pulp::Simd;
 
-/// Steps of an iteration at most: Halley's method takes three or four, halving between two bounds
-/// 52.
+/// Maximum number of iterations: Halley's method takes three or four, bisection 52.
 const MOST_STEPS: usize = 64;
 
-/// Halley's steps on the first terms of the series, which bring a root to 1e-6 of the time or so …
+/// Number of Halley's steps on the first terms of the series, which find a root to about 1e-6 of
+/// the time …
 const ROUGH_STEPS: usize = 3;
 
-/// … and how many terms: the next is of the size of REACH⁹/9! = 1e-7.
+/// … and the number of these terms: the next one is of the size REACH⁹/9! = 1e-7.
 const ROUGH: usize = 8;
 
-/// Halley's step is the last if it is shorter than this share of the time …
+/// The iteration ends after a step of Halley's method shorter than this share of the time …
 const LAST: f64 = 1e-6;
 
-/// … and changes the speed by less than this share: what is left is the cube of either.
+/// … which changes the speed by less than this share: the error left is the cube of these.
 const STRAIGHT: f64 = 1e-5;
 
-/// Newton's step to a turn is the last if it is shorter than this share of the stretch: what is
-/// left is its square.
+/// Newton's iteration for a turning point ends after a step shorter than this share of the stretch:
+/// the error left is its square.
 const LAST_TURN: f64 = 1e-9;
 
-/// What came of a stretch, lane by lane; a lane in which nothing of it is true has moved on, or
-/// will look at less.
+/// The event of a stretch in each lane; a lane without an event has advanced, or will try a shorter
+/// stretch.
 pub(super) struct Ended<S: Simd> {
     /// The end of the period was reached.
     pub strobed: Mask<S>,
     /// The lower, the upper wall was struck …
     pub struck: [Mask<S>; 2],
-    /// … at this speed, m a step.
+    /// … at this speed, m per step.
     pub speed: Vector<S>,
 }
 
@@ -79,8 +79,8 @@ impl<S: Simd> Path<S> {
         polynomial(&self.bend, z)
     }
 
-    /// Where u′ vanishes in (0, h), in the lanes where it changes its sign over it: Newton's method
-    /// kept between two bounds.
+    /// The zero of u′ in (0, h), in the lanes where u′ changes its sign over it: Newton's method
+    /// within a bracket.
     #[inline(always)]
     fn turn(&self, asked: Mask<S>, h: Vector<S>, [w0, w1]: [Vector<S>; 2]) -> Vector<S> {
         let half = h.all(0.5);
@@ -104,9 +104,9 @@ impl<S: Simd> Path<S> {
         z
     }
 
-    /// Where `gap` − side · (u(z) − u(0)) vanishes in (0, far), below 0 at `far` by `over`; and
-    /// where it was not found. Halley's method kept between two bounds, from the parabola through
-    /// both ends.
+    /// Where `gap` − side · (u(z) − u(0)) vanishes in (0, far), below 0 at `far` by `over`; and the
+    /// lanes in which it was not found. Halley's method within a bracket, starting from the
+    /// parabola through both ends.
     #[inline(always)]
     fn meet(
         &self,
@@ -152,8 +152,8 @@ impl<S: Simd> Path<S> {
     }
 }
 
-/// The greatest and the least that the inner control points of a stretch of length `z` allow, seen
-/// from its start at speed `w0`: see [`Constants::march`].
+/// Upper and lower bound of the motion over a stretch of length `z`, relative to its start at speed
+/// `w0`, by the inner control points of [`Constants::march`].
 #[inline(always)]
 fn inner<S: Simd>(w0: Vector<S>, margin: Vector<S>, z: Vector<S>, [way, w]: [Vector<S>; 2]) -> (Vector<S>, Vector<S>) {
     let third = z * z.all(1.0 / 3.0);
@@ -163,10 +163,11 @@ fn inner<S: Simd>(w0: Vector<S>, margin: Vector<S>, z: Vector<S>, [way, w]: [Vec
 }
 
 impl<S: Simd, const W: usize> Constants<S, W> {
-    /// Moves every lane that is `active` over the next stretch of at most one step: to the first
-    /// wall met on it, to a turn that could be a graze or the window's new extreme, to the end of
-    /// the period or of the step. What cannot be decided (the certificate of [`Constants::march`]
-    /// fails) stays where it is, and looks at half as much next time.
+    /// Advances every lane that is `active` over the next stretch of at most one step: to the first
+    /// wall met in it, to a turning point that could be a grazing contact or a new extreme of the
+    /// window, to the end of the period or of the step. A lane in which this cannot be decided (the
+    /// bound of [`Constants::march`] does not suffice) stays where it is, and tries half the length
+    /// next time.
     #[inline(always)]
     pub fn stretch(&self, a: &mut State<S, W>, active: Mask<S>) -> Ended<S> {
         let (zero, one) = (a.t.all(0.0), a.t.all(1.0));
@@ -178,7 +179,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         let (mut way, mut w) = (path.way(h), path.rate(h));
         let (mut over, mut under) = (way.gt(gap_upper), (-way).gt(gap_lower));
         let margin = self.margin(a);
-        // A turn that could pass the wall or the extreme: to the turn.
+        // A turning point that could be beyond the wall or the extreme: advance to it.
         let (above, below) = inner(a.w, margin, h, [way, w]);
         let upper_turn = a.w.gt(zero) & w.lt(zero) & above.max(way).ge(a.high - a.u);
         let lower_turn = a.w.lt(zero) & w.gt(zero) & below.min(way).le(a.low - a.u);
@@ -191,8 +192,8 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         }
         let (on_upper, on_lower) = (a.w.abs().le(zero) & gap_upper.le(zero), a.w.abs().le(zero) & gap_lower.le(zero));
         let crossing = active & (over | under) & !(on_upper | on_lower);
-        // Both ends move the same way, but not monotonously by the cubic of both ends: a turn and a
-        // turn back between them could be the new extreme.
+        // The velocities at both ends have the same sign, but the cubic is not monotonic: two
+        // turning points between them could be beyond the extreme.
         let both = a.w + w;
         let bent = (way - z * zero.all(1.0 / 3.0) * both) * both;
         let extreme = above.max(way).ge(a.high - a.u) | below.min(way).le(a.low - a.u);
@@ -230,9 +231,10 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         Ended { strobed, struck, speed }
     }
 
-    /// Where a body that is let go by a wall, without speed, keeps off it up to `z`: with the
-    /// acceleration 2c₂ and the jerk 6c₃ away from it its gap is at least z²(c₂ + c₃z − |u⁗|z²/24),
-    /// whose bracket is concave. An acceleration of rounding, as at a release from rest, is none.
+    /// The lanes in which a body that a wall releases without speed stays off it up to `z`: with
+    /// the acceleration 2c₂ and the jerk 6c₃ away from the wall its gap is at least z²(c₂ + c₃z −
+    /// |u⁗|z²/24), whose bracket is concave. An acceleration that is rounding error, as at a
+    /// release from rest, counts as zero.
     #[inline(always)]
     fn lifts(&self, path: &Path<S>, z: Vector<S>, margin: Vector<S>, away: Vector<S>) -> Mask<S> {
         let (c2, c3) = (away * path.way[1], away * path.way[2]);
@@ -240,8 +242,8 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         c2.ge(-self.noise) & end.gt(z.all(0.0))
     }
 
-    /// Newton's law in the lanes that struck a wall, with u″ = `bend` before it; and on the change
-    /// of the start the derivative of the map from one side of the impact to the other (Leine &
+    /// Applies Newton's impact law in the lanes that struck a wall, with u″ = `bend` before it, and
+    /// to the change of the initial state the derivative of the map across the impact (Leine &
     /// Nijmeijer 2004, doi:10.1007/978-3-540-44398-8, ch. 7):
     ///
     /// δu⁺ = −e δu⁻,  δw⁺ = −e δw⁻ + (u″⁺ + e u″⁻)/w⁻ δu⁻ with u″⁺ = u″⁻ + α(1 + e)w⁻.

@@ -1,4 +1,4 @@
-//! Numbers side by side, one a lane: the arithmetic of the engine, as it is written on paper.
+//! Vectors with one number per lane: the arithmetic of the engine.
 //!
 //! Every operation acts on each lane by itself, so what a lane computes does not depend on its
 //! neighbours. Products and sums are fused only where [`Vector::fma`] says so; there, a machine
@@ -8,17 +8,18 @@ use pulp::Simd;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// One number a lane.
+/// One number per lane.
 ///
-/// No closure may stand in code that uses it: compiled by itself, without the instructions that the
-/// engine was compiled for, it would make a call of every product.
+/// Code that uses it must not contain closures: a closure is compiled separately, without the
+/// instructions that the engine is compiled for, and every product in it would become a function
+/// call.
 #[derive(Clone, Copy)]
 pub(super) struct Vector<S: Simd> {
     simd: S,
     x: S::f64s,
 }
 
-/// One truth value a lane.
+/// One boolean per lane.
 #[derive(Clone, Copy)]
 pub(super) struct Mask<S: Simd> {
     simd: S,
@@ -89,7 +90,7 @@ impl<S: Simd> Vector<S> {
         Mask { simd: self.simd, m: self.simd.greater_than_or_equal_f64s(self.x, b.x) }
     }
 
-    /// The number of one lane; 0 of a lane that there is not.
+    /// The number of one lane; 0 if there is no such lane.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> f64 {
         cast_slice::<S::f64s, f64>(std::slice::from_ref(&self.x)).get(lane).copied().unwrap_or(0.0)
@@ -170,8 +171,8 @@ impl<S: Simd> Not for Mask<S> {
     }
 }
 
-/// Σ cₙ zⁿ of an even number of coefficients: even and odd powers apart, two short chains of
-/// products for one long one.
+/// Σ cₙ zⁿ of an even number of coefficients. Even and odd powers are summed separately, which
+/// makes two short chains of dependent products from a long one.
 #[inline(always)]
 pub(super) fn polynomial<S: Simd>(c: &[Vector<S>], z: Vector<S>) -> Vector<S> {
     let square = z * z;
@@ -185,7 +186,7 @@ pub(super) fn polynomial<S: Simd>(c: &[Vector<S>], z: Vector<S>) -> Vector<S> {
     odd.fma(z, even)
 }
 
-/// The same with numbers for coefficients.
+/// The same with coefficients that are equal in all lanes.
 #[inline(always)]
 pub(super) fn series<S: Simd, const N: usize>(c: &[f64; N], z: Vector<S>) -> Vector<S> {
     let mut vectors = [z; N];

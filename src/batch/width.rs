@@ -1,20 +1,20 @@
-//! Which instructions the lanes use.
+//! The instruction set of the lanes.
 
 use crate::error::{Error, Result};
 use pulp::{Arch, Scalar, Simd, WithSimd};
 
-/// Lanes side by side: the instructions that a batch uses.
+/// The instruction set that a batch uses, and with it the number of lanes.
 ///
-/// Those with fused products (AVX2, AVX-512, and what [`Width::Widest`] is on other processors with
-/// them, such as NEON) give the same bits as one another. Plain lanes round products before they
-/// add and differ from those in the last places, which chaos makes all places.
+/// Those with fused multiply-add (AVX2, AVX-512, and [`Width::Widest`] on other processors that
+/// have it, such as NEON) give the same bits. Plain lanes round products before adding, and their
+/// results differ in the last digits, and in chaotic motion in all digits.
 ///
-/// The lanes use no function of the system's mathematics library, whose last digit may hang on the
-/// processor, but the logarithm of an exponent; the scheme `event`, which follows what lanes do not
-/// hold, does.
+/// Apart from the logarithm for exponents, the lanes do not use the system's mathematical library,
+/// whose last digits may depend on the processor; the scheme `event`, which computes what the lanes
+/// do not support, does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Width {
-    /// The widest that this machine has.
+    /// The widest of this machine.
     Widest,
     /// Eight lanes.
     Avx512,
@@ -25,7 +25,7 @@ pub enum Width {
 }
 
 impl Width {
-    /// Those that this machine has.
+    /// The widths that this machine has.
     #[must_use]
     pub fn available() -> Vec<Self> {
         [Self::Widest, Self::Avx512, Self::Avx2, Self::Plain]
@@ -35,7 +35,7 @@ impl Width {
     }
 
     /// # Errors
-    /// [`Error::Invalid`] where this machine does not have it.
+    /// [`Error::Invalid`] if this machine does not have it.
     pub(super) fn check(self) -> Result<()> {
         let has = match self {
             Self::Widest | Self::Plain => true,
@@ -56,7 +56,7 @@ impl Width {
         ))
     }
 
-    /// Runs `op` on these instructions, or on the widest where this machine does not have them.
+    /// Runs `op` with these instructions, or with the widest if this machine does not have them.
     pub(super) fn dispatch<O: WithSimd>(self, op: O) -> O::Output {
         #[cfg(target_arch = "x86_64")]
         match self {

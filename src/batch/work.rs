@@ -1,4 +1,5 @@
-//! A share of a batch: what the lanes take, and what goes to the scheme `event`.
+//! A share of a batch: the oscillators that the lanes compute, and those left to the scheme
+//! `event`.
 
 use super::engine::Engine;
 use super::handed::follow;
@@ -10,10 +11,10 @@ use super::width::Width;
 use crate::error::Result;
 use crate::scene::{Side, WallLaw};
 
-/// Sines of a lane's load at most; the scheme `event` takes more.
+/// Maximum number of sines of a lane's load; the scheme `event` accepts more.
 const MOST_SINES: usize = 4;
 
-/// Oscillators that one thread follows.
+/// The oscillators that one thread computes.
 pub(super) struct Work<'a> {
     pub lanes: &'a [Lane],
     pub outcomes: &'a mut [Option<Result<Outcome>>],
@@ -31,7 +32,8 @@ impl Work<'_> {
         let mut found: Vec<Option<Outcome>> = vec![None; lanes.len()];
         let sines = guests.iter().map(|guest| guest.lane.sines.len()).max().unwrap_or(0);
         let results = Results { outcomes: &mut found, strobes: &mut *strobes, settle, keep };
-        // A sine without amplitude changes no bit: the number for the whole share does not matter.
+        // A sine of amplitude 0 changes no bit, so the number of sines for the whole share does not
+        // matter.
         if sines <= 1 {
             width.dispatch(Engine::<1> { guests: &guests, results });
         } else {
@@ -47,8 +49,8 @@ impl Work<'_> {
     }
 }
 
-/// The constants of an oscillator that the lanes hold: rigid walls, not started on one unless on
-/// the way off, few sines, and a step that is not far shorter than the period.
+/// The constants of an oscillator that the lanes support: rigid walls, no start on one except on
+/// the way off, few sines, and steps not too short compared with the period.
 fn seated(lane: &Lane) -> Option<Series> {
     let starts_free = |stop: Option<Stop>, side: Side| {
         stop.is_none_or(|stop| {

@@ -1,26 +1,27 @@
-//! The blows of a scene as a step takes them: momentum, the velocity that it makes, and where it
-//! takes the structure within the step.
+//! The impulsive loads ("blows") of a scene in a step: their momentum, the change of velocity and
+//! the displacement within the step that they cause.
 
 use super::frame::Frame;
 use super::space::{Space, zero};
 use crate::error::Result;
 use crate::scene::{Loads, Scene, SharedStructure};
 
-/// The blows, and what those last looked for amount to. All out of line: most scenes have none.
+/// The blows, and the effect of those found last. No function here is inlined, since most scenes
+/// have no blows.
 #[derive(Debug)]
 pub(super) struct Blows<S: Space> {
     loads: Loads,
     /// M.
     inertia: S::Factor,
     blow: S::Vector,
-    /// Where they take the displacement beside the rule of the step, m, and what they make of the
-    /// velocity, m/s.
+    /// The displacement that they cause in addition to that by the rule of the step, m, and the
+    /// change of velocity, m/s.
     pub shift: S::Vector,
     pub given: S::Vector,
 }
 
 impl<S: Space> Blows<S> {
-    /// Those of `scene`; none if it has none.
+    /// The blows of `scene`; `None` if it has none.
     pub fn new(scene: &Scene, structure: &SharedStructure) -> Result<Option<Self>> {
         let (loads, n) = (Loads::new(&scene.loads), structure.mass.size());
         if !loads.has_blows() {
@@ -85,7 +86,7 @@ impl<S: Space> Blows<S> {
         any
     }
 
-    /// Adds what the blows in (from, to] (s) make of the velocity to `v`.
+    /// Adds the change of velocity by the blows in (from, to] (s) to `v`.
     pub fn kick(&mut self, from: f64, to: f64, v: &mut S::Vector) {
         if self.loads.blow(from, to, self.blow.as_mut()) {
             S::solve(&mut self.inertia, &mut self.blow);

@@ -1,4 +1,4 @@
-//! What every scheme on a grid knows of the scene.
+//! The structure, its loads and its walls, as every scheme on a grid uses them.
 
 use super::blows::Blows;
 use super::frame::Frame;
@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::scene::{Scene, SharedStructure};
 
-/// The structure between its walls.
+/// The matrices, loads and walls of a scene, with the length of a step.
 #[derive(Debug)]
 pub(super) struct Body<S: Space> {
     pub n: usize,
@@ -24,13 +24,13 @@ pub(super) struct Body<S: Space> {
     pub touch: f64,
     /// True if C is not zero.
     pub damped: bool,
-    /// None without blows at any time, which is what most scenes have.
+    /// The impulsive loads ("blows"); `None` if the scene has none, as most scenes.
     pub blows: Option<Box<Blows<S>>>,
-    /// When the motion began or was taken up anew, s.
+    /// Time at which the motion was started or restarted, s.
     pub since: f64,
     forces: S::Forces,
-    /// The loads at the present instant and at the one before, N: a scheme moves them on once a
-    /// step.
+    /// The loads at the current instant of the grid and at the one before, N; a scheme updates them
+    /// once per step.
     pub load: S::Vector,
     load_before: S::Vector,
     /// q + hθv, m.
@@ -61,20 +61,21 @@ impl<S: Space> Body<S> {
         })
     }
 
-    /// Takes the motion up anew at `time` (s).
+    /// Restarts the motion at `time` (s).
     pub fn restart(&mut self, time: f64) {
         self.since = time;
         S::force(&mut self.forces, time, &mut self.load);
     }
 
-    /// Moves the loads on to `time` (s).
+    /// Updates the loads to `time` (s).
     #[inline]
     pub fn load_at(&mut self, time: f64) {
         std::mem::swap(&mut self.load, &mut self.load_before);
         S::force(&mut self.forces, time, &mut self.load);
     }
 
-    /// Writes the loads at the present instant and the extra force of the step to `b`, N.
+    /// Writes the sum of the loads at the current instant and the extra force of the step to `b`,
+    /// N.
     #[inline(always)]
     pub fn applied(&self, frame: &Frame<S>, b: &mut S::Vector) {
         for (b, (load, extra)) in b.as_mut().iter_mut().zip(self.load.as_ref().iter().zip(frame.extra.as_ref())) {
@@ -88,8 +89,8 @@ impl<S: Space> Body<S> {
         Symmetric::sum(&[(1.0, &m.mass), (ht, &m.damping), (ht * ht, &m.stiffness)])
     }
 
-    /// Writes h[f_θ + f_x − C v − K(q + hθv)] to `b`, N s, and notes the velocity before the step.
-    /// Once a step.
+    /// Writes h[f_θ + f_x − C v − K(q + hθv)] to `b`, N s, and copies the velocity before the step
+    /// to the frame. Must be called once per step, since it updates the loads.
     ///
     /// Not as h(f_θ + f_x) − h(C + hθK)v − hK q with both matrices kept, which takes a pass less:
     /// rounded apart from each other, they act as a small damper, which changed the energy by 2e-12
@@ -97,7 +98,8 @@ impl<S: Space> Body<S> {
     #[inline(always)]
     pub fn theta_momentum(&mut self, theta: f64, frame: &mut Frame<S>, b: &mut S::Vector) {
         let (h, ht) = (self.h, self.h * theta);
-        // Before the state is read: no number has to outlive the call of a sine.
+        // Before the state is read, so that no number must be kept in memory during the call of a
+        // sine.
         self.load_at(frame.end);
         let loads = self.load_before.as_ref().iter().zip(self.load.as_ref()).zip(frame.extra.as_ref());
         for (b, ((start, end), extra)) in b.as_mut().iter_mut().zip(loads) {
@@ -112,7 +114,7 @@ impl<S: Space> Body<S> {
         frame.before.clone_from(&frame.v);
     }
 
-    /// Where a wall sees the displacement `q` (m).
+    /// The displacement of a wall's row, g·q, m; of a velocity its rate.
     #[inline]
     pub fn seen(&self, wall: usize, q: &S::Vector) -> f64 {
         S::dot(&self.rows, wall, q)
@@ -128,8 +130,9 @@ impl<S: Space> Body<S> {
         }
     }
 
-    /// Adds the blows in (from, to] (s), times `scale`, to `b`, and writes the velocity that they
-    /// leave to the frame, given that before the step. Returns whether there was one.
+    /// Adds the impulses of the blows in (from, to] (s), times `scale`, to `b`, and writes the
+    /// velocity before the step plus the change by these blows to the frame. Returns whether there
+    /// was a blow.
     #[inline]
     pub fn strike(&mut self, (from, to): (f64, f64), scale: f64, b: &mut S::Vector, frame: &mut Frame<S>) -> bool {
         self.blows.as_mut().is_some_and(|blows| blows.strike((from, to), scale, b, frame))
@@ -142,22 +145,23 @@ impl<S: Space> Body<S> {
         self.blows.as_mut().is_some_and(|blows| blows.strike_about((since, step, h), scale, b, frame))
     }
 
-    /// Finds where the blows in each (from, to] take the displacement by `about` (s) beside what a
-    /// step makes of their sum: [`Body::shift`]. Returns whether there was one.
+    /// Computes the displacement d that the blows in each (from, to] cause up to the time `about`
+    /// (s), in addition to what the step's rule makes of their sum; [`Body::shift`] adds it.
+    /// Returns whether there was a blow.
     #[inline]
     pub fn find_blows(&mut self, spans: &[(f64, f64, f64)]) -> bool {
         self.blows.as_mut().is_some_and(|blows| blows.find(spans))
     }
 
-    /// Adds what the blows found add to the displacement to `q`.
+    /// Adds the displacement d of [`Body::find_blows`] to `q`.
     pub fn shift(&self, q: &mut S::Vector) {
         if let Some(blows) = &self.blows {
             q.as_mut().iter_mut().zip(blows.shift.as_ref()).for_each(|(q, shift)| *q += shift);
         }
     }
 
-    /// Takes the structure to where the blows of the step leave it, unless a rigid wall that pushes
-    /// was what they drove into.
+    /// Adds the displacement that the blows of the step cause, unless they drive the structure into
+    /// a rigid wall that pushes.
     #[inline]
     pub fn land(&mut self, spans: &[(f64, f64, f64)], frame: &mut Frame<S>) {
         if self.find_blows(spans) && !self.answers(&frame.pushing) {
@@ -165,20 +169,20 @@ impl<S: Space> Body<S> {
         }
     }
 
-    /// True if a rigid one of the walls `pushing` is what the blows found drive into.
+    /// True if the blows found drive the structure into a rigid wall among `pushing`.
     pub fn answers(&self, pushing: &[usize]) -> bool {
         pushing.iter().any(|&wall| self.drives(wall))
     }
 
-    /// True if the blows found drive into a wall, and it is rigid.
+    /// True if this wall is rigid and the blows found drive the structure into it.
     pub fn drives(&self, wall: usize) -> bool {
         let stop = self.walls[wall];
         let into = |blows: &Blows<S>| stop.sign * S::dot(&self.rows, wall, &blows.given) < 0.0;
         stop.law.is_rigid() && self.blows.as_deref().is_some_and(into)
     }
 
-    /// Adds −`scale` C d to `b`: what the damper feels of the way on which the blows found take the
-    /// displacement.
+    /// Adds −`scale` C d to `b`: the dampers' momentum over the displacement d that the blows found
+    /// cause.
     pub fn damp_shift(&self, scale: f64, b: &mut S::Vector) {
         if let Some(blows) = &self.blows {
             S::add_product(&self.damping, -scale, &blows.shift, b);

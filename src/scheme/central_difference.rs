@@ -2,12 +2,12 @@
 //!
 //! M(v₊ − v₋)/h = f − C(v₋ + v₊)/2 − K q + r(q).
 //!
-//! Stable while h²(K + k_w)/M ≤ 4; beyond that the walls throw the body back faster than it came.
-//! Smooth dampers are taken at the mean velocity, so they cost no stability. Order 2 where the step
-//! resolves the walls.
+//! Stable while h²(K + k_w)/M ≤ 4; beyond that, the body leaves the walls faster than it arrived.
+//! Smooth dampers are taken at the mean velocity, so they do not restrict the step. Order 2 where
+//! the step resolves the walls' springs.
 //!
 //! (M/h + C/2)(v₊ − v₋) = f − C v₋ − K q + J/h + Gᵀ r, where r is known but for the walls'
-//! dashpots, which feel the mean of v₋ and v₊ and never pull.
+//! dashpots, which act on the mean of v₋ and v₊ and never pull.
 
 use super::Counters;
 use super::body::Body;
@@ -27,7 +27,7 @@ pub(super) struct CentralDifference<S: Space> {
     staggered: Staggered<S>,
     /// M/h + C/2.
     factor: S::Factor,
-    /// The walls' velocities after the step as functions of their forces; none without dashpots.
+    /// The walls' velocities after the step as functions of their forces; `None` without dashpots.
     dashpots: Option<Walls>,
     /// The right-hand side, then v₊ − v₋.
     b: S::Vector,
@@ -45,8 +45,8 @@ impl<S: Space> CentralDifference<S> {
         Ok(Self { body, staggered, factor, dashpots, b, change })
     }
 
-    /// Adds the forces of the walls that the structure is behind. Out of line: most steps are
-    /// before all of them.
+    /// Adds the forces of the walls that the structure penetrates. Not inlined: in most steps it
+    /// penetrates none.
     #[inline(never)]
     fn press(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, staggered, factor, dashpots, b, change } = self;
@@ -62,7 +62,7 @@ impl<S: Space> CentralDifference<S> {
                 let (stop, depth) = (body.walls[wall], depth(wall));
                 let rate = -stop.sign * 0.5 * (body.seen(wall, v) + after);
                 let pressure = stop.law.pressure(depth, 0.0) + stop.law.damping() * rate;
-                // A wall found to pull lets go.
+                // A wall that would pull has no force.
                 let holds = depth > 0.0 && pressure > 0.0;
                 let (force, slope) = if holds { (stop.sign * pressure, 0.5 * stop.law.damping()) } else { (0.0, 0.0) };
                 Answer { force, slope, noise: 0.0 }

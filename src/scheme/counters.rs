@@ -1,8 +1,8 @@
-//! What a run has cost.
+//! Counters of the work of a run.
 
 use serde::{Deserialize, Serialize};
 
-/// What a run has cost, in units that do not depend on the machine.
+/// The work of a run, in units that do not depend on the machine.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Counters {
@@ -10,11 +10,11 @@ pub struct Counters {
     pub steps: u64,
     /// Steps that met a wall and solved a quadratic programme.
     pub qp_solves: u64,
-    /// Interior-point iterations of those.
+    /// Interior-point iterations in these programmes.
     pub interior_point_iterations: u64,
-    /// Pivots of those.
+    /// Pivots (exchanges of active sets) in these programmes.
     pub pivots: u64,
-    /// Programmes that pivoting did not settle, and that were solved through Clarabel.
+    /// Programmes in which pivoting found no solution, and which Clarabel solved.
     pub qp_fallbacks: u64,
     /// Newton iterations of the penalty schemes.
     pub newton_iterations: u64,
@@ -22,9 +22,9 @@ pub struct Counters {
     pub events: u64,
     /// Evaluations of the closed-form motion by the exact scheme's search for events.
     pub flow_evaluations: u64,
-    /// Steps in which opposite walls took turns, so that the body stood still between them: the
-    /// step is too large.
+    /// Steps in which a wall pushed right after the opposite one, so that the body stood still
+    /// between them: the step is too large.
     pub frozen_steps: u64,
-    /// Steps by which the exact scheme had moreau-jean cross stretches that it cannot close.
+    /// Steps of moreau-jean through stretches of impacts that the exact scheme cannot resolve.
     pub handed_steps: u64,
 }

@@ -1,12 +1,12 @@
-//! The state that a scheme carries, and what it shows of each step.
+//! The state of a scheme on a grid, and the results of its last step.
 
 use super::space::{Space, zero};
 use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Path, Step};
 
-/// What a scheme reads and writes of each step; lent out as a [`Step`]. Vectors over degrees of
-/// freedom have n entries, those over walls as many as there are.
+/// The state and the results of a step, which a scheme reads and writes, and which is lent out as a
+/// [`Step`]. Vectors over degrees of freedom have n entries, those over walls one entry per wall.
 #[derive(Debug)]
 pub(super) struct Frame<S: Space> {
     pub start: f64,
@@ -17,26 +17,26 @@ pub(super) struct Frame<S: Space> {
     /// Velocities that enter and leave the momentum balance, m/s.
     pub before: S::Vector,
     pub after: S::Vector,
-    /// Velocity that a wall answers, m/s: `before` and the blows of the step; good where there are
-    /// blows.
+    /// Velocity before the step plus the change by its blows, m/s, to which impact laws refer;
+    /// valid only if `blown`.
     pub struck: S::Vector,
     /// True if the step had a blow.
     pub blown: bool,
-    /// The caller's extra force, N, as it enters the balance.
+    /// The caller's extra force, N, as it enters the momentum balance.
     pub extra: S::Vector,
     /// Impulse (N s) and force (N) of each wall, signed.
     pub impulse: Vec<f64>,
     pub force: Vec<f64>,
     jump: Vec<f64>,
-    /// True if all walls took one restitution in the step, because with their own no displacement
-    /// keeps all bounds.
+    /// True if all walls took the same restitution in the step, because with their own ones no
+    /// displacement satisfies all bounds.
     pub one_restitution: bool,
     /// Walls whose impulse is not zero; all others have an impulse and a force of zero.
     pub pushing: Vec<usize>,
 }
 
 impl<S: Space> Frame<S> {
-    /// The start of `scene`, after any blow at t = 0.
+    /// The state at the start of `scene`, after any blow at t = 0.
     pub fn new(scene: &Scene) -> Result<Self> {
         let (n, walls) = (scene.initial.q.len(), scene.walls.len());
         let mut v = S::vector(&scene.initial.v);
@@ -63,7 +63,7 @@ impl<S: Space> Frame<S> {
         })
     }
 
-    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each.
+    /// Restarts at `time` (s) from `q` (m) and `v` (m/s), n entries each.
     pub fn restart(&mut self, time: f64, q: &[f64], v: &[f64]) {
         (self.start, self.end, self.blown) = (time, time, false);
         self.q.as_mut().copy_from_slice(q);
@@ -74,7 +74,8 @@ impl<S: Space> Frame<S> {
         self.let_go();
     }
 
-    /// Begins a step of `h` seconds, number `step`: its times, and no wall touched yet.
+    /// Begins step number `step` of `h` seconds: sets its times, and the forces of all walls to
+    /// zero.
     #[inline]
     pub fn begin(&mut self, step: u64, h: f64) {
         self.start = step as f64 * h;
@@ -84,8 +85,8 @@ impl<S: Space> Frame<S> {
         }
     }
 
-    /// Forgets the walls of the last step, or of one that is solved once more. Out of line: most
-    /// steps touch none.
+    /// Sets the forces of all walls to zero, before a new step or before a step is solved again.
+    /// Not inlined: most steps touch no wall.
     #[inline(never)]
     pub fn let_go(&mut self) {
         for wall in self.pushing.drain(..) {
@@ -94,7 +95,8 @@ impl<S: Space> Frame<S> {
         }
     }
 
-    /// Lists the walls whose force is not zero, over the whole of a step of `h` seconds.
+    /// Lists the walls whose force is not zero, and sets their impulses: the force times the step
+    /// of `h` seconds.
     pub fn push_by_force(&mut self, h: f64) {
         for (wall, &force) in self.force.iter().enumerate().filter(|(_, force)| **force != 0.0) {
             self.impulse[wall] = h * force;
@@ -102,13 +104,13 @@ impl<S: Space> Frame<S> {
         }
     }
 
-    /// Velocity that a wall answers, m/s.
+    /// Velocity to which impact laws refer, m/s: before the step, with its blows.
     #[inline]
     pub fn struck(&self) -> &S::Vector {
         if self.blown { &self.struck } else { &self.before }
     }
 
-    /// Refuses a state that is not finite.
+    /// An error if the state is not finite.
     #[inline]
     pub fn check(&self, step: u64) -> Result<()> {
         if all_finite(self.q.as_ref()) && all_finite(self.v.as_ref()) { Ok(()) } else { Err(self.refusal(step)) }
@@ -120,8 +122,8 @@ impl<S: Space> Frame<S> {
         Error::NotFinite { time: self.end, step, what }
     }
 
-    /// Step number `index`, with the contacts that it closed. Inlined, so that a caller pays for
-    /// the fields it reads only.
+    /// Step number `index`, with the contacts that ended in it. Inlined, so that the compiler
+    /// leaves out the fields that a caller does not read.
     #[inline(always)]
     pub fn step<'a>(&'a self, index: u64, closed: &'a [Contact]) -> Step<'a> {
         Step {
@@ -142,8 +144,8 @@ impl<S: Space> Frame<S> {
     }
 }
 
-/// True if every number is finite. Without a branch an entry, so that the compiler looks at several
-/// at once.
+/// True if every number is finite. There is no branch per entry, so that the compiler can check
+/// several at once.
 #[inline]
 pub(super) fn all_finite(x: &[f64]) -> bool {
     x.iter().fold(true, |all, x| all & x.is_finite())

@@ -3,13 +3,13 @@
 //! Chen, Acary, Virlez & Brüls 2013, Int. J. Numer. Methods Engrg. 96, doi:10.1002/nme.4563, and
 //! Brüls, Acary & Cardona 2014, Comput. Methods Appl. Mech. Engrg. 281,
 //! doi:10.1016/j.cma.2014.07.025. Chung & Hulbert's rule carries an auxiliary acceleration a of the
-//! smooth forces, which are those of the state that the walls leave,
+//! smooth forces, which are evaluated at the state with the walls' corrections,
 //!
 //! M[(1−α_m)a⁺ + α_m a] = (1−α_f)F⁺ + α_f F,
 //!
 //! F = f − Cv − Kq + r_elastic at (t, q, v), F⁺ at (t⁺, q⁺, v⁺);
 //!
-//! the rigid walls act beside it, on the displacement by a correction U and on the velocity by
+//! the rigid walls act in addition, on the displacement by a correction U and on the velocity by
 //! their impulses p:
 //!
 //! q⁺ = q + hv + h²[(½−β)a + βa⁺] + U,            0 ≤ gap(q⁺) ⟂ |ν| ≥ 0,
@@ -17,31 +17,31 @@
 //! v⁺ = v + h[(1−γ)a + γa⁺] + M⁻¹Gᵀp, 0 ≤ ±(ẇ⁺ + εẇ) ⟂ |p| ≥ 0 at the walls that are closed at q⁺,
 //!
 //! with ε = e where the body approaches or rests, 1 where it separates; ẇ is the velocity after the
-//! step's blows, so v⁺ = −v is among the motions allowed: there is always one. A body at rest keeps
-//! v = 0, so that M a = F and p = −hF: the force at rest is the static one at every step. (With the
-//! smooth force at a state before the walls' correction it is too small, by a factor of 1 +
+//! step's blows, so v⁺ = −v is always admissible: a solution exists. A body at rest keeps v = 0, so
+//! that M a = F and p = −hF: the force at rest is the static one in every step. (With the smooth
+//! force at the state before the walls' correction it would be too small, by a factor of 1 +
 //! (1−α_f)(hc/m + h²k/2m) for one degree of freedom.)
 //!
-//! The papers solve for U and p together; their problem is not symmetric. Here they follow one
-//! another, each a convex programme. With μ = (1−α_m)/(1−α_f) and q̂, v̂ what is known of q⁺, v⁺
-//! without a⁺, Δ = q⁺ − q̂,
+//! The papers solve for U and p together; their problem is not symmetric. Here they are solved one
+//! after the other, each by a convex programme. With μ = (1−α_m)/(1−α_f), q̂ and v̂ the parts of q⁺
+//! and v⁺ without a⁺, and Δ = q⁺ − q̂,
 //!
 //! S Δ = b + Gᵀν,   S = [μM + hγC + h²βK]/(h²β);     T(v⁺ − v_c) = μ Gᵀp,   T = μM + hγC,
 //!
 //! where v_c is the velocity that the rule gives at q⁺ without p. Without damping U is that of the
-//! papers, M U = Gᵀν/μ. With it, U differs by what p does through C in a step; and where a rigid
-//! wall is met the damper in b feels v̂ less h(1−γ/2β)a, so that a body at rest is not moved by an
-//! a that the walls annul (at ρ∞ = 1, where γ = 2β, that is nothing).
+//! papers, M U = Gᵀν/μ. With damping, U differs by the effect of p through C within a step; and
+//! where a rigid wall is met, the damper in b takes v̂ − h(1−γ/2β)a, so that a body at rest is not
+//! moved by an a that the walls cancel (at ρ∞ = 1, where γ = 2β, the difference is zero).
 //!
-//! No rigid wall is ever passed, and no force of one enters the rule's memory a. In return nothing
-//! accounts for the work that the smooth force does on U: each impact makes or loses energy of
-//! order h.
+//! No rigid wall is ever penetrated, and the force of a rigid wall never enters the acceleration a.
+//! In return, the work of the smooth force over U is not accounted for: each impact gains or loses
+//! energy of order h.
 //!
-//! An extra force over the step moves the velocity by hM⁻¹f_x and the displacement by half a step
-//! of that, a blow at t_b the velocity by M⁻¹J and the displacement by (t⁺ − t_b) of that, outside
-//! of a. The rule has the damper feel J from the middle of the step on (the sum over all later
-//! steps counts, and γ = ½ + α_f − α_m makes it so): −C d with M d = (t⁺ − h/2 − t_b)J is added to
-//! the momentum.
+//! An extra force over the step changes the velocity by hM⁻¹f_x and the displacement by ½h times
+//! that; a blow at t_b changes the velocity by M⁻¹J and the displacement by (t⁺ − t_b) times that.
+//! Neither enters a. Summed over all later steps, with γ = ½ + α_f − α_m, the rule lets the damper
+//! act on M⁻¹J as if the blow came in the middle of the step: −C d with M d = (t⁺ − h/2 − t_b)J is
+//! added to the momentum.
 
 use super::Counters;
 use super::body::Body;
@@ -62,8 +62,8 @@ pub(super) struct GeneralizedAlpha<S: Space> {
     body: Body<S>,
     /// α_m, α_f, β, γ.
     alpha: [f64; 4],
-    /// h(1−γ/2β), s: the share of a that the damper does not feel where a wall is met; 0 without
-    /// damping.
+    /// h(1−γ/2β), s: times a, the velocity on which the damper does not act where a wall is met; 0
+    /// without damping.
     unfelt: f64,
     /// True if a rigid wall is closed at the step's start.
     closed: bool,
@@ -132,7 +132,7 @@ impl<S: Space> GeneralizedAlpha<S> {
         })
     }
 
-    /// q̂, v̂, f⁺ and what the last step leaves of the rule.
+    /// Computes q̂, v̂, f⁺ and `past`, the terms of the last step.
     fn predict(&mut self, frame: &mut Frame<S>) {
         let Self { body, alpha: [alpha_m, alpha_f, beta, gamma], a, force, past, given, q, v, .. } = self;
         let (h, alpha_m, alpha_f) = (body.h, *alpha_m, *alpha_f);
@@ -227,7 +227,8 @@ impl<S: Space> GeneralizedAlpha<S> {
         Ok(self.pushing.iter().any(|&wall| body.walls[wall].law.is_rigid()))
     }
 
-    /// The elastic walls' forces, and their impulses ½h(r + r⁺), of those that push at either end.
+    /// Writes the forces of the elastic walls, and the impulses ½h(r + r⁺) of those that push at
+    /// either end of the step.
     fn press(&mut self, frame: &mut Frame<S>) {
         let h = self.body.h;
         for wall in self.holding.drain(..) {
@@ -264,8 +265,8 @@ impl<S: Space> GeneralizedAlpha<S> {
         }
     }
 
-    /// Adds −`share` M⁻¹C d to v̂, with d the way on which the blows take the body beside the half
-    /// step that the rule gives their velocity.
+    /// Adds −`share` M⁻¹C d to v̂, with d the displacement that the blows cause in addition to half
+    /// a step of the velocity that they give.
     fn damp_blows(&mut self, share: f64, frame: &Frame<S>) {
         let Self { body, b, v, mass, .. } = self;
         if body.find_blows(&[(frame.start, frame.end, frame.end - 0.5 * body.h)]) {
@@ -276,8 +277,9 @@ impl<S: Space> GeneralizedAlpha<S> {
         }
     }
 
-    /// True if a rigid wall that is closed at q⁺ is what the blows drive into: it keeps the body
-    /// from that way, and what they would lose to the damper on it is the wall's.
+    /// True if the blows drive the body into a rigid wall that is closed at q⁺: it keeps the body
+    /// from that displacement, and the momentum that they would lose to the damper goes to the
+    /// wall.
     fn answers(&self, frame: &Frame<S>) -> bool {
         let Self { body, multiplier, .. } = self;
         let closed =
@@ -285,7 +287,8 @@ impl<S: Space> GeneralizedAlpha<S> {
         (0..body.walls.len()).any(|wall| body.drives(wall) && closed(wall))
     }
 
-    /// v⁺ and the impulses, at the rigid walls that are closed. Returns whether one pushes.
+    /// Solves for v⁺ and the impulses of the rigid walls that are closed. Returns whether one of
+    /// them pushes.
     fn correct_velocity(&mut self, frame: &mut Frame<S>, step: u64) -> Result<bool> {
         let (h, rate) = (self.body.h, &mut self.rate);
         let mut approaches = false;
@@ -298,7 +301,7 @@ impl<S: Space> GeneralizedAlpha<S> {
             }
             for seat in rate.seats(row) {
                 let Seat { wall: index, stop: wall } = rate.seat(seat);
-                // A multiplier says so too: q⁺ is on the wall to rounding of q.
+                // A wall with a multiplier is closed too: q⁺ is at it to the rounding error of q.
                 if self.multiplier[index] == 0.0 && wall.depth(w) < -self.body.touch {
                     continue;
                 }
@@ -358,7 +361,7 @@ impl<S: Space> Rule<S> for GeneralizedAlpha<S> {
             self.free_velocity(frame);
         }
         let pushed = self.correct_velocity(frame, step)?;
-        // F⁺, and with it a⁺ where the walls have changed it.
+        // F⁺, and a⁺ again if the walls have changed the state.
         let Self { body, alpha: [alpha_m, alpha_f, ..], force, past, a, mass, .. } = self;
         force.clone_from(&body.load);
         S::add_product(&body.damping, -1.0, &frame.v, force);

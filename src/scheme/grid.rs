@@ -1,5 +1,5 @@
-//! A scheme on a grid: its rule, the frame that the rule fills, and the contact episodes that its
-//! steps make.
+//! A scheme on a grid: its rule, the frame that the rule fills, and the contact episodes of its
+//! steps.
 
 use super::Counters;
 use super::frame::Frame;
@@ -12,7 +12,7 @@ use crate::qp::Backend;
 use crate::scene::Scene;
 use crate::step::{Contact, Contract, Step};
 
-/// One scheme over one scene, with the state it carries.
+/// One scheme on one scene, with its state.
 #[derive(Debug)]
 pub(super) struct Grid<S: Space> {
     rule: Box<dyn Rule<S>>,
@@ -26,7 +26,7 @@ pub(super) struct Grid<S: Space> {
 
 impl<S: Space> Grid<S> {
     /// The start of `scene`, whose walls feel `masses` (kg), by `rule`, whose steps of `h` seconds
-    /// keep `contract`.
+    /// satisfy `contract`.
     pub fn new(scene: &Scene, masses: &[f64], mut rule: Box<dyn Rule<S>>, contract: Contract, h: f64) -> Result<Self> {
         let frame = Frame::new(scene)?;
         rule.restart(scene, 0.0, &frame)?;
@@ -48,10 +48,10 @@ impl<S: Space> Grid<S> {
         Ok(())
     }
 
-    /// Sets the extra force of the step. Out of line: most runs have none.
+    /// Sets the extra force of the step. Not inlined: most runs have none.
     #[inline(never)]
     fn force(&mut self, extra: Option<&[f64]>) {
-        // A staggered rule shows half of the last one beside.
+        // A staggered rule has half of the last step's extra force in the frame.
         self.forced = extra.is_some() || self.frame.extra.as_ref().iter().any(|&force| force != 0.0);
         match extra {
             Some(extra) => self.frame.extra.as_mut().copy_from_slice(extra),
@@ -59,7 +59,7 @@ impl<S: Space> Grid<S> {
         }
     }
 
-    /// Shows the last step to the contact episodes. Out of line: most steps touch no wall.
+    /// Passes the last step to the contact episodes. Not inlined: most steps touch no wall.
     #[inline(never)]
     fn tell(&mut self) {
         let Self { frame, rows, episodes, h, .. } = self;

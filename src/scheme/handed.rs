@@ -1,16 +1,16 @@
-//! What the exact scheme did not follow itself.
+//! Stretches of a run that the exact scheme leaves to moreau-jean.
 
 use serde::{Deserialize, Serialize};
 
-/// A stretch that the exact scheme handed to moreau-jean: more impacts crowd there than it follows
-/// one by one.
+/// A stretch with more impacts than the exact scheme follows one by one, which moreau-jean
+/// computed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Handed {
-    /// From when, s.
+    /// Start, s.
     pub from: f64,
-    /// Until when, s.
+    /// End, s.
     pub to: f64,
-    /// With which step at most, s.
+    /// Largest step, s.
     pub step: f64,
 }

@@ -1,5 +1,5 @@
-//! The motion that was asked for: a scheme's rule over the space that the scene calls for, or the
-//! exact motion.
+//! Selects the motion that was asked for: a scheme's rule over the space that suits the scene, or
+//! the exact motion.
 
 use super::central_difference::CentralDifference;
 use super::event::Event;
@@ -20,8 +20,8 @@ use crate::error::{Error, Result};
 use crate::scene::{Checked, Scene};
 use crate::step::Step;
 
-/// A motion. That of one degree of freedom on a grid is no pointer: a caller's loop reads its steps
-/// where they are made.
+/// A motion. That of one degree of freedom on a grid is stored without a pointer, so that its steps
+/// can be inlined into a caller's loop.
 #[derive(Debug)]
 #[allow(clippy::large_enum_variant)]
 pub(super) enum Kernel {
@@ -29,7 +29,7 @@ pub(super) enum Kernel {
     Other(Box<dyn Motion>),
 }
 
-/// `scheme` over a space, with steps of `h` seconds. A new scheme gets its line here.
+/// `scheme` over a space, with steps of `h` seconds. A new scheme is added here.
 fn rule<S: Space>(scene: &Scene, Method { scheme, backend }: Method, h: f64) -> Result<Box<dyn Rule<S>>> {
     Ok(match scheme {
         Scheme::ImplicitEuler => Box::new(Position::<S>::new(scene, 1.0, h, backend)?),
@@ -54,7 +54,8 @@ fn grid<S: Space>(scene: &Checked, method: Method, h: f64) -> Result<Grid<S>> {
 }
 
 impl Kernel {
-    /// `method` on `scene` with steps of `step` seconds, for the exact motion at most so long.
+    /// `method` on `scene` with steps of `step` seconds; for the exact motion, the maximum length
+    /// of a step.
     pub fn new(scene: &Checked, method: Method, step: f64) -> Result<Self> {
         let line = scene.is_line();
         Ok(match method.scheme {
@@ -74,7 +75,8 @@ impl Kernel {
         }
     }
 
-    /// As [`Motion::step`]. Inlined, so that a caller pays for the fields it reads only.
+    /// As [`Motion::step`]. Inlined, so that the compiler leaves out the fields that a caller does
+    /// not read.
     #[inline(always)]
     pub fn step(&self, index: u64) -> Step<'_> {
         match self {
@@ -83,7 +85,7 @@ impl Kernel {
         }
     }
 
-    /// What is not asked in every step.
+    /// The motion, for what is not called in every step.
     pub fn motion(&self) -> &dyn Motion {
         match self {
             Self::Line(grid) => grid,

@@ -1,7 +1,8 @@
-//! One degree of freedom: numbers, and a clamp for every programme.
+//! One degree of freedom: vectors and matrices are numbers, and every programme is solved by a
+//! clamp.
 //!
-//! Walls stand on the degree of freedom itself: behind a lever an oscillator is
-//! [`Matrices`](super::matrices::Matrices) of one row.
+//! Walls stand on the degree of freedom itself. An oscillator with a wall behind a lever is
+//! computed by [`Matrices`](super::matrices::Matrices) of size 1.
 
 use super::space::{Solve, Space, indefinite};
 use crate::error::Result;
@@ -70,7 +71,7 @@ impl Space for Line {
     }
 }
 
-/// The programme in one unknown: the clamp, or the solver that was asked for in its place.
+/// The programme in one unknown: solved by the clamp, or by another solver if one was asked for.
 #[derive(Debug)]
 pub(super) struct Clamp {
     a: f64,
@@ -79,7 +80,7 @@ pub(super) struct Clamp {
     x: [f64; 1],
     rows: Vec<ScalarRow>,
     multiplier: Vec<f64>,
-    /// True if the minimiser is not the free one.
+    /// True if a bound is active, so that the minimiser is not that without bounds.
     met: bool,
     other: Option<Box<qp::Solver>>,
     solves: u64,
@@ -101,7 +102,7 @@ impl Solve<[f64; 1]> for Clamp {
     fn solve(&mut self, b: &[f64; 1], (lo, hi): (&[f64], &[f64]), _: &[usize]) -> std::result::Result<(), Failure> {
         let free = b[0] * self.inverse;
         self.x[0] = free;
-        // A free motion that is no number is for the state's check to refuse.
+        // If the free motion is NaN, no bound is active, and the check of the state reports it.
         self.met = lo.iter().zip(hi).any(|(&lo, &hi)| free < lo || free > hi);
         if self.met { self.meet(b[0], lo, hi) } else { Ok(()) }
     }
@@ -134,7 +135,7 @@ impl Solve<[f64; 1]> for Clamp {
 }
 
 impl Clamp {
-    /// A programme whose free motion passes a bound. Out of line: most do not.
+    /// Solves a programme whose free motion violates a bound. Not inlined: most do not.
     #[inline(never)]
     fn meet(&mut self, b: f64, lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
         self.solves += 1;

@@ -65,7 +65,7 @@ impl Space for Matrices {
 
     #[inline]
     fn force(forces: &mut Loads, time: f64, out: &mut Vec<f64>) {
-        // All others are 0 since the beginning.
+        // All other entries have been 0 from the beginning.
         for &(i, _) in forces.parts().iter().flat_map(|(row, _)| row.entries()) {
             if let Some(force) = out.get_mut(i) {
                 *force = 0.0;

@@ -6,18 +6,18 @@ use crate::qp::Backend;
 use std::fmt;
 use std::str::FromStr;
 
-/// What one run is made with. Written `moreau-jean`, `moreau-jean:theta=0.6,qp=clarabel`,
-/// `penalty:epsilon=1e-9` and the like.
+/// The scheme and the solver of one run. Written `moreau-jean`,
+/// `moreau-jean:theta=0.6,qp=clarabel`, `penalty:epsilon=1e-9` and the like.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Method {
-    /// How time advances.
+    /// The scheme.
     pub scheme: Scheme,
-    /// Who solves the programmes of the steps that meet a wall.
+    /// The solver of the quadratic programmes of the steps that meet a wall.
     pub backend: Backend,
 }
 
 impl Method {
-    /// A scheme with the solver that the scene's size calls for.
+    /// A scheme with the solver that is chosen by the size of the scene.
     #[must_use]
     pub fn new(scheme: Scheme) -> Self {
         Self { scheme, backend: Backend::Auto }

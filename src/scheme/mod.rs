@@ -4,14 +4,14 @@
 //! |---|---|
 //! | `moreau_jean.rs`, `position.rs`, `paoli_schatzman.rs`, `generalized_alpha.rs`, `penalty.rs`, `central_difference.rs` | the schemes on a grid |
 //! | `event/`, `structure_event/`, `exact/` | the exact scheme, of one degree of freedom and of several, and what both share |
-//! | `rule.rs`, `grid.rs` | what a scheme on a grid has to be, and what drives it |
-//! | `space.rs`, `line.rs`, `matrices.rs` | what it computes with: numbers, or vectors and matrices |
-//! | `body.rs`, `blows.rs`, `start.rs` | what it knows of the scene |
+//! | `rule.rs`, `grid.rs` | the trait of a scheme on a grid, and the type that drives it |
+//! | `space.rs`, `line.rs`, `matrices.rs` | its arithmetic: numbers, or vectors and matrices |
+//! | `body.rs`, `blows.rs`, `start.rs` | the structure, its walls and loads, and the forces at the start |
 //! | `programme.rs` | the quadratic programme of a step: walls to rows and back |
-//! | `newton.rs` | walls that answer by laws: semismooth Newton on their forces |
-//! | `staggered.rs` | what schemes share whose velocity is half a step behind |
-//! | `frame.rs` | the state, and what a step shows of itself |
-//! | `motion.rs`, `kernel.rs`, `stepper.rs` | a motion, the one asked for, and the public type over all |
+//! | `newton.rs` | walls with force laws: semismooth Newton on their forces |
+//! | `staggered.rs` | shared by schemes whose velocity is half a step behind |
+//! | `frame.rs` | the state, and the results of a step |
+//! | `motion.rs`, `kernel.rs`, `stepper.rs` | the trait of all motions, the choice of one, and the public type |
 
 mod blows;
 mod body;
@@ -75,8 +75,8 @@ pub enum Scheme {
     },
     /// Nonsmooth generalized-α: the walls on the displacement, then on the velocity.
     GeneralizedAlpha {
-        /// ρ∞ in [0, 1], what is left of the fastest free vibration after a step: 1 conserves, 0
-        /// takes it out at once.
+        /// ρ∞ in [0, 1], the factor by which a step multiplies the fastest free vibrations: 1
+        /// conserves them, 0 removes them in one step.
         rho: f64,
     },
     /// Average acceleration with the walls on the displacement: for demonstration, since it
@@ -94,14 +94,14 @@ pub enum Scheme {
 }
 
 impl Scheme {
-    /// True for a scheme whose steps that meet a wall solve a quadratic programme; a penalty solves
-    /// by Newton's method, the exact scheme by hand.
+    /// True for a scheme that solves a quadratic programme in every step that meets a wall. A
+    /// penalty uses Newton's method, the exact scheme closed forms and series.
     #[must_use]
     pub fn has_qp(&self) -> bool {
         !matches!(self, Self::Penalty { .. } | Self::Event)
     }
 
-    /// What every step of the scheme keeps.
+    /// The equations and conditions that every step of the scheme satisfies.
     #[must_use]
     pub fn contract(&self) -> Contract {
         let (balance, promise, instant) = match *self {

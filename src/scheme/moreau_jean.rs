@@ -1,4 +1,4 @@
-//! `moreau-jean`: the impact law on the velocity, for the walls the body is about to reach.
+//! `moreau-jean`: the impact law on the velocity, at the walls that the body is about to reach.
 //!
 //! Jean 1999, Comput. Methods Appl. Mech. Engrg. 177, doi:10.1016/S0045-7825(98)00383-1; Acary &
 //! Brogliato 2008, doi:10.1007/978-3-540-75392-6, ch. 10. With v⁺ = v + δ,
@@ -10,19 +10,19 @@
 //!
 //! minimise ½ A δ² − b δ   subject to   ẇ⁺ + ε ẇ ≤ 0 (upper), ≥ 0 (lower),    A = M + hθC + h²θ²K,
 //!
-//! with J the load impulses in the step and d what they add to the displacement beside the rule for
-//! it (see [`crate::step::Balance`]), over the walls that q + ½h v reaches, with ε = e where the
-//! body approaches or rests, 1 where it separates; in both the velocity ẇ is that after the blow
-//! J/M of the step, so that a body struck at rest on a wall rebounds like one that arrives. With
-//! θ = ½, e = 1, no damping and no load the energy is conserved exactly.
+//! over the walls that q + ½h v reaches. J are the load impulses in the step, and d is the
+//! displacement that they cause in addition to the rule's (see [`crate::step::Balance`]). ε = e
+//! where the body approaches or rests, 1 where it separates; the velocity ẇ is that after the load
+//! impulses of the step, so that a body struck while it rests on a wall rebounds like one that
+//! arrives. With θ = ½, e = 1, no damping and no load, energy is conserved exactly.
 //!
-//! No wall acts on the displacement: a body that comes to rest on one stays as deep behind it as
-//! its last impact left it, by up to ½h times the speed of arrival, and while it stays the force is
-//! that of its place: smaller by k times that depth than at the face, for a spring k that the body
-//! hangs on. To lift it to the face takes work, which would be energy from nowhere to this rule.
+//! Walls do not act on the displacement: a body that comes to rest on a wall stays at the depth at
+//! which its last impact left it, up to ½h times the speed of arrival. The contact force is then
+//! that of this position: with a spring k on the body, it is smaller than that at the wall's face
+//! by k times the depth. The body is not moved to the face, since that would change its energy.
 //!
-//! Order 1 through impacts. Where h v exceeds the gap, opposite walls take turns and the body
-//! stands still between them: such steps are counted.
+//! Order 1 through impacts. If h v exceeds the gap, opposite walls push in alternate steps and the
+//! body stands still between them: such steps are counted.
 
 use super::Counters;
 use super::body::Body;
@@ -40,10 +40,10 @@ pub(super) struct MoreauJean<S: Space> {
     theta: f64,
     programme: Programme<S>,
     b: S::Vector,
-    /// q + ½hv, with the velocity that the walls answer.
+    /// q + ½hv, with the velocity after the blows of the step.
     ahead: S::Vector,
-    /// The side from which a row's rigid walls pushed in the last step, as the sign of their force,
-    /// 0 if none did; and the rows where it is not 0.
+    /// The sign of the force of each row's rigid walls in the last step, 0 if none pushed; and the
+    /// rows where it is not 0.
     last: Vec<f64>,
     pushed: Vec<usize>,
     frozen: u64,
@@ -60,8 +60,8 @@ impl<S: Space> MoreauJean<S> {
         Ok(Self { body, theta, programme, b, ahead, last, pushed, frozen: 0 })
     }
 
-    /// Solves for δ, and the walls' impulses, where the row `first` may be met and none before it.
-    /// Out of line: most steps meet none.
+    /// Solves for δ and the walls' impulses, if the walls of row `first` may be met and those of no
+    /// row before it. Not inlined: most steps meet no wall.
     #[inline(never)]
     fn meet(&mut self, first: usize, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, programme, ahead, .. } = self;
@@ -74,7 +74,7 @@ impl<S: Space> MoreauJean<S> {
         self.settle(step, frame)
     }
 
-    /// The bounds of a row whose walls may be met, in δ.
+    /// Sets the bounds of a row whose walls may be met, in δ.
     fn bind(body: &Body<S>, theta: f64, programme: &mut Programme<S>, row: usize, reach: f64, frame: &Frame<S>) {
         let (h, ht) = (body.h, body.h * theta);
         let (w, before) = (programme.seen(row, &frame.q), programme.seen(row, &frame.v));
@@ -99,14 +99,15 @@ impl<S: Space> MoreauJean<S> {
         }
     }
 
-    /// Solves for δ, and the walls' impulses.
+    /// Solves for δ and the walls' impulses.
     fn settle(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         self.programme.solve(&self.b, (frame.start, step), &mut frame.impulse, &mut frame.pushing)
     }
 
-    /// The same where the blows take the structure beside the rule, and so do what the damper
-    /// feels. What a rigid wall answers stays as it is, which is known only when the walls have
-    /// been asked without. Returns whether the blows carry the structure on.
+    /// The blows of a step cause a displacement in addition to the rule's, over which the damper
+    /// acts too: solves again with that, unless the blows drive the structure into a rigid wall
+    /// that pushes, which shows only after the first solution. Returns whether the displacement by
+    /// the blows must be added.
     #[inline(never)]
     fn carry(&mut self, step: u64, frame: &mut Frame<S>) -> Result<bool> {
         let found = self.body.find_blows(&[(frame.start, frame.end, frame.end - self.body.h * self.theta)]);
@@ -121,8 +122,8 @@ impl<S: Space> MoreauJean<S> {
         Ok(true)
     }
 
-    /// The forces of a step with impulses; counts it if the walls on opposite sides of one place
-    /// took turns.
+    /// Writes the forces of a step with impulses, and counts the step as frozen if a wall pushed
+    /// right after one on the opposite side of the same row.
     #[inline(never)]
     fn watch(&mut self, frame: &mut Frame<S>) {
         let row_of = |wall: usize| self.programme.row_of(wall);
@@ -156,7 +157,7 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
         let (h, theta) = (body.h, *theta);
         frame.begin(step, h);
         body.theta_momentum(theta, frame, b);
-        // A blow comes first, and the wall answers the velocity it leaves.
+        // Blows come first: the impact law applies to the velocity after them.
         frame.blown = body.strike((frame.start, frame.end), 1.0, b, frame);
         let states = frame.q.as_ref().iter().zip(frame.struck().as_ref());
         for (ahead, (q, v)) in self.ahead.as_mut().iter_mut().zip(states) {

@@ -1,4 +1,4 @@
-//! What the stepper drives: a rule on a grid, or the exact motion.
+//! The trait of what the stepper drives: a rule on a grid, or the exact motion.
 
 use super::{Counters, Handed};
 use crate::error::Result;
@@ -7,15 +7,15 @@ use crate::scene::Scene;
 use crate::step::{Contact, Step};
 use std::fmt::Debug;
 
-/// A motion that goes on from step to step.
+/// A motion that is computed step by step.
 pub(super) trait Motion: Debug + Send {
-    /// Makes a step, number `step`, under the extra force (N, n entries; none is none).
+    /// Makes step number `step` under the extra force (N, n entries; `None` is zero force).
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()>;
 
-    /// The step last made, whose number is `index`.
+    /// The last step, whose number is `index`.
     fn step(&self, index: u64) -> Step<'_>;
 
-    /// Takes the motion up anew at `time` (s) from `q` (m) and `v` (m/s), n entries each.
+    /// Restarts the motion at `time` (s) from `q` (m) and `v` (m/s), n entries each.
     fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()>;
 
     /// Time reached, s.
@@ -24,17 +24,17 @@ pub(super) trait Motion: Debug + Send {
     /// Displacement and velocity there, m and m/s, n entries each.
     fn state(&self) -> (&[f64], &[f64]);
 
-    /// Contact episodes under way.
+    /// Contact episodes that have not ended.
     fn open_contacts(&self) -> Vec<Contact>;
 
-    /// Stretches handed to moreau-jean so far.
+    /// Stretches that the exact scheme has left to moreau-jean so far.
     fn handed(&self) -> &[Handed] {
         &[]
     }
 
-    /// Adds what the motion has cost so far.
+    /// Adds the work of the motion so far.
     fn count(&self, counters: &mut Counters);
 
-    /// The solver of the quadratic programmes; none without such programmes.
+    /// The solver of the quadratic programmes; `None` without such programmes.
     fn backend(&self) -> Option<Backend>;
 }

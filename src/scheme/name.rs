@@ -9,8 +9,8 @@ use std::str::FromStr;
 pub const NAMES: [&str; 7] =
     ["implicit-euler", "paoli-schatzman", "moreau-jean", "generalized-alpha", "newmark", "penalty", "event"];
 
-/// ρ∞ of generalized-alpha where none is given: a fifth of the fastest free vibration is taken out
-/// in each step, next to nothing of what is resolved.
+/// Default ρ∞ of generalized-alpha: each step takes a fifth off the amplitude of the fastest free
+/// vibrations, and almost nothing off those that it resolves.
 const RHO: f64 = 0.8;
 
 impl fmt::Display for Scheme {

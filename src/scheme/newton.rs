@@ -1,34 +1,34 @@
-//! Walls that answer by laws, condensed: find y with
+//! Walls with force laws, condensed onto their rows: find y with
 //!
 //! y = y₀ + S r(y),    S = G A⁻¹ Gᵀ · scale (m × m, semidefinite),
 //!
 //! where each force rᵢ(yᵢ) never rises with yᵢ. These are the optimality conditions of a convex
-//! function: semismooth Newton (Qi & Sun 1993, doi:10.1007/BF01581275) on the forces with a line
-//! search on that function's derivative settles for any start, and without the search in a handful
-//! of iterations. For laws that are linear by pieces it ends.
+//! function. Semismooth Newton (Qi & Sun 1993, doi:10.1007/BF01581275) on the forces, with a line
+//! search on that function's derivative, converges from any start, usually in a few iterations
+//! without the search. For piecewise linear laws it ends after finitely many iterations.
 
 use super::body::Body;
 use super::space::{Space, zero};
 
-/// Newton's method needs a handful of iterations; more than this many means that numbers are not
+/// Maximum number of iterations. A few are enough; reaching this many means that numbers are not
 /// finite.
 const LIMIT: usize = 200;
-/// From this iteration on a step must go downhill all the way: before, a little beyond the valley
-/// is allowed.
+/// From this iteration on, a step must not go beyond the minimum along its direction; before, it
+/// may go a little beyond.
 const STRICT: usize = 20;
-/// How far beyond: the slope there over that at the start.
+/// How far beyond: largest slope there, relative to the slope at the start of the step.
 const BEYOND: f64 = 0.1;
-/// Halvings of a step in search of the valley; a step 2⁻⁶⁰ as long is none.
+/// Maximum number of bisections in the line search; a step 2⁻⁶⁰ as long changes nothing.
 const SEARCH: usize = 60;
 
-/// What a wall answers to its yᵢ.
+/// The force of a wall at its yᵢ.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Answer {
     /// rᵢ, signed.
     pub force: f64,
     /// −drᵢ/dyᵢ, ≥ 0.
     pub slope: f64,
-    /// The length in yᵢ beside yᵢ itself whose rounding the force feels.
+    /// Size of the other terms, in units of yᵢ, whose rounding errors enter the force.
     pub noise: f64,
 }
 
@@ -38,7 +38,7 @@ pub(super) struct Walls {
     m: usize,
     /// S, by rows.
     s: Vec<f64>,
-    /// y₀, m entries: the caller's to write.
+    /// y₀, m entries, written by the caller.
     pub free: Vec<f64>,
     /// The forces found, m entries.
     pub force: Vec<f64>,
@@ -50,8 +50,8 @@ pub(super) struct Walls {
     step: Vec<f64>,
     shift: Vec<f64>,
     active: Vec<usize>,
-    /// The lower Cholesky factor of I + E S E on the walls in play, by rows with stride m, and E =
-    /// √slope.
+    /// The lower Cholesky factor of I + E S E on the active walls (those with a slope), by rows
+    /// with stride m, and E = √slope.
     factor: Vec<f64>,
     root: Vec<f64>,
     u: Vec<f64>,
@@ -59,7 +59,7 @@ pub(super) struct Walls {
 }
 
 impl Walls {
-    /// The walls of `body` behind the factored A.
+    /// The walls of `body`, with the factor of A.
     pub fn new<S: Space>(a: &mut S::Factor, body: &Body<S>, scale: f64) -> Self {
         let m = body.walls.len();
         let mut s = vec![0.0; m * m];
@@ -98,10 +98,10 @@ impl Walls {
         }
     }
 
-    /// Solves; forces and slopes are left in `force` and `slope`.
+    /// Solves for the forces; they and their slopes are left in `force` and `slope`.
     ///
     /// # Errors
-    /// The largest mismatch of a force with its law if it did not settle.
+    /// If it does not converge: the largest difference between a force and its law.
     pub fn solve(&mut self, law: impl Fn(usize, f64) -> Answer) -> Result<(), f64> {
         let m = self.m;
         self.guess.fill(0.0);
@@ -116,8 +116,8 @@ impl Walls {
                 let answer = law(i, self.y[i]);
                 (self.force[i], self.slope[i]) = (answer.force, answer.slope);
                 let mismatch = answer.force - self.guess[i];
-                // y is known to the rounding of its terms only, and the force to what the law makes
-                // of that.
+                // y is known to the rounding error of its terms only, and the force to the error
+                // that follows by the law.
                 let size = answer.force.abs() + self.guess[i].abs() + answer.slope * (self.size[i] + answer.noise);
                 settled &= mismatch.abs() <= units * size;
                 worst = f64::max(worst, mismatch.abs());
@@ -151,7 +151,7 @@ impl Walls {
         let Self { s, step, active, factor, root, u, slope, .. } = self;
         active.clear();
         active.extend((0..m).filter(|&i| slope[i] > 0.0));
-        // Walls out of play take their mismatch as it is, and move the others.
+        // Walls without a slope take their difference as it is, and change the y of the others.
         for (k, &i) in active.iter().enumerate() {
             root[k] = slope[i].sqrt();
             let others: f64 =
@@ -189,7 +189,7 @@ impl Walls {
         }
     }
 
-    /// Goes along the step: all of it, unless the convex function behind would rise again.
+    /// Line search: takes the whole step, unless the convex function would rise again along it.
     fn search(&mut self, law: &impl Fn(usize, f64) -> Answer, beyond: f64) {
         let m = self.m;
         self.shift.fill(0.0);
@@ -207,7 +207,7 @@ impl Walls {
         let (mut low, mut t) = (0.0, 1.0);
         let mut high = 1.0;
         for _ in 0..SEARCH {
-            // A slope that is rounding at the start has no valley to find.
+            // If the slope at the start is rounding error, there is no minimum to search for.
             let here = slope(t);
             if here.is_nan() || here <= beyond * start.abs() {
                 if t == 1.0 || here >= 0.5 * start {

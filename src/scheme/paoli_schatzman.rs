@@ -12,16 +12,16 @@
 //!
 //! with A = M/h² + C/2h + K/4.
 //!
-//! The multiplier r is the force at t. The velocity between the grid's instants is what the scheme
-//! carries: v₋ and v₊ = Δ/h; without walls it is the trapezoidal rule on the half steps, so it
-//! conserves their energy.
+//! The multiplier r is the force at t. The scheme carries the velocity between the grid's instants,
+//! v₋ and v₊ = Δ/h; without walls it is the trapezoidal rule on the half steps, and conserves their
+//! energy.
 //!
 //! Order 2 at e = 0, 1 at e > 0, where a wall is penetrated by up to 2ehv/(1+e).
 //!
-//! Where e differs between walls on rows that depend on one another (two masses and their
-//! distance), and one of them is penetrated, these bounds may contradict. With one e they never do,
-//! since q⁺ = (1+e)q_a − e q⁻ keeps them for every admissible q_a: such a step is made with the
-//! smallest e for all walls.
+//! If e differs between walls whose rows are linearly dependent (two masses and their distance),
+//! and one of them is penetrated, these bounds may contradict one another. With the same e for all
+//! they never do, since q⁺ = (1+e)q_a − e q⁻ satisfies them for every admissible q_a: such a step
+//! is made with the smallest e for all walls.
 
 use super::Counters;
 use super::body::Body;
@@ -68,7 +68,7 @@ impl<S: Space> PaoliSchatzman<S> {
         Ok(Self { body, staggered, unequal, least, programme, b, mean })
     }
 
-    /// Solves for Δ, and the walls' forces.
+    /// Solves for Δ and the walls' forces.
     #[inline]
     fn settle(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         self.bind(frame, None);
@@ -83,8 +83,8 @@ impl<S: Space> PaoliSchatzman<S> {
         solved
     }
 
-    /// The bounds of the rows, in Δ, with the restitution `one` for all rigid walls or the own of
-    /// each.
+    /// Sets the bounds of the rows, in Δ, with the restitution `one` for all rigid walls, or with
+    /// each wall's own.
     #[inline]
     fn bind(&mut self, frame: &Frame<S>, one: Option<f64>) {
         let h = self.body.h;
@@ -126,8 +126,9 @@ impl<S: Space> PaoliSchatzman<S> {
         (lo > hi).then_some(least)
     }
 
-    /// What a rigid wall answers the damper does not feel of the blows, which is known only when
-    /// the walls have been asked without: makes the step once more where it does.
+    /// The damper acts over the displacement by the blows, unless these drive the structure into a
+    /// rigid wall that pushes, which shows only after the first solution: solves the step again if
+    /// it does.
     #[inline(never)]
     fn damp_blows(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let h = self.body.h;
@@ -156,8 +157,8 @@ impl<S: Space> Rule<S> for PaoliSchatzman<S> {
         S::add_product(&body.mass, 1.0 / h, &staggered.v, b);
         S::add_product(&body.damping, -0.5, &staggered.v, b);
         S::add_product(&body.stiffness, -1.0, mean, b);
-        // A blow comes first, and the wall answers the velocity it leaves: q⁻ in the bound is where
-        // that would have come from.
+        // Blows come first: the bound refers to the velocity after them, and q⁻ in it is the
+        // displacement from which that velocity would have led to q.
         frame.blown = body.strike_about(step, 1.0 / h, b, frame);
         self.settle(step, frame)?;
         if self.body.blows.is_some() {

@@ -1,4 +1,4 @@
-//! The scene that a penalty scheme sees: rigid walls turned into springs.
+//! The scene of a penalty scheme: rigid walls replaced by springs.
 
 use super::PenaltyLaw;
 use crate::error::Result;

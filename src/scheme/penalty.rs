@@ -5,19 +5,18 @@
 //!
 //! A (v_θ − v)/θ = b + h Σ ± P̄(s, s⁺),    A = M + hθC + h²θ²K,
 //!
-//! holds a mean pressure P̄ per wall: (1−θ)|r|(s) + θ|r|(s⁺) for `trapezoidal` (θ = ½) and
+//! contains a mean pressure P̄ per wall: (1−θ)|r|(s) + θ|r|(s⁺) for `trapezoidal` (θ = ½) and
 //! `implicit-euler` (θ = 1), or, with θ = ½, the discrete gradient ΔU/Δs of the wall's energy
-//! (Gonzalez 1996, doi:10.1007/BF02440162), which keeps the energy of the penalised system at any
-//! step. (With a displacement for unknown, v⁺ would be a quotient by h, whose rounding has a
-//! constant part: the energy drifts by 1e-16 a step. The mean velocity is small where a stiff wall
-//! turns the body round, and so is the work of its rounding.) The trapezoidal rule does not, once
-//! h²k_w/m is not small: "unconditionally stable" is a statement about linear systems. Order 2 at
-//! θ = ½, 1 at θ = 1, which loses energy instead.
+//! (Gonzalez 1996, doi:10.1007/BF02440162), which conserves the energy of the penalised system at
+//! any step. (The unknown is the mean velocity: with the displacement as unknown, v⁺ would be a
+//! quotient by h, and its rounding error would make the energy drift by 1e-16 per step.) The
+//! trapezoidal rule does not conserve it once h²k_w/m is not small: "unconditionally stable" is a
+//! statement about linear systems. Order 2 at θ = ½, 1 at θ = 1, which loses energy instead.
 //!
 //! One degree of freedom: Newton's method on v_θ itself, in a bracket. Several: the walls'
-//! velocities y = G v_θ obey y = y_free + θh W P̄(y) with W = G A⁻¹ Gᵀ, which is solved first. One
-//! Newton step for all of v_θ follows: it takes out the rounding of that detour, which a stiff wall
-//! would turn into work.
+//! velocities y = G v_θ satisfy y = y_free + θh W P̄(y) with W = G A⁻¹ Gᵀ, which is solved first.
+//! One Newton step for the whole v_θ follows: it removes the rounding error of the condensation,
+//! which a stiff wall would turn into energy.
 
 use super::Counters;
 use super::body::Body;
@@ -29,8 +28,8 @@ use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
 
-/// Newton's method with a bracket needs a handful of iterations; more than this many means that
-/// numbers are not finite.
+/// Maximum number of Newton iterations. A few are enough; reaching this many means that numbers are
+/// not finite.
 const NEWTON_LIMIT: u64 = 200;
 
 /// How a step averages the pressure of a wall.
@@ -87,7 +86,7 @@ impl<S: Space> Penalty<S> {
         })
     }
 
-    /// The force of a wall in the step in which it sees the velocity `rate`.
+    /// The force of a wall in a step in which the mean velocity of its row is `rate`.
     #[inline]
     fn answer(&self, wall: usize, rate: f64) -> Answer {
         let (stop, h) = (self.body.walls[wall], self.body.h);
@@ -102,7 +101,7 @@ impl<S: Space> Penalty<S> {
     #[inline(never)]
     fn meet_alone(&mut self, frame: &mut Frame<S>, step: u64) -> Result<f64> {
         let (h, theta, v, b) = (self.body.h, self.theta, frame.v[0], self.b[0]);
-        // The rows' entries and A, by what they make of 1.
+        // The rows' entries and A, as products with 1.
         self.residual[0] = 1.0;
         self.change[0] = 0.0;
         S::add_product(&self.a, 1.0, &self.residual, &mut self.change);
@@ -123,12 +122,13 @@ impl<S: Space> Penalty<S> {
                 let Answer { force, slope: tangent, noise } = self.answer(wall, weight * mean);
                 residual -= h * weight * force;
                 slope += h * weight * weight * tangent;
-                // The depth itself is known to rounding of its parts only.
+                // The depth itself has the rounding error of its terms.
                 size += h * weight.abs() * (force.abs() + tangent * (noise + (weight * mean).abs()));
             }
             let next = mean - residual / slope;
-            // Below two units of rounding of the terms that cancel, the residual is noise. Newton
-            // comes from one side: the last correction takes that bias out of the energy.
+            // Below two units of rounding of the terms that cancel, the residual is rounding error.
+            // Newton's iterates come from one side: the last correction removes this bias, which
+            // would change the energy.
             if residual.abs() <= 2.0 * f64::EPSILON * size {
                 found = Some(next);
                 break;
@@ -156,12 +156,12 @@ impl<S: Space> Penalty<S> {
         Ok(mean)
     }
 
-    /// δ of a step that may meet a wall, whose impulses it writes. Out of line: most steps are
-    /// none.
+    /// Solves for δ of a step that may meet a wall, and writes the walls' impulses. Not inlined:
+    /// most steps meet no wall.
     #[inline(never)]
     fn meet(&mut self, frame: &mut Frame<S>, step: u64) -> Result<()> {
         let (h, theta) = (self.body.h, self.theta);
-        // The solver is lent out while the laws, which it asks, are read.
+        // The solver is moved out, since it calls `self.answer`.
         let mut walls = std::mem::take(&mut self.walls);
         let solved = walls.solve(|wall, rate| self.answer(wall, rate));
         self.walls = walls;
@@ -220,8 +220,8 @@ impl<S: Space> Rule<S> for Penalty<S> {
         frame.begin(step, h);
         body.theta_momentum(theta, frame, b);
         body.strike((frame.start, frame.end), 1.0, b, frame);
-        // No wall is rigid here: the blows take the structure all their way, which the damper
-        // feels.
+        // No wall is rigid here: the structure always makes the displacement that the blows cause,
+        // and the damper acts over it.
         let blown = body.find_blows(&[(frame.start, frame.end, frame.end - h * theta)]);
         if blown {
             body.damp_shift(1.0, b);
@@ -265,7 +265,7 @@ impl<S: Space> Rule<S> for Penalty<S> {
 }
 
 /// Mean pressure of a law over a step of `h` seconds from depth `s0` to `s1`, and its derivative
-/// with respect to `s1`: it never falls with that.
+/// with respect to `s1`, which is ≥ 0.
 #[inline]
 fn mean_pressure(law: &WallLaw, mean: Mean, theta: f64, h: f64, s0: f64, s1: f64) -> (f64, f64) {
     if s0 <= 0.0 && s1 <= 0.0 {

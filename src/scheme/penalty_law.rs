@@ -1,4 +1,4 @@
-//! What the penalty puts in place of a rigid wall, and how it is integrated.
+//! The springs that replace rigid walls in a penalty run, and the integrators.
 
 use crate::error::{Error, Result};
 use crate::scene::{Side, Wall, WallLaw};
@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// The spring that stands in for every rigid wall of a scene in a penalty run. Elastic walls stay
-/// as they are.
+/// The spring that replaces every rigid wall of a scene in a penalty run. Elastic walls stay as
+/// they are.
 ///
-/// Both are springs that lose nothing (but for the damping of the linear one): the stiffer, the
-/// nearer to rigid walls of restitution 1, whatever restitution the walls carry.
+/// Both springs conserve energy (except for the damping of the linear one). The stiffer they are,
+/// the closer to rigid walls of restitution 1, whatever restitution the walls have.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum PenaltyLaw {
@@ -29,7 +29,7 @@ pub enum PenaltyLaw {
 }
 
 impl PenaltyLaw {
-    /// The law that stands in at `wall`, one of `walls`: its own unless it is rigid.
+    /// The law that `wall`, one of `walls`, has in a penalty run: its own unless it is rigid.
     ///
     /// The φ² law spans from the wall to the nearest wall on the other side of the same row.
     ///
@@ -57,13 +57,13 @@ impl PenaltyLaw {
         }
     }
 
-    /// True for a spring without damping, which gives back all it took.
+    /// True for a spring without damping, which conserves energy.
     #[must_use]
     pub fn is_lossless(&self) -> bool {
         !matches!(*self, Self::Linear { damping, .. } if damping > 0.0)
     }
 
-    /// Checks the numbers, and that the law has rigid walls to stand in for.
+    /// Checks the numbers, and that there are rigid walls to replace.
     ///
     /// # Errors
     /// [`Error::Invalid`] naming `epsilon`, `stiffness` or `damping`.
@@ -92,7 +92,7 @@ impl PenaltyLaw {
     }
 }
 
-/// Distance from `wall` to the nearest wall that faces it on its row, m; none where that is not
+/// Distance from `wall` to the nearest wall that faces it on its row, m; `None` unless it is
 /// positive.
 fn span(wall: &Wall, walls: &[Wall]) -> Option<f64> {
     let facing = walls.iter().filter(|other| other.side != wall.side && other.at == wall.at);
@@ -116,12 +116,13 @@ impl fmt::Display for PenaltyLaw {
 pub enum Integrator {
     /// The trapezoidal rule: order 2, gains energy once the wall is stiffer than the step resolves.
     Trapezoidal,
-    /// Implicit Euler: order 1, damps; the step silently sets a restitution below 1.
+    /// Implicit Euler: order 1, damps; the effective restitution is below 1 and depends on the
+    /// step.
     ImplicitEuler,
     /// Central difference: explicit, order 2, unstable once the wall is stiffer than the step
     /// resolves.
     CentralDifference,
-    /// The discrete gradient: order 2, keeps the energy of the penalised system at any step.
+    /// The discrete gradient: order 2, conserves the energy of the penalised system at any step.
     #[default]
     DiscreteGradient,
 }
@@ -131,7 +132,7 @@ impl Integrator {
     pub const ALL: [Self; 4] =
         [Self::Trapezoidal, Self::ImplicitEuler, Self::CentralDifference, Self::DiscreteGradient];
 
-    /// The name that the command line, case files and tables carry.
+    /// The name on the command line, in case files and tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

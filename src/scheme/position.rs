@@ -5,15 +5,16 @@
 //!
 //! M(v⁺ − v) = h[(1−θ)(F + r) + θ(F⁺ + r⁺)] + J − C d
 //!
-//! with J the load impulses in the step and d what they add to the displacement beside the rule for
-//! it (see [`crate::step::Balance`]), is, divided by hθ, the optimality condition A Δ = b + r⁺ of
+//! with J the load impulses in the step and d the displacement that they cause in addition to the
+//! rule's (see [`crate::step::Balance`]), is, divided by hθ, the optimality condition A Δ = b + r⁺
+//! of
 //!
 //! minimise ½ A Δ² − b Δ   subject to   g_l ≤ q + Δ ≤ g_u,    A = M/(hθ)² + C/(hθ) + K.
 //!
 //! θ = ½ is Newmark's average-acceleration rule (Newmark 1959, J. Eng. Mech. Div. ASCE 85(3)) with
-//! the constraint at t⁺: it returns a restitution between 1/3 and 3 by chance of the phase and
-//! gains energy. It is here to be looked at. θ = 1 returns e = 0 whatever the wall says. Order 1;
-//! it damps, and the force of an impact grows like 1/h.
+//! the constraint at t⁺: the restitution comes out between 1/3 and 3, depending on where in the
+//! step the impact falls, and energy is gained. It is here for demonstration. θ = 1 gives e = 0,
+//! whatever the wall's restitution. Order 1; it damps, and the force of an impact grows like 1/h.
 
 use super::Counters;
 use super::body::Body;
@@ -55,7 +56,8 @@ impl<S: Space> Position<S> {
         Ok(Self { body, theta, force: zero::<S>(n), held, holding, weights, programme, b: zero::<S>(n) })
     }
 
-    /// The bounds of the rows, in Δ. The rigid walls hold the structure where the blows leave it.
+    /// Sets the bounds of the rows, in Δ. Those of rigid walls apply to the displacement with that
+    /// by the blows.
     #[inline]
     fn bind(&mut self, frame: &Frame<S>, blown: bool) {
         let (body, programme) = (&self.body, &mut self.programme);
@@ -81,8 +83,9 @@ impl<S: Space> Position<S> {
         }
     }
 
-    /// On a rigid wall means on it: w + (g − w) may miss g by the last bit. With one degree of
-    /// freedom only: of several walls' rows each would move the others.
+    /// Puts a body that a rigid wall stops exactly at the wall: w + (g − w) may differ from g in
+    /// the last bit. For one degree of freedom only: with several rows, correcting one would move
+    /// the others.
     #[inline(never)]
     fn place(&self, frame: &mut Frame<S>) {
         for &wall in frame.pushing.iter().filter(|&&wall| self.body.walls[wall].law.is_rigid()) {
@@ -91,7 +94,7 @@ impl<S: Space> Position<S> {
         }
     }
 
-    /// The impulses p = h[(1−θ) r + θ r⁺] of the walls that push at either end.
+    /// Writes the impulses p = h[(1−θ) r + θ r⁺] of the walls that push at either end of the step.
     #[inline(never)]
     fn average(&mut self, frame: &mut Frame<S>) {
         let (h, theta) = (self.body.h, self.theta);
@@ -140,7 +143,7 @@ impl<S: Space> Rule<S> for Position<S> {
         S::add_product(&body.stiffness, -1.0, &frame.q, b);
         frame.before.clone_from(&frame.v);
         body.strike((frame.start, frame.end), 1.0 / ht, b, frame);
-        // The damper feels the way on which the blows take the structure.
+        // The damper also acts over the displacement that the blows cause.
         let blown = body.find_blows(&[(frame.start, frame.end, frame.end - ht)]);
         if blown {
             body.damp_shift(1.0 / ht, b);

@@ -14,10 +14,11 @@ use crate::linear::{Rows, Symmetric};
 use crate::qp::{self, Backend, Failure};
 use crate::scene::{Row, Scene, Side, Wall, WallLaw, distinct};
 
-/// A wall behind a row of the programme.
+/// A wall of a row of the programme. Several walls can have the same row; each of them has its own
+/// number ("seat") in [`Programme`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seat {
-    /// Index in the scene.
+    /// Index of the wall in the scene.
     pub wall: usize,
     pub stop: Stop,
 }
@@ -27,29 +28,30 @@ pub(super) struct Seat {
 pub(super) struct Programme<S: Space> {
     solver: S::Solver,
     rows: S::Rows,
-    /// The walls by row, and where those of each row start.
+    /// The walls in the order of their rows, and the number of the first wall of each row.
     seats: Vec<Seat>,
     starts: Vec<usize>,
     row_of: Vec<usize>,
-    /// The open interval of g·q, m, in which a row's rigid walls are not touched; empty for an
-    /// elastic wall, which asks for a look in every step.
+    /// The open interval of g·q, m, in which a row's rigid walls are not touched; empty for the row
+    /// of an elastic wall, which must be checked in every step.
     clear: Vec<(f64, f64)>,
     /// Bounds of each row in the step, and the rows that have one.
     lo: Vec<f64>,
     hi: Vec<f64>,
     bounded: Vec<usize>,
     names: Vec<String>,
-    /// Bound that each seat stands for, in the row's unit.
+    /// Bound that each wall imposes on its row, in the row's unit.
     bound: Vec<f64>,
 }
 
-/// Bounds of walls at one place that differ by less than this share of their size are one: their
-/// walls share the force.
+/// Relative tolerance within which the bounds of walls of one row count as equal; these walls share
+/// the force.
 const ONE_PLACE: f64 = 1e-12;
 
 impl<S: Space> Programme<S> {
-    /// The programme with curvature `a`, a typical length `scale` of g·x, and the compliance of
-    /// each elastic wall's row as a function of its stiffness and damping.
+    /// The programme with the matrix `a`, a typical size `scale` of g·x (for the solver's
+    /// tolerances), and the compliance of each elastic wall's row as a function of its stiffness
+    /// and damping.
     pub fn new(
         scene: &Scene,
         a: Symmetric,
@@ -60,7 +62,7 @@ impl<S: Space> Programme<S> {
         Self::over(scene, |_| true, a, scale, compliance, backend)
     }
 
-    /// The same over those walls only whose law is `wanted`.
+    /// The same for only those walls whose law is `wanted`.
     pub fn over(
         scene: &Scene,
         wanted: impl Fn(&WallLaw) -> bool,
@@ -137,16 +139,16 @@ impl<S: Space> Programme<S> {
         S::dot(&self.rows, row, x)
     }
 
-    /// True if no wall of a row is touched at the displacement `w` (m), with twice the touching
-    /// distance to spare, and none asks for a look.
+    /// True if no wall of a row is touched at the displacement `w` (m), with a margin of twice the
+    /// touching distance, and none of them is elastic.
     #[inline]
     pub fn is_clear(&self, row: usize, w: f64) -> bool {
         let (lo, hi) = self.clear[row];
         lo < w && w < hi
     }
 
-    /// The first row that [`Programme::is_clear`] does not hold for at the displacements `q` (m);
-    /// none if it holds for all.
+    /// The first row for which [`Programme::is_clear`] is false at the displacements `q` (m);
+    /// `None` if it is true for all.
     #[inline]
     pub fn first_near(&self, q: &S::Vector) -> Option<usize> {
         self.clear
@@ -159,7 +161,7 @@ impl<S: Space> Programme<S> {
             .map(|(row, _)| row)
     }
 
-    /// The row that a wall is behind.
+    /// The row of a wall.
     #[inline]
     pub fn row_of(&self, wall: usize) -> usize {
         self.row_of[wall]
@@ -171,19 +173,19 @@ impl<S: Space> Programme<S> {
         self.seats[self.starts[row]].stop.law.is_rigid()
     }
 
-    /// Numbers of the seats of a row.
+    /// Numbers of the walls of a row.
     #[inline]
     pub fn seats(&self, row: usize) -> std::ops::Range<usize> {
         self.starts[row]..self.starts[row + 1]
     }
 
-    /// The wall at a seat.
+    /// The wall of that number.
     #[inline]
     pub fn seat(&self, seat: usize) -> Seat {
         self.seats[seat]
     }
 
-    /// Takes away the bounds of the last step, before walls are bound.
+    /// Removes the bounds of the last step.
     #[inline]
     pub fn free(&mut self) {
         if !self.bounded.is_empty() {
@@ -199,11 +201,12 @@ impl<S: Space> Programme<S> {
         }
     }
 
-    /// Binds row `row` on behalf of the wall at `seat`: g·x ≤ `value` for an upper wall, ≥ for a
-    /// lower one. The tightest of a row counts.
+    /// Adds the bound of the wall number `seat` to row `row`: g·x ≤ `value` for an upper wall, ≥
+    /// for a lower one. The tightest bound of a row counts.
     #[inline]
     pub fn bind(&mut self, row: usize, seat: usize, value: f64) {
-        // The first of a row: what others stood for in an earlier step is none of this one's.
+        // The first bound of the row in this step: the bounds that its walls had in earlier steps
+        // are removed.
         if self.lo[row] == f64::NEG_INFINITY && self.hi[row] == f64::INFINITY {
             self.bounded.push(row);
             self.bound[self.starts[row]..self.starts[row + 1]].fill(f64::NAN);
@@ -216,15 +219,16 @@ impl<S: Space> Programme<S> {
         }
     }
 
-    /// Holds row `row` where it is, g·x = 0, on behalf of its only wall, which is elastic.
+    /// Fixes row `row`, g·x = 0, for its only wall, which is elastic.
     #[inline]
     pub fn hold(&mut self, row: usize) {
         self.bounded.push(row);
         (self.lo[row], self.hi[row]) = (0.0, 0.0);
     }
 
-    /// Solves: the minimiser is [`Programme::x`] until the next call. Writes the multiplier of each
-    /// wall that pushes to `force`, which is all zero before, and its index to `pushing`.
+    /// Solves the programme; the minimiser is [`Programme::x`] until the next call. Writes the
+    /// multiplier of each wall that pushes to `force`, which must be all zero before, and appends
+    /// its index to `pushing`.
     #[inline]
     pub fn solve(
         &mut self,
@@ -239,14 +243,14 @@ impl<S: Space> Programme<S> {
         self.meet(b, (time, step), force, pushing)
     }
 
-    /// The same where no row has a bound.
+    /// The same if no row has a bound.
     #[inline]
     pub fn release(&mut self, b: &S::Vector, (time, step): (f64, u64)) -> Result<()> {
         let released = self.solver.release(b, (&self.lo, &self.hi));
         released.map_err(|fault| self.refusal(&fault, time, step))
     }
 
-    /// The same where a row has a bound. Out of line: in most steps none has.
+    /// The same if a row has a bound. Not inlined: in most steps no row has one.
     #[inline(never)]
     fn meet(
         &mut self,
@@ -273,7 +277,7 @@ impl<S: Space> Programme<S> {
                 pushing.push(seat.wall);
                 continue;
             }
-            // The walls that stand at the bound which holds.
+            // The walls whose bound is the active one.
             let held = if r < 0.0 { self.hi[row] } else { self.lo[row] };
             let near = ONE_PLACE * held.abs();
             let carries =
@@ -296,7 +300,8 @@ impl<S: Space> Programme<S> {
         };
         let wall = if let Failure::Infeasible { row, .. } = *fault { name(row) } else { None };
         match fault {
-            // Matrices are sound since the beginning: it is the motion that has left the numbers.
+            // The matrices were checked at the beginning, so it is the motion that became infinite
+            // or NaN.
             Failure::NotFinite { .. } => Error::NotFinite { time, step, what: "motion" },
             _ => failure(fault, wall, time, step),
         }
@@ -312,7 +317,7 @@ impl<S: Space> Programme<S> {
         self.solver.backend()
     }
 
-    /// Adds what the programme has cost.
+    /// Adds the work that the solver has done.
     pub fn count(&self, counters: &mut Counters) {
         let inner = self.solver.counters();
         counters.qp_solves += inner.solves - inner.free;

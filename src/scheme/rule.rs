@@ -1,4 +1,4 @@
-//! What a scheme on a grid is: the one thing that each file of a scheme writes.
+//! The trait of a scheme on a grid, which each scheme's file implements.
 
 use super::Counters;
 use super::frame::Frame;
@@ -8,20 +8,20 @@ use crate::qp::Backend;
 use crate::scene::Scene;
 use std::fmt::Debug;
 
-/// A rule that takes the state from one instant of the grid to the next, with the constants and the
-/// memory that it has beside the state.
+/// A rule that computes the state at one instant of the grid from that at the instant before. It
+/// holds its constants, and what it carries from step to step beside the state.
 pub(super) trait Rule<S: Space>: Debug + Send {
-    /// Takes the motion up at `time` (s), from the frame's state: at the start, and wherever the
-    /// state is set. All memory is set here.
+    /// Starts the motion at `time` (s) from the frame's state: at the beginning of a run, and
+    /// whenever the caller sets the state. Sets everything that the rule carries from step to step.
     fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame<S>) -> Result<()>;
 
-    /// Makes step number `step`: moves the frame's state, and writes what the step shows of itself.
-    /// The frame's extra force is set.
+    /// Makes step number `step`: advances the frame's state, and writes the results of the step to
+    /// the frame. The caller has set the frame's extra force.
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()>;
 
-    /// Adds what the rule has cost.
+    /// Adds the work that the rule has done.
     fn count(&self, counters: &mut Counters);
 
-    /// The solver of its quadratic programmes; none for a rule without.
+    /// The solver of its quadratic programmes; `None` for a rule that has no such programmes.
     fn backend(&self) -> Option<Backend>;
 }

@@ -1,5 +1,5 @@
-//! What the schemes on a grid compute with: numbers for one degree of freedom, vectors and matrices
-//! for several. Each scheme is written once, over either.
+//! The arithmetic of the schemes on a grid: numbers for one degree of freedom, vectors and matrices
+//! for several. Each scheme is written once, for both.
 
 use crate::error::{Error, Result};
 use crate::linear::Symmetric;
@@ -8,20 +8,20 @@ use crate::scene::{Load, Row, SharedStructure};
 use std::fmt::Debug;
 use std::ops::IndexMut;
 
-/// Vectors over degrees of freedom, and what acts on them: [`Line`](super::line::Line) and
+/// Vectors over the degrees of freedom, and the operations on them: [`Line`](super::line::Line) and
 /// [`Matrices`](super::matrices::Matrices).
 pub(super) trait Space: Debug + Sized + 'static {
     /// n numbers.
     type Vector: Debug + Clone + Send + AsRef<[f64]> + AsMut<[f64]> + IndexMut<usize, Output = f64>;
-    /// A symmetric matrix made ready for products.
+    /// A symmetric matrix, stored for products with vectors.
     type Operator: Debug + Send;
-    /// A positive definite matrix made ready for division.
+    /// A positive definite matrix, factored.
     type Factor: Debug + Send;
-    /// The rows behind which walls stand.
+    /// The rows of the walls.
     type Rows: Debug + Send;
-    /// The loads but for their blows.
+    /// The loads without their impulses.
     type Forces: Debug + Send;
-    /// Who minimises ½ xᵀA x − bᵀx over rows.
+    /// The solver of the quadratic programme ½ xᵀA x − bᵀx under bounds on rows.
     type Solver: Solve<Self::Vector>;
 
     fn vector(values: &[f64]) -> Self::Vector;
@@ -29,7 +29,7 @@ pub(super) trait Space: Debug + Sized + 'static {
     /// # Errors
     /// [`Error::Invalid`] unless `a` is positive definite.
     fn factor(a: &Symmetric) -> Result<Self::Factor>;
-    /// M, ready for division.
+    /// M, factored.
     ///
     /// # Errors
     /// As [`Space::factor`].
@@ -45,23 +45,25 @@ pub(super) trait Space: Debug + Sized + 'static {
     fn dot(rows: &Self::Rows, i: usize, x: &Self::Vector) -> f64;
     /// Adds `force` · gᵢᵀ to `out`.
     fn add_transposed(rows: &Self::Rows, i: usize, force: f64, out: &mut Self::Vector);
-    /// Writes the loads at `time` (s) to `out`, N, which has held nothing else since it was 0.
+    /// Writes the loads at `time` (s) to `out`, N. `out` must be all zero at first, and must have
+    /// been written by nothing but this function since.
     fn force(forces: &mut Self::Forces, time: f64, out: &mut Self::Vector);
 }
 
-/// Who minimises ½ xᵀA x − bᵀx over lᵢ ≤ gᵢ·x ≤ uᵢ, elastic rows yielding with a compliance.
+/// Minimises ½ xᵀA x − bᵀx under lᵢ ≤ gᵢ·x ≤ uᵢ, where elastic rows exceed their bounds by their
+/// compliance times their force.
 pub(super) trait Solve<Vector>: Debug + Sized + Send {
     /// As [`qp::Solver::new`].
     fn new(problem: Problem, backend: Backend, scale: f64) -> std::result::Result<Self, Failure>;
-    /// As [`qp::Solver::solve`]. Only the rows `bounded`, increasing, have a bound.
+    /// As [`qp::Solver::solve`]. Only the rows in `bounded`, in increasing order, have a bound.
     fn solve(&mut self, b: &Vector, bounds: (&[f64], &[f64]), bounded: &[usize]) -> std::result::Result<(), Failure>;
     /// The same where no row has a bound.
     fn release(&mut self, b: &Vector, bounds: (&[f64], &[f64])) -> std::result::Result<(), Failure>;
-    /// The minimiser last found.
+    /// The minimiser of the last programme.
     fn x(&self) -> &Vector;
-    /// Its multipliers; none where every row keeps its bounds by itself.
+    /// Its multipliers; `None` if the minimiser without bounds satisfies all of them.
     fn multiplier(&self) -> Option<&[f64]>;
-    /// The solver in force.
+    /// The solver that is used.
     fn backend(&self) -> Backend;
     fn counters(&self) -> qp::SolverCounters;
 }
@@ -71,7 +73,7 @@ pub(super) fn zero<S: Space>(n: usize) -> S::Vector {
     S::vector(&vec![0.0; n])
 }
 
-/// The refusal of a matrix of a step that is not positive definite.
+/// The error for a step whose matrix is not positive definite.
 pub(super) fn indefinite(fault: impl std::fmt::Display) -> Error {
     Error::invalid(("system", "matrices"), fault, "a positive definite mass")
 }

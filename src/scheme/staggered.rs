@@ -1,14 +1,14 @@
 //! What the staggered schemes share, which carry the velocity half a step behind the displacement:
-//! its start, where they count blows and extra forces, and the velocity that they report at t⁺,
-//! from v₊ at t⁺ − ½h.
+//! the start, the instants at which blows and extra forces count, and the velocity reported at t⁺,
+//! which follows from v₊ at t⁺ − ½h.
 //!
 //! Half a step under the smooth force, v⁺ = v₊ + δ, is the minimiser of
 //!
 //! ½ δᵀ(M + ½hC)δ − ½h(f⁺ − K q⁺ − C v₊ + Gᵀ r⁺)ᵀδ   subject to   G δ ≥ 0 (lower), ≤ 0 (upper)
 //!
 //! over the rigid walls that q⁺ touches: the structure is not accelerated further into them. At an
-//! elastic wall too stiff for the step v₊ is all that is known: there G δ = 0. A blow since t⁺ − ½h
-//! is not in v₊ yet, and is added.
+//! elastic wall whose vibration the step does not resolve, G δ = 0: v₊ is reported. A blow after t⁺
+//! − ½h is not yet part of v₊, and is added.
 
 use super::body::Body;
 use super::frame::Frame;
@@ -20,7 +20,7 @@ use crate::linear::Symmetric;
 use crate::qp::Backend;
 use crate::scene::Scene;
 
-/// What carries a staggered scheme from one step to the next, and ends its steps.
+/// What a staggered scheme carries from one step to the next, and the end of its steps.
 #[derive(Debug)]
 pub(super) struct Staggered<S: Space> {
     /// v₋ = (q − q⁻)/h, m/s.
@@ -56,10 +56,10 @@ impl<S: Space> Staggered<S> {
         })
     }
 
-    /// Takes the motion up at `time` (s) from the frame's state, under all forces that act there.
-    /// The walls' reaction is among them: without it a body at rest on a wall with e = 1 would
-    /// bounce. v₋ = v − ½h a, with the damping that a contains divided as an implicit half step
-    /// would, (M + ½hC)a = F: h² apart, and a heavy damper does not throw v₋.
+    /// Starts the motion at `time` (s) from the frame's state, under all forces that act there. The
+    /// walls' reactions are among them: without them a body at rest on a wall with e = 1 would
+    /// bounce. v₋ = v − ½h a with (M + ½hC)a = F, an implicit half step: it differs from M a = F by
+    /// order h² in v₋, and a heavy damper does not make v₋ huge.
     ///
     /// # Errors
     /// As [`StartForce::new`].
@@ -78,9 +78,9 @@ impl<S: Space> Staggered<S> {
         Ok(())
     }
 
-    /// Begins step number `step`: the frame's extra force, constant over the step, becomes that
-    /// over t ± ½h, and v₋ the velocity before. At t = 0 the first half acts before the start, on
-    /// nothing: v₋ is extrapolated without it.
+    /// Begins step number `step`: the frame's extra force, constant over the step, becomes its mean
+    /// over t ± ½h, and v₋ becomes the velocity before the step. At t = 0 the half before the start
+    /// counts as zero: v₋ is extrapolated without the extra force.
     #[inline]
     pub fn begin(&mut self, step: u64, h: f64, frame: &mut Frame<S>) {
         frame.begin(step, h);
@@ -92,14 +92,15 @@ impl<S: Space> Staggered<S> {
         frame.before.clone_from(&self.v);
     }
 
-    /// Ends step number `step`, which has moved the frame's displacement with the velocity `self.v`
-    /// = v₊: shows that, moves the loads on and writes the velocity at the end, under the caller's
-    /// extra force and after the blows since.
+    /// Ends step number `step`, which has advanced the frame's displacement with the velocity
+    /// `self.v` = v₊: writes v₊ as the velocity after the step, updates the loads and writes the
+    /// velocity at the end of the step, under the caller's extra force and after the blows of its
+    /// second half.
     pub fn finish(&mut self, body: &mut Body<S>, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let h = body.h;
         frame.after.clone_from(&self.v);
-        // The blows come half a step about the instants in the momentum balance, which counts each
-        // from one of them.
+        // The momentum balance is centred at the instants of the grid: it counts a blow as if it
+        // came at the nearest one.
         let (start, middle, end) = (step as f64 * h, (step as f64 + 0.5) * h, (step + 1) as f64 * h);
         body.land(&[(start, middle, start), (middle, end, end)], frame);
         body.load_at(frame.end);
@@ -110,7 +111,7 @@ impl<S: Space> Staggered<S> {
         Ok(())
     }
 
-    /// Writes v⁺ at the frame's displacement.
+    /// Writes v⁺, the velocity at the end of the step, with the forces at the frame's displacement.
     fn arrive(&mut self, body: &Body<S>, (step, time): (u64, f64), frame: &mut Frame<S>) -> Result<()> {
         let Self { programme, masses, b, held, holding, v: v_half, extra, .. } = self;
         let (h, q) = (body.h, &frame.q);
@@ -154,8 +155,8 @@ impl<S: Space> Staggered<S> {
     }
 }
 
-/// The blows that the momentum balance of step number `step` counts as at its start, and that
-/// instant: (from, to, t), s.
+/// The interval of blows that the momentum balance of step number `step` counts as if they came at
+/// its start, and that instant: (from, to, t), s.
 #[inline]
 pub(super) fn counted_blows(step: u64, h: f64) -> (f64, f64, f64) {
     // The edges of `Forcing::impulse_about`.

@@ -1,7 +1,7 @@
-//! What acts at the start.
+//! The forces at the start.
 //!
-//! A rigid wall that the structure touches at rest answers with whatever keeps it from accelerating
-//! through: with ẅ = G M⁻¹(F + Gᵀ r),
+//! A rigid wall that the structure touches at rest pushes with the force that keeps it from
+//! accelerating into the wall: with ẅ = G M⁻¹(F + Gᵀ r),
 //!
 //! minimise ½ aᵀM a − Fᵀa   subject to   ẅ ≥ 0 (lower), ≤ 0 (upper)
 //!
@@ -14,7 +14,7 @@ use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
 
-/// Units in the last place of the terms of ẇ by which it is not known: a velocity below is rest.
+/// A velocity ẇ below this many units in the last place of its terms counts as zero.
 const REST_UNITS: f64 = 4.0;
 
 /// Forces at the start, N.
@@ -27,8 +27,8 @@ pub(super) struct StartForce<S: Space> {
 }
 
 impl<S: Space> StartForce<S> {
-    /// Without the rigid walls, at displacement `q` and velocity `v`, those after any blow at that
-    /// instant.
+    /// The forces without those of rigid walls, at displacement `q` and velocity `v`, after any
+    /// blow at that instant.
     pub fn smooth(body: &Body<S>, q: &S::Vector, v: &S::Vector) -> Self {
         let mut total = body.load.clone();
         S::add_product(&body.damping, -1.0, v, &mut total);
@@ -41,7 +41,7 @@ impl<S: Space> StartForce<S> {
         Self { total, wall }
     }
 
-    /// All of it.
+    /// The forces with those of the rigid walls.
     pub fn new(scene: &Scene, body: &Body<S>, q: &S::Vector, v: &S::Vector) -> Result<Self> {
         let Self { mut total, mut wall } = Self::smooth(body, q, v);
         let rests = |index: usize| {

@@ -25,9 +25,9 @@ use crate::time::MOST_STEPS;
 /// # Ok::<(), signorini::Error>(())
 /// ```
 ///
-/// A stepper goes on for as long as it is asked to, whatever the scheme: the duration of the scene
-/// is where [`run()`](crate::run()) ends, and no limit here. The exact scheme, whose steps end at
-/// events, ends one there too. Loads go on past it: constant and harmonic ones as before, blows at
+/// A stepper makes steps for as long as it is called: the duration of the scene, where
+/// [`run()`](crate::run()) ends, is no limit here. The exact scheme, whose steps end at events,
+/// also ends a step there. Loads go on past it: constant and harmonic ones as before, blows at
 /// their times, tables by their rows and as zero after the last.
 ///
 /// A step allocates nothing, apart from Clarabel's own single allocation where that solver was
@@ -40,7 +40,8 @@ pub struct Stepper {
     step: f64,
     backend: Backend,
     index: u64,
-    /// Steps made before the state was last set, and the index they led to then.
+    /// Number of steps made before the state was last set, and the index of the step that followed
+    /// then.
     before: (u64, u64),
     asking: Asking,
     kernel: Kernel,
@@ -57,7 +58,7 @@ impl Stepper {
         Self::by(&Checked::new(scene)?, (*method).into(), step)
     }
 
-    /// The same over a scene that is checked already.
+    /// The same for a scene that has been checked.
     pub(crate) fn by(scene: &Checked, Method { scheme, backend }: Method, step: f64) -> Result<Self> {
         scheme.validate()?;
         if !(step.is_finite() && step > 0.0) {
@@ -119,21 +120,22 @@ impl Stepper {
         Ok(self.kernel.step(index))
     }
 
-    /// Puts the scene into `state` at `time` (s), forwards or backwards: so a co-simulation repeats
-    /// a step, or restarts from what it has saved of [`Stepper::time`] and [`Stepper::state`]. The
-    /// state is that after whatever happened at that instant: a load's impulse at `time` is in it.
+    /// Sets the state at `time` (s), later or earlier than now: a co-simulation can repeat a step,
+    /// or restart from saved values of [`Stepper::time`] and [`Stepper::state`]. The state is that
+    /// after everything that happened at that instant: a load's impulse at `time` is already part
+    /// of it.
     ///
-    /// A scheme on a grid goes on from a multiple of its step; the exact scheme from any time.
+    /// A scheme on a grid continues from a multiple of its step; the exact scheme from any time.
     /// `moreau-jean`, `implicit-euler` and the penalty's other one-step rules then make the same
-    /// steps as if they had come there by themselves. `paoli-schatzman`, `generalized-alpha`,
-    /// `newmark` and the penalty's `central-difference` carry more than the state from step to step
-    /// (accelerations, a velocity half a step back) and begin anew as at a start; so does a contact
-    /// of the exact scheme that has lasted. Contact episodes under way are forgotten. A
-    /// [`Recorder`](crate::Recorder) or [`Judge`](crate::residual::Judge) that has watched so far
-    /// cannot go on watching.
+    /// steps as if they had reached that state by themselves. `paoli-schatzman`,
+    /// `generalized-alpha`, `newmark` and the penalty's `central-difference` carry more than the
+    /// state from step to step (accelerations, a velocity half a step back) and restart as at the
+    /// beginning; so does a lasting contact of the exact scheme. Contact episodes that have not
+    /// ended are dropped. A [`Recorder`](crate::Recorder) or [`Judge`](crate::residual::Judge) that
+    /// has seen the steps so far cannot be used for those that follow.
     ///
-    /// The work counters go on. An extra force ([`Stepper::step_with`]) is not part of the state.
-    /// The exact scheme sets itself up anew, which for a large structure costs more than a step.
+    /// The work counters continue. An extra force ([`Stepper::step_with`]) is not part of the
+    /// state. The exact scheme is set up again, which for a large structure costs more than a step.
     ///
     /// ```
     /// use signorini::{Scene, Scheme, Stepper, Wall};
@@ -193,7 +195,7 @@ impl Stepper {
             return Ok(self.index);
         }
         let steps = time / self.step;
-        // Times of steps are products, to the rounding of 1e10 of them.
+        // Times of steps are products k·h, with the rounding error of k up to 1e10.
         if (steps - steps.round()).abs() > 1e-6 || steps > MOST_STEPS {
             let expected = format!("a multiple of the step, {:?} s, at most 1e10 of them", self.step);
             return Err(Error::invalid("time", format_args!("{time:?}"), expected));
@@ -214,7 +216,7 @@ impl Stepper {
         State { q: q.to_vec(), v: v.to_vec() }
     }
 
-    /// The scene as the scheme sees it: a penalty's walls are springs here.
+    /// The scene that the scheme computes: for a penalty, with springs in place of rigid walls.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -231,13 +233,13 @@ impl Stepper {
         self.scheme
     }
 
-    /// What every step keeps, for whoever judges it.
+    /// The equations and conditions that every step satisfies, for a judge.
     #[must_use]
     pub fn contract(&self) -> Contract {
         self.contract
     }
 
-    /// The solver of the quadratic programmes: the one in force.
+    /// The solver of the quadratic programmes that is used.
     #[must_use]
     pub fn backend(&self) -> Backend {
         self.backend
@@ -249,13 +251,13 @@ impl Stepper {
         self.kernel.motion().open_contacts()
     }
 
-    /// Stretches that the exact scheme has handed to moreau-jean so far; none for other schemes.
+    /// Stretches that the exact scheme has left to moreau-jean so far; empty for other schemes.
     #[must_use]
     pub fn handed(&self) -> &[Handed] {
         self.kernel.motion().handed()
     }
 
-    /// What the run has cost so far.
+    /// The work of the run so far.
     #[must_use]
     pub fn counters(&self) -> Counters {
         let (made, index) = self.before;
@@ -265,8 +267,7 @@ impl Stepper {
     }
 }
 
-/// The scene, if its walls are such that a quadratic programme can hold them: the φ² law is none of
-/// those.
+/// The scene, if a quadratic programme can represent its walls: the φ² law cannot be.
 fn without_quartic(scene: &Checked) -> Result<&Checked> {
     match scene.walls.iter().find(|wall| matches!(wall.law, WallLaw::Quartic { .. })) {
         Some(wall) => Err(Error::invalid(

@@ -1,4 +1,4 @@
-//! A wall as the kernels on a grid want it.
+//! The numbers of a wall that the schemes on a grid need.
 
 use crate::scene::{Side, Wall, WallLaw};
 
@@ -23,8 +23,8 @@ impl Stop {
         self.sign * (self.g - w)
     }
 
-    /// The larger of the depth and zero, as a coordinate: where a dashpot's plate stands when the
-    /// body is at `w`.
+    /// The coordinate of the plate of the wall's dashpot when the body is at `w`: `w` inside the
+    /// wall, the wall's position outside.
     #[inline]
     pub fn plate(&self, w: f64) -> f64 {
         if self.upper { w.max(self.g) } else { w.min(self.g) }

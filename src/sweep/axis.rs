@@ -40,7 +40,7 @@ impl Target {
         if let Self::Case(key) = self { key.unit() } else { None }
     }
 
-    /// What a column of its values is called: the last word of the key, or all of it.
+    /// Name of the column of its values: the last word of the key, or the whole key.
     fn column(&self, whole: bool) -> String {
         let name = match self {
             Self::Case(key) if whole => key.to_string().replace('*', "all").replace(['.', '-'], "_"),
@@ -58,9 +58,9 @@ fn with_unit(name: &str, unit: Option<&str>) -> String {
 /// The values of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// One after another.
+    /// A list.
     List(Vec<KeyValue>),
-    /// Equal differences from the first to the last.
+    /// Equal differences between neighbours.
     Linear {
         /// First.
         from: f64,
@@ -69,7 +69,7 @@ pub enum Values {
         /// How many, two or more.
         points: u64,
     },
-    /// Equal ratios from the first to the last, both above 0.
+    /// Equal ratios between neighbours; the first and the last value are above 0.
     Log {
         /// First.
         from: f64,
@@ -78,36 +78,37 @@ pub enum Values {
         /// How many, two or more.
         points: u64,
     },
-    /// Drawn evenly between two bounds, or evenly in the logarithm; with a
+    /// Drawn from a uniform distribution between two bounds, of the value or of its logarithm, by a
     /// [`Random`](super::Random) design.
     Range {
         /// Lower bound.
         from: f64,
         /// Upper bound.
         to: f64,
-        /// True to draw the logarithm evenly.
+        /// True if the logarithm is uniformly distributed.
         log: bool,
     },
-    /// Drawn from a normal distribution; with a [`Random`](super::Random) design.
+    /// Drawn from a normal distribution, by a [`Random`](super::Random) design.
     Normal(Normal),
 }
 
-/// In which direction a followed axis is passed through.
+/// The direction in which the values of an axis are taken, if each row starts from the end of the
+/// last one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Follow {
-    /// Every row starts from the case's own start.
+    /// None: every row starts from the case's initial state.
     #[default]
     No,
-    /// By rising values, every row from the state in which the last one ended.
+    /// Rising values, each row from the state at the end of the last one.
     Up,
-    /// The same by falling values.
+    /// Falling values, each row from the state at the end of the last one.
     Down,
-    /// Up, and from there down again.
+    /// Up, and then down again.
     Both,
 }
 
 impl Follow {
-    /// The words of a sweep file.
+    /// The words for it in a sweep file.
     pub(super) const ALL: [(&'static str, Self); 4] =
         [("no", Self::No), ("up", Self::Up), ("down", Self::Down), ("both", Self::Both)];
 }
@@ -140,7 +141,7 @@ impl FromStr for Follow {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// What is changed, each to its factor times the value.
+    /// The keys that are changed, each to its factor times the value.
     pub(super) targets: Vec<(Target, f64)>,
     pub(super) name: Option<String>,
     pub(super) values: Values,
@@ -151,12 +152,12 @@ impl Axis {
     /// `values` for `key`.
     ///
     /// # Errors
-    /// [`Error::Unknown`] for what is no key.
+    /// [`Error::Unknown`] for a key that does not exist.
     pub fn new(key: &str, values: Values) -> Result<Self> {
         Ok(Self { targets: vec![(key.parse()?, 1.0)], name: None, values, follow: Follow::No })
     }
 
-    /// These values, one after another: numbers, words, or what else the key takes.
+    /// A list of values: numbers, words, or what else the key accepts.
     ///
     /// # Errors
     /// As [`Axis::new`].
@@ -180,42 +181,43 @@ impl Axis {
         Self::new(key, Values::Log { from, to, points })
     }
 
-    /// The same, changing `key` too, to `factor` times the value.
+    /// The same axis, which also sets `key` to `factor` times the value.
     ///
     /// # Errors
-    /// [`Error::Unknown`] for what is no key.
+    /// [`Error::Unknown`] for a key that does not exist.
     pub fn tied(mut self, key: &str, factor: f64) -> Result<Self> {
         self.targets.push((key.parse()?, factor));
         Ok(self)
     }
 
-    /// The same, called `name` in tables and figures.
+    /// The same axis, named `name` in tables and figures.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
         self.name = Some(name.to_owned());
         self
     }
 
-    /// The same, passed through in that direction with the state carried on.
+    /// The same axis, whose values are taken in that direction, each row starting from the end of
+    /// the last one.
     #[must_use]
     pub fn followed(mut self, follow: Follow) -> Self {
         self.follow = follow;
         self
     }
 
-    /// How it goes by in messages and in a figure's `x` and `y`.
+    /// Its name in messages and in the keys `x` and `y` of a figure.
     #[must_use]
     pub fn label(&self) -> String {
         let first = self.targets.first().map_or_else(String::new, |(target, _)| target.to_string());
         self.name.clone().unwrap_or(first)
     }
 
-    /// True where a random design draws its values.
+    /// True if a random design draws its values.
     pub(super) fn is_drawn(&self) -> bool {
         matches!(self.values, Values::Range { .. } | Values::Normal(_))
     }
 
-    /// How many values it has; 1 where they are drawn.
+    /// Number of its values; 1 if they are drawn.
     pub(super) fn count(&self) -> u64 {
         match &self.values {
             Values::List(list) => list.len() as u64,
@@ -224,11 +226,12 @@ impl Axis {
         }
     }
 
-    /// Value number `index`, before any factor; of a drawn axis that of `share`, from 0 to 1.
+    /// Value number `index`, before any factor; of a drawn axis, the quantile of `share`, from 0 to
+    /// 1.
     pub(super) fn value(&self, index: u64, share: f64) -> KeyValue {
         let between = |from: f64, to: f64, points: u64| match index {
             0 => from,
-            // Exact at both ends, whatever the rounding between them.
+            // Both ends are exact.
             i if i + 1 >= points => to,
             i => from + (to - from) * (i as f64 / (points - 1) as f64),
         };
@@ -247,8 +250,8 @@ impl Axis {
         }
     }
 
-    /// The numbers of its values in the order in which a chain passes through them, with the
-    /// direction of each.
+    /// The numbers of its values in the order of a chain (rows that start one from another), with
+    /// the direction of each.
     pub(super) fn order(&self) -> Vec<(u64, Option<&'static str>)> {
         let mut up: Vec<u64> = (0..self.count()).collect();
         if self.follow == Follow::No {
@@ -265,8 +268,8 @@ impl Axis {
         }
     }
 
-    /// Names of its columns: its own, where several keys are tied under one name, then one a key.
-    /// `whole` tells keys of one last word apart.
+    /// Names of its columns: its own name if it has one and several keys, then one per key. With
+    /// `whole`, the whole keys, to tell apart keys with the same last word.
     pub(super) fn columns(&self, whole: bool) -> Vec<String> {
         let unit = self.targets.first().and_then(|(target, _)| target.unit());
         match (&self.name, self.targets.as_slice()) {
@@ -279,13 +282,13 @@ impl Axis {
         }
     }
 
-    /// What stands in its columns for `value`.
+    /// The cells of its columns for `value`.
     pub(super) fn cells(&self, value: &KeyValue) -> Vec<KeyValue> {
         let own = (self.name.is_some() && self.targets.len() > 1).then(|| value.clone());
         own.into_iter().chain(self.settings(value).map(|(_, value)| value)).collect()
     }
 
-    /// What is set where, for `value`.
+    /// The keys with what they are set to, for `value`.
     pub(super) fn settings<'a>(&'a self, value: &'a KeyValue) -> impl Iterator<Item = (&'a Target, KeyValue)> {
         self.targets.iter().map(move |(target, factor)| match value.number() {
             Some(x) if *factor != 1.0 => (target, (factor * x).into()),
@@ -293,7 +296,7 @@ impl Axis {
         })
     }
 
-    /// Refuses what makes no sense by itself.
+    /// Checks the axis by itself.
     pub(super) fn validate(&self, random: bool) -> Result<()> {
         let key = |what: &str| format!("[[vary]] {}: {what}", self.label());
         if let Some(name) = &self.name {

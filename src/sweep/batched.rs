@@ -16,7 +16,7 @@ use crate::scheme::Scheme;
 /// Rows that go through the lanes together.
 pub(super) const TOGETHER: u64 = 256;
 
-/// What the lanes can tell.
+/// The measures that the batch engine computes.
 const KNOWN: [Measure; 9] = [
     Measure::Impacts,
     Measure::ImpactsPerPeriod,
@@ -30,7 +30,7 @@ const KNOWN: [Measure; 9] = [
 ];
 
 impl Plan {
-    /// Refuses what the lanes do not hold, or cannot tell.
+    /// An error for schemes, options and measures that the batch engine does not support.
     pub(super) fn check_batch(&self) -> Result<()> {
         let refuse = |key: &'static str, found: String, expected: &str| {
             Err(Error::invalid(key, found, format!("{expected} beside kernel = \"batch\"")))
@@ -58,7 +58,8 @@ impl Plan {
         Ok(())
     }
 
-    /// The rows of `points`, each of which depends on its point alone: the lanes see to that.
+    /// The rows of `points`. Each row depends on its point alone, not on the others computed with
+    /// it.
     pub(super) fn batched(&self, points: &[Point]) -> Vec<Row> {
         let lanes: Vec<Result<(Lane, Scene)>> = points.iter().map(|point| self.lane(point)).collect();
         let seated: Vec<Lane> = lanes.iter().flatten().map(|(lane, _)| lane.clone()).collect();
@@ -95,8 +96,8 @@ impl Plan {
                 Err(error) => row.fail(&error),
             }
             if row.status == Status::Ok && self.is_judged(point.row) {
-                // The lanes make no steps that could be judged: those of the scheme that they stand
-                // for are.
+                // The batch engine makes no steps that could be judged, so the judged rows are
+                // computed by the scheme `event`, which it replaces.
                 let judged = self.row(point, None);
                 if judged.status == Status::Refuted {
                     (row.status, row.error) = (judged.status, judged.error);

@@ -1,4 +1,4 @@
-//! What a picture can be drawn from: the axes of a sweep, and the columns of its tables by name.
+//! The data of pictures: the axes of a sweep, and the columns of its tables by name.
 
 use super::measure::Measure;
 use super::table::{TABLE, Table};
@@ -6,17 +6,17 @@ use crate::output::figure::Scale;
 use serde_json::{Map, Value};
 use std::path::Path;
 
-/// An axis as the request remembers it.
+/// An axis as recorded in `request.json`.
 pub(super) struct Along {
     pub column: String,
     pub key: String,
     pub scale: Scale,
     pub follows: bool,
-    /// How many values it has.
+    /// Number of its values.
     pub count: u64,
 }
 
-/// What a picture is drawn from.
+/// The data of a picture.
 pub(super) struct Source<'a> {
     pub folder: &'a Path,
     pub title: &'a str,
@@ -67,7 +67,7 @@ impl Along {
     }
 }
 
-/// True if `column` is that name with a wall, a probe or a unit behind it.
+/// True if `column` is that name, followed by a wall, a probe or a unit.
 pub(super) fn of(column: &str, name: &str) -> bool {
     column == name || column.strip_prefix(name).is_some_and(|rest| rest.starts_with('_'))
 }
@@ -77,7 +77,7 @@ pub(super) fn place_of(column: &str, measure: &str) -> String {
     place_suffix(column, measure).trim_start_matches('_').to_owned()
 }
 
-/// The same with the sign before it.
+/// The same with its sign.
 pub(super) fn place_suffix(column: &str, measure: &str) -> String {
     let unit =
         measure.parse::<Measure>().ok().and_then(Measure::unit).map_or_else(String::new, |unit| format!("_{unit}"));
@@ -85,7 +85,7 @@ pub(super) fn place_suffix(column: &str, measure: &str) -> String {
     rest.strip_suffix(&unit).unwrap_or(rest).to_owned()
 }
 
-/// A cell without more digits than a label needs.
+/// A cell, rounded to the digits of a label.
 pub(super) fn short(cell: &str) -> String {
     cell.parse::<f64>().map_or_else(|_| cell.to_owned(), |x| format!("{x:.4e}").parse::<f64>().unwrap_or(x).to_string())
 }

@@ -6,13 +6,13 @@ use super::table::{TABLE, Table, label, quantity};
 use crate::error::{Error, Result};
 use crate::output::figure::{Curve, Figure, HeatMap, Panel, Scale, Scatter};
 
-/// Most curves of one panel.
+/// Maximum number of curves in one panel.
 const MOST_CURVES: usize = 8;
 
-/// Most cells along one side of a heat map.
+/// Maximum number of cells along one side of a heat map.
 const MOST_CELLS: usize = 160;
 
-/// Points of one curve, and its label.
+/// The points of one curve, with its label.
 type Labelled = (String, Vec<(f64, f64)>);
 
 impl Picture {
@@ -106,7 +106,7 @@ impl Picture {
         let direction = table.column("direction").ok();
         let mut found: Vec<(f64, f64, f64)> = Vec::new();
         table.each(|row| {
-            // Of a followed axis the way up.
+            // Of an axis followed up and down, the way up.
             if direction.is_some_and(|index| row.text(index) == "down") {
                 return;
             }
@@ -137,7 +137,7 @@ impl Picture {
     }
 }
 
-/// A measure of random points over one of their coordinates.
+/// A measure over one coordinate of the points of a random design.
 fn cloud(title: &str, x: &Along, groups: &[(String, Vec<String>)], curves: &[Vec<Labelled>]) -> Option<String> {
     let (curves, (measure, columns)) = (curves.first()?, groups.first()?);
     let labels: Vec<&str> = curves.iter().take(2).map(|(label, _)| label.as_str()).collect();

@@ -1,4 +1,4 @@
-//! Sweep files: what is varied and asked, as TOML beside the case.
+//! Sweep files: the values that vary and the measures, as TOML.
 
 use super::axis::{Axis, Follow, Values};
 use super::measure::Measure;
@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use serde::Deserialize;
 use std::path::Path;
 
-/// Largest sweep file, bytes.
+/// Maximum size of a sweep file, bytes.
 const MOST_BYTES: u64 = 1 << 22;
 
 #[derive(Debug, Deserialize)]
@@ -117,8 +117,8 @@ impl Sweep {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Io`] where it cannot be read, [`Error::Case`] for what is no sweep file, with line
-    /// and column, and what the parts of a sweep refuse.
+    /// [`Error::Io`] if it cannot be read, [`Error::Case`] with line and column if it is not a
+    /// valid sweep file, and the errors of the parts of a sweep.
     pub fn read(path: &Path) -> Result<Self> {
         let failed = |reason: String| Error::io(path.display(), reason, true);
         let length = std::fs::metadata(path).map_err(|error| failed(error.to_string()))?.len();
@@ -129,7 +129,8 @@ impl Sweep {
         Self::parse(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new("")))
     }
 
-    /// The same from its text, which messages call `name`; the case is looked for in `folder`.
+    /// The same from its text, which is called `name` in messages; the case is looked for in
+    /// `folder`.
     ///
     /// # Errors
     /// As [`Sweep::read`].
@@ -167,7 +168,7 @@ impl Sweep {
     }
 }
 
-/// The case that a sweep file calls `name`.
+/// The case of that name in a sweep file.
 fn case_file(name: &str, folder: &Path) -> Result<CaseFile> {
     let path = folder.join(name);
     let beside = folder.join(format!("{name}.toml"));

@@ -9,7 +9,7 @@ use crate::output::atomic::WholeFile;
 use std::io::Write;
 use std::path::Path;
 
-/// What the rows of a table came to.
+/// The numbers of rows of a table by status.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Tables {
@@ -31,14 +31,14 @@ impl Tables {
         }
     }
 
-    /// Rows that failed.
+    /// Number of rows that failed.
     #[must_use]
     pub fn bad(&self) -> u64 {
         let bad = self.counts.iter().filter(|(status, _)| !["ok", "handed"].contains(&status.as_str()));
         bad.map(|(_, count)| count).sum()
     }
 
-    /// Those of a table that is there.
+    /// The counts of a table that exists.
     ///
     /// # Errors
     /// [`Error::Io`] for a file that cannot be read.
@@ -55,7 +55,7 @@ impl Tables {
     }
 }
 
-/// Where status and error stand in a table.
+/// The columns of status and error in a table.
 pub(super) struct Columns {
     status: usize,
     error: usize,

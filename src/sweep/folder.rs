@@ -1,4 +1,4 @@
-//! The folder of a sweep: what it was asked, how far it has come, and what it may replace.
+//! The folder of a sweep: the request recorded in it, the rows done, and what may be replaced.
 
 use super::axis::Axis;
 use super::picture::Picture;
@@ -16,20 +16,20 @@ use crate::output::results::{self, FINGERPRINT};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
-/// What a folder holds.
+/// The contents of a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum State {
-    /// Nothing of this request.
+    /// No row of this request.
     Empty,
-    /// Some of its rows.
+    /// Some of its rows, in the journal.
     Begun,
-    /// All of them, in tables.
+    /// All of its rows, in tables.
     Finished,
 }
 
 impl Plan {
-    /// What is asked, as the folder remembers it: rows of two requests that are equal here have the
-    /// same bits on one machine.
+    /// The part of the request that decides on the numbers: if it is equal for two requests, their
+    /// rows have the same bits on one machine.
     pub(crate) fn request(&self) -> Map<String, Value> {
         let sweep = &self.sweep;
         let axes: Vec<Value> = self.axis_columns().map(|(axis, column)| described(axis, column)).collect();
@@ -74,23 +74,23 @@ fn described(axis: &Axis, column: &str) -> Value {
     json!({ "column": column, "keys": keys, "count": axis.count(), "values": format!("{:?}", axis.values), "follow": format!("{:?}", axis.follow) })
 }
 
-/// A digest of the sines and exponentials of this machine: its mathematical library decides on
-/// their last bits, and so on those of the rows.
+/// A digest of sines and exponentials computed on this machine: their last bits, and so those of
+/// the rows, depend on its mathematical library.
 pub(super) fn arithmetic() -> String {
     let mut bytes = Vec::new();
     for i in 0..4096 {
         let x = f64::from(i) * 0.037_109_375 + 1e-3;
         bytes.extend([x.sin(), x.cos(), (-x).exp(), x.ln()].map(f64::to_le_bytes).concat());
     }
-    // Lanes with fused products have one set of bits, those without another.
+    // Results with fused multiply-add instructions differ from those without.
     bytes.push(u8::from(Width::available().contains(&Width::Avx2)));
     sha256(&bytes)
 }
 
-/// What `folder` holds of `request`. With `force` whatever it holds is taken for nothing.
+/// What `folder` contains of `request`. With `force`, its contents are ignored.
 ///
 /// # Errors
-/// [`Error::Io`], a wrong request, for results of another request.
+/// [`Error::Io`] (a wrong request) if it contains results of another request.
 pub(super) fn look(folder: &Path, request: &Map<String, Value>, force: bool) -> Result<State> {
     if force {
         return Ok(State::Empty);
@@ -105,7 +105,7 @@ pub(super) fn look(folder: &Path, request: &Map<String, Value>, force: bool) -> 
     })
 }
 
-/// What a folder remembers beside the request, which changes no number.
+/// What is recorded in a folder beside the request, and changes no number.
 #[derive(Debug, Clone)]
 pub(super) struct Study {
     pub case_text: String,
@@ -126,7 +126,7 @@ impl Study {
     }
 }
 
-/// Says in `folder` what was asked of it and which files it holds.
+/// Writes to `folder` the request and the list of its files.
 ///
 /// # Errors
 /// [`Error::Io`] where it cannot be written.
@@ -137,7 +137,7 @@ pub(super) fn say(
     shard: Shard,
     finished: bool,
 ) -> Result<()> {
-    // What is not there is none of another request's to take away.
+    // Files that do not exist are not removed.
     let files: &[&str] = if finished {
         &[TABLE, SAMPLES, "summary.json", "sweep.svg", "sweep.pdf", "sweep.png"]
     } else {
@@ -157,7 +157,7 @@ pub(super) fn say(
     write_whole(&folder.join(results::MANIFEST), format!("{manifest:#}\n").as_bytes())
 }
 
-/// The request of a shard: that of the whole, and which part.
+/// The request of a shard: that of the whole sweep, and the number of the shard.
 pub(super) fn of_shard(mut request: Map<String, Value>, shard: Shard) -> Map<String, Value> {
     if shard != Shard::WHOLE {
         request.insert("shard".to_owned(), json!(shard.to_string()));
@@ -173,7 +173,7 @@ pub(crate) fn write_summary(folder: &Path, document: &Value) -> Result<()> {
     write_whole(&folder.join("summary.json"), json::text(document).as_bytes())
 }
 
-/// A wrong request about `folder`.
+/// An error of a wrong request that concerns `folder`.
 pub(super) fn wrong(folder: &Path, reason: String) -> Error {
     Error::io(folder.display(), reason, true)
 }

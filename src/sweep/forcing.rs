@@ -4,16 +4,16 @@ use crate::error::{Error, Result};
 use crate::orbit::{forcing_period, frequencies};
 use crate::scene::Scene;
 
-/// True if a sine acts.
+/// True if there is a harmonic load.
 pub(super) fn has_sine(scene: &Scene) -> bool {
     !frequencies(scene).is_empty()
 }
 
-/// The least time, s, after which all loads of `scene` repeat themselves.
+/// The shortest time, s, after which all loads of `scene` repeat themselves.
 ///
 /// # Errors
-/// [`Error::Invalid`] where there is none: no sine, a load that does not repeat, or frequencies
-/// without a common period.
+/// [`Error::Invalid`] if there is none: no harmonic load, a load that does not repeat itself, or
+/// frequencies without a common period.
 pub(super) fn period(scene: &Scene) -> Result<f64> {
     forcing_period(scene).map_err(|error| match error {
         Error::Invalid { subject, value, expected } => {

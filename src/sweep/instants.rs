@@ -1,4 +1,4 @@
-//! Diagrams of instants.
+//! Diagrams of the instants of rows: bifurcation diagrams, Poincaré sections.
 
 use super::columns::{Source, of};
 use super::picture::{Kind, Picture};
@@ -77,7 +77,7 @@ impl Picture {
         }
     }
 
-    /// The column of instants that `asked` means, or number `index` of those that tell most.
+    /// The column of instants named `asked`, or number `index` of the default ones.
     pub(super) fn sampled(&self, asked: Option<&String>, index: usize, source: &Source<'_>) -> Result<String> {
         let columns = &source.sample_columns;
         let telling = |column: &&String| {
@@ -99,8 +99,8 @@ impl Picture {
         })
     }
 
-    /// Tells `take` the number of the row and the values of `columns` of every instant that is
-    /// drawn.
+    /// Calls `take` with the number of the row and the values of `columns`, for every instant that
+    /// is drawn.
     fn samples(&self, source: &Source<'_>, columns: &[&String], mut take: impl FnMut(u64, &[f64])) -> Result<()> {
         let table = Table::open(&source.folder.join(SAMPLES))?;
         let row = table.column("row")?;

@@ -1,10 +1,10 @@
-//! `rows.journal`: the rows that are done, in the order in which they were, each whole or not at
-//! all.
+//! `rows.journal`: the rows that are done, in the order in which they were finished, each complete
+//! or not at all.
 //!
 //! A block is a line `@ROW LENGTH CRC` and LENGTH bytes: the state at the end of the row, in
-//! hexadecimal, on a line of its own (empty where nothing follows it), the row's line of
-//! `sweep.csv`, its lines of `samples.csv`. Whatever is cut off or damaged, as after a power cut or
-//! on a full disk, ends the journal there: what comes after is done again.
+//! hexadecimal, on a line of its own (empty if no row starts from it), the row's line of
+//! `sweep.csv`, its lines of `samples.csv`. The journal ends at the first block that is incomplete
+//! or damaged, for example after a power failure or on a full disk; later rows are computed again.
 
 use crate::error::{Error, Result};
 use crate::scene::State;
@@ -16,26 +16,26 @@ use std::time::{Duration, Instant};
 /// Name of the file.
 pub(super) const JOURNAL: &str = "rows.journal";
 
-/// How often rows are handed to the operating system, and how often to the disk.
+/// Intervals at which rows are passed to the operating system, and written to the disk.
 const FLUSH: Duration = Duration::from_secs(1);
 const SYNC: Duration = Duration::from_secs(10);
 
-/// Longest block, bytes: what a damaged length may ask for.
+/// Maximum length of a block, bytes: an upper limit for damaged lengths.
 const MOST_BYTES: u64 = 1 << 32;
 
-/// Where a block's body is: offset and length; no length for a row that is not done.
+/// Offset and length of a block's body; length 0 for a row that is not done.
 #[derive(Debug, Clone, Copy, Default)]
 struct Place {
     offset: u64,
     length: u32,
 }
 
-/// An open journal; no other process can open it meanwhile.
+/// An open journal; it is locked against other processes.
 #[derive(Debug)]
 pub(super) struct Journal {
     path: PathBuf,
     file: BufWriter<File>,
-    /// Of the rows of this journal, by their place among them.
+    /// Of each row of this journal, in their order.
     places: Vec<Place>,
     done: u64,
     end: u64,
@@ -43,7 +43,7 @@ pub(super) struct Journal {
     synced: Instant,
 }
 
-/// One row as it stands in the journal.
+/// One row of the journal.
 #[derive(Debug)]
 pub(super) struct Block {
     /// The state at its end.
@@ -84,11 +84,11 @@ impl Block {
 }
 
 impl Journal {
-    /// Opens the journal in `folder` for `rows` rows, `place` telling of the number of a row which
-    /// of them it is, and reads what is in it, or throws that away to begin `anew`.
+    /// Opens the journal in `folder` for `rows` rows, and reads it, or with `anew` empties it.
+    /// `place` gives the position of a row in this journal from its number.
     ///
     /// # Errors
-    /// [`Error::Io`] where it cannot be opened, or another process has it.
+    /// [`Error::Io`] if it cannot be opened, or another process has locked it.
     pub fn open(folder: &Path, rows: u64, anew: bool, place: impl Fn(u64) -> Option<usize>) -> Result<Self> {
         let path = folder.join(JOURNAL);
         let failed = |error: &std::io::Error| failure(&path, error, true);
@@ -100,7 +100,7 @@ impl Journal {
                 let reason = "another process is at work in this folder".to_owned();
                 return Err(Error::io(folder.display(), reason, true));
             }
-            // A file system without locks: two at once are the caller's care.
+            // A file system without locks: the caller must not run two processes at once.
             Err(TryLockError::Error(_)) => {}
         }
         if anew {
@@ -126,12 +126,12 @@ impl Journal {
         Ok(Self { path, file: BufWriter::with_capacity(1 << 16, file), places, done, end, flushed: now, synced: now })
     }
 
-    /// How many rows are done.
+    /// Number of rows done.
     pub fn done(&self) -> u64 {
         self.done
     }
 
-    /// True if the row at that place is done.
+    /// True if the row at that position is done.
     pub fn has(&self, place: usize) -> bool {
         self.places.get(place).is_some_and(|place| place.length > 0)
     }
@@ -139,8 +139,7 @@ impl Journal {
     /// Adds a row.
     ///
     /// # Errors
-    /// [`Error::Io`] where the disk refuses; it says that nothing done so far is lost, and how to
-    /// go on.
+    /// [`Error::Io`] if writing fails; it says that no finished row is lost, and how to continue.
     pub fn add(&mut self, row: u64, place: usize, block: &Block) -> Result<()> {
         let body = block.bytes();
         let header = format!("@{row} {} {:08x}\n", body.len(), crc32(&[&row.to_le_bytes(), &body]));
@@ -167,7 +166,7 @@ impl Journal {
         Ok(())
     }
 
-    /// Hands everything to the disk.
+    /// Writes everything to the disk.
     ///
     /// # Errors
     /// As [`Journal::add`].
@@ -176,14 +175,14 @@ impl Journal {
         flushed.map_err(|error| interrupted(&self.path, &error))
     }
 
-    /// The row at that place; none where it is not done.
+    /// The row at that position; `None` if it is not done.
     ///
     /// # Errors
     /// [`Error::Io`] where it cannot be read.
     pub fn read(&mut self, place: usize) -> Result<Option<Block>> {
         let Some(&at) = self.places.get(place).filter(|at| at.length > 0) else { return Ok(None) };
         let mut bytes = vec![0; at.length as usize];
-        // What is buffered goes to the end of the file, and what comes next, too.
+        // The buffer is written at the end of the file, and so is what follows.
         let flushed = self.file.flush();
         let mut file = self.file.get_ref();
         let read =
@@ -193,14 +192,14 @@ impl Journal {
         Ok(Block::read(&bytes))
     }
 
-    /// Takes the journal away.
+    /// Removes the journal.
     pub fn remove(self) {
-        // What cannot be removed is found to be finished next time.
+        // If it cannot be removed, the next process finds all rows done.
         let _ = std::fs::remove_file(&self.path);
     }
 }
 
-/// What a block's first line says.
+/// The numbers in the first line of a block.
 struct Length {
     header: u64,
     body: u64,
@@ -209,7 +208,7 @@ struct Length {
 
 fn header(reader: &mut impl BufRead) -> Option<(u64, Length)> {
     let mut line = Vec::new();
-    // No header is longer: a damaged one must not ask for all of the file.
+    // Maximum length of a header, so that a damaged one does not make us read the whole file.
     reader.by_ref().take(64).read_until(b'\n', &mut line).ok()?;
     let text = std::str::from_utf8(&line).ok()?.strip_prefix('@')?.strip_suffix('\n')?;
     let mut words = text.split(' ');

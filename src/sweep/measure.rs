@@ -1,11 +1,11 @@
-//! Measures: what is asked of every row, by name.
+//! Measures: the quantities computed for every row, by name.
 
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use std::fmt;
 use std::str::FromStr;
 
-/// What a measure is told of.
+/// What a measure refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
     /// Each wall.
@@ -16,16 +16,16 @@ pub enum Scope {
     Row,
 }
 
-/// One measure of a row: a column for each wall, each probe, or the row.
+/// One measure of a row: one column per wall, per probe, or per row.
 ///
-/// All of them are of one window, from `statistics_from`, or the end of `settle`, to the end; they
-/// are those of [`Statistics`](crate::Statistics) where it has them.
+/// All measures refer to one window, from `statistics_from`, or the end of `settle`, to the end.
+/// Where [`Statistics`](crate::Statistics) has the same quantity, they are equal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Measure {
     /// Number of contact episodes that began in the window.
     Contacts,
-    /// Number of them that are impacts: without length.
+    /// Number of them that are impacts, without duration.
     Impacts,
     /// Contacts per second.
     ContactRate,
@@ -43,19 +43,19 @@ pub enum Measure {
     ForceMean,
     /// Root mean square of the force over time, N; see [`ForceStatistics`](crate::ForceStatistics).
     ForceRms,
-    /// Mean over episodes of the largest |force|, N, of those whose force is finite.
+    /// Mean over episodes of the largest |force|, N, over those whose force is finite.
     PeakForceMean,
     /// Largest of them, N.
     PeakForceMax,
-    /// Kinetic energy that arrived per time, W.
+    /// Kinetic energy on arrival at the wall per time, W.
     ImpactPower,
-    /// The same less what left, W.
+    /// The same minus the kinetic energy on departure, W.
     ArrivedLessDepartedPower,
     /// Mean speed towards the wall at the start of an episode, m/s.
     ApproachSpeedMean,
     /// Largest of them, m/s.
     ApproachSpeedMax,
-    /// Smallest of them, m/s: 0 at a graze.
+    /// Smallest of them, m/s; 0 at a grazing contact.
     ApproachSpeedLeast,
     /// Largest |u|, m.
     DisplacementMax,
@@ -69,8 +69,8 @@ pub enum Measure {
     VelocityMax,
     /// Impacts at all walls over forcing periods.
     ImpactsPerPeriod,
-    /// The least number of forcing periods after which the motion repeats itself; none up to 32
-    /// leaves the cell empty.
+    /// The smallest number of forcing periods after which the motion repeats itself; the cell is
+    /// empty if there is none up to 32.
     Period,
     /// Growth of a change of the start over the window, 1/s: the largest Lyapunov exponent of a
     /// long one; by the batch engine alone.
@@ -117,19 +117,19 @@ impl Measure {
         entry.map_or(("", Scope::Row, None), |&(_, name, scope, unit)| (name, scope, unit))
     }
 
-    /// Its name, `impulse_mean`.
+    /// Its name, for example `impulse_mean`.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.entry().0
     }
 
-    /// What it is told of.
+    /// What it refers to.
     #[must_use]
     pub fn scope(self) -> Scope {
         self.entry().1
     }
 
-    /// Its unit as column names write it, `N_s`; none for a number without one.
+    /// Its unit as in column names, for example `N_s`; empty for a dimensionless number.
     #[must_use]
     pub fn unit(self) -> Option<&'static str> {
         self.entry().2

@@ -1,4 +1,4 @@
-//! Shards put together: the bytes of the sweep that was never divided.
+//! Joins shards into the files of the whole sweep, with the same bytes as without shards.
 
 use super::finish::{Columns, Tables};
 use super::folder::{self, Study, wrong};
@@ -13,17 +13,17 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
-/// What a merged sweep amounts to.
+/// The result of a merge.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Merged {
-    /// Rows in all.
+    /// Number of rows.
     pub rows: u64,
-    /// How many shards there were.
+    /// Number of shards.
     pub shards: usize,
-    /// Rows by what became of them.
+    /// Number of rows by status.
     pub tables: Tables,
-    /// The request of the whole.
+    /// The request of the whole sweep.
     pub(crate) request: Map<String, Value>,
     /// Its title, and its picture.
     pub title: String,
@@ -33,7 +33,7 @@ pub struct Merged {
     pub differing_arithmetic: bool,
 }
 
-/// One shard on disk.
+/// One shard, in its folder.
 struct Part {
     folder: PathBuf,
     shard: Shard,
@@ -67,7 +67,7 @@ impl Part {
     }
 }
 
-/// The folders of shards that `folders` name: each is one, or has them within.
+/// The folders of shards: each of `folders` is one, or contains some.
 fn expanded(folders: &[PathBuf]) -> Result<Vec<PathBuf>> {
     let mut all = Vec::new();
     for folder in folders {
@@ -89,11 +89,11 @@ fn expanded(folders: &[PathBuf]) -> Result<Vec<PathBuf>> {
     Ok(all)
 }
 
-/// Puts the shards in `folders` together in `out`.
+/// Joins the shards in `folders`, and writes the result to `out`.
 ///
 /// # Errors
-/// [`Error::Io`], a wrong request: a shard that is missing, not finished, there twice, or of
-/// another request; an `out` with other results.
+/// [`Error::Io`] (a wrong request) for a shard that is missing, unfinished, given twice or of
+/// another request, and for an `out` that contains other results.
 pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged> {
     let mut parts = expanded(folders)?.iter().map(|folder| Part::read(folder)).collect::<Result<Vec<_>>>()?;
     parts.sort_by_key(|part| part.shard.index());
@@ -148,7 +148,7 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged> {
     Ok(Merged { rows, shards: parts.len(), tables, request, title, picture, differing_arithmetic })
 }
 
-/// Lines of one file, with the number of the row that each is of.
+/// Lines of one file, each with the number of its row.
 struct Lines {
     path: PathBuf,
     reader: BufReader<File>,
@@ -170,7 +170,7 @@ impl Lines {
         read.map(drop).map_err(|error| wrong(&self.path, error.to_string()))
     }
 
-    /// The row of the line at hand; none at the end.
+    /// The row of the current line; `None` at the end.
     fn row(&self) -> Option<u64> {
         let cell = self.line.split(|&b| b == b',').next()?;
         std::str::from_utf8(cell).ok()?.parse().ok()

@@ -1,9 +1,9 @@
-//! Sweeps: one case, what of it is varied, and what is asked of every row.
+//! Sweeps: one case, the values of it that vary, and the measures computed for every row.
 //!
-//! A [`Sweep`] says what; [`Sweep::plan`] checks it and numbers its rows; [`Plan::rows`] computes
-//! them in memory, [`Plan::run_into`] into a folder, from where an interrupted one goes on. Every
-//! number of a row follows from the row alone: threads, shards and interruptions change no bit.
-//! Rows that fail are rows with their reason.
+//! A [`Sweep`] is the request; [`Sweep::plan`] checks it and numbers its rows; [`Plan::rows`]
+//! computes them in memory, [`Plan::run_into`] into a folder, where an interrupted sweep can be
+//! continued. The numbers of a row depend on the row alone: threads, shards and interruptions
+//! change no bit. A row that fails has the reason in place of its measures.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -23,9 +23,10 @@
 //! | `table`, `columns` | the tables read again |
 //! | `shard`, `merge` | parts, and the whole of them |
 //!
-//! The rows of one thread do not wait for those of another, and a chain of followed rows runs on
-//! one. Threads are plain ones that take the next chain when they have done one: work is handed out
-//! in the order of the rows, which keeps the journal nearly sorted, and nothing has to be balanced.
+//! A chain of rows, each of which starts from the end of the last, runs on one thread; a row that
+//! follows no other is a chain by itself. Each thread takes the next chain when it has finished
+//! one. So chains begin in the order of the rows, the journal is nearly sorted, and the load is
+//! balanced.
 //!
 #![doc = include_str!("../../docs/sweep.md")]
 

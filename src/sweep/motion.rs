@@ -1,4 +1,4 @@
-//! Extremes and mean squares of what probes see, over the window of a row.
+//! Extremes and mean squares of the probes' displacements, over the window of a row.
 
 use crate::scene::{Row, Scene, State};
 use crate::step::{Path, Step};
@@ -12,15 +12,15 @@ const GAUSS: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-/// Halvings of a bracket: to the last digit of a double.
+/// Number of bisections that narrow a bracket to the last digit of a double.
 const HALVINGS: u32 = 60;
 
-/// Golden section, and how often it shrinks a bracket: an extreme is flat, and known to 1e-16 where
-/// its place is to 1e-8.
+/// Golden section, and the number of its steps: the value at an extreme is known to 1e-16 when its
+/// place is known to 1e-8.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 const SECTIONS: u32 = 40;
 
-/// What one probe saw.
+/// Extremes and mean square of one probe.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
     /// Highest and lowest displacement, m.
@@ -32,22 +32,23 @@ pub(super) struct Seen {
     pub speed: f64,
 }
 
-/// Watches the probes of a scene from a time on.
+/// Sums up the motion of a scene's probes from a given time on.
 ///
-/// Between the ends of an exact stretch an extreme is a zero of the velocity, found between
-/// instants at which the fastest motion has turned by an eighth of a cycle, and then to rounding. A
-/// scheme on a grid has extremes at its instants, and the trapezoidal rule.
+/// Within a stretch of exact motion, an extreme is a zero of the velocity. It is bracketed by
+/// instants an eighth of a period of the fastest motion apart, and then found to rounding. For a
+/// scheme on a grid the extremes are those at its instants, and integrals are taken by the
+/// trapezoidal rule.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
     from: f64,
     probes: Vec<Row>,
     pub seen: Vec<Seen>,
-    /// True if the largest speeds are asked for: they cost more evaluations.
+    /// True if the largest speeds are requested, which takes more evaluations.
     speeds: bool,
-    /// The state at the end of the last step, and a place to evaluate others.
+    /// The state at the end of the last step, and memory for others.
     last: State,
     state: State,
-    /// Instants of a stretch with what a probe saw there: time, displacement, velocity.
+    /// Instants of a stretch: time, displacement and velocity of a probe.
     instants: Vec<(f64, f64, f64)>,
 }
 
@@ -90,7 +91,7 @@ impl Motion {
         }
     }
 
-    /// A stretch of exact motion whose fastest part turns by `rate` (rad/s).
+    /// A stretch of exact motion whose largest angular frequency is `rate` (rad/s).
     fn see_path(&mut self, step: &Step<'_>, rate: f64) {
         let from = step.start.max(self.from);
         let span = step.end - from;
@@ -139,8 +140,8 @@ impl Seen {
     }
 }
 
-/// Stretches in which the speed may have a peak: about an instant with lower ones on both sides,
-/// and at the ends, where one side is not seen.
+/// Intervals in which the speed may have a peak: around an instant with lower speeds on both sides,
+/// and at the ends, beyond which nothing is known.
 fn brackets(instants: &[(f64, f64, f64)]) -> Vec<[f64; 2]> {
     let peak = |three: &[(f64, f64, f64)]| match three {
         &[(a, _, va), (_, _, middle), (b, _, vb)] if middle.abs() >= va.abs().max(vb.abs()) => Some([a, b]),

@@ -1,4 +1,4 @@
-//! The picture of a sweep, from its tables: which one, and of which columns.
+//! The picture of a sweep, from its tables: the kind of picture and its columns.
 
 use super::columns::{Along, Source, of};
 use super::measure::Measure;
@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// What a picture shows.
+/// The kind of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
@@ -19,7 +19,7 @@ pub enum Kind {
     Heat,
     /// Instants over one axis, up and down in two colours.
     Bifurcation,
-    /// Instants over one another: a Poincaré section of all rows.
+    /// One column of the instants over another: a Poincaré section of all rows.
     Section,
 }
 
@@ -40,32 +40,33 @@ impl FromStr for Kind {
     }
 }
 
-/// Which picture is drawn; what is left out follows from the sweep. Columns go by their names, or
-/// by these without wall and unit: `approach_speed`.
+/// The picture that is drawn; what is left out is chosen from the sweep. Columns are named in full,
+/// or without wall and unit: `approach_speed`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Picture {
-    /// What it shows.
+    /// Its kind.
     pub kind: Option<Kind>,
-    /// What runs along the horizontal axis.
+    /// The column along the horizontal axis.
     pub x: Option<String>,
-    /// What runs along the vertical axis.
+    /// The column along the vertical axis.
     pub y: Option<String>,
-    /// What the colours of a heat map tell.
+    /// The column shown by the colours of a heat map.
     pub z: Option<String>,
-    /// The wall whose instants or measures are drawn; all of them where none is named.
+    /// The wall whose instants or measures are drawn; all walls if `None`.
     pub wall: Option<String>,
 }
-/// Most panels.
+/// Maximum number of panels.
 const MOST_PANELS: usize = 4;
 
-/// Fewer values than this are curves of their own rather than a side of a map.
+/// An axis with fewer values than this becomes separate curves rather than a side of a map.
 const FEW: u64 = 6;
 
 impl Picture {
-    /// Refuses what the tables of `request` do not have.
+    /// Checks that the tables of `request` have the columns.
     ///
     /// # Errors
-    /// [`Error::Unknown`] for a column, [`Error::Invalid`] for a kind that they do not hold.
+    /// [`Error::Unknown`] for a column, [`Error::Invalid`] for a kind that cannot be drawn from
+    /// them.
     pub(super) fn check(&self, request: &Map<String, Value>) -> Result<()> {
         let source = Source::new(Path::new(""), request, "");
         if let (Some(wall), false) = (&self.wall, self.kind == Some(Kind::Heat)) {
@@ -98,7 +99,7 @@ impl Picture {
         }
     }
 
-    /// What it is as JSON, and from there again.
+    /// Written as JSON, and read from it.
     pub(super) fn document(&self) -> Value {
         let kind = self.kind.and_then(|kind| Kind::ALL.iter().find(|entry| entry.1 == kind)).map(|entry| entry.0);
         json!({ "kind": kind, "x": self.x, "y": self.y, "z": self.z, "wall": self.wall })
@@ -110,12 +111,12 @@ impl Picture {
         Self { kind, x: word("x"), y: word("y"), z: word("z"), wall: word("wall") }
     }
 
-    /// Draws the picture of the tables in `folder`, which `request` is of, in each of `formats`;
-    /// gives the paths. A table of which there is nothing to draw has none.
+    /// Draws the picture of the tables in `folder`, of the request `request`, in each of `formats`,
+    /// and returns the paths; none if the tables contain nothing to draw.
     ///
     /// # Errors
-    /// [`Error::Unknown`] for a column that the tables do not have, [`Error::Io`] where they cannot
-    /// be read or the picture cannot be written.
+    /// [`Error::Unknown`] for a column that the tables do not have, [`Error::Io`] if they cannot be
+    /// read or the picture cannot be written.
     pub(crate) fn draw(
         &self,
         folder: &Path,
@@ -133,7 +134,7 @@ impl Picture {
         Ok(paths)
     }
 
-    /// The picture as SVG text; none of a table of which there is nothing to draw.
+    /// The picture as SVG text; `None` if there is nothing to draw.
     pub(super) fn svg(&self, folder: &Path, request: &Map<String, Value>, title: &str) -> Result<Option<String>> {
         let source = Source::new(folder, request, title);
         let sampled = source.sample_columns.len() > 1;
@@ -159,12 +160,12 @@ impl Picture {
         }
     }
 
-    /// The axis that `asked` names, or the one to draw over where nothing is asked.
+    /// The axis named `asked`, or by default the one along which a picture is drawn.
     pub(super) fn axis<'a>(asked: Option<&String>, source: &'a Source<'_>) -> Result<&'a Along> {
         let axes = &source.axes;
         let found = match asked {
             Some(name) => axes.iter().find(|axis| axis.column == *name || axis.key == *name || of(&axis.column, name)),
-            // The followed one, or else the one of most values.
+            // The followed one, or else the one with the most values.
             None => axes.iter().rev().max_by_key(|axis| (axis.follows, axis.count)),
         };
         found.ok_or_else(|| Error::Unknown {
@@ -174,7 +175,7 @@ impl Picture {
         })
     }
 
-    /// The two axes of a map: those asked for, else in the order of the file.
+    /// The two axes of a map: those requested, else in the order of the file.
     pub(super) fn sides<'a>(&self, source: &'a Source<'_>) -> Result<[&'a Along; 2]> {
         let named = |asked: &Option<String>| asked.as_ref().map(|name| Self::axis(Some(name), source)).transpose();
         let other = |than: Option<&Along>| {
@@ -192,7 +193,7 @@ impl Picture {
         })
     }
 
-    /// The columns that `asked` means, or all of the first measures, a list for each.
+    /// The columns named `asked`, or all columns of the first measures, one list for each.
     pub(super) fn measures(&self, asked: Option<&String>, source: &Source<'_>) -> Result<Vec<(String, Vec<String>)>> {
         let from = source.columns.iter().position(|column| column == "error").map_or(0, |index| index + 1);
         let all = source.columns.get(from..).unwrap_or_default();

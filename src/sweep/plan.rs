@@ -1,5 +1,5 @@
-//! The rows of a sweep: which values each has, and what it leaves behind. Everything of a row
-//! follows from its number.
+//! The rows of a sweep: their values and their columns. Everything about a row follows from its
+//! number.
 
 use super::axis::{Axis, Follow, Target};
 use super::forcing;
@@ -14,24 +14,24 @@ use crate::scheme::{Method, Scheme};
 use crate::study::choice::choose;
 use std::path::{Path, PathBuf};
 
-/// Most rows: their places in the journal are kept in memory, 16 bytes each.
+/// Maximum number of rows: their places in the journal are kept in memory, 16 bytes each.
 const MOST_ROWS: u64 = 100_000_000;
 
-/// Most rows of one chain: they run one after another.
+/// Maximum number of rows of one chain: they run one after another.
 const MOST_CHAIN: u64 = 10_000_000;
 
 /// A sweep that has been checked.
 #[derive(Debug, Clone)]
 pub struct Plan {
     pub(super) sweep: Sweep,
-    /// The case of all rows, but for what is varied.
+    /// The case of all rows, without the values that vary.
     pub(super) base: Case,
-    /// What rows run by that do not vary it.
+    /// The method of the rows, unless it varies.
     pub(super) method: Method,
-    /// Of the followed axis, or of one row: number of the value, and direction.
+    /// The rows of a chain: number of the value of the followed axis, and direction.
     pub(super) order: Vec<(u64, Option<&'static str>)>,
     pub(super) chains: u64,
-    /// The case with gaps for what is varied, in the order of the axes.
+    /// The case with placeholders for the values that vary, in the order of the axes.
     template: Template,
     header: Vec<String>,
     sample_header: Vec<String>,
@@ -39,21 +39,22 @@ pub struct Plan {
     axis_columns: Vec<Vec<String>>,
 }
 
-/// What one row is made of.
+/// The values of one row.
 #[derive(Debug, Clone)]
 pub(super) struct Point {
     pub row: u64,
     pub direction: Option<&'static str>,
-    /// One value an axis.
+    /// One value per axis.
     pub values: Vec<KeyValue>,
 }
 
 impl Sweep {
-    /// The rows of this sweep, after everything has been checked that can be before they run.
+    /// The rows of this sweep, after everything that can be checked before they run has been
+    /// checked.
     ///
     /// # Errors
-    /// [`Error::Invalid`], [`Error::Unknown`] or [`Error::Case`] for what makes no sense, naming it
-    /// and what would be accepted.
+    /// [`Error::Invalid`], [`Error::Unknown`] or [`Error::Case`], with the invalid value and what
+    /// would be accepted.
     pub fn plan(self) -> Result<Plan> {
         if self.axes.is_empty() {
             let expected = "one [[vary]] or more (--vary KEY=FROM:TO:POINTS)";
@@ -137,7 +138,7 @@ impl Sweep {
         Ok(plan)
     }
 
-    /// Refuses a key that is varied twice, or set by two axes in different words.
+    /// An error for a key that is varied twice, or set by two axes under different names.
     fn unique(&self) -> Result<()> {
         let all: Vec<String> =
             self.axes.iter().flat_map(|axis| &axis.targets).map(|(target, _)| target.to_string()).collect();
@@ -148,7 +149,7 @@ impl Sweep {
         })
     }
 
-    /// Refuses settings of time that do not go together.
+    /// An error for settings of time that contradict one another.
     fn times(&self, base: &Case) -> Result<()> {
         let axes = || self.axes.iter().flat_map(|axis| &axis.targets);
         let varies = |key: &str| axes().any(|(target, _)| target.to_string() == key);
@@ -200,7 +201,7 @@ impl Sweep {
         Ok(())
     }
 
-    /// Columns of the axes: the last word of each key where that tells them apart.
+    /// Names of the axes' columns: the last word of each key if these differ, else the whole keys.
     fn columns(&self) -> Vec<Vec<String>> {
         let short: Vec<Vec<String>> = self.axes.iter().map(|axis| axis.columns(false)).collect();
         let twice = |name: &String| short.iter().flatten().filter(|other| *other == name).count() > 1;
@@ -212,26 +213,27 @@ impl Sweep {
 }
 
 impl Plan {
-    /// How many rows there are.
+    /// Number of rows.
     #[must_use]
     pub fn count(&self) -> u64 {
         self.chains * self.order.len() as u64
     }
 
-    /// How many rows follow one another with the state carried on: 1 where none does.
+    /// Number of rows of a chain, each of which starts from the end of the last; 1 if no axis is
+    /// followed.
     #[must_use]
     pub fn chain_rows(&self) -> u64 {
         self.order.len() as u64
     }
 
-    /// Draws its picture from the tables in `folder`, as `sweep.svg`, `sweep.pdf` or `sweep.png`;
-    /// gives the paths.
+    /// Draws its picture from the tables in `folder`, as `sweep.svg`, `sweep.pdf` or `sweep.png`,
+    /// and returns the paths.
     pub(crate) fn draw(&self, folder: &Path, formats: &[Format]) -> Result<Vec<PathBuf>> {
         self.sweep.picture.draw(folder, &self.request(), &self.sweep.title, formats)
     }
 
     /// Its picture, as SVG text, from the tables in `folder`, to which [`Plan::run_into`] has
-    /// written them; none where there is nothing to draw.
+    /// written them; `None` if there is nothing to draw.
     ///
     /// # Errors
     /// [`Error::Io`] for tables that cannot be read.
@@ -239,13 +241,13 @@ impl Plan {
         self.sweep.picture.svg(folder, &self.request(), &self.sweep.title)
     }
 
-    /// The case without what is varied.
+    /// The case without the values that vary.
     #[must_use]
     pub fn case(&self) -> &Case {
         &self.base
     }
 
-    /// What rows run by that do not vary it.
+    /// The method of the rows, unless it varies.
     #[must_use]
     pub fn method(&self) -> Method {
         self.method
@@ -289,7 +291,7 @@ impl Plan {
         Point { row: chain * self.chain_rows() + place, direction, values }
     }
 
-    /// True for a row of the judge's sample.
+    /// True for a row that is judged.
     pub(super) fn is_judged(&self, row: u64) -> bool {
         let judged = self.sweep.judged.min(self.count());
         // The rows ⌈k n/j⌉, k from 0 to j − 1: evenly spread, the first among them.
@@ -299,8 +301,7 @@ impl Plan {
         }
     }
 
-    /// The case of `point`, from the state `start` where it follows another row, and what it runs
-    /// by.
+    /// The case of `point`, from the state `start` if it follows another row, and its method.
     pub(super) fn build(&self, point: &Point, start: Option<&State>) -> Result<(Case, Method)> {
         let mut values = Vec::new();
         let mut scheme = None;
@@ -344,7 +345,8 @@ impl Plan {
         Ok((case, method))
     }
 
-    /// Refuses an axis of which no value makes a case: better now than as a table of failed rows.
+    /// An error for an axis none of whose values gives a valid case: better now than as a table of
+    /// failed rows.
     fn try_values(&self) -> Result<()> {
         let middle = |count: u64| count / 2;
         for axis in &self.sweep.axes {
@@ -365,8 +367,8 @@ impl Plan {
                     Err(error) => failure = failure.or(Some(error)),
                 }
             }
-            // Values that go together with those of another axis alone, such as both walls moved
-            // past the body, are judged row by row.
+            // Values that are valid only together with those of another axis, such as both walls
+            // moved past the body, are checked row by row.
             if let Some(error) = failure.filter(|_| self.sweep.axes.len() == 1 || !self.any_works()) {
                 return Err(error);
             }
@@ -374,7 +376,7 @@ impl Plan {
         Ok(())
     }
 
-    /// True if one of a few rows makes a case.
+    /// True if one of a few rows gives a valid case.
     fn any_works(&self) -> bool {
         let last = self.chains - 1;
         let places = [0, self.chain_rows() / 2];

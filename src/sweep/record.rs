@@ -6,11 +6,11 @@ use super::sample::Sample;
 use crate::output::csv::digits;
 
 impl Plan {
-    /// The line of `row` in `sweep.csv`, with its end of line.
+    /// The line of `row` in `sweep.csv`, with the line break.
     pub(super) fn line(&self, row: &Row) -> Vec<u8> {
         let mut cells = vec![row.number.to_string()];
         cells.extend(row.direction.map(str::to_owned));
-        // Whole numbers and words as they are, others with all their digits.
+        // Integers and words as they are, other numbers with all their digits.
         cells.extend(row.values.iter().map(|value| match value.number() {
             Some(x) if value.is_whole() => format!("{x}"),
             Some(x) => digits(Some(x)),
@@ -43,7 +43,7 @@ impl Plan {
     }
 }
 
-/// One record of a CSV file. It has no line breaks but at its end.
+/// One record of a CSV file, with a line break at its end only.
 pub(super) fn line(cells: &[String]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for (index, cell) in cells.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What a sweep asks.
+//! The request of a sweep.
 
 use super::axis::{Axis, Follow, Target};
 use super::measure::Measure;
@@ -9,19 +9,19 @@ use crate::case::{CaseFile, KeyValue};
 use crate::error::{Error, Result};
 use std::str::FromStr;
 
-/// How long a row lasts, and the window of its measures.
+/// The duration of a row, and the window of its measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stretch {
     /// The case's `time.end` and `time.statistics_from`.
     Case,
-    /// So many forcing periods before the window, and so many in it.
+    /// Numbers of forcing periods before the window, and in it.
     Periods {
         /// Before the window.
         settle: u32,
         /// In the window, one or more.
         keep: u32,
     },
-    /// So many seconds before the window, and so many in it.
+    /// Times before the window, and in it.
     Seconds {
         /// Before the window, s.
         settle: f64,
@@ -34,12 +34,12 @@ pub enum Stretch {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Kernel {
-    /// A stepper a row: every case and scheme.
+    /// One stepper per row: for every case and scheme.
     #[default]
     Scalar,
     /// [`batch`](crate::batch): oscillators side by side, by the scheme `event`, many times as
-    /// fast. Its digits differ from the scalar ones in the last places, which chaos makes all
-    /// places; so it is asked for, and never taken by itself.
+    /// fast. Its results differ from the scalar ones in the last digits, and in chaotic motion in
+    /// all digits; so it is used only on request.
     Batch,
 }
 
@@ -59,13 +59,13 @@ impl FromStr for Kernel {
     }
 }
 
-/// How many instants of a row are kept where nothing else is said: the last ones.
+/// Default number of instants of a row that are kept: the last ones.
 pub const MOST_SAMPLES: usize = 200;
 
-/// How many rows are judged where nothing else is said.
+/// Default number of rows that are judged.
 pub const JUDGED: u64 = 16;
 
-/// A sweep: one case, what of it is varied, and what is asked of every row.
+/// A sweep: one case, the values of it that vary, and the measures computed for every row.
 ///
 /// ```
 /// use signorini::case::CaseFile;
@@ -102,7 +102,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// A sweep of `case` over nothing yet.
+    /// A sweep of `case` in which nothing varies yet.
     #[must_use]
     pub fn new(case: CaseFile) -> Self {
         Self {
@@ -121,46 +121,47 @@ impl Sweep {
         }
     }
 
-    /// The same with a value of the case changed for all rows.
+    /// The same sweep with a value of the case changed for all rows.
     ///
     /// # Errors
-    /// As [`CaseFile::set`], and for what is no key.
+    /// As [`CaseFile::set`], and for a key that does not exist.
     pub fn set(mut self, key: &str, value: impl Into<KeyValue>) -> Result<Self> {
         self.case.set(&key.parse()?, &value.into())?;
         Ok(self)
     }
 
-    /// The same over one dimension more. Of several, the last one turns fastest, but for the
-    /// followed one, which turns faster still.
+    /// The same sweep with one more axis. Of several, the last one varies fastest from row to row;
+    /// a followed axis varies fastest of all.
     #[must_use]
     pub fn vary(mut self, axis: Axis) -> Self {
         self.axes.push(axis);
         self
     }
 
-    /// The same with values drawn at random from the ranges of all its axes.
+    /// The same sweep with values drawn at random from the ranges of all its axes.
     #[must_use]
     pub fn drawn(mut self, random: Random) -> Self {
         self.random = Some(random);
         self
     }
 
-    /// The same with rows of that length.
+    /// The same sweep with rows of that duration.
     #[must_use]
     pub fn over(mut self, stretch: Stretch) -> Self {
         self.stretch = stretch;
         self
     }
 
-    /// The same by a scheme, written as on the command line: `event`, `moreau-jean:theta=0.6`,
-    /// `penalty:epsilon=1e-9`. Without, the scheme is the one that `run` would choose for the case.
+    /// The same sweep by a scheme, written as on the command line: `event`,
+    /// `moreau-jean:theta=0.6`, `penalty:epsilon=1e-9`. By default, the scheme is the one that
+    /// `run` would choose for the case.
     #[must_use]
     pub fn by(mut self, scheme: &str) -> Self {
         self.scheme = Some(scheme.to_owned());
         self
     }
 
-    /// The same with these measures too.
+    /// The same sweep with these measures too.
     #[must_use]
     pub fn measure(mut self, measures: impl IntoIterator<Item = Measure>) -> Self {
         for measure in measures {
@@ -171,41 +172,41 @@ impl Sweep {
         self
     }
 
-    /// The same with the last `most` of such instants of each row.
+    /// The same sweep with the last `most` instants of that kind of each row.
     #[must_use]
     pub fn sample(mut self, samples: Samples, most: usize) -> Self {
         (self.samples, self.most_samples) = (Some(samples), most);
         self
     }
 
-    /// The same with so many rows judged step by step, evenly spread over all of them; a row that
-    /// breaks what its scheme promises has the status `refuted`.
+    /// The same sweep with that number of rows judged step by step, evenly spread over all rows; a
+    /// row that violates what its scheme promises has the status `refuted`.
     #[must_use]
     pub fn judged(mut self, rows: u64) -> Self {
         self.judged = rows;
         self
     }
 
-    /// The same computed by `kernel`.
+    /// The same sweep, computed by `kernel`.
     #[must_use]
     pub fn kernel(mut self, kernel: Kernel) -> Self {
         self.kernel = kernel;
         self
     }
 
-    /// True if the scheme is varied.
+    /// True if the scheme varies.
     pub(super) fn varies_scheme(&self) -> bool {
         self.axes.iter().flat_map(|axis| &axis.targets).any(|(target, _)| *target == Target::Scheme)
     }
 
-    /// The same under another title: the case's name, where none is given.
+    /// The same sweep with another title; the default is the case's name.
     #[must_use]
     pub fn titled(mut self, title: &str) -> Self {
         title.clone_into(&mut self.title);
         self
     }
 
-    /// The same with that picture: what is drawn changes nothing of the rows.
+    /// The same sweep with that picture, which changes nothing in the rows.
     #[must_use]
     pub fn pictured(mut self, picture: Picture) -> Self {
         self.picture = picture;

@@ -1,4 +1,4 @@
-//! One row: its case built, run and measured.
+//! One row: builds its case, runs it and computes the measures.
 
 use super::plan::{Plan, Point};
 use super::sample::Sample;
@@ -11,30 +11,30 @@ use crate::scheme::{Method, Scheme, Stepper};
 use crate::time::TimeGrid;
 use std::fmt;
 
-/// What became of a row.
+/// The status of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Status {
     /// It ran to its end.
     Ok,
-    /// It ran to its end, but the exact scheme has handed a stretch of impacts to moreau-jean.
+    /// It ran to its end, but the exact scheme has left a stretch of impacts to moreau-jean.
     Handed,
-    /// Its values make no case.
+    /// Its values give no valid case.
     Invalid,
     /// The exact scheme met more contact events than it follows.
     TooManyEvents,
-    /// Numbers stopped being finite.
+    /// The state became infinite or NaN.
     NotFinite,
     /// A step was not solved: the quadratic programme, or Newton's method.
     NotSolved,
-    /// The judge found that the scheme did not keep its word.
+    /// The judge found that the scheme violated what it promises.
     Refuted,
     /// It failed in another way.
     Failed,
 }
 
 impl Status {
-    /// The word in the table.
+    /// The word for it in the table.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -49,7 +49,7 @@ impl Status {
         }
     }
 
-    /// True for a row with numbers that hold.
+    /// True for a row whose measures are valid.
     #[must_use]
     pub fn is_good(self) -> bool {
         matches!(self, Self::Ok | Self::Handed)
@@ -79,20 +79,20 @@ impl fmt::Display for Status {
 pub struct Row {
     /// Its number, from 0.
     pub number: u64,
-    /// `up` or `down` along a followed axis; none where none is followed.
+    /// `up` or `down` along a followed axis; `None` if no axis is followed.
     pub direction: Option<&'static str>,
-    /// What was set, as in the columns of the axes.
+    /// The values set, as in the columns of the axes.
     pub values: Vec<KeyValue>,
-    /// What became of it.
+    /// Its status.
     pub status: Status,
-    /// Why, in a sentence; empty for `ok`.
+    /// The reason for the status, in a sentence; empty for `ok`.
     pub error: String,
-    /// The measures, as in their columns; none where a measure has no value, and in a row that
+    /// The measures, as in their columns; `None` for a measure without a value, and in a row that
     /// failed.
     pub measures: Vec<Option<f64>>,
     /// Its instants.
     pub samples: Vec<Sample>,
-    /// The state at its end, from which the next row of a followed axis starts; none where it
+    /// The state at its end, from which the next row of a followed axis starts; `None` if it
     /// failed.
     pub end: Option<State>,
 }
@@ -105,7 +105,7 @@ impl Row {
     }
 }
 
-/// What a run of one row gives.
+/// The results of the run of one row.
 struct Done {
     measures: Vec<Option<f64>>,
     samples: Vec<Sample>,
@@ -115,7 +115,7 @@ struct Done {
 }
 
 impl Plan {
-    /// Computes the row of `point`, from the state `start` where it follows another. A row's
+    /// Computes the row of `point`, from the state `start` if it follows another row. The row's
     /// numbers depend on nothing else.
     pub(super) fn row(&self, point: &Point, start: Option<&State>) -> Row {
         let mut row = self.blank(point);
@@ -137,7 +137,7 @@ impl Plan {
         row
     }
 
-    /// The row of `point` before anything is known of it.
+    /// The row of `point` without results.
     pub(super) fn blank(&self, point: &Point) -> Row {
         let axes = self.sweep.axes.iter().zip(&point.values);
         Row {
@@ -152,7 +152,7 @@ impl Plan {
         }
     }
 
-    /// How many columns of measures there are.
+    /// Number of columns of measures.
     pub(super) fn measured(&self) -> usize {
         self.sweep.measures.iter().map(|measure| measure.columns(&self.base.scene).len()).sum()
     }
@@ -161,8 +161,8 @@ impl Plan {
         let scene = &Checked::new(&case.scene)?;
         let mut time = case.time;
         let exact = method.scheme == Scheme::Event;
-        // Nothing is recorded: the bound on rows is none of a row's. A spacing that is given stays,
-        // since steps end on its rows, as in `run`.
+        // Nothing is recorded, so the limit on recorded rows does not apply. A spacing in the case
+        // is kept, since steps end on its rows, as in `run`.
         time.sample = time.sample.or(Some(scene.duration));
         let grid =
             if exact { TimeGrid::exact(scene.duration, &time) } else { TimeGrid::stepping(scene.duration, &time) }?;
@@ -198,8 +198,8 @@ impl Plan {
     }
 }
 
-/// An error in one line: of one that shows a place of the case file, what is wrong and what would
-/// do.
+/// An error in one line; of one that points at a place of the case file, what is wrong and what is
+/// accepted.
 fn sentence(error: &Error) -> String {
     let text = error.to_string();
     let told: Vec<&str> = match error {

@@ -1,5 +1,5 @@
-//! Rows computed on several threads: into memory, or into a folder, from where they can be gone on
-//! with.
+//! Computes the rows on several threads, into memory, or into a folder, where an interrupted sweep
+//! can be continued.
 
 use super::batched::TOGETHER;
 use super::finish::{Tables, write_tables};
@@ -20,59 +20,59 @@ use std::sync::mpsc::{RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Rows on their way to the journal, a thread.
+/// Capacity of the channel to the journal, in rows per thread.
 const WAITING: usize = 64;
 
-/// How often progress is told.
+/// Interval between reports of progress.
 const TELL: Duration = Duration::from_millis(100);
 
-/// How a sweep is run into a folder.
+/// Options for running a sweep into a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Manner {
-    /// Threads; all cores where there is none.
+    /// Number of threads; all cores if `None`.
     pub threads: Option<usize>,
-    /// Which part of it.
+    /// The part of the sweep.
     pub shard: Shard,
-    /// True to begin anew, whatever the folder holds.
+    /// True to start from the beginning, whatever the folder contains.
     pub force: bool,
 }
 
-/// How far a sweep has come.
+/// Progress of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// Rows that are done, those of earlier processes among them.
+    /// Rows done, including those of earlier processes.
     pub done: u64,
-    /// Rows in all.
+    /// Number of rows.
     pub rows: u64,
-    /// Rows of this process a second; 0 before the first.
+    /// Rows of this process per second; 0 before the first.
     pub rate: f64,
 }
 
-/// What a finished sweep amounts to.
+/// The result of a finished sweep.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Finished {
-    /// Where its tables are.
+    /// Folder of its tables.
     pub folder: PathBuf,
-    /// Rows, and how many of them were there before this process.
+    /// Number of rows.
     pub rows: u64,
-    /// Rows that an earlier process had computed.
+    /// Number of rows that earlier processes had computed.
     pub found: u64,
-    /// Rows by what became of them.
+    /// Number of rows by status.
     pub tables: Tables,
-    /// Seconds of this process.
+    /// Wall-clock time of this process, s.
     pub seconds: f64,
-    /// Threads of this process.
+    /// Number of threads of this process.
     pub threads: usize,
 }
 
 impl Plan {
-    /// All rows, in their order, on so many threads. For what fits into memory; [`Plan::run_into`]
-    /// is for the rest.
+    /// All rows, in their order, computed on `threads` threads and kept in memory;
+    /// [`Plan::run_into`] writes them to disk.
     ///
     /// # Errors
-    /// None of a row: those are in [`Row::status`] and [`Row::error`].
+    /// Errors of single rows are not returned: they are in [`Row::status`] and [`Row::error`].
     pub fn rows(&self, threads: usize) -> Result<Vec<Row>> {
         let all = Mutex::new(Vec::new());
         self.compute(Shard::WHOLE, threads.max(1), &AtomicBool::new(false), &Found::default(), &|rows| {
@@ -84,13 +84,13 @@ impl Plan {
         Ok(rows)
     }
 
-    /// Runs the sweep into `folder`: `sweep.csv`, `samples.csv` where instants are asked for, and
-    /// `request.json`. Killed at any instant and started again it goes on, and ends with the same
-    /// bytes, whatever the number of threads. `progress` is told now and then how far it is.
+    /// Runs the sweep into `folder`: `sweep.csv`, `samples.csv` if instants are requested, and
+    /// `request.json`. After an interruption at any instant, the same call continues, and ends with
+    /// the same bytes, whatever the number of threads. `progress` is called from time to time.
     ///
     /// # Errors
-    /// [`Error::Io`] for a folder of another request, one in which another process is at work, and
-    /// a disk that refuses.
+    /// [`Error::Io`] for a folder with results of another request, one that another process is
+    /// writing to, and if writing fails.
     pub fn run_into(&self, folder: &Path, manner: Manner, progress: &dyn Fn(Progress)) -> Result<Finished> {
         let started = Instant::now();
         let folder = manner.shard.folder(folder);
@@ -121,7 +121,7 @@ impl Plan {
         Ok(Finished { folder, rows, found, tables, seconds: started.elapsed().as_secs_f64(), threads })
     }
 
-    /// Computes what is not in the journal yet.
+    /// Computes the rows that are not yet in the journal.
     fn fill(&self, mut journal: Journal, shard: Shard, threads: usize, tell: &dyn Fn(u64)) -> Result<Journal> {
         let found = Found::of(self, &mut journal, shard)?;
         let stop = AtomicBool::new(false);
@@ -154,21 +154,22 @@ impl Plan {
                     tell(journal.done());
                 }
             }
-            // Workers that wait for room in the channel see that nobody reads it.
+            // Dropping the receiver ends the workers that wait to send.
             drop(receiver);
             let computed = workers.join().unwrap_or_else(|_| Err(lost()));
             written.and(computed)
         });
-        // What came in before the disk refused is kept, as far as it goes.
+        // Rows received before writing failed are kept.
         let flushed = journal.flush();
         outcome.and(flushed)?;
         tell(journal.done());
         Ok(journal)
     }
 
-    /// Computes the chains of `shard` on `threads` threads, each from where it was `found`, and
-    /// hands every row to `take` in the order of its chain; ends early where that returns false, or
-    /// `stop` is set. Chains are begun in their order: rows of a journal are nearly so.
+    /// Computes the chains of `shard` on `threads` threads, each from the row after those `found`,
+    /// and passes every row to `take`, those of a chain in their order; ends early if that returns
+    /// false, or if `stop` is set. Chains begin in their order, so the rows of a journal are nearly
+    /// sorted.
     fn compute(
         &self,
         shard: Shard,
@@ -207,7 +208,8 @@ impl Plan {
                     }
                     let row = self.row(&self.point(shard.chain(own), along), state.as_ref());
                     interrupt.check()?;
-                    // A row that failed leaves no state: the next one starts as the case does.
+                    // A row that failed leaves no state: the next one starts from the case's
+                    // initial state.
                     state = row.end.clone().filter(|_| self.sweep.followed().is_some());
                     if !take(row) {
                         return Ok(());
@@ -226,7 +228,7 @@ impl Plan {
         Block { end: row.end.filter(|_| self.sweep.followed().is_some()), line, samples }
     }
 
-    /// What the whole sweep will take, from its first rows: nothing is written.
+    /// Estimates time and size of the whole sweep from its first rows; nothing is written.
     #[must_use]
     pub fn estimate(&self, patience: Duration) -> Estimate {
         let started = Instant::now();
@@ -267,12 +269,12 @@ impl Plan {
     }
 }
 
-/// What earlier processes have done.
+/// The rows that earlier processes have computed.
 #[derive(Debug, Default)]
 struct Found {
-    /// Of each chain how many rows; nothing where nothing is done.
+    /// Number of rows done of each chain; empty if none is done.
     done: Vec<u32>,
-    /// The states from which chains go on that were interrupted.
+    /// The states from which interrupted chains continue.
     states: BTreeMap<u64, crate::scene::State>,
 }
 
@@ -295,31 +297,31 @@ impl Found {
         Ok(found)
     }
 
-    /// How many rows of chain number `own` are done, and where the next one starts.
+    /// Number of rows done of chain number `own`, and the state from which the next one starts.
     fn chain(&self, own: u64) -> (u64, Option<crate::scene::State>) {
         let done = self.done.get(own as usize).copied().unwrap_or(0);
         (u64::from(done), self.states.get(&own).cloned())
     }
 }
 
-/// What a sweep will take.
+/// Estimate of the time and size of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
-    /// Rows that were tried, and how many of them failed.
+    /// Number of rows that were computed for the estimate.
     pub tried: u64,
-    /// How many of these failed.
+    /// Number of these that failed.
     pub failed: u64,
-    /// All of it, s of wall-clock time on so many threads.
+    /// Time of the whole sweep, s of wall-clock time on that number of threads.
     pub seconds: f64,
     /// The cores of this machine.
     pub threads: usize,
-    /// Its tables, bytes; while it runs the journal takes as much again.
+    /// Size of its tables, bytes; while it runs, the journal takes the same again.
     pub bytes: f64,
 }
 
 impl Finished {
-    /// The error of a sweep of which nothing came of any row, or of one row under `strict`.
+    /// The error of a sweep in which every row failed, or under `strict` any row.
     #[must_use]
     pub fn failure(&self, strict: bool) -> Option<Error> {
         let bad = self.tables.bad();
@@ -333,7 +335,7 @@ impl Finished {
     }
 }
 
-/// A thread that ended by a panic, which is a defect of this program.
+/// The error for a thread that panicked, which is a defect of this program.
 fn lost() -> Error {
     Error::io("a thread of the sweep", "it has ended by a defect of this program".to_owned(), false)
 }

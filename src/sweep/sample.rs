@@ -1,4 +1,4 @@
-//! Instants of a row: which are kept, and what is told of each.
+//! Instants of a row: which are kept, and their columns.
 
 use crate::error::{Error, Result};
 use crate::scene::Scene;
@@ -15,29 +15,29 @@ pub enum Sample {
         wall: String,
         /// When it began, s after the start of the row.
         start: f64,
-        /// The same in forcing periods, without the whole ones; none without a forcing period.
+        /// The same as a fraction of the forcing period; `None` without a forcing period.
         phase: Option<f64>,
         /// Speed towards the wall, m/s.
         approach: f64,
-        /// Speed away from it, m/s; none for an episode that has not ended.
+        /// Speed away from it, m/s; `None` for an episode that has not ended.
         departure: Option<f64>,
         /// Impulse on the body, N s, signed.
         impulse: f64,
     },
-    /// What the probes see at the end of a forcing period.
+    /// The state of the probes at the end of a forcing period.
     Strobe {
-        /// s after the start of the row.
+        /// Time after the start of the row, s.
         time: f64,
         /// Displacement (m) and velocity (m/s) of each probe.
         seen: Vec<[f64; 2]>,
     },
 }
 
-/// What is kept of single instants of a row.
+/// The instants of a row that are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Samples {
-    /// The probes once every forcing period: a Poincaré section.
+    /// The probes once per forcing period: a Poincaré section.
     Periods,
     /// Every contact episode that began in the window.
     Impacts,

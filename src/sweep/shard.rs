@@ -1,4 +1,4 @@
-//! Parts of a sweep that are computed by themselves.
+//! Shards: parts of a sweep that are computed separately.
 
 use super::plan::Plan;
 use crate::error::{Error, Result};
@@ -6,8 +6,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// Part `index` of `of`: the chains `index` − 1, `index` − 1 + `of`, …, which evens out what is
-/// dear and what is cheap.
+/// Part `index` of `of`: the chains `index` − 1, `index` − 1 + `of`, …, so that expensive and cheap
+/// chains are spread evenly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     /// From 1 to `of`.
@@ -16,22 +16,22 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// All of it.
+    /// The whole sweep.
     pub const WHOLE: Self = Self { index: 1, of: 1 };
 
-    /// Which one, from 1.
+    /// Number of the shard, from 1.
     #[must_use]
     pub fn index(self) -> u64 {
         self.index
     }
 
-    /// Of how many.
+    /// Number of shards.
     #[must_use]
     pub fn of(self) -> u64 {
         self.of
     }
 
-    /// Where its results go, for those of all in `folder`.
+    /// The folder of its results, within `folder`, that of all shards.
     #[must_use]
     pub fn folder(self, folder: &Path) -> PathBuf {
         if self == Self::WHOLE {
@@ -41,17 +41,18 @@ impl Shard {
         }
     }
 
-    /// How many of `chains` chains it has.
+    /// Number of its chains, of `chains` in all.
     pub(super) fn chains(self, chains: u64) -> u64 {
         (chains + self.of - self.index) / self.of
     }
 
-    /// The number of its chain number `own`.
+    /// The number in the sweep of its chain number `own`.
     pub(super) fn chain(self, own: u64) -> u64 {
         own * self.of + self.index - 1
     }
 
-    /// Where among its rows the row number `row` of `plan` is; none for a row of another shard.
+    /// The position among its rows of row number `row` of `plan`; `None` for a row of another
+    /// shard.
     pub(super) fn place(self, plan: &Plan, row: u64) -> Option<usize> {
         let (chain, along) = (row / plan.chain_rows(), row % plan.chain_rows());
         let own = chain.checked_sub(self.index - 1).filter(|c| c % self.of == 0 && chain < plan.chains)? / self.of;

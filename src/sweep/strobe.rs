@@ -1,18 +1,19 @@
-//! The state once every forcing period.
+//! The state once per forcing period.
 
 use crate::scene::State;
 use crate::step::{Path, Step};
 
-/// Most forcing periods after which a motion is looked at for repeating itself.
+/// Maximum number of forcing periods after which a motion may repeat itself.
 const MOST_PERIODS: usize = 32;
 
-/// How near it must come, in gaps, and in gaps times the forcing's angular frequency.
+/// Tolerance of a repetition: in gaps, and for velocities in gaps times the angular frequency of
+/// the forcing.
 const NEAR: f64 = 1e-3;
 
-/// How often it must have come back.
+/// Number of repetitions required.
 const REPEATS: usize = 3;
 
-/// Keeps the state at the end of every period of the window.
+/// Records the state at the end of every period of the window.
 #[derive(Debug, Clone)]
 pub(super) struct Strobe {
     /// Number of the next instant, from the start of the row, and of the last one.
@@ -26,7 +27,8 @@ pub(super) struct Strobe {
 }
 
 impl Strobe {
-    /// For the ends of `keep` periods (s) after `settle` of them, of a row that begins at `start`.
+    /// Records the ends of `keep` periods (s) after `settle` of them, of a row that begins at
+    /// `start`.
     pub fn new(period: f64, settle: u32, keep: u32, start: &State) -> Self {
         Self { next: settle + 1, last: settle + keep, period, before: start.clone(), taken: Vec::new() }
     }
@@ -43,7 +45,7 @@ impl Strobe {
     pub fn see(&mut self, step: &Step<'_>) {
         while self.next <= self.last && self.due() <= step.end {
             let due = self.due();
-            // From the right: at the end of a step the state is that after what happened there.
+            // Right-continuous: at the end of a step the state is that after an impact there.
             if due == step.end {
                 self.take(due, State { q: step.q.to_vec(), v: step.v.to_vec() });
                 break;
@@ -52,7 +54,7 @@ impl Strobe {
             match step.path {
                 Path::Exact(_) | Path::Series(_) => step.path.state(due, &mut state.q, &mut state.v),
                 Path::Grid | Path::OneRestitution | Path::Handed { .. } => {
-                    // A line between the instants of the grid.
+                    // Linear interpolation between the instants of the grid.
                     let share = (due - step.start) / (step.end - step.start);
                     for (q, before) in state.q.iter_mut().zip(&self.before.q) {
                         *q = before + (*q - before) * share;
@@ -65,15 +67,16 @@ impl Strobe {
         self.before.v.copy_from_slice(step.v);
     }
 
-    /// After how many periods the motion repeats itself; see [`repeats`].
+    /// Number of periods after which the motion repeats itself; see [`repeats`].
     pub fn repeats(&self, length: f64) -> Option<usize> {
         repeats(&self.taken.iter().map(|(_, state)| state).collect::<Vec<_>>(), self.period, length)
     }
 }
 
-/// The least number of periods N up to 32 for which the last 3 N of `states`, one a `period` (s),
-/// are those N before, to 1e-3 of `length` (m) and of the speed that it makes with the period; none
-/// where there is none. An N of which fewer were kept is not looked at.
+/// The smallest number of periods N up to 32 for which each of the last 3 N of `states`, one per
+/// `period` (s), equals the one N before it, to 1e-3 of `length` (m) and of the speed of that
+/// length times the angular frequency; `None` if there is none. An N for which too few states were
+/// kept is not tried.
 pub(super) fn repeats(states: &[&State], period: f64, length: f64) -> Option<usize> {
     let omega = std::f64::consts::TAU / period;
     let near = |a: &State, b: &State| {
@@ -112,7 +115,7 @@ mod tests {
         assert_eq!(strobe(&three).repeats(1.0), Some(3));
         let rising: Vec<f64> = (0..40).map(f64::from).collect();
         assert_eq!(strobe(&rising).repeats(1.0), None);
-        // Too few instants tell nothing.
+        // Too few instants to decide.
         assert_eq!(strobe(&[1.0, 1.0]).repeats(1.0), None);
     }
 }

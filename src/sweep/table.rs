@@ -1,10 +1,10 @@
-//! Tables read again, line by line.
+//! Reads tables line by line.
 
 use crate::error::{Error, Result};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// The table of the rows, and that of their instants.
+/// File names of the table of the rows, and of that of their instants.
 pub(super) const TABLE: &str = "sweep.csv";
 pub(super) const SAMPLES: &str = "samples.csv";
 
@@ -23,7 +23,7 @@ impl Line<'_> {
         self.0.get(index).unwrap_or_default()
     }
 
-    /// The number in that cell; none where there is none that is finite.
+    /// The number in that cell; `None` unless it is a finite number.
     pub fn number(&self, index: usize) -> Option<f64> {
         self.text(index).parse().ok().filter(|x: &f64| x.is_finite())
     }
@@ -36,7 +36,7 @@ impl Table {
         Ok(Self { path: path.to_owned(), reader, header })
     }
 
-    /// Where the column of that name stands.
+    /// Index of the column of that name.
     pub fn column(&self, name: &str) -> Result<usize> {
         self.header.iter().position(|column| column == name).ok_or_else(|| Error::Unknown {
             kind: "column of the table",
@@ -45,7 +45,7 @@ impl Table {
         })
     }
 
-    /// Tells `take` every line.
+    /// Calls `take` with every line.
     pub fn each(mut self, mut take: impl FnMut(Line<'_>)) -> Result<()> {
         let mut record = csv::StringRecord::new();
         while self.reader.read_record(&mut record).map_err(|error| failed(&self.path, &error))? {
@@ -54,7 +54,7 @@ impl Table {
         Ok(())
     }
 
-    /// What `of` says of the first line; none of an empty table.
+    /// The value of `of` for the first line; `None` for an empty table.
     pub fn first<T>(mut self, of: impl Fn(Line<'_>) -> T) -> Option<T> {
         let mut record = csv::StringRecord::new();
         matches!(self.reader.read_record(&mut record), Ok(true)).then(|| of(Line(&record)))
@@ -65,7 +65,7 @@ fn failed(path: &Path, error: &csv::Error) -> Error {
     Error::io(path.display(), error.to_string(), false)
 }
 
-/// Units as column names end, and as people write them; longer ones first.
+/// Units at the end of column names, and in labels; longer ones first.
 const UNITS: [(&str, &str); 20] = [
     ("_kg_per_m3", "kg/m³"),
     ("_N_m_per_rad", "N m/rad"),

@@ -1,4 +1,4 @@
-//! One row under way: what its measures and samples need of its steps, and nothing more.
+//! Collects from the steps of a row what its measures and samples need.
 
 use super::forcing;
 use super::measure::Measure;
@@ -13,10 +13,10 @@ use crate::statistics::{Forces, Statistics, WallStatistics};
 use crate::step::{Contact, Step};
 use crate::time::TimeOptions;
 
-/// Watches the steps of a row.
+/// Collects what the measures of a row need from its steps.
 pub(super) struct Watch {
     from: f64,
-    /// Episodes that reach into the window.
+    /// Contact episodes that reach into the window.
     contacts: Vec<Contact>,
     forces: Option<Forces>,
     motion: Option<Motion>,
@@ -24,7 +24,8 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// For the row of `scene`, as the scheme sees it, that begins at `start`.
+    /// For the row of `scene` (that of the stepper, with springs for a penalty's walls), which
+    /// begins at `start`.
     pub fn new(sweep: &Sweep, scene: &Scene, time: &TimeOptions, start: &State) -> Result<Self> {
         let any = |test: fn(Measure) -> bool| sweep.measures.iter().any(|measure| test(*measure));
         let from = time.statistics_from;
@@ -134,7 +135,7 @@ impl Watch {
                 }
                 _ => None,
             }),
-            // Refused for what is not run by the batch engine.
+            // An error unless the batch engine computes the row.
             Measure::Lyapunov => values.push(None),
             Measure::Period => {
                 let repeats = self.strobe.as_ref().and_then(|strobe| strobe.repeats(scene.gap_scale()));
@@ -147,7 +148,7 @@ impl Watch {
         values.extend(self.motion.iter().flat_map(|motion| &motion.seen).map(|seen| Some(value(seen))));
     }
 
-    /// The last `most` instants.
+    /// The last `most` of the instants.
     fn samples(&self, samples: Samples, most: usize, scene: &Scene) -> Vec<Sample> {
         let mut all: Vec<Sample> = match samples {
             Samples::Impacts => {

@@ -1,4 +1,4 @@
-//! Numbers that look random, from numbers that count.
+//! Pseudo-random numbers as a hash of seed, point and dimension.
 
 /// 64 bits that depend on all of `seed`, `point` and `dimension`: the finaliser of SplitMix64
 /// (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195) after each of them.

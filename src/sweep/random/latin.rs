@@ -1,5 +1,5 @@
-//! Latin hypercubes without a table: the slice of a point is a permutation of its number, computed
-//! by itself.
+//! Latin hypercubes without a table: the slice of a point is a permutation of its number, which is
+//! computed directly.
 
 use super::hash::{mix, unit};
 
@@ -12,10 +12,10 @@ pub(super) fn share(seed: u64, points: u64, point: u64, dimension: u64) -> f64 {
     ((slice as f64 + within) / points as f64).min(((slice + 1) as f64 / points as f64).next_down())
 }
 
-/// Where the permutation `key` of 0, …, `count` − 1 takes `index`.
+/// The image of `index` under the permutation number `key` of 0, …, `count` − 1.
 ///
 /// A Feistel network of four rounds permutes the least square of a power of two that holds `count`;
-/// what it takes outside is taken on until it falls inside (Black & Rogaway 2002,
+/// it is applied again until the result is below `count` (Black & Rogaway 2002,
 /// doi:10.1007/3-540-45760-7_9: cycle walking).
 fn permuted(index: u64, count: u64, key: u64) -> u64 {
     if count < 2 {

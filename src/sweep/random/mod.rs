@@ -12,7 +12,7 @@ pub use sobol::MOST_DIMENSIONS;
 use crate::error::{Error, Result};
 use std::str::FromStr;
 
-/// How points are spread over the ranges.
+/// The kind of a random design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Design {
@@ -29,7 +29,7 @@ impl Design {
     const ALL: [(&'static str, Self); 3] =
         [("uniform", Self::Uniform), ("lhs", Self::LatinHypercube), ("sobol", Self::Sobol)];
 
-    /// The word of a sweep file.
+    /// The word for it in a sweep file.
     #[must_use]
     pub fn name(self) -> &'static str {
         Self::ALL.iter().find(|entry| entry.1 == self).map_or("", |entry| entry.0)
@@ -51,16 +51,15 @@ impl FromStr for Design {
 /// A random design over all axes of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Random {
-    /// How its points are spread.
+    /// The kind of design.
     pub design: Design,
-    /// How many there are.
+    /// Number of points.
     pub points: u64,
-    /// What they are drawn from. Sobol's sequence without a seed is the plain one; with a seed it
-    /// is scrambled.
+    /// The seed. Sobol's sequence without a seed is the plain one; with a seed it is scrambled.
     pub seed: Option<u64>,
 }
 
-/// Most points: those of a sequence of 32 bits.
+/// Maximum number of points: those of a sequence of 32 bits.
 const MOST_POINTS: u64 = 1 << 32;
 
 impl Random {

@@ -1,4 +1,4 @@
-//! Normal draws from even ones.
+//! Normal distributions by the inverse of their distribution function.
 
 use crate::error::{Error, Result};
 use std::f64::consts::{PI, SQRT_2};
@@ -11,14 +11,14 @@ pub struct Normal {
     pub mean: f64,
     /// Standard deviation, before it is cut off; above 0.
     pub deviation: f64,
-    /// Smallest value; none without a bound.
+    /// Smallest value; `None` without a bound.
     pub least: Option<f64>,
-    /// Largest value; none without a bound.
+    /// Largest value; `None` without a bound.
     pub most: Option<f64>,
 }
 
 impl Normal {
-    /// The value that a share `share` (0 to 1) of the distribution lies below.
+    /// The quantile of `share` (0 to 1): that share of the distribution lies below it.
     #[must_use]
     pub fn at(&self, share: f64) -> f64 {
         let standard = |x: f64| (x - self.mean) / self.deviation;
@@ -26,7 +26,8 @@ impl Normal {
             self.least.map_or(0.0, |least| below(standard(least))),
             self.most.map_or(1.0, |most| below(standard(most))),
         ];
-        // No draw of 32 or 53 bits is nearer to 0 or 1 than this, but for the ends themselves.
+        // Random numbers of 32 or 53 bits are not closer to 0 or 1 than this, except 0 and 1
+        // themselves.
         let share = (low + (high - low) * share).clamp(2.0_f64.powi(-54), 1.0 - 2.0_f64.powi(-53));
         let x = self.mean + self.deviation * quantile(share);
         x.max(self.least.unwrap_or(f64::NEG_INFINITY)).min(self.most.unwrap_or(f64::INFINITY))
@@ -46,8 +47,8 @@ impl Normal {
         if low >= high || low.is_nan() || high.is_nan() {
             return refuse("most", high, format!("a number above least, {low:?}"));
         }
-        // Beyond five deviations on one side nothing is left that double precision could tell
-        // apart.
+        // Beyond five deviations on one side, double precision cannot resolve the distribution
+        // function.
         let far = 5.0 * self.deviation;
         if low > self.mean + far || high < self.mean - far {
             let (what, x) = if low > self.mean { ("least", low) } else { ("most", high) };

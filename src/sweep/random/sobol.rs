@@ -3,7 +3,7 @@
 use super::hash::mix;
 use std::sync::LazyLock;
 
-/// Most dimensions.
+/// Maximum number of dimensions.
 pub const MOST_DIMENSIONS: usize = 32;
 
 /// Bits of a coordinate.
@@ -45,7 +45,7 @@ fn directions(a: u32, m: &[u32]) -> [u32; BITS] {
 }
 
 /// Coordinate `dimension` of point `point`: in the order of Gray's code (Antonov & Saleev 1979) and
-/// plain without a seed, as most programs have it; with a seed scrambled, which keeps its evenness.
+/// plain without a seed, as in most programs; with a seed scrambled, which keeps its uniformity.
 pub(super) fn share(seed: Option<u64>, point: u64, dimension: usize) -> f64 {
     let gray = point ^ (point >> 1);
     let numbers = DIRECTIONS.get(dimension % MOST_DIMENSIONS).into_iter().flatten().enumerate();
