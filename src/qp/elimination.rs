@@ -266,3 +266,6 @@ impl Elimination {
         changes
     }
 }
+
+#[cfg(test)]
+mod tests;
