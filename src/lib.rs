@@ -58,10 +58,10 @@ pub use scene::{
     MOST_MODES, MassMatrix, ModalData, ModalPoint, Modes, PlaneRows, Reduction, WallTruncation, heading, matrices,
 };
 pub use scene::{
-    Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, Row, Scene, SharedStructure, Side, State, Structure,
-    System, Table, TimeFunction, Wall, WallLaw,
+    Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SharedStructure,
+    Side, State, Structure, System, Table, TimeFunction, Wall, WallLaw,
 };
-pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper};
+pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{ForceStatistics, Forces, HalfWidths, Statistics, Summary, WallStatistics};
 pub use step::{
     Balance, Bound, Conserves, Contact, Contract, Elastic, Law, Path, Promise, PromisedForce, Reached, Rigid, Step,

@@ -540,7 +540,7 @@ const WRONG_MODES: &[Wrong] = &[
     ("a mass too few", "[1.0, 0.5]", "[1.0]", "5:10", &["system.modal.masses has 1 value", "expected 2"]),
     ("a mode without mass", "0.5]\nd", "0.0]\nd", "5:16", &["system.modal.masses: value 2", "above 0"]),
     ("masses by word", "[1.0, 0.5]", "\"one\"", "5:10", &["system.modal.masses", "one for each mode"]),
-    ("a negative ratio of a mode", "0.02]", "-0.02]", "6:25", &["system.modal.damping_ratios: value 2", "0 or more"]),
+    ("a negative ratio of a mode", "0.02]", "-1.0]", "6:25", &["system.modal.damping_ratios: value 2", "above -1"]),
     ("ratios too many", "0.02]", "0.02, 0.03]", "6:18", &["damping_ratios has 3 values", "expected 2"]),
     ("a shape too short", "[1.0, -1.0]", "[1.0]", "7:18", &["system.modal.shapes.tip has 1 value", "expected 2"]),
     ("a shape by number", "[1.0, -1.0]", "1.0", "7:18", &["system.modal.shapes.tip", "a list of 2 numbers"]),

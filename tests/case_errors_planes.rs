@@ -179,3 +179,88 @@ fn flats_on_one_side_are_no_error_but_a_note() {
     let closed = Case::parse(RIGHT, "closed.toml", "").unwrap_or_else(|error| panic!("{error}"));
     assert!(closed.notes().iter().all(|note| !note.contains("half turn")));
 }
+
+/// Wrong loads in place of the one of `RIGHT`: what is wrong, the keys of the load, line:column,
+/// what the message must contain.
+type WrongLoad = (&'static str, &'static str, &'static str, &'static [&'static str]);
+
+#[rustfmt::skip]
+const WRONG_LOADS: &[WrongLoad] = &[
+    ("both ways of a sine", "at = { position = 0.5 }\ndirection = \"both\"\nharmonic = { amplitude = 1.0, frequency = 2.0 }", "35:13", &["load 1: direction", "random"]),
+    ("both ways of a row", "at = { row = [[1, 1.0]] }\ndirection = \"both\"\nrandom = { rms = 1.0, from = 1.0, to = 5.0 }", "35:13", &["load 1 has no place in both planes"]),
+    ("no density", "at = { position = 0.5 }\ndirection = 0\nrandom = { seed = 1 }", "36:10", &["load 1: random has no density", "psd"]),
+    ("two densities", "at = { position = 0.5 }\ndirection = 0\nrandom = { rms = 1.0, from = 1.0, to = 5.0, psd = [[1.0, 1.0], [2.0, 1.0]] }", "36:51", &["two densities", "rms (N)"]),
+    ("no end of the band", "at = { position = 0.5 }\ndirection = 0\nrandom = { rms = 1.0, from = 1.0 }", "36:10", &["`to` is missing in load 1: random"]),
+    ("no force", "at = { position = 0.5 }\ndirection = 0\nrandom = { rms = 0.0, from = 1.0, to = 5.0 }", "36:18", &["load 1: random: rms is 0.0", "above 0"]),
+    ("a band from zero", "at = { position = 0.5 }\ndirection = 0\nrandom = { rms = 1.0, from = 0.0, to = 5.0 }", "36:30", &["load 1: random: from is 0.0", "above 0"]),
+    ("a band backwards", "at = { position = 0.5 }\ndirection = 0\nrandom = { rms = 1.0, from = 5.0, to = 5.0 }", "36:40", &["load 1: random: to is 5.0", "more than from"]),
+    ("a band without a line", "at = { position = 0.5 }\ndirection = 0\nrandom = { rms = 1.0, from = 0.1, to = 0.4 }", "36:40", &["0.1 to 0.4 Hz, without a line", "1/end = 5e-1 Hz"]),
+    ("a band beyond all tables", "at = { position = 0.5 }\ndirection = 0\nrandom = { rms = 1.0, from = 1.0, to = 1e9 }", "36:40", &["2^24 rows", "at most"]),
+    ("half a seed", "at = { position = 0.5 }\ndirection = 0\nrandom = { rms = 1.0, from = 1.0, to = 5.0, seed = 0.5 }", "36:52", &["load 1: random: seed", "a whole number"]),
+    ("a negative seed", "at = { position = 0.5 }\ndirection = 0\nrandom = { rms = 1.0, from = 1.0, to = 5.0, seed = -1 }", "36:52", &["load 1: random: seed", "a whole number"]),
+    ("a density of one point", "at = { position = 0.5 }\ndirection = 0\nrandom = { psd = [[1.0, 0.5]] }", "36:18", &["psd is 1 pairs", "two pairs"]),
+    ("a density at zero", "at = { position = 0.5 }\ndirection = 0\nrandom = { psd = [[0.0, 0.5], [2.0, 0.5]] }", "36:18", &["psd: value 1: frequency is 0.0", "above 0"]),
+    ("a density at negative frequencies", "at = { position = 0.5 }\ndirection = 0\nrandom = { psd = [[-1.0, 0.5], [2.0, 0.5]] }", "36:18", &["psd: value 1: frequency is -1.0", "above 0"]),
+    ("a frequency twice", "at = { position = 0.5 }\ndirection = 0\nrandom = { psd = [[1.0, 0.5], [1.0, 0.4]] }", "36:18", &["psd: value 2: frequency is 1.0", "more than the one before"]),
+    ("frequencies backwards", "at = { position = 0.5 }\ndirection = 0\nrandom = { psd = [[2.0, 0.5], [1.0, 0.4]] }", "36:18", &["psd: value 2: frequency is 1.0", "more than the one before"]),
+    ("a negative density", "at = { position = 0.5 }\ndirection = 0\nrandom = { psd = [[1.0, 0.5], [2.0, -0.4]] }", "36:18", &["psd: value 2: density is -0.4", "above 0"]),
+    ("a density of numbers", "at = { position = 0.5 }\ndirection = 0\nrandom = { psd = [1.0, 0.5] }", "36:19", &["load 1: random: psd", "pairs"]),
+    ("a density nowhere", "at = { position = 0.5 }\ndirection = 0\nrandom = { file = \"no.csv\" }", "36:19", &["load 1: random: file \"no.csv\"", "no such file", "density_N2_per_Hz"]),
+    ("random and constant", "at = { position = 0.5 }\ndirection = 0\nconstant = { force = 1.0 }\nrandom = { rms = 1.0, from = 1.0, to = 5.0 }", "37:10", &["two kinds, `constant` and `random`"]),
+    ("a shaken place", "at = { position = 0.5 }\ndirection = 0\nbase = { file = \"no.csv\" }", "34:6", &["load 1 has a place and a base", "no at"]),
+    ("shaken nowhere", "direction = 0\nbase = { file = \"no.csv\" }", "35:17", &["load 1: base \"no.csv\"", "no such file", "acceleration_m_per_s2"]),
+    ("shaken without direction", "base = { file = \"no.csv\" }", "34:8", &["`direction` is missing in load 1", "in deg"]),
+    ("shaken to nowhere", "direction = nan\nbase = { file = \"no.csv\" }", "34:13", &["load 1: direction", "finite"]),
+    ("the influence of a tube", "direction = 0\nbase = { file = \"no.csv\", influence = { row = [[0, 1.0]] } }", "35:39", &["influence beside a beam", "matrices and modal data"]),
+    ("shaken times nothing", "direction = 0\nbase = { file = \"no.csv\", scale = 0 }", "35:35", &["load 1: base: scale", "m/s^2"]),
+];
+
+#[test]
+fn every_wrong_random_load_and_base_motion_is_refused_at_its_place() {
+    let right = "at = { position = 0.5 }\ndirection = 90\nharmonic = { amplitude = 3.0, frequency = 5.0 }";
+    let mut failures = String::new();
+    for (what, load, place, words) in WRONG_LOADS {
+        assert!(RIGHT.contains(right));
+        let said = match Case::parse(&RIGHT.replacen(right, load, 1), "wrong.toml", "") {
+            Ok(_) => "ACCEPTED".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        let at = format!("--> wrong.toml:{place}\n");
+        let fits = said.contains(&at) && said.contains("expected") && words.iter().all(|word| said.contains(word));
+        if !fits || !said.is_ascii() {
+            failures += &format!("{what}: wanted {place} and {words:?}\n{said}\n\n");
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn every_wrong_start_and_ratio_is_refused_at_its_place() {
+    let start = "displacement = { y = { profile = [[0.0, 0.0], [3.0, 0.0]] } }";
+    for (old, new, place, words) in [
+        (start, "equilibrium = true\nvelocity = [0.0]", "44:12", "beside a start"),
+        (start, "equilibrium = 1", "43:15", "initial.equilibrium"),
+        ("ratios = [0.01, 0.02]", "ratios = [0.01, -1.0]", "15:17", "above -1"),
+        ("ratios = [0.01, 0.02]", "ratios = [nan]", "15:11", "above -1"),
+        ("modes = 3\n", "", "", "cut to modes"),
+    ] {
+        assert!(RIGHT.contains(old));
+        let text = RIGHT.replacen(old, new, 1);
+        // Without modes, negative ratios.
+        let text = if new.is_empty() { text.replace("[0.01, 0.02]", "[-0.01, 0.02]") } else { text };
+        let said = Case::parse(&text, "wrong.toml", "").unwrap_err().to_string();
+        assert!(said.contains(&format!("--> wrong.toml:{place}")) && said.contains(words), "{said}");
+    }
+    // Matrices and modal data say how the base moves them.
+    let modal = "[system.modal]\nfrequencies = [1.0, 2.0]\nshapes = { tip = [1.0, 2.0] }\n[[load]]\n";
+    for (base, words) in [
+        ("base = { file = \"no.csv\" }", "`influence` is missing"),
+        ("base = { file = \"no.csv\", influence = 1.0 }", "row = [[0, 1.0], ..]"),
+        ("base = { file = \"no.csv\", influence = { row = [[2, 1.0]] } }", "from 0 to 1"),
+        ("direction = 0\nbase = { file = \"no.csv\", influence = { row = [[0, 1.0]] } }", "moves in one plane"),
+    ] {
+        let text = format!("{modal}{base}\n[time]\nend = 1.0\nstep = 1e-3\n");
+        let said = Case::parse(&text, "wrong.toml", "").unwrap_err().to_string();
+        assert!(said.contains(words), "{said}");
+    }
+}

@@ -15,6 +15,7 @@ pub struct Panel {
     pub(super) curves: Vec<Curve>,
     pub(super) stems: Vec<Stems>,
     pub(super) marks: Vec<Mark>,
+    pub(super) outlines: Vec<Vec<(f64, f64)>>,
     /// Smallest range that is drawn as such, and the range drawn instead of a smaller one.
     pub(super) still: (f64, f64),
 }
@@ -72,6 +73,14 @@ impl Panel {
     #[must_use]
     pub fn mark(mut self, mark: Mark) -> Self {
         self.marks.push(mark);
+        self
+    }
+
+    /// Adds a line through `points`, drawn as a wall: the outline of what bounds a motion in the
+    /// plane of both axes. The ranges of the axes do not grow for it.
+    #[must_use]
+    pub fn outline(mut self, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        self.outlines.push(points.into_iter().collect());
         self
     }
 

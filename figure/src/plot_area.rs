@@ -52,6 +52,13 @@ impl PlotArea<'_> {
         }
     }
 
+    /// Draws the outlines of what bounds a motion.
+    pub(super) fn draw_outlines(&self, canvas: &mut Canvas, outlines: &[Vec<(f64, f64)>]) {
+        let runs: Vec<Vec<(f64, f64)>> =
+            outlines.iter().map(|points| points.iter().filter_map(|point| self.spot(*point)).collect()).collect();
+        canvas.path(&runs, Stroke::solid("#555", 1.8));
+    }
+
     /// Points on the page, from the last one before the frame to the first one after it; all points
     /// of a curve that goes back in x.
     fn spots(&self, points: &[(f64, f64)]) -> Vec<Spot> {

@@ -19,6 +19,7 @@ pub struct Figure {
     x_label: String,
     x_scale: Scale,
     x_range: Option<(f64, f64)>,
+    square: bool,
     detail: Option<Detail>,
     panels: Vec<Panel>,
 }
@@ -39,6 +40,10 @@ struct Column {
     axis: Axis,
 }
 
+/// Side of the frame of a square figure, and where there are several.
+const SIDE: f64 = 420.0;
+const SIDE_OF_SEVERAL: f64 = 300.0;
+
 /// Share of the width for the whole beside a detail, and the space between the two.
 const WHOLE: f64 = 0.42;
 /// How much wider bold letters are.
@@ -53,6 +58,7 @@ impl Figure {
             x_label: x_label.into(),
             x_scale: Scale::Linear,
             x_range: None,
+            square: false,
             detail: None,
             panels: Vec::new(),
         }
@@ -70,6 +76,14 @@ impl Figure {
     #[must_use]
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.x_range = Some((low, high));
+        self
+    }
+
+    /// Draws every frame as a square in the middle of the page: with ranges of one length on both
+    /// axes, a circle is round.
+    #[must_use]
+    pub fn square(mut self) -> Self {
+        self.square = true;
         self
     }
 
@@ -93,6 +107,8 @@ impl Figure {
     #[must_use]
     pub fn to_svg(&self) -> String {
         let height = match self.panels.len() {
+            0 | 1 if self.square => SIDE,
+            _ if self.square => SIDE_OF_SEVERAL,
             0 | 1 if self.x_scale == Scale::Log => 320.0,
             0 | 1 => 260.0,
             2 => 165.0,
@@ -112,7 +128,10 @@ impl Figure {
         let left = 12.0 + 14.0 * label_lines + y_axes.iter().map(widest).fold(0.0, f64::max) + 8.0;
         let beside = self.panels.iter().zip(&y_axes).map(|(p, axis)| labels::room_beside(p, axis, height));
         let right = beside.fold(18.0, f64::max);
-        let width = WIDTH - left - right;
+        let room = WIDTH - left - right;
+        // A square stands in the middle of the room, and its labels stand beside it.
+        let (width, aside) = if self.square { (height.min(room), 0.5 * (room - height).max(0.0)) } else { (room, 0.0) };
+        let left = left + aside;
         let columns = self.columns(left, width);
 
         let title = text::wrap(&self.title, BOLD * TITLE, WIDTH - 20.0, 3);
@@ -159,7 +178,7 @@ impl Figure {
             }
             let middle = y + height / 2.0;
             for (k, line) in y_labels.get(i).into_iter().flatten().enumerate() {
-                let text = Text::new(18.0 + 14.0 * k as f64, middle, line, LABEL, Anchor::Middle);
+                let text = Text::new(aside + 18.0 + 14.0 * k as f64, middle, line, LABEL, Anchor::Middle);
                 canvas.text(Text { upwards: true, ..text });
             }
             y += height + 10.0;
@@ -257,6 +276,7 @@ impl Figure {
             }
         }
         frame.draw_marks(canvas, &panel.marks);
+        frame.draw_outlines(canvas, &panel.outlines);
         for curve in panel.curves.iter().filter(|c| c.role == Role::Ordinary) {
             if let Some(found) = found(&curve.label) {
                 let marker = found.marker.filter(|_| curve.marked);

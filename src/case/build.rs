@@ -10,11 +10,12 @@ use super::report::Source;
 use super::start;
 use super::value::{Number, Section};
 use super::wording::written;
+use super::written::NewLoad;
 use super::{Case, FileRead, PenaltyOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result, Subject};
 use crate::scene::{Condensation, Damping, Scene, State, Structure, System, Wall};
-use crate::scheme::{Integrator, PenaltyLaw};
-use crate::study::truncation::Whole;
+use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
+use crate::study::truncation::{Start, Whole};
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
@@ -63,6 +64,7 @@ impl Builder<'_> {
             duration: self.number("duration", &time.end),
         };
         if let Some(Section { value: initial, .. }) = file.initial {
+            self.written.start = self.start(&initial)?;
             scene.initial.q = self.field("displacement", initial.displacement.as_ref())?;
             scene.initial.v = self.field("velocity", initial.velocity.as_ref())?;
         }
@@ -73,8 +75,19 @@ impl Builder<'_> {
         for (index, support) in file.support.into_iter().enumerate() {
             walls.extend(self.support(index, walls.len(), support)?);
         }
+        let mut second = Vec::new();
+        let mut loads = Vec::new();
         for (index, load) in file.load.into_iter().enumerate() {
-            scene.loads.push(self.load(index, load)?);
+            let mut made = self.load(index, load, scene.duration, &scene.system)?.into_iter();
+            loads.extend(made.next());
+            second.extend(made);
+        }
+        // What a load adds beyond the first comes last, so that the loads of the file keep their
+        // numbers.
+        for NewLoad { load, place, origin } in loads.into_iter().chain(second) {
+            scene.loads.push(load);
+            self.written.loads.push(place);
+            self.written.origins.push(origin);
         }
         scene.probes = self.probes(file.probe, &walls)?;
         let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
@@ -96,6 +109,10 @@ impl Builder<'_> {
         let stem = Path::new(self.source.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("case");
         let (scene, condensation) = self
             .condensed(scene, built.pending.as_ref().filter(|d| modes.is_none() || !matches!(d, Damping::Modal(_))))?;
+        let mut scene = scene;
+        if self.written.start == Start::Equilibrium {
+            scene.initial.q = equilibrium(&scene).map_err(|error| self.locate(error, &scene))?;
+        }
         let mut case = Case {
             name: stem.to_owned(),
             title: file.title,
@@ -120,6 +137,7 @@ impl Builder<'_> {
                 scene: case.scene.clone(),
                 damping: ratios,
                 static_correction: self.static_correction,
+                start: case.written.start,
                 planes: self.planes.modes(),
             };
             let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;

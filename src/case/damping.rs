@@ -87,8 +87,13 @@ impl Builder<'_> {
             if ratios.get_ref().is_empty() {
                 return Err(self.refuse(ratios.span(), "system.damping.ratios", "one ratio or more"));
             }
-            let each = |ratio| self.nonnegative("system.damping.ratios", ratio);
-            return Ok(Damping::Modal(ratios.get_ref().iter().map(each).collect::<Result<_>>()?));
+            let subject = Subject::from(("damping", "ratios"));
+            let mut all = Vec::with_capacity(ratios.get_ref().len());
+            for (i, ratio) in ratios.get_ref().iter().enumerate() {
+                self.places.push((subject.clone().value(i), ratio.span()));
+                all.push(self.above_minus_one("system.damping.ratios", ratio)?);
+            }
+            return Ok(Damping::Modal(all));
         }
         match &damping.matrix {
             Some(file) => {
@@ -98,6 +103,11 @@ impl Builder<'_> {
             }
             None => Err(self.source.error(span, "`system.damping` says nothing", help)),
         }
+    }
+
+    fn above_minus_one(&self, key: &str, value: &Spanned<super::value::Number>) -> Result<f64> {
+        let x = value.get_ref().0;
+        if x.is_finite() && x > -1.0 { Ok(x) } else { Err(self.refuse(value.span(), key, "a finite number above -1")) }
     }
 
     fn nonnegative(&self, key: &str, value: &Spanned<super::value::Number>) -> Result<f64> {

@@ -42,6 +42,8 @@ const ALL: &[Embedded] = embed![
     "chain-200",
     "tube-loose-supports",
     "fuel-rod",
+    "tube-lattice-bars",
+    "base-pulse"["base-pulse.csv"],
 ];
 
 impl Embedded {

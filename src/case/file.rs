@@ -162,6 +162,8 @@ pub(super) struct Load {
     pub harmonic: Option<Section<Harmonic>>,
     pub impulse: Option<Section<Impulse>>,
     pub table: Option<Section<Table>>,
+    pub random: Option<Section<Random>>,
+    pub base: Option<Section<Base>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -196,9 +198,34 @@ pub(super) struct Table {
     pub scale: Option<Spanned<Number>>,
 }
 
+/// One of rms (with from and to), psd and file must be set.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Random {
+    pub rms: Option<Spanned<Number>>,
+    pub from: Option<Spanned<Number>>,
+    pub to: Option<Spanned<Number>>,
+    pub psd: Option<Spanned<Value>>,
+    pub file: Option<Spanned<String>>,
+    pub seed: Option<Spanned<Number>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Base {
+    pub file: Spanned<String>,
+    pub time: Option<Spanned<String>>,
+    pub acceleration: Option<Spanned<String>>,
+    pub delimiter: Option<Spanned<String>>,
+    pub decimal: Option<Spanned<String>>,
+    pub scale: Option<Spanned<Number>>,
+    pub influence: Option<Spanned<Value>>,
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Initial {
+    pub equilibrium: Option<Spanned<bool>>,
     pub displacement: Option<Spanned<Value>>,
     pub velocity: Option<Spanned<Value>>,
 }

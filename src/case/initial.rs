@@ -1,10 +1,12 @@
 //! Reads the table `[initial]`: fields over the structure.
 
 use super::builder::Builder;
+use super::file;
 use super::model::Model;
 use super::planes::Planes;
 use super::value::Value;
 use crate::error::{Result, Subject};
+use crate::study::truncation::Start;
 use toml::Spanned;
 
 /// A field that is read: its key, the subject of errors and its unit.
@@ -25,6 +27,22 @@ impl Builder<'_> {
             None if n == 1 => format!("a number, in {unit}"),
             None if n != self.n => format!("{{ y = .., z = .. }}, {of_dofs}"),
             None => of_dofs,
+        }
+    }
+
+    /// Whether the start is given, or a static equilibrium.
+    pub fn start(&mut self, initial: &file::Initial) -> Result<Start> {
+        let Some(equilibrium) = initial.equilibrium.as_ref().filter(|word| *word.get_ref()) else {
+            return Ok(Start::Given);
+        };
+        self.places.push((("initial state", "equilibrium").into(), equilibrium.span()));
+        match initial.displacement.as_ref().or(initial.velocity.as_ref()) {
+            Some(given) => {
+                let help = "expected no displacement and no velocity: an equilibrium is at rest where the constant \
+                            loads hold it";
+                Err(self.source.error(given.span(), "`initial.equilibrium` beside a start", help))
+            }
+            None => Ok(Start::Equilibrium),
         }
     }
 

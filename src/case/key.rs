@@ -26,7 +26,7 @@ pub struct Key {
 }
 
 /// Keys inside values that the reader checks itself: those of `at` and of the ends of models.
-const INNER: [&str; 37] = [
+const INNER: [&str; 38] = [
     "wall.at",
     "wall.at.dof",
     "wall.at.point",
@@ -47,6 +47,7 @@ const INNER: [&str; 37] = [
     "load.at.position",
     "load.at.row",
     "load.at.spread",
+    "load.base.influence.row",
     "load.at.y",
     "load.at.z",
     "probe.at",
@@ -110,7 +111,7 @@ const UNITS: [(&str, &[&str]); 20] = [
     ("kg_per_m3", &["system.bar.density", "system.beam.density"]),
     ("m2", &["system.bar.area"]),
     ("kg_per_m", &["system.beam.added_mass"]),
-    ("Hz", &["system.modal.frequencies", "load.harmonic.frequency"]),
+    ("Hz", &["system.modal.frequencies", "load.harmonic.frequency", "load.random.from", "load.random.to"]),
     ("rad_per_s", &["system.modal.omega"]),
     ("per_s", &["system.damping.rayleigh.mass"]),
     (
@@ -125,7 +126,7 @@ const UNITS: [(&str, &[&str]); 20] = [
             "time.force_averaging",
         ],
     ),
-    ("N", &["load.constant.force", "load.harmonic.amplitude"]),
+    ("N", &["load.constant.force", "load.harmonic.amplitude", "load.random.rms"]),
     ("rad", &["load.harmonic.phase"]),
     ("N_s", &["load.impulse.impulse"]),
     ("m_per_s", &["initial.velocity", "initial.velocity.dofs", "initial.velocity.y", "initial.velocity.z"]),

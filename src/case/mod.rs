@@ -13,10 +13,12 @@
 #![doc = include_str!("../../cases/README.md")]
 
 mod accepted;
+mod base;
 mod build;
 mod builder;
 mod case_file;
 mod changes;
+mod columns;
 mod damping;
 mod digest;
 mod direction;
@@ -33,6 +35,7 @@ mod notes;
 mod penalty;
 mod place;
 mod planes;
+mod random;
 mod read;
 mod report;
 mod start;
@@ -60,7 +63,7 @@ pub use planes::Planes;
 pub use table::TableColumns;
 pub use template::Template;
 pub use truncated::Truncated;
-pub use written::{FileRead, Support, Written};
+pub use written::{FileRead, Origin, Support, Written};
 
 use crate::error::{Error, Result};
 use crate::scene::{Condensation, Scene};

@@ -1,7 +1,8 @@
 //! Notes that the reader of any run of a case must know.
 
 use super::{Case, Truncated};
-use crate::scene::WallTruncation;
+use crate::scene::{LoadKind, WallTruncation};
+use crate::study::truncation::Start;
 
 /// Shares below this are not reported.
 const WORTH_SAYING: f64 = 1e-2;
@@ -13,7 +14,17 @@ impl Case {
         let mut notes = self.condensed();
         notes.extend(self.cut_notes());
         notes.extend(self.open_supports());
+        notes.extend(self.start_note());
         notes
+    }
+
+    /// Loads that the static equilibrium of the start leaves out.
+    fn start_note(&self) -> Option<String> {
+        let others = self.scene.loads.iter().any(|load| !matches!(load.kind, LoadKind::Constant { .. }));
+        (self.written.start == Start::Equilibrium && others).then(|| {
+            "the start is the static equilibrium under the constant loads alone: all other loads begin at t = 0"
+                .to_owned()
+        })
     }
 
     /// Supports that the structure may leave, since their flats stand within a half turn.

@@ -209,7 +209,7 @@ impl Builder<'_> {
     }
 
     /// Weights of degrees of freedom, in two planes of both.
-    fn row(&self, key: &str, value: &Spanned<Value>) -> Result<Vec<(usize, f64)>> {
+    pub fn row(&self, key: &str, value: &Spanned<Value>) -> Result<Vec<(usize, f64)>> {
         let wanted = "pairs of a degree of freedom and a weight, each once: [[0, 1.0], [1, -1.0]]";
         let entries = self.pairs(key, value, wanted)?;
         let mut row: Vec<(usize, f64)> = Vec::new();

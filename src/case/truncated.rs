@@ -32,6 +32,7 @@ impl Case {
                 scene: self.scene.clone(),
                 damping: None,
                 static_correction: false,
+                start: self.written.start,
                 planes: self.planes.modes(),
             },
         };

@@ -5,9 +5,10 @@ use super::Case;
 use super::Place;
 use super::digest::sha256;
 use super::table::TableColumns;
-use crate::scene::{Damping, Flats};
+use crate::scene::{Damping, Flats, Load, RandomForce};
 #[cfg(feature = "cli")]
 use crate::scene::{Row, Wall};
+use crate::study::truncation::Start;
 use serde::Serialize;
 
 /// Contents of the file, in the order of the scene.
@@ -16,12 +17,14 @@ use serde::Serialize;
 pub struct Written {
     /// The location of each load.
     pub loads: Vec<Place>,
-    /// The file of each load that is a table, and its columns; `None` for other loads.
-    pub tables: Vec<Option<(String, TableColumns)>>,
+    /// How the file gave each load.
+    pub origins: Vec<Origin>,
     /// The location of each probe.
     pub probes: Vec<Place>,
     /// Each `[[support]]`.
     pub supports: Vec<Support>,
+    /// The start: given, or a static equilibrium.
+    pub start: Start,
     /// `[system.damping]`; `None` where the file has no such table.
     pub damping: Option<Damping>,
     /// Files of matrices by the key that names them: `mass`, `stiffness`, `damping`, and `matrix`
@@ -29,6 +32,50 @@ pub struct Written {
     pub matrices: Vec<(&'static str, String)>,
     /// Every file that was read.
     pub files: Vec<FileRead>,
+}
+
+/// How the file gave a load.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Origin {
+    /// By its numbers, which the scene shows.
+    Stated,
+    /// As a table.
+    Table {
+        /// Name of the file.
+        file: String,
+        /// What was read of it.
+        columns: TableColumns,
+    },
+    /// As a random force.
+    Random {
+        /// The force, of which the scene has a table.
+        force: RandomForce,
+        /// The file of its density, where there is one.
+        file: Option<String>,
+        /// True if the file asks for independent signals along y and z; this is the one along y.
+        both: bool,
+    },
+    /// The signal along z of such a force; these come after all loads of the file.
+    Second(RandomForce),
+    /// As a motion of the base.
+    Base {
+        /// Name of the file.
+        file: String,
+        /// What was read of it.
+        columns: TableColumns,
+        /// ι of matrices and modal data: pairs (degree of freedom, displacement).
+        influence: Option<Vec<(usize, f64)>>,
+        /// The direction of the motion in two planes, degrees from +y towards +z.
+        direction: Option<f64>,
+    },
+}
+
+/// A load of the scene, its location, and how the file gave it.
+pub(super) struct NewLoad {
+    pub load: Load,
+    pub place: Place,
+    pub origin: Origin,
 }
 
 /// A support of the file, and its walls in the scene.

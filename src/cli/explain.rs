@@ -4,13 +4,14 @@
 use super::pace::{Estimate, estimate, words};
 use super::request::Changes;
 use super::ui::Ui;
-use crate::case::{Case, Model, Support};
+use crate::case::{Case, Model, Origin, Support};
 use crate::error::Result;
 use crate::notes;
 use crate::output::summary;
-use crate::scene::{Flats, Scene, System, WallLaw};
+use crate::scene::{Density, Flats, LoadKind, Scene, System, WallLaw};
 use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
 use crate::study::choice::{self, Choice};
+use crate::study::truncation::Start;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::time::Duration;
@@ -71,6 +72,7 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     model.extend(supports(case));
     model.extend(walls(case));
     model.push(choice::loads(&case.scene));
+    model.extend(excitations(case));
     model.extend(case.notes().iter().map(|note| format!("note: {note}")));
     tell("model", model);
     tell(
@@ -124,6 +126,7 @@ fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     model.extend(choice::body(&case.scene));
     model.extend(supports(case));
     model.push(choice::loads(&case.scene));
+    model.extend(excitations(case));
     Ok(json!({
         "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
         "case": case.name,
@@ -254,6 +257,40 @@ fn what(case: &Case) -> Vec<String> {
         lines.push(format!("{what}: {n} degrees of freedom, cut to {modes} modes{each}; {next}"));
     } else {
         lines.push(format!("{what}, in full"));
+    }
+    lines
+}
+
+/// Random loads, motions of the base, and the start, in words.
+fn excitations(case: &Case) -> Vec<String> {
+    let seconds = |both: bool| if both { " along y, and an independent one along z" } else { "" };
+    let line = |(index, origin): (usize, &Origin)| match origin {
+        Origin::Random { force, file, both } => {
+            let density = match (&force.density, file) {
+                (_, Some(file)) => format!("of the density in {file}"),
+                (Density::Flat { rms, from, to }, _) => format!("{rms} N RMS from {from} to {to} Hz"),
+                (Density::Points(points), _) => format!("of a density of {} points", points.len()),
+            };
+            let rows = match case.scene.loads.get(index).map(|load| &load.kind) {
+                Some(LoadKind::Table(table)) => table.time().len(),
+                _ => 0,
+            };
+            Some(format!(
+                "load {}: random{}, {density}, seed {}: a table of {rows} rows, the same for every step and scheme",
+                index + 1,
+                seconds(*both),
+                force.seed
+            ))
+        }
+        Origin::Base { file, .. } => Some(format!(
+            "load {}: the base moves as {file} says; displacements are relative to it, and walls move along",
+            index + 1
+        )),
+        Origin::Stated | Origin::Table { .. } | Origin::Second(_) => None,
+    };
+    let mut lines: Vec<String> = case.written.origins.iter().enumerate().filter_map(line).collect();
+    if case.written.start == Start::Equilibrium {
+        lines.push("start: at rest in static equilibrium under the constant loads".to_owned());
     }
     lines
 }

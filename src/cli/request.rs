@@ -206,7 +206,7 @@ impl Request {
             case = case.with_modes(modes)?;
         }
         if let Some(end) = self.end {
-            case.change(|scene| scene.duration = end)?;
+            case.change_end(end)?;
             let until_end = |x: &f64| *x <= end;
             case.time.sample = case.time.sample.filter(until_end);
             if case.time.statistics_from >= end {

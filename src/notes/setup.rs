@@ -20,6 +20,7 @@ const USUAL: [f64; 2] = [1e-2, 1e5];
 pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
     let mut notes: Vec<String> = scene.loads.iter().enumerate().filter_map(|(i, load)| span(scene, i, load)).collect();
     notes.extend(unusual(scene));
+    notes.extend(unstable(scene));
     if *scheme != Scheme::Event {
         notes.extend(scene.loads.iter().enumerate().filter_map(|(i, load)| load_resolved(scene, i, load, step)));
         notes.extend(modes_resolved(scene, step));
@@ -50,6 +51,32 @@ fn unusual(scene: &Scene) -> Option<String> {
         format!(
             "the slowest natural frequency is {slowest:.3e} Hz, far from what structures between walls have: \
              are lengths in m, masses in kg, stiffnesses in N/m and moduli in Pa?"
+        )
+    })
+}
+
+/// Most unstable modes that are named.
+const MOST_UNSTABLE: usize = 5;
+
+/// A note on modes with negative damping, as a flow gives them.
+fn unstable(scene: &Scene) -> Option<String> {
+    let System::Structure(structure) = &scene.system else { return None };
+    let modes = diagonal(structure)?;
+    let (m, c) = (structure.mass.diagonal_entries(), structure.damping.diagonal_entries());
+    let ratio = |((omega, _), (m, c)): (&(f64, f64), (&f64, &f64))| (*omega, 0.5 * c / (m * omega));
+    let mut negative: Vec<(f64, f64)> =
+        modes.iter().zip(m.iter().zip(&c)).map(ratio).filter(|(_, z)| *z < 0.0).collect();
+    // In two planes a mode comes twice.
+    negative.dedup();
+    let named: Vec<String> =
+        negative.iter().take(MOST_UNSTABLE).map(|(omega, z)| format!("{:.4} Hz ({z:.3e})", omega / TAU)).collect();
+    let more = if negative.len() > MOST_UNSTABLE { ", .." } else { "" };
+    let modes = if negative.len() == 1 { "the mode of" } else { "the modes of" };
+    (!negative.is_empty()).then(|| {
+        format!(
+            "{modes} {}{more} have a negative damping ratio and are unstable: without contact their motion grows, \
+             and walls alone limit it",
+            named.join(", ")
         )
     })
 }

@@ -5,7 +5,9 @@
 //! those with the most contact are drawn, and the title says how many there are.
 
 use super::figure::{Curve, Figure, Mark, Panel, Stems};
+pub use super::labelled::Labelled;
 use super::motion::{Instant, motion};
+use super::orbit::orbits;
 use super::places::{Chosen, WallPlace};
 use super::window::{Span, Window};
 use crate::error::Result;
@@ -17,19 +19,6 @@ use crate::step::Contact;
 const MM: f64 = 1e3;
 /// A probe that moves by less than this share of the largest motion is drawn as a flat line.
 const STILL: f64 = 1e-9;
-
-/// A run with the label of its curves.
-#[derive(Debug, Clone, Copy)]
-pub struct Labelled<'a> {
-    /// Label in the legend.
-    pub label: &'a str,
-    /// The run.
-    pub run: &'a Run,
-    /// True for the reference, drawn wide and pale beneath the others.
-    pub reference: bool,
-    /// Index of its colour and dash pattern, the same in all figures of one command.
-    pub look: usize,
-}
 
 /// What is drawn: a title, the walls, the runs and the stretch of time.
 #[derive(Debug, Clone, Copy)]
@@ -45,8 +34,9 @@ pub struct Sheet<'a> {
 }
 
 impl Sheet<'_> {
-    /// The four figures, each with its file name without extension: displacement, velocity, phase
-    /// plot, contact force (the last only where there are walls). For a run of many periods the
+    /// The figures, each with its file name without extension: displacement, velocity, phase plot,
+    /// the orbit of each place with probes NAME`-y` and NAME`-z`, contact force (the last only where
+    /// there are walls). For a run of many periods the
     /// figures over time show the whole run and, beside it, the last periods; the phase plot shows
     /// the last periods only.
     ///
@@ -60,6 +50,9 @@ impl Sheet<'_> {
             figures.push(("displacement", self.displacement(&probes, &window)));
             figures.push(("velocity", self.velocity(&probes, &window)));
             figures.push(("phase", self.phase(&probes, &window)));
+        }
+        if let Some(orbits) = orbits(self.title, self.scene, self.runs, window.detail()) {
+            figures.push(("orbit", orbits));
         }
         if !self.scene.walls.is_empty() {
             figures.push(("contact-force", self.contact_force(&window)?));

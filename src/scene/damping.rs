@@ -2,7 +2,7 @@
 
 use super::Structure;
 use super::modal::{MOST_DENSE, Modes};
-use super::system::nonnegative;
+use super::system::{above_minus_one, nonnegative};
 use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
 use nalgebra::DMatrix;
@@ -23,8 +23,9 @@ pub enum Damping {
     },
     /// C = M Φ diag(2 ζᵢ ωᵢ) Φᵀ M with the M-orthonormal modes Φ, slowest first: one ratio ζ per
     /// mode; the last one holds for all further modes. Rigid-body motions are not damped. C is a
-    /// full matrix, so a structure beyond [`MOST_DENSE`] degrees of freedom must be reduced to
-    /// modes first.
+    /// full matrix (where the modes are not the coordinates), so a structure beyond [`MOST_DENSE`] degrees of freedom must be reduced to
+    /// modes first. Where they are, a ratio may be negative, above −1: what a flow feeds into
+    /// a mode makes it unstable, and walls alone limit its motion.
     Modal(Vec<f64>),
     /// The matrix C, N s/m.
     Matrix(Symmetric),
@@ -70,13 +71,22 @@ fn modal(ratios: &[f64], structure: &Structure) -> Result<Symmetric> {
     let Some(&last) = ratios.last() else {
         return Err(Error::invalid(("damping", "ratios"), "an empty list", "one ratio or more"));
     };
+    // The modes are uncoupled already, as after a modal reduction: C is diagonal too, for any n.
+    let uncoupled = structure.mass.half_bandwidth() == 0 && structure.stiffness.half_bandwidth() == 0;
     for (i, &ratio) in ratios.iter().enumerate() {
-        nonnegative(Subject::from(("damping", "ratios")).value(i), ratio)?;
+        let key = Subject::from(("damping", "ratios")).value(i);
+        match uncoupled {
+            true => above_minus_one(key, ratio)?,
+            false if ratio < 0.0 => {
+                let expected = "0 or more, or a structure cut to modes: negative ratios are for uncoupled modes";
+                return Err(Error::invalid(key, format_args!("{ratio:?}"), expected));
+            }
+            false => nonnegative(key, ratio)?,
+        }
     }
     let ratio = |i: usize| ratios.get(i).copied().unwrap_or(last);
     let n = structure.mass.size();
-    // The modes are uncoupled already, as after a modal reduction: C is diagonal too, for any n.
-    if structure.mass.half_bandwidth() == 0 && structure.stiffness.half_bandwidth() == 0 {
+    if uncoupled {
         let (m, k) = (structure.mass.diagonal_entries(), structure.stiffness.diagonal_entries());
         let mut order: Vec<usize> = (0..n).collect();
         order.sort_by(|&a, &b| (k[a] / m[a]).total_cmp(&(k[b] / m[b])));

@@ -6,20 +6,26 @@ use super::system::{finite, nonnegative, positive};
 use crate::error::{Error, Result, Subject};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Most rows of a sampled function.
 const MOST_SAMPLES: f64 = 1e7;
 
 /// A force over time, piecewise linear between rows and zero outside them.
+///
+/// Clones share its rows. A row is found by its index where rows are evenly spaced, else by
+/// bisection.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Columns")]
+#[serde(try_from = "Columns", into = "Columns")]
 pub struct Table {
-    time: Vec<f64>,
-    force: Vec<f64>,
+    time: Arc<Vec<f64>>,
+    force: Arc<Vec<f64>>,
+    /// Rows per second, on average.
+    pace: f64,
 }
 
 /// A table as it was written down, perhaps by another program.
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 struct Columns {
     time: Vec<f64>,
     force: Vec<f64>,
@@ -30,6 +36,12 @@ impl TryFrom<Columns> for Table {
 
     fn try_from(Columns { time, force }: Columns) -> Result<Self> {
         Self::new(time, force)
+    }
+}
+
+impl From<Table> for Columns {
+    fn from(Table { time, force, .. }: Table) -> Self {
+        Self { time: Arc::unwrap_or_clone(time), force: Arc::unwrap_or_clone(force) }
     }
 }
 
@@ -54,7 +66,8 @@ impl Table {
                 return Err(Error::invalid(key, pair[1], format!("more than the row before, {}", pair[0])));
             }
         }
-        Ok(Self { time, force })
+        let pace = (time.len() - 1) as f64 / (time[time.len() - 1] - time[0]);
+        Ok(Self { time: Arc::new(time), force: Arc::new(force), pace })
     }
 
     /// Times of the rows, s.
@@ -112,20 +125,39 @@ impl Table {
 
     /// The same forces times `weight`.
     pub(super) fn scaled(&self, weight: f64) -> Self {
-        Self { time: self.time.clone(), force: self.force.iter().map(|f| weight * f).collect() }
+        let force = match weight == 1.0 {
+            true => Arc::clone(&self.force),
+            false => Arc::new(self.force.iter().map(|f| weight * f).collect()),
+        };
+        Self { time: Arc::clone(&self.time), force, pace: self.pace }
     }
 
     /// Value and slope (N, N/s) at `t`, from the right: the piece that starts at or before `t`;
     /// zero outside the rows.
     #[must_use]
     pub fn piece(&self, t: f64) -> (f64, f64) {
-        let next = self.time.partition_point(|&x| x <= t);
+        let next = self.after(t);
         let (Some(&t0), Some(&t1)) = (next.checked_sub(1).and_then(|i| self.time.get(i)), self.time.get(next)) else {
             return (0.0, 0.0);
         };
         let (f0, f1) = (self.force[next - 1], self.force[next]);
         let slope = (f1 - f0) / (t1 - t0);
         (f0 + slope * (t - t0), slope)
+    }
+}
+
+impl Table {
+    /// Index of the first row after `t`.
+    fn after(&self, t: f64) -> usize {
+        let time = self.time.as_slice();
+        // The cast saturates, and takes NaN to 0. Rounding may put the index off by one.
+        let near = ((t - time[0]) * self.pace) as usize;
+        let fits = |i: &usize| {
+            let before = i.checked_sub(1).and_then(|i| time.get(i));
+            before.is_some_and(|x| *x <= t) && time.get(*i).is_some_and(|x| *x > t)
+        };
+        let found = [1, 2, 0].into_iter().map(|by| near.saturating_add(by)).find(fits);
+        found.unwrap_or_else(|| time.partition_point(|&x| x <= t))
     }
 }
 

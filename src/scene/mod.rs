@@ -3,6 +3,7 @@
 
 mod builders;
 mod checked;
+mod clear;
 mod condensation;
 mod damping;
 mod forcing;
@@ -13,6 +14,7 @@ mod loads;
 pub mod matrices;
 mod modal;
 mod planes;
+mod random;
 mod row;
 mod scales;
 mod shared;
@@ -32,6 +34,7 @@ pub use load::{Load, LoadKind, Table};
 pub use loads::Loads;
 pub use modal::{MOST_DENSE, MOST_MODES, Modes, Reduction, WallTruncation};
 pub use planes::{PlaneRows, heading};
+pub use random::{Density, RandomForce};
 pub(crate) use row::distinct;
 pub use row::{Probe, Row};
 pub use shared::SharedStructure;

@@ -5,8 +5,9 @@ use crate::linear::{Factor, NotDefinite, Symmetric};
 use serde::{Deserialize, Serialize};
 
 /// M q̈ + C q̇ + K q = f by matrices, all n × n: M symmetric positive definite (kg), C (N s/m) and
-/// K (N/m) symmetric positive semidefinite. In modal coordinates all three may be diagonal. For
-/// coordinates that are rotations, the units are those of the conjugate quantities.
+/// K (N/m) symmetric positive semidefinite. In modal coordinates all three may be diagonal. In
+/// uncoupled coordinates C may have negative entries, as far as a share of critical damping above −1
+/// makes them: such a mode is unstable. For coordinates that are rotations, the units are those of the conjugate quantities.
 ///
 /// ```
 /// use signorini::linear::Symmetric;
@@ -62,7 +63,7 @@ pub(super) fn validate(
         }
     }
     definite(&structure.mass, mass)?;
-    semidefinite("damping", &structure.damping)?;
+    damped(structure)?;
     semidefinite("stiffness", &structure.stiffness)
 }
 
@@ -98,6 +99,24 @@ fn definite(mass: &Symmetric, factor: impl FnOnce() -> std::result::Result<(), N
         let i = fault.row;
         Error::invalid(entry(i, i), format_args!("{:?}, without a positive pivot", mass.get(i, i)), EXPECTED)
     })
+}
+
+/// Refuses an invalid C. In uncoupled coordinates an entry may be negative, as far as a share of
+/// critical damping above −1 makes it.
+fn damped(structure: &Structure) -> Result<()> {
+    let matrices = [&structure.mass, &structure.damping, &structure.stiffness];
+    if matrices.iter().any(|matrix| matrix.half_bandwidth() > 0) {
+        return semidefinite("damping", &structure.damping);
+    }
+    let [m, c, k] = matrices.map(Symmetric::diagonal_entries);
+    let least = |i: usize| -2.0 * (m[i] * k[i].max(0.0)).sqrt();
+    match (0..c.len()).find(|&i| c[i] < 0.0 && c[i] <= least(i)) {
+        None => Ok(()),
+        Some(i) => {
+            let expected = format!("more than {:?}, a share of critical damping of -1", least(i));
+            Err(Error::invalid(matrix_of("damping").entry(i, i), format_args!("{:?}", c[i]), expected))
+        }
+    }
 }
 
 fn semidefinite(name: &str, matrix: &Symmetric) -> Result<()> {

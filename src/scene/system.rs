@@ -144,6 +144,16 @@ pub(crate) fn nonnegative(subject: impl Into<Subject>, value: f64) -> Result<()>
     }
 }
 
+/// Refuses a share of critical damping of −1 or less: M + s C + s² K would not be positive definite
+/// for every s > 0.
+pub(crate) fn above_minus_one(subject: impl Into<Subject>, value: f64) -> Result<()> {
+    if value.is_finite() && value > -1.0 {
+        Ok(())
+    } else {
+        Err(Error::invalid(subject, format_args!("{value:?}"), "a finite number above -1"))
+    }
+}
+
 pub(crate) fn finite(subject: impl Into<Subject>, value: f64) -> Result<()> {
     if value.is_finite() { Ok(()) } else { Err(Error::invalid(subject, format_args!("{value:?}"), "a finite number")) }
 }

@@ -17,6 +17,7 @@ mod blows;
 mod body;
 mod central_difference;
 mod counters;
+mod equilibrium;
 // For tests of the exact scheme alone; a program has Stepper.
 #[doc(hidden)]
 pub mod event;
@@ -48,6 +49,7 @@ mod stop;
 mod structure_event;
 
 pub use counters::Counters;
+pub use equilibrium::equilibrium;
 pub use handed::Handed;
 pub use method::Method;
 pub use name::NAMES;

@@ -256,7 +256,7 @@ fn largest_ratio(mass: &Symmetric, factor: &mut Factor, b: &Symmetric) -> f64 {
     // Where both matrices are diagonal, so is the problem.
     if mass.half_bandwidth() == 0 && b.half_bandwidth() == 0 {
         let pairs = mass.diagonal_entries().into_iter().zip(b.diagonal_entries());
-        return pairs.map(|(m, b)| b / m).fold(0.0, f64::max);
+        return pairs.map(|(m, b)| (b / m).abs()).fold(0.0, f64::max);
     }
     let mut x: Vec<f64> = (0..n).map(|i| (1.0 + 0.754_877_666 * i as f64).fract() - 0.4).collect();
     let mut largest = 0.0_f64;

@@ -1,9 +1,12 @@
 //! The case of a run in the keys of a case file: what a summary needs so that the run can be
 //! repeated.
 
-use crate::case::{Case, Model, Place, Support};
-use crate::scene::{BarEnd, BeamEnd, Damping, Flats, Load, LoadKind, MassMatrix, Row, Side, System, Wall, WallLaw};
+use crate::case::{Case, Model, Origin, Place, Support, TableColumns};
+use crate::scene::{
+    BarEnd, BeamEnd, Damping, Density, Flats, Load, LoadKind, MassMatrix, RandomForce, Row, Side, System, Wall, WallLaw,
+};
 use crate::scheme::PenaltyLaw;
+use crate::study::truncation::Start;
 use crate::time::TimeOptions;
 use serde_json::{Map, Value, json};
 
@@ -29,11 +32,18 @@ pub(super) fn case_file(case: &Case) -> Value {
     }
     put(&mut out, "wall", some(walls));
     put(&mut out, "support", some(supports));
-    let loads: Vec<Value> = whole.loads.iter().enumerate().map(|(i, l)| load(case, i, l, several)).collect();
+    let second = |index: usize| matches!(case.written.origins.get(index), Some(Origin::Second(_)));
+    let loads = whole.loads.iter().enumerate().filter(|(i, _)| !second(*i));
+    let loads: Vec<Value> = loads.map(|(i, l)| load(case, i, l, several)).collect();
     put(&mut out, "load", some(loads));
     let mut initial = Map::new();
-    put(&mut initial, "displacement", field(case, &whole.initial.q));
-    put(&mut initial, "velocity", field(case, &whole.initial.v));
+    match case.written.start {
+        Start::Given => {
+            put(&mut initial, "displacement", field(case, &whole.initial.q));
+            put(&mut initial, "velocity", field(case, &whole.initial.v));
+        }
+        Start::Equilibrium => put(&mut initial, "equilibrium", Some(json!(true))),
+    }
     put(&mut out, "initial", Some(initial).filter(|initial| !initial.is_empty()).map(Value::Object));
     let probes = whole.probes.iter().enumerate().filter(|(_, probe)| several || !probe.name.is_empty());
     let probes: Vec<Value> = probes
@@ -212,22 +222,49 @@ fn load(case: &Case, index: usize, load: &Load, several: bool) -> Value {
             ("harmonic", json!({ "amplitude": amplitude, "frequency": frequency, "phase": phase }))
         }
         LoadKind::Impulse { impulse, time } => ("impulse", json!({ "impulse": impulse, "time": time })),
-        LoadKind::Table(_) => {
-            let Some(Some((file, columns))) = case.written.tables.get(index) else { return Value::Null };
-            let table = json!({
-                "file": file,
-                "time": columns.time,
-                "force": columns.force,
-                "delimiter": columns.delimiter,
-                "decimal": columns.decimal,
-                "scale": columns.scale,
-            });
-            ("table", table)
-        }
+        LoadKind::Table(_) => match case.written.origins.get(index) {
+            Some(Origin::Table { file, columns }) => ("table", table(file, columns, "force")),
+            Some(Origin::Random { force, file, both }) => {
+                if *both {
+                    out.insert("direction".to_owned(), json!("both"));
+                }
+                ("random", random(force, file.as_deref()))
+            }
+            Some(Origin::Base { file, columns, influence, direction }) => {
+                out.clear();
+                put(&mut out, "direction", direction.map(|degrees| json!(degrees)));
+                let mut base = table(file, columns, "acceleration");
+                if let (Some(row), Some(map)) = (influence, base.as_object_mut()) {
+                    map.insert("influence".to_owned(), json!({ "row": row }));
+                }
+                ("base", base)
+            }
+            _ => return Value::Null,
+        },
         LoadKind::Function(_) => return Value::Null,
     };
     out.insert(kind.to_owned(), value);
     Value::Object(out)
+}
+
+/// A table: its file, its columns and the format of its numbers.
+fn table(file: &str, columns: &TableColumns, values: &str) -> Value {
+    json!({
+        "file": file,
+        "time": columns.time,
+        values: columns.force,
+        "delimiter": columns.delimiter,
+        "decimal": columns.decimal,
+        "scale": columns.scale,
+    })
+}
+
+fn random(force: &RandomForce, file: Option<&str>) -> Value {
+    match (&force.density, file) {
+        (_, Some(file)) => json!({ "file": file, "seed": force.seed }),
+        (Density::Flat { rms, from, to }, _) => json!({ "rms": rms, "from": from, "to": to, "seed": force.seed }),
+        (Density::Points(points), _) => json!({ "psd": points, "seed": force.seed }),
+    }
 }
 
 /// Puts the location that the scene has as `row`: as the file gave it, with its direction, or as

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
-use crate::scene::system::{finite, nonnegative, positive};
+use crate::scene::system::{above_minus_one, finite, nonnegative, positive};
 use crate::scene::{Row, Structure};
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +18,8 @@ pub struct ModalData {
     pub omega: Vec<f64>,
     /// Generalised masses mᵢ, kg for shapes without unit, 1 for mass-normalised shapes; k entries.
     pub masses: Vec<f64>,
-    /// Damping ratios ζᵢ, shares of critical damping; k entries.
+    /// Damping ratios ζᵢ, shares of critical damping, above −1; k entries. A negative one makes its
+    /// mode unstable.
     pub ratios: Vec<f64>,
     /// The points whose mode shapes are known.
     pub points: Vec<ModalPoint>,
@@ -70,7 +71,7 @@ impl ModalData {
             let key = |what: &'static str| Subject::from(("modal data", what)).value(i);
             nonnegative(key("omega"), omega)?;
             positive(key("masses"), mass)?;
-            nonnegative(key("damping_ratios"), ratio)?;
+            above_minus_one(key("damping_ratios"), ratio)?;
             let stiffness = mass * omega * omega;
             finite(key("omega"), stiffness)?;
             let entries = [mass, 2.0 * ratio * omega * mass, stiffness];

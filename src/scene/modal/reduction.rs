@@ -63,6 +63,15 @@ impl WallTruncation {
     }
 }
 
+/// What becomes of the initial state.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Start {
+    /// It is reduced too.
+    Kept,
+    /// It is left out.
+    Left,
+}
+
 /// A residual compliance below this share of the whole is rounding and counts as 0.
 const NOTHING: f64 = 1e-12;
 
@@ -82,6 +91,19 @@ impl Scene {
     /// `static correction` for a φ² wall; or any error of [`Scene::validate`].
     pub fn reduced(&self, modes: usize, static_correction: bool) -> Result<Reduction> {
         self.validate()?;
+        self.cut(modes, static_correction, Start::Kept)
+    }
+
+    /// The same at rest at 0, wherever the scene starts and on whichever side of its walls that is.
+    ///
+    /// # Errors
+    /// As [`Scene::reduced`], but for the initial state.
+    pub(crate) fn reduced_without_start(&self, modes: usize, static_correction: bool) -> Result<Reduction> {
+        self.validate()?;
+        self.cut(modes, static_correction, Start::Left)
+    }
+
+    fn cut(&self, modes: usize, static_correction: bool, start: Start) -> Result<Reduction> {
         let System::Structure(structure) = &self.system else {
             return Err(Error::invalid("modes", modes, "none: the system has one degree of freedom"));
         };
@@ -116,7 +138,10 @@ impl Scene {
         };
         scene.loads.iter_mut().for_each(|load| load.at = row(&load.at));
         scene.probes.iter_mut().for_each(|probe| probe.at = row(&probe.at));
-        self.keep_start(&mut scene, modes)?;
+        match start {
+            Start::Kept => self.keep_start(&mut scene, modes)?,
+            Start::Left => scene.initial = State { q: vec![0.0; modes], v: vec![0.0; modes] },
+        }
         let (mut walls, coupling) = self.truncation(structure, &kept, next_omega, &scene)?;
         if static_correction {
             for (wall, truncation) in scene.walls.iter_mut().zip(&mut walls) {
@@ -128,7 +153,8 @@ impl Scene {
             scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)
         };
         let whole = energy(self);
-        let start_energy_lost = if whole > 0.0 { (1.0 - energy(&scene) / whole).max(0.0) } else { 0.0 };
+        let start_energy_lost =
+            if whole > 0.0 && start == Start::Kept { (1.0 - energy(&scene) / whole).max(0.0) } else { 0.0 };
         let coupling_neglected = if static_correction { coupling } else { 0.0 };
         Ok(Reduction {
             scene,

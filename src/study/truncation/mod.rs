@@ -16,7 +16,7 @@ use crate::error::Result;
 use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Damping, Reduction, Scene};
-use crate::scheme::Method;
+use crate::scheme::{Method, equilibrium};
 use crate::statistics::WallStatistics;
 use crate::time::TimeOptions;
 use serde::Serialize;
@@ -34,6 +34,18 @@ pub struct Whole {
     pub static_correction: bool,
     /// Planes that have each mode, 1 or 2: numbers of modes are multiples of it.
     pub planes: usize,
+    /// Where the reduced scene starts.
+    pub start: Start,
+}
+
+/// Where a scene starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Start {
+    /// From its initial state.
+    #[default]
+    Given,
+    /// At rest in static equilibrium under its constant loads; with fewer modes it is another one.
+    Equilibrium,
 }
 
 impl Whole {
@@ -42,7 +54,13 @@ impl Whole {
     /// # Errors
     /// As [`Scene::reduced`].
     pub fn cut(&self, modes: usize) -> Result<Reduction> {
-        let reduction = self.scene.reduced(modes, self.static_correction)?;
+        let mut reduction = match self.start {
+            Start::Given => self.scene.reduced(modes, self.static_correction)?,
+            Start::Equilibrium => self.scene.reduced_without_start(modes, self.static_correction)?,
+        };
+        if self.start == Start::Equilibrium {
+            reduction.scene.initial.q = equilibrium(&reduction.scene)?;
+        }
         match &self.damping {
             Some(damping) => reduction.with_damping(damping),
             None => Ok(reduction),

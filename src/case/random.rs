@@ -1,0 +1,145 @@
+//! Reads random loads, and makes them anew for another end.
+
+use super::Case;
+use super::builder::Builder;
+use super::file;
+use super::table::{self, TableColumns};
+use super::value::{Number, Section};
+use super::written::Origin;
+use crate::error::{Error, Part, Result};
+use crate::scene::{Density, LoadKind, RandomForce, Table};
+use std::ops::Range;
+use toml::Spanned;
+
+/// The largest seed: whole numbers up to it are exact in a file.
+const MOST_SEED: f64 = 9_007_199_254_740_992.0;
+
+/// A random force of the file, its table, and the file of its density.
+pub(super) struct NewRandom {
+    pub force: RandomForce,
+    pub table: Table,
+    pub file: Option<String>,
+}
+
+impl Builder<'_> {
+    /// The random force of load `index`, over a run until `end`.
+    pub fn random(&mut self, index: usize, section: &Section<file::Random>, end: f64) -> Result<NewRandom> {
+        let owner = format!("load {}: random", index + 1);
+        let file::Random { rms, from, to, psd, file, seed } = &section.value;
+        let one = "expected rms (N), from and to (Hz), or psd = [[Hz, N^2/Hz], ..], or file = \"psd.csv\"";
+        let given: Vec<Range<usize>> = [
+            rms.as_ref().or(from.as_ref()).or(to.as_ref()).map(Spanned::span),
+            psd.as_ref().map(Spanned::span),
+            file.as_ref().map(Spanned::span),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        let last = given.iter().max_by_key(|span| span.start).cloned().unwrap_or(section.span.clone());
+        let density = match (rms, from, to, psd, file) {
+            _ if given.len() != 1 => {
+                let has = if given.is_empty() { "no density" } else { "two densities" };
+                return Err(self.source.error(last, &format!("{owner} has {has}"), one));
+            }
+            (Some(rms), Some(from), Some(to), ..) => {
+                let [rms, from, to] = [rms, from, to].map(|value| value.get_ref().0);
+                Density::Flat { rms, from, to }
+            }
+            (_, _, _, Some(psd), _) => {
+                let (key, wanted) = (format!("{owner}: psd"), "pairs of a frequency, in Hz, and a density, in N^2/Hz");
+                let number = |value| self.finite(&key, value, wanted);
+                let pairs = self.pairs(&key, psd, wanted)?;
+                Density::Points(pairs.into_iter().map(|(f, s)| Ok([number(f)?, number(s)?])).collect::<Result<_>>()?)
+            }
+            (_, _, _, _, Some(file)) => Density::Points(self.density(&owner, file)?),
+            _ => {
+                let missing = if rms.is_none() {
+                    "rms"
+                } else if from.is_none() {
+                    "from"
+                } else {
+                    "to"
+                };
+                let title = format!("`{missing}` is missing in {owner}");
+                return Err(self.source.error(section.span.clone(), &title, one));
+            }
+        };
+        let seed = match seed {
+            None => 0,
+            Some(seed) => self.seed(&owner, seed)?,
+        };
+        let force = RandomForce { density, seed, stream: 2 * index as u64 };
+        let table = force.table(end).map_err(|error| self.at_random(&owner, section, error))?;
+        Ok(NewRandom { force, table, file: file.as_ref().map(|file| file.get_ref().clone()) })
+    }
+
+    fn seed(&self, owner: &str, seed: &Spanned<Number>) -> Result<u64> {
+        let x = seed.get_ref().0;
+        match x.fract() == 0.0 && (0.0..=MOST_SEED).contains(&x) {
+            true => Ok(x as u64),
+            false => Err(self.refuse(seed.span(), &format!("{owner}: seed"), "a whole number from 0 to 2^53")),
+        }
+    }
+
+    /// The density in a file.
+    fn density(&mut self, owner: &str, file: &Spanned<String>) -> Result<Vec<[f64; 2]>> {
+        let columns = TableColumns {
+            time: "frequency_Hz".to_owned(),
+            force: "density_N2_per_Hz".to_owned(),
+            ..TableColumns::default()
+        };
+        let name = file.get_ref();
+        let (path, text) = self.open(name).map_err(|reason| {
+            let help = format!("{}; its path is relative to the case file", columns.expected());
+            self.source.error(file.span(), &format!("{owner}: file {name:?}: {reason}"), &help)
+        })?;
+        let read = table::read(&path, &text, &columns)?;
+        Ok(read.time().iter().zip(read.force()).map(|(&f, &s)| [f, s]).collect())
+    }
+
+    /// An error of a random force, at the key that it is about.
+    fn at_random(&self, owner: &str, section: &Section<file::Random>, error: Error) -> Error {
+        let Error::Invalid { subject, value, expected } = &error else { return error };
+        let file::Random { rms, from, to, psd, file, .. } = &section.value;
+        let density = || psd.as_ref().map(Spanned::span).or(file.as_ref().map(Spanned::span));
+        let span = match subject.parts().get(1) {
+            Some(Part::Name(name)) => match name.as_ref() {
+                "rms" => rms.as_ref().map(Spanned::span),
+                "from" => from.as_ref().map(Spanned::span),
+                "to" | "band" => to.as_ref().map(Spanned::span).or_else(density),
+                "psd" => density(),
+                // An end that makes no duration is refused at its own key.
+                _ => None,
+            },
+            _ => None,
+        };
+        let title = format!("{} is {value}", subject.to_string().replacen("random load", owner, 1));
+        let span = span.unwrap_or(section.span.clone());
+        self.source.error(span, &title, &format!("expected {expected}")).caused_by(error.clone())
+    }
+}
+
+impl Case {
+    /// Changes the end of the run. The lines of a random force are multiples of 1/end, so random
+    /// loads are made anew.
+    ///
+    /// # Errors
+    /// Those of the reduction to modes, and [`Error::Invalid`] where a random force has no line at
+    /// this end or too many rows.
+    pub fn change_end(&mut self, end: f64) -> Result<()> {
+        let mut tables = Vec::new();
+        for (index, origin) in self.written.origins.iter().enumerate() {
+            if let Origin::Random { force, .. } | Origin::Second(force) = origin {
+                tables.push((index, force.table(end)?));
+            }
+        }
+        self.change(|scene| {
+            scene.duration = end;
+            for (index, table) in &tables {
+                if let Some(load) = scene.loads.get_mut(*index) {
+                    load.kind = LoadKind::Table(table.clone());
+                }
+            }
+        })
+    }
+}

@@ -1,0 +1,206 @@
+//! The orbit of a place that moves in two planes, between the flats around it.
+
+use super::figure::{Curve, Figure, Panel};
+use super::labelled::Labelled;
+use super::window::Span;
+use crate::scene::{Row, Scene};
+use crate::trajectory::Trajectory;
+
+/// Millimetres per metre.
+const MM: f64 = 1e3;
+/// Most orbits in one figure.
+const MOST: usize = 4;
+/// Room around an orbit, as a share of its size.
+const ROOM: f64 = 0.08;
+/// A wall whose row differs from a combination of the two by more than this share is elsewhere.
+const ELSEWHERE: f64 = 1e-9;
+
+/// A place whose displacements along y and z are both recorded.
+struct Place {
+    name: String,
+    /// Indices of its probes.
+    probes: [usize; 2],
+    flats: Vec<Flat>,
+}
+
+/// A wall seen from the place: the motion stays where a y + b z ≤ c.
+struct Flat {
+    a: f64,
+    b: f64,
+    c: f64,
+}
+
+/// The figure of all places that have a probe NAME-y and a probe NAME-z, those with the most walls
+/// first; `None` where there is none.
+pub(super) fn orbits(title: &str, scene: &Scene, runs: &[Labelled<'_>], span: Span) -> Option<String> {
+    let mut places = places(scene);
+    places.sort_by_key(|place| std::cmp::Reverse(place.flats.len()));
+    places.truncate(MOST);
+    let several = places.len() > 1;
+    // Frames one below the other have one horizontal axis: the same ranges for all.
+    let mut half = 0.0_f64;
+    let views: Vec<(Place, [f64; 2])> = places
+        .into_iter()
+        .filter_map(|place| {
+            let (centre, size) = view(&place, runs, span)?;
+            half = half.max(size);
+            Some((place, centre))
+        })
+        .collect();
+    let (first, _) = views.first()?;
+    let whole = (1.0 + ROOM) * half;
+    // The horizontal range holds every place.
+    let across = views.iter().map(|(_, centre)| centre[0]);
+    let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    let (middle, whole) = (0.5 * (low + high), whole + 0.5 * (high - low));
+    let heading = if several { String::new() } else { format!(" ({})", first.name) };
+    let title = match runs {
+        [only] => format!("{title}: {}{heading}", only.label),
+        _ => format!("{title}{heading}"),
+    };
+    let mut figure = Figure::new(title, "Displacement along y (mm)").square();
+    figure = figure.range(MM * (middle - whole), MM * (middle + whole));
+    for (place, centre) in views {
+        let mut panel =
+            Panel::new("Displacement along z (mm)").range(MM * (centre[1] - whole), MM * (centre[1] + whole));
+        if several {
+            panel = panel.heading(&place.name);
+        }
+        for labelled in runs {
+            let points = points(&place, &labelled.run.trajectory, span).map(|[y, z]| (MM * y, MM * z));
+            let curve = Curve::new(labelled.label, points).look(labelled.look);
+            panel = panel.curve(if labelled.reference { curve.backdrop() } else { curve });
+        }
+        for edge in edges(&place.flats, [middle, centre[1]], whole) {
+            panel = panel.outline(edge.map(|[y, z]| (MM * y, MM * z)));
+        }
+        figure = figure.panel(panel);
+    }
+    Some(figure.to_svg())
+}
+
+/// Every place with a probe along y and one along z.
+fn places(scene: &Scene) -> Vec<Place> {
+    let along = |name: &str| scene.probes.iter().position(|probe| probe.name == name);
+    let place = |(index, probe): (usize, &crate::scene::Probe)| {
+        let name = probe.name.strip_suffix("-y")?;
+        let other = along(&format!("{name}-z"))?;
+        let rows = [&probe.at, &scene.probes.get(other)?.at];
+        let flats = scene.walls.iter().filter_map(|wall| {
+            let [a, b] = seen(&wall.at, rows)?;
+            let sign = -wall.side.sign();
+            Some(Flat { a: sign * a, b: sign * b, c: sign * wall.position })
+        });
+        Some(Place { name: name.to_owned(), probes: [index, other], flats: flats.collect() })
+    };
+    scene.probes.iter().enumerate().filter_map(place).collect()
+}
+
+/// The weights with which `row` is a sum of the two rows of a place, which share no degree of
+/// freedom; `None` for a row elsewhere.
+fn seen(row: &Row, rows: [&Row; 2]) -> Option<[f64; 2]> {
+    let size =
+        row.entries().iter().map(|entry| entry.0 + 1).chain(rows.iter().flat_map(|row| row.entries()).map(|e| e.0 + 1));
+    let mut dense = vec![0.0; size.max().unwrap_or(0)];
+    row.entries().iter().for_each(|&(i, weight)| dense[i] += weight);
+    let square = |of: &Row| of.entries().iter().map(|(_, weight)| weight * weight).sum::<f64>();
+    let whole = square(row);
+    let weights = rows.map(|of| of.dot(&dense) / square(of));
+    for (of, weight) in rows.into_iter().zip(weights) {
+        of.entries().iter().for_each(|&(i, x)| dense[i] -= weight * x);
+    }
+    let left: f64 = dense.iter().map(|x| x * x).sum();
+    (left <= ELSEWHERE * whole && weights.iter().all(|weight| weight.is_finite())).then_some(weights)
+}
+
+fn points<'a>(place: &Place, motion: &'a Trajectory, span: Span) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let [y, z] = place.probes.map(|probe| motion.displacements().get(probe).into_iter().flatten());
+    let rows = motion.time().iter().zip(y.zip(z));
+    rows.filter(move |(t, _)| span.holds(**t)).map(|(_, (&y, &z))| [y, z])
+}
+
+/// The middle of the motion and of the nearest points of the flats, and half the side of the square
+/// that holds them, m.
+fn view(place: &Place, runs: &[Labelled<'_>], span: Span) -> Option<([f64; 2], f64)> {
+    let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+    let mut include = |point: [f64; 2]| {
+        for (end, x) in ends.iter_mut().zip(point).filter(|(_, x)| x.is_finite()) {
+            *end = [end[0].min(x), end[1].max(x)];
+        }
+    };
+    runs.iter().flat_map(|run| points(place, &run.run.trajectory, span)).for_each(&mut include);
+    let moved = ends;
+    let mut include = |point: [f64; 2]| {
+        for (end, x) in ends.iter_mut().zip(point).filter(|(_, x)| x.is_finite()) {
+            *end = [end[0].min(x), end[1].max(x)];
+        }
+    };
+    let middle = moved.map(|[low, high]| 0.5 * (low + high));
+    for Flat { a, b, c } in &place.flats {
+        let beyond = (c - a * middle[0] - b * middle[1]) / (a * a + b * b);
+        include([middle[0] + beyond * a, middle[1] + beyond * b]);
+    }
+    let half = ends.iter().map(|[low, high]| 0.5 * (high - low)).fold(0.0, f64::max);
+    (half > 0.0 && half.is_finite()).then(|| (ends.map(|[low, high]| 0.5 * (low + high)), half))
+}
+
+/// The part of each flat that bounds the motion, within a square around `centre`.
+fn edges(flats: &[Flat], centre: [f64; 2], half: f64) -> Vec<[[f64; 2]; 2]> {
+    // The frame cuts off what lies beyond it.
+    let reach = 4.0 * half;
+    let cut = |(index, flat): (usize, &Flat)| {
+        let square = flat.a * flat.a + flat.b * flat.b;
+        let beyond = (flat.c - flat.a * centre[0] - flat.b * centre[1]) / square;
+        let foot = [centre[0] + beyond * flat.a, centre[1] + beyond * flat.b];
+        let length = square.sqrt();
+        let along = [-flat.b / length, flat.a / length];
+        let (mut from, mut to) = (-reach, reach);
+        for (_, other) in flats.iter().enumerate().filter(|(i, _)| *i != index) {
+            // other.a y + other.b z ≤ other.c at foot + t along.
+            let rate = other.a * along[0] + other.b * along[1];
+            let room = other.c - other.a * foot[0] - other.b * foot[1];
+            if rate > 0.0 {
+                to = to.min(room / rate);
+            } else if rate < 0.0 {
+                from = from.max(room / rate);
+            } else if room < 0.0 {
+                return None;
+            }
+        }
+        let at = |t: f64| [foot[0] + t * along[0], foot[1] + t * along[1]];
+        (from < to).then(|| [at(from), at(to)])
+    };
+    flats.iter().enumerate().filter_map(cut).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Flats, PlaneRows, Probe, WallLaw};
+
+    #[test]
+    fn the_edges_of_a_square_hole_meet_at_its_corners() {
+        let at = PlaneRows::doubled(&Row::new(vec![(0, 0.5), (1, 2.0)]), 3);
+        let flats = [20.0, 110.0, 200.0, 290.0].map(|direction| crate::scene::Flat { direction, gap: 1e-3 }).to_vec();
+        let support =
+            Flats { name: "s".to_owned(), at, flats, centre: [2e-3, 0.0], law: WallLaw::Rigid { restitution: 1.0 } };
+        let mut scene = Scene::oscillator(1.0, 0.0, 1.0);
+        scene.walls = support.walls().unwrap();
+        scene.probes = vec![
+            Probe { name: "s-y".to_owned(), at: support.at.y.clone() },
+            Probe { name: "s-z".to_owned(), at: support.at.z.clone() },
+            Probe { name: "else-y".to_owned(), at: Row::dof(2) },
+        ];
+        let [place] = <[Place; 1]>::try_from(places(&scene)).ok().unwrap();
+        assert_eq!((place.probes, place.flats.len()), ([0, 1], 4));
+        for edge in edges(&place.flats, [2e-3, 0.0], 2e-3) {
+            for [y, z] in edge {
+                // A corner is √2 gaps from the centre, to some roundings.
+                assert!(((y - 2e-3).hypot(z) / 1e-3 - 2.0_f64.sqrt()).abs() < 1e-12, "{y} {z}");
+            }
+        }
+        // One flat alone is a line through the frame.
+        let [one] = <[_; 1]>::try_from(edges(&place.flats[..1], [2e-3, 0.0], 2e-3)).unwrap();
+        assert!((one[0][0] - one[1][0]).hypot(one[0][1] - one[1][1]) > 1.5e-2);
+    }
+}
