@@ -163,7 +163,7 @@ fn duration(estimate: &Estimate) -> String {
     if estimate.seconds.is_finite() {
         format!("about {} of stepping", words(estimate.seconds))
     } else {
-        "no end in sight".to_owned()
+        "too long to estimate".to_owned()
     }
 }
 
@@ -314,7 +314,8 @@ fn supports(case: &Case) -> Vec<String> {
             [y, z] => format!(", its centre at ({y}, {z}) m"),
         };
         format!(
-            "support {name:?}, on {}: {} flats towards {}{more}, {gap}{off}; each flat is a wall along its normal,              without friction, under every scheme's law of walls",
+            "support {name:?}, on {}: {} flats towards {}{more}, {gap}{off}; each flat is a wall along its normal, \
+             without friction, under every scheme's law of walls",
             support.place,
             flats.len(),
             directions.join(", ")

@@ -1,4 +1,4 @@
-//! `signorini merge`: shards of a sweep put together.
+//! `signorini merge`: joins the shards of a sweep.
 
 use super::drawing::Formats;
 use super::ui::Ui;
@@ -14,7 +14,7 @@ pub struct Args {
     /// Folders of shards, or folders that hold them
     #[arg(required = true, value_hint = clap::ValueHint::DirPath)]
     folders: Vec<PathBuf>,
-    /// Folder for the whole
+    /// Folder for the joined tables
     #[arg(long, value_name = "DIR", value_hint = clap::ValueHint::DirPath)]
     out: PathBuf,
     /// Replace the results of another request

@@ -21,11 +21,11 @@ Examples:
   signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=4:5:201 --follow both --scheme event --samples periods --keep 60 --settle 200
   signorini sweep tube.toml --vary system.damping.ratio=0.005:0.02 --random sobol --points 256 --measure impact_power
   signorini sweep bifurcation.toml --plan          how many rows, how long, how many bytes
-  signorini sweep bifurcation.toml --shard 3/128   one part of 128; `signorini merge` puts them together
+  signorini sweep bifurcation.toml --shard 3/128   one part of 128; `signorini merge` joins them
 
 A sweep file is TOML with a key `case`; docs/sweep.md has its format, and all measures.
-Killed at any instant and started again with the same command it goes on, and ends with the same bytes.
-Results: sweep.csv, a row for each point, failed ones with the reason; samples.csv, its instants; a picture; summary.json.";
+After an interruption at any instant, the same command continues, and ends with the same bytes.
+Results: sweep.csv, one row per point, with the reason if it failed; samples.csv, the instants; a picture; summary.json.";
 
 /// Many runs of one case: curves, maps, bifurcation diagrams and random designs as one table
 #[derive(Debug, clap::Args)]
@@ -40,7 +40,8 @@ pub struct Args {
     /// --random; may be given several times
     #[arg(long, value_name = "KEY=VALUES")]
     vary: Vec<String>,
-    /// Pass through the first --vary in this direction, with the state carried on: up, down, both
+    /// Take the values of the first --vary in this direction, each row starting from the end of the
+    /// last one: up, down, both
     #[arg(long, value_name = "WORD")]
     follow: Option<Follow>,
     /// Measures of every row, such as contacts, impulse, force_rms, impact_power, displacement_max,
@@ -50,7 +51,7 @@ pub struct Args {
     /// Keep instants of every row: periods (once a forcing period) or impacts
     #[arg(long, value_name = "WORD")]
     samples: Option<crate::sweep::Samples>,
-    /// How many instants of a row are kept at most: the last ones [default: 200]
+    /// Maximum number of instants of a row that are kept: the last ones [default: 200]
     #[arg(long, value_name = "N")]
     most_samples: Option<usize>,
     /// Forcing periods before the window of the measures
@@ -62,7 +63,7 @@ pub struct Args {
     /// Scheme [default: chosen from the case; see `signorini explain`]
     #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
     scheme: Option<String>,
-    /// What computes rows: scalar, or batch (oscillators side by side, by event) [default: scalar]
+    /// How rows are computed: scalar, or batch (many oscillators at once, exactly) [default: scalar]
     #[arg(long, value_name = "WORD")]
     kernel: Option<Kernel>,
     /// Draw the values of all --vary at random: uniform, lhs (Latin hypercube), sobol
@@ -71,7 +72,7 @@ pub struct Args {
     /// Points of the random design
     #[arg(long, value_name = "N", requires = "random")]
     points: Option<u64>,
-    /// What random values are drawn from; sobol without a seed is the plain sequence
+    /// Seed of the random values; sobol without a seed is the plain sequence
     #[arg(long, value_name = "N", requires = "random")]
     seed: Option<u64>,
     /// Threads [default: all cores]
@@ -80,7 +81,7 @@ pub struct Args {
     /// Compute part I of N, in DIR/shard-I-of-N
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Say how many rows there are, how long they will take and how many bytes; write nothing
+    /// Print the number of rows, and estimates of time and bytes; write nothing
     #[arg(long)]
     plan: bool,
     /// Exit with code 1 if any row failed, not only if all did
@@ -90,10 +91,10 @@ pub struct Args {
     place: Destination,
 }
 
-/// How long the rows of `--plan` are tried.
+/// Time for which rows are computed for the estimate of `--plan`.
 const TRIAL: Duration = Duration::from_secs(3);
 
-/// How often a line says how far it is where there is no bar.
+/// Interval of the lines that report progress if there is no bar.
 const SAY: Duration = Duration::from_secs(30);
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
@@ -118,7 +119,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     finished.failure(args.strict).map_or(Ok(()), Err)
 }
 
-/// Runs the sweep under a bar; without one a line now and then says how far it is.
+/// Runs the sweep with a progress bar; without one, a line from time to time reports progress.
 fn watched(plan: &Plan, out: &Path, manner: Manner, ui: &Ui) -> Result<Finished> {
     let bar = ui.progress("sweep", plan.count());
     let said = Cell::new(Instant::now());
@@ -135,7 +136,7 @@ fn watched(plan: &Plan, out: &Path, manner: Manner, ui: &Ui) -> Result<Finished>
 }
 
 impl Args {
-    /// What is asked.
+    /// The sweep that the arguments describe.
     fn sweep(&self, ui: &Ui) -> Result<Sweep> {
         let path = Path::new(&self.file);
         let is_sweep = std::fs::read_to_string(path).is_ok_and(|text| Sweep::is_file(&text));
@@ -170,7 +171,7 @@ impl Args {
     }
 }
 
-/// What `--vary` says.
+/// The axis of an argument of `--vary`.
 fn axis(text: &str) -> Result<Axis> {
     let wrong = || {
         let expected = "KEY=FROM:TO:POINTS, KEY=FROM:TO:POINTS:log, KEY=A,B,C, or KEY=FROM:TO with --random";

@@ -1,59 +1,11 @@
-//! What is varied: one or several keys, tied to one another, over a list, a grid or a random range.
+//! An axis of a sweep: one or several keys, tied to one another, over a list, a grid or a random
+//! range.
 
+use super::follow::Follow;
 use super::random::Normal;
-use crate::case::{Key, KeyValue};
+use super::target::{Target, with_unit};
+use crate::case::KeyValue;
 use crate::error::{Error, Result};
-use std::fmt;
-use std::str::FromStr;
-
-/// What an axis changes.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Target {
-    /// A value of the case file.
-    Case(Key),
-    /// The scheme: `run.scheme`.
-    Scheme,
-}
-
-impl fmt::Display for Target {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Case(key) => key.fmt(f),
-            Self::Scheme => f.write_str(SCHEME),
-        }
-    }
-}
-
-impl FromStr for Target {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        if text.trim() == SCHEME { Ok(Self::Scheme) } else { text.parse().map(Self::Case) }
-    }
-}
-
-/// The key of the scheme.
-const SCHEME: &str = "run.scheme";
-
-impl Target {
-    fn unit(&self) -> Option<&'static str> {
-        if let Self::Case(key) = self { key.unit() } else { None }
-    }
-
-    /// Name of the column of its values: the last word of the key, or the whole key.
-    fn column(&self, whole: bool) -> String {
-        let name = match self {
-            Self::Case(key) if whole => key.to_string().replace('*', "all").replace(['.', '-'], "_"),
-            Self::Case(key) => key.word().to_owned(),
-            Self::Scheme => "scheme".to_owned(),
-        };
-        with_unit(&name, self.unit())
-    }
-}
-
-fn with_unit(name: &str, unit: Option<&str>) -> String {
-    unit.map_or_else(|| name.to_owned(), |unit| format!("{name}_{unit}"))
-}
 
 /// The values of an axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,41 +42,6 @@ pub enum Values {
     },
     /// Drawn from a normal distribution, by a [`Random`](super::Random) design.
     Normal(Normal),
-}
-
-/// The direction in which the values of an axis are taken, if each row starts from the end of the
-/// last one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Follow {
-    /// None: every row starts from the case's initial state.
-    #[default]
-    No,
-    /// Rising values, each row from the state at the end of the last one.
-    Up,
-    /// Falling values, each row from the state at the end of the last one.
-    Down,
-    /// Up, and then down again.
-    Both,
-}
-
-impl Follow {
-    /// The words for it in a sweep file.
-    pub(super) const ALL: [(&'static str, Self); 4] =
-        [("no", Self::No), ("up", Self::Up), ("down", Self::Down), ("both", Self::Both)];
-}
-
-impl FromStr for Follow {
-    type Err = Error;
-
-    fn from_str(word: &str) -> Result<Self> {
-        Self::ALL.iter().find(|(name, _)| *name == word.trim()).map(|(_, follow)| *follow).ok_or_else(|| {
-            Error::Unknown {
-                kind: "direction to follow",
-                name: word.to_owned(),
-                known: Self::ALL.map(|(name, _)| name.to_owned()).to_vec(),
-            }
-        })
-    }
 }
 
 /// One dimension of a sweep.

@@ -1,6 +1,7 @@
 //! Sweep files: the values that vary and the measures, as TOML.
 
-use super::axis::{Axis, Follow, Values};
+use super::axis::{Axis, Values};
+use super::follow::Follow;
 use super::measure::Measure;
 use super::picture::{Kind, Picture};
 use super::random::{Normal, Random};

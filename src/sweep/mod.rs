@@ -7,21 +7,21 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | `request` | [`Sweep`]: what is asked |
+//! | `request` | [`Sweep`]: the request |
 //! | `file` | the same as a sweep file |
-//! | `axis`, `random` | what is varied: lists, grids, ranges, tied keys, random designs |
-//! | `measure`, `sample` | what is asked of a row, by name |
+//! | `axis`, `target`, `follow`, `random` | the values that vary: lists, grids, ranges, tied keys, random designs |
+//! | `measure`, `sample` | the quantities computed for a row, by name |
 //! | `forcing` | the period of the loads |
 //! | `plan` | the rows, by number |
 //! | `row` | one row: built, run, measured |
 //! | `batched` | rows of one degree of freedom side by side, by [`batch`](crate::batch) |
-//! | `watch`, `motion`, `strobe` | what measures need of a row's steps |
-//! | `run` | threads, and the one writer |
-//! | `journal`, `folder` | what is on disk while it runs, and what a folder may be gone on with |
+//! | `watch`, `motion`, `strobe` | collect from the steps of a row what its measures need |
+//! | `run` | the threads that compute rows, and the one that writes them |
+//! | `journal`, `folder` | the files of an unfinished sweep, and the check whether it may be continued |
 //! | `finish`, `record` | the tables |
-//! | `picture`, `curves`, `instants` | the picture |
-//! | `table`, `columns` | the tables read again |
-//! | `shard`, `merge` | parts, and the whole of them |
+//! | `picture`, `curves`, `instants` | the pictures |
+//! | `table`, `columns` | reading the tables |
+//! | `shard`, `merge` | parts of a sweep, and joining them |
 //!
 //! A chain of rows, each of which starts from the end of the last, runs on one thread; a row that
 //! follows no other is a chain by itself. Each thread takes the next chain when it has finished
@@ -37,6 +37,7 @@ mod curves;
 mod file;
 mod finish;
 mod folder;
+mod follow;
 mod forcing;
 mod instants;
 mod journal;
@@ -54,11 +55,13 @@ mod sample;
 mod shard;
 mod strobe;
 mod table;
+mod target;
 mod watch;
 
-pub use axis::{Axis, Follow, Target, Values};
+pub use axis::{Axis, Values};
 pub use finish::Tables;
 pub(crate) use folder::write_summary;
+pub use follow::Follow;
 pub use measure::{Measure, Scope};
 pub use merge::{Merged, merge};
 pub use picture::{Kind, Picture};
@@ -69,3 +72,4 @@ pub use row::{Row, Status};
 pub use run::{Estimate, Finished, Manner, Progress};
 pub use sample::{Sample, Samples};
 pub use shard::Shard;
+pub use target::Target;

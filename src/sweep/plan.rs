@@ -1,11 +1,13 @@
 //! The rows of a sweep: their values and their columns. Everything about a row follows from its
 //! number.
 
-use super::axis::{Axis, Follow, Target};
+use super::axis::Axis;
+use super::follow::Follow;
 use super::forcing;
 use super::measure::Measure;
 use super::request::{Kernel, Stretch, Sweep};
 use super::sample::Samples;
+use super::target::Target;
 use crate::case::{Case, Key, KeyValue, Template};
 use crate::error::{Error, Result};
 use crate::output::format::Format;

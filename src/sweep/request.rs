@@ -1,10 +1,12 @@
 //! The request of a sweep.
 
-use super::axis::{Axis, Follow, Target};
+use super::axis::Axis;
+use super::follow::Follow;
 use super::measure::Measure;
 use super::picture::Picture;
 use super::random::Random;
 use super::sample::Samples;
+use super::target::Target;
 use crate::case::{CaseFile, KeyValue};
 use crate::error::{Error, Result};
 use std::str::FromStr;
