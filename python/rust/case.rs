@@ -78,13 +78,15 @@ pub fn load(py: Python<'_>, case: PathBuf, set: Option<Bound<'_, PyDict>>) -> Py
     }
     let case = compute(py, || file.case())?;
     let model = match &case.model {
+        // A place is a row of both planes.
+        _ if case.planes.is_two() => Model::Numbered,
         sg::case::Model::Bar(bar) => Model::Bar(bar.clone()),
         sg::case::Model::Beam(beam) => Model::Beam(beam.clone()),
         sg::case::Model::Modal(modal) => Model::Modal(modal.clone()),
         _ => Model::Numbered,
     };
     let origin = case.truncated.as_ref().map(|truncated| {
-        let sg::study::truncation::Whole { scene, damping, static_correction } = truncated.whole.clone();
+        let sg::study::truncation::Whole { scene, damping, static_correction, .. } = truncated.whole.clone();
         Box::new(Origin { scene, damping, modes: Some(truncated.reduction.modes.count()), static_correction })
     });
     let scene = Py::new(py, Scene { scene: case.scene.clone(), model, origin })?;

@@ -8,6 +8,7 @@ mod builders;
 mod case;
 mod error;
 mod load;
+mod orbit;
 mod pickle;
 mod place;
 mod run;
@@ -31,6 +32,8 @@ mod _core {
     use super::error::{AccuracyWarning, DivergedError, NotSolvedError, RefutedError, RunError, TooManyEventsError};
     #[pymodule_export]
     use super::load::Load;
+    #[pymodule_export]
+    use super::orbit::_orbit;
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]

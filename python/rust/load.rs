@@ -89,8 +89,8 @@ impl Load {
         load(sg::Load::table(sg::Table::new(time, force).map_err(raise)?), at)
     }
 
-    /// The force (N) that ``force(time)`` returns, of the time in s alone: for the stepping schemes,
-    /// which ask it at the ends of their steps. The exact scheme refuses it, and it cannot be
+    /// The force (N) that ``force(time)`` returns, of the time in s alone: for the stepping
+    /// schemes, which ask it at the ends of their steps. The exact scheme refuses it, and it cannot be
     /// pickled. An exception that it raises ends the run and is passed on.
     ///
     /// Examples

@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 use signorini as sg;
 
 /// M q̈ + C q̇ + K q = f(t) + Gᵀ r(t), bounded by walls, over a duration. Scenes are made by
-/// ``oscillator``, ``chain``, ``bar``, ``beam``, ``matrices``, ``modal`` and ``load``, never change,
-/// are equal by value, and can be pickled.
+/// ``oscillator``, ``chain``, ``bar``, ``beam``, ``matrices``, ``modal`` and ``load``, never
+/// change, are equal by value, and can be pickled.
 #[pyclass(frozen, eq, module = "signorini", from_py_object)]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scene {

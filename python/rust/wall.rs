@@ -61,8 +61,9 @@ impl Wall {
     /// stiffness, damping : float, optional
     ///     N/m and N s/m of an elastic wall.
     /// at : optional
-    ///     The place: a degree of freedom (from 0), on a bar or beam a position in m, on modal data
-    ///     the name of a point, or pairs (degree of freedom or point, weight) for a relative motion.
+    ///     The place: a degree of freedom (from 0), on a bar or beam a position in m, on modal
+    ///     data the name of a point, or pairs (degree of freedom or point, weight) for a relative
+    ///     motion.
     ///
     /// Raises
     /// ------

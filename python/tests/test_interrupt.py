@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -46,13 +47,16 @@ CALLS = [
 ]
 
 
-def interrupted(call: str, duration: float, after: float) -> float:
-    """Seconds from the signal to the exception."""
+def interrupted(call: str, duration: float, ready: Callable[[], bool]) -> float:
+    """Seconds from the signal, which is sent once it is ``ready``, to the exception."""
     program = [sys.executable, "-c", PROGRAM.format(call=call, duration=duration)]
     child = subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert child.stdout is not None
     assert child.stdout.readline() == "ready\n"
-    time.sleep(after)
+    waited = time.monotonic()
+    time.sleep(0.3)
+    while not ready() and time.monotonic() - waited < 60.0:
+        time.sleep(0.05)
     sent = time.time()
     child.send_signal(signal.SIGINT)
     out, errors = child.communicate(timeout=60)
@@ -65,14 +69,14 @@ def interrupted(call: str, duration: float, after: float) -> float:
 @pytest.mark.parametrize("call", CALLS)
 def test_ctrl_c_ends_it(call: str) -> None:
     # 0.2 s on an idle machine; the bound is for one that does other things as well.
-    assert interrupted(call, 1e6, 0.3) < 5.0
+    assert interrupted(call, 1e6, lambda: True) < 5.0
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of Windows")
 def test_a_sweep_goes_on_from_what_it_had_kept(tmp_path: Path) -> None:
     grid = "sg.grid(restitution=[0.5 + 0.001 * i for i in range(400)])"
     call = f"sg.sweep(make, {grid}, 'moreau-jean', step=1e-4, threads=1, folder={str(tmp_path)!r})"
-    interrupted(call, 20.0, 2.0)
+    interrupted(call, 20.0, lambda: any(tmp_path.glob("*.npz")))
     kept = {path: path.read_bytes() for path in tmp_path.glob("*.npz")}
     assert kept and not list(tmp_path.glob("*.part"))
 

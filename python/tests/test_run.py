@@ -114,7 +114,7 @@ def test_other_threads_go_on_during_a_run(scene: sg.Scene) -> None:
 
 
 def test_a_refuted_run_is_an_error_that_holds_it() -> None:
-    # A force that is not a function of the time: the judge, who asks it again, finds momentum missing.
+    # A force that is no function of the time: the judge, who asks it again, misses momentum.
     count = iter(range(10**9))
     load = sg.Load.function(lambda t: float(next(count) % 7))
     scene = sg.oscillator(1.0, 0.0, 100.0, loads=[load])

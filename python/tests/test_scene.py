@@ -82,8 +82,8 @@ def test_massless_degrees_of_freedom_are_condensed() -> None:
 
 
 def test_a_place_on_a_beam_is_a_position() -> None:
-    # A static force at midspan of a pinned beam sags it by F L³/(48 E I) there; Hermite elements are
-    # exact at nodes. After 3 s the damping of 50 per second has left nothing of the swing.
+    # A static force at midspan of a pinned beam sags it by F L³/(48 E I) there; Hermite elements
+    # are exact at nodes. After 3 s the damping of 50 per second has left nothing of the swing.
     made = tube(damping=sg.Rayleigh(50.0, 0.0), duration=3.0).replace(walls=[], loads=[sg.Load.constant(1.0, at=1.5)])
     inertia = np.pi / 64 * (19.05e-3**4 - 15.75e-3**4)
     sag = 3.0**3 / (48 * 2e11 * inertia)

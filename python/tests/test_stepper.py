@@ -22,8 +22,8 @@ def test_steps_are_those_of_a_run(scene: sg.Scene) -> None:
 
 
 def test_a_force_from_python_is_a_force() -> None:
-    # A dashpot of 2 N s/m by the force of each step: m v̇ = −2 v, held over a step of 1e-3 s, so that
-    # the speed is (1 − 2e-3)ⁿ exactly.
+    # A dashpot of 2 N s/m by the force of each step: m v̇ = −2 v, held over a step of 1e-3 s, so
+    # that the speed is (1 − 2e-3)ⁿ exactly.
     stepper = sg.Stepper(sg.oscillator(1.0, 0.0, 0.0, velocity=1.0), "moreau-jean", 1e-3)
     assert stepper.advance(0.5, lambda t, q, v: -2.0 * v) == 500
     assert stepper.v[0] == pytest.approx((1 - 2e-3) ** 500, rel=1e-12)

@@ -33,7 +33,7 @@ def test_chart_finds_the_cheapest(scene: sg.Scene) -> None:
     assert made.cheapest(1e-12) is not None and made.cheapest(1e-300) is None
     own = made.table["method"] == "moreau-jean"
     step, error = made.table["step_s"][own], made.table["displacement_error"][own]
-    # Of order 1 through impacts: over the range of steps the error falls, and by no more than the square.
+    # Of order 1 through impacts: the error falls with the step, and by no more than the square.
     slope = np.log(error[0] / error[-1]) / np.log(step[0] / step[-1])
     assert 0.5 < slope < 2.0
     assert np.isnan(made.table["step_s"][made.table["method"] == "event"]).all()
@@ -64,7 +64,8 @@ def test_bifurcation_settles_to_the_closed_orbit() -> None:
     # The settled orbit at 5 Hz, from 50-digit arithmetic: one impact a period at each wall.
     assert up.sum() == 20
     np.testing.assert_allclose(table["approach_speed_m_per_s"][up], 0.169410591, rtol=1e-8)
-    section = sg.bifurcation(case, "load.1.harmonic.frequency", [5.0], settle=300, keep=4, samples="periods", follow="no")
+    options = {"settle": 300, "keep": 4, "samples": "periods", "follow": "no"}
+    section = sg.bifurcation(case, "load.1.harmonic.frequency", [5.0], **options)  # type: ignore[arg-type]
     # A Poincaré section of a motion of one period is one point; it has settled to rounding.
     assert np.ptp(section.table["displacement_m"]) < 1e-12
     made.plot().figure.canvas.draw()
@@ -81,3 +82,25 @@ def test_studies_fail_as_runs_do() -> None:
     with pytest.warns(RuntimeWarning, match="not every value has a sound motion"):
         made = sg.bifurcation(case, "load.1.harmonic.frequency", [5.0], settle=100, keep=10)
     assert made.table["error"][0] is not None
+
+
+def test_an_orbit_is_the_settled_motion() -> None:
+    case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+    found = sg.orbit(case.scene)
+    # From 50-digit arithmetic: one impact a period at each wall, mirror images of one another.
+    assert found.symmetric and found.kinds == ["impact"]
+    assert found.speeds[0] == pytest.approx(0.169410591358373, rel=1e-12)
+    # Liouville: the product of the multipliers is e² at each of the two impacts times exp(−c T/m).
+    product = np.prod(found.multipliers)
+    assert product.real == pytest.approx(0.8**4 * np.exp(-0.2 * found.period), rel=1e-10)
+    assert found.stable and abs(product.imag) < 1e-12
+    # A long run of the same scene comes to the same speeds.
+    run = case.scene.replace(duration=60.0).run("event", sample=60.0)
+    assert run.contacts["approach_speed"][-5:] == pytest.approx(found.speeds[0], rel=1e-9)
+    found.plot().figure.canvas.draw()
+    plt.close("all")
+    with pytest.raises(sg.RunError, match="no periodic orbit"):
+        # Without losses nothing settles.
+        sg.orbit(sg.load("rigid-walls-sine").scene, settle=20)
+    with pytest.raises(ValueError, match="degree"):
+        sg.orbit(sg.chain([1.0, 1.0], [1.0], walls=[sg.Wall.upper("a", 1.0, at=0)]))

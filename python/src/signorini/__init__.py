@@ -34,6 +34,7 @@ from ._core import (
     __version__,
     load,
 )
+from ._orbit import Orbit, orbit
 from ._studies import Bifurcation, Chart, Comparison, Stability, bifurcation, chart, compare, stability
 from ._sweep import Table, grid, run_many, sweep
 
@@ -46,6 +47,7 @@ __all__ = [
     "DivergedError",
     "Load",
     "NotSolvedError",
+    "Orbit",
     "Rayleigh",
     "RefutedError",
     "Run",
@@ -68,6 +70,7 @@ __all__ = [
     "load",
     "matrices",
     "modal",
+    "orbit",
     "oscillator",
     "run_many",
     "stability",

@@ -32,6 +32,7 @@ __all__ = [
     "_compare",
     "_matrices",
     "_modal",
+    "_orbit",
     "_oscillator",
     "_run_many",
     "_stability",
@@ -305,6 +306,7 @@ def _bifurcation(
     samples: str,
     threads: int,
 ) -> list[dict[str, Any]]: ...
+def _orbit(scene: Scene, settle: int, points: int) -> dict[str, Any]: ...
 def _columns(walls: Sequence[str]) -> list[str]: ...
 def _run_many(
     scenes: Sequence[Scene],

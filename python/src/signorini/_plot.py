@@ -8,6 +8,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from ._core import Run
+    from ._orbit import Orbit
     from ._studies import Bifurcation, Chart, Stability
 
 # Neighbours differ in lightness as well as in hue (after Okabe and Ito), and in dashes and markers.
@@ -114,6 +115,16 @@ def stability(made: Stability, ax: Any = None) -> Any:
     ax.invert_yaxis()
     _frame(ax, "step (s)", "")
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.35), ncols=6, fontsize="x-small", frameon=False)
+    return ax
+
+
+def orbit(made: Orbit, ax: Any = None) -> Any:
+    """Velocity over displacement: see `Orbit.plot`."""
+    ax = _new(1, 4.0) if ax is None else ax
+    order = np.argsort(made.time, kind="stable")
+    q, v = 1e3 * made.displacement[order], made.velocity[order]
+    ax.plot(np.append(q, q[0]), np.append(v, v[0]), color=COLOURS[1], linewidth=1.2)
+    _frame(ax, "displacement (mm)", "velocity (m/s)")
     return ax
 
 

@@ -188,7 +188,8 @@ def sweep(
     table |= _table(walls, (values, errors))
     failed = [text for text in errors if text is not None]
     if failed:
-        warnings.warn(f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}", RuntimeWarning, stacklevel=2)
+        text = f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}"
+        warnings.warn(text, RuntimeWarning, stacklevel=2)
     return table
 
 

@@ -1,0 +1,94 @@
+"""Periodic orbits of one degree of freedom."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core, _plot
+from ._core import RunError, Scene
+from ._types import Array
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """A periodic orbit, by its events: see `orbit`."""
+
+    kinds: list[str]
+    """What happens at each event: impact, rest, release, enter, leave and so on."""
+    walls: list[str]
+    """At which wall."""
+    phases: Array
+    """When, in periods of the load from t = 0; shape (events,)."""
+    speeds: Array
+    """Speed at each event, m/s; shape (events,)."""
+    symmetric: bool
+    """Whether the events are a half of the orbit, of which the other half is the mirror image."""
+    period: float
+    """s."""
+    forcing_period: float
+    """Period of the load, s."""
+    multipliers: npt.NDArray[np.complex128]
+    """The two Floquet multipliers; the orbit is stable if both are within the unit circle."""
+    stable: bool
+    closure: float
+    """How far a free run over one period comes back beside its start, as a share of the scales."""
+    time: Array
+    """Instants of that run, s; shape (rows,)."""
+    displacement: Array
+    """m; shape (rows,)."""
+    velocity: Array
+    """m/s; shape (rows,)."""
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw velocity over displacement with matplotlib.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+        >>> sg.orbit(case.scene).plot().get_ylabel()
+        'velocity (m/s)'
+        """
+        return _plot.orbit(self, ax)
+
+
+def orbit(scene: Scene, *, settle: int = 200, rows: int = 400) -> Orbit:
+    """The periodic orbit on which a motion settles, to rounding, with its Floquet multipliers.
+
+    Parameters
+    ----------
+    scene : Scene
+        One degree of freedom between walls, under loads with a common period.
+    settle : int
+        Periods of the load that are run, exactly, before events are looked at.
+    rows : int
+        Instants of its motion that are kept.
+
+    Raises
+    ------
+    ValueError
+        For a scene that cannot have one.
+    RunError
+        Where the motion does not repeat itself, or no orbit is found near it.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+    >>> found = sg.orbit(case.scene)
+    >>> found.period, found.stable, round(float(found.speeds[0]), 9)
+    (0.2, True, 0.169410591)
+    """
+    made = _core._orbit(scene, settle, rows)
+    refused, holds = made.pop("refused"), made.pop("holds")
+    if refused is not None or not holds:
+        reason = refused or f"a free run misses it by {made['closure']:.1e} after a period"
+        raise RunError(f"no body follows the orbit that was found: {reason}")
+    for name in ("phases", "speeds", "time", "displacement", "velocity"):
+        made[name] = np.array(made[name], np.float64)
+    made["multipliers"] = np.array([complex(*pair) for pair in made["multipliers"]])
+    return Orbit(**made)
