@@ -1,6 +1,6 @@
 //! Periodic orbits against closed forms evaluated with sixty digits, and against the free run.
 
-use signorini::orbit::{ClosedForm, Event, Kind, Orbit, Problem, Signature, closed_forms};
+use signorini::orbit::{ClosedForm, Event, Kind, Orbit, Problem, Signature, closed_forms, shoot};
 use signorini::{Error, Load, Scene, Scheme, State, Stepper, Wall};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -194,6 +194,32 @@ fn elastic_walls_and_dashpots() {
         let judged = problem.judge(&orbit, 100).unwrap();
         assert!(judged.holds(), "{damping}: {} {}", judged.closure, judged.same_events);
         against_differences(&problem, &orbit);
+    }
+}
+
+#[test]
+fn shooting_finds_the_orbit_of_one_degree_of_freedom() {
+    let shot = shoot(&source(5.0, 0.8), 200, &|_| ()).unwrap();
+    assert_eq!((shot.periods, shot.contacts.as_slice()), (1, &[1, 1][..]));
+    near(shot.multipliers[0][0], 0.241_955_282_238_606_48, 1e-9);
+    near(shot.impulses[1], 1.8 * 0.169_410_591_358_373_47, 1e-9);
+}
+
+#[test]
+fn shooting_and_closed_forms_agree_for_two_masses() {
+    let chain = signorini::Chain { masses: vec![1.0, 0.5], springs: vec![60.0], grounds: [80.0, 20.0] };
+    let damping = signorini::Damping::Rayleigh { mass: 0.3, stiffness: 2e-3 };
+    let scene = Scene::structure(chain.structure().unwrap().with_damping(&damping).unwrap())
+        .with_wall(Wall::upper("stop", 5e-3).with_restitution(0.6))
+        .with_load(Load::harmonic(2.0, 1.9, 0.0));
+    let shot = shoot(&scene, 400, &|_| ()).unwrap();
+    assert!(shot.is_stable() && shot.contacts == [1], "{shot:?}");
+    let forms = closed_forms(&scene, shot.periods).unwrap();
+    let mass = scene.wall_masses()[0];
+    let speed = -shot.impulses[0] / (1.6 * mass);
+    let form = forms.iter().find(|form| (form.speed / speed - 1.0).abs() < 1e-8).expect("the same speed");
+    for (a, b) in form.multipliers.iter().zip(&shot.multipliers) {
+        assert!((a[0] - b[0]).abs() < 1e-8 && (a[1].abs() - b[1].abs()).abs() < 1e-8, "{form:?} {shot:?}");
     }
 }
 

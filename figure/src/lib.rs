@@ -5,7 +5,7 @@
 //! | [`Figure`] | panels under one another sharing the horizontal axis: responses, phase plots, work–precision charts |
 //! | [`Panel`] | one frame: [`Curve`]s, [`Stems`] (impulses) and [`Mark`]s (walls, floors) |
 //! | [`HeatMap`] | classes or numbers over two axes |
-//! | [`Scatter`] | any number of points over two axes |
+//! | [`Scatter`] | any number of points over two axes, with [`Line`]s and [`Sign`]s over them |
 //!
 //! All figures have the same look: 160 mm wide, any sans-serif font, legend below the frame, curves
 //! distinguished by dash pattern and lightness as well as by colour. The same data give the same
@@ -45,6 +45,7 @@ mod heat;
 mod labels;
 mod legend;
 mod look;
+mod overlay;
 mod panel;
 mod plot_area;
 mod regions;
@@ -59,6 +60,7 @@ pub use axis::Scale;
 pub use class::Class;
 pub use curve::{Curve, Mark, Stems};
 pub use heat::HeatMap;
+pub use overlay::{Line, Sign};
 pub use panel::Panel;
 pub use scatter::Scatter;
 pub use sheet::Figure;

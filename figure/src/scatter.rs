@@ -4,6 +4,7 @@
 use super::axis::{Axis, Extent, Scale};
 use super::legend::Legend;
 use super::look::{LABEL, Look, Role, TITLE, WIDTH, look};
+use super::overlay::{Line, Overlay, Sign};
 use super::plot_area::{PlotArea, draw_axes, draw_grid};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
@@ -20,6 +21,8 @@ const RIGHT: f64 = 24.0;
 const ALONE: &str = "#000000";
 const COLOURS: [&str; 2] = ["#d55e00", "#0072b2"];
 const BOTH: &str = "#000000";
+/// Of a group beneath lines.
+const BENEATH: &str = "#b4b4b4";
 
 /// Points of up to two groups over two axes.
 ///
@@ -53,6 +56,7 @@ pub struct Scatter {
     rows: usize,
     /// Of each cell a bit for each group that has a point in it.
     cells: Vec<u8>,
+    overlay: Overlay,
 }
 
 impl Scatter {
@@ -80,6 +84,7 @@ impl Scatter {
             columns,
             rows,
             cells: vec![0; columns * rows],
+            overlay: Overlay::default(),
         }
     }
 
@@ -95,6 +100,17 @@ impl Scatter {
         if let Some(cell) = self.cells.get_mut(row * self.columns + column) {
             *cell |= 1 << group.min(1);
         }
+    }
+
+    /// Draws a line over the points, which are grey then; a point that cannot be drawn breaks it.
+    /// Lines of one label have one entry in the legend, those without a label none.
+    pub fn line(&mut self, line: Line, label: &str, points: Vec<(f64, f64)>) {
+        self.overlay.line(line, label, points);
+    }
+
+    /// Draws a sign over points and lines, with its label in the legend.
+    pub fn sign(&mut self, sign: Sign, label: &str, at: (f64, f64)) {
+        self.overlay.sign(sign, label, at);
     }
 
     /// The figure as SVG text.
@@ -116,6 +132,7 @@ impl Scatter {
         for (bits, colour) in self.colours() {
             canvas.path(&self.runs(bits, top), Stroke::solid(colour, DOT));
         }
+        self.overlay.draw(&mut canvas, &frame);
         canvas.close_window();
         draw_axes(&mut canvas, &frame, true, true);
         let [x_label, y_label] = &self.labels;
@@ -132,22 +149,25 @@ impl Scatter {
     /// Which cells have which colour.
     fn colours(&self) -> Vec<(u8, &'static str)> {
         match self.groups.len() {
+            0 | 1 if !self.overlay.is_empty() => vec![(1, BENEATH)],
             0 | 1 => vec![(1, ALONE)],
             _ => vec![(1, COLOURS[0]), (2, COLOURS[1]), (3, BOTH)],
         }
     }
 
     fn entries(&self) -> Vec<(String, Look)> {
-        let [first, second] = self.groups.as_slice() else { return Vec::new() };
+        let [first, second] = self.groups.as_slice() else { return self.overlay.entries() };
         let entry = |label: String, colour| {
             let line = look(0, Role::Ordinary, false);
             (label, Look { stroke: Stroke::solid(colour, 4.0), ..line })
         };
-        vec![
+        let mut entries = vec![
             entry(first.clone(), COLOURS[0]),
             entry(second.clone(), COLOURS[1]),
             entry(format!("{first} and {second}"), BOTH),
-        ]
+        ];
+        entries.extend(self.overlay.entries());
+        entries
     }
 
     /// Cells of one kind beside one another, as lines.

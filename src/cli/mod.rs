@@ -3,12 +3,14 @@
 mod chart;
 mod compare;
 mod completions;
+mod continuation;
 mod drawing;
 mod explain;
 mod figures;
 mod merge;
 mod new;
 mod noted;
+mod orbit;
 mod pace;
 mod refuted;
 mod request;
@@ -34,6 +36,8 @@ Examples:
   signorini chart rigid-walls-sine --end 1           accuracy against speed
   signorini stability bouncing-ball                  where each scheme fails
   signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=1:10:91 --measure contacts    curves and maps
+  signorini orbit rigid-walls-sine --set 'wall.*.restitution=0.8'   a periodic orbit and its multipliers
+  signorini continue rigid-walls-sine --set 'wall.*.restitution=0.8' --key load.1.harmonic.frequency --range 1:16
   signorini explain elastic-wall                     what would be chosen, and why
   signorini new bouncing-ball                        a case file to start from
 
@@ -62,10 +66,13 @@ enum Command {
     Run(run::Args),
     Chart(chart::Args),
     Compare(compare::Args),
+    #[command(name = "continue")]
+    Continue(continuation::Args),
     Explain(explain::Args),
     Figures(figures::Args),
     Merge(merge::Args),
     New(new::Args),
+    Orbit(orbit::Args),
     Stability(stability::Args),
     Sweep(sweep::Args),
     Completions(completions::Args),
@@ -110,6 +117,8 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
         Command::Explain(args) => explain::execute(args, ui),
         Command::Figures(args) => figures::execute(args, ui),
         Command::Merge(args) => merge::execute(args, ui),
+        Command::Orbit(args) => orbit::execute(args, ui),
+        Command::Continue(args) => continuation::execute(args, ui),
         Command::New(args) => new::execute(args, ui),
         Command::Stability(args) => stability::execute(args, ui),
         Command::Sweep(args) => sweep::execute(args, ui),

@@ -25,7 +25,8 @@ pub struct Nearest {
 pub struct Admissible {
     /// The least number of an event (of a release there is none), m/s; infinite without events.
     pub least_speed: f64,
-    /// The nearest approach to a wall inside a flight; `None` where no flight has an extreme.
+    /// The nearest approach to a wall inside a flight; `None` where no flight turns back from
+    /// a wall.
     pub nearest: Option<Nearest>,
     /// The least force with which a wall carries a body at rest, N; infinite without a rest. It is 0
     /// at the release itself, which is left out.
@@ -105,10 +106,11 @@ impl Problem {
     }
 
     fn near(&self, arc: &Arc, flight: usize, phase: f64, found: &mut Admissible) {
-        extremes(arc, arc.end() - arc.start(), |tau, q| {
+        extremes(arc, arc.end() - arc.start(), |tau, q, acceleration| {
             found.largest = found.largest.max(q.abs());
             for (wall, stop) in self.stops().iter().enumerate() {
-                if arc.touching().any(|touching| touching == wall) {
+                // A wall is approached where the motion turns back from its side.
+                if arc.touching().any(|touching| touching == wall) || acceleration * stop.toward > 0.0 {
                     continue;
                 }
                 let gap = stop.gap(q);

@@ -103,7 +103,7 @@ impl<'a> Equations<'a> {
         let force = problem.body().mass * length * omega * omega;
         let mut jacobian = jacobian;
         if let Some((matrix, _)) = &mut jacobian {
-            matrix.view_mut((0, 0), (self.unknowns(), self.unknowns())).fill(0.0);
+            matrix.fill(0.0);
         }
         for (i, event) in events.iter().enumerate() {
             let last = i + 1 == events.len();

@@ -4,6 +4,7 @@ use super::periodic::Orbit;
 use super::problem::{Problem, StopLaw};
 use super::signature::Kind;
 use crate::error::Result;
+use crate::variation::saltation::{IDENTITY, Matrix2, entry, impact, multiply};
 
 /// The Floquet multipliers of an orbit of one degree of freedom.
 ///
@@ -61,13 +62,6 @@ fn eigenvalues(trace: f64, determinant: f64) -> [[f64; 2]; 2] {
     [[large, 0.0], [small, 0.0]]
 }
 
-type Matrix = [[f64; 2]; 2];
-
-fn product(a: Matrix, b: Matrix) -> Matrix {
-    let entry = |i: usize, j: usize| a[i][0] * b[0][j] + a[i][1] * b[1][j];
-    [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
-}
-
 impl Problem {
     /// The Floquet multipliers of `orbit`. At an impact of speed 0 they are infinite.
     ///
@@ -102,7 +96,7 @@ impl Problem {
             self.fly(&mut arc, from.state, [start, span], &touching[index], None);
             flights.push((arc.start_jet()[2], arc.jet(span)[2], arc.propagator()));
         }
-        let mut whole = [[1.0, 0.0], [0.0, 1.0]];
+        let mut whole = IDENTITY;
         let mut determinant = 1.0;
         for (index, event) in signature.events.iter().enumerate() {
             let (Some(stop), Some((after, _, phi))) = (self.stop(event.wall), flights.get(index)) else { continue };
@@ -111,16 +105,13 @@ impl Problem {
                 _ => flights[index - 1].1,
             };
             let saltation = match (event.kind, stop.law) {
-                (Kind::Impact, StopLaw::Rigid(e)) => {
-                    let velocity = stop.toward * orbit.speeds[index];
-                    [[-e, 0.0], [(after + e * before) / velocity, -e]]
-                }
-                (Kind::Enter, StopLaw::Elastic { damping, .. }) => [[1.0, 0.0], [-damping / self.body().mass, 1.0]],
-                _ => [[1.0, 0.0], [0.0, 1.0]],
+                (Kind::Impact, StopLaw::Rigid(e)) => impact(e, stop.toward * orbit.speeds[index], [before, *after]),
+                (Kind::Enter, StopLaw::Elastic { damping, .. }) => entry(damping, self.body().mass),
+                _ => IDENTITY,
             };
-            let size = |m: &Matrix| m[0][0] * m[1][1] - m[0][1] * m[1][0];
+            let size = |m: &Matrix2| m[0][0] * m[1][1] - m[0][1] * m[1][0];
             determinant *= size(&saltation) * size(phi);
-            whole = product(*phi, product(saltation, whole));
+            whole = multiply(*phi, multiply(saltation, whole));
         }
         Ok(Floquet::new(sign * (whole[0][0] + whole[1][1]), determinant, signature.symmetric))
     }

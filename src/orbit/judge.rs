@@ -68,12 +68,23 @@ impl Judged {
 
 impl Problem {
     /// Runs the body freely over one period of `orbit`, by the exact scheme, from a state on it
-    /// between two events; `points` instants of the motion are kept beside the events.
+    /// between two events; `points` instants of the motion are kept beside the events. An orbit that
+    /// no body can follow is not run: its closure is infinite, and it has no motion.
     ///
     /// # Errors
     /// Those of a run; [`Error::NoOrbit`] for an orbit without a stretch of free flight.
     pub fn judge(&self, orbit: &Orbit, points: u32) -> Result<Judged> {
         self.check(orbit)?;
+        if !self.admissible(orbit)?.holds() {
+            let walls = vec![WallShare::default(); self.stops().len()];
+            return Ok(Judged {
+                closure: f64::INFINITY,
+                tolerance: CLOSES,
+                same_events: false,
+                walls,
+                motion: Vec::new(),
+            });
+        }
         let whole = orbit.unfolded(self.mirror());
         let [length, speed] = self.scales();
         let (start, state) = self.midway(&whole)?;

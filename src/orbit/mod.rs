@@ -10,9 +10,11 @@
 //! a run settles, [`closed_forms`] lists all of one impact a turn,
 //! [`Problem::correct`] solves the equations from any start, [`Problem::floquet`] gives the
 //! multipliers, [`Problem::admissible`] says whether a body can follow the orbit, and
-//! [`Problem::judge`] lets one do so.
+//! [`Problem::judge`] lets one do so. [`branch`] follows orbits over a key. Of structures, [`shoot`]
+//! finds the orbit on which a run settles.
 
 mod admissible;
+pub mod branch;
 mod closed;
 mod equations;
 mod extremes;
@@ -23,6 +25,7 @@ mod newton;
 mod periodic;
 mod problem;
 mod settled;
+mod shooting;
 mod signature;
 mod symmetry;
 mod watch;
@@ -34,4 +37,5 @@ pub(crate) use forcing::{forcing_period, frequencies};
 pub use judge::{Instant, Judged, WallShare};
 pub use periodic::Orbit;
 pub use problem::Problem;
+pub use shooting::{Shot, shoot};
 pub use signature::{Event, Kind, MOST_EVENTS, MOST_PERIODS, Signature};

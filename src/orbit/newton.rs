@@ -38,6 +38,10 @@ impl Problem {
                 "impacts that accumulate are infinitely many: such an orbit is run, not solved",
             ));
         }
+        if guess.signature.events.is_empty() {
+            self.quiet()?;
+            return Ok(Orbit { forcing_period: self.forcing_period(), ..guess.clone() });
+        }
         let scales = Scales::of(self);
         let equations = Equations::new(self, &guess.signature, scales);
         let count = equations.unknowns();

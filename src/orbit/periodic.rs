@@ -38,6 +38,27 @@ impl Orbit {
         whole
     }
 
+    /// The same orbit as two turns of itself, which is where one of twice its period begins.
+    pub(super) fn doubled(&self) -> Self {
+        let mut twice = self.clone();
+        twice.signature.periods *= 2;
+        twice.signature.events.extend_from_slice(&self.signature.events);
+        twice.phases.extend(self.phases.iter().map(|phase| phase + self.signature.cycles()));
+        twice.speeds.extend_from_slice(&self.speeds);
+        twice
+    }
+
+    /// True if both have the same events, instants within `near` cycles (after whole forcing
+    /// periods) and speeds within `near` of the largest, in this order.
+    pub(super) fn near(&self, other: &Self, near: f64) -> bool {
+        let top = self.speeds.iter().fold(0.0_f64, |top, v| top.max(v.abs()));
+        let later = self.phases.first().zip(other.phases.first()).map_or(0.0, |(a, b)| (a - b).round());
+        let close = |(a, b): (&f64, &f64), scale: f64| (a - b).abs() <= near * scale;
+        self.signature.events == other.signature.events
+            && self.phases.iter().zip(&other.phases).all(|(a, b)| close((a, &(b + later)), 1.0))
+            && self.speeds.iter().zip(&other.speeds).all(|pair| close(pair, top))
+    }
+
     /// The same orbit from its event `first` on, which comes into the first forcing period.
     pub(super) fn rotated(&self, first: usize) -> Self {
         let count = self.phases.len();

@@ -110,7 +110,8 @@ impl Problem {
             return Err(Error::invalid(
                 "system",
                 format!("one of {n} degrees of freedom"),
-                "one degree of freedom: orbits of structures are not looked for yet (a sweep shows where they settle)",
+                "one degree of freedom: of a structure, orbits are found by settling and shooting, or in closed form, not \
+                 by signature, and not followed over a key",
             ));
         };
         if !scene.is_line() {

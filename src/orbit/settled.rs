@@ -101,14 +101,15 @@ impl Problem {
             return Ok(orbit.rotated(0));
         }
         let whole = self.correct(&orbit)?;
-        match self.folded(&whole) {
+        match self.folded(&whole, MIRRORED) {
             Some(half) => self.correct(&half),
             None => Ok(whole),
         }
     }
 
-    /// The half of `orbit`, if the other half is its mirror image.
-    pub(super) fn folded(&self, orbit: &Orbit) -> Option<Orbit> {
+    /// The half of `orbit`, if the other half is its mirror image within `near` cycles, and that
+    /// share of the largest speed.
+    pub(super) fn folded(&self, orbit: &Orbit, near: f64) -> Option<Orbit> {
         self.mirror()?;
         let signature = &orbit.signature;
         let count = signature.events.len();
@@ -125,7 +126,7 @@ impl Problem {
             speeds: orbit.speeds.get(..count / 2)?.to_vec(),
             forcing_period: orbit.forcing_period,
         };
-        half.unfolded(self.mirror()).is(orbit, MIRRORED).then_some(half)
+        half.unfolded(self.mirror()).is(orbit, near).then_some(half)
     }
 }
 

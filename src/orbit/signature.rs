@@ -55,6 +55,12 @@ impl Kind {
         })
     }
 
+    /// True for a kind whose number is an approach speed.
+    #[must_use]
+    pub fn is_approach(self) -> bool {
+        matches!(self, Self::Impact | Self::Rest | Self::Chatter | Self::Enter)
+    }
+
     /// True for a kind that needs a rigid wall.
     #[must_use]
     pub fn is_rigid(self) -> bool {

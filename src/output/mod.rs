@@ -10,6 +10,9 @@
 //! | [`run`] | all files of one run, and its table |
 //! | [`compare`] | all files of a comparison, its table and its JSON |
 //! | [`document`] | a chart and a stability study as JSON |
+//! | [`periodic`] | a periodic orbit: its document, motion and pictures |
+//! | [`branches`] | branches of orbits: tables, document and picture |
+//! | [`loci`] | curves of special points over two keys |
 //! | [`table`] | tables for people, as wide as the terminal |
 //! | [`pictures`] | the figures of one or several runs |
 //! | [`stability`] | tables and maps of a stability study |
@@ -19,6 +22,7 @@
 
 pub mod asked;
 pub mod atomic;
+pub mod branches;
 pub mod compare;
 pub mod csv;
 pub mod document;
@@ -26,8 +30,10 @@ pub use signorini_figure as figure;
 pub mod format;
 pub(crate) mod json;
 mod labelled;
+pub mod loci;
 mod motion;
 mod orbit;
+pub mod periodic;
 pub mod pictures;
 mod places;
 pub mod results;

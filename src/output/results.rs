@@ -20,7 +20,7 @@ const MOST_BYTES: u64 = 1 << 24;
 
 /// Files that results consist of: a folder with one of them but no manifest holds results of an
 /// unknown request.
-const RESULTS: [&str; 7] = [
+const RESULTS: [&str; 9] = [
     "summary.json",
     "trajectory.csv",
     "compare.csv",
@@ -28,6 +28,8 @@ const RESULTS: [&str; 7] = [
     "stability.csv",
     "impact-map.csv",
     "sweep.csv",
+    "orbit.json",
+    "branches.csv",
 ];
 
 /// A folder of results that is being written.

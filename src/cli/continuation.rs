@@ -1,0 +1,348 @@
+//! `signorini continue`: branches of periodic orbits over a key.
+
+use super::request::{Changes, Destination};
+use super::ui::Ui;
+use crate::case::{CaseFile, Key, KeyValue};
+use crate::error::{Error, Result};
+use crate::orbit::branch::{Graph, Label, Locus, Request, Switch, graph, locus};
+use crate::orbit::{Orbit, Problem};
+use crate::output::asked::{asked, with};
+use crate::output::atomic::write_whole;
+use crate::output::branches::{Drawn, beneath, ended};
+use crate::output::json;
+use crate::output::loci;
+use crate::output::periodic::read;
+use crate::output::table::Table;
+use crate::scene::Scene;
+use serde_json::json;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  signorini continue rigid-walls-sine --set 'wall.*.restitution=0.8' --set load.1.harmonic.frequency=5 \\
+      --key load.1.harmonic.frequency --range 1:16
+  signorini continue rigid-walls-sine --set 'wall.*.restitution=0.8' --key 'wall.*.restitution' --range 0.3:1 --switch all
+  signorini continue bouncing-ball.toml --key load.2.harmonic.amplitude --range 1:30 --from out/bouncing-ball/orbit/orbit.json
+  signorini continue rigid-walls-sine … --second 'wall.*.restitution' --second-range 0.3:0.95 --locus fold,symmetry-breaking
+  signorini continue rigid-walls-sine … --over out/rigid-walls-sine/sweep/sweep.csv    a sweep's points beneath the branches
+
+The branch starts from the orbit of --from, or from the one on which the case settles, at the case's value of the key.
+Writes branches.csv (every orbit), special.csv (folds, period doublings, broken symmetries, grazings, rests), branches.json,
+and a picture: stable orbits solid, unstable ones dashed. With --second also loci.csv and a picture: where the special points
+of the branches move in the plane of two keys. docs/orbits.md has the method and the labels.";
+
+/// Branches of periodic orbits over a key: special points located, other branches found
+#[derive(Debug, clap::Args)]
+#[command(name = "continue", after_help = EXAMPLES)]
+pub struct Args {
+    /// Case file, summary.json of a run, or the name of a built-in case
+    #[arg(value_hint = clap::ValueHint::FilePath)]
+    case: String,
+    #[command(flatten)]
+    changes: Changes,
+    /// The key whose value changes along the branches, such as load.1.harmonic.frequency
+    #[arg(long, value_name = "KEY")]
+    key: String,
+    /// The range of its values
+    #[arg(long, value_name = "A:B", allow_hyphen_values = true)]
+    range: String,
+    /// Start from an orbit that `signorini orbit` has written
+    #[arg(long, value_name = "FILE", value_hint = clap::ValueHint::FilePath)]
+    from: Option<PathBuf>,
+    /// Forcing periods that are run before the motion is looked at for repeating itself
+    #[arg(long, value_name = "N", default_value_t = 400, conflicts_with = "from")]
+    settle: u32,
+    /// Which branches are followed that begin at special points: no, stable (beside stable orbits),
+    /// all
+    #[arg(long, value_name = "WORD", default_value = "stable", value_parser = ["no", "stable", "all"], hide_possible_values = true)]
+    switch: String,
+    /// How many switches lead from the first branch to the last
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    depth: u32,
+    /// Most points of one branch
+    #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(2..))]
+    points: u32,
+    /// Draw the points of a sweep in the same key beneath the branches
+    #[arg(long, value_name = "SWEEP.CSV", value_hint = clap::ValueHint::FilePath)]
+    over: Option<PathBuf>,
+    /// Follow special points in the plane of --key and this key
+    #[arg(long, value_name = "KEY", requires = "second_range")]
+    second: Option<String>,
+    /// The range of the values of --second
+    #[arg(long, value_name = "A:B", requires = "second", allow_hyphen_values = true)]
+    second_range: Option<String>,
+    /// Which special points: fold, period-doubling, symmetry-breaking, grazing-in, grazing-out
+    /// [default: all of them]
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',', requires = "second", hide_possible_values = true,
+        value_parser = ["fold", "period-doubling", "symmetry-breaking", "grazing-in", "grazing-out"])]
+    locus: Vec<String>,
+    #[command(flatten)]
+    place: Destination,
+}
+
+/// The second key of a request, its value in the case and its range.
+struct Second {
+    key: Key,
+    value: f64,
+    range: [f64; 2],
+}
+
+pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+    let file = args.changes.case_file(&args.case, ui)?;
+    let case = file.case()?;
+    let key: Key = args.key.parse()?;
+    let value = start_value(&file, &key)?;
+    let range = range(&args.range)?;
+    if !(range[0]..=range[1]).contains(&value) {
+        let expected = format!("a range with the case's value of the key, {value:?}, in it");
+        return Err(Error::invalid("--range", &args.range, expected));
+    }
+    if case.truncated.is_some() && key.to_string().starts_with("system.") {
+        let expected =
+            "a key outside of [system], or a case without modes: the modes of one value are not those of another";
+        return Err(Error::invalid("--key", &key, expected));
+    }
+    let scene_at = |value: f64| -> Result<Scene> {
+        let mut file = file.clone();
+        file.set(&key, &KeyValue::from(value))?;
+        Ok(file.case()?.scene)
+    };
+    let second = args.second(&file)?;
+    let problem = Problem::new(case.scene.clone())?;
+    let request = Request {
+        range,
+        switch: match args.switch.as_str() {
+            "no" => Switch::No,
+            "all" => Switch::All,
+            _ => Switch::Stable,
+        },
+        depth: args.depth,
+        points: args.points as usize,
+    };
+    let asked = with(
+        asked("continue", &case, &[]),
+        json!({
+            "key": args.key,
+            "range": args.range,
+            "from": args.from,
+            "settle": args.settle,
+            "switch": args.switch,
+            "depth": args.depth,
+            "points": args.points,
+            "over": args.over,
+            "second": args.second,
+            "second_range": args.second_range,
+            "locus": args.locus,
+        }),
+    );
+    let column = column(&key);
+    let points = args.over.as_deref().map(|path| beneath(path, &column)).transpose()?.unwrap_or_default();
+    let mut results = args.place.results(&case.name, "continue", asked)?;
+    let start = args.start(&problem, ui)?;
+    let found = watched(&scene_at, &start, value, &request, ui)?;
+    let drawn = Drawn { graph: &found, column, label: axis(&key), scene: problem.scene() };
+    drawn.branches(&results.place("branches.csv")?)?;
+    drawn.specials(&results.place("special.csv")?)?;
+    let document = drawn.document();
+    write_whole(&results.place("branches.json")?, json::text(&document).as_bytes())?;
+    let title = case.title.as_deref().unwrap_or(&case.name);
+    results.draw("branches", &drawn.picture(&format!("{title}: branches of periodic orbits"), &points))?;
+    let mut traced = Vec::new();
+    if let Some(second) = &second {
+        traced = args.loci(&file, &found, (&key, range), second, ui)?;
+        let columns = [self::column(&key), self::column(&second.key)];
+        loci::table(&results.place("loci.csv")?, &traced, &columns, problem.scene())?;
+        let labels = [axis(&key), axis(&second.key)];
+        results.draw("loci", &loci::picture(&traced, &labels, &format!("{title}: loci of special points")))?;
+    }
+    if let Some(replaced) = results.finish()? {
+        ui.message(&replaced);
+    }
+    if ui.json() {
+        ui.document(&document)?;
+    } else {
+        report(&drawn, ui)?;
+        for (number, locus) in traced.iter().enumerate() {
+            let values = |point: Option<&crate::orbit::branch::OnLocus>| {
+                point.map_or_else(String::new, |point| format!("({:.9}, {:.9})", point.values[0], point.values[1]))
+            };
+            ui.answer(&format!(
+                "locus {} of {}: {} points from {} ({}) to {} ({})",
+                number + 1,
+                locus.label,
+                locus.points.len(),
+                values(locus.points.first()),
+                ended(&locus.ends[0]),
+                values(locus.points.last()),
+                ended(&locus.ends[1])
+            ))?;
+        }
+    }
+    ui.message(&format!("results in {}", results.folder().display()));
+    Ok(())
+}
+
+impl Args {
+    /// The second key, if one is asked for.
+    fn second(&self, file: &CaseFile) -> Result<Option<Second>> {
+        let (Some(key), Some(text)) = (&self.second, &self.second_range) else { return Ok(None) };
+        if *key == self.key {
+            return Err(Error::invalid("--second", key, "another key than --key"));
+        }
+        let key: Key = key.parse()?;
+        let (value, range) = (start_value(file, &key)?, range(text)?);
+        if !(range[0]..=range[1]).contains(&value) {
+            let expected = format!("a range with the case's value of the key, {value:?}, in it");
+            return Err(Error::invalid("--second-range", text, expected));
+        }
+        Ok(Some(Second { key, value, range }))
+    }
+
+    /// The loci of the special points that are asked for; of those that cannot be followed the
+    /// reason is said.
+    fn loci(
+        &self,
+        file: &CaseFile,
+        found: &Graph,
+        (key, range): (&Key, [f64; 2]),
+        second: &Second,
+        ui: &Ui,
+    ) -> Result<Vec<Locus>> {
+        let plane = |[first, other]: [f64; 2]| -> Result<Scene> {
+            let mut file = file.clone();
+            file.set(key, &KeyValue::from(first))?;
+            file.set(&second.key, &KeyValue::from(other))?;
+            Ok(file.case()?.scene)
+        };
+        let has_locus = |label: Label| {
+            let named = ["fold", "period-doubling", "symmetry-breaking", "grazing-in", "grazing-out"];
+            named.contains(&label.name())
+                && (self.locus.is_empty() || self.locus.iter().any(|name| name == label.name()))
+        };
+        let wanted: Vec<_> = found.specials.iter().filter(|special| has_locus(special.label)).collect();
+        let bar = ui.progress("loci", wanted.len() as u64);
+        let mut traced = Vec::new();
+        for (index, special) in wanted.iter().enumerate() {
+            bar.set(index as u64);
+            match locus(&plane, special, second.value, [range, second.range], self.points as usize) {
+                Ok(locus) => traced.push(locus),
+                Err(error) => {
+                    let text = format!("the {} at {} was not followed: {error}", special.label, special.point.value);
+                    ui.beside(&bar, &text);
+                }
+            }
+        }
+        bar.finish();
+        Ok(traced)
+    }
+
+    fn start(&self, problem: &Problem, ui: &Ui) -> Result<Orbit> {
+        if let Some(path) = &self.from {
+            return problem.correct(&read(path, problem.scene())?);
+        }
+        let bar = ui.progress("settling", 1000);
+        let found = problem.settled_with(self.settle, &|share| bar.share(share));
+        bar.finish();
+        found
+    }
+}
+
+/// Follows the branches under a bar, which shows how far the key has come on the last one.
+fn watched(
+    family: &dyn Fn(f64) -> Result<Scene>,
+    start: &Orbit,
+    value: f64,
+    request: &Request,
+    ui: &Ui,
+) -> Result<Graph> {
+    let bar = ui.progress("branches", 1000);
+    let [low, high] = request.range;
+    let found = graph(family, start, value, request, &mut |point| bar.share((point.value - low) / (high - low)));
+    bar.finish();
+    found
+}
+
+/// The case's value of the key.
+fn start_value(file: &CaseFile, key: &Key) -> Result<f64> {
+    let found = file.get(key)?;
+    let text = found.as_ref().map(ToString::to_string);
+    match text.as_deref().map(str::parse::<f64>) {
+        Some(Ok(value)) => Ok(value),
+        Some(Err(_)) => {
+            Err(Error::invalid("--key", format!("{key} = {}", text.unwrap_or_default()), "the key of a number"))
+        }
+        None => Err(Error::invalid(
+            "--key",
+            format!("{key}, which the case leaves out or has several values of"),
+            format!("a key with one value in the case; --set '{key}=…' gives it one"),
+        )),
+    }
+}
+
+fn range(text: &str) -> Result<[f64; 2]> {
+    let wrong = || Error::invalid("--range", format_args!("{text:?}"), "A:B, two numbers, the first below the second");
+    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(wrong);
+    let (low, high) = (number(low)?, number(high)?);
+    if low < high { Ok([low, high]) } else { Err(wrong()) }
+}
+
+/// The column of a key: its last word and its unit, as in a sweep.
+fn column(key: &Key) -> String {
+    let text = key.to_string();
+    let word = text.rsplit('.').next().unwrap_or_default();
+    key.unit().map_or_else(|| word.to_owned(), |unit| format!("{word}_{unit}"))
+}
+
+/// The key as the label of an axis.
+fn axis(key: &Key) -> String {
+    let unit = key.unit().map_or("–".to_owned(), |unit| unit.replace("_per_", "/").replace('_', " "));
+    format!("{key} ({unit})")
+}
+
+fn report(drawn: &Drawn<'_>, ui: &Ui) -> Result<()> {
+    let graph = drawn.graph;
+    let rows = graph.branches.iter().enumerate().map(|(number, branch)| {
+        let (Some(first), Some(last)) = (branch.points.first(), branch.points.last()) else { return Vec::new() };
+        let signature = match first.orbit.signature.written(drawn.scene).as_str() {
+            "" => "no contact".to_owned(),
+            written if first.orbit.signature.symmetric => format!("{written} and mirror"),
+            written => written.to_owned(),
+        };
+        let begins = match (&branch.ends[0], branch.from) {
+            (Some(end), _) => ended(end),
+            (None, Some(special)) => format!("special {}", special + 1),
+            (None, None) => String::new(),
+        };
+        let stable = branch.points.iter().filter(|point| point.floquet.is_stable()).count();
+        vec![
+            (number + 1).to_string(),
+            signature,
+            first.orbit.signature.periods.to_string(),
+            branch.points.len().to_string(),
+            stable.to_string(),
+            format!("{:.9}", first.value),
+            begins,
+            format!("{:.9}", last.value),
+            branch.ends[1].as_ref().map_or_else(String::new, ended),
+        ]
+    });
+    let header = ["branch", "signature", "periods", "points", "stable", "from", "begins at", "to", "ends at"];
+    ui.table(&Table::new(&header, rows.collect()), "branches.json")?;
+    if graph.specials.is_empty() {
+        return Ok(());
+    }
+    let rows = graph.specials.iter().enumerate().map(|(number, special)| {
+        let leads: Vec<String> = special.leads_to.iter().map(|branch| (branch + 1).to_string()).collect();
+        vec![
+            (number + 1).to_string(),
+            special.label.to_string(),
+            format!("{:.12}", special.point.value),
+            (special.branch + 1).to_string(),
+            leads.join(" "),
+            special.reason.clone().unwrap_or_default(),
+        ]
+    });
+    let header = ["special", "what", &drawn.label, "branch", "leads to", "not followed because"];
+    ui.table(&Table::new(&header, rows.collect()), "special.csv")
+}

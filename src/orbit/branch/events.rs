@@ -1,0 +1,149 @@
+//! What can happen along a branch: test functions, which change sign there.
+
+use super::super::admissible::Admissible;
+use super::super::floquet::Floquet;
+use super::super::periodic::Orbit;
+use super::super::problem::{Problem, StopLaw};
+use super::super::signature::Kind;
+use super::curve::{Curve, Vector};
+use crate::error::Result;
+use crate::flow::Support;
+use crate::scene::Side;
+use std::fmt;
+
+/// A special point of a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Label {
+    /// The branch turns back in the key: two orbits meet (a multiplier 1).
+    Fold,
+    /// A branch of twice the period begins (a multiplier −1).
+    PeriodDoubling,
+    /// Two orbits that are not symmetric, each the mirror image of the other, branch off a symmetric
+    /// one (a multiplier −1 of the half map, 1 of the whole).
+    SymmetryBreaking,
+    /// An impact of the orbit has become one without speed: beyond, the signature lacks it.
+    GrazingOut,
+    /// The orbit touches a wall anew, without speed: beyond, the signature has one more event.
+    GrazingIn,
+    /// After an impact with e = 0 the body is not pulled off its wall any more: a rest begins.
+    RestBegins,
+    /// A rest has become one without duration.
+    RestEnds,
+    /// A contact with an elastic wall has become one without duration.
+    ContactEnds,
+    /// Two events come together: which is first decides what follows.
+    Corner,
+}
+
+impl Label {
+    /// Its name, as tables write it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::PeriodDoubling => "period-doubling",
+            Self::SymmetryBreaking => "symmetry-breaking",
+            Self::GrazingOut => "grazing-out",
+            Self::GrazingIn => "grazing-in",
+            Self::RestBegins => "rest-begins",
+            Self::RestEnds => "rest-ends",
+            Self::ContactEnds => "contact-ends",
+            Self::Corner => "corner",
+        }
+    }
+
+    /// True where the branch ends: no body follows the orbits beyond.
+    #[must_use]
+    pub fn ends(self) -> bool {
+        !matches!(self, Self::Fold | Self::PeriodDoubling | Self::SymmetryBreaking)
+    }
+}
+
+impl fmt::Display for Label {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A test function: its label, the event that it belongs to, and its value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Test {
+    pub label: Label,
+    pub event: usize,
+    pub value: f64,
+}
+
+/// An orbit of a branch with all that is known of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// The key's value.
+    pub value: f64,
+    /// The orbit.
+    pub orbit: Orbit,
+    /// Its multipliers.
+    pub floquet: Floquet,
+    /// Whether a body can follow it.
+    pub admissible: Admissible,
+}
+
+/// All test functions at `y`, in an order that depends on the signature alone.
+pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vector, tangent: &Vector) -> Vec<Test> {
+    let orbit = &point.orbit;
+    let signature = &orbit.signature;
+    let count = signature.events.len();
+    let mut found = vec![Test { label: Label::Fold, event: 0, value: tangent[tangent.len() - 1] }];
+    if count > 0 && !signature.rests() {
+        let label = if signature.symmetric { Label::SymmetryBreaking } else { Label::PeriodDoubling };
+        found.push(Test { label, event: 0, value: curve.twist(problem, y) });
+    }
+    let [length, speed] = problem.scales();
+    let force = problem.body().mass * speed * speed / length;
+    let gap = point.admissible.nearest.map_or(1.0, |nearest| nearest.gap / length);
+    found.push(Test { label: Label::GrazingIn, event: 0, value: gap });
+    for (index, event) in signature.events.iter().enumerate() {
+        let Some(stop) = problem.stop(event.wall) else { continue };
+        let speed = orbit.speeds[index] / curve.scales.speed;
+        let start = orbit.phases[index] * problem.forcing_period();
+        let next = match orbit.phases.get(index + 1) {
+            Some(phase) => *phase,
+            None => orbit.phases[0] + signature.cycles(),
+        };
+        let lasts = next - orbit.phases[index];
+        let mut add = |label, value| found.push(Test { label, event: index, value });
+        match (event.kind, stop.law) {
+            (Kind::Impact | Kind::Rest | Kind::Enter, _) => add(Label::GrazingOut, speed),
+            (Kind::Leave | Kind::Again, _) => add(Label::ContactEnds, speed),
+            _ => {}
+        }
+        let state = stop.after(event.kind, orbit.speeds[index]).state;
+        let mut arc = problem.arc();
+        match (event.kind, stop.law) {
+            (Kind::Rest, _) => {
+                problem.fly(&mut arc, state, [start, 0.0], &[], Some(event.wall));
+                let side = if stop.toward > 0.0 { Side::Upper } else { Side::Lower };
+                let [reaction, ..] = arc.pressing(Support { wall: event.wall, side }, 0.0);
+                add(Label::RestEnds, reaction / force);
+            }
+            (Kind::Impact, StopLaw::Rigid(0.0)) => {
+                problem.fly(&mut arc, state, [start, 0.0], &[], None);
+                add(Label::RestBegins, -stop.toward * arc.start_jet()[2]);
+            }
+            _ => {}
+        }
+        if !matches!(event.kind, Kind::Rest) {
+            add(Label::Corner, lasts);
+        }
+    }
+    found
+}
+
+/// What is known of the orbit at `y`.
+///
+/// # Errors
+/// Those of the orbit's own functions.
+pub(super) fn point(curve: &Curve<'_>, problem: &Problem, y: &Vector) -> Result<Point> {
+    let orbit = curve.orbit(problem, y);
+    let (floquet, admissible) = (problem.floquet(&orbit)?, problem.admissible(&orbit)?);
+    Ok(Point { value: curve.value(y), orbit, floquet, admissible })
+}

@@ -1,0 +1,217 @@
+//! One branch, followed by steps of pseudo-arclength (Keller 1977).
+
+use super::super::signature::Kind;
+use super::curve::{Curve, Linear, Vector};
+use super::events::{Label, Point, Test, point, tests};
+use super::locate::locate;
+use crate::error::Result;
+
+/// The first step, the longest and the least, in the scaled unknowns.
+const STEPS: [f64; 3] = [3e-3, 5e-2, 1e-9];
+
+/// How a step grows after one that went well.
+const GROWTH: f64 = 1.3;
+
+/// Most iterations of a step that is kept.
+const ITERATIONS: usize = 8;
+
+/// Least cosine between the tangents at both ends of a step: 14°.
+const TURN: f64 = 0.97;
+
+/// A curve has closed after at least this many points.
+const LEAST_LOOP: usize = 6;
+
+/// Why a branch ends.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum End {
+    /// At the end of the range of the key.
+    Range,
+    /// At a special point beyond which its orbits are none.
+    Special(Label),
+    /// Where it began.
+    Closed,
+    /// After as many points as were asked for.
+    Points,
+    /// Where it could not be continued, with the reason.
+    Stuck(String),
+}
+
+/// A special point that was passed.
+#[derive(Debug, Clone)]
+pub(super) struct Passed {
+    pub label: Label,
+    pub event: usize,
+    pub point: Point,
+    pub y: Vector,
+    /// How many points of the branch lie before it.
+    pub after: usize,
+}
+
+/// A branch in one direction.
+#[derive(Debug)]
+pub(super) struct Line {
+    pub points: Vec<Point>,
+    pub passed: Vec<Passed>,
+    pub end: End,
+}
+
+/// Where a step stands.
+struct Here {
+    y: Vector,
+    tangent: Vector,
+    point: Point,
+    tests: Vec<Test>,
+}
+
+fn here(curve: &Curve<'_>, y: Vector, linear: &Linear, along: &Vector) -> Result<Here> {
+    let tangent = curve.tangent(linear, along)?;
+    let point = point(curve, &linear.problem, &y)?;
+    let tests = tests(curve, &linear.problem, &point, &y, &tangent);
+    Ok(Here { y, tangent, point, tests })
+}
+
+/// Follows `curve` from `y`, a solution, on the side of `along`, while the key stays in `range`. At
+/// most `most` points, the first being that at `y`; `seen` is told each.
+pub(super) fn follow(
+    curve: &Curve<'_>,
+    y: Vector,
+    along: &Vector,
+    range: [f64; 2],
+    most: usize,
+    seen: &mut dyn FnMut(&Point),
+) -> Result<Line> {
+    let linear = curve.linear(&y)?;
+    let mut now = here(curve, y, &linear, along)?;
+    let start = (now.y.clone(), now.tangent.clone());
+    let mut line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
+    let mut step = STEPS[0];
+    while line.points.len() < most {
+        let guess = &now.y + &now.tangent * step;
+        let tried = curve.correct(&guess, &now.tangent).and_then(|(y, linear, iterations)| {
+            let next = here(curve, y, &linear, &now.tangent)?;
+            Ok((next, iterations))
+        });
+        let good = tried.as_ref().is_ok_and(|(next, iterations)| {
+            *iterations <= ITERATIONS && next.tangent.dot(&now.tangent) >= TURN && next.point.value.is_finite()
+        });
+        let next = match tried {
+            Ok((next, _)) if good => next,
+            tried => {
+                step *= 0.5;
+                if step < STEPS[2] {
+                    let why = tried
+                        .err()
+                        .map_or_else(|| "the branch turns too sharply".to_owned(), |error| error.to_string());
+                    line.end = End::Stuck(why);
+                    return Ok(line);
+                }
+                continue;
+            }
+        };
+        // All that happens on the way, in order, and whichever end is first.
+        let mut crossed = Vec::new();
+        for (index, (before, after)) in now.tests.iter().zip(&next.tests).enumerate() {
+            // A test that is 0 at the beginning is where the branch has come from.
+            if before.value * after.value < 0.0 && before.value.abs() > ZERO {
+                let found = locate(
+                    curve,
+                    &now.y,
+                    &now.tangent,
+                    [0.0, step],
+                    [before.value, after.value],
+                    |curve, y, linear| {
+                        let tangent = curve.tangent(linear, &now.tangent)?;
+                        let point = point(curve, &linear.problem, y)?;
+                        let all = tests(curve, &linear.problem, &point, y, &tangent);
+                        Ok(all.get(index).map_or(f64::NAN, |test| test.value))
+                    },
+                );
+                match found {
+                    Ok(found) => crossed.push((found.0, before.label, before.event, found.1)),
+                    Err(error) => {
+                        line.end = End::Stuck(format!("a {} ahead was not located: {error}", before.label));
+                        return Ok(line);
+                    }
+                }
+            }
+        }
+        let outside = |value: f64| value < range[0] || value > range[1];
+        let mut limit = f64::INFINITY;
+        if outside(next.point.value) {
+            let bound = if next.point.value < range[0] { range[0] } else { range[1] };
+            let ends = [now.point.value - bound, next.point.value - bound];
+            // A start on the bound that goes outwards ends at once.
+            if ends[0] * ends[1] >= 0.0 {
+                line.end = End::Range;
+                return Ok(line);
+            }
+            let (s, y) =
+                locate(curve, &now.y, &now.tangent, [0.0, step], ends, |curve, y, _| Ok(curve.value(y) - bound))?;
+            limit = s;
+            crossed.retain(|(s, ..)| *s <= limit);
+            let linear = curve.linear(&y)?;
+            line.points.push(point(curve, &linear.problem, &y)?);
+        }
+        crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
+        forget_echoes(&mut crossed, &next.point, SAME_PLACE * step);
+        let last = line.points.len() - usize::from(limit.is_finite());
+        for (_, label, event, y) in crossed {
+            let problem = curve.problem(&y)?;
+            let point = point(curve, &problem, &y)?;
+            let label = problem.halves(&point.orbit).filter(|_| label == Label::Fold).map_or(label, |half| half.1);
+            line.passed.push(Passed { label, event, point: point.clone(), y, after: last });
+            if label.ends() {
+                line.points.truncate(last);
+                line.points.push(point);
+                line.end = End::Special(label);
+                return Ok(line);
+            }
+        }
+        if limit.is_finite() {
+            line.end = End::Range;
+            return Ok(line);
+        }
+        seen(&next.point);
+        if let Some(reason) = next.point.admissible.reason(linear.problem.scene()) {
+            line.end = End::Stuck(reason);
+            return Ok(line);
+        }
+        let apart = (&next.y - &start.0).norm();
+        let closed = line.points.len() >= LEAST_LOOP && apart <= step && next.tangent.dot(&start.1) > TURN;
+        line.points.push(next.point.clone());
+        if closed {
+            line.end = End::Closed;
+            return Ok(line);
+        }
+        now = next;
+        step = (step * GROWTH).min(STEPS[1]);
+    }
+    Ok(line)
+}
+
+/// A test function below this is zero: the branch begins at this point.
+const ZERO: f64 = 1e-9;
+
+/// Special points within this share of a step are one place.
+const SAME_PLACE: f64 = 1e-4;
+
+/// A contact with an elastic wall that loses its duration makes the equations themselves singular:
+/// the other test functions, determinants and the direction of the key, vanish there too, and mean
+/// nothing.
+fn forget_echoes(crossed: &mut Vec<(f64, Label, usize, Vector)>, point: &Point, near: f64) {
+    let kind = |event: usize| point.orbit.signature.events.get(event).map(|event| event.kind);
+    let elastic = |label: Label, event: usize| match label {
+        Label::GrazingOut | Label::ContactEnds => matches!(kind(event), Some(Kind::Enter | Kind::Leave | Kind::Again)),
+        _ => false,
+    };
+    let ends: Vec<f64> =
+        crossed.iter().filter(|(_, label, event, _)| elastic(*label, *event)).map(|(s, ..)| *s).collect();
+    crossed.retain(|(s, label, ..)| label.ends() || !ends.iter().any(|end| (end - s).abs() <= near));
+    // A contact that vanishes is left as it was entered: the first of both tests stands for it.
+    let enters =
+        crossed.iter().any(|(_, label, event, _)| *label == Label::GrazingOut && kind(*event) == Some(Kind::Enter));
+    crossed.retain(|(s, label, ..)| {
+        !(enters && *label == Label::ContactEnds && ends.iter().any(|end| (end - s).abs() <= near))
+    });
+}

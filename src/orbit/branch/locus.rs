@@ -1,0 +1,331 @@
+//! Loci: the curves of special points in the plane of two keys.
+//!
+//! The equations of the orbit with the test function of the special point as one more, and both
+//! keys unknown, followed by pseudo-arclength as a branch is. The gradient of the test function is
+//! a difference, which enters the matrix only.
+
+use super::super::admissible::Admissible;
+use super::super::equations::{Equations, Scales, Turn};
+use super::super::periodic::Orbit;
+use super::super::problem::Problem;
+use super::events::Label;
+use super::follow::End;
+use super::graph::Special;
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+use nalgebra::{DMatrix, DVector};
+
+/// A scene for each pair of values of two keys.
+///
+/// # Errors
+/// [`Error::Invalid`] or [`Error::Case`] for values that the keys do not accept.
+pub type Plane<'a> = dyn Fn([f64; 2]) -> Result<Scene> + 'a;
+
+/// The first step, the longest and the least, in the scaled unknowns.
+const STEPS: [f64; 3] = [3e-3, 5e-2, 1e-7];
+
+/// How a step grows after one that went well; least cosine between tangents at both its ends.
+const GROWTH: f64 = 1.3;
+const TURN: f64 = 0.97;
+
+/// Most iterations, and the step below which they end.
+const ITERATIONS: usize = 10;
+const CLOSE: f64 = 1e-11;
+
+/// Steps of the differences, in the scaled unknowns.
+const DIFFERENCE: f64 = 1e-6;
+
+/// What is passed by less than this share of the scales is rounding.
+const ROUNDING: f64 = 1e-8;
+
+/// A special point of a locus.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OnLocus {
+    /// The values of both keys.
+    pub values: [f64; 2],
+    /// The orbit.
+    pub orbit: Orbit,
+}
+
+/// A curve of special points.
+#[derive(Debug, Clone)]
+pub struct Locus {
+    /// What happens at each of its points.
+    pub label: Label,
+    /// Its points in order along it.
+    pub points: Vec<OnLocus>,
+    /// Why it ends before its first point, and after its last.
+    pub ends: [End; 2],
+}
+
+/// Follows the special point `special`, found at the second key's value `second`, in the plane of
+/// two keys, in both directions, at most `most` points to each, while the keys stay in `ranges`.
+///
+/// ```
+/// use signorini::orbit::branch::{Request, Switch, graph, locus};
+/// use signorini::orbit::{Label, Problem};
+/// use signorini::{Load, Scene, Wall};
+///
+/// // The fold of the source oscillator's symmetric orbit in the plane of frequency and restitution.
+/// let plane = |[frequency, restitution]: [f64; 2]| {
+///     let scene = Scene::oscillator(1.0, 0.2, 100.0)
+///         .with_wall(Wall::upper("upper", 5e-3).with_restitution(restitution))
+///         .with_wall(Wall::lower("lower", -5e-3).with_restitution(restitution))
+///         .with_load(Load::harmonic(3.0, frequency, 0.0));
+///     Ok(scene)
+/// };
+/// let start = Problem::new(plane([5.0, 0.8])?)?.settled(200)?;
+/// let request = Request { range: [5.0, 16.0], switch: Switch::No, depth: 0, points: 2000 };
+/// let found = graph(&|frequency| plane([frequency, 0.8]), &start, 5.0, &request, &mut |_| ())?;
+/// let fold = found.specials.iter().find(|special| special.label == Label::Fold).unwrap();
+/// let curve = locus(&plane, fold, 0.8, [[5.0, 20.0], [0.5, 0.9]], 1000)?;
+/// // Its end at e = 0.5 is the fold of that restitution.
+/// let at_half = curve.points.iter().find(|point| point.values[1] == 0.5).unwrap();
+/// assert!((at_half.values[0] - 8.742_829_292_083_56).abs() < 1e-8); // Hz
+/// # Ok::<(), signorini::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Invalid`] for ranges that are none, a start outside of them, or a label without a
+/// locus; [`Error::NoOrbit`] where the start is not on it; those of `plane` at the start.
+pub fn locus(plane: &Plane<'_>, special: &Special, second: f64, ranges: [[f64; 2]; 2], most: usize) -> Result<Locus> {
+    let start = [special.point.value, second];
+    for ([low, high], value) in ranges.into_iter().zip(start) {
+        if !(low.is_finite() && high.is_finite() && low < high) {
+            let expected = "two numbers, the first below the second";
+            return Err(Error::invalid("range", format!("{low:?} to {high:?}"), expected));
+        }
+        if !(low..=high).contains(&value) {
+            return Err(Error::invalid("start", value, format!("a value of the key from {low:?} to {high:?}")));
+        }
+    }
+    if !matches!(
+        special.label,
+        Label::Fold | Label::PeriodDoubling | Label::SymmetryBreaking | Label::GrazingOut | Label::GrazingIn
+    ) {
+        let expected = "fold, period-doubling, symmetry-breaking, grazing-out or grazing-in";
+        return Err(Error::invalid("locus", special.label, expected));
+    }
+    let problem = Problem::new(plane(start)?)?;
+    let traced = Traced {
+        plane,
+        orbit: special.point.orbit.clone(),
+        label: special.label,
+        event: special.event,
+        scales: Scales::of(&problem),
+        widths: ranges.map(|[low, high]| high - low),
+    };
+    let y = traced.gather(&problem, start);
+    let count = y.len();
+    let along = DVector::from_fn(count, |i, _| if i + 1 == count { 1.0 } else { 0.0 });
+    let (y, matrix) = traced.correct(&y, &along)?;
+    let tangent = traced.tangent(&matrix, &along)?;
+    let ahead = traced.follow(y.clone(), tangent.clone(), ranges, most)?;
+    let behind = traced.follow(y, -tangent, ranges, most)?;
+    let mut points: Vec<OnLocus> = behind.0.into_iter().skip(1).rev().collect();
+    points.extend(ahead.0);
+    Ok(Locus { label: special.label, points, ends: [behind.1, ahead.1] })
+}
+
+struct Traced<'a> {
+    plane: &'a Plane<'a>,
+    orbit: Orbit,
+    label: Label,
+    event: usize,
+    scales: Scales,
+    /// What the values of the keys are divided by.
+    widths: [f64; 2],
+}
+
+impl Traced<'_> {
+    fn values(&self, y: &DVector<f64>) -> [f64; 2] {
+        let n = y.len() - 2;
+        [y[n] * self.widths[0], y[n + 1] * self.widths[1]]
+    }
+
+    fn problem(&self, y: &DVector<f64>) -> Result<Problem> {
+        let problem = Problem::new((self.plane)(self.values(y))?)?;
+        if self.orbit.signature.symmetric && !problem.is_symmetric() {
+            return Err(Error::no_orbit("a key takes the scene's mirror symmetry away, which the orbit has"));
+        }
+        Ok(problem)
+    }
+
+    fn gather(&self, problem: &Problem, values: [f64; 2]) -> DVector<f64> {
+        let unknowns = Equations::new(problem, &self.orbit.signature, self.scales).gather(&self.orbit);
+        let keys = [values[0] / self.widths[0], values[1] / self.widths[1]];
+        DVector::from_iterator(unknowns.len() + 2, unknowns.iter().copied().chain(keys))
+    }
+
+    /// The residual of the equations and the test function.
+    fn residual(&self, y: &DVector<f64>) -> Result<DVector<f64>> {
+        let problem = self.problem(y)?;
+        let equations = Equations::new(&problem, &self.orbit.signature, self.scales);
+        let n = equations.unknowns();
+        let mut residual = DVector::zeros(n);
+        let mut jacobian = |turn: Turn| {
+            let mut matrix = DMatrix::zeros(n, n);
+            let into = Some((&mut matrix, turn));
+            equations.evaluate(&problem, &mut problem.arc(), y.as_slice(), &mut residual, into);
+            matrix.determinant()
+        };
+        let test = match self.label {
+            Label::Fold => jacobian(Turn::Same),
+            Label::PeriodDoubling | Label::SymmetryBreaking => jacobian(Turn::Opposite),
+            _ => {
+                jacobian(Turn::Same);
+                match self.label {
+                    Label::GrazingOut => y[2 * self.event + 1],
+                    _ => self.admissible(&problem, y)?.nearest.map_or(1.0, |nearest| nearest.gap / self.scales.length),
+                }
+            }
+        };
+        Ok(DVector::from_iterator(n + 1, residual.iter().copied().chain([test])))
+    }
+
+    fn admissible(&self, problem: &Problem, y: &DVector<f64>) -> Result<Admissible> {
+        let equations = Equations::new(problem, &self.orbit.signature, self.scales);
+        problem.admissible(&equations.orbit(y.as_slice(), problem))
+    }
+
+    /// (n + 1) × (n + 2), by differences.
+    fn matrix(&self, y: &DVector<f64>) -> Result<DMatrix<f64>> {
+        let count = y.len();
+        let mut matrix = DMatrix::zeros(count - 1, count);
+        for column in 0..count {
+            let moved = |step: f64| {
+                let mut y = y.clone();
+                y[column] += step;
+                self.residual(&y)
+            };
+            let slope = match (moved(DIFFERENCE), moved(-DIFFERENCE)) {
+                (Ok(above), Ok(below)) => (above - below) / (2.0 * DIFFERENCE),
+                (Ok(above), Err(_)) => (above - self.residual(y)?) / DIFFERENCE,
+                (Err(_), Ok(below)) => (self.residual(y)? - below) / DIFFERENCE,
+                (Err(error), Err(_)) => return Err(error),
+            };
+            matrix.set_column(column, &slope);
+        }
+        Ok(matrix)
+    }
+
+    fn bordered(matrix: &DMatrix<f64>, border: &DVector<f64>) -> DMatrix<f64> {
+        let n = matrix.nrows();
+        // The test function has its own size: its row is scaled as the others.
+        let size = matrix.row(n - 1).amax().max(f64::MIN_POSITIVE);
+        DMatrix::from_fn(n + 1, n + 1, |i, j| match i {
+            i if i + 1 < n => matrix[(i, j)],
+            i if i < n => matrix[(i, j)] / size,
+            _ => border[j],
+        })
+    }
+
+    fn tangent(&self, matrix: &DMatrix<f64>, along: &DVector<f64>) -> Result<DVector<f64>> {
+        let count = along.len();
+        let right = DVector::from_fn(count, |i, _| if i + 1 == count { 1.0 } else { 0.0 });
+        let tangent = Self::bordered(matrix, along).lu().solve(&right);
+        let tangent = tangent.filter(|t| t.iter().all(|x| x.is_finite())).ok_or_else(singular)?;
+        let norm = tangent.norm();
+        Ok(tangent / norm)
+    }
+
+    /// The point of the locus in the plane through `guess` across `border`.
+    fn correct(&self, guess: &DVector<f64>, border: &DVector<f64>) -> Result<(DVector<f64>, DMatrix<f64>)> {
+        let mut y = guess.clone();
+        for _ in 0..ITERATIONS {
+            let (residual, matrix) = (self.residual(&y)?, self.matrix(&y)?);
+            let n = residual.len();
+            let size = matrix.row(n - 1).amax().max(f64::MIN_POSITIVE);
+            let right = DVector::from_fn(n + 1, |i, _| match i {
+                i if i + 1 < n => residual[i],
+                i if i < n => residual[i] / size,
+                _ => border.dot(&(&y - guess)),
+            });
+            let step = Self::bordered(&matrix, border).lu().solve(&right).ok_or_else(singular)?;
+            let length = step.norm();
+            if !length.is_finite() || length > 1.0 {
+                return Err(Error::no_orbit("Newton's method left the neighbourhood"));
+            }
+            y -= step;
+            if length <= CLOSE {
+                return Ok((y, matrix));
+            }
+        }
+        Err(Error::no_orbit("Newton's method did not converge"))
+    }
+
+    /// Why no body can follow the orbit at `y`, apart from what the locus itself holds at 0.
+    fn reason(&self, problem: &Problem, y: &DVector<f64>) -> Result<Option<String>> {
+        let mut found = self.admissible(problem, y)?;
+        let least = self.orbit.signature.events.iter().enumerate().filter(|(i, event)| {
+            event.kind != super::super::signature::Kind::Release
+                && !(self.label == Label::GrazingOut && *i == self.event)
+        });
+        let least = least.map(|(i, _)| y[2 * i + 1]).fold(f64::INFINITY, f64::min);
+        found.least_speed = if least > -ROUNDING { f64::INFINITY } else { least * self.scales.speed };
+        found.nearest = found.nearest.filter(|nearest| nearest.gap < -ROUNDING * self.scales.length);
+        Ok(found.reason(problem.scene()))
+    }
+
+    fn follow(
+        &self,
+        mut y: DVector<f64>,
+        mut tangent: DVector<f64>,
+        ranges: [[f64; 2]; 2],
+        most: usize,
+    ) -> Result<(Vec<OnLocus>, End)> {
+        let n = y.len() - 2;
+        let mut points = vec![self.point(&y)?];
+        let mut step = STEPS[0];
+        while points.len() < most {
+            let tried = self.correct(&(&y + &tangent * step), &tangent).and_then(|(next, matrix)| {
+                let turned = self.tangent(&matrix, &tangent)?;
+                Ok((next, turned))
+            });
+            let (next, turned) = match tried {
+                Ok((next, turned)) if turned.dot(&tangent) >= TURN => (next, turned),
+                tried => {
+                    step *= 0.5;
+                    if step < STEPS[2] {
+                        let sharp = || "the locus turns too sharply".to_owned();
+                        return Ok((points, End::Stuck(tried.err().map_or_else(sharp, |error| error.to_string()))));
+                    }
+                    continue;
+                }
+            };
+            let values = self.values(&next);
+            let beyond = (0..2).find(|&k| !(ranges[k][0]..=ranges[k][1]).contains(&values[k]));
+            if let Some(k) = beyond {
+                let bound = if values[k] < ranges[k][0] { ranges[k][0] } else { ranges[k][1] };
+                let share = (bound - self.values(&y)[k]) / (values[k] - self.values(&y)[k]);
+                let mut guess = &y + (&next - &y) * share;
+                guess[n + k] = bound / self.widths[k];
+                let fixed = DVector::from_fn(n + 2, |i, _| if i == n + k { 1.0 } else { 0.0 });
+                if let Ok((last, _)) = self.correct(&guess, &fixed) {
+                    let mut last = self.point(&last)?;
+                    last.values[k] = bound;
+                    points.push(last);
+                }
+                return Ok((points, End::Range));
+            }
+            let problem = self.problem(&next)?;
+            if let Some(reason) = self.reason(&problem, &next)? {
+                return Ok((points, End::Stuck(reason)));
+            }
+            points.push(self.point(&next)?);
+            (y, tangent) = (next, turned);
+            step = (step * GROWTH).min(STEPS[1]);
+        }
+        Ok((points, End::Points))
+    }
+
+    fn point(&self, y: &DVector<f64>) -> Result<OnLocus> {
+        let problem = self.problem(y)?;
+        let orbit = Equations::new(&problem, &self.orbit.signature, self.scales).orbit(y.as_slice(), &problem);
+        Ok(OnLocus { values: self.values(y), orbit })
+    }
+}
+
+fn singular() -> Error {
+    Error::no_orbit("the equations are singular there: two loci meet")
+}

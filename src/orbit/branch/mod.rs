@@ -1,0 +1,32 @@
+//! Branches of periodic orbits in a key of the scene: followed by pseudo-arclength, with their
+//! special points located, and the branches that begin there found by the program.
+//!
+//! | label | test function that changes sign | what begins there |
+//! |---|---|---|
+//! | fold | the key's part of the tangent | nothing: the branch turns |
+//! | period-doubling | det(M + 1) Πv_i, M the derivative over one orbit | orbits of twice the period |
+//! | symmetry-breaking | det(H + 1) Πv_i, H that of the half map | two orbits without the symmetry |
+//! | grazing-out | v_i of an impact | orbits without that impact |
+//! | grazing-in | the least gap inside a flight | orbits with one more impact |
+//! | rest-begins, rest-ends | reaction of the wall at an arrival with e = 0 | orbits with a rest more or less |
+//! | contact-ends | speed at the end of a contact with an elastic wall | not followed |
+//! | corner | time between two events | not followed |
+//!
+//! det(M + 1) alone has a pole where v_i = 0. Both products are the determinant of the Jacobian of
+//! perturbations that come back with the other sign, which is analytic. A Neimark–Sacker
+//! bifurcation needs a complex pair of modulus 1, whose product is the determinant e₁²e₂² …
+//! exp(−cT/m) ≤ 1: with one degree of freedom there is none.
+
+mod curve;
+mod events;
+mod follow;
+mod graph;
+mod locate;
+mod locus;
+mod switch;
+
+pub use curve::Family;
+pub use events::{Label, Point};
+pub use follow::End;
+pub use graph::{Branch, Graph, Request, Special, Switch, graph};
+pub use locus::{Locus, OnLocus, Plane, locus};

@@ -1,0 +1,235 @@
+//! From a special point to the branch that begins there.
+
+use super::super::equations::CYCLE;
+use super::super::periodic::Orbit;
+use super::super::problem::{Problem, StopLaw};
+use super::super::signature::{Event, Kind, Signature};
+use super::curve::{Curve, Vector};
+use super::events::{Label, point};
+use super::follow::Passed;
+use crate::error::{Error, Result};
+use nalgebra::DVector;
+
+/// Amplitudes that are tried along the eigenvector of a multiplier −1, in the scaled unknowns.
+const AMPLITUDES: [f64; 5] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
+
+/// A new branch lies within this many amplitudes of the old one; else Newton has found another
+/// orbit.
+const NEIGHBOURHOOD: f64 = 3.0;
+
+/// Two turns of an orbit within this of each other are one.
+const SAME: f64 = 1e-5;
+
+/// The step to both sides that tells where a new branch has orbits that a body can follow.
+const PROBE: f64 = 1e-4;
+
+/// Where a branch begins, and to which side it goes.
+pub(super) struct Begin<'a> {
+    pub curve: Curve<'a>,
+    pub y: Vector,
+    pub along: Vector,
+    /// True if it goes on to both sides.
+    pub both: bool,
+}
+
+impl Problem {
+    /// The orbit of which `orbit` is several turns, or both halves, and the label of the point where
+    /// a branch of such orbits begins.
+    pub(super) fn halves(&self, orbit: &Orbit) -> Option<(Orbit, Label)> {
+        let signature = &orbit.signature;
+        let count = signature.events.len();
+        if count == 0 || signature.symmetric {
+            return None;
+        }
+        for turns in (2..=signature.periods).filter(|k| signature.periods % k == 0 && count % *k as usize == 0) {
+            let part = count / turns as usize;
+            let once = Orbit {
+                signature: Signature {
+                    events: signature.events[..part].to_vec(),
+                    periods: signature.periods / turns,
+                    symmetric: false,
+                },
+                phases: orbit.phases[..part].to_vec(),
+                speeds: orbit.speeds[..part].to_vec(),
+                forcing_period: orbit.forcing_period,
+            };
+            if orbit.rotated(part).near(orbit, SAME) {
+                return Some((once, Label::PeriodDoubling));
+            }
+        }
+        self.folded(orbit, SAME).map(|half| (half, Label::SymmetryBreaking))
+    }
+}
+
+impl<'a> Curve<'a> {
+    /// The curve of another signature of the same family.
+    fn of(&self, signature: &Signature) -> Curve<'a> {
+        Curve { family: self.family, signature: signature.clone(), scales: self.scales, width: self.width }
+    }
+
+    /// The branch that begins at the special point `at` of this one.
+    ///
+    /// # Errors
+    /// [`Error::NoOrbit`] where none was found, with the reason.
+    pub fn switch(&self, at: &Passed) -> Result<Begin<'a>> {
+        let problem = self.problem(&at.y)?;
+        let orbit = &at.point.orbit;
+        // A branch of several turns that has come back to one: that one goes on to both sides.
+        if let Some((half, _)) = problem.halves(orbit) {
+            return self.begin(&problem, &half, at.point.value, None, true);
+        }
+        match at.label {
+            Label::PeriodDoubling => self.branch_off(&problem, at, &orbit.doubled()),
+            Label::SymmetryBreaking => self.branch_off(&problem, at, &orbit.unfolded(problem.mirror())),
+            Label::GrazingIn => self.touch(&problem, at),
+            Label::GrazingOut => self.lift(&problem, at),
+            Label::RestEnds | Label::RestBegins => self.rest(&problem, at),
+            Label::Fold => Err(Error::no_orbit("the branch itself goes on beyond a fold")),
+            Label::ContactEnds | Label::Corner => {
+                Err(Error::no_orbit(format!("what follows a {} is not known: start from a run beyond it", at.label)))
+            }
+        }
+    }
+
+    /// Along the eigenvector of a multiplier −1, by a small amplitude.
+    fn branch_off(&self, problem: &Problem, at: &Passed, whole: &Orbit) -> Result<Begin<'a>> {
+        let curve = self.of(&whole.signature);
+        curve.signature.check(problem.scene())?;
+        let origin = curve.gather(problem, whole, at.point.value);
+        let values = self.twisted(problem, &at.y).svd(false, true);
+        let least = values.singular_values.imin();
+        let null = values.v_t.map(|v| v.row(least).transpose()).ok_or_else(|| Error::no_orbit("no eigenvector"))?;
+        let n = null.len();
+        let share = std::f64::consts::FRAC_1_SQRT_2;
+        let aside = DVector::from_fn(2 * n + 1, |i, _| match i {
+            i if i < n => share * null[i],
+            i if i < 2 * n => -share * null[i - n],
+            _ => 0.0,
+        });
+        for amplitude in AMPLITUDES {
+            let Ok((y, ..)) = curve.correct(&(&origin + &aside * amplitude), &aside) else { continue };
+            let away = &y - &origin;
+            if away.norm() <= NEIGHBOURHOOD * amplitude {
+                let along = &away / away.norm();
+                return Ok(Begin { curve, y, along, both: false });
+            }
+        }
+        Err(Error::no_orbit("no orbit was found beside the old branch"))
+    }
+
+    /// Puts an impact of speed 0 where the orbit touches a wall.
+    fn touch(&self, problem: &Problem, at: &Passed) -> Result<Begin<'a>> {
+        let mut orbit = at.point.orbit.clone();
+        let nearest = at.point.admissible.nearest.ok_or_else(|| Error::no_orbit("no wall is touched"))?;
+        let index = if orbit.phases.is_empty() { 0 } else { nearest.flight + 1 };
+        let stop = problem.stop(nearest.wall).ok_or_else(|| Error::no_orbit("no wall is touched"))?;
+        let mut insert = |index: usize, kind: Kind, phase: f64, speed: f64| {
+            orbit.signature.events.insert(index, Event { kind, wall: nearest.wall });
+            orbit.phases.insert(index, phase);
+            orbit.speeds.insert(index, speed);
+        };
+        if let StopLaw::Rigid(_) = stop.law {
+            insert(index, Kind::Impact, nearest.phase, 0.0);
+            let curve = self.of(&orbit.signature);
+            let y = curve.gather(problem, &orbit, at.point.value);
+            let along = DVector::from_fn(y.len(), |i, _| if i == 2 * index + 1 { 1.0 } else { 0.0 });
+            return Ok(Begin { curve, y, along, both: false });
+        }
+        // A contact that lasts a moment: the equations are singular where it has no duration.
+        let speed = PROBE * self.scales.speed;
+        let half = speed / (at.point.admissible.largest * (std::f64::consts::TAU / problem.forcing_period()).powi(2));
+        let half = half / problem.forcing_period();
+        insert(index, Kind::Leave, nearest.phase + half, speed);
+        insert(index, Kind::Enter, nearest.phase - half, speed);
+        let curve = self.of(&orbit.signature);
+        let guess = curve.gather(problem, &orbit, at.point.value);
+        let along = DVector::from_fn(guess.len(), |i, _| if i == 2 * index + 1 { 1.0 } else { 0.0 });
+        let (y, ..) = curve.correct(&guess, &along)?;
+        if (&y - &guess).norm() > CYCLE {
+            return Err(Error::no_orbit("no orbit with a short contact was found beside the touching one"));
+        }
+        Ok(Begin { curve, y, along, both: false })
+    }
+
+    /// Leaves out the impact whose speed has become 0.
+    fn lift(&self, problem: &Problem, at: &Passed) -> Result<Begin<'a>> {
+        let mut orbit = at.point.orbit.clone();
+        let kind = orbit.signature.events.get(at.event).map(|event| event.kind);
+        let gone = if kind == Some(Kind::Enter) { 2 } else { 1 };
+        if kind == Some(Kind::Rest) {
+            return Err(Error::no_orbit(
+                "what follows an arrival without speed at a rest is not known: start from a run beyond it",
+            ));
+        }
+        for _ in 0..gone {
+            let index = if at.event < orbit.phases.len() { at.event } else { 0 };
+            orbit.signature.events.remove(index);
+            orbit.phases.remove(index);
+            orbit.speeds.remove(index);
+        }
+        if orbit.phases.is_empty() {
+            orbit.signature = Signature { events: Vec::new(), periods: 1, symmetric: problem.is_symmetric() };
+        }
+        let orbit = problem.halves(&orbit).map_or(orbit, |(once, _)| once);
+        self.begin(problem, &orbit, at.point.value, Some(at), false)
+    }
+
+    /// An impact with e = 0 gets a rest of no duration, or a rest of no duration becomes one.
+    fn rest(&self, problem: &Problem, at: &Passed) -> Result<Begin<'a>> {
+        let mut orbit = at.point.orbit.clone();
+        let Some(event) = orbit.signature.events.get_mut(at.event) else {
+            return Err(Error::no_orbit("no such event"));
+        };
+        let wall = event.wall;
+        if !matches!(problem.stop(wall).map(|stop| stop.law), Some(StopLaw::Rigid(0.0))) {
+            return Err(Error::no_orbit("impacts accumulate there: start from a run beyond it"));
+        }
+        if at.label == Label::RestBegins {
+            event.kind = Kind::Rest;
+            let phase = orbit.phases[at.event];
+            orbit.signature.events.insert(at.event + 1, Event { kind: Kind::Release, wall });
+            orbit.phases.insert(at.event + 1, phase);
+            orbit.speeds.insert(at.event + 1, 0.0);
+        } else {
+            event.kind = Kind::Impact;
+            // Its release is the next event; that of the last one comes first.
+            let next = if at.event + 1 < orbit.phases.len() { at.event + 1 } else { 0 };
+            orbit.signature.events.remove(next);
+            orbit.phases.remove(next);
+            orbit.speeds.remove(next);
+        }
+        self.begin(problem, &orbit, at.point.value, Some(at), false)
+    }
+
+    /// A branch through `orbit`; to the side on which a body can follow its orbits where there is
+    /// one, else an error.
+    fn begin(
+        &self,
+        problem: &Problem,
+        orbit: &Orbit,
+        value: f64,
+        sided: Option<&Passed>,
+        both: bool,
+    ) -> Result<Begin<'a>> {
+        let curve = self.of(&orbit.signature);
+        let guess = curve.gather(problem, orbit, value);
+        let last = DVector::from_fn(guess.len(), |i, _| if i + 1 == guess.len() { 1.0 } else { 0.0 });
+        let (y, linear, _) = curve.correct(&guess, &last)?;
+        let tangent = curve.tangent(&linear, &last)?;
+        if sided.is_none() {
+            return Ok(Begin { curve, y, along: tangent, both });
+        }
+        for sign in [1.0, -1.0] {
+            let along = &tangent * sign;
+            let beside = curve.correct(&(&y + &along * PROBE), &along);
+            let fits = beside.and_then(|(y, linear, _)| point(&curve, &linear.problem, &y)).is_ok_and(|point| {
+                let phases = &point.orbit.phases;
+                point.admissible.holds() && phases.windows(2).all(|pair| pair[0] < pair[1])
+            });
+            if fits {
+                return Ok(Begin { curve, y, along, both });
+            }
+        }
+        Err(Error::no_orbit("no body can follow the orbits beyond on either side"))
+    }
+}

@@ -1,0 +1,220 @@
+//! `orbit.json`, `orbit.csv` and the pictures of a periodic orbit.
+
+use super::csv;
+use super::figure::{Curve, Figure, Mark, Panel};
+use crate::error::{Error, Result};
+use crate::orbit::{Admissible, ClosedForm, Event, Floquet, Judged, Kind, Orbit, Problem, Shot, Signature};
+use crate::scene::Scene;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Largest file that is read, bytes.
+const MOST_BYTES: u64 = 1 << 24;
+
+/// All that is known of an orbit.
+#[derive(Debug)]
+pub struct Known<'a> {
+    /// The scene it belongs to.
+    pub problem: &'a Problem,
+    /// The orbit.
+    pub orbit: &'a Orbit,
+    /// Its multipliers.
+    pub floquet: Floquet,
+    /// Whether a body can follow it.
+    pub admissible: Admissible,
+    /// The free run over one period.
+    pub judged: &'a Judged,
+}
+
+/// A number, or null where there is none.
+fn finite(x: f64) -> Value {
+    if x.is_finite() { json!(x) } else { Value::Null }
+}
+
+fn pairs(multipliers: &[[f64; 2]]) -> Value {
+    Value::Array(multipliers.iter().map(|[re, im]| json!([finite(*re), finite(*im)])).collect())
+}
+
+impl Known<'_> {
+    /// The orbit as a document; [`read`] reads it back.
+    #[must_use]
+    pub fn document(&self, case: &str) -> Value {
+        let Self { problem, orbit, floquet, admissible, judged } = self;
+        let scene = problem.scene();
+        let name = |wall: usize| scene.walls.get(wall).map_or("", |wall| wall.name.as_str());
+        let events = orbit.signature.events.iter().enumerate().map(|(index, event)| {
+            json!({
+                "wall": name(event.wall),
+                "kind": event.kind.name(),
+                "phase_cycles": orbit.phases.get(index),
+                "speed_m_per_s": orbit.speeds.get(index),
+            })
+        });
+        let walls = judged.walls.iter().enumerate().map(|(wall, share)| {
+            json!({
+                "wall": name(wall),
+                "contacts": share.contacts,
+                "impulse_n_s": share.impulse,
+                "peak_force_n": share.peak_force,
+                "approach_speed_max_m_per_s": share.approach_speed,
+            })
+        });
+        json!({
+            "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+            "case": case,
+            "forcing_period_s": orbit.forcing_period,
+            "periods": orbit.signature.periods,
+            "symmetric": orbit.signature.symmetric,
+            "signature": orbit.signature.written(scene),
+            "events": events.collect::<Vec<_>>(),
+            "multipliers": pairs(&floquet.multipliers),
+            "half_map_multipliers": floquet.half.map(|half| pairs(&half)),
+            "stable": floquet.is_stable(),
+            "admissible": admissible.holds(),
+            "not_admissible_because": admissible.reason(scene),
+            "least_speed_m_per_s": finite(admissible.least_speed),
+            "least_gap_m": admissible.nearest.map(|nearest| nearest.gap),
+            "displacement_max_m": admissible.largest,
+            "judge": {
+                "closure": finite(judged.closure),
+                "tolerance": finite(judged.tolerance),
+                "same_events": judged.same_events,
+            },
+            "walls": walls.collect::<Vec<_>>(),
+        })
+    }
+
+    /// Writes the motion over one orbit: time, phase, state and the force of each wall.
+    ///
+    /// # Errors
+    /// [`Error::Io`] where the file cannot be written.
+    pub fn motion(&self, path: &Path) -> Result<()> {
+        let scene = self.problem.scene();
+        let names: Vec<&str> = scene.walls.iter().map(|wall| wall.name.as_str()).collect();
+        let header = ["time_s", "phase_cycles", "displacement_m", "velocity_m_per_s"].map(str::to_owned);
+        let forces = csv::words(&names).into_iter().map(|word| format!("contact_force_{word}_N"));
+        let header: Vec<String> = header.into_iter().chain(forces).collect();
+        let rows = self.judged.motion.iter().map(|at| {
+            let cells = [at.time, at.time / self.orbit.forcing_period, at.displacement, at.velocity];
+            cells.iter().chain(&at.forces).map(|x| csv::digits(Some(*x))).collect()
+        });
+        csv::table(path, &header, rows)
+    }
+
+    /// The orbit in the plane of displacement and velocity.
+    #[must_use]
+    pub fn portrait(&self, title: &str) -> String {
+        let points = self.judged.motion.iter().map(|at| (at.displacement, at.velocity));
+        let mut panel = Panel::new("Velocity (m/s)").curve(Curve::new("", points));
+        for wall in &self.problem.scene().walls {
+            panel = panel.mark(Mark::wall(wall.position, wall.name.clone()).upright());
+        }
+        Figure::new(title, "Displacement (m)").panel(panel).to_svg()
+    }
+
+    /// Displacement, velocity and, where walls push for a while, their force over time.
+    #[must_use]
+    pub fn picture(&self, title: &str) -> String {
+        let motion = &self.judged.motion;
+        let over = |value: fn(&crate::orbit::Instant) -> f64| motion.iter().map(move |at| (at.time, value(at)));
+        let mut first = Panel::new("Displacement (m)").curve(Curve::new("", over(|at| at.displacement)));
+        for wall in &self.problem.scene().walls {
+            first = first.mark(Mark::wall(wall.position, wall.name.clone()));
+        }
+        let second = Panel::new("Velocity (m/s)").curve(Curve::new("", over(|at| at.velocity)));
+        let mut figure = Figure::new(title, "Time (s)").panel(first).panel(second);
+        if motion.iter().any(|at| at.forces.iter().any(|force| *force != 0.0)) {
+            let force = Panel::new("Contact force (N)").curve(Curve::new("", over(|at| at.forces.iter().sum())));
+            figure = figure.panel(force);
+        }
+        figure.to_svg()
+    }
+}
+
+/// The orbit in a file that [`Known::document`] has written, for the walls of `scene`.
+///
+/// # Errors
+/// [`Error::Io`] for a file that cannot be read; [`Error::Invalid`] naming the key that is missing
+/// or not what it should be; [`Error::Unknown`] for a wall that the scene does not have.
+pub fn read(path: &Path, scene: &Scene) -> Result<Orbit> {
+    let unreadable = |reason: String| Error::io(path.display(), reason, true);
+    let meta = std::fs::metadata(path).map_err(|error| unreadable(error.to_string()))?;
+    if meta.len() > MOST_BYTES {
+        return Err(unreadable(format!("{} bytes: an orbit has at most {MOST_BYTES}", meta.len())));
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| unreadable(error.to_string()))?;
+    let document: Value = serde_json::from_str(&text).map_err(|error| unreadable(format!("no JSON: {error}")))?;
+    let key = |name: &str| format!("{}: {name}", path.display());
+    let get = |name: &str| document.get(name).unwrap_or(&Value::Null);
+    let wrong = |name: &str, found: &Value, expected: &str| Err(Error::invalid(key(name), found, expected));
+    let Some(periods) = get("periods").as_u64().and_then(|n| u32::try_from(n).ok()) else {
+        return wrong("periods", get("periods"), "a whole number of forcing periods");
+    };
+    let Some(symmetric) = get("symmetric").as_bool() else {
+        return wrong("symmetric", get("symmetric"), "true or false");
+    };
+    let Some(forcing_period) = get("forcing_period_s").as_f64() else {
+        return wrong("forcing_period_s", get("forcing_period_s"), "a number, s");
+    };
+    let Some(listed) = get("events").as_array() else {
+        return wrong("events", get("events"), "a list of events");
+    };
+    let signature = Signature { events: Vec::new(), periods, symmetric };
+    let mut orbit = Orbit { signature, phases: Vec::new(), speeds: Vec::new(), forcing_period };
+    for (index, entry) in listed.iter().enumerate() {
+        let get = |name: &str| entry.get(name).unwrap_or(&Value::Null);
+        let at = |name: &str| format!("events, entry {}, {name}", index + 1);
+        let (Some(wall), Some(kind)) = (get("wall").as_str(), get("kind").as_str()) else {
+            return wrong(&at("wall and kind"), entry, "words");
+        };
+        let (Some(phase), Some(speed)) = (get("phase_cycles").as_f64(), get("speed_m_per_s").as_f64()) else {
+            return wrong(&at("phase_cycles and speed_m_per_s"), entry, "numbers");
+        };
+        orbit.signature.events.push(Event { kind: Kind::named(kind)?, wall: scene.wall_index(wall)? });
+        orbit.phases.push(phase);
+        orbit.speeds.push(speed);
+    }
+    orbit.signature.check(scene)?;
+    Ok(orbit)
+}
+
+/// A list of closed forms as a document.
+#[must_use]
+pub fn listed(found: &[(ClosedForm, Option<bool>)], scene: &Scene) -> Value {
+    let one = |(form, admissible): &(ClosedForm, Option<bool>)| {
+        json!({
+            "wall": scene.walls.get(form.wall).map(|wall| wall.name.clone()),
+            "periods": form.periods,
+            "symmetric": form.symmetric,
+            "phase_cycles": form.phase,
+            "speed_m_per_s": form.speed,
+            "multipliers": pairs(&form.multipliers),
+            "stable": form.is_stable(),
+            "admissible": admissible,
+        })
+    };
+    json!({ "orbits": found.iter().map(one).collect::<Vec<_>>() })
+}
+
+/// The orbit of a structure as a document; `modal` tells that its coordinates are those of modes.
+#[must_use]
+pub fn shot(found: &Shot, scene: &Scene, case: &str, modal: bool) -> Value {
+    let walls =
+        scene.walls.iter().zip(&found.contacts).zip(&found.impulses).map(
+            |((wall, contacts), impulse)| json!({ "wall": wall.name, "contacts": contacts, "impulse_n_s": impulse }),
+        );
+    json!({
+        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+        "case": case,
+        "forcing_period_s": found.forcing_period,
+        "periods": found.periods,
+        "coordinates": if modal { "modal" } else { "degrees of freedom" },
+        "time_s": found.time,
+        "displacement_m": found.state.q,
+        "velocity_m_per_s": found.state.v,
+        "multipliers": pairs(&found.multipliers),
+        "stable": found.is_stable(),
+        "closure": finite(found.closure),
+        "walls": walls.collect::<Vec<_>>(),
+    })
+}
