@@ -13,9 +13,10 @@
 //! In the folder `examples/`, each run by `cargo run --release --example NAME`:
 //! `tube_contact_force` (the contact force of a tube in loose supports), `co_simulation` (a
 //! controller in another program, with repeated steps), `work_precision` (what an error costs,
-//! scheme by scheme), `poincare` (Poincaré points of an impact oscillator), `bifurcation` (the same
-//! of many at once, by [`batch`]), `hysteresis` (a sweep by rising and falling frequency),
-//! `multipliers` (Floquet multipliers along branches of periodic orbits).
+//! scheme by scheme), `poincare` (Poincaré points of an impact oscillator, with the Jacobian from
+//! each to the next), `bifurcation` (the same of many at once, by [`batch`]), `hysteresis` (a sweep
+//! by rising and falling frequency), `multipliers` (Floquet multipliers along branches of periodic
+//! orbits).
 #![forbid(unsafe_code)]
 
 pub mod batch;

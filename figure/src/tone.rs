@@ -7,14 +7,15 @@ use super::svg::{Anchor, Canvas, Text};
 use super::text;
 
 /// Fill of the classes in their order, from light to dark in even steps of grey, and the colour of
-/// letters on it.
-pub(super) const TONES: [(&str, &str); 6] = [
+/// letters on it; the last one, out of that order, is for a seventh.
+pub(super) const TONES: [(&str, &str); 7] = [
     ("#f7f7f7", "#000"),
     ("#b5cfe6", "#000"),
     ("#dc9a33", "#000"),
     ("#c0452a", "#fff"),
     ("#4b2357", "#fff"),
     ("#111111", "#fff"),
+    ("#7fa98c", "#000"),
 ];
 
 /// Colours of numbers from small to large: lightness decreases steadily, so that the order survives

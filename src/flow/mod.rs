@@ -302,6 +302,12 @@ impl Arc {
         self.response.extent
     }
 
+    /// An interval that the motion would not leave from the arc's start on, whatever its length, m:
+    /// for a flight under constant loads and sines. `None` where no bound is known.
+    pub(crate) fn reach_for_ever(&self) -> Option<[f64; 2]> {
+        if self.is_rest() || self.touches() { None } else { self.response.reach_for_ever() }
+    }
+
     /// Sizes of the terms of displacement (m), velocity (m/s), force (N) and its rate (N/s): their
     /// rounding limits the accuracy of these.
     pub(crate) fn sizes(&self) -> [f64; 4] {

@@ -146,13 +146,27 @@ impl Response {
             self.extent = [f64::NEG_INFINITY, f64::INFINITY];
             return;
         }
+        let reach = self.swing(span);
+        let ends = [self.line[0], self.line[0] + self.line[1] * span];
+        self.extent = [ends[0].min(ends[1]) - reach, ends[0].max(ends[1]) + reach];
+    }
+
+    /// The sizes of free motion and sines over `span` (s), m.
+    fn swing(&self, span: f64) -> f64 {
         let free = match self.equation.roots {
             Roots::Pair { .. } => size_of(self.free),
             Roots::Real { .. } => self.free.re.abs() + self.free.im.abs() * self.equation.longest.min(span),
         };
-        let reach = free + self.parts.iter().map(|p| size_of(p.gain)).sum::<f64>();
-        let ends = [self.line[0], self.line[0] + self.line[1] * span];
-        self.extent = [ends[0].min(ends[1]) - reach, ends[0].max(ends[1]) + reach];
+        free + self.parts.iter().map(|p| size_of(p.gain)).sum::<f64>()
+    }
+
+    /// An interval that the motion does not leave at any time, m; `None` where no bound is known.
+    pub fn reach_for_ever(&self) -> Option<[f64; 2]> {
+        if self.resonant || self.rest != [0.0; 2] || self.line[1] != 0.0 {
+            return None;
+        }
+        let reach = self.swing(f64::INFINITY);
+        Some([self.line[0] - reach, self.line[0] + reach])
     }
 
     /// The displacement and its first four derivatives at `tau` ≥ 0.

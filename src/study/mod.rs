@@ -1,6 +1,7 @@
 //! Studies: questions that take many runs to answer.
 
 pub mod accuracy;
+pub mod attractor;
 pub mod change;
 pub mod choice;
 pub mod compare;

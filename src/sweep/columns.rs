@@ -58,6 +58,13 @@ impl<'a> Source<'a> {
     }
 }
 
+impl Source<'_> {
+    /// True if rows tell their attractors.
+    pub fn tells_attractors(&self) -> bool {
+        self.columns.iter().any(|column| column == Measure::Attractor.name())
+    }
+}
+
 impl Along {
     /// True if its values are numbers.
     pub fn is_numeric(&self, source: &Source<'_>) -> bool {

@@ -1,16 +1,13 @@
-//! Curves and maps of measures.
+//! Curves of measures.
 
 use super::columns::{Along, Source, place_of, place_suffix, short};
 use super::picture::Picture;
 use super::table::{TABLE, Table, label, quantity};
-use crate::error::{Error, Result};
-use crate::output::figure::{Curve, Figure, HeatMap, Panel, Scale, Scatter};
+use crate::error::Result;
+use crate::output::figure::{Curve, Figure, Panel, Scale, Scatter};
 
 /// Maximum number of curves in one panel.
 const MOST_CURVES: usize = 8;
-
-/// Maximum number of cells along one side of a heat map.
-const MOST_CELLS: usize = 160;
 
 /// The points of one curve, with its label.
 type Labelled = (String, Vec<(f64, f64)>);
@@ -89,51 +86,6 @@ impl Picture {
             figure = figure.panel(panel);
         }
         Ok(Some(figure.to_svg()))
-    }
-
-    pub(super) fn heat(&self, source: &Source<'_>) -> Result<Option<String>> {
-        let [x, y] = self.sides(source)?;
-        if x.column == y.column {
-            return Err(Error::invalid("[figure] y", &y.column, "another varied value than x"));
-        }
-        if !x.is_numeric(source) || !y.is_numeric(source) || source.random {
-            return Err(Error::invalid("[figure] kind", "heat", "two axes of numbers, without [random]"));
-        }
-        let groups = self.measures(self.z.as_ref(), source)?;
-        let Some(column) = groups.first().and_then(|(_, columns)| columns.first()) else { return Ok(None) };
-        let table = Table::open(&source.folder.join(TABLE))?;
-        let (xi, yi, zi) = (table.column(&x.column)?, table.column(&y.column)?, table.column(column)?);
-        let direction = table.column("direction").ok();
-        let mut found: Vec<(f64, f64, f64)> = Vec::new();
-        table.each(|row| {
-            // Of an axis followed up and down, the way up.
-            if direction.is_some_and(|index| row.text(index) == "down") {
-                return;
-            }
-            if let (Some(x), Some(y)) = (row.number(xi), row.number(yi)) {
-                found.push((x, y, row.number(zi).unwrap_or(f64::NAN)));
-            }
-        })?;
-        let centres = |pick: fn(&(f64, f64, f64)) -> f64| {
-            let mut all: Vec<f64> = found.iter().map(pick).collect();
-            all.sort_by(f64::total_cmp);
-            all.dedup();
-            let every = all.len().div_ceil(MOST_CELLS).max(1);
-            all.into_iter().step_by(every).collect::<Vec<f64>>()
-        };
-        let (xs, ys) = (centres(|p| p.0), centres(|p| p.1));
-        let mut cells = vec![f64::NAN; xs.len() * ys.len()];
-        let place = |list: &[f64], value: f64| list.binary_search_by(|other| other.total_cmp(&value)).ok();
-        for (px, py, value) in &found {
-            if let (Some(i), Some(j)) = (place(&xs, *px), place(&ys, *py))
-                && let Some(cell) = cells.get_mut(j * xs.len() + i)
-            {
-                *cell = *value;
-            }
-        }
-        let (x_label, y_label) = (label(&x.column), label(&y.column));
-        let map = HeatMap::new(source.title, (&x_label, x.scale, &xs), (&y_label, y.scale, &ys));
-        Ok(Some(map.numbers(label(column), Scale::Linear, cells).to_svg()))
     }
 }
 

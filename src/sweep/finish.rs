@@ -1,9 +1,9 @@
 //! The tables of a sweep, in the order of their rows.
 
+use super::attractors::Attractors;
 use super::journal::Journal;
 use super::plan::Plan;
-use super::record::line;
-use super::table::{SAMPLES, TABLE};
+use super::table::{SAMPLES, TABLE, cells_of, line_of, with_number};
 use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
 use std::io::Write;
@@ -73,7 +73,7 @@ impl Columns {
     }
 }
 
-/// Writes both tables from the journal, each whole or not at all.
+/// Writes the tables from the journal, each whole or not at all.
 pub(super) fn write_tables(plan: &Plan, folder: &Path, journal: &mut Journal, rows: u64) -> Result<Tables> {
     let failed = |path: &Path, error: &std::io::Error| {
         Error::io(
@@ -88,27 +88,35 @@ pub(super) fn write_tables(plan: &Plan, folder: &Path, journal: &mut Journal, ro
         let written = file.write_all(bytes);
         written.map_err(|error| failed(file.path(), &error))
     };
-    put(&mut table, &line(plan.header()))?;
+    put(&mut table, &line_of(plan.header()))?;
     if let Some(samples) = &mut samples {
-        put(samples, &line(plan.sample_header()))?;
+        put(samples, &line_of(plan.sample_header()))?;
     }
     let mut tables = Tables::default();
     let columns = Columns::of(&csv::StringRecord::from(plan.header().to_vec()));
+    let (attractor_column, mut attractors) = (plan.attractor_column(), Attractors::default());
     for place in 0..rows {
         let block = journal
             .read(place as usize)?
             .ok_or_else(|| Error::io(folder.display(), "a row is missing in the journal".to_owned(), false))?;
-        put(&mut table, &block.line)?;
+        let record = cells_of(&block.line);
+        columns.count(&record, &mut tables);
+        match attractor_column {
+            Some(column) if !block.samples.is_empty() => {
+                let told: Vec<String> = cells_of(&block.samples).iter().map(str::to_owned).collect();
+                put(&mut table, &with_number(&record, column, attractors.number(&told)))?;
+            }
+            _ => put(&mut table, &block.line)?,
+        }
         if let Some(samples) = &mut samples {
             put(samples, &block.samples)?;
-        }
-        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(block.line.as_slice());
-        if let Some(Ok(record)) = reader.records().next() {
-            columns.count(&record, &mut tables);
         }
     }
     if let Some(samples) = samples {
         samples.finish()?;
+    }
+    if attractor_column.is_some() {
+        attractors.write(folder, rows)?;
     }
     table.finish()?;
     Ok(tables)

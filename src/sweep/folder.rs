@@ -1,5 +1,6 @@
 //! The folder of a sweep: the request recorded in it, the rows done, and what may be replaced.
 
+use super::attractors::ATTRACTORS;
 use super::axis::Axis;
 use super::picture::Picture;
 use super::plan::Plan;
@@ -139,7 +140,7 @@ pub(super) fn say(
 ) -> Result<()> {
     // Files that do not exist are not removed.
     let files: &[&str] = if finished {
-        &[TABLE, SAMPLES, "summary.json", "sweep.svg", "sweep.pdf", "sweep.png"]
+        &[TABLE, SAMPLES, ATTRACTORS, "summary.json", "sweep.svg", "sweep.pdf", "sweep.png"]
     } else {
         &[super::journal::JOURNAL]
     };

@@ -73,12 +73,17 @@ pub enum Measure {
     /// empty if there is none up to 32.
     Period,
     /// Growth of a change of the start over the window, 1/s: the largest Lyapunov exponent of a
-    /// long one; by the batch engine alone.
+    /// long one, −∞ for one degree of freedom that rests on a wall; by the scheme `event`.
     Lyapunov,
+    /// Its standard error, 1/s; see [`Exponent`](crate::variation::Exponent).
+    LyapunovError,
+    /// The number of the attractor that the start leads to, see
+    /// [`attractor`](crate::study::attractor); none where that is not decided.
+    Attractor,
 }
 
 /// Name, scope, and unit as column names write it.
-const MEASURES: [(Measure, &str, Scope, Option<&str>); 25] = [
+const MEASURES: [(Measure, &str, Scope, Option<&str>); 27] = [
     (Measure::Contacts, "contacts", Scope::Wall, None),
     (Measure::Impacts, "impacts", Scope::Wall, None),
     (Measure::ContactRate, "contact_rate", Scope::Wall, Some("per_s")),
@@ -104,6 +109,8 @@ const MEASURES: [(Measure, &str, Scope, Option<&str>); 25] = [
     (Measure::ImpactsPerPeriod, "impacts_per_period", Scope::Row, None),
     (Measure::Period, "period", Scope::Row, None),
     (Measure::Lyapunov, "lyapunov", Scope::Row, Some("per_s")),
+    (Measure::LyapunovError, "lyapunov_error", Scope::Row, Some("per_s")),
+    (Measure::Attractor, "attractor", Scope::Row, None),
 ];
 
 impl Measure {
@@ -160,7 +167,18 @@ impl Measure {
 
     /// True for a measure that counts forcing periods.
     pub(super) fn needs_period(self) -> bool {
-        matches!(self, Self::ImpactsPerPeriod | Self::Period)
+        matches!(self, Self::ImpactsPerPeriod | Self::Period | Self::Attractor)
+    }
+
+    /// True for a measure of the growth of a change of the start.
+    pub(super) fn sees_growth(self) -> bool {
+        matches!(self, Self::Lyapunov | Self::LyapunovError)
+    }
+
+    /// True for a measure that takes the derivative with respect to the start, which the scheme
+    /// `event` alone has.
+    pub(super) fn needs_event(self) -> bool {
+        self.sees_growth() || self == Self::Attractor
     }
 
     /// True for a measure of the force over time.

@@ -1,10 +1,11 @@
 //! Joins shards into the files of the whole sweep, with the same bytes as without shards.
 
+use super::attractors::Joined;
 use super::finish::{Columns, Tables};
 use super::folder::{self, Study, wrong};
 use super::picture::Picture;
 use super::shard::Shard;
-use super::table::{SAMPLES, TABLE};
+use super::table::{SAMPLES, TABLE, cells_of};
 use crate::error::{Error, Result};
 use crate::output::atomic::{WholeFile, check_folder};
 use crate::output::results;
@@ -180,12 +181,14 @@ impl Lines {
 fn tables(parts: &[Part], out: &Path, rows: u64, length: u64, sampled: bool) -> Result<Tables> {
     let failed = |path: &Path, error: &std::io::Error| Error::io(path.display(), error.to_string(), false);
     let open = |name: &str| parts.iter().map(|part| Lines::open(part.folder.join(name))).collect::<Result<Vec<_>>>();
+    let folders: Vec<&Path> = parts.iter().map(|part| part.folder.as_path()).collect();
     let mut tables = Tables::default();
     for name in [Some(TABLE), sampled.then_some(SAMPLES)].into_iter().flatten() {
         let mut sources = open(name)?;
         let mut file = WholeFile::create(&out.join(name))?;
         let header = sources.first().map(|lines| lines.line.clone()).unwrap_or_default();
-        let columns = Columns::of(&record(&header));
+        let columns = Columns::of(&cells_of(&header));
+        let mut joined = if name == TABLE { Joined::of(&cells_of(&header), &folders)? } else { None };
         file.write_all(&header).map_err(|error| failed(file.path(), &error))?;
         sources.iter_mut().try_for_each(Lines::next)?;
         for row in 0..rows {
@@ -193,10 +196,14 @@ fn tables(parts: &[Part], out: &Path, rows: u64, length: u64, sampled: bool) -> 
             let Some(lines) = sources.get_mut(shard as usize) else { continue };
             let mut found = 0;
             while lines.row() == Some(row) {
-                file.write_all(&lines.line).map_err(|error| failed(file.path(), &error))?;
+                let mut numbered = None;
                 if name == TABLE {
-                    columns.count(&record(&lines.line), &mut tables);
+                    let record = cells_of(&lines.line);
+                    columns.count(&record, &mut tables);
+                    numbered = joined.as_mut().and_then(|joined| joined.line(shard as usize, &record));
                 }
+                let line = numbered.as_ref().unwrap_or(&lines.line);
+                file.write_all(line).map_err(|error| failed(file.path(), &error))?;
                 found += 1;
                 lines.next()?;
             }
@@ -204,12 +211,10 @@ fn tables(parts: &[Part], out: &Path, rows: u64, length: u64, sampled: bool) -> 
                 return Err(wrong(&lines.path, format!("row {row} is there {found} times")));
             }
         }
+        if let Some(joined) = joined {
+            joined.all.write(out, rows)?;
+        }
         file.finish()?;
     }
     Ok(tables)
-}
-
-fn record(line: &[u8]) -> csv::StringRecord {
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(line);
-    reader.records().next().and_then(std::result::Result::ok).unwrap_or_default()
 }

@@ -15,11 +15,12 @@
 //! | `plan` | the rows, by number |
 //! | `row` | one row: built, run, measured |
 //! | `batched` | rows of one degree of freedom side by side, by [`batch`](crate::batch) |
+//! | `basin`, `attractors` | rows that tell what their start leads to, and the numbers of that |
 //! | `watch`, `motion`, `strobe` | collect from the steps of a row what its measures need |
 //! | `run` | the threads that compute rows, and the one that writes them |
 //! | `journal`, `folder` | the files of an unfinished sweep, and the check whether it may be continued |
 //! | `finish`, `record` | the tables |
-//! | `picture`, `curves`, `instants` | the pictures |
+//! | `picture`, `curves`, `maps`, `instants` | the pictures |
 //! | `table`, `columns` | reading the tables |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
 //!
@@ -30,7 +31,9 @@
 //!
 #![doc = include_str!("../../docs/sweep.md")]
 
+mod attractors;
 mod axis;
+mod basin;
 mod batched;
 mod columns;
 mod curves;
@@ -41,6 +44,7 @@ mod follow;
 mod forcing;
 mod instants;
 mod journal;
+mod maps;
 mod measure;
 mod merge;
 mod motion;

@@ -17,6 +17,8 @@ pub enum Kind {
     Line,
     /// A measure over two axes, as colours.
     Heat,
+    /// Which attractor each start leads to, over two axes, as tones.
+    Basin,
     /// Instants over one axis, up and down in two colours.
     Bifurcation,
     /// One column of the instants over another: a Poincaré section of all rows.
@@ -24,8 +26,13 @@ pub enum Kind {
 }
 
 impl Kind {
-    const ALL: [(&'static str, Self); 4] =
-        [("line", Self::Line), ("heat", Self::Heat), ("bifurcation", Self::Bifurcation), ("section", Self::Section)];
+    const ALL: [(&'static str, Self); 5] = [
+        ("line", Self::Line),
+        ("heat", Self::Heat),
+        ("basin", Self::Basin),
+        ("bifurcation", Self::Bifurcation),
+        ("section", Self::Section),
+    ];
 }
 
 impl FromStr for Kind {
@@ -90,6 +97,10 @@ impl Picture {
             }
             Some(Kind::Bifurcation) => x().and_then(|()| self.sampled(self.y.as_ref(), 0, &source).map(drop)),
             None if sampled => x().and_then(|()| self.sampled(self.y.as_ref(), 0, &source).map(drop)),
+            Some(Kind::Basin) if !source.tells_attractors() => {
+                Err(Error::invalid("[figure] kind", "basin", "the measure attractor in [measure] columns beside it"))
+            }
+            Some(Kind::Basin) => self.sides(&source).map(drop),
             Some(Kind::Heat) => {
                 self.sides(&source)?;
                 self.measures(self.z.as_ref(), &source).map(drop)
@@ -138,11 +149,11 @@ impl Picture {
     pub(super) fn svg(&self, folder: &Path, request: &Map<String, Value>, title: &str) -> Result<Option<String>> {
         let source = Source::new(folder, request, title);
         let sampled = source.sample_columns.len() > 1;
+        let is_map = || !source.random && source.axes.iter().all(|axis| axis.count >= FEW && axis.is_numeric(&source));
         let kind = self.kind.unwrap_or(match source.axes.len() {
             _ if sampled => Kind::Bifurcation,
-            2 if !source.random && source.axes.iter().all(|axis| axis.count >= FEW && axis.is_numeric(&source)) => {
-                Kind::Heat
-            }
+            2 if is_map() && source.tells_attractors() => Kind::Basin,
+            2 if is_map() => Kind::Heat,
             _ => Kind::Line,
         });
         if !sampled && matches!(kind, Kind::Bifurcation | Kind::Section) {
@@ -155,6 +166,7 @@ impl Picture {
         match kind {
             Kind::Line => self.line(&source),
             Kind::Heat => self.heat(&source),
+            Kind::Basin => self.basin(&source),
             Kind::Bifurcation => self.bifurcation(&source),
             Kind::Section => self.section(&source),
         }

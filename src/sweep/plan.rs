@@ -128,13 +128,10 @@ impl Sweep {
         let plan = Plan { template, sweep: self, base, method, order, chains, header, sample_header, axis_columns };
         if plan.sweep.kernel == Kernel::Batch {
             plan.check_batch()?;
-        } else if plan.sweep.measures.contains(&Measure::Lyapunov) {
-            return Err(Error::invalid(
-                "[measure] columns",
-                Measure::Lyapunov,
-                "kernel = \"batch\" in [run] (--kernel batch) beside it",
-            ));
+        } else {
+            plan.check_event()?;
         }
+        plan.check_attractor()?;
         plan.try_values()?;
         plan.sweep.picture.check(&plan.request())?;
         Ok(plan)
@@ -345,6 +342,20 @@ impl Plan {
         case.time.statistics_from = from;
         case.time.sample = case.time.sample.filter(|sample| *sample <= end);
         Ok((case, method))
+    }
+
+    /// An error for a measure that takes the derivative with respect to the start if the scheme has
+    /// none.
+    fn check_event(&self) -> Result<()> {
+        let asked = self.sweep.measures.iter().find(|measure| measure.needs_event());
+        match asked.filter(|_| self.method.scheme != Scheme::Event || self.sweep.varies_scheme()) {
+            Some(measure) => Err(Error::invalid(
+                "[measure] columns",
+                measure,
+                format!("scheme = \"event\" in [run] (--scheme event) beside it, not {}", self.method),
+            )),
+            None => Ok(()),
+        }
     }
 
     /// An error for an axis none of whose values gives a valid case: better now than as a table of

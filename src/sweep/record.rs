@@ -1,8 +1,10 @@
 //! A row as the lines of its tables.
 
+use super::basin::described;
 use super::plan::Plan;
 use super::row::Row;
 use super::sample::Sample;
+use super::table::line_of;
 use crate::output::csv::digits;
 
 impl Plan {
@@ -18,11 +20,14 @@ impl Plan {
         }));
         cells.extend([row.status.to_string(), flat(&row.error)]);
         cells.extend(row.measures.iter().map(|value| digits(*value)));
-        line(&cells)
+        line_of(&cells)
     }
 
-    /// The lines of its instants in `samples.csv`.
+    /// The lines of its instants in `samples.csv`; of a row that tells its attractor, that.
     pub(super) fn sample_lines(&self, row: &Row) -> Vec<u8> {
+        if let Some(attractor) = &row.attractor {
+            return line_of(&described(attractor, &self.base.scene));
+        }
         let mut lines = Vec::new();
         for sample in &row.samples {
             let mut cells = vec![row.number.to_string()];
@@ -37,27 +42,10 @@ impl Plan {
                     cells.extend(seen.iter().flatten().map(|x| digits(Some(*x))));
                 }
             }
-            lines.extend(line(&cells));
+            lines.extend(line_of(&cells));
         }
         lines
     }
-}
-
-/// One record of a CSV file, with a line break at its end only.
-pub(super) fn line(cells: &[String]) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    for (index, cell) in cells.iter().enumerate() {
-        if index > 0 {
-            bytes.push(b',');
-        }
-        if cell.contains([',', '"']) {
-            bytes.extend(format!("\"{}\"", cell.replace('"', "\"\"")).into_bytes());
-        } else {
-            bytes.extend(cell.as_bytes());
-        }
-    }
-    bytes.push(b'\n');
-    bytes
 }
 
 fn flat(text: &str) -> String {

@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::residual::{Finding, Judge};
 use crate::scene::{Checked, State};
 use crate::scheme::{Method, Scheme, Stepper};
+use crate::study::attractor::Attractor;
 use crate::time::TimeGrid;
 use std::fmt;
 
@@ -92,6 +93,8 @@ pub struct Row {
     pub measures: Vec<Option<f64>>,
     /// Its instants.
     pub samples: Vec<Sample>,
+    /// What its start leads to; `None` if the measure is not asked for, or not decided.
+    pub attractor: Option<Attractor>,
     /// The state at its end, from which the next row of a followed axis starts; `None` if it
     /// failed.
     pub end: Option<State>,
@@ -112,6 +115,8 @@ struct Done {
     end: State,
     handed: usize,
     findings: Vec<Finding>,
+    /// Why a measure has no value.
+    note: Option<String>,
 }
 
 impl Plan {
@@ -119,10 +124,15 @@ impl Plan {
     /// numbers depend on nothing else.
     pub(super) fn row(&self, point: &Point, start: Option<&State>) -> Row {
         let mut row = self.blank(point);
+        if self.asks_attractor() {
+            self.lead(point, &mut row);
+            return row;
+        }
         match self.build(point, start).and_then(|(case, method)| self.perform(case, method, self.is_judged(point.row)))
         {
             Ok(done) => {
                 (row.measures, row.samples, row.end) = (done.measures, done.samples, Some(done.end));
+                row.error = done.note.unwrap_or_default();
                 if done.handed > 0 {
                     row.status = Status::Handed;
                     row.error = format!("{} stretches of impacts by moreau-jean", done.handed);
@@ -148,6 +158,7 @@ impl Plan {
             error: String::new(),
             measures: vec![None; self.measured()],
             samples: Vec::new(),
+            attractor: None,
             end: None,
         }
     }
@@ -186,7 +197,7 @@ impl Plan {
                 break;
             }
         }
-        let open = stepper.open_contacts();
+        let (open, note) = (stepper.open_contacts(), watch.note());
         let (measures, samples) = watch.finish(&self.sweep, stepper.checked(), &open);
         Ok(Done {
             measures,
@@ -194,6 +205,7 @@ impl Plan {
             end: stepper.state(),
             handed: stepper.handed().len(),
             findings: judge.map_or_else(Vec::new, |judge| judge.findings()),
+            note,
         })
     }
 }

@@ -81,6 +81,7 @@ impl Plan {
         })?;
         let mut rows = all.into_inner().unwrap_or_else(PoisonError::into_inner);
         rows.sort_by_key(|row: &Row| row.number);
+        self.number(&mut rows);
         Ok(rows)
     }
 

@@ -33,6 +33,11 @@ impl Strobe {
         Self { next: settle + 1, last: settle + keep, period, before: start.clone(), taken: Vec::new() }
     }
 
+    /// The forcing period, s.
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
     fn due(&self) -> f64 {
         f64::from(self.next) * self.period
     }

@@ -65,6 +65,36 @@ fn failed(path: &Path, error: &csv::Error) -> Error {
     Error::io(path.display(), error.to_string(), false)
 }
 
+/// One record of a CSV file, with a line break at its end only.
+pub(super) fn line_of(cells: &[String]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for (index, cell) in cells.iter().enumerate() {
+        if index > 0 {
+            bytes.push(b',');
+        }
+        if cell.contains([',', '"']) {
+            bytes.extend(format!("\"{}\"", cell.replace('"', "\"\"")).into_bytes());
+        } else {
+            bytes.extend(cell.as_bytes());
+        }
+    }
+    bytes.push(b'\n');
+    bytes
+}
+
+/// The cells of one record.
+pub(super) fn cells_of(line: &[u8]) -> csv::StringRecord {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(line);
+    reader.records().next().and_then(std::result::Result::ok).unwrap_or_default()
+}
+
+/// `record` with the number `number` in a column, as a line.
+pub(super) fn with_number(record: &csv::StringRecord, column: usize, number: u64) -> Vec<u8> {
+    let number = crate::output::csv::digits(Some(number as f64));
+    let cell = |(at, cell): (usize, &str)| if at == column { number.clone() } else { cell.to_owned() };
+    line_of(&record.iter().enumerate().map(cell).collect::<Vec<_>>())
+}
+
 /// Units at the end of column names, and in labels; longer ones first.
 const UNITS: [(&str, &str); 20] = [
     ("_kg_per_m3", "kg/m³"),

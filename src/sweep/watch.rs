@@ -11,7 +11,9 @@ use crate::error::Result;
 use crate::scene::{Checked, Scene, State};
 use crate::statistics::{Forces, Statistics, WallStatistics};
 use crate::step::{Contact, Step};
+use crate::study::attractor::{self, MOST_FREEDOM};
 use crate::time::TimeOptions;
+use crate::variation::{Exponent, Exponents, NoDerivative};
 
 /// Collects what the measures of a row need from its steps.
 pub(super) struct Watch {
@@ -21,6 +23,8 @@ pub(super) struct Watch {
     forces: Option<Forces>,
     motion: Option<Motion>,
     strobe: Option<Strobe>,
+    /// The growth of a change, until there is no derivative.
+    growth: Option<std::result::Result<Exponents, NoDerivative>>,
 }
 
 impl Watch {
@@ -31,12 +35,16 @@ impl Watch {
         let from = time.statistics_from;
         let strobe = match sweep.stretch {
             Stretch::Periods { settle, keep }
-                if sweep.samples == Some(Samples::Periods) || sweep.measures.contains(&Measure::Period) =>
+                if sweep.samples == Some(Samples::Periods)
+                    || sweep.measures.contains(&Measure::Period)
+                    || (any(Measure::sees_growth) && start.q.len() <= MOST_FREEDOM) =>
             {
                 Some(Strobe::new(forcing::period(scene)?, settle, keep, start))
             }
             _ => None,
         };
+        let growth =
+            if any(Measure::sees_growth) { Some(Ok(Exponents::new(scene, 1, [from, scene.duration])?)) } else { None };
         let speeds = sweep.measures.contains(&Measure::VelocityMax);
         Ok(Self {
             from,
@@ -44,6 +52,7 @@ impl Watch {
             forces: any(Measure::sees_force).then(|| Forces::new(scene, from, time.force_averaging)),
             motion: any(Measure::sees_motion).then(|| Motion::new(scene, from, start, speeds)),
             strobe,
+            growth,
         })
     }
 
@@ -62,6 +71,16 @@ impl Watch {
         if let Some(strobe) = &mut self.strobe {
             strobe.see(step);
         }
+        if let Some(Ok(exponents)) = &mut self.growth
+            && let Err(none) = exponents.see(step)
+        {
+            self.growth = Some(Err(none));
+        }
+    }
+
+    /// Why a measure has no value, where that is not to be seen in the others.
+    pub fn note(&self) -> Option<String> {
+        self.growth.as_ref().and_then(|growth| growth.as_ref().err()).map(ToString::to_string)
     }
 
     /// The measures and samples of the row, with the episodes `open` at its end.
@@ -74,8 +93,9 @@ impl Watch {
             None => statistics,
         };
         let mut values = Vec::new();
+        let exponent = self.exponent(scene);
         for &measure in &sweep.measures {
-            self.tell(measure, sweep, scene, &statistics, &mut values);
+            self.tell(measure, sweep, scene, (&statistics, exponent), &mut values);
         }
         let samples = sweep.samples.map_or_else(Vec::new, |samples| self.samples(samples, sweep.most_samples, scene));
         (values, samples)
@@ -90,7 +110,7 @@ impl Watch {
         measure: Measure,
         sweep: &Sweep,
         scene: &Scene,
-        statistics: &Statistics,
+        (statistics, exponent): (&Statistics, Option<Exponent>),
         values: &mut Vec<Option<f64>>,
     ) {
         let length = scene.duration - self.from;
@@ -135,13 +155,28 @@ impl Watch {
                 }
                 _ => None,
             }),
-            // An error unless the batch engine computes the row.
-            Measure::Lyapunov => values.push(None),
+            Measure::Lyapunov => values.push(exponent.map(|exponent| exponent.per_s)),
+            Measure::LyapunovError => values.push(exponent.and_then(|exponent| exponent.error_per_s)),
+            // Told by the row itself, which is run another way.
+            Measure::Attractor => values.push(None),
             Measure::Period => {
                 let repeats = self.strobe.as_ref().and_then(|strobe| strobe.repeats(scene.gap_scale()));
                 values.push(repeats.map(|periods| periods as f64));
             }
         }
+    }
+
+    /// The largest Lyapunov exponent: of a motion that repeats itself that of the orbit, which is
+    /// exact; over the window it would swing about it.
+    fn exponent(&self, scene: &Checked) -> Option<Exponent> {
+        let exponents = self.growth.as_ref()?.as_ref().ok()?;
+        let orbit = self.strobe.as_ref().and_then(|strobe| {
+            let count = strobe.repeats(scene.gap_scale())?;
+            let (_, state) = strobe.taken.last()?;
+            attractor::exponent(scene, strobe.period(), count, state)
+        });
+        let exact = |per_s: f64| Exponent { per_s, error_per_s: per_s.is_finite().then_some(0.0) };
+        Some(orbit.map_or_else(|| exponents.largest(), exact))
     }
 
     fn of_probes(&self, values: &mut Vec<Option<f64>>, value: impl Fn(&super::motion::Seen) -> f64) {

@@ -1,0 +1,214 @@
+//! A periodic motion near a state: Newton's method on the map over N periods of the load.
+
+use super::motion::{Attractor, Lasts, Touch};
+use crate::scene::{Checked, State, WallLaw};
+use crate::scheme::{Method, Scheme, Stepper};
+use crate::step::Contact;
+use crate::variation::Product;
+use nalgebra::{Complex, DMatrix, DVector};
+
+/// Most iterations.
+const ITERATIONS: usize = 10;
+
+/// A motion that comes back to its start to this share of the scales is closed …
+const CLOSED: f64 = 1e-10;
+
+/// … and one that comes back to this share is not improved further.
+const ROUNDING: f64 = 1e-14;
+
+/// A step of Newton's method that is longer than this leaves the neighbourhood.
+const LONGEST: f64 = 0.03;
+
+/// The orbit near a state is no further from it than this.
+const FAR: f64 = 3e-3;
+
+/// Strobes that differ by less are one: the motion repeats itself sooner.
+const EQUAL: f64 = 1e-8;
+
+/// Impacts before a rest that are shown as one, chatter.
+const CHATTER: usize = 3;
+
+/// The scales of a state: m and m/s.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scales {
+    pub length: f64,
+    pub speed: f64,
+}
+
+impl Scales {
+    /// Those of `scene` under loads of that period (s).
+    pub fn of(scene: &Checked, period: f64) -> Self {
+        let length = scene.gap_scale();
+        Self { length, speed: length * std::f64::consts::TAU / period }
+    }
+
+    /// The largest entry of a difference of states.
+    pub fn size(self, difference: &DVector<f64>) -> f64 {
+        let n = difference.len() / 2;
+        let scaled = |(i, x): (usize, &f64)| x.abs() / if i < n { self.length } else { self.speed };
+        difference.iter().enumerate().map(scaled).fold(0.0, |most, x| if x.is_nan() { f64::NAN } else { x.max(most) })
+    }
+}
+
+/// A state as one vector.
+pub(super) fn vector(state: &State) -> DVector<f64> {
+    DVector::from_iterator(2 * state.q.len(), state.q.iter().chain(&state.v).copied())
+}
+
+fn state(x: &DVector<f64>) -> State {
+    let (q, v) = x.as_slice().split_at(x.len() / 2);
+    State { q: q.to_vec(), v: v.to_vec() }
+}
+
+/// A periodic motion.
+#[derive(Debug, Clone)]
+pub(super) struct Orbit {
+    /// The states once a period of the load.
+    pub strobes: Vec<DVector<f64>>,
+    /// The derivative of the map over it, at the first of them.
+    pub matrix: DMatrix<f64>,
+    contacts: Vec<Contact>,
+    period: f64,
+}
+
+/// The motion over so many periods.
+struct Passed {
+    /// The state at the start and once a period.
+    strobes: Vec<DVector<f64>>,
+    matrix: DMatrix<f64>,
+    contacts: Vec<Contact>,
+}
+
+fn pass(stepper: &mut Stepper, scene: &Checked, from: &DVector<f64>, count: usize, period: f64) -> Option<Passed> {
+    stepper.set_state(0.0, &state(from)).ok()?;
+    let mut product = Product::new(scene).ok()?;
+    let (mut strobes, mut contacts) = (vec![from.clone()], Vec::new());
+    while strobes.len() <= count {
+        let step = stepper.step().ok()?;
+        product.see(&step).ok()?;
+        contacts.extend_from_slice(step.closed);
+        if step.end >= strobes.len() as f64 * period * (1.0 - 1e-12) {
+            strobes.push(DVector::from_iterator(2 * step.q.len(), step.q.iter().chain(step.v).copied()));
+        }
+    }
+    contacts.extend(stepper.open_contacts());
+    Some(Passed { strobes, matrix: product.matrix().clone(), contacts })
+}
+
+/// The periodic motion over `count` periods (s) near `from`, if there is one.
+pub(super) fn find(scene: &Checked, period: f64, count: usize, from: &DVector<f64>, scales: Scales) -> Option<Orbit> {
+    let mut stepper = Stepper::by(scene, Method::new(Scheme::Event), period).ok()?;
+    let (mut x, mut best) = (from.clone(), None::<(f64, Passed)>);
+    for _ in 0..ITERATIONS {
+        let passed = pass(&mut stepper, scene, &x, count, period)?;
+        let gap = passed.strobes.last()? - &x;
+        let size = scales.size(&gap);
+        let better = best.as_ref().is_none_or(|(least, _)| size < *least);
+        let stalled = !better && best.as_ref().is_some_and(|(least, _)| *least <= CLOSED);
+        if stalled || size.is_nan() {
+            break;
+        }
+        let identity = DMatrix::identity(x.len(), x.len());
+        let step = (identity - &passed.matrix).lu().solve(&gap)?;
+        if better {
+            best = Some((size, passed));
+        }
+        if size <= ROUNDING {
+            break;
+        }
+        let is_near = scales.size(&step) <= LONGEST;
+        if !is_near {
+            return None;
+        }
+        x += step;
+    }
+    let (size, passed) = best?;
+    if size > CLOSED {
+        return None;
+    }
+    let Passed { mut strobes, matrix, contacts } = passed;
+    strobes.pop();
+    let repeats = |d: &usize| {
+        count % d == 0
+            && strobes.iter().zip(strobes.iter().cycle().skip(*d)).all(|(a, b)| scales.size(&(a - b)) < EQUAL)
+    };
+    match (1..count).find(repeats) {
+        Some(sooner) => find(scene, period, sooner, strobes.first()?, scales),
+        None => Some(Orbit { strobes, matrix, contacts, period }),
+    }
+}
+
+/// A stable motion of that kind no further than [`FAR`] from `x`.
+pub(super) fn near(scene: &Checked, period: f64, count: usize, x: &DVector<f64>) -> Option<Orbit> {
+    let scales = Scales::of(scene, period);
+    let is_near = |orbit: &Orbit| orbit.strobes.first().is_some_and(|first| scales.size(&(x - first)) < FAR);
+    find(scene, period, count, x, scales).filter(Orbit::is_stable).filter(is_near)
+}
+
+/// Where Newton's method leads in one step over one period: the steady state of a linear motion.
+pub(super) fn leap(scene: &Checked, period: f64, from: &DVector<f64>) -> Option<DVector<f64>> {
+    let mut stepper = Stepper::by(scene, Method::new(Scheme::Event), period).ok()?;
+    let passed = pass(&mut stepper, scene, from, 1, period)?;
+    let gap = passed.strobes.last()? - from;
+    let identity = DMatrix::identity(from.len(), from.len());
+    Some(from + (identity - &passed.matrix).lu().solve(&gap)?)
+}
+
+impl Orbit {
+    /// Its Floquet multipliers, the largest first.
+    pub fn multipliers(&self) -> Vec<Complex<f64>> {
+        let mut all: Vec<Complex<f64>> = self.matrix.complex_eigenvalues().iter().copied().collect();
+        all.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.im.total_cmp(&a.im)));
+        all
+    }
+
+    /// True if it attracts.
+    pub fn is_stable(&self) -> bool {
+        self.multipliers().first().is_some_and(|largest| largest.norm() < 1.0)
+    }
+
+    /// True if it touches no wall.
+    pub fn is_quiet(&self) -> bool {
+        self.contacts.is_empty()
+    }
+
+    /// What it is as an attractor of `scene`.
+    pub fn attractor(&self, scene: &Checked) -> Attractor {
+        let mut contacts: Vec<Contact> = self.contacts.clone();
+        contacts.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.wall.cmp(&b.wall)));
+        // Contact that goes on over the start is there twice: where it began, at the end, and where
+        // the run took it up.
+        let open: Vec<usize> = contacts.iter().filter(|c| c.end.is_none()).map(|c| c.wall).collect();
+        contacts.retain(|c| !(c.start == 0.0 && c.approach_speed == 0.0 && open.contains(&c.wall)));
+        let lasts = |c: &Contact| match scene.walls.get(c.wall).map(|wall| &wall.law) {
+            Some(WallLaw::Rigid { .. }) if c.end == Some(c.start) => Lasts::Instant,
+            Some(WallLaw::Rigid { .. }) => Lasts::Rest,
+            _ => Lasts::Push,
+        };
+        let touch = |c: &Contact| Touch {
+            wall: c.wall,
+            phase: c.start / self.period,
+            speed: c.approach_speed,
+            lasts: lasts(c),
+        };
+        let mut touches: Vec<Touch> = contacts.iter().map(touch).collect();
+        // Begin after a rest, so that none of what leads to one is cut in two.
+        if let Some(last) = touches.iter().rposition(|touch| touch.lasts == Lasts::Rest) {
+            touches.rotate_left(last + 1);
+        }
+        let mut shown: Vec<Touch> = Vec::new();
+        for touch in touches {
+            let before = shown.iter().rev().take_while(|t| t.wall == touch.wall && t.lasts == Lasts::Instant).count();
+            match (touch.lasts, shown.len().checked_sub(before).and_then(|at| shown.get(at).copied())) {
+                (Lasts::Rest, Some(first)) if before >= CHATTER => {
+                    shown.truncate(shown.len() - before);
+                    shown.push(Touch { lasts: Lasts::Chatter, ..first });
+                }
+                _ => shown.push(touch),
+            }
+        }
+        shown.sort_by(|a, b| a.phase.total_cmp(&b.phase));
+        let (strobes, multipliers) = (self.strobes.iter().map(state).collect(), self.multipliers());
+        Attractor::Periodic { strobes, touches: shown, multipliers }
+    }
+}
