@@ -38,6 +38,8 @@ pub mod orbit;
 #[doc(hidden)]
 pub mod output;
 pub mod qp;
+#[cfg(feature = "cli")]
+mod report;
 pub mod residual;
 mod run;
 mod scene;

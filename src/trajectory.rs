@@ -168,6 +168,17 @@ impl Trajectory {
     }
 }
 
+impl Trajectory {
+    /// Takes the last `count` probes out of the trajectory: the displacement (m) of each.
+    #[cfg(feature = "cli")]
+    pub(crate) fn take_last_probes(&mut self, count: usize) -> Vec<Vec<f64>> {
+        let kept = self.probes.len().saturating_sub(count);
+        self.probes.truncate(kept);
+        self.velocity.truncate(kept);
+        self.displacement.split_off(kept)
+    }
+}
+
 fn find(kind: &'static str, name: &str, known: &[String]) -> Result<usize> {
     let missing = || Error::Unknown { kind, name: name.to_owned(), known: known.to_vec() };
     known.iter().position(|k| k == name).ok_or_else(missing)

@@ -192,7 +192,7 @@ fn a_run_that_fails_exits_with_1_and_leaves_older_results_alone() {
     assert!(message.contains("t = "), "{message}");
     assert_eq!(fs::read(dir.path().join("o/trajectory.csv")).unwrap(), before);
     let left: Vec<_> = fs::read_dir(dir.path().join("o")).unwrap().map(|e| e.unwrap().file_name()).collect();
-    assert_eq!(left.len(), 8, "{left:?}");
+    assert_eq!(left.len(), 9, "{left:?}");
 }
 
 #[test]

@@ -26,6 +26,7 @@ const ROOMS: &[&str] = &[
     "case",
     "output",
     "sweep",
+    "report",
     "cli",
 ];
 

@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 use crate::output::asked::{asked, with};
 use crate::output::document;
 use crate::output::results::Results;
+use crate::output::summary;
 use crate::output::table::Table;
 use crate::output::work_precision as output;
 use crate::study::work_precision::{
@@ -109,7 +110,9 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     refuted.announce(ui);
     any_ran(&chart)?;
     write(&mut results, &case, &chart, &peers)?;
-    super::run::finish(&results, "", ui)?;
+    results.tell("case_file", summary::case_file(&case));
+    results.tell("remarks", json!(case.notes()));
+    super::run::finish(&mut results, "", !request.place.no_report, ui)?;
     if ui.json() {
         let mut document = document::chart(&case, &chart);
         document["cheapest"] = cheapest(&chart, &peers).iter().map(Best::document).collect();

@@ -82,7 +82,9 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     any_succeeded(&comparison)?;
     let common = args.stretch.span(&case, comparison.horizon)?;
     let rows = output::write(&mut results, &case, &comparison, &verdicts, [span, common])?;
-    super::run::finish(&results, "", ui)?;
+    let notes = noted::of_rows(&comparison).into_iter().chain(case.notes());
+    results.tell("remarks", json!(comparison.findings.iter().cloned().chain(notes).collect::<Vec<_>>()));
+    super::run::finish(&mut results, "", !args.request.place.no_report, ui)?;
     if ui.json() {
         ui.document(&document(&case, &comparison, rows, &results))?;
     } else {

@@ -137,7 +137,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     );
     let column = column(&key);
     let points = args.over.as_deref().map(|path| beneath(path, &column)).transpose()?.unwrap_or_default();
-    let mut results = args.place.results(&case.name, "continue", asked)?;
+    let mut results = args.place.results(&case, "continue", asked)?;
     let start = args.start(&problem, ui)?;
     let found = watched(&scene_at, &start, value, &request, ui)?;
     let drawn = Drawn { graph: &found, column, label: axis(&key), scene: problem.scene() };

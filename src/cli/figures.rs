@@ -81,7 +81,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
             }
         }
     }
-    super::run::finish(&results, "", ui)?;
+    super::run::finish(&mut results, "", false, ui)?;
     if ui.json() {
         ui.document(&super::run::with_folder(json!({ "command": "figures" }), &results))?;
     }

@@ -13,6 +13,7 @@ mod noted;
 mod orbit;
 mod pace;
 mod refuted;
+mod report;
 mod request;
 mod run;
 mod stability;
@@ -40,8 +41,10 @@ Examples:
   signorini continue rigid-walls-sine --set 'wall.*.restitution=0.8' --key load.1.harmonic.frequency --range 1:16
   signorini explain elastic-wall                     what would be chosen, and why
   signorini new bouncing-ball                        a case file to start from
+  signorini report out/rigid-walls-sine/run          one HTML page of results that exist
 
 Results go to out/CASE/COMMAND or --out DIR; those of another request are replaced with --force only.
+Beside them report.html shows them all: one file that opens without network; --no-report leaves it out.
 A name stands for the file of that name, then for NAME.toml, then for the built-in case.
 
 Exit codes: 0 done, 1 the run failed or its answer could not be written, 2 the request was wrong.";
@@ -73,6 +76,7 @@ enum Command {
     Merge(merge::Args),
     New(new::Args),
     Orbit(orbit::Args),
+    Report(report::Args),
     Stability(stability::Args),
     Sweep(sweep::Args),
     Completions(completions::Args),
@@ -120,6 +124,7 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
         Command::Orbit(args) => orbit::execute(args, ui),
         Command::Continue(args) => continuation::execute(args, ui),
         Command::New(args) => new::execute(args, ui),
+        Command::Report(args) => report::execute(args, ui),
         Command::Stability(args) => stability::execute(args, ui),
         Command::Sweep(args) => sweep::execute(args, ui),
         Command::Completions(args) => completions::execute(args, self::command(), ui),

@@ -1,6 +1,7 @@
 //! The case of a command, and the changes by the command line.
 
 use super::drawing::Formats;
+use super::report::command_line;
 use super::ui::Ui;
 use super::values;
 use crate::case::{Case, CaseFile, Embedded, KeyValue};
@@ -9,7 +10,7 @@ use crate::output::results::Results;
 use crate::qp::Backend;
 use crate::scene::{System, WallLaw};
 use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
 /// Arguments common to `run` and `compare`.
@@ -71,6 +72,9 @@ pub struct Destination {
     /// Replace the results of another request
     #[arg(long)]
     pub force: bool,
+    /// Write no report.html, nor the shape.csv from which it draws a structure in motion
+    #[arg(long)]
+    pub no_report: bool,
     /// What pictures are written as
     #[command(flatten)]
     pub formats: Formats,
@@ -82,9 +86,12 @@ impl Destination {
     ///
     /// # Errors
     /// As [`Results::open`]; [`Error::Invalid`] for a format that this build cannot write.
-    pub fn results(&self, case: &str, command: &str, request: Map<String, Value>) -> Result<Results> {
-        let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(case).join(command));
-        Results::open(&folder, request, self.force, self.formats.usable()?)
+    pub fn results(&self, case: &Case, command: &str, request: Map<String, Value>) -> Result<Results> {
+        let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join(command));
+        let mut results = Results::open(&folder, request, self.force, self.formats.usable()?)?;
+        results.tell("command_line", json!(command_line()));
+        results.tell("title", json!(case.title));
+        Ok(results)
     }
 }
 
@@ -313,6 +320,6 @@ impl Request {
     /// # Errors
     /// As [`Destination::results`].
     pub fn results(&self, case: &Case, command: &str, request: Map<String, Value>) -> Result<Results> {
-        self.place.results(&case.name, command, request)
+        self.place.results(case, command, request)
     }
 }

@@ -9,15 +9,20 @@ use super::values;
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::asked::{asked, with};
+use crate::output::atomic::write_whole;
 use crate::output::results::Results;
 use crate::output::run::{self as output, Picture};
+use crate::output::shape::{self, Shape};
 use crate::output::summary::{Checks, Reasons};
+use crate::report;
 use crate::run::{Options, Run, run_with_progress};
+use crate::scene::Scene;
 use crate::scheme::Method;
 use crate::study::accuracy::{Outcome, Target, foresee, reach};
 use crate::study::choice;
 use crate::study::truncation::{ChosenModes, Truncation, choose_modes};
 use crate::study::verdict::{self, Verdict};
+use crate::time::TimeOptions;
 use serde_json::{Value, json};
 
 const EXAMPLES: &str = "\
@@ -72,7 +77,10 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let truncated = case.truncated.is_some() && !args.no_verdict;
     let checks = if args.no_verdict { 0.0 } else { verdict::COST } + if truncated { 1.0 } else { 0.0 };
     let bar = Bar::new(&method, &case, 1.0 + checks, ui);
-    let run = bar.run(&case, &method)?;
+    let report = !args.request.place.no_report;
+    let shape = if report { Shape::of(&case) } else { Shape::default() };
+    let mut run = bar.run(&shape.watched(&case), case.time, &method)?;
+    let moved = shape.take(&mut run);
     let verdict = if args.no_verdict { None } else { Some(bar.verdict(&case, &method, &run)) };
     let truncation = if truncated { bar.truncation(&case, &method, &run).transpose() } else { None };
     bar.finish();
@@ -94,8 +102,11 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     };
     let document =
         output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
-    finish(&results, "", ui)?;
-    report(&case, &run, &method, document, &results, ui)?;
+    if !shape.is_empty() {
+        shape.write(&results.place(shape::FILE)?, run.trajectory.time(), &moved)?;
+    }
+    finish(&mut results, "", report, ui)?;
+    tell(&case, &run, &method, document, &results, ui)?;
     match verdict {
         Some(Ok(verdict)) => ui.message(&format!("refinement: {verdict}")),
         Some(Err(error)) => ui.message(&format!("refinement: the check of this run failed: {error}")),
@@ -171,8 +182,8 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
         map.insert("error".to_owned(), json!(error.to_string()));
     }
     let kept = if shortfall.is_some() { ", kept in spite of what follows" } else { "" };
-    finish(&results, kept, ui)?;
-    report(&case, &run, &method, document, &results, ui)?;
+    finish(&mut results, kept, !args.request.place.no_report, ui)?;
+    tell(&case, &run, &method, document, &results, ui)?;
     if let Some(modes) = &modes {
         ui.message(&format!("modes: {modes}"));
     }
@@ -207,7 +218,7 @@ const UNITS: f64 = 1000.0;
 /// Runs `case` by `method` with a progress bar.
 pub(super) fn perform(case: &Case, method: &Method, ui: &Ui) -> Result<Run> {
     let bar = Bar::new(method, case, 1.0, ui);
-    let run = bar.run(case, method);
+    let run = bar.run(&case.scene, case.time, method);
     bar.finish();
     run
 }
@@ -226,9 +237,9 @@ impl Bar {
         Self { progress: ui.paced(&method.to_string(), UNITS as u64, pace), end: case.scene.duration, runs }
     }
 
-    fn run(&self, case: &Case, method: &Method) -> Result<Run> {
-        let options = Options::new(case.time);
-        run_with_progress(&case.scene, method, &options, &mut |time| self.set(time / self.end))
+    fn run(&self, scene: &Scene, time: TimeOptions, method: &Method) -> Result<Run> {
+        let options = Options::new(time);
+        run_with_progress(scene, method, &options, &mut |time| self.set(time / self.end))
     }
 
     fn verdict(&self, case: &Case, method: &Method, run: &Run) -> Result<Verdict> {
@@ -252,7 +263,7 @@ impl Bar {
 }
 
 /// Prints a run: its table, the remarks on it, and its notes; with `--json` its summary.
-fn report(case: &Case, run: &Run, method: &Method, document: Value, results: &Results, ui: &Ui) -> Result<()> {
+fn tell(case: &Case, run: &Run, method: &Method, document: Value, results: &Results, ui: &Ui) -> Result<()> {
     if ui.json() {
         ui.document(&with_folder(document, results))?;
     } else if let Some(table) = output::table(run)? {
@@ -275,8 +286,14 @@ pub(super) fn with_folder(mut document: Value, results: &Results) -> Value {
     document
 }
 
-/// Finishes the folder of the results, and prints where it is and what it replaced.
-pub(super) fn finish(results: &Results, remark: &str, ui: &Ui) -> Result<()> {
+/// Finishes the folder of the results, with a `report` where one is wanted, and prints where it is
+/// and what it replaced.
+pub(super) fn finish(results: &mut Results, remark: &str, report: bool, ui: &Ui) -> Result<()> {
+    if report {
+        let place = results.place(report::FILE)?;
+        let page = report::page(results.folder(), &results.manifest())?;
+        write_whole(&place, page.as_bytes())?;
+    }
     if let Some(replaced) = results.finish()? {
         ui.message(&replaced);
     }

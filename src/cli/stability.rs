@@ -9,12 +9,14 @@ use crate::error::Result;
 use crate::output::asked::asked;
 use crate::output::document;
 use crate::output::stability as output;
+use crate::output::summary;
 use crate::output::table::Table;
 use crate::scheme::{PenaltyLaw, Scheme};
 use crate::study::stability::family::{Family, Question};
 use crate::study::stability::impact::{self, ImpactMap};
 use crate::study::stability::lasting::{Line, MULTIPLES, Quality};
 use crate::study::stability::plan::{Grid, Maps, Plan, Row};
+use serde_json::json;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -63,7 +65,7 @@ pub struct Args {
 /// fails.
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let case = args.changes.case_with_restitution(&args.case, args.restitution, ui)?;
-    let mut results = args.place.results(&case.name, "stability", asked("stability", &case, &[]))?;
+    let mut results = args.place.results(&case, "stability", asked("stability", &case, &[]))?;
     let question = Question { scene: &case.scene, laws: &case.penalty.laws };
     let plan = Plan::new(question, &Grid::of(&case.scene))?;
     let e = impact::wall_restitution(&case.scene);
@@ -95,7 +97,9 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         }
     }
     refuted.announce(ui);
-    super::run::finish(&results, "", ui)?;
+    results.tell("case_file", summary::case_file(&case));
+    results.tell("remarks", json!(case.notes()));
+    super::run::finish(&mut results, "", !args.place.no_report, ui)?;
     if ui.json() {
         let document = document::stability(&case, &maps, &quality, &|scheme| range(scheme, &impacts));
         ui.document(&super::run::with_folder(document, &results))?;

@@ -1,9 +1,13 @@
 //! `signorini sweep`: one case, many values.
 
+use super::report::command_line;
 use super::request::{Changes, Destination, case_file};
 use super::ui::Ui;
 use super::values;
 use crate::error::{Error, Result};
+use crate::output::atomic::write_whole;
+use crate::output::results;
+use crate::report;
 use crate::sweep::{
     Axis, Design, Finished, Follow, Kernel, Manner, Measure, Plan, Progress, Random, Shard, Stretch, Sweep, Values,
     write_summary,
@@ -27,7 +31,7 @@ Examples:
 A sweep file is TOML with a key `case`; docs/sweep.md has its format, and all measures.
 After an interruption at any instant, the same command continues, and ends with the same bytes.
 Results: sweep.csv, one row per point, with the reason if it failed; samples.csv, the instants; attractors.csv,
-of a basin; a picture; summary.json.";
+of a basin; a picture; summary.json; report.html.";
 
 /// Many runs of one case: curves, maps, bifurcation diagrams and random designs as one table
 #[derive(Debug, clap::Args)]
@@ -114,7 +118,10 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let drawn = if manner.shard == Shard::WHOLE { plan.draw(&finished.folder, &formats)? } else { Vec::new() };
     let document = document(&plan, &finished, &drawn);
     write_summary(&finished.folder, &document)?;
-    report(&finished, &drawn, ui);
+    if manner.shard == Shard::WHOLE && !args.place.no_report {
+        write_report(&finished.folder)?;
+    }
+    tell(&finished, &drawn, ui);
     if ui.json() {
         ui.document(&document)?;
     }
@@ -237,6 +244,7 @@ fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
         "title": plan.case().title,
         "rows": finished.rows,
         "rows_of_earlier_runs": finished.found,
+        "command_line": command_line(),
         "status": counts,
         "first_error": finished.tables.first_error,
         "threads": finished.threads,
@@ -247,7 +255,13 @@ fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
     })
 }
 
-fn report(finished: &Finished, drawn: &[PathBuf], ui: &Ui) {
+/// Writes the report on the sweep in `folder`.
+fn write_report(folder: &Path) -> Result<()> {
+    let manifest = results::read(folder).unwrap_or_default();
+    write_whole(&folder.join(report::FILE), report::page(folder, &manifest)?.as_bytes())
+}
+
+fn tell(finished: &Finished, drawn: &[PathBuf], ui: &Ui) {
     let found = match finished.found {
         0 => String::new(),
         found if found == finished.rows => ", all of them there already".to_owned(),

@@ -1,5 +1,5 @@
 //! Files of a comparison: those of every run, figures of all runs together, `compare.csv`,
-//! `compare-walls.csv`; also its table and JSON.
+//! `compare-walls.csv`, `distance.csv`; also its table and JSON.
 
 use super::Span;
 use super::csv::{self, digits};
@@ -14,6 +14,7 @@ use crate::run::Run;
 use crate::scheme::{Method, Scheme};
 use crate::study::choice;
 use crate::study::compare::{Comparison, Row};
+use crate::study::difference::rows;
 use crate::study::verdict::Verdict;
 use serde_json::{Value, json};
 
@@ -24,8 +25,16 @@ const MOST_WALLS: usize = 4;
 /// A method's name as a folder: `penalty-epsilon-1e-9-integrator-trapezoidal`.
 #[must_use]
 pub fn folder_name(method: &Method) -> String {
-    method.to_string().replace([':', ',', '='], "-")
+    folder_of(&method.to_string())
 }
+
+/// The folder of the method of that name.
+pub(crate) fn folder_of(method: &str) -> String {
+    method.replace([':', ',', '='], "-")
+}
+
+/// The distance of every method from the reference over time.
+pub(crate) const DISTANCE: &str = "distance.csv";
 
 /// Writes all files of a comparison. Pictures of a single run show the first of the two stretches,
 /// pictures of all runs together the second. Returns the comparison's rows as JSON: for each run
@@ -55,6 +64,7 @@ pub fn write(
         documents.push(with_findings(document, case, comparison, row));
     }
     figures(results, case, comparison, common)?;
+    distance(results, case, comparison)?;
     methods(results, case, comparison)?;
     walls(results, case, comparison)?;
     Ok(documents)
@@ -107,6 +117,28 @@ fn figures(results: &mut Results, case: &Case, comparison: &Comparison, span: Sp
         results.draw(name, &svg)?;
     }
     Ok(())
+}
+
+/// `distance.csv`: the largest |Δu| of any probe against the reference, over the gap scale, at each
+/// row, one column per method. Not written without a reference or a probe.
+fn distance(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
+    let exact = comparison.reference.as_ref().ok();
+    let Some(reference) = exact.or(comparison.refined.as_ref().map(|(_, run)| run)) else { return Ok(()) };
+    let gap = case.scene.gap_scale();
+    let mut names = Vec::new();
+    let mut columns: Vec<Vec<f64>> = Vec::new();
+    for row in comparison.rows.iter().filter(|row| row.method.scheme != Scheme::Event) {
+        let Ok(run) = &row.outcome else { continue };
+        names.push(row.method.to_string());
+        columns.push(rows(&run.trajectory, &reference.trajectory).map(|(_, distance)| distance / gap).collect());
+    }
+    if columns.iter().all(Vec::is_empty) {
+        return Ok(());
+    }
+    let header: Vec<String> = std::iter::once("time_s".to_owned()).chain(names).collect();
+    let time = reference.trajectory.time();
+    let columns: Vec<&[f64]> = std::iter::once(time).chain(columns.iter().map(Vec::as_slice)).collect();
+    csv::numbers(&results.place(DISTANCE)?, &header, &columns)
 }
 
 /// `compare.csv`: one row per method.

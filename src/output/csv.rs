@@ -100,7 +100,7 @@ pub fn table(path: &Path, header: &[String], rows: impl Iterator<Item = Vec<Stri
 
 /// Writes columns of numbers under a header. Beside [`table`], because a row of numbers needs no
 /// quotes and no string a cell: a long trajectory is written several times as fast.
-fn numbers(path: &Path, header: &[String], columns: &[&[f64]]) -> Result<()> {
+pub(super) fn numbers(path: &Path, header: &[String], columns: &[&[f64]]) -> Result<()> {
     let named = |reason: String| Error::io(path.display(), reason, false);
     let mut writer = csv::Writer::from_writer(WholeFile::create(path)?);
     writer.write_record(header).map_err(|e| named(e.to_string()).caused_by(e))?;

@@ -18,6 +18,7 @@
 //! | [`stability`] | tables and maps of a stability study |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
+//! | [`shape`] | `shape.csv`: the displacement of the whole structure, for a drawing |
 //! | [`mod@format`] | figures as files: SVG, PDF, PNG |
 
 pub mod asked;
@@ -38,6 +39,7 @@ pub mod pictures;
 mod places;
 pub mod results;
 pub mod run;
+pub mod shape;
 pub mod stability;
 pub mod summary;
 pub mod table;

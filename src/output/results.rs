@@ -42,6 +42,8 @@ pub struct Results {
     /// When the results already in the folder were made, and their files.
     before: Option<Before>,
     files: Vec<String>,
+    /// What the manifest says beside the request: nothing that decides what may be replaced.
+    told: Map<String, Value>,
 }
 
 #[derive(Debug, Default)]
@@ -70,7 +72,7 @@ impl Results {
             let files = listed.filter_map(|name| name.as_str().map(str::to_owned)).collect();
             Some(Before { made: made(manifest).map(str::to_owned), files })
         });
-        Ok(Self { folder: folder.to_owned(), request, formats, before, files: Vec::new() })
+        Ok(Self { folder: folder.to_owned(), request, formats, before, files: Vec::new(), told: Map::new() })
     }
 
     /// The folder.
@@ -117,6 +119,24 @@ impl Results {
         Ok(paths)
     }
 
+    /// Tells the manifest `value` as `key`, beside the request.
+    pub fn tell(&mut self, key: &str, value: Value) {
+        self.told.insert(key.to_owned(), value);
+    }
+
+    /// The manifest: what was asked, when it was done, and which files belong to it.
+    #[must_use]
+    pub fn manifest(&self) -> Value {
+        let mut manifest = Map::new();
+        manifest.insert("program".to_owned(), json!(format!("signorini {}", env!("CARGO_PKG_VERSION"))));
+        let made = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+        manifest.insert("made".to_owned(), json!(made));
+        manifest.extend(self.told.clone());
+        manifest.insert("request".to_owned(), json!(self.request));
+        manifest.insert("files".to_owned(), json!(self.files));
+        Value::Object(manifest)
+    }
+
     /// Writes the manifest and removes what is left of the earlier results. Returns the sentence
     /// that says what was replaced, if anything was.
     ///
@@ -126,12 +146,7 @@ impl Results {
         if let Some(before) = &self.before {
             before.files.iter().filter(|name| !self.files.contains(name)).for_each(|name| self.take_away(name));
         }
-        let manifest = json!({
-            "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
-            "made": humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-            "request": self.request,
-            "files": self.files,
-        });
+        let manifest = self.manifest();
         write_whole(&self.folder.join(MANIFEST), format!("{manifest:#}\n").as_bytes())?;
         let replaced = |before: &Before| {
             let made = before.made.as_deref().map_or_else(String::new, |time| format!(", made {time}"));
@@ -194,6 +209,20 @@ pub(crate) fn read(folder: &Path) -> Option<Value> {
 
 fn made(manifest: &Value) -> Option<&str> {
     manifest.get("made").and_then(Value::as_str)
+}
+
+/// Adds the file `name` to those that `manifest`, the manifest in `folder`, lists.
+///
+/// # Errors
+/// [`Error::Io`] where it cannot be written.
+pub(crate) fn list(folder: &Path, mut manifest: Value, name: &str) -> Result<()> {
+    let Some(files) =
+        manifest.get_mut("files").and_then(Value::as_array_mut).filter(|files| !files.iter().any(|file| file == name))
+    else {
+        return Ok(());
+    };
+    files.push(json!(name));
+    write_whole(&folder.join(MANIFEST), format!("{manifest:#}\n").as_bytes())
 }
 
 /// How `request` differs from `other`, one line per difference; `None` where both ask the same.

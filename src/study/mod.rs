@@ -5,7 +5,7 @@ pub mod attractor;
 pub mod change;
 pub mod choice;
 pub mod compare;
-mod difference;
+pub(crate) mod difference;
 mod exact;
 mod growth;
 pub mod horizon;

@@ -140,7 +140,7 @@ pub(super) fn say(
 ) -> Result<()> {
     // Files that do not exist are not removed.
     let files: &[&str] = if finished {
-        &[TABLE, SAMPLES, ATTRACTORS, "summary.json", "sweep.svg", "sweep.pdf", "sweep.png"]
+        &[TABLE, SAMPLES, ATTRACTORS, "summary.json", "sweep.svg", "sweep.pdf", "sweep.png", "report.html"]
     } else {
         &[super::journal::JOURNAL]
     };

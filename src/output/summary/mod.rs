@@ -77,6 +77,12 @@ pub fn scene(case: &Case) -> Value {
     scene::scene(case)
 }
 
+/// The case in the keys of a case file; null where a case file cannot express it.
+#[must_use]
+pub(crate) fn case_file(case: &Case) -> Value {
+    case_file::case_file(case)
+}
+
 /// Writes the summary of `run` on `case`, and of the `checks` made of it, to `path`.
 ///
 /// # Errors

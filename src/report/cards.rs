@@ -1,0 +1,217 @@
+//! How far a run is to be trusted, in sentences: one card for each check, and its number.
+//!
+//! What counts as broken is decided by the judge alone, in its findings; the limits here only
+//! decide where a change by refinement deserves attention.
+
+use serde_json::{Value, json};
+
+/// Changes by refinement up to this share need no attention, and energy unaccounted for up to this
+/// share of what was exchanged.
+const SMALL: f64 = 1e-2;
+
+/// The cards of the run with this summary.
+pub(super) fn cards(summary: &Value) -> Vec<Value> {
+    let checks = [refinement(summary), accuracy(summary), modes(summary)];
+    let judged = [contact(summary), energy(summary), momentum(summary)];
+    checks.into_iter().flatten().chain(judged).collect()
+}
+
+/// How a card stands: what was promised is kept, needs attention, or is broken; or was not checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum State {
+    Good,
+    Mind,
+    Bad,
+    Open,
+}
+
+fn card(title: &str, state: State, verdict: String, text: String) -> Value {
+    let state = match state {
+        State::Good => "good",
+        State::Mind => "mind",
+        State::Bad => "bad",
+        State::Open => "open",
+    };
+    json!({ "title": title, "state": state, "verdict": verdict, "text": text })
+}
+
+/// A number with three digits.
+pub(super) fn short(x: f64) -> String {
+    let rounded: f64 = format!("{x:.2e}").parse().unwrap_or(x);
+    if rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs()) {
+        format!("{rounded}").replace('-', "−")
+    } else {
+        format!("{rounded:e}").replace('-', "−")
+    }
+}
+
+/// A share as a percentage.
+fn percent(x: f64) -> String {
+    format!("{} %", short(100.0 * x))
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+fn refinement(summary: &Value) -> Option<Value> {
+    let check = &summary["refinement"];
+    if check.is_null() {
+        let text = "The run was not repeated with half the step.".to_owned();
+        return summary["accuracy"].is_null().then(|| card("Refinement", State::Open, "Not checked".to_owned(), text));
+    }
+    let pair = |wall: &Value, key: &str| [0, 1].map(|i| number(&wall[key][i]));
+    let walls = list(&check["walls"]);
+    let largest = walls.iter().flat_map(|wall| pair(wall, "impulse_n_s")).fold(0.0, |most: f64, p| most.max(p.abs()));
+    let change =
+        walls.iter().map(|wall| pair(wall, "impulse_n_s")).fold(0.0, |most: f64, [a, b]| most.max((b - a).abs()));
+    let change = if largest > 0.0 { change / largest } else { 0.0 };
+    let contacts = [0, 1].map(|i| walls.iter().filter_map(|wall| wall["contacts"][i].as_u64()).sum::<u64>());
+    let displacement = number(&check["displacement"]);
+    let (horizon, end) = (number(&check["horizon_s"]), number(&summary["scene"]["duration_s"]));
+    let until = if horizon < end * (1.0 - 1e-9) {
+        format!("up to t = {} s, the horizon of prediction", short(horizon))
+    } else {
+        "over the whole run".to_owned()
+    };
+    let text = format!(
+        "Contacts {} → {}; the displacement changes by {} of the gap {until}.",
+        contacts[0],
+        contacts[1],
+        percent(displacement)
+    );
+    if !list(&check["findings"]).is_empty() {
+        let verdict = "The run it was checked against is refuted".to_owned();
+        return Some(card("Refinement", State::Bad, verdict, text));
+    }
+    let how = match check["check"]["half_step"].is_object() {
+        true => "Half the step",
+        false => "Other rounding",
+    };
+    let verdict = format!("{how} changes impulses by up to {}", percent(change));
+    let state = if change <= SMALL && displacement <= SMALL { State::Good } else { State::Mind };
+    Some(card("Refinement", state, verdict, text))
+}
+
+fn accuracy(summary: &Value) -> Option<Value> {
+    let found = summary.get("accuracy").filter(|found| found.is_object())?;
+    let failed = summary["error"].as_str();
+    let state = if failed.is_some() { State::Mind } else { State::Good };
+    let asked = ["tolerance", "asked"].iter().find_map(|key| found[*key].as_f64());
+    let verdict = match (asked, failed) {
+        (Some(asked), None) => format!("Keeps the error of {} that was asked for", short(asked)),
+        (_, None) => "Keeps the error that was asked for".to_owned(),
+        (_, Some(_)) => "Falls short of the error that was asked for".to_owned(),
+    };
+    Some(card("Accuracy", state, verdict, failed.unwrap_or("All its numbers are in the summary below.").to_owned()))
+}
+
+fn modes(summary: &Value) -> Option<Value> {
+    let check = summary.get("truncation").filter(|check| check.is_object())?;
+    let walls = list(&check["walls"]);
+    let worst = |key: &str| walls.iter().map(|wall| number(&wall[key]).abs()).fold(0.0, f64::max);
+    let (impulse, peak) = (worst("impulse_change"), worst("peak_change"));
+    let state = match (list(&check["findings"]).is_empty(), impulse.max(peak) <= SMALL) {
+        (false, _) => State::Bad,
+        (true, true) => State::Good,
+        (true, false) => State::Mind,
+    };
+    let verdict = format!("More modes change impulses by up to {}, peaks by up to {}", percent(impulse), percent(peak));
+    let text = format!(
+        "{} of {} modes are kept; checked with {}.",
+        check["modes"][0], check["degrees_of_freedom"], check["modes"][1]
+    );
+    Some(card("Modes", state, verdict, text))
+}
+
+/// What the judge found of these kinds, one sentence each.
+fn found(summary: &Value, kinds: &[&str]) -> Vec<String> {
+    let here = |finding: &&Value| finding["refuted"].as_str().is_some_and(|kind| kinds.contains(&kind));
+    let sentence = |finding: &Value| {
+        let wall = finding["wall"].as_str().map_or_else(String::new, |wall| format!(" at {wall}"));
+        format!(
+            "{}: {} where {} is allowed{wall}, t = {} s.",
+            finding["refuted"].as_str().unwrap_or_default().replace('_', " "),
+            short(number(&finding["residual"])),
+            short(number(&finding["tolerance"])),
+            short(number(&finding["time_s"]))
+        )
+    };
+    list(&summary["findings"]).iter().filter(here).map(sentence).collect()
+}
+
+/// The card of a promise that the judge checks.
+fn judged(title: &str, broken: &[String], verdict: (&str, String), text: String) -> Value {
+    match broken {
+        [] => card(title, State::Good, verdict.1, text),
+        [..] => card(title, State::Bad, verdict.0.to_owned(), broken.join(" ")),
+    }
+}
+
+fn contact(summary: &Value) -> Value {
+    let residuals = &summary["residuals"];
+    let broken = found(summary, &["penetration", "tension", "complementarity", "wall_law"]);
+    let text = format!(
+        "Deepest {} µm behind a rigid wall; strongest pull {} N.",
+        short(1e6 * number(&residuals["penetration_m"])),
+        short(number(&residuals["tension_n"]))
+    );
+    let kept = format!("Kept, complementarity to {}", short(number(&residuals["complementarity"])));
+    judged("Contact conditions", &broken, ("Refuted by the judge", kept), text)
+}
+
+fn energy(summary: &Value) -> Value {
+    let energy = &summary["residuals"]["energy"];
+    let part = |key: &str| short(number(&energy[key]));
+    let text = format!(
+        "The load put in {} J; damping took {} J, impacts {} J, dampers of walls {} J; {} J at first, {} J at last.",
+        part("load_work_j"),
+        part("damping_j"),
+        part("impact_loss_j"),
+        part("wall_damping_j"),
+        part("initial_j"),
+        part("final_j")
+    );
+    let open = number(&energy["residual"]).abs();
+    let broken = found(summary, &["energy"]);
+    if broken.is_empty() && open > SMALL {
+        let verdict =
+            format!("{} of the energy exchanged is unaccounted for; the scheme promises no less", percent(open));
+        return card("Energy", State::Mind, verdict, text);
+    }
+    let kept = format!("The ledger closes to {} of what was exchanged", short(open));
+    judged("Energy", &broken, ("The ledger does not close", kept), text)
+}
+
+fn momentum(summary: &Value) -> Value {
+    let residuals = &summary["residuals"];
+    let broken = found(summary, &["momentum_balance", "impulses", "kinematics"]);
+    let kept = format!("Every step's balance closes to {}", short(number(&residuals["force_balance"])));
+    let text = format!("{} N where it is worst.", short(number(&residuals["force_balance_n"])));
+    judged("Momentum", &broken, ("Refuted by the judge", kept), text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{cards, short};
+    use serde_json::json;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        let shown = [0.0, 1.0, -0.012_345, 123_456.0, 1e-9, 0.1 + 0.2].map(short);
+        assert_eq!(shown, ["0", "1", "−0.0123", "1.23e5", "1e−9", "0.3"]);
+    }
+
+    #[test]
+    fn a_finding_is_never_green() {
+        let finding = json!({ "refuted": "energy", "residual": 0.5, "tolerance": 1e-9, "time_s": 1.0, "wall": null });
+        let cards = cards(&json!({ "findings": [finding], "residuals": {} }));
+        let energy = cards.iter().find(|card| card["title"] == "Energy").unwrap();
+        assert_eq!(energy["state"], "bad");
+        assert!(energy["text"].as_str().unwrap().contains("0.5 where 1e−9"));
+    }
+}

@@ -1,0 +1,37 @@
+//! The page of a chart: accuracy against speed.
+
+use super::folder::Folder;
+use super::run::case_text;
+use crate::error::Result;
+use serde_json::{Value, json};
+
+/// The columns that the page draws or tells.
+const SHOWN: [&str; 12] = [
+    "method",
+    "step_s",
+    "seconds",
+    "on_front",
+    "displacement_error_over_gap",
+    "velocity_graph_error",
+    "impulse_error_of_the_worst_wall",
+    "contact_time_error",
+    "own_displacement_error_over_gap",
+    "contacts_missing",
+    "contacts_spurious",
+    "remark",
+];
+
+/// What the page of a chart shows.
+pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
+    let table = folder.cells("work-precision.csv")?;
+    // What is drawn must be numbers.
+    for name in ["seconds", "displacement_error_over_gap"] {
+        table.column(name)?;
+    }
+    Ok(json!({
+        "subtitle": "accuracy against speed",
+        "chart": { "table": table.for_page(Some(&SHOWN)) },
+        "case": case_text(&folder.manifest["case_file"]),
+        "notes": folder.manifest["remarks"],
+    }))
+}

@@ -1,0 +1,78 @@
+//! The page of a comparison: every method's motion, its distance from the exact one, and the table.
+
+use super::column::{f32, f64};
+use super::folder::Folder;
+use super::motion::motion;
+use super::run::of_scene;
+use crate::error::{Error, Result};
+use crate::output::compare::{DISTANCE, folder_of};
+use crate::study::compare::AGREEMENT;
+use serde_json::{Value, json};
+
+/// Stretches in each of which the largest distance is drawn.
+const STRETCHES: usize = 600;
+/// An error over the gap, up to the horizon, from which on a method begins switched off.
+const FAR: f64 = 2.0;
+
+/// What the page of a comparison shows.
+pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
+    let table = folder.cells("compare.csv")?;
+    let errors = table.column("error_over_gap")?;
+    let mut runs = Vec::new();
+    let mut first = None;
+    for (row, error) in errors.iter().enumerate() {
+        let method = table.text(row, "method");
+        let prefix = folder_of(method);
+        if !table.text(row, "failure").is_empty() {
+            continue;
+        }
+        // The name comes from the table: it must not lead out of the folder.
+        if method.is_empty() || prefix.contains(['/', '\\']) || prefix.starts_with('.') {
+            let reason = format!("{method:?} is no method");
+            return Err(Error::io(folder.path.join("compare.csv").display(), reason, true));
+        }
+        let summary = folder.json(&format!("{prefix}/summary.json"))?;
+        let mut run = motion(folder, &prefix, &summary)?;
+        run["label"] = json!(method);
+        run["reference"] = json!(summary["scheme"] == "event");
+        // Through Clarabel the motion is the same; what is far off hides the others.
+        run["hidden"] = json!(method.contains("qp=clarabel") || *error > FAR);
+        first.get_or_insert(summary);
+        runs.push(run);
+    }
+    let Some(summary) = first else {
+        return Err(Error::io(folder.path.join("compare.csv").display(), "no method in it succeeded", true));
+    };
+    if runs.iter().all(|run| run["hidden"] == true) {
+        runs.iter_mut().for_each(|run| run["hidden"] = json!(false));
+    }
+    let mut page = of_scene(&summary);
+    let horizons = table.column("horizon_s")?;
+    let horizon = horizons.into_iter().find(|t| t.is_finite());
+    page["horizon"] = json!(horizon.filter(|t| *t < page["duration"].as_f64().unwrap_or(0.0) * (1.0 - 1e-9)));
+    page["notes"] = folder.manifest["remarks"].clone();
+    page["runs"] = json!(runs);
+    page["compare"] = json!({
+        "table": table.for_page(None),
+        "agreement": AGREEMENT,
+        "distance": if folder.has(DISTANCE) { distance(folder)? } else { Value::Null },
+    });
+    Ok(page)
+}
+
+/// The largest distance of each method in each stretch of the run.
+fn distance(folder: &Folder<'_>) -> Result<Value> {
+    let table = folder.numbers(DISTANCE)?;
+    let stretch = table.count().div_ceil(STRETCHES).max(1);
+    let Some((time, methods)) = table.columns.split_first() else { return Ok(Value::Null) };
+    let middle: Vec<f64> = time.chunks(stretch).filter_map(|part| Some(0.5 * (part.first()? + part.last()?))).collect();
+    // NaN, of a state that overflowed, is the largest.
+    let largest = |part: &[f64]| part.iter().copied().fold(0.0, |a, b| if b > a || f64::is_nan(b) { b } else { a });
+    let column = |values: &Vec<f64>| f32(values.chunks(stretch).map(largest));
+    Ok(json!({
+        "time": f64(&middle),
+        "stretch": time.get(stretch).zip(time.first()).map(|(b, a)| b - a),
+        "methods": methods.iter().map(column).collect::<Vec<_>>(),
+        "names": table.header.get(1..),
+    }))
+}

@@ -1,0 +1,131 @@
+//! The files of a folder of results, read and checked: what is missing or not as written is one
+//! error that names file, line and column.
+
+use super::column;
+use crate::error::{Error, Result};
+use csv::StringRecord;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// A folder of results.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Folder<'a> {
+    /// Where it is.
+    pub path: &'a Path,
+    /// Its `request.json`.
+    pub manifest: &'a Value,
+}
+
+/// A table of numbers: names and values of its columns; an empty cell is NaN.
+#[derive(Debug)]
+pub(super) struct Numbers {
+    /// The file, for errors.
+    file: PathBuf,
+    pub header: Vec<String>,
+    pub columns: Vec<Vec<f64>>,
+}
+
+/// A table of text cells.
+#[derive(Debug)]
+pub(super) struct Cells {
+    file: PathBuf,
+    pub header: Vec<String>,
+    pub rows: Vec<StringRecord>,
+}
+
+impl Folder<'_> {
+    pub fn has(&self, name: &str) -> bool {
+        self.path.join(name).is_file()
+    }
+
+    /// The JSON document in the file `name`.
+    pub fn json(&self, name: &str) -> Result<Value> {
+        let path = self.path.join(name);
+        let wrong = |reason: String| Error::io(path.display(), reason, true);
+        let text = std::fs::read_to_string(&path).map_err(|error| wrong(error.to_string()).caused_by(error))?;
+        serde_json::from_str(&text).map_err(|error| wrong(format!("no JSON: {error}")).caused_by(error))
+    }
+
+    /// The table in the file `name`, all cells numbers.
+    pub fn numbers(&self, name: &str) -> Result<Numbers> {
+        let cells = self.cells(name)?;
+        let mut columns = vec![Vec::with_capacity(cells.rows.len()); cells.header.len()];
+        for (row, record) in cells.rows.iter().enumerate() {
+            for (index, (cell, column)) in record.iter().zip(&mut columns).enumerate() {
+                column.push(cells.number(row, index, cell)?);
+            }
+        }
+        Ok(Numbers { file: cells.file, header: cells.header, columns })
+    }
+
+    /// The table in the file `name`; every row has as many cells as the header.
+    pub fn cells(&self, name: &str) -> Result<Cells> {
+        let file = self.path.join(name);
+        let wrong = |error: csv::Error| Error::io(file.display(), error.to_string(), true).caused_by(error);
+        let mut reader = csv::Reader::from_path(&file).map_err(wrong)?;
+        let header = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
+        let rows = reader.records().collect::<std::result::Result<_, _>>().map_err(wrong)?;
+        Ok(Cells { file, header, rows })
+    }
+}
+
+impl Numbers {
+    /// Rows of the table.
+    pub fn count(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// A wrong request: the file is not what it should be.
+    pub fn wrong(&self, reason: impl Into<String>) -> Error {
+        Error::io(self.file.display(), reason, true)
+    }
+}
+
+impl Cells {
+    /// The cell of that row in the column of that name; empty where there is none.
+    pub fn text(&self, row: usize, name: &str) -> &str {
+        let column = self.header.iter().position(|column| column == name);
+        column.and_then(|column| self.rows.get(row)?.get(column)).unwrap_or_default()
+    }
+
+    /// The column of that name as numbers.
+    pub fn column(&self, name: &str) -> Result<Vec<f64>> {
+        let Some(index) = self.header.iter().position(|column| column == name) else {
+            let reason = format!("has no column {name}; it has {}", self.header.join(", "));
+            return Err(Error::io(self.file.display(), reason, true));
+        };
+        let cells = self.rows.iter().enumerate();
+        cells.map(|(row, record)| self.number(row, index, record.get(index).unwrap_or_default())).collect()
+    }
+
+    /// The number in a cell.
+    fn number(&self, row: usize, column: usize, cell: &str) -> Result<f64> {
+        if cell.is_empty() {
+            return Ok(f64::NAN);
+        }
+        cell.parse().map_err(|_| {
+            let line = self.rows.get(row).and_then(StringRecord::position).map_or(0, csv::Position::line);
+            let name = self.header.get(column).map_or("", String::as_str);
+            let reason = format!("line {line}, column {name}: {cell:?}; expected a number");
+            Error::io(self.file.display(), reason, true)
+        })
+    }
+
+    /// The columns for the page, those of `wanted` or all: numbers where every cell is one or is
+    /// empty, else words, each distinct one once.
+    pub fn for_page(&self, wanted: Option<&[&str]>) -> Value {
+        let shown = |name: &str| wanted.is_none_or(|wanted| wanted.contains(&name));
+        let mut columns = Vec::new();
+        for (index, name) in self.header.iter().enumerate().filter(|(_, name)| shown(name)) {
+            let cells = || self.rows.iter().map(|row| row.get(index).unwrap_or_default());
+            let numbers: Option<Vec<f64>> =
+                cells().map(|cell| if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() }).collect();
+            let values = match numbers {
+                Some(numbers) if numbers.iter().any(|x| !x.is_nan()) => column::f64(&numbers),
+                _ => column::words(cells()),
+            };
+            columns.push(json!({ "name": name, "values": values }));
+        }
+        json!({ "rows": self.rows.len(), "columns": columns })
+    }
+}

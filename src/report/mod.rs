@@ -1,0 +1,73 @@
+//! The report: one HTML file that shows what a folder of results holds, opens without network, and
+//! may be forwarded alone.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | `folder` | the files of a folder, read and checked |
+//! | `column` | numbers as base64, long series by their extremes |
+//! | `motion` | `trajectory.csv`, `contacts.csv` and `shape.csv` of one run |
+//! | `scene` | what is drawn: the structure, its walls and loads |
+//! | `cards` | how far a run is to be trusted, in sentences |
+//! | `run`, `compare`, `chart`, `stability`, `sweep` | the contents of each kind of page |
+//! | `html` | the file itself: escapes, and what it may load (nothing) |
+//! | `page/` | the page's HTML, CSS and JavaScript |
+//!
+//! A report is made from the files of the folder alone, so that `signorini report FOLDER` gives the
+//! bytes that the command which filled the folder gave.
+
+mod cards;
+mod chart;
+mod column;
+mod compare;
+mod folder;
+mod html;
+mod motion;
+mod run;
+mod scene;
+mod stability;
+mod sweep;
+
+use crate::error::{Error, Result};
+use folder::Folder;
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// The name of the report within a folder of results.
+pub const FILE: &str = "report.html";
+
+/// The report on the results in `path`, of which `manifest` says what was asked: an HTML page.
+///
+/// # Errors
+/// [`Error::Io`], a wrong request, where the folder holds the results of a command that has no
+/// report, or where one of its files is missing or is not what that command writes.
+pub fn page(path: &Path, manifest: &Value) -> Result<String> {
+    let folder = Folder { path, manifest };
+    let command = manifest["request"]["command"].as_str().unwrap_or_default();
+    let contents = match command {
+        "run" => run::contents(&folder)?,
+        "compare" => compare::contents(&folder)?,
+        "chart" => chart::contents(&folder)?,
+        "stability" => stability::contents(&folder)?,
+        "sweep" => sweep::contents(&folder)?,
+        other => {
+            let reason = format!(
+                "holds results of {other:?}, which has no report\n\
+                 help: there is one of run, compare, chart, stability and sweep"
+            );
+            return Err(Error::io(path.display(), reason, true));
+        }
+    };
+    let word = |key: &str| manifest[key].as_str();
+    let name = manifest["request"]["case"].as_str().unwrap_or(command);
+    let title = contents["title"].as_str().or(word("title")).unwrap_or(name).to_owned();
+    let mut data = Map::new();
+    data.insert("kind".to_owned(), json!(command));
+    data.insert("program".to_owned(), json!(word("program").unwrap_or("signorini")));
+    data.insert("name".to_owned(), json!(name));
+    data.insert("title".to_owned(), json!(title));
+    data.insert("command".to_owned(), json!(word("command_line")));
+    if let Value::Object(contents) = contents {
+        data.extend(contents);
+    }
+    html::file(&title, &Value::Object(data))
+}

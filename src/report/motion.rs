@@ -1,0 +1,158 @@
+//! One run as the page draws it: displacement and velocity of the watched places, finite forces,
+//! contacts, and the shape of the structure over time.
+
+use super::column::{extremes, f32, f64, i16, u32, words};
+use super::folder::{Cells, Folder, Numbers};
+use super::scene::place;
+use crate::error::{Error, Result};
+use crate::output::shape;
+use serde_json::{Value, json};
+
+/// Most rows of a run that the page holds; of a longer one the rows with extremes.
+const MOST_ROWS: usize = 1 << 17;
+/// Most watched places that the page holds.
+const MOST_PROBES: usize = 24;
+/// Most numbers of a shape.
+const MOST_SHAPE: usize = 800_000;
+
+/// The motion in the folder `prefix` (empty for the folder itself) of a run with this `summary`.
+pub(super) fn motion(folder: &Folder<'_>, prefix: &str, summary: &Value) -> Result<Value> {
+    let named = |name: &str| if prefix.is_empty() { name.to_owned() } else { format!("{prefix}/{name}") };
+    let table = folder.numbers(&named("trajectory.csv"))?;
+    let walls = summary["scene"]["walls"].as_array().map_or(0, Vec::len);
+    let columns = table.header.len();
+    let first = table.header.get(1).is_none_or(|name| name.starts_with("displacement") || walls > 0);
+    if columns < 1 + 2 * walls || (columns - 1 - 2 * walls) % 2 != 0 || !first || table.count() == 0 {
+        let reason = format!(
+            "has {} rows of {columns} columns; expected time_s, a displacement and a velocity for each probe, and a \
+             force and an impulse for each of the {walls} walls of summary.json",
+            table.count()
+        );
+        return Err(table.wrong(reason));
+    }
+    let probes = (columns - 1 - 2 * walls) / 2;
+    let contacts = folder.cells(&named("contacts.csv"))?;
+    let mut left_out = Vec::new();
+    if probes > MOST_PROBES {
+        left_out.push(format!("of {probes} watched places the first {MOST_PROBES} are shown; trajectory.csv has all"));
+    }
+    let shown: Vec<&[f64]> =
+        table.columns.iter().skip(1).take(2 * probes.min(MOST_PROBES)).map(Vec::as_slice).collect();
+    let rows = extremes(&shown, table.count(), MOST_ROWS);
+    if let Some(rows) = &rows {
+        left_out.push(format!(
+            "of {} rows the {} are drawn in which a curve is least or largest in its stretch; trajectory.csv has all",
+            table.count(),
+            rows.len()
+        ));
+    }
+    let picked = |column: &[f64]| match &rows {
+        Some(rows) => f32(rows.iter().map(|&row| column.get(row).copied().unwrap_or(f64::NAN))),
+        None => f32(column.iter().copied()),
+    };
+    let names = probe_names(&table, summary, probes);
+    let probes: Vec<Value> = shown
+        .chunks_exact(2)
+        .zip(names)
+        .map(|(pair, (name, at))| json!({ "name": name, "at": at, "q": picked(pair[0]), "v": picked(pair[1]) }))
+        .collect();
+    let time = table.columns.first().map_or(&[][..], Vec::as_slice);
+    let end = time.last().copied().unwrap_or(0.0);
+    let mut out = json!({
+        "rows": table.count(),
+        "end": end,
+        "kept": rows.as_deref().map(u32),
+        "probes": probes,
+        "forces": forces(&table, time, summary, &contacts)?,
+        "contacts": episodes(&contacts)?,
+        "left_out": left_out,
+    });
+    if folder.has(&named(shape::FILE)) {
+        out["shape"] = drawn_shape(&folder.numbers(&named(shape::FILE))?)?;
+    }
+    Ok(out)
+}
+
+/// Names of the probes, and where each is: from the case in the summary, else from the header.
+fn probe_names(table: &Numbers, summary: &Value, count: usize) -> Vec<(String, Value)> {
+    let listed = summary["case_file"]["probe"].as_array().filter(|list| list.len() == count);
+    let of_header = |index: usize| {
+        let name = table.header.get(1 + 2 * index).map_or("", String::as_str);
+        let name = name.strip_prefix("displacement").unwrap_or(name);
+        name.strip_suffix("_m").unwrap_or(name).trim_start_matches('_').to_owned()
+    };
+    (0..count)
+        .map(|index| match listed.and_then(|list| list.get(index)) {
+            Some(probe) => (probe["name"].as_str().unwrap_or_default().to_owned(), place(probe)),
+            None => (of_header(index), Value::Null),
+        })
+        .collect()
+}
+
+/// The contact episodes.
+fn episodes(cells: &Cells) -> Result<Value> {
+    let column = |name: &str| Ok::<_, Error>(f64(&cells.column(name)?));
+    Ok(json!({
+        "count": cells.rows.len(),
+        "wall": words((0..cells.rows.len()).map(|row| cells.text(row, "wall"))),
+        "start": column("start_s")?,
+        "end": column("end_s")?,
+        "impulse": column("impulse_N_s")?,
+        "peak": column("peak_force_N")?,
+        "approach": column("approach_speed_m_per_s")?,
+        "departure": column("departure_speed_m_per_s")?,
+    }))
+}
+
+/// The force of each wall over the rows within contacts of a finite force, and 0 beside them. The
+/// force of an impact is none: it is an impulse, which the contacts have.
+fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> Result<Vec<Value>> {
+    let walls = summary["scene"]["walls"].as_array().map_or(&[][..], Vec::as_slice);
+    let (start, end) = (contacts.column("start_s")?, contacts.column("end_s")?);
+    let peak = contacts.column("peak_force_N")?;
+    let from = table.columns.len() - 2 * walls.len();
+    let mut out = Vec::new();
+    for (index, wall) in walls.iter().enumerate() {
+        let name = wall["name"].as_str().unwrap_or_default();
+        let force = table.columns.get(from + 2 * index).map_or(&[][..], Vec::as_slice);
+        let mut shown = vec![0.0; force.len()];
+        let here = (0..peak.len()).filter(|&k| peak[k].is_finite() && contacts.text(k, "wall") == name);
+        let mut any = false;
+        for k in here {
+            any = true;
+            let first = time.partition_point(|&t| t < start[k]);
+            let last = if end[k].is_nan() { time.len() } else { time.partition_point(|&t| t <= end[k]) };
+            if let (Some(to), Some(of)) = (shown.get_mut(first..last), force.get(first..last)) {
+                to.copy_from_slice(of);
+            }
+        }
+        if !any {
+            continue;
+        }
+        // The rows that are not 0, and the neighbours where the force begins and ends.
+        let not_0 = |i: usize| shown.get(i).is_some_and(|f| *f != 0.0);
+        let edge = |i: usize| i == 0 || i + 1 == shown.len() || not_0(i) || not_0(i + 1) || not_0(i.wrapping_sub(1));
+        let mut kept: Vec<usize> = (0..shown.len()).filter(|&i| edge(i)).collect();
+        if kept.len() > MOST_ROWS {
+            kept = extremes(&[&shown], shown.len(), MOST_ROWS).unwrap_or(kept);
+        }
+        let at = |column: &[f64]| kept.iter().filter_map(|&i| column.get(i).copied()).collect::<Vec<_>>();
+        out.push(json!({ "wall": index, "time": f64(&at(time)), "force": f32(at(&shown).into_iter()) }));
+    }
+    Ok(out)
+}
+
+/// The shape: where its stations are, and their displacement over time.
+fn drawn_shape(table: &Numbers) -> Result<Value> {
+    let (Some(time), Some(stations)) = (table.columns.first(), shape::stations(&table.header)) else {
+        return Err(table.wrong("its columns are not time_s and the displacement at each station"));
+    };
+    let every = (table.count() * stations.len()).div_ceil(MOST_SHAPE).max(1);
+    let picked = |column: &[f64]| column.iter().copied().step_by(every).collect::<Vec<_>>();
+    // Row by row, so that the shape at an instant lies together.
+    let columns: Vec<Vec<f64>> = table.columns.iter().skip(1).map(|column| picked(column)).collect();
+    let time = picked(time);
+    let values: Vec<f64> =
+        (0..time.len()).flat_map(|row| columns.iter().filter_map(move |c| c.get(row).copied())).collect();
+    Ok(json!({ "stations": stations, "time": f64(&time), "every": every, "u": i16(&values) }))
+}

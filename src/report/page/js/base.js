@@ -1,0 +1,131 @@
+// The data, elements of the page, numbers as text. Every file of this folder runs in one scope, in
+// the order that html.rs lists.
+
+const DATA = JSON.parse(document.getElementById("data").textContent);
+const page = document.getElementById("page");
+const root = document.documentElement;
+const TURN = 2 * Math.PI;
+
+/** Errors of the page, counted for tests: on the root element as data-errors. */
+root.dataset.errors = "0";
+const countError = () => {
+  root.dataset.errors = String(+root.dataset.errors + 1);
+};
+addEventListener("error", countError);
+addEventListener("unhandledrejection", countError);
+document.addEventListener("securitypolicyviolation", countError);
+
+/**
+ * An element with attributes and children. Strings become text, never markup. `on…` attributes are
+ * listeners, `style` is an object of CSS properties (a style attribute is refused by the policy).
+ */
+function el(tag, attributes = {}, ...children) {
+  const node = document.createElement(tag);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (key.startsWith("on")) node.addEventListener(key.slice(2), value);
+    else if (key === "style") Object.assign(node.style, value);
+    else if (value === true) node.setAttribute(key, "");
+    else if (value !== null && value !== undefined && value !== false)
+      node.setAttribute(key, value);
+  }
+  node.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  return node;
+}
+
+/** A column of the data as an array: typed, or of words. */
+function decode(column) {
+  if (column === null || column === undefined || Array.isArray(column)) return column;
+  if (column.words) return Array.from(decode(column.at), (index) => column.words[index]);
+  const kinds = { f64: Float64Array, f32: Float32Array, u32: Uint32Array, i16: Int16Array };
+  const kind = Object.keys(kinds).find((key) => column[key] !== undefined);
+  const text = atob(column[kind]);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+  return new kinds[kind](bytes.buffer);
+}
+
+/** A table of the data: its columns by name. */
+function tableOf(table) {
+  const columns = Object.fromEntries(table.columns.map((c) => [c.name, decode(c.values)]));
+  return { count: table.rows, names: table.columns.map((c) => c.name), columns };
+}
+
+const clamp = (x, least, most) => Math.min(Math.max(x, least), most);
+
+/** The index of the last entry of the sorted list that is not beyond x; −1 where all are. */
+function before(list, x) {
+  let [from, to] = [0, list.length];
+  while (from < to) {
+    const middle = (from + to) >> 1;
+    if (list[middle] <= x) from = middle + 1;
+    else to = middle;
+  }
+  return from - 1;
+}
+
+/** Least and largest finite value of a list, or undefined. */
+function extent(values) {
+  let [least, most] = [Infinity, -Infinity];
+  for (const x of values) {
+    if (x < least && x !== -Infinity) least = x;
+    if (x > most && x !== Infinity) most = x;
+  }
+  return least <= most ? [least, most] : undefined;
+}
+
+/** A range with some room at both ends. */
+const padded = ([lo, hi], share) => [lo - share * (hi - lo), hi + share * (hi - lo)];
+
+const minus = (text) => text.replace(/-/g, "−");
+
+/** A number to n digits, with powers of ten written out. */
+function digits(x, n = 4) {
+  if (x === null || x === undefined || !Number.isFinite(x)) return "–";
+  if (x === 0) return "0";
+  if (Math.abs(x) < 1e5 && Math.abs(x) >= 1e-3) return minus(String(+x.toPrecision(n)));
+  const [mantissa, exponent] = x.toExponential(n - 1).split("e");
+  const raised = [...String(+exponent)].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] || "⁻").join("");
+  return minus(mantissa.replace(/\.?0+$/, "")) + "·10" + raised;
+}
+
+/** A number with a prefixed unit: 0.0031 s becomes 3.1 ms. */
+function prefixed(x, unit, n = 3) {
+  if (!Number.isFinite(x)) return "–";
+  if (x === 0) return `0 ${unit}`;
+  const power = clamp(Math.floor(Math.log10(Math.abs(x)) / 3 + 1e-9) * 3, -15, 9);
+  const prefix = ["f", "p", "n", "µ", "m", "", "k", "M", "G"][power / 3 + 5];
+  return `${minus(String(+(x / 10 ** power).toPrecision(n)))} ${prefix}${unit}`;
+}
+
+/** A whole number with its thousands apart. */
+const counted = (n) => n.toLocaleString("en").replace(/,/g, " ");
+
+/**
+ * The unit in which lengths of about this size (m) are shown, and how many of it are a metre: the
+ * motions of structures are millimetres, of a falling ball metres.
+ */
+function lengthUnit(size) {
+  const units = [
+    ["m", 1],
+    ["mm", 1e3],
+    ["µm", 1e6],
+    ["nm", 1e9],
+  ];
+  return units.find(([, factor]) => size * factor >= 0.05) || units[3];
+}
+
+/** Offers a text as a file. */
+function save(name, text, type) {
+  const link = el("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
+}
+
+/** Rows of cells as CSV. */
+function csvText(rows) {
+  const cell = (value) => {
+    const text = value === null || value === undefined || Number.isNaN(value) ? "" : String(value);
+    return /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+  };
+  return rows.map((row) => row.map(cell).join(",")).join("\n") + "\n";
+}

@@ -1,0 +1,270 @@
+// Sweeps: curves over one axis, maps over two, bifurcation diagrams.
+
+function sweepSection() {
+  const { axes, samples, scheme } = DATA.sweep;
+  const table = tableOf(DATA.sweep.table);
+  const { columns } = table;
+  const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
+  const axisColumns = axes.map((axis) => axis.column).filter(numeric);
+  const measures = table.names.filter(
+    (name) =>
+      !["row", "status", "error", "direction"].includes(name) &&
+      !axes.some((axis) => axis.column === name) &&
+      numeric(name),
+  );
+  const command = el("pre", { hidden: true });
+  const tell = (i) =>
+    [
+      ...axes.map(
+        (axis) =>
+          `${columnLabel(axis.column)}: ${Array.isArray(columns[axis.column]) ? columns[axis.column][i] : digits(columns[axis.column][i], 6)}`,
+      ),
+      ...measures.slice(0, 14).map((name) => `${columnLabel(name)}: ${digits(columns[name][i])}`),
+      columns.status && columns.status[i] !== "ok"
+        ? `${columns.status[i]}: ${columns.error[i] || ""}`
+        : null,
+    ]
+      .filter((line) => line)
+      .join("\n");
+  /** The command that runs this row alone. */
+  const pick = (i) => {
+    const set = axes.flatMap((axis) =>
+      axis.keys.map(({ key, factor }) => {
+        const value = columns[axis.column][i];
+        return `--set '${key}=${typeof value === "number" ? value * factor : value}'`;
+      }),
+    );
+    command.textContent = `signorini run ${DATA.name} ${set.join(" ")}${scheme ? ` --scheme '${scheme}'` : ""}`;
+    command.hidden = false;
+  };
+  const content = [];
+  if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns, pick));
+  if (measures.length && axisColumns.length) {
+    content.push(
+      axisColumns.length > 1
+        ? measureMap(columns, axisColumns, measures, tell, pick)
+        : measureCurves(columns, axisColumns[0], measures, tell, pick),
+    );
+  }
+  const rows = Array.from({ length: table.count }, (_, i) => i);
+  const saved = () =>
+    save(
+      "sweep.csv",
+      csvText([table.names, ...rows.map((i) => table.names.map((name) => columns[name][i]))]),
+      "text/csv",
+    );
+  section(
+    "sweep",
+    "Sweep",
+    "Point at a row for its numbers; click it for the command that runs it alone.",
+    ...content,
+    command,
+  );
+  section(
+    "rows",
+    "Rows",
+    null,
+    sortable(
+      columnsOf(
+        table,
+        table.names.map((name) => [name, columnLabel(name)]),
+      ),
+      rows,
+      { height: 400, pick },
+    ),
+    el("div", { class: "bar controls" }, button("The table above", saved, "Save sweep.csv")),
+  );
+}
+
+/** Instants of every row over the axis: a bifurcation diagram. */
+function samplesPlot(table, samples, axisColumns, pick) {
+  const names = samples.names.filter(
+    (name) => name !== "row" && !Array.isArray(samples.columns[name]),
+  );
+  const wanted = names.find((name) => name.startsWith("displacement")) || names[names.length - 1];
+  const axis = table.columns[axisColumns[0]];
+  const rowAt = new Map(Array.from(table.columns.row, (row, i) => [row, i]));
+  const at = Array.from(samples.columns.row, (row) => rowAt.get(row));
+  const directions = table.columns.direction;
+  const choice = { name: wanted };
+  const dot = (ctx, plot) => {
+    const y = samples.columns[choice.name];
+    const size = at.length > 2e4 ? 1 : 1.6;
+    for (let i = 0; i < at.length; i++) {
+      if (at[i] === undefined || !Number.isFinite(y[i])) continue;
+      ctx.fillStyle = directions && directions[at[i]] === "down" ? ink.c2 : ink.c1;
+      ctx.fillRect(plot.sx(axis[at[i]]) - size / 2, plot.sy(y[i]) - size / 2, size, size);
+    }
+  };
+  const plot = new Plot({
+    x: columnLabel(axisColumns[0]),
+    y: " ",
+    height: 460,
+    alt: "Instants of every row",
+    view: new View(...extent(axis)),
+    series: [{ kind: "own", look: lookOf(0), draw: dot }],
+  });
+  const fill = () => {
+    plot.y = columnLabel(choice.name);
+    const span = extent(samples.columns[choice.name]) || [0, 1];
+    plot.range = () => padded(span, 0.05);
+    plot.dirty = true;
+    refresh();
+  };
+  fill();
+  plot.click = (x) => {
+    let nearest = 0;
+    for (let i = 0; i < axis.length; i++)
+      if (Math.abs(axis[i] - x) < Math.abs(axis[nearest] - x)) nearest = i;
+    pick(nearest);
+  };
+  const keys =
+    directions && directions.includes("down")
+      ? el(
+          "span",
+          {},
+          swatch("up", () => ink.c1),
+          swatch("down", () => ink.c2),
+        )
+      : null;
+  return el(
+    "div",
+    {},
+    el(
+      "div",
+      { class: "bar controls" },
+      selection(
+        "Quantity",
+        names.map((name) => [name, columnLabel(name)]),
+        choice.name,
+        (name) => {
+          choice.name = name;
+          fill();
+        },
+      ),
+      keys,
+      el("span", { class: "right help" }, "drag to zoom · double click for all"),
+    ),
+    plot.box,
+  );
+}
+
+/** A measure over two axes. */
+function measureMap(columns, [first, second], measures, tell, pick) {
+  const choice = { name: measures[0] };
+  let range = [0, 1];
+  const fill = () => {
+    const span = extent(columns[choice.name]) || [0, 1];
+    range = span[0] > 0 && span[0] < 0.5 * span[1] ? [0, span[1]] : span;
+    plot.dirty = true;
+    refresh();
+  };
+  const toneOf = (i) => {
+    const value = columns[choice.name][i];
+    return Number.isFinite(value)
+      ? rampTone((value - range[0]) / (range[1] - range[0] || 1))
+      : [128, 128, 128];
+  };
+  const beside = (ctx, p) => {
+    const left = p.x1 + 22;
+    const height = p.y1 - p.y0;
+    for (let k = 0; k < 120; k++) {
+      ctx.fillStyle = `rgb(${rampTone((k + 0.5) / 120)})`;
+      ctx.fillRect(left, p.y1 - ((k + 1) * height) / 120, 14, height / 120 + 0.6);
+    }
+    ctx.strokeStyle = ink.faint;
+    ctx.strokeRect(left, p.y0, 14, height);
+    ctx.fillStyle = ink.soft;
+    ctx.textAlign = "left";
+    for (const [value, text] of linearTicks(
+      range[0],
+      range[1] > range[0] ? range[1] : range[0] + 1,
+      height / 50,
+    )) {
+      ctx.fillText(
+        text,
+        left + 20,
+        p.y1 - (height * (value - range[0])) / (range[1] - range[0] || 1),
+      );
+    }
+  };
+  const plot = cellMap({
+    x: columnLabel(first),
+    y: columnLabel(second),
+    xs: columns[first],
+    ys: columns[second],
+    toneOf,
+    tell,
+    pick,
+    beside,
+    right: 96,
+    height: 470,
+    alt: "Map of the sweep",
+  });
+  fill();
+  return el(
+    "div",
+    {},
+    el(
+      "div",
+      { class: "bar controls" },
+      selection(
+        "Measure",
+        measures.map((name) => [name, columnLabel(name)]),
+        choice.name,
+        (name) => {
+          choice.name = name;
+          fill();
+        },
+      ),
+      swatch("no number", () => "rgb(128 128 128)"),
+    ),
+    plot.box,
+  );
+}
+
+/** Measures over one axis, those of one unit in one plot. */
+function measureCurves(columns, axis, measures, tell, pick) {
+  const unitOf = (name) => (/\((.*)\)$/.exec(columnLabel(name)) || ["", ""])[1];
+  const units = [...new Set(measures.map(unitOf))];
+  const rows = Array.from(columns[axis], (_, i) => i);
+  return el(
+    "div",
+    {},
+    units
+      .map((unit) => {
+        const items = measures
+          .filter((name) => unitOf(name) === unit)
+          .map((name, n) => ({ label: columnLabel(name), look: lookOf(n), shown: n < 6, name }));
+        // Up and down are one curve, drawn in the order of the rows.
+        const series = items.map((item) => ({
+          kind: rows.length > 120 ? "line" : "marked",
+          look: item.look,
+          x: columns[axis],
+          y: columns[item.name],
+          hidden: () => !item.shown,
+        }));
+        const y = items.length > 1 ? unit || "Number" : items[0].label;
+        const plot = new Plot({
+          x: columnLabel(axis),
+          y,
+          height: 300,
+          alt: `${y} over ${columnLabel(axis)}`,
+          series,
+        });
+        const points = () =>
+          series
+            .filter((s) => !s.hidden())
+            .flatMap((s) => rows.map((i) => ({ x: s.x[i], y: s.y[i], i })));
+        tellNearest(plot, points, ({ i }) => tell(i));
+        plot.click = () => plot.found && pick(plot.found.i);
+        const redraw = () => {
+          plot.dirty = true;
+          refresh();
+        };
+        return [items.length > 1 ? chips(items, redraw) : null, plot.box];
+      })
+      .flat()
+      .filter((node) => node),
+  );
+}

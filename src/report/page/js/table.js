@@ -1,0 +1,109 @@
+// Tables that sort by any column. Only the rows in view exist, so that 100 000 are no matter.
+
+const ROW = 28;
+/** Rows of a table on paper. */
+const PRINTED = 40;
+/** Tables that are filled anew for paper. */
+const tables = [];
+
+/**
+ * Columns: { name, title, text (true for words), value(row), show(row) }. Options: height, by (index
+ * of the column sorted by), up, pick(row) on a click, sorted(index), current() for the row marked.
+ */
+function sortable(columns, rows, options = {}) {
+  const height = options.height || 400;
+  let order = rows.map((_, i) => i);
+  let { by = null, up = true } = options;
+  const head = el("tr");
+  const body = el("tbody");
+  const box = el(
+    "div",
+    { class: "scroll", tabindex: 0, style: { maxHeight: `${height}px` } },
+    el("table", {}, el("thead", {}, head), body),
+  );
+
+  const compare = (a, b) => {
+    if (typeof a === "string" || typeof b === "string")
+      return String(a).localeCompare(String(b), "en", { numeric: true });
+    return (Number.isNaN(a) || a === null) - (Number.isNaN(b) || b === null) || a - b;
+  };
+  const sort = () => {
+    if (by === null) return;
+    const keys = rows.map((row) => columns[by].value(row));
+    order.sort((i, j) => (up ? 1 : -1) * compare(keys[i], keys[j]));
+  };
+  const line = (i) => {
+    const cells = columns.map((column) => {
+      const text = column.show(rows[i]);
+      return el("td", { class: text === "–" ? "none" : null }, text);
+    });
+    const tr = el("tr", {}, cells);
+    tr.style.height = `${ROW}px`;
+    if (options.pick) tr.addEventListener("click", () => options.pick(rows[i]));
+    return tr;
+  };
+  const space = (count) => el("tr", { class: "space", style: { height: `${count * ROW}px` } });
+  const fill = () => {
+    const from = printing ? 0 : clamp(Math.floor(box.scrollTop / ROW) - 8, 0, rows.length);
+    const to = printing
+      ? Math.min(rows.length, PRINTED)
+      : Math.min(rows.length, from + Math.ceil(height / ROW) + 18);
+    const after = printing ? 0 : rows.length - to;
+    body.replaceChildren(space(from), ...order.slice(from, to).map(line), space(after));
+  };
+  const choose = (i) => {
+    up = by === i ? !up : columns[i].text === true || columns[i].up === true;
+    by = i;
+    mark();
+    sort();
+    fill();
+    if (options.sorted) options.sorted(i);
+  };
+  const mark = () =>
+    [...head.children].forEach((th, i) => {
+      if (i === by) th.setAttribute("aria-sort", up ? "ascending" : "descending");
+      else th.removeAttribute("aria-sort");
+    });
+  columns.forEach((column, i) =>
+    head.append(
+      el(
+        "th",
+        {
+          scope: "col",
+          tabindex: 0,
+          title: column.title || "Sort",
+          onclick: () => choose(i),
+          onkeydown: (event) => {
+            if (event.key === "Enter" || event.key === " ") {
+              event.preventDefault();
+              choose(i);
+            }
+          },
+        },
+        column.name,
+      ),
+    ),
+  );
+  box.addEventListener("scroll", fill);
+  tables.push(fill);
+  mark();
+  sort();
+  fill();
+  return box;
+}
+
+/** Columns of a table of the data, all of them or those named: [name, text of the header]. */
+function columnsOf(table, named) {
+  return named
+    .filter(([name]) => table.columns[name])
+    .map(([name, title]) => {
+      const values = table.columns[name];
+      const words = Array.isArray(values);
+      return {
+        name: title,
+        text: words,
+        value: (i) => values[i],
+        show: (i) => (words ? values[i] || "–" : digits(values[i], 4)),
+      };
+    });
+}

@@ -1,0 +1,81 @@
+//! The page of one run.
+
+use super::cards::{cards, short};
+use super::folder::Folder;
+use super::motion::motion;
+use super::scene::{period, scene};
+use crate::error::Result;
+use serde_json::{Value, json};
+
+/// What the page of a run shows.
+pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
+    let summary = folder.json("summary.json")?;
+    let mut run = motion(folder, "", &summary)?;
+    let label = summary["scheme"].as_str().unwrap_or_default();
+    run["label"] = json!(label);
+    let mut page = of_scene(&summary);
+    page["facts"] = facts(&summary);
+    page["notes"] = notes(&summary, &run);
+    page["runs"] = json!([run]);
+    Ok(page)
+}
+
+/// What a page says of the scene of a run with this summary, and of how far the run is to be
+/// trusted.
+pub(super) fn of_scene(summary: &Value) -> Value {
+    let duration = summary["scene"]["duration_s"].as_f64().unwrap_or(0.0);
+    let horizon = summary["refinement"]["horizon_s"].as_f64().filter(|t| *t < duration * (1.0 - 1e-9));
+    let names = [&summary["case"], &summary["source"]];
+    let subtitle: Vec<&str> = names.iter().filter_map(|name| name.as_str()).collect();
+    json!({
+        "title": summary["title"],
+        "subtitle": subtitle.join(" · "),
+        "scene": scene(summary),
+        "duration": duration,
+        "period": period(summary),
+        "horizon": horizon,
+        "cards": cards(summary),
+        "case": case_text(&summary["case_file"]),
+        "summary": summary,
+    })
+}
+
+/// The case as a case file; as JSON where it cannot be written as one.
+pub(super) fn case_text(case_file: &Value) -> Option<String> {
+    let shown = || serde_json::to_string_pretty(case_file).unwrap_or_default();
+    case_file.is_object().then(|| toml::to_string(case_file).unwrap_or_else(|_| shown()))
+}
+
+/// What a reader must know: the notes of the run, and what the page leaves out.
+fn notes(summary: &Value, run: &Value) -> Value {
+    let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
+    let mut notes = list(&summary["notes"]);
+    notes.extend(summary["wear"].as_str().map(|text| json!(text)));
+    notes.extend(list(&run["left_out"]));
+    json!(notes)
+}
+
+/// The numbers that are asked for first.
+fn facts(summary: &Value) -> Value {
+    let walls = summary["statistics"]["walls"].as_array().map_or(&[][..], Vec::as_slice);
+    let number = |value: &Value| value.as_f64();
+    let fact = |label: &str, value: String, unit: &str| json!({ "label": label, "value": value, "unit": unit });
+    let mut facts = Vec::new();
+    if !walls.is_empty() {
+        let contacts: u64 = walls.iter().filter_map(|wall| wall["contacts"].as_u64()).sum();
+        facts.push(fact("contacts", contacts.to_string(), ""));
+        let impulse = walls.iter().filter_map(|wall| number(&wall["force"]["impulse_n_s"])).map(f64::abs);
+        facts.push(fact("Σ|impulse|", short(impulse.sum()), "N s"));
+        let peak = walls.iter().filter_map(|wall| number(&wall["episode_peak_force_n"]["max"])).reduce(f64::max);
+        facts.extend(peak.map(|peak| fact("largest force", short(peak), "N")));
+        let power: f64 = walls.iter().filter_map(|wall| number(&wall["impact_power_w"])).sum();
+        facts.push(fact("impact power", short(1e3 * power), "mW"));
+    }
+    facts.push(fact("method", summary["scheme"].as_str().unwrap_or_default().to_owned(), ""));
+    let length =
+        |h: f64| if h < 1e-3 { format!("of {} µs", short(1e6 * h)) } else { format!("of {} ms", short(1e3 * h)) };
+    let step = number(&summary["step_s"]).map_or("from event to event".to_owned(), length);
+    facts.push(fact("steps", summary["steps"].to_string(), &step));
+    facts.extend(number(&summary["wall_clock_s"]).map(|s| fact("took", short(1e3 * s), "ms")));
+    json!(facts)
+}

@@ -1,0 +1,64 @@
+//! What is drawn of a scene: the structure, its walls and loads with where they are, from the
+//! summary of a run.
+
+use serde_json::{Map, Value, json};
+
+/// The drawing's data. A structure in two planes has no drawing of its own yet: its watched places
+/// are drawn side by side, each in its direction.
+pub(super) fn scene(summary: &Value) -> Value {
+    let case = &summary["case_file"];
+    let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
+    let kinds = ["oscillator", "chain", "bar", "beam", "matrices", "modal"];
+    let system = kinds.into_iter().find(|kind| case["system"].get(kind).is_some()).unwrap_or("matrices");
+    let two = summary["scene"]["planes"] == 2;
+    let walls: Vec<Value> = list(&summary["scene"]["walls"])
+        .iter()
+        .map(|wall| {
+            json!({
+                "name": wall["name"],
+                "side": wall["side"],
+                "position": wall["position_m"],
+                "restitution": wall["law"]["restitution"],
+                "at": in_keys(&wall["at"]),
+            })
+        })
+        .collect();
+    let loads = list(&case["load"]).into_iter().filter(Value::is_object).map(|mut load| {
+        load["at"] = place(&load);
+        load
+    });
+    let mut out = Map::new();
+    out.insert("kind".to_owned(), json!(if two { "planes" } else { system }));
+    out.insert("walls".to_owned(), json!(walls));
+    out.insert("loads".to_owned(), loads.collect());
+    for key in ["mass", "damping", "stiffness", "length", "left", "right", "masses"] {
+        let value = if two { &Value::Null } else { &case["system"][system][key] };
+        out.insert(key.to_owned(), value.clone());
+    }
+    Value::Object(out)
+}
+
+/// Where a load or probe of a case file is, its direction with it.
+pub(super) fn place(entry: &Value) -> Value {
+    let mut at = entry["at"].clone();
+    if let (Some(map), Some(direction)) = (at.as_object_mut(), entry.get("direction")) {
+        map.insert("direction".to_owned(), direction.clone());
+    }
+    at
+}
+
+/// The place of a wall of the scene in the keys of a case file, so that it can be compared with the
+/// place of a probe.
+fn in_keys(at: &Value) -> Value {
+    let Some(at) = at.as_object() else { return Value::Null };
+    let key = |key: &str| key.trim_end_matches("_deg").trim_end_matches("_m").to_owned();
+    Value::Object(at.iter().map(|(name, value)| (key(name), value.clone())).collect())
+}
+
+/// The period of the load, s, where one harmonic load drives the scene.
+pub(super) fn period(summary: &Value) -> Option<f64> {
+    let loads = summary["case_file"]["load"].as_array()?;
+    let mut frequencies = loads.iter().filter_map(|load| load["harmonic"]["frequency"].as_f64()).filter(|f| *f > 0.0);
+    let first = frequencies.next()?;
+    frequencies.all(|f| f == first).then_some(1.0 / first)
+}

@@ -1,0 +1,38 @@
+//! The page of a stability study: where each scheme fails.
+
+use super::folder::Folder;
+use super::run::case_text;
+use crate::error::Result;
+use serde_json::{Value, json};
+
+/// The columns of the maps that the page draws or tells.
+const SHOWN: [&str; 12] = [
+    "scheme",
+    "parameter",
+    "value",
+    "case_value",
+    "step_s",
+    "class",
+    "reason",
+    "energy_growth_per_impact",
+    "largest_speed_over_reference",
+    "contacts",
+    "reference_contacts_least",
+    "reference_contacts_most",
+];
+
+/// What the page of a stability study shows.
+pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
+    let maps = folder.cells("stability.csv")?;
+    maps.column("step_s")?;
+    Ok(json!({
+        "subtitle": "where each scheme fails",
+        "stability": {
+            "maps": maps.for_page(Some(&SHOWN)),
+            "impacts": folder.cells("impact-map.csv")?.for_page(None),
+            "lasting": folder.cells("lasting-contact.csv")?.for_page(None),
+        },
+        "case": case_text(&folder.manifest["case_file"]),
+        "notes": folder.manifest["remarks"],
+    }))
+}

@@ -1,0 +1,262 @@
+//! The report: what it holds, that no text of a case becomes markup, and that it is written whole or
+//! not at all.
+#![cfg(feature = "cli")]
+
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// Runs the tool in `folder` and expects the exit code; gives stderr.
+fn said(folder: &Path, args: &[&str], code: i32) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
+    assert!(!err.contains("panicked"), "{args:?}: {err}");
+    err
+}
+
+/// The text between two marks, each of which must be there once.
+fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
+    assert_eq!(text.matches(from).count(), 1, "{from}");
+    text.split_once(from).unwrap().1.split_once(to).unwrap().0
+}
+
+fn data(page: &str) -> Value {
+    serde_json::from_str(between(page, r#"<script type="application/json" id="data">"#, "</script>")).unwrap()
+}
+
+/// The bytes of a base64 text, decoded apart from the encoder under test.
+fn bytes(text: &str) -> Vec<u8> {
+    let digit = |c: u8| match c {
+        b'A'..=b'Z' => c - b'A',
+        b'a'..=b'z' => c - b'a' + 26,
+        b'0'..=b'9' => c - b'0' + 52,
+        b'+' => 62,
+        b'/' => 63,
+        other => panic!("{other} is no digit"),
+    };
+    let mut out = Vec::new();
+    for four in text.as_bytes().chunks(4) {
+        let digits: Vec<u32> = four.iter().filter(|c| **c != b'=').map(|c| u32::from(digit(*c))).collect();
+        let bits = digits.iter().enumerate().fold(0, |bits, (i, d)| bits | d << (18 - 6 * i));
+        out.extend(bits.to_be_bytes().get(1..digits.len()).unwrap());
+    }
+    out
+}
+
+fn singles(column: &Value) -> Vec<f32> {
+    let bytes = bytes(column["f32"].as_str().unwrap());
+    bytes.chunks_exact(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect()
+}
+
+fn doubles(column: &Value) -> Vec<f64> {
+    let bytes = bytes(column["f64"].as_str().unwrap());
+    bytes.chunks_exact(8).map(|eight| f64::from_le_bytes(eight.try_into().unwrap())).collect()
+}
+
+/// The column of a CSV file, by its index; empty cells are NaN.
+fn column(path: &Path, index: usize) -> Vec<f64> {
+    let text = fs::read_to_string(path).unwrap();
+    text.lines().skip(1).map(|line| line.split(',').nth(index).unwrap().parse().unwrap_or(f64::NAN)).collect()
+}
+
+const CASE: &str = "rigid-walls-sine";
+
+#[test]
+fn the_page_of_a_run_holds_its_rows_and_contacts() {
+    let dir = tempfile::tempdir().unwrap();
+    said(dir.path(), &["run", CASE, "--end", "1", "--no-verdict", "--out", "o"], 0);
+    let folder = dir.path().join("o");
+    let page = fs::read_to_string(folder.join("report.html")).unwrap();
+    let data = data(&page);
+    let run = &data["runs"][0];
+    let displacement = column(&folder.join("trajectory.csv"), 1);
+    let rounded: Vec<f32> = displacement.iter().map(|x| *x as f32).collect();
+    assert_eq!(singles(&run["probes"][0]["q"]), rounded);
+    assert_eq!(run["rows"], displacement.len());
+    let starts = doubles(&run["contacts"]["start"]);
+    assert_eq!(starts, column(&folder.join("contacts.csv"), 1));
+    assert!(starts.len() > 5);
+    assert_eq!(data["command"], "signorini run rigid-walls-sine --end 1 --no-verdict --out o");
+    assert_eq!(data["title"], "Two rigid walls, 5 Hz sine");
+    assert!(data["case"].as_str().unwrap().contains("stiffness = 100.0"));
+    assert_eq!(data["summary"]["scheme"], "moreau-jean");
+    let cards = data["cards"].as_array().unwrap();
+    let states: Vec<_> =
+        cards.iter().map(|card| (card["title"].as_str().unwrap(), card["state"].as_str().unwrap())).collect();
+    let expected = [("Refinement", "open"), ("Contact conditions", "good"), ("Energy", "good"), ("Momentum", "good")];
+    assert_eq!(states, expected);
+    // Listed, so that a later request takes it away.
+    let manifest = fs::read_to_string(folder.join("request.json")).unwrap();
+    assert!(manifest.contains("\"report.html\""));
+}
+
+/// The page names the SHA-256 of its script and its style, and nothing in it may be fetched.
+#[test]
+fn a_page_allows_its_own_script_and_no_connection() {
+    let dir = tempfile::tempdir().unwrap();
+    said(dir.path(), &["run", CASE, "--end", "0.2", "--no-verdict", "--out", "o"], 0);
+    let page = fs::read_to_string(dir.path().join("o/report.html")).unwrap();
+    let policy = between(&page, r#"http-equiv="Content-Security-Policy" content=""#, "\"");
+    assert!(policy.starts_with("default-src 'none';"), "{policy}");
+    for word in ["unsafe", "http", "*", "connect"] {
+        assert!(!policy.contains(word), "{policy}");
+    }
+    // What a browser makes of the hashes is tested in one.
+    assert_eq!(policy.matches("'sha256-").count(), 2);
+    for mark in ["%DATA%", "%SCRIPT", "%STYLE", "%TITLE%", "%PROGRAM%"] {
+        assert!(!page.contains(mark), "{mark}");
+    }
+    let code = page.replace("http://www.w3.org/2000/svg", "");
+    let data = between(&page, r#"<script type="application/json" id="data">"#, "</script>");
+    assert!(!code.replace(data, "").contains("://"), "the page must not refer to other places");
+}
+
+#[test]
+fn text_of_a_case_never_becomes_markup() {
+    let dir = tempfile::tempdir().unwrap();
+    let evil = "</script><script>alert(1)</script><img src=x onerror=alert(2)><!-- \u{2028} ' &amp; \u{202e}";
+    let case = format!(
+        "title = \"{evil}\"\nsource = \"<b>%SCRIPT%</b>\"\n[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 100.0\n\
+         [[wall]]\nname = \"upper\"\nside = \"upper\"\nposition = 1e-3\n[[load]]\n\
+         harmonic = {{ amplitude = 3.0, frequency = 5.0 }}\n[time]\nend = 0.5\nstep = 1e-4\n"
+    );
+    fs::write(dir.path().join("evil.toml"), case).unwrap();
+    for command in ["run", "compare"] {
+        said(dir.path(), &[command, "evil.toml", "--no-verdict", "--out", command], 0);
+        let page = fs::read_to_string(dir.path().join(command).join("report.html")).unwrap();
+        assert_eq!(page.matches("</script").count(), 2, "{command}");
+        assert_eq!(page.matches("<script").count(), 2, "{command}");
+        assert_eq!(page.matches("<img").count() + page.matches("<!--").count() + page.matches("<b>").count(), 0);
+        assert!(between(&page, "<title>", "</title>").starts_with("&lt;/script&gt;&lt;script&gt;"));
+        assert_eq!(data(&page)["title"], evil, "{command}");
+    }
+}
+
+#[test]
+fn a_report_of_existing_results_is_that_of_the_command() {
+    let dir = tempfile::tempdir().unwrap();
+    let requests: [&[&str]; 5] = [
+        &["run", "chain-20", "--end", "0.3"],
+        &["compare", CASE, "--end", "0.5"],
+        &["chart", CASE, "--end", "0.4", "--schemes", "event,moreau-jean", "--steps", "1e-3:1e-4", "--levels", "2"],
+        &["sweep", CASE, "--vary", "load.1.harmonic.frequency=4:5:3", "--measure", "contacts"],
+        &["run", "tube-loose-supports", "--end", "0.02", "--no-verdict"],
+    ];
+    for (index, request) in requests.iter().enumerate() {
+        let out = format!("o{index}");
+        said(dir.path(), &[request, &["--out", &out][..]].concat(), 0);
+        let written = fs::read(dir.path().join(&out).join("report.html")).unwrap();
+        fs::remove_file(dir.path().join(&out).join("report.html")).unwrap();
+        let told = said(dir.path(), &["report", &out], 0);
+        assert!(told.contains("report.html"), "{told}");
+        assert!(fs::read(dir.path().join(&out).join("report.html")).unwrap() == written, "{request:?}");
+        said(dir.path(), &["report", &out, "--out", "elsewhere.html"], 0);
+        assert!(fs::read(dir.path().join("elsewhere.html")).unwrap() == written, "{request:?}");
+    }
+}
+
+/// The tube is drawn from its shape, and the shape does not enter what others read.
+#[test]
+fn a_structure_has_its_shape_beside_its_rows() {
+    let dir = tempfile::tempdir().unwrap();
+    let ask = |out: &str, more: &[&str]| {
+        let args = ["run", "tube-loose-supports", "--end", "0.05", "--no-verdict", "--out", out];
+        said(dir.path(), &[&args, more].concat(), 0);
+        fs::read_to_string(dir.path().join(out).join("trajectory.csv")).unwrap()
+    };
+    assert_eq!(ask("with", &[]), ask("without", &["--no-report"]));
+    assert!(!dir.path().join("without/report.html").exists() && !dir.path().join("without/shape.csv").exists());
+    let page = fs::read_to_string(dir.path().join("with/report.html")).unwrap();
+    let run = &data(&page)["runs"][0];
+    let stations: Vec<f64> = run["shape"]["stations"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
+    // The supports, where the tube is watched too, and its pinned ends.
+    let station = |x: f64| stations.iter().position(|other| (other - x).abs() < 1e-9).unwrap();
+    let shape = dir.path().join("with/shape.csv");
+    assert!(column(&shape, 1 + station(0.0)).iter().all(|u| *u == 0.0));
+    let watched = column(&dir.path().join("with/trajectory.csv"), 1);
+    let drawn = column(&shape, 1 + station(1.0));
+    assert_eq!(watched.len(), drawn.len());
+    // The file has six digits.
+    assert!(watched.iter().zip(&drawn).all(|(a, b)| (a - b).abs() <= 1e-5 * a.abs()));
+}
+
+#[test]
+fn a_long_run_is_drawn_from_its_extremes_and_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    said(dir.path(), &["run", CASE, "--step", "5e-5", "--sample", "5e-5", "--no-verdict", "--out", "o"], 0);
+    let page = fs::read_to_string(dir.path().join("o/report.html")).unwrap();
+    let run = &data(&page)["runs"][0];
+    let all = column(&dir.path().join("o/trajectory.csv"), 1);
+    assert_eq!(all.len(), 200_001);
+    let kept: Vec<usize> = bytes(run["kept"]["u32"].as_str().unwrap())
+        .chunks_exact(4)
+        .map(|four| u32::from_le_bytes(four.try_into().unwrap()) as usize)
+        .collect();
+    let drawn = singles(&run["probes"][0]["q"]);
+    assert!(kept.len() == drawn.len() && kept.len() <= 100_002 && kept.windows(2).all(|pair| pair[0] < pair[1]));
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::NEG_INFINITY, f64::max);
+    let rounded = largest(&mut all.iter().map(|x| f64::from(*x as f32)));
+    assert_eq!(largest(&mut drawn.iter().map(|x| f64::from(*x))), rounded);
+    assert!(run["left_out"][0].as_str().unwrap().contains("of 200001 rows"));
+    assert!(data(&page)["notes"].to_string().contains("of 200001 rows"));
+    assert!(page.len() < 2_500_000, "{} bytes", page.len());
+}
+
+#[test]
+fn what_cannot_be_shown_is_one_clear_error() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::create_dir(dir.path().join("empty")).unwrap();
+    for (folder, word) in [("empty", "request.json"), ("absent", "request.json")] {
+        assert!(said(dir.path(), &["report", folder], 2).contains(word));
+    }
+    said(dir.path(), &["run", CASE, "--end", "0.2", "--no-verdict", "--out", "o"], 0);
+    let folder = dir.path().join("o");
+    let before = fs::read(folder.join("report.html")).unwrap();
+    let broken = |name: &str, text: &str, words: &[&str]| {
+        let whole = fs::read(folder.join(name)).unwrap();
+        fs::write(folder.join(name), text).unwrap();
+        let told = said(dir.path(), &["report", "o"], 2);
+        for word in words {
+            assert!(told.contains(word), "{name}: {word}: {told}");
+        }
+        fs::write(folder.join(name), whole).unwrap();
+        // The earlier report stays as it was.
+        assert!(fs::read(folder.join("report.html")).unwrap() == before);
+    };
+    broken("trajectory.csv", "time_s,displacement_m\n0.0,nonsense\n", &["line 2", "displacement_m", "\"nonsense\""]);
+    broken("trajectory.csv", "time_s,displacement_m\n0.0,1.0\n", &["2 columns", "each of the 2 walls"]);
+    broken("trajectory.csv", "", &["trajectory.csv"]);
+    broken("contacts.csv", "wall,start_s\nupper,0.1\n", &["contacts.csv", "has no column"]);
+    broken("summary.json", "{", &["summary.json", "no JSON"]);
+    broken("request.json", r#"{"request":{"command":"figures"},"files":[]}"#, &["\"figures\"", "no report"]);
+    // A folder in place of a file.
+    assert!(said(dir.path(), &["report", "o", "--out", "empty"], 2).contains("empty"));
+    fs::remove_file(folder.join("contacts.csv")).unwrap();
+    assert!(said(dir.path(), &["report", "o"], 2).contains("contacts.csv"));
+}
+
+/// A name in compare.csv must not lead out of the folder.
+#[test]
+fn a_comparison_reads_within_its_folder_only() {
+    let dir = tempfile::tempdir().unwrap();
+    said(dir.path(), &["compare", CASE, "--end", "0.2", "--no-verdict", "--out", "c"], 0);
+    let table = dir.path().join("c/compare.csv");
+    let text = fs::read_to_string(&table).unwrap();
+    fs::write(&table, text.replacen("moreau-jean,", "../c/event,", 1)).unwrap();
+    assert!(said(dir.path(), &["report", "c"], 2).contains("no method"));
+}
+
+/// The curves of the page, in the light theme, are those of the SVG figures.
+#[test]
+fn curves_have_the_colours_of_the_figures() {
+    use signorini::output::figure::{Curve, Figure, Panel};
+    let css = include_str!("../src/report/page/page.css");
+    for n in 0..8 {
+        let colour = css.split_once(&format!("--c{n}: ")).unwrap().1.split_once(';').unwrap().0;
+        let panel = Panel::new("y").curve(Curve::new("a curve", [(0.0, 0.0), (1.0, 1.0)]).look(n));
+        let svg = Figure::new("a figure", "x").panel(panel).to_svg();
+        assert!(colour.starts_with('#') && svg.contains(&format!("\"{colour}\"")), "{n}: {colour}");
+    }
+}

@@ -1,0 +1,196 @@
+//! The report in a real browser: opens without errors or requests, and does what its controls say.
+//!
+//! Driven over Chromium's own protocol through two pipes: no driver, no npm, no port. Where no
+//! Chromium is installed the test says so and passes; `SIGNORINI_BROWSER` names another one.
+#![cfg(all(feature = "cli", unix))]
+
+mod browser;
+
+use browser::{Browser, Tab};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A tube between four bars.
+const TWO_PLANES: &str = r#"
+[system]
+planes = 2
+modes = 4
+[system.beam]
+length = 3.0
+youngs_modulus = 200e9
+density = 7850.0
+outer_diameter = 19e-3
+inner_diameter = 15.7e-3
+elements = 20
+left = "pinned"
+right = "pinned"
+[system.damping]
+ratio = 0.01
+[[support]]
+name = "bars"
+at = { position = 1.0 }
+shape = "flats"
+sides = 4
+gap = 0.2e-3
+restitution = 0.5
+[[load]]
+at = { position = 0.5 }
+direction = 30
+harmonic = { amplitude = 10.0, frequency = 25.0 }
+[[probe]]
+name = "across"
+at = { position = 1.0 }
+direction = 0
+[[probe]]
+name = "up"
+at = { position = 1.0 }
+direction = 90
+[time]
+end = 0.5
+step = 5e-5
+sample = 1e-3
+"#;
+
+fn results(folder: &Path, args: &[&str]) -> PathBuf {
+    let out = folder.join(args.join("-").replace(['/', ' '], "_"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
+    let run = command.args(args).arg("--out").arg(&out).current_dir(folder).output().unwrap();
+    assert!(run.status.success(), "{args:?}: {}", String::from_utf8_lossy(&run.stderr));
+    out.join("report.html")
+}
+
+/// Opens the page and expects that it drew itself without an error or a request to anywhere.
+fn opened<'a>(browser: &'a mut Browser, page: &Path) -> Tab<'a> {
+    let mut tab = browser.open(page);
+    tab.until("document.documentElement?.dataset.ready !== undefined");
+    assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), "0", "{}", page.display());
+    let drawn = tab.evaluate("Number(document.documentElement.dataset.drawings)").as_f64().unwrap();
+    assert!(drawn > 0.0);
+    assert_eq!(tab.complaints(), Vec::<String>::new(), "{}", page.display());
+    tab
+}
+
+#[test]
+fn pages_open_and_their_controls_work_in_a_browser() {
+    let Some(mut browser) = Browser::start() else {
+        eprintln!("skipped: no chromium is installed (apt-get install chromium, or SIGNORINI_BROWSER=PATH)");
+        return;
+    };
+    let dir = tempfile::tempdir().unwrap();
+    let run = results(dir.path(), &["run", "rigid-walls-sine", "--end", "3", "--no-verdict"]);
+    let mut tab = opened(&mut browser, &run);
+
+    // A click in a plot sets the instant, and the clock says it.
+    tab.evaluate("document.querySelector('#motion .plot canvas + canvas').scrollIntoView({ block: 'center' })");
+    let [x, y, w, h] = tab.place("#motion .plot canvas + canvas");
+    tab.click(x + 0.5 * w, y + 0.5 * h);
+    let clock = tab.evaluate("document.querySelector('.clock').textContent");
+    let middle: f64 = clock.as_str().unwrap()[4..].split(' ').next().unwrap().parse().unwrap();
+    // The plot spans 3 s between its margins of 66 and 14 pixels.
+    assert!((middle - 3.0 * (0.5 * w - 66.0) / (w - 80.0)).abs() < 0.02, "{middle}");
+
+    // A drag zooms every panel: the picture changes; a double click shows all again.
+    let picture = "document.querySelector('#motion .plot canvas').toDataURL()";
+    let whole = tab.evaluate(picture);
+    tab.drag((x + 0.3 * w, y + 0.5 * h), (x + 0.5 * w, y + 0.5 * h));
+    tab.frame();
+    let zoomed = tab.evaluate(picture);
+    assert_ne!(zoomed, whole);
+    tab.press_button("Whole run");
+    tab.frame();
+    assert_eq!(tab.evaluate(picture), whole);
+
+    // Sorting: the largest impulse first, and its histogram drawn.
+    tab.evaluate(
+        "[...document.querySelectorAll('#contacts th')].find((th) => th.textContent.startsWith('impulse')).click()",
+    );
+    let sorted = "[...document.querySelectorAll('#contacts tbody tr:not(.space)')].slice(0, 5).map((tr) => \
+                  Math.abs(Number(tr.children[2].textContent.replace('−', '-')))).every((x, i, all) => !i || all[i - 1] >= x)";
+    assert_eq!(tab.evaluate(sorted), true);
+    // A row leads to its contact.
+    tab.evaluate("document.querySelector('#contacts tbody tr:not(.space)').click()");
+    let shown = "Math.abs(Number(document.querySelector('.clock').textContent.slice(4).split(' ')[0]) - \
+                 Number(document.querySelector('#contacts tbody tr:not(.space)').children[1].textContent)) < 1e-4";
+    tab.until(shown);
+
+    // The keyboard: from contact to contact, and play.
+    let before = tab.evaluate("document.querySelector('.clock').textContent");
+    tab.key("ArrowRight");
+    tab.frame();
+    assert_ne!(tab.evaluate("document.querySelector('.clock').textContent"), before);
+    tab.key(" ");
+    let playing = tab.evaluate("document.querySelector('.clock').textContent");
+    tab.until(&format!("document.querySelector('.clock').textContent !== {playing}"));
+    tab.key(" ");
+
+    // The Poincaré section, light and dark.
+    tab.press_button("Poincaré section");
+    let ground = "getComputedStyle(document.documentElement).backgroundColor";
+    let light = tab.evaluate(ground);
+    tab.press_button("◐");
+    assert_ne!(tab.evaluate(ground), light);
+    tab.press_button("◐");
+
+    // On paper every drawing is a picture.
+    let pdf = tab.pdf();
+    assert!(pdf > 30_000, "{pdf} bytes: the drawings are missing");
+    assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), "0");
+    assert_eq!(tab.complaints(), Vec::<String>::new());
+    tab.close();
+
+    // Other kinds of pages, and a phone's width: nothing stands out to the right.
+    fs::write(dir.path().join("bars.toml"), TWO_PLANES).unwrap();
+    let pages = [
+        results(dir.path(), &["run", "tube-loose-supports", "--end", "0.2", "--no-verdict"]),
+        results(dir.path(), &["run", "chain-20", "--end", "0.5", "--no-verdict"]),
+        results(dir.path(), &["compare", "rigid-walls-sine", "--end", "1", "--no-verdict"]),
+        results(
+            dir.path(),
+            &["sweep", "rigid-walls-sine", "--vary", "load.1.harmonic.frequency=4:5:5", "--measure", "contacts"],
+        ),
+        results(dir.path(), &["run", "bars.toml", "--no-verdict"]),
+    ];
+    for page in pages.iter().chain([&run]) {
+        let mut tab = opened(&mut browser, page);
+        tab.width(390);
+        tab.frame();
+        let wider = tab.evaluate("document.documentElement.scrollWidth - innerWidth").as_f64().unwrap();
+        assert!(wider <= 0.0, "{}: {wider} pixels wider than a phone", page.display());
+        tab.close();
+    }
+
+    // Methods are switched on and off.
+    let mut tab = opened(&mut browser, &pages[2]);
+    let picture = "document.querySelector('#motion .plot canvas').toDataURL()";
+    let all = tab.evaluate(picture);
+    tab.evaluate("document.querySelector('#motion .chip[aria-pressed=true]:nth-child(2), #motion .chip[aria-pressed=true]').click()");
+    tab.frame();
+    assert_ne!(tab.evaluate(picture), all);
+    tab.close();
+
+    injected(&mut browser, dir.path(), &run);
+}
+
+/// A title of markup is text, and a script put into the file afterwards is not run.
+fn injected(browser: &mut Browser, dir: &Path, page: &Path) {
+    let html = fs::read_to_string(page).unwrap();
+    let evil = r#""title":"\u003c/script\u003e\u003cimg src=x onerror=document.evil=1\u003e""#;
+    let titled = html.replacen(r#""title":"Two rigid walls, 5 Hz sine""#, evil, 1);
+    assert_ne!(titled, html);
+    let path = dir.join("titled.html");
+    fs::write(&path, titled).unwrap();
+    let mut tab = opened(browser, &path);
+    assert_eq!(tab.evaluate("document.querySelector('h1').textContent.startsWith('</script><img')"), true);
+    assert_eq!(tab.evaluate("document.querySelectorAll('h1 *, img:not(.print)').length"), 0);
+    assert_eq!(tab.evaluate("document.evil === undefined"), true);
+    tab.close();
+
+    let path = dir.join("pasted.html");
+    let pasted = "<body><script>document.evil = 1</script><img src=x onerror='document.evil = 2'>";
+    fs::write(&path, html.replacen("<body>", pasted, 1)).unwrap();
+    let mut tab = browser.open(&path);
+    tab.until("document.documentElement?.dataset.ready !== undefined");
+    assert_eq!(tab.evaluate("document.evil === undefined"), true);
+    tab.close();
+}
