@@ -175,7 +175,17 @@ fn a_broken_symmetry_leads_to_stable_orbits_without_it() {
     let start = settled(source(5.0, 0.8));
     let graph = follow(&family, &start, 5.0, [4.3, 5.5], (Switch::Stable, 1));
     let breaking = graph.specials.iter().find(|special| special.label == Label::SymmetryBreaking).unwrap();
-    let broken = &graph.branches[breaking.leads_to[0]];
+    let broken = graph.branches[breaking.leads_to[0]].clone();
+    // Where an impact vanishes, its wall is not touched anew besides.
+    let graph = follow(&family, &start, 5.0, [1.5, 5.5], (Switch::Stable, 2));
+    let three = graph.branches.iter().position(|branch| branch.points[0].orbit.speeds.len() == 3).unwrap();
+    // The symmetric orbit touches a wall anew at the same node.
+    let node = only_of(&graph, 0, Label::GrazingIn).point.value;
+    near(only_of(&graph, three, Label::GrazingOut).point.value, node, 1e-11);
+    for special in graph.specials.iter().filter(|special| special.label == Label::GrazingIn) {
+        let top = special.point.orbit.speeds.iter().fold(0.0, |top: f64, v| top.max(*v));
+        assert!(special.point.orbit.speeds.iter().all(|v| *v > 1e-6 * top), "{:?}", special.point.orbit);
+    }
     let point = &broken.points[broken.points.len().min(6) - 1];
     assert!(!point.orbit.signature.symmetric && point.orbit.speeds.len() == 2);
     assert!((point.orbit.speeds[0] - point.orbit.speeds[1]).abs() > 1e-4 * point.orbit.speeds[0]);

@@ -57,7 +57,7 @@ impl Problem {
                 return self.still();
             }
             if let Some(found) = repeated(passages, self) {
-                return self.from_run(found);
+                return self.recovered(found);
             }
             if look == most {
                 break;
@@ -78,7 +78,7 @@ impl Problem {
         Ok(Orbit { signature, phases: Vec::new(), speeds: Vec::new(), forcing_period: self.forcing_period() })
     }
 
-    fn from_run(&self, (periods, passages): (u32, Vec<Passage>)) -> Result<Orbit> {
+    fn recovered(&self, (periods, passages): (u32, Vec<Passage>)) -> Result<Orbit> {
         let mut passages = gathered(passages, self);
         let first = passages.iter().position(|passage| passage.event.kind == Kind::Release).unwrap_or(0);
         passages.rotate_left(first);
@@ -113,7 +113,7 @@ impl Problem {
         self.mirror()?;
         let signature = &orbit.signature;
         let count = signature.events.len();
-        if count % 2 != 0 || signature.periods % 2 == 0 || signature.symmetric {
+        if !count.is_multiple_of(2) || signature.periods.is_multiple_of(2) || signature.symmetric {
             return None;
         }
         let half = Orbit {

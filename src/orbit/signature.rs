@@ -160,7 +160,7 @@ impl Signature {
         if !(1..=MOST_PERIODS).contains(&self.periods) {
             return wrong(format!("of {} forcing periods", self.periods), format!("1 to {MOST_PERIODS} of them"));
         }
-        if self.symmetric && self.periods % 2 == 0 {
+        if self.symmetric && self.periods.is_multiple_of(2) {
             return wrong(
                 format!("symmetric over {} forcing periods", self.periods),
                 "an odd number of forcing periods: half an orbit is half a period and whole ones".to_owned(),

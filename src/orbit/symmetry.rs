@@ -13,7 +13,7 @@ pub(super) fn mirror(scene: &Scene, period: f64) -> Option<Vec<usize>> {
     for load in &scene.loads {
         match load.kind {
             LoadKind::Constant { force } => constant += force,
-            LoadKind::Harmonic { amplitude, frequency, phase } if frequency == 0.0 => {
+            LoadKind::Harmonic { amplitude, frequency: 0.0, phase } => {
                 constant += amplitude * phase.sin();
             }
             LoadKind::Harmonic { frequency, amplitude, .. } => {

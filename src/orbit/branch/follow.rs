@@ -208,6 +208,11 @@ fn forget_echoes(crossed: &mut Vec<(f64, Label, usize, Vector)>, point: &Point, 
     let ends: Vec<f64> =
         crossed.iter().filter(|(_, label, event, _)| elastic(*label, *event)).map(|(s, ..)| *s).collect();
     crossed.retain(|(s, label, ..)| label.ends() || !ends.iter().any(|end| (end - s).abs() <= near));
+    // Beyond an impact without speed the motion turns back behind its wall: that is no wall touched
+    // anew.
+    let gone: Vec<f64> =
+        crossed.iter().filter(|(_, label, ..)| *label == Label::GrazingOut).map(|(s, ..)| *s).collect();
+    crossed.retain(|(s, label, ..)| *label != Label::GrazingIn || !gone.iter().any(|end| (end - s).abs() <= near));
     // A contact that vanishes is left as it was entered: the first of both tests stands for it.
     let enters =
         crossed.iter().any(|(_, label, event, _)| *label == Label::GrazingOut && kind(*event) == Some(Kind::Enter));

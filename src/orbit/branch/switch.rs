@@ -41,7 +41,9 @@ impl Problem {
         if count == 0 || signature.symmetric {
             return None;
         }
-        for turns in (2..=signature.periods).filter(|k| signature.periods % k == 0 && count % *k as usize == 0) {
+        for turns in
+            (2..=signature.periods).filter(|&k| signature.periods.is_multiple_of(k) && count.is_multiple_of(k as usize))
+        {
             let part = count / turns as usize;
             let once = Orbit {
                 signature: Signature {
