@@ -350,7 +350,10 @@ fn counters_tell_how_often_each_solver_worked() {
     assert!((10..=500).contains(&counters.interior_point_iterations), "{counters:?}");
     let pivots = |seed| {
         let scene = random_structures::random_scene(&mut random_structures::Draws::new(seed)).with_duration(0.5);
-        run(&scene, &MOREAU_JEAN, &Options::with_step(2e-3)).expect("a run").counters.pivots
+        let counters = run(&scene, &MOREAU_JEAN, &Options::with_step(2e-3)).expect("a run").counters;
+        // Steps without a bound are not counted.
+        assert!(counters.steps == 250 && counters.qp_solves <= 250, "seed {seed}: {counters:?}");
+        counters.pivots
     };
     let total: u64 = (0..20).map(pivots).sum();
     assert!((1..=20 * 250 * 8).contains(&total), "{total} pivots in 20 runs of 250 steps");

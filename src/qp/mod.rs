@@ -129,11 +129,10 @@ impl Rhs<'_> {
     fn check(&self, scale: f64, bounded: impl IntoIterator<Item = usize>) -> Result<(), Failure> {
         for row in bounded {
             let (lo, hi) = (self.lo[row], self.hi[row]);
-            // False for a NaN too.
-            if !(lo < f64::INFINITY) {
+            if lo.is_nan() || lo == f64::INFINITY {
                 return Err(Failure::NotFinite { what: "lower bound", index: row });
             }
-            if !(hi > f64::NEG_INFINITY) {
+            if hi.is_nan() || hi == f64::NEG_INFINITY {
                 return Err(Failure::NotFinite { what: "upper bound", index: row });
             }
             if lo > hi && lo - hi > ROUNDING * scale.max(lo.abs()).max(hi.abs()) {

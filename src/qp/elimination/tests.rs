@@ -118,6 +118,12 @@ fn changes_of_state_are_counted() {
     // or one row is released.
     let (x, r, changes) = solved(&apart, &mut pivoting, (&[1.0, 1.0, -4.0], &lo, &hi)).expect("settles");
     assert_eq!((x, r, changes), (vec![0.5, 0.5, -1.0], vec![0.0, 0.0, 2.0], 1));
+    // A row takes the bound that it violates, also where both lie on one side of 0.
+    let mut pivoting = None;
+    let (low, high) = ([0.9, -1.0, -1.0], [1.0, -0.9, 1.0]);
+    let (x, r, changes) = solved(&apart, &mut pivoting, (&[2.4, -2.4, 0.0], &low, &high)).expect("settles");
+    assert_eq!((x, changes), (vec![1.0, -1.0, 0.0], 2));
+    assert!((r[0] + 0.4).abs() < 1e-15 && (r[1] - 0.4).abs() < 1e-15 && r[2] == 0.0, "{r:?}");
     // Where both bounds coincide, the side on which a row pushes is no change of state.
     let mut pivoting = None;
     let (lo, hi) = ([0.0, -1.0, -1.0], [0.0, 1.0, 1.0]);
