@@ -267,7 +267,11 @@ impl Builder<'_> {
             .or_else(|| self.nearest(subject))
             .unwrap_or(0..0);
         let title = format!("{} is {value}", written(subject));
-        self.source.error(span, &title, &format!("expected {expected}")).caused_by(error.clone())
+        let or = match wall() {
+            Some(_) => "; or equilibrium = true in place of it: at rest between the walls",
+            None => "",
+        };
+        self.source.error(span, &title, &format!("expected {expected}{or}")).caused_by(error.clone())
     }
 
     fn noted(&self, subject: &Subject) -> Option<Range<usize>> {

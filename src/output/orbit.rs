@@ -31,12 +31,17 @@ struct Flat {
 }
 
 /// The figure of all places that have a probe NAME-y and a probe NAME-z, those with the most walls
-/// first; `None` where there is none.
-pub(super) fn orbits(title: &str, scene: &Scene, runs: &[Labelled<'_>], span: Span) -> Option<String> {
+/// first; `None` where there is none. `title` makes the title with what is left out.
+pub(super) fn orbits(
+    title: &dyn Fn(Vec<String>) -> String,
+    scene: &Scene,
+    runs: &[Labelled<'_>],
+    span: Span,
+) -> Option<String> {
     let mut places = places(scene);
     places.sort_by_key(|place| std::cmp::Reverse(place.flats.len()));
+    let count = places.len();
     places.truncate(MOST);
-    let several = places.len() > 1;
     // Frames one below the other have one horizontal axis: the same ranges for all.
     let mut half = 0.0_f64;
     let views: Vec<(Place, [f64; 2])> = places
@@ -47,25 +52,18 @@ pub(super) fn orbits(title: &str, scene: &Scene, runs: &[Labelled<'_>], span: Sp
             Some((place, centre))
         })
         .collect();
-    let (first, _) = views.first()?;
+    views.first()?;
     let whole = (1.0 + ROOM) * half;
     // The horizontal range holds every place.
     let across = views.iter().map(|(_, centre)| centre[0]);
     let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
     let (middle, whole) = (0.5 * (low + high), whole + 0.5 * (high - low));
-    let heading = if several { String::new() } else { format!(" ({})", first.name) };
-    let title = match runs {
-        [only] => format!("{title}: {}{heading}", only.label),
-        _ => format!("{title}{heading}"),
-    };
-    let mut figure = Figure::new(title, "Displacement along y (mm)").square();
+    let left_out = (views.len() < count).then(|| format!("{} of {count} places", views.len()));
+    let mut figure = Figure::new(title(left_out.into_iter().collect()), "Displacement along y (mm)").square();
     figure = figure.range(MM * (middle - whole), MM * (middle + whole));
     for (place, centre) in views {
-        let mut panel =
-            Panel::new("Displacement along z (mm)").range(MM * (centre[1] - whole), MM * (centre[1] + whole));
-        if several {
-            panel = panel.heading(&place.name);
-        }
+        let mut panel = Panel::new("Displacement along z (mm)").heading(&place.name);
+        panel = panel.range(MM * (centre[1] - whole), MM * (centre[1] + whole));
         for labelled in runs {
             let points = points(&place, &labelled.run.trajectory, span).map(|[y, z]| (MM * y, MM * z));
             let curve = Curve::new(labelled.label, points).look(labelled.look);

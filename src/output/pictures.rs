@@ -51,7 +51,8 @@ impl Sheet<'_> {
             figures.push(("velocity", self.velocity(&probes, &window)));
             figures.push(("phase", self.phase(&probes, &window)));
         }
-        if let Some(orbits) = orbits(self.title, self.scene, self.runs, window.detail()) {
+        let title = |remarks: Vec<String>| self.title(remarks.into_iter().chain(window.words()));
+        if let Some(orbits) = orbits(&title, self.scene, self.runs, window.detail()) {
             figures.push(("orbit", orbits));
         }
         if !self.scene.walls.is_empty() {
