@@ -1,9 +1,11 @@
 //! Case files.
 
 use crate::error::{raise, wrong};
+use crate::origin::Origin;
 use crate::place::Model;
-use crate::run::{Plan, Run};
-use crate::scene::{Origin, Scene};
+use crate::plan::Plan;
+use crate::run::Run;
+use crate::scene::Scene;
 use crate::work::compute;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};

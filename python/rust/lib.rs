@@ -7,15 +7,20 @@ mod array;
 mod builders;
 mod case;
 mod error;
+mod json;
 mod load;
 mod orbit;
+mod origin;
 mod pickle;
 mod place;
+mod plan;
 mod run;
 mod scene;
+mod start;
 mod stepper;
 mod study;
 mod sweep;
+mod values;
 mod wall;
 mod work;
 
@@ -37,13 +42,15 @@ mod _core {
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]
-    use super::scene::{Rayleigh, Scene};
+    use super::scene::Scene;
     #[pymodule_export]
     use super::stepper::Stepper;
     #[pymodule_export]
     use super::study::{_bifurcation, _chart, _compare, _stability};
     #[pymodule_export]
     use super::sweep::{_columns, _run_many};
+    #[pymodule_export]
+    use super::values::Rayleigh;
     #[pymodule_export]
     use super::wall::Wall;
 

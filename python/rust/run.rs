@@ -1,115 +1,32 @@
 //! A finished run.
 
 use crate::array::{Array, view};
-use crate::error::{AccuracyWarning, RefutedError, raise, wrong};
+use crate::error::raise;
+use crate::json::loads;
 use crate::pickle::{Reduced, pickled, unpickled};
 use crate::scene::Scene;
-use crate::work::{compute, compute_beside};
+use crate::work::compute_beside;
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyList};
+use pyo3::types::{PyBytes, PyDict};
 use signorini as sg;
-use signorini::study::accuracy::{Target, reach};
 use signorini::study::verdict::Verdict;
 
-/// How a scene is run.
-#[derive(Debug, Clone, Copy)]
-pub struct Plan {
-    pub method: sg::Method,
-    pub time: sg::TimeOptions,
-}
-
-impl Plan {
-    pub fn new(
-        scene: &sg::Scene,
-        scheme: Option<&str>,
-        step: Option<f64>,
-        sample: Option<f64>,
-        statistics_from: f64,
-    ) -> PyResult<Self> {
-        let method = match scheme {
-            Some(name) => name.parse::<sg::Method>().map_err(raise)?,
-            None => sg::study::choice::choose(scene).method,
-        };
-        let step = match (step, method.scheme) {
-            (Some(step), _) => step,
-            // It has none; half the duration passes every check of a step.
-            (None, sg::Scheme::Event) => 0.5 * scene.duration,
-            (None, _) => return Err(wrong("step", "missing", &format!("the step of {method} in s, or accuracy"))),
-        };
-        let time = sg::TimeOptions { sample, statistics_from, ..sg::TimeOptions::with_step(step) };
-        Ok(Self { method, time })
-    }
-}
+/// Version, scene, and the bytes of the rest.
+type Pickled<'py> = (&'static str, Py<Scene>, Bound<'py, PyBytes>);
 
 /// A finished run: see `Scene.run`. Its arrays are read-only views of its memory, which they keep
 /// alive. Runs can be pickled.
 #[pyclass(frozen, module = "signorini")]
 pub struct Run {
-    run: sg::Run,
-    time: sg::TimeOptions,
-    scene: Py<Scene>,
+    pub run: sg::Run,
+    pub time: sg::TimeOptions,
+    pub scene: Py<Scene>,
     /// How the accuracy asked for was reached, as JSON.
-    accuracy: Option<String>,
+    pub accuracy: Option<String>,
 }
 
 impl Run {
-    /// Runs `scene`.
-    pub fn make(scene: &Bound<'_, Scene>, plan: Plan) -> PyResult<Py<Self>> {
-        let inner = &scene.get().scene;
-        let run = compute(scene.py(), || sg::run(inner, &plan.method, &sg::Options::new(plan.time)))?;
-        Self::judged(scene, run, plan.time, None)
-    }
-
-    /// Runs it to an accuracy.
-    pub fn to_accuracy(
-        scene: &Bound<'_, Scene>,
-        scheme: Option<&str>,
-        step: Option<f64>,
-        tolerance: f64,
-        sample: Option<f64>,
-        statistics_from: f64,
-    ) -> PyResult<Py<Self>> {
-        if let Some(step) = step {
-            return Err(wrong("step", format!("{step:?}"), "none beside accuracy, which finds the step"));
-        }
-        let py = scene.py();
-        let inner = &scene.get().scene;
-        let step = 0.5 * inner.duration;
-        let time = sg::TimeOptions { sample, statistics_from, ..sg::TimeOptions::with_step(step) };
-        let method = scheme.map(|name| name.parse().map_err(raise)).transpose()?;
-        let target = Target { method, ..Target::new(tolerance, time) };
-        let outcome = compute_beside(py, || reach(inner, &target, &mut |_| {}), &mut |_| Ok(()))?;
-        let refuted = outcome.run.refuted().is_some();
-        if let Some(shortfall) = outcome.shortfall.filter(|_| !refuted) {
-            let text = std::ffi::CString::new(shortfall.to_string()).unwrap_or_default();
-            PyErr::warn(py, &py.get_type::<AccuracyWarning>(), &text, 1)?;
-        }
-        let time = sg::TimeOptions { step: outcome.run.grid.step, ..time };
-        let accuracy = serde_json::to_string(&outcome.accuracy).unwrap_or_default();
-        Self::judged(scene, outcome.run, time, Some(accuracy))
-    }
-
-    /// The run, unless the judge refutes it.
-    fn judged(
-        scene: &Bound<'_, Scene>,
-        run: sg::Run,
-        time: sg::TimeOptions,
-        accuracy: Option<String>,
-    ) -> PyResult<Py<Self>> {
-        let py = scene.py();
-        let refuted = run.refuted();
-        let made = Py::new(py, Self { run, time, scene: scene.clone().unbind(), accuracy })?;
-        match refuted {
-            None => Ok(made),
-            Some(error) => {
-                let error = RefutedError::new_err(error.to_string());
-                error.value(py).setattr("run", made)?;
-                Err(error)
-            }
-        }
-    }
-
     /// A run of a study.
     pub fn of(scene: &Bound<'_, Scene>, run: sg::Run, time: sg::TimeOptions) -> Self {
         Self { run, time, scene: scene.clone().unbind(), accuracy: None }
@@ -381,9 +298,7 @@ impl Run {
         Self::by_python(slf, "html")
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<Reduced<'py, (&'static str, Py<Scene>, Bound<'py, PyBytes>)>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, Pickled<'py>>> {
         let this = slf.get();
         let (version, bytes) = pickled(slf.py(), &(&this.run, &this.time, &this.accuracy))?;
         Ok((slf.get_type().getattr("_restore")?, (version, this.scene.clone_ref(slf.py()), bytes)))
@@ -406,21 +321,4 @@ impl Run {
             motion.contacts().len()
         )
     }
-}
-
-/// JSON as Python's objects.
-pub fn loads<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
-    py.import("json")?.call_method1("loads", (text,))
-}
-
-/// A list of what `items` give.
-pub fn list<'py, T: IntoPyObject<'py>>(
-    py: Python<'py>,
-    items: impl IntoIterator<Item = T>,
-) -> PyResult<Bound<'py, PyList>> {
-    let list = PyList::empty(py);
-    for item in items {
-        list.append(item)?;
-    }
-    Ok(list)
 }

@@ -1,10 +1,13 @@
 //! Scenes.
 
-use crate::error::{raise, wrong, wrong_type};
+use crate::error::{raise, wrong};
 use crate::load::Load;
+use crate::origin::Origin;
 use crate::pickle::{Reduced, State, pickled, unpickled};
 use crate::place::{Model, Place};
-use crate::run::{Plan, Run};
+use crate::plan::Plan;
+use crate::run::Run;
+use crate::values::{Damping, Values};
 use crate::wall::Wall;
 use crate::work::compute;
 use pyo3::prelude::*;
@@ -26,120 +29,9 @@ pub struct Scene {
     pub origin: Option<Box<Origin>>,
 }
 
-/// A scene before it is damped, condensed, or reduced to modes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Origin {
-    pub scene: sg::Scene,
-    pub damping: Option<sg::Damping>,
-    pub modes: Option<usize>,
-    pub static_correction: bool,
-}
-
-impl Origin {
-    /// The scene that is run.
-    fn built(&self) -> sg::Result<sg::Scene> {
-        let massless = |s: &sg::SharedStructure| !s.massless().is_empty();
-        let mut scene = match &self.scene.system {
-            sg::System::Structure(structure) if massless(structure) => self.scene.condensed()?.0,
-            _ => self.scene.clone(),
-        };
-        let damping = self.damping.as_ref();
-        if let Some(modes) = self.modes {
-            let reduction = scene.reduced(modes, self.static_correction)?;
-            scene = damping.map_or(Ok(reduction.clone()), |damping| reduction.with_damping(damping))?.scene;
-        } else if let (Some(damping), sg::System::Structure(structure)) = (damping, &scene.system) {
-            scene.system = (**structure).clone().with_damping(damping)?.into();
-        }
-        scene.validate()?;
-        Ok(scene)
-    }
-}
-
-/// Damping of a structure: a share of critical damping for all modes or one a mode, or Rayleigh's.
-pub struct Damping(sg::Damping);
-
-impl<'a, 'py> FromPyObject<'a, 'py> for Damping {
-    type Error = PyErr;
-
-    fn extract(damping: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(Rayleigh { mass, stiffness }) = damping.extract() {
-            return Ok(Self(sg::Damping::Rayleigh { mass, stiffness }));
-        }
-        match damping.extract() {
-            Ok(Values::One(ratio)) => Ok(Self(sg::Damping::Modal(vec![ratio]))),
-            Ok(Values::Several(ratios)) => Ok(Self(sg::Damping::Modal(ratios))),
-            Err(_) => Err(wrong_type(&damping, "a number, a sequence of numbers, or a Rayleigh")),
-        }
-    }
-}
-
-/// Rayleigh damping, C = mass · M + stiffness · K (1/s, s).
-///
-/// Examples
-/// --------
-/// >>> import signorini as sg
-/// >>> sg.Rayleigh(0.1, 1e-5)
-/// Rayleigh(0.1, 1e-5)
-#[pyclass(frozen, eq, get_all, module = "signorini", from_py_object)]
-#[derive(Debug, Clone, PartialEq)]
-pub struct Rayleigh {
-    /// Factor of M, 1/s.
-    mass: f64,
-    /// Factor of K, s.
-    stiffness: f64,
-}
-
-#[pymethods]
-impl Rayleigh {
-    #[new]
-    #[pyo3(signature = (mass, stiffness))]
-    fn new(mass: f64, stiffness: f64) -> Self {
-        Self { mass, stiffness }
-    }
-
-    fn __repr__(&self) -> String {
-        format!("Rayleigh({:?}, {:?})", self.mass, self.stiffness)
-    }
-
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Reduced<'py, (f64, f64)> {
-        (slf.get_type().into_any(), (slf.get().mass, slf.get().stiffness))
-    }
-}
-
-/// One number, or one for each degree of freedom.
-pub enum Values {
-    One(f64),
-    Several(Vec<f64>),
-}
-
-impl<'a, 'py> FromPyObject<'a, 'py> for Values {
-    type Error = PyErr;
-
-    fn extract(values: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(number) = values.extract() {
-            return Ok(Self::One(number));
-        }
-        let expected = "a number, or a sequence of numbers in one dimension";
-        values.extract().map(Self::Several).map_err(|_| wrong_type(&values, expected))
-    }
-}
-
-impl Values {
-    fn put(self, name: &str, to: &mut Vec<f64>) -> PyResult<()> {
-        match self {
-            Self::One(x) if to.len() == 1 => *to = vec![x],
-            Self::One(x) => {
-                return Err(wrong(name, format!("{x:?}"), &format!("{} values, one per degree of freedom", to.len())));
-            }
-            Self::Several(values) => *to = values,
-        }
-        Ok(())
-    }
-}
-
 impl Scene {
     pub fn new(scene: sg::Scene, model: Model) -> Self {
-        Self { scene: scene, model, origin: None }
+        Self { scene, model, origin: None }
     }
 }
 

@@ -2,7 +2,8 @@
 
 use crate::array::Array;
 use crate::error::{raise, wrong};
-use crate::scene::{Scene, Values};
+use crate::scene::Scene;
+use crate::values::Values;
 use crate::work::kept;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;

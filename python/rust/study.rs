@@ -2,7 +2,9 @@
 
 use crate::case::{Case, value};
 use crate::error::raise;
-use crate::run::{Plan, Run, list};
+use crate::json::list;
+use crate::plan::Plan;
+use crate::run::Run;
 use crate::scene::Scene;
 use crate::work::compute_beside;
 use pyo3::prelude::*;

@@ -1,6 +1,6 @@
 //! Many runs side by side: a row of numbers of each, and no motions.
 
-use crate::run::Plan;
+use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::work::{compute_beside, kept};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -105,10 +105,11 @@ pub fn _run_many<'py>(
 /// Does `work` on several threads, under the interrupt that is over this one.
 fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) -> sg::Result<()> {
     let interrupt = sg::Interrupt::current();
-    let under = || match &interrupt {
-        Some(interrupt) => interrupt.over(|| Ok(work())),
-        None => Ok(work()),
+    let done = || {
+        work();
+        Ok(())
     };
+    let under = || interrupt.as_ref().map_or_else(done, |interrupt| interrupt.over(done));
     std::thread::scope(|scope| {
         let others: Vec<_> = (1..threads).map(|_| scope.spawn(under)).collect();
         let own = under();

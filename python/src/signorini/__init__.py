@@ -16,6 +16,7 @@ True
 All values are in SI units. Forces of walls are signed: a lower wall pushes up, an upper wall down.
 """
 
+from ._bifurcation import Bifurcation, bifurcation
 from ._builders import SceneOptions, bar, beam, chain, matrices, modal, oscillator, support
 from ._core import (
     AccuracyWarning,
@@ -35,7 +36,7 @@ from ._core import (
     load,
 )
 from ._orbit import Orbit, orbit
-from ._studies import Bifurcation, Chart, Comparison, Stability, bifurcation, chart, compare, stability
+from ._studies import Chart, Comparison, Stability, chart, compare, stability
 from ._sweep import Table, grid, run_many, sweep
 
 __all__ = [

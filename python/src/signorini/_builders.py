@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._core import Load, Rayleigh, Scene, Wall
+from ._matrix import Entries, lower
 from ._types import Place, Support
 
 
@@ -218,60 +219,17 @@ def matrices(
     >>> sg.matrices(np.eye(2), np.array([[4e4, -1e4], [-1e4, 1e4]]), sg.Rayleigh(0.0, 1e-4))
     <Scene: 2 degrees of freedom, 0 walls, 0 loads, 1.0 s>
     """
-    n, m = _lower("mass", mass)
-    size, k = _lower("stiffness", stiffness)
+    n, m = lower("mass", mass)
+    size, k = lower("stiffness", stiffness)
     sizes = {"stiffness": size}
-    c: _Entries = (np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0))
+    c: Entries = (np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0))
     if hasattr(damping, "tocoo") or (damping is not None and np.ndim(damping) == 2):
-        sizes["damping"], c = _lower("damping", damping)
+        sizes["damping"], c = lower("damping", damping)
         damping = None
     for name, size in sizes.items():
         if size != n:
             raise ValueError(f"{name} matrix is {size} × {size}; expected {n} × {n}, as the mass")
     return _core._matrices(n, m, c, k).replace(damping=damping, **scene)
-
-
-_Entries = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.float64]]
-
-# Assembled matrices are symmetric to the rounding of their sums.
-_ASYMMETRY = 1e-9
-
-
-def _lower(name: str, matrix: Any) -> tuple[int, _Entries]:
-    """Size and the entries of the lower triangle of a symmetric matrix."""
-    if hasattr(matrix, "tocoo"):
-        coo = matrix.tocoo()
-        shape, rows, columns, values = coo.shape, coo.row, coo.col, coo.data
-    else:
-        full = np.asarray(matrix)
-        if full.ndim != 2:
-            raise ValueError(f"{name} matrix is of shape {full.shape}; expected (n, n)")
-        shape = full.shape
-        rows, columns = np.nonzero(full)
-        values = full[rows, columns]
-    if shape[0] != shape[1] or shape[0] == 0:
-        raise ValueError(f"{name} matrix is of shape {tuple(shape)}; expected (n, n), n from 1")
-    values = np.asarray(values)
-    if values.dtype.kind not in "fiub":
-        raise TypeError(f"{name} matrix is of dtype {values.dtype}; expected real numbers")
-    values = values.astype(np.float64)
-    n = int(shape[0])
-    # Duplicates of a sparse matrix are summed, so triangles are compared as sums over one key.
-    key = np.maximum(rows, columns).astype(np.int64) * n + np.minimum(rows, columns)
-    sign = np.sign(np.asarray(rows, np.int64) - np.asarray(columns, np.int64))
-    keys, where = np.unique(key, return_inverse=True)
-    skew = np.bincount(where, weights=sign * values, minlength=len(keys))
-    size = np.bincount(where, weights=np.abs(values), minlength=len(keys))
-    wrong = np.flatnonzero(np.abs(skew) > _ASYMMETRY * size)
-    if wrong.size:
-        i, j = divmod(int(keys[wrong[0]]), n)
-        raise ValueError(
-            f"{name} matrix, row {i + 1}, column {j + 1} differs from row {j + 1}, column {i + 1}; "
-            "expected a symmetric matrix"
-        )
-    keep = rows >= columns
-    index = (np.asarray(rows[keep], np.int64), np.asarray(columns[keep], np.int64))
-    return n, (*index, values[keep])
 
 
 def modal(

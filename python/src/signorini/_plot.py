@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
+    from ._bifurcation import Bifurcation
     from ._core import Run
     from ._orbit import Orbit
-    from ._studies import Bifurcation, Chart, Stability
+    from ._studies import Chart, Stability
 
 # Neighbours differ in lightness as well as in hue (after Okabe and Ito), and in dashes and markers.
 COLOURS = ("#000000", "#0072b2", "#d55e00", "#56b4e9", "#7b3294", "#e69f00", "#00614a", "#8a8a8a")

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import os
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _core, _plot
-from ._core import Case, Run, Scene
+from ._core import Run, Scene
 from ._sweep import Table
 
 
-def _table(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> Table:
+def columns_of(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> Table:
     """Columns of the rows; None is nan in a column of numbers, and stays in one of ``words``."""
     names = list(dict.fromkeys(name for row in rows for name in row))
     strings = set(words)
@@ -80,7 +77,7 @@ def compare(
     """
     rows, findings, horizon = _core._compare(scene, list(methods), step, sample, statistics_from)
     runs = [row.pop("run") for row in rows]
-    return Comparison(_table(rows, ("method", "failure", "refuted")), runs, findings, horizon)
+    return Comparison(columns_of(rows, ("method", "failure", "refuted")), runs, findings, horizon)
 
 
 @dataclass(frozen=True)
@@ -165,7 +162,7 @@ def chart(
     """
     names = None if methods is None else list(methods)
     rows, reference, horizon = _core._chart(scene, names, coarsest, finest, levels, repeats, most_seconds)
-    return Chart(_table(rows, ("method", "kind", "failure")), reference, horizon)
+    return Chart(columns_of(rows, ("method", "kind", "failure")), reference, horizon)
 
 
 @dataclass(frozen=True)
@@ -225,85 +222,4 @@ def stability(
     """
     cells, safe = _core._stability(scene, finest, coarsest, per_decade, contacts)
     words = ("scheme", "parameter", "class", "reason", "beyond")
-    return Stability(_table(cells, words), _table(safe, words))
-
-
-@dataclass(frozen=True)
-class Bifurcation:
-    """What a motion settles to, over the values of a key: see `bifurcation`."""
-
-    table: Table
-    """A row a sample: ``value``, ``direction`` (up, down or None), ``error``; of impacts ``wall``,
-    ``time_s``, ``phase_cycles``, ``approach_speed_m_per_s``, ``departure_speed_m_per_s``,
-    ``impulse_N_s``; of periods ``time_s``, ``displacement_m``, ``velocity_m_per_s``."""
-    key: str
-    """What was varied."""
-
-    def plot(self, column: str | None = None, ax: Any = None) -> Any:
-        """Draw a column over the values with matplotlib.
-
-        Examples
-        --------
-        >>> import signorini as sg
-        >>> case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
-        >>> made = sg.bifurcation(case, "load.1.harmonic.frequency", [4.8, 5.0], settle=20, keep=5)
-        >>> made.plot().get_xlabel()
-        'load.1.harmonic.frequency'
-        """
-        impacts = "approach_speed_m_per_s" in self.table
-        return _plot.bifurcation(self, column or ("approach_speed_m_per_s" if impacts else "displacement_m"), ax)
-
-
-def bifurcation(
-    case: Case,
-    key: str,
-    values: Iterable[float] | npt.NDArray[np.float64],
-    *,
-    scheme: str = "event",
-    settle: int = 200,
-    keep: int = 30,
-    follow: str = "both",
-    samples: str = "impacts",
-    threads: int | None = None,
-) -> Bifurcation:
-    """Step a value of a case up and down while the state is carried on, and sample what it settles to.
-
-    Parameters
-    ----------
-    case : Case
-        From `load`.
-    key : str
-        What is varied, by the keys of the case format: ``"load.1.harmonic.frequency"``.
-    values : iterable of float
-        Rising.
-    scheme : str
-        As in `Scene.run`.
-    settle, keep : int
-        Periods of the load that are let pass, and that are sampled, at each value.
-    follow : str
-        ``"up"``, ``"down"`` or ``"both"``; ``"no"`` starts each value from the case's own start.
-    samples : str
-        ``"impacts"``, or ``"periods"``: the first probe once a period, a Poincaré section.
-    threads : int, optional
-        All cores if left out; values that follow one another run on one.
-
-    Raises
-    ------
-    ValueError
-        For a wrong request.
-
-    Examples
-    --------
-    >>> import signorini as sg
-    >>> case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
-    >>> made = sg.bifurcation(case, "load.1.harmonic.frequency", [4.8, 5.0, 5.2], settle=50, keep=5)
-    >>> sorted(set(made.table["direction"]))
-    ['down', 'up']
-    """
-    count = threads or os.cpu_count() or 1
-    rows = _core._bifurcation(case, key, list(values), scheme, settle, keep, follow, samples, count)
-    failed = [row for row in rows if row["error"] is not None]
-    if failed:
-        first = f"{failed[0]['value']!r}: {failed[0]['error']}"
-        warnings.warn(f"not every value has a sound motion; the first at {first}", RuntimeWarning, stacklevel=2)
-    return Bifurcation(_table(rows, ("direction", "error", "wall")), key)
+    return Stability(columns_of(cells, words), columns_of(safe, words))

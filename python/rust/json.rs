@@ -1,0 +1,21 @@
+//! What Rust hands over as JSON or lists, as Python's objects.
+
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+
+/// JSON as Python's objects.
+pub fn loads<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("json")?.call_method1("loads", (text,))
+}
+
+/// A list of what `items` give.
+pub fn list<'py, T: IntoPyObject<'py>>(
+    py: Python<'py>,
+    items: impl IntoIterator<Item = T>,
+) -> PyResult<Bound<'py, PyList>> {
+    let list = PyList::empty(py);
+    for item in items {
+        list.append(item)?;
+    }
+    Ok(list)
+}

@@ -1,0 +1,68 @@
+//! Runs are made, and judged.
+
+use crate::error::{AccuracyWarning, RefutedError, raise, wrong};
+use crate::plan::Plan;
+use crate::run::Run;
+use crate::scene::Scene;
+use crate::work::{compute, compute_beside};
+use pyo3::prelude::*;
+use signorini as sg;
+use signorini::study::accuracy::{Target, reach};
+
+impl Run {
+    /// Runs `scene`.
+    pub fn make(scene: &Bound<'_, Scene>, plan: Plan) -> PyResult<Py<Self>> {
+        let inner = &scene.get().scene;
+        let run = compute(scene.py(), || sg::run(inner, &plan.method, &sg::Options::new(plan.time)))?;
+        Self::judged(scene, run, plan.time, None)
+    }
+
+    /// Runs it to an accuracy.
+    pub fn to_accuracy(
+        scene: &Bound<'_, Scene>,
+        scheme: Option<&str>,
+        step: Option<f64>,
+        tolerance: f64,
+        sample: Option<f64>,
+        statistics_from: f64,
+    ) -> PyResult<Py<Self>> {
+        if let Some(step) = step {
+            return Err(wrong("step", format!("{step:?}"), "none beside accuracy, which finds the step"));
+        }
+        let py = scene.py();
+        let inner = &scene.get().scene;
+        let step = 0.5 * inner.duration;
+        let time = sg::TimeOptions { sample, statistics_from, ..sg::TimeOptions::with_step(step) };
+        let method = scheme.map(|name| name.parse().map_err(raise)).transpose()?;
+        let target = Target { method, ..Target::new(tolerance, time) };
+        let outcome = compute_beside(py, || reach(inner, &target, &mut |_| {}), &mut |_| Ok(()))?;
+        let refuted = outcome.run.refuted().is_some();
+        if let Some(shortfall) = outcome.shortfall.filter(|_| !refuted) {
+            let text = std::ffi::CString::new(shortfall.to_string()).unwrap_or_default();
+            PyErr::warn(py, &py.get_type::<AccuracyWarning>(), &text, 1)?;
+        }
+        let time = sg::TimeOptions { step: outcome.run.grid.step, ..time };
+        let accuracy = serde_json::to_string(&outcome.accuracy).unwrap_or_default();
+        Self::judged(scene, outcome.run, time, Some(accuracy))
+    }
+
+    /// The run, unless the judge refutes it.
+    fn judged(
+        scene: &Bound<'_, Scene>,
+        run: sg::Run,
+        time: sg::TimeOptions,
+        accuracy: Option<String>,
+    ) -> PyResult<Py<Self>> {
+        let py = scene.py();
+        let refuted = run.refuted();
+        let made = Py::new(py, Self { run, time, scene: scene.clone().unbind(), accuracy })?;
+        match refuted {
+            None => Ok(made),
+            Some(error) => {
+                let error = RefutedError::new_err(error.to_string());
+                error.value(py).setattr("run", made)?;
+                Err(error)
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+"""Bifurcation diagrams."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core, _plot
+from ._core import Case
+from ._studies import columns_of
+from ._sweep import Table
+
+
+@dataclass(frozen=True)
+class Bifurcation:
+    """What a motion settles to, over the values of a key: see `bifurcation`."""
+
+    table: Table
+    """A row a sample: ``value``, ``direction`` (up, down or None), ``error``; of impacts ``wall``,
+    ``time_s``, ``phase_cycles``, ``approach_speed_m_per_s``, ``departure_speed_m_per_s``,
+    ``impulse_N_s``; of periods ``time_s``, ``displacement_m``, ``velocity_m_per_s``."""
+    key: str
+    """What was varied."""
+
+    def plot(self, column: str | None = None, ax: Any = None) -> Any:
+        """Draw a column over the values with matplotlib.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+        >>> made = sg.bifurcation(case, "load.1.harmonic.frequency", [4.8, 5.0], settle=20, keep=5)
+        >>> made.plot().get_xlabel()
+        'load.1.harmonic.frequency'
+        """
+        impacts = "approach_speed_m_per_s" in self.table
+        return _plot.bifurcation(self, column or ("approach_speed_m_per_s" if impacts else "displacement_m"), ax)
+
+
+def bifurcation(
+    case: Case,
+    key: str,
+    values: Iterable[float] | npt.NDArray[np.float64],
+    *,
+    scheme: str = "event",
+    settle: int = 200,
+    keep: int = 30,
+    follow: str = "both",
+    samples: str = "impacts",
+    threads: int | None = None,
+) -> Bifurcation:
+    """Step a value of a case up and down while the state is carried on, and sample what it settles to.
+
+    Parameters
+    ----------
+    case : Case
+        From `load`.
+    key : str
+        What is varied, by the keys of the case format: ``"load.1.harmonic.frequency"``.
+    values : iterable of float
+        Rising.
+    scheme : str
+        As in `Scene.run`.
+    settle, keep : int
+        Periods of the load that are let pass, and that are sampled, at each value.
+    follow : str
+        ``"up"``, ``"down"`` or ``"both"``; ``"no"`` starts each value from the case's own start.
+    samples : str
+        ``"impacts"``, or ``"periods"``: the first probe once a period, a Poincaré section.
+    threads : int, optional
+        All cores if left out; values that follow one another run on one.
+
+    Raises
+    ------
+    ValueError
+        For a wrong request.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+    >>> made = sg.bifurcation(case, "load.1.harmonic.frequency", [4.8, 5.0, 5.2], settle=50, keep=5)
+    >>> sorted(set(made.table["direction"]))
+    ['down', 'up']
+    """
+    count = threads or os.cpu_count() or 1
+    rows = _core._bifurcation(case, key, list(values), scheme, settle, keep, follow, samples, count)
+    failed = [row for row in rows if row["error"] is not None]
+    if failed:
+        first = f"{failed[0]['value']!r}: {failed[0]['error']}"
+        warnings.warn(f"not every value has a sound motion; the first at {first}", RuntimeWarning, stacklevel=2)
+    return Bifurcation(columns_of(rows, ("direction", "error", "wall")), key)
