@@ -68,14 +68,14 @@ VALUES: list[tuple[Callable[[], object], str]] = [
     (lambda: beam(damping=-0.1), "damping"),
     (lambda: sg.modal([1.0, 2.0], {"tip": [1.0]}), "tip is 1 values; expected 2"),
     (lambda: sg.modal([1.0], {"tip": [1.0]}, walls=[sg.Wall.upper("a", 1.0, at="top")]), "no point is named \"top\""),
-    (lambda: sg.matrices(EYE, np.eye(3)), "3 × 3; expected 2 × 2"),
-    (lambda: sg.matrices(np.zeros(3), EYE), r"shape \(3,\)"),
-    (lambda: sg.matrices(np.zeros((2, 3)), EYE), r"shape \(2, 3\)"),
-    (lambda: sg.matrices(np.zeros((0, 0)), EYE), r"shape \(0, 0\)"),
-    (lambda: sg.matrices(scipy.sparse.csr_array((2, 3)), EYE), r"shape \(2, 3\)"),
-    (lambda: sg.matrices(EYE, [[1.0, 2.0], [0.0, 1.0]]), "row 2, column 1 differs from row 1, column 2"),
-    (lambda: sg.matrices(EYE, -EYE), "positive semidefinite"),
-    (lambda: sg.matrices(EYE * math.nan, EYE), "NaN; expected a finite number"),
+    (lambda: sg.matrices(EYE, None, np.eye(3)), "3 × 3; expected 2 × 2"),
+    (lambda: sg.matrices(np.zeros(3), None, EYE), r"shape \(3,\)"),
+    (lambda: sg.matrices(np.zeros((2, 3)), None, EYE), r"shape \(2, 3\)"),
+    (lambda: sg.matrices(np.zeros((0, 0)), None, EYE), r"shape \(0, 0\)"),
+    (lambda: sg.matrices(scipy.sparse.csr_array((2, 3)), None, EYE), r"shape \(2, 3\)"),
+    (lambda: sg.matrices(EYE, None, [[1.0, 2.0], [0.0, 1.0]]), "row 2, column 1 differs from row 1, column 2"),
+    (lambda: sg.matrices(EYE, None, -EYE), "positive semidefinite"),
+    (lambda: sg.matrices(EYE * math.nan, None, EYE), "NaN; expected a finite number"),
     (lambda: ball().run("nonsense", step=1.0), "no scheme is named \"nonsense\""),
     (lambda: ball().run("moreau-jean"), "step is missing"),
     (lambda: ball().run("moreau-jean", step=-1.0), r"step is -1\.0"),
@@ -131,8 +131,8 @@ TYPES: list[Callable[[], object]] = [
     lambda: ball(velocity=np.array([1j])),
     lambda: ball().run("moreau-jean", step="1e-3"),  # type: ignore[arg-type]
     lambda: ball().run(5),  # type: ignore[arg-type]
-    lambda: sg.matrices(np.array([["a"]]), np.eye(1)),
-    lambda: sg.matrices(np.array([[1j]]), np.eye(1)),
+    lambda: sg.matrices(np.array([["a"]]), None, np.eye(1)),
+    lambda: sg.matrices(np.array([[1j]]), None, np.eye(1)),
     lambda: sg.Load.function(3.0),  # type: ignore[arg-type]
     lambda: sg.Load.function(lambda t: "force"),  # type: ignore[arg-type,return-value]
     lambda: sg.Load.table("time", "force"),  # type: ignore[arg-type]

@@ -58,10 +58,9 @@ def test_a_structure_by_matrices_is_the_same_dense_or_sparse() -> None:
     stiffness = 1e4 * (np.diag(np.full(n, 2.0)) - np.diag(np.ones(n - 1), 1) - np.diag(np.ones(n - 1), -1))
     walls = [sg.Wall.upper("stop", 1e-4, restitution=0.5, at=n - 1)]
     velocity = np.eye(n)[n - 1]
-    options = {"walls": walls, "velocity": velocity, "damping": 1e-4 * stiffness}
-    dense = sg.matrices(mass, stiffness, **options)
+    dense = sg.matrices(mass, 1e-4 * stiffness, stiffness, walls=walls, velocity=velocity)
     sparse = sg.matrices(
-        scipy.sparse.csr_array(mass), scipy.sparse.coo_matrix(stiffness), scipy.sparse.csc_array(1e-4 * stiffness),
+        scipy.sparse.csr_array(mass), scipy.sparse.csc_array(1e-4 * stiffness), scipy.sparse.coo_matrix(stiffness),
         walls=walls, velocity=velocity,
     )  # fmt: skip
     assert sparse == dense
@@ -74,7 +73,7 @@ def test_a_structure_by_matrices_is_the_same_dense_or_sparse() -> None:
 def test_massless_degrees_of_freedom_are_condensed() -> None:
     # Two springs in series, the point between them without mass: 1/(1/k₁ + 1/k₂) = 50 N/m.
     mass, stiffness = np.diag([0.0, 1.0]), np.array([[200.0, -100.0], [-100.0, 100.0]])
-    made = sg.matrices(mass, stiffness, velocity=[0.0, 1.0], probes={"tip": 1})
+    made = sg.matrices(mass, None, stiffness, velocity=[0.0, 1.0], probes={"tip": 1})
     assert made.degrees_of_freedom == 1
     run = made.run("event")
     omega = np.sqrt(50.0)
@@ -121,3 +120,21 @@ def test_a_wall_shows_how_it_is_made() -> None:
         sg.Wall.upper("d", 0.0, at="tip"),
     ]:
         assert eval(f"sg.{wall!r}") == wall
+
+
+def test_every_built_in_case_is_a_scene_that_can_be_pickled() -> None:
+    with pytest.raises(ValueError) as told:
+        sg.load("none-of-them")
+    names = str(told.value).split("there is ")[1].split(", ")
+    assert len(names) > 12
+    for name in names:
+        made = sg.load(name).scene
+        assert pickle.loads(pickle.dumps(made)) == made and made.replace(duration=0.5).duration == 0.5
+        assert made.walls == made.replace(walls=made.walls).walls
+
+
+def test_a_scene_in_two_planes_has_rows_for_places() -> None:
+    case = sg.load("tube-lattice-bars")
+    assert all(isinstance(eval(repr(wall).split("at=")[1][:-1]), list) for wall in case.scene.walls)
+    short = case.scene.replace(duration=0.02)
+    assert short.run("moreau-jean", step=case.step).notes is not None

@@ -191,15 +191,15 @@ def beam(
 
 
 def matrices(
-    mass: Any, stiffness: Any, damping: Any | None = None, **scene: Unpack[ReducedOptions]
+    mass: Any, damping: Any | None, stiffness: Any, **scene: Unpack[ReducedOptions]
 ) -> Scene:
-    """A structure by its matrices.
+    """A structure by its matrices, M q̈ + C q̇ + K q = f.
 
     Parameters
     ----------
     mass, stiffness : array of shape (n, n), or a sparse matrix of SciPy
         Symmetric, kg and N/m. Degrees of freedom without mass are condensed.
-    damping : array of shape (n, n), sparse matrix, float, sequence of float or Rayleigh, optional
+    damping : array of shape (n, n), sparse matrix, float, sequence of float, Rayleigh or None
         N s/m; or as in `Scene.replace`.
     **scene
         Walls, loads and so on, whose places are degrees of freedom from 0: see `Scene.replace`.
@@ -216,7 +216,7 @@ def matrices(
     --------
     >>> import numpy as np
     >>> import signorini as sg
-    >>> sg.matrices(np.eye(2), np.array([[4e4, -1e4], [-1e4, 1e4]]), sg.Rayleigh(0.0, 1e-4))
+    >>> sg.matrices(np.eye(2), sg.Rayleigh(0.0, 1e-4), np.array([[4e4, -1e4], [-1e4, 1e4]]))
     <Scene: 2 degrees of freedom, 0 walls, 0 loads, 1.0 s>
     """
     n, m = lower("mass", mass)
