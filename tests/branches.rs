@@ -113,7 +113,7 @@ fn the_ball_folds_and_doubles_where_theory_says() {
     near(doubling.point.value, 1.170_731_171_330_088_6, 1e-11);
     // Beyond it runs settle on the orbit of twice the period.
     let doubled = &graph.branches[doubling.leads_to[0]];
-    let stable = doubled.points.iter().filter(|point| point.floquet.is_stable()).last().unwrap();
+    let stable = doubled.points.iter().rfind(|point| point.floquet.is_stable()).unwrap();
     assert_eq!(stable.orbit.signature.periods, 2);
     assert!((stable.orbit.speeds[0] - stable.orbit.speeds[1]).abs() > 1e-2 * stable.orbit.speeds[0]);
     let problem = Problem::new(ball(stable.value)).unwrap();
