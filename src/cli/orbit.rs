@@ -164,7 +164,7 @@ fn structure(args: &Args, case: &Case, request: Map<String, Value>, ui: &Ui) -> 
         return Err(Error::invalid(option, "given", expected));
     }
     let scene = &case.scene;
-    let mut results = args.place.results(&case, "orbit", request)?;
+    let mut results = args.place.results(case, "orbit", request)?;
     let bar = ui.progress("settling", 1000);
     let found = shoot(scene, args.settle, &|share| bar.share(share));
     bar.finish();

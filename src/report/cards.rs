@@ -88,10 +88,7 @@ fn refinement(summary: &Value) -> Option<Value> {
         let verdict = "The run it was checked against is refuted".to_owned();
         return Some(card("Refinement", State::Bad, verdict, text));
     }
-    let how = match check["check"]["half_step"].is_object() {
-        true => "Half the step",
-        false => "Other rounding",
-    };
+    let how = if check["check"]["half_step"].is_object() { "Half the step" } else { "Other rounding" };
     let verdict = format!("{how} changes impulses by up to {}", percent(change));
     let state = if change <= SMALL && displacement <= SMALL { State::Good } else { State::Mind };
     Some(card("Refinement", state, verdict, text))
@@ -115,10 +112,10 @@ fn modes(summary: &Value) -> Option<Value> {
     let walls = list(&check["walls"]);
     let worst = |key: &str| walls.iter().map(|wall| number(&wall[key]).abs()).fold(0.0, f64::max);
     let (impulse, peak) = (worst("impulse_change"), worst("peak_change"));
-    let state = match (list(&check["findings"]).is_empty(), impulse.max(peak) <= SMALL) {
-        (false, _) => State::Bad,
-        (true, true) => State::Good,
-        (true, false) => State::Mind,
+    let state = match list(&check["findings"]) {
+        [_, ..] => State::Bad,
+        [] if impulse.max(peak) <= SMALL => State::Good,
+        [] => State::Mind,
     };
     let verdict = format!("More modes change impulses by up to {}, peaks by up to {}", percent(impulse), percent(peak));
     let text = format!(

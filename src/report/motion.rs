@@ -22,7 +22,7 @@ pub(super) fn motion(folder: &Folder<'_>, prefix: &str, summary: &Value) -> Resu
     let walls = summary["scene"]["walls"].as_array().map_or(0, Vec::len);
     let columns = table.header.len();
     let first = table.header.get(1).is_none_or(|name| name.starts_with("displacement") || walls > 0);
-    if columns < 1 + 2 * walls || (columns - 1 - 2 * walls) % 2 != 0 || !first || table.count() == 0 {
+    if columns < 1 + 2 * walls || !(columns - 1 - 2 * walls).is_multiple_of(2) || !first || table.count() == 0 {
         let reason = format!(
             "has {} rows of {columns} columns; expected time_s, a displacement and a velocity for each probe, and a \
              force and an impulse for each of the {walls} walls of summary.json",
