@@ -129,7 +129,7 @@ pub(super) fn find(scene: &Checked, period: f64, count: usize, from: &DVector<f6
     let Passed { mut strobes, matrix, contacts } = passed;
     strobes.pop();
     let repeats = |d: &usize| {
-        count % d == 0
+        count.is_multiple_of(*d)
             && strobes.iter().zip(strobes.iter().cycle().skip(*d)).all(|(a, b)| scales.size(&(a - b)) < EQUAL)
     };
     match (1..count).find(repeats) {
