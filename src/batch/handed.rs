@@ -5,9 +5,10 @@ use super::outcome::{AtWall, By, Outcome, grown};
 use super::series::REACH;
 use crate::error::Result;
 use crate::flow::Arc;
-use crate::scene::Oscillator;
+use crate::scene::{Oscillator, Scene};
 use crate::scheme::{Scheme, Stepper};
 use crate::step::{Path, Step};
+use crate::variation::{OscillatorVariation, saltation};
 
 /// Number of places per radian of the fastest motion at which turning points are looked for.
 const LOOKS: f64 = 4.0;
@@ -19,11 +20,10 @@ const HALVINGS: usize = 52;
 struct Window {
     walls: [AtWall; 2],
     extent: [f64; 2],
-    /// A small change of the initial state, carried along: displacement, and velocity times a step
-    /// of the lanes.
+    /// A small change of the initial state, carried along: m and m/s.
     tangent: [f64; 2],
-    /// Damping and acceleration at the end of the last arc, unless its end was an impact.
-    last: Option<[f64; 2]>,
+    /// What carries it.
+    variation: OscillatorVariation,
     /// ln of its size when the window began, minus ln of the factors by which it was scaled down
     /// since.
     began: f64,
@@ -36,7 +36,7 @@ pub(super) fn follow(lane: &Lane, settle: u32, strobes: &mut [[f64; 2]]) -> Resu
     let periods = u64::from(settle) + strobes.len() as u64;
     let scene = lane.scene(periods as f64 * lane.period);
     let mut stepper = Stepper::new(&scene, &Scheme::Event, lane.period)?;
-    let mut window = Window::new(lane);
+    let mut window = Window::new(lane, &scene)?;
     let has_lower = usize::from(lane.lower.is_some());
     // The scene has only the walls that exist, the lower one first.
     let slot = |wall: usize| if wall < has_lower { 0 } else { 1 };
@@ -70,21 +70,21 @@ pub(super) fn follow(lane: &Lane, settle: u32, strobes: &mut [[f64; 2]]) -> Resu
 }
 
 impl Window {
-    fn new(lane: &Lane) -> Self {
+    fn new(lane: &Lane, scene: &Scene) -> Result<Self> {
         let Oscillator { mass, damping, stiffness } = lane.body;
         let (sigma, natural) = (0.5 * damping / mass, stiffness / mass);
         let excess = sigma * sigma - natural;
         let own = if excess > 0.0 { sigma + excess.sqrt() } else { natural.sqrt() };
         let omega = |multiple: u32| std::f64::consts::TAU * f64::from(multiple) / lane.period;
         let rate = lane.sines.iter().map(|s| omega(s.multiple)).fold(own, f64::max).max(REACH / lane.period);
-        Self {
+        Ok(Self {
             walls: [AtWall::default(); 2],
             extent: [f64::NEG_INFINITY, f64::INFINITY],
             tangent: [1.0, rate],
-            last: None,
+            variation: OscillatorVariation::new(scene)?,
             began: 0.0,
             rate,
-        }
+        })
     }
 
     fn size(&self) -> f64 {
@@ -121,38 +121,11 @@ impl Window {
         for contact in step.closed {
             self.note(slot(contact.wall), contact.peak_force);
         }
-        let Path::Exact(arc) = step.path else { return };
-        let after = step.v.first().copied().unwrap_or(0.0);
-        self.carry(step, arc, after);
-        self.reach(arc);
-    }
-
-    /// Propagates the change of the initial state over a step: free motion, entry into and exit
-    /// from elastic walls, an impact at the end (Leine & Nijmeijer 2004,
-    /// doi:10.1007/978-3-540-44398-8, ch. 7).
-    fn carry(&mut self, step: &Step<'_>, arc: &Arc, after: f64) {
-        let jumped = step.jump.iter().any(|&p| p != 0.0);
-        if step.end > step.start {
-            let first = arc.acceleration(step.start);
-            let (_, v) = arc.state(step.start);
-            if let Some([damping, before]) = self.last
-                && damping != arc.damping()
-                && v != 0.0
-            {
-                self.tangent[1] += (first - before) / v * self.tangent[0];
-            }
-            let [[a, b], [c, d]] = arc.propagator();
-            let [x, y] = self.tangent;
-            self.tangent = [a * x + b * y, c * x + d * y];
+        if let Ok(matrix) = self.variation.over(step) {
+            self.tangent = saltation::apply(matrix, self.tangent);
         }
-        let (_, before) = arc.state(step.end);
-        let a_before = arc.acceleration(step.end);
-        self.last = (!jumped).then_some([arc.damping(), a_before]);
-        if jumped && before != 0.0 {
-            let e = -after / before;
-            let a_after = a_before + arc.damping() / arc.mass() * (before - after);
-            let [x, y] = self.tangent;
-            self.tangent = [-e * x, (a_after + e * a_before) / before * x - e * y];
+        if let Path::Exact(arc) = step.path {
+            self.reach(arc);
         }
     }
 
