@@ -127,7 +127,7 @@ fn derivative_through_impact_rest_and_release_is_that_of_sixty_digits() {
     let scene = two_masses(0.0);
     let (state, product) = follow(&scene, 0.9);
     let known =
-        [-0.049_242_802_645_863_806, -0.132_769_310_892_237_39, -0.274_280_623_203_482_85, -0.229_367_714_164_525_92];
+        [-0.049_242_802_645_863_81, -0.132_769_310_892_237_4, -0.274_280_623_203_482_85, -0.229_367_714_164_525_92];
     for (x, known) in state.q.iter().chain(&state.v).zip(known) {
         assert!((x - known).abs() < 1e-13, "{x} {known}");
     }
@@ -376,7 +376,7 @@ fn exponents_of_the_symmetric_orbit_are_half_the_sum_of_drag_and_restitution() {
     let exponent = matrix.determinant().ln() / (2.0 * 0.2);
     assert!((exponent - known).abs() < 1e-9 * known.abs(), "{exponent}");
     // 2 Re μ of the period map, as the closed form of the orbit has it.
-    assert!((matrix.trace() - 2.0 * 0.241_955_282_238_606_48).abs() < 1e-8, "{}", matrix.trace());
+    assert!((matrix.trace() - 2.0 * 0.241_955_282_238_606_5).abs() < 1e-8, "{}", matrix.trace());
 }
 
 #[test]
