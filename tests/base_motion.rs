@@ -45,10 +45,7 @@ fn a_shaken_oscillator_meets_its_stop_when_the_closed_form_says() {
     assert!((first.impulse - 0.373_370_368_626_165_9).abs() < 1e-13, "{}", first.impulse);
     // At the end of the pulse, where sums of instants round to 1e-13 s or so.
     let (q, v) = (run.trajectory.displacement().last().unwrap(), run.trajectory.velocity().last().unwrap());
-    assert!(
-        (q - -0.003_497_103_514_337_992).abs() < 1e-14 && (v - 0.054_405_008_713_308_22).abs() < 1e-12,
-        "{q} {v}"
-    );
+    assert!((q - -0.003_497_103_514_337_992).abs() < 1e-14 && (v - 0.054_405_008_713_308_22).abs() < 1e-12, "{q} {v}");
     // moreau-jean of order 1 through the impact: a step of 1e-5 s at 0.4 m/s.
     let stepped = made(&case.scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-5);
     assert!((stepped.trajectory.displacement().last().unwrap() - q).abs() < 4e-6);

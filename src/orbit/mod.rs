@@ -33,6 +33,7 @@ mod watch;
 pub use admissible::{Admissible, Nearest};
 pub use closed::{ClosedForm, closed_forms};
 pub use floquet::Floquet;
+#[cfg(feature = "cli")]
 pub(crate) use forcing::{forcing_period, frequencies};
 pub use judge::{Instant, Judged, WallShare};
 pub use periodic::Orbit;

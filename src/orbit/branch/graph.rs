@@ -84,7 +84,7 @@ const NODE: f64 = 1e-6;
 /// point.
 ///
 /// ```
-/// use signorini::orbit::{Label, Problem, branch};
+/// use signorini::orbit::{Problem, branch};
 /// use signorini::{Load, Scene, Wall};
 ///
 /// // The source oscillator's symmetric orbit in the frequency: it ends at a fold.
@@ -97,7 +97,7 @@ const NODE: f64 = 1e-6;
 /// let start = Problem::new(family(5.0)?)?.settled(200)?;
 /// let request = branch::Request { range: [5.0, 16.0], switch: branch::Switch::No, depth: 0, points: 2000 };
 /// let graph = branch::graph(&family, &start, 5.0, &request, &mut |_| ())?;
-/// let fold = graph.specials.iter().find(|special| special.label == Label::Fold).unwrap();
+/// let fold = graph.specials.iter().find(|special| special.label == branch::Label::Fold).unwrap();
 /// assert!((fold.point.value - 14.610_019_877_539_26).abs() < 1e-9); // Hz
 ///
 /// // The larger multiplier over the range.

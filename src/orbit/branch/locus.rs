@@ -62,8 +62,8 @@ pub struct Locus {
 /// two keys, in both directions, at most `most` points to each, while the keys stay in `ranges`.
 ///
 /// ```
-/// use signorini::orbit::branch::{Request, Switch, graph, locus};
-/// use signorini::orbit::{Label, Problem};
+/// use signorini::orbit::branch::{Label, Request, Switch, graph, locus};
+/// use signorini::orbit::Problem;
 /// use signorini::{Load, Scene, Wall};
 ///
 /// // The fold of the source oscillator's symmetric orbit in the plane of frequency and restitution.
