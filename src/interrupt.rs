@@ -1,7 +1,7 @@
 //! Stopping a computation that is under way.
 
 use crate::error::{Error, Result};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,7 +14,12 @@ const INTERVAL: Duration = Duration::from_millis(50);
 /// may suddenly cost a hundred times more, and long beside a look, which costs some 30 ns.
 const LOOK: Duration = Duration::from_millis(1);
 
-thread_local!(static CURRENT: RefCell<Option<Interrupt>> = const { RefCell::new(None) });
+thread_local! {
+    static CURRENT: RefCell<Option<Interrupt>> = const { RefCell::new(None) };
+    /// When this thread last asked, or first could have: many short computations in turn, such as
+    /// the rows of a sweep, ask as often as a long one.
+    static ASKED: Cell<Option<Instant>> = const { Cell::new(None) };
+}
 
 /// A question that computations ask about every 50 ms: whether to stop.
 ///
@@ -134,7 +139,6 @@ struct Pace {
     /// Passes between two looks at the clock; it follows their cost.
     stride: u64,
     looked: Instant,
-    asked: Instant,
 }
 
 impl Asking {
@@ -142,7 +146,7 @@ impl Asking {
     pub fn here() -> Self {
         let pace = |interrupt| {
             let now = Instant::now();
-            Box::new(Pace { interrupt, stride: 1, looked: now, asked: now })
+            Box::new(Pace { interrupt, stride: 1, looked: now })
         };
         let pace = Carried::here().0.map(pace);
         Self { due: if pace.is_some() { 0 } else { u64::MAX }, pace }
@@ -177,10 +181,9 @@ impl Asking {
         }
         pace.looked = now;
         self.due = count.saturating_add(pace.stride);
-        let due = now - pace.asked >= INTERVAL;
-        if due {
-            pace.asked = now;
-        }
+        let asked = ASKED.get().unwrap_or(now);
+        let due = now - asked >= INTERVAL;
+        ASKED.set(Some(if due { now } else { asked }));
         if pace.interrupt.is_stopped() || (due && pace.interrupt.ask()) { Err(Error::Stopped) } else { Ok(()) }
     }
 }

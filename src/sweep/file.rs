@@ -339,6 +339,7 @@ wall = "upper"
             ("\"period\"]", "\"perod\"]", "did you mean period?"),
             ("samples = \"impacts\"", "samples = \"impact\"", "did you mean impacts?"),
             ("keep = { periods = 6 }", "keep = { periods = 0 }", "one forcing period or more"),
+            ("keep = { periods = 6 }", "keep = { periods = 4294967293 }", "less than 2^32 - 1 periods in all"),
             ("keep = { periods = 6 }", "keep = { seconds = 6 }", "both units"),
             ("keep = { periods = 6 }\n", "", "settle without keep"),
             ("scheme = \"event\"", "scheme = \"evnt\"", "did you mean event?"),

@@ -38,8 +38,9 @@ impl Picture {
         let sides = self.map_sides(source, "basin")?;
         let grid = Grid::of(source, sides, Measure::Attractor.name(), MOST_TONES)?;
         let known = named(source.folder)?;
+        // The share first: a long name is cut off.
         let class = |number: usize, name: &str, share: f64, letter: char| {
-            Class::new(format!("{number}: {name} ({:.0} %)", 100.0 * share), letter)
+            Class::new(format!("{number}: {:.0} %, {name}", 100.0 * share), letter)
         };
         let mut classes: Vec<Class> = known
             .iter()
@@ -50,7 +51,7 @@ impl Picture {
             .collect();
         if let Some(others) = known.get(TONES..).filter(|others| !others.is_empty()) {
             let share: f64 = others.iter().map(|(_, share)| share).sum();
-            classes.push(Class::new(format!("{} others ({:.0} %)", others.len(), 100.0 * share), '+'));
+            classes.push(Class::new(format!("{:.0} %, {} others", 100.0 * share, others.len()), '+'));
         }
         let tone = |number: &f64| if *number >= 1.0 { (*number as usize - 1).min(TONES) } else { usize::MAX };
         let tones = grid.cells.iter().map(tone).collect();

@@ -162,6 +162,10 @@ impl Sweep {
             Stretch::Periods { keep: 0, .. } => {
                 return Err(Error::invalid("[run] keep", 0, "one forcing period or more"));
             }
+            Stretch::Periods { settle, keep } if settle.checked_add(keep).is_none_or(|all| all == u32::MAX) => {
+                let found = format_args!("{settle} + {keep} periods");
+                return Err(Error::invalid("[run] settle and keep", found, "less than 2^32 - 1 periods in all"));
+            }
             Stretch::Periods { .. } => {
                 forcing::period(&base.scene)?;
             }
