@@ -189,7 +189,7 @@ proptest! {
                 prop_assert!(matches!(error, Error::Case { .. }), "{error:?}");
                 let said = error.to_string();
                 prop_assert!(said.starts_with("error: "), "{}", said);
-                let files = ["tabulated-pulse.csv:", "M.csv:", "K.mtx:", "L.csv:", "S.csv:", "F.csv:", "P.csv:"];
+                let files = ["tabulated-pulse.csv:", "base-pulse.csv:", "M.csv:", "K.mtx:", "L.csv:", "S.csv:", "F.csv:", "P.csv:"];
                 let placed = said.contains("--> mutated.toml:") || files.iter().any(|file| said.contains(file));
                 prop_assert!(placed, "{}", said);
                 prop_assert!(said.contains("help: expected "), "{}", said);

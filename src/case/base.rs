@@ -89,7 +89,9 @@ impl Builder<'_> {
         };
         let columns = self.columns(&format!("{owner}: base"), ("acceleration", "m/s^2"), plain, &given)?;
         let (path, text) = self.table_file(&format!("{owner}: base"), &base.file, &columns)?;
-        let felt = TableColumns { scale: -mass * columns.scale, ..columns.clone() };
+        // A mass that is not finite is refused at its own key, once the table has been read.
+        let carried = if mass.is_finite() { mass } else { 1.0 };
+        let felt = TableColumns { scale: -carried * columns.scale, ..columns.clone() };
         let kind = LoadKind::Table(table::read(&path, &text, &felt)?);
         let direction = beside.direction.map(|direction| direction.get_ref().0);
         let origin = Origin::Base { file: base.file.get_ref().clone(), columns, influence, direction };

@@ -111,6 +111,7 @@ impl Case {
     }
 
     /// True where walls, loads and probes have a place: not for one degree of freedom.
+    #[cfg(feature = "cli")]
     pub(crate) fn has_places(&self) -> bool {
         !matches!(self.model, Model::Oscillator) || self.planes.is_two()
     }
