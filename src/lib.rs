@@ -58,18 +58,19 @@ pub use interrupt::Interrupt;
 pub use residual::{Finding, Refuted};
 pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{
-    Bar, BarEnd, Beam, BeamEnd, Chain, Condensation, Damping, Flat, Flats, MOST_DENSE, MOST_ELEMENTS, MOST_FLATS,
-    MOST_MODES, MassMatrix, ModalData, ModalPoint, Modes, PlaneRows, Reduction, WallTruncation, heading, matrices,
+    Bar, BarEnd, Beam, BeamEnd, Chain, Condensation, Damping, Flat, FlatWall, Flats, MOST_DENSE, MOST_ELEMENTS,
+    MOST_FLATS, MOST_MODES, MassMatrix, ModalData, ModalPoint, Modes, PlaneRows, Reduction, WallTruncation, heading,
+    matrices,
 };
 pub use scene::{
-    Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SharedStructure,
-    Side, State, Structure, System, Table, TimeFunction, Wall, WallLaw,
+    Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, Shape,
+    SharedStructure, Side, State, Structure, Support, System, Table, TimeFunction, Wall, WallLaw,
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{ForceStatistics, Forces, HalfWidths, Statistics, Summary, WallStatistics};
 pub use step::{
-    Balance, Bound, Conserves, Contact, Contract, Elastic, Law, Path, Promise, PromisedForce, Reached, Rigid, Step,
-    Tolerance, Tolerances,
+    Balance, Bound, Conserves, Contact, Contract, Elastic, HoleStep, Law, Path, Promise, PromisedForce, Reached, Rigid,
+    Step, Tolerance, Tolerances,
 };
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
 pub use trajectory::{Recorder, Trajectory};

@@ -58,6 +58,7 @@ impl Builder<'_> {
         let mut scene = Scene {
             system: built.system,
             walls: Vec::new(),
+            supports: Vec::new(),
             loads: Vec::new(),
             probes: Vec::new(),
             initial: State { q: vec![0.0; total], v: vec![0.0; total] },
@@ -92,6 +93,8 @@ impl Builder<'_> {
         scene.probes = self.probes(file.probe, &walls)?;
         let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
         scene.walls = all;
+        scene.supports =
+            self.written.supports.iter().map(|support| support.flats.support(support.first, 0.0)).collect();
         let time = TimeOptions {
             step: self.number("step", &time.step),
             sample: self.optional("sample", time.sample.as_ref()),

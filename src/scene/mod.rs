@@ -6,6 +6,7 @@ mod checked;
 mod clear;
 mod condensation;
 mod damping;
+mod flats;
 mod forcing;
 mod function;
 mod grid_forcing;
@@ -27,6 +28,7 @@ pub use builders::{Bar, BarEnd, Beam, BeamEnd, Chain, MOST_ELEMENTS, MassMatrix,
 pub(crate) use checked::Checked;
 pub use condensation::Condensation;
 pub use damping::Damping;
+pub use flats::{Flat, Flats, MOST_FLATS};
 pub use forcing::{Forcing, Harmonic};
 pub use function::TimeFunction;
 pub(crate) use grid_forcing::GridForcing;
@@ -39,7 +41,7 @@ pub(crate) use row::distinct;
 pub use row::{Probe, Row};
 pub use shared::SharedStructure;
 pub use structure::Structure;
-pub use support::{Flat, Flats, MOST_FLATS};
+pub use support::{FlatWall, Shape, Support};
 pub use system::{Oscillator, System};
 pub use wall::{Side, Wall, WallLaw};
 
@@ -83,6 +85,10 @@ pub struct Scene {
     pub system: System,
     /// The walls; results name them.
     pub walls: Vec<Wall>,
+    /// The supports around places that move in two planes; empty in one plane. The flats of a
+    /// support are walls too.
+    #[serde(default)]
+    pub supports: Vec<Support>,
     /// The loads; they add up.
     pub loads: Vec<Load>,
     /// Displacements and velocities that are recorded.
@@ -100,6 +106,7 @@ impl Scene {
         Self {
             system: System::Oscillator(Oscillator { mass, damping, stiffness }),
             walls: Vec::new(),
+            supports: Vec::new(),
             loads: Vec::new(),
             probes: vec![Probe { name: String::new(), at: Row::dof(0) }],
             initial: State { q: vec![0.0], v: vec![0.0] },
@@ -115,6 +122,7 @@ impl Scene {
         Self {
             system: System::Structure(structure),
             walls: Vec::new(),
+            supports: Vec::new(),
             loads: Vec::new(),
             probes: Vec::new(),
             initial: State { q: rest.clone(), v: rest },
@@ -261,7 +269,7 @@ impl Scene {
         for wall in &self.walls {
             self.check_start(wall)?;
         }
-        Ok(())
+        self.check_supports(|support, row| self.check_row(|| Subject::support(&support.name), row))
     }
 
     fn check_row(&self, owner: impl Fn() -> Subject, row: &Row) -> Result<()> {

@@ -2,6 +2,7 @@
 
 use super::{Row, Structure};
 use crate::linear::Symmetric;
+use serde::{Deserialize, Serialize};
 
 /// The unit vector (cos α, sin α) of the direction α in degrees, from +y towards +z. Multiples of
 /// 90° are exact, so that a direction along an axis leaves the other plane alone.
@@ -46,7 +47,7 @@ impl Structure {
 /// assert!((seen - (2.0 * 0.75_f64.sqrt() + 0.5)).abs() < 1e-15);
 /// assert_eq!(place.along(90.0), signorini::Row::dof(4));
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlaneRows {
     /// The row of the displacement along +y.
     pub y: Row,

@@ -137,6 +137,8 @@ impl<S: Space> Frame<S> {
             impulse: &self.impulse,
             jump: &self.jump,
             force: &self.force,
+            friction: &[],
+            holes: &[],
             extra: self.extra.as_ref(),
             closed,
             path: if self.one_restitution { Path::OneRestitution } else { Path::Grid },

@@ -57,6 +57,10 @@ impl Kernel {
     /// `method` on `scene` with steps of `step` seconds; for the exact motion, the maximum length
     /// of a step.
     pub fn new(scene: &Checked, method: Method, step: f64) -> Result<Self> {
+        if scene.turns_or_rubs() {
+            let expected = "a scene without round supports and friction";
+            return Err(Error::invalid("scheme", method.scheme, expected));
+        }
         let line = scene.is_line();
         Ok(match method.scheme {
             Scheme::Event if line => Self::Other(Box::new(Event::over(scene, step)?)),

@@ -1,9 +1,11 @@
 //! One time step as data: what a scheme passes to the recorder and the judge.
 
 mod contract;
+mod hole;
 mod promise;
 
 pub use contract::{Balance, Conserves, Contract, Tolerance, Tolerances};
+pub use hole::HoleStep;
 pub use promise::{Bound, Elastic, Law, Promise, PromisedForce, Reached, Rigid};
 
 use crate::flow::{Arc, Series};
@@ -118,6 +120,11 @@ pub struct Step<'a> {
     /// scheme computed, which is impulse/h unless the scheme's impulse averages two of them; N,
     /// signed.
     pub force: &'a [f64],
+    /// Friction impulse at each wall over the step, N s, along (−n_z, n_y) with n the outward normal
+    /// of the flat; empty in scenes without friction and round holes.
+    pub friction: &'a [f64],
+    /// What each round hole did, in the order of the scene's round supports.
+    pub holes: &'a [HoleStep],
     /// Extra force given by the caller, N, as it enters the momentum balance: constant over the
     /// step, or for a staggered scheme, whose balance is centred at `start`, the mean of the last
     /// step's and this one's; length n.

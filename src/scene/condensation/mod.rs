@@ -84,6 +84,7 @@ impl Scene {
         let mut scene = Self {
             system: statics.reduced(&kept)?.into(),
             walls: self.walls.iter().zip(&walls).map(|(w, seen)| Wall { at: seen.row.clone(), ..w.clone() }).collect(),
+            supports: self.supports.iter().map(|support| support.carried(|row| statics.seen(row).row)).collect(),
             loads: self.loads.clone(),
             probes: self.probes.clone(),
             initial: self.initial.clone(),

@@ -128,6 +128,7 @@ impl Scene {
                 stiffness: Symmetric::diagonal(&stiffness),
             }),
             walls: self.walls.iter().map(|wall| Wall { at: row(&wall.at), ..wall.clone() }).collect(),
+            supports: self.supports.iter().map(|support| support.carried(row)).collect(),
             loads: self.loads.clone(),
             probes: self.probes.clone(),
             initial: State {

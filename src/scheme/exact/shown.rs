@@ -69,6 +69,8 @@ impl<S: Space> Shown<S> {
             impulse: &self.impulse,
             jump: &self.jump,
             force: &self.force,
+            friction: &[],
+            holes: &[],
             extra: self.extra.as_ref(),
             closed: &self.closed,
             path,

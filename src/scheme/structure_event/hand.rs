@@ -96,6 +96,7 @@ impl StructureEvent {
         Scene {
             system: self.scene.system.clone(),
             walls: self.scene.walls.clone(),
+            supports: Vec::new(),
             loads: self.scene.loads.iter().filter_map(shifted).collect(),
             probes: Vec::new(),
             initial: State { q: self.q.clone(), v: self.v.clone() },
