@@ -1,6 +1,8 @@
 //! The batch engine against the exact scheme, against itself in other places, and against closed
 //! forms.
 
+mod draws;
+
 use signorini::batch::{By, Lane, Outcome, Plan, Sine, Stop, Width};
 use signorini::{Oscillator, Path, Scheme, Stepper, WallLaw};
 
@@ -141,8 +143,8 @@ fn comparable(lane: &Lane, known: &Outcome) -> (f64, usize) {
 
 #[test]
 fn random_oscillators_agree_with_the_exact_scheme_for_as_long_as_rounding_stays_small() {
-    let mut draw = Draw(std::env::var("SIGNORINI_SEED").ok().and_then(|n| n.parse().ok()).unwrap_or(7));
-    let cases = std::env::var("SIGNORINI_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(120);
+    let mut draw = Draw(draws::seed(7));
+    let cases = draws::cases(120);
     let lanes: Vec<Lane> = (0..cases).map(|_| random(&mut draw)).collect();
     let plan = Plan { threads: 1, ..Plan::new(0, 100) };
     let exact = plan.run(&by_event(&lanes)).unwrap();

@@ -1,7 +1,10 @@
 //! Any structure between any walls: the exact scheme closes its energy ledger and keeps its
 //! contract.
 
+mod draws;
+
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use signorini::linear::Symmetric;
 use signorini::residual::{Judge, Residuals};
 use signorini::{Error, Load, Probe, Row, Scene, Scheme, Side, Stepper, Structure, Wall, WallLaw};
@@ -86,8 +89,45 @@ fn follow(scene: &Scene, most: u64) -> Result<Residuals, Error> {
     Ok(judge.residuals())
 }
 
+/// Found among 11 000 random scenes: the mass leaves a damped soft wall so fast that the instant's
+/// rounding error puts it further from the surface than its position is rounded.
+#[test]
+fn a_mass_that_leaves_a_soft_damped_wall_fast_has_left_it() {
+    let lower = |entries: &[f64]| gram(3, entries, 0.0);
+    let spring = lower(&[
+        0.3092449178335165,
+        -0.15655728546618766,
+        0.6382274759477166,
+        0.9899346196969021,
+        0.8187955963803958,
+        -0.16324130332893755,
+    ]);
+    let mass = [
+        -0.7488992228231429,
+        -0.6116931348989414,
+        -0.33206651059909387,
+        0.6598144361352206,
+        0.9660288381984647,
+        0.27445552157407543,
+    ];
+    let structure = Structure {
+        mass: gram(3, &mass, 0.3),
+        damping: Symmetric::zeros(3),
+        stiffness: Symmetric::sum(&[(664.0254522368456, &spring)]),
+    };
+    let q = [0.06438161750451912, 0.0011522438802219958, 0.09222280244960343];
+    let v = [-0.5204562968730673, 0.6052631434141137, -0.3789225689336914];
+    let mut left = scene(structure).with_initial(&q, &v).with_duration(1.0);
+    let wall = Wall { at: Row::dof(1), ..Wall::lower("soft", q[1]) };
+    left = left.with_wall(wall.with_elasticity(10.0, 6.832774901541856));
+    let mut load = Load::harmonic(3.471248466688291, 0.5, 0.0);
+    load.at = Row::dof(2);
+    // Every step is judged on its way.
+    follow(&left.with_load(load), 3000).unwrap();
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: draws::cases(300), rng_seed: RngSeed::Fixed(draws::seed(1)), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn impacts_at_several_walls_never_gain_energy_and_leave_no_approach(

@@ -3,6 +3,7 @@
 //!
 //! Each is judged by the judge's residuals, and some by closed forms.
 
+mod draws;
 mod random_structures;
 
 use random_structures::{Draws, at, on, scene};
@@ -207,16 +208,12 @@ fn sound(scene: &Scene, run: &Judged, reach: f64, energy: f64) -> bool {
         && r.tension_n <= 1e-12 * r.force_scale_n
 }
 
-fn count(usual: u64) -> u64 {
-    std::env::var("SIGNORINI_CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(usual)
-}
-
 /// `SIGNORINI_CASES` sets how many, `SIGNORINI_SEED` where they begin.
 #[test]
 fn whatever_starts_on_its_walls_keeps_to_them() {
-    let first: u64 = std::env::var("SIGNORINI_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(0);
+    let first = draws::seed(0);
     let (mut met, mut handed, mut wrong) = (0, 0, Vec::new());
-    let cases = count(600);
+    let cases = draws::cases(600);
     for seed in first..first + cases {
         let scene = random(&mut Draws::new(seed));
         let run = match judged(&scene) {

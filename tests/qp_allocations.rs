@@ -1,29 +1,9 @@
 //! A solve allocates nothing after the first, what Clarabel allocates inside itself apart.
 
+mod counting;
+
 use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, Solver};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
-struct Counting;
-
-thread_local! {
-    static COUNT: Cell<u64> = const { Cell::new(0) };
-}
-
-// Counting needs an allocator, which needs unsafe code: it only forwards.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        let _ = COUNT.try_with(|count| count.set(count.get() + 1));
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// Allocations of 100 solves after the first, on n boxes that the loads push against.
 fn allocations(backend: Backend, n: usize) -> u64 {
@@ -34,12 +14,12 @@ fn allocations(backend: Backend, n: usize) -> u64 {
     let (lo, hi) = (vec![-1.0; n], vec![1.0; n]);
     let mut b = vec![3.0; n];
     solver.solve(&Rhs { b: &b, lo: &lo, hi: &hi }).expect("feasible");
-    let before = COUNT.with(Cell::get);
+    let before = counting::count();
     for step in 0..100 {
         b.fill(2.0 + f64::from(step) / 50.0);
         solver.solve(&Rhs { b: &b, lo: &lo, hi: &hi }).expect("feasible");
     }
-    COUNT.with(Cell::get) - before
+    counting::count() - before
 }
 
 #[test]
@@ -80,11 +60,11 @@ fn the_condensed_solver_allocates_nothing_while_rows_come_and_go() {
             }
             solver.solve(&Rhs { b: &b, lo: &lo, hi: &hi }).expect("feasible");
             if step == 0 {
-                before = COUNT.with(Cell::get);
+                before = counting::count();
             }
         }
         let counters = solver.counters();
-        assert_eq!(COUNT.with(Cell::get) - before, 0, "{n}, {coupling}: {counters:?}");
+        assert_eq!(counting::count() - before, 0, "{n}, {coupling}: {counters:?}");
         assert!(counters.fallbacks == 0 && counters.free < 100, "{counters:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! The stepper: allocations, co-simulation, blows, and what is recorded of its steps.
 
 mod common;
+mod counting;
 mod random_structures;
 
 use common::{INTEGRATORS, MOREAU_JEAN, penalty, schemes, source, spring};
@@ -11,40 +12,6 @@ use signorini::{
     Balance, Contact, Error, Integrator, Load, Method, Options, Recorder, Row, Scene, Scheme, Stepper, Structure,
     TimeOptions, Wall, WallLaw, run,
 };
-
-mod counting {
-    //! An allocator that counts what the current thread asks of it.
-
-    use std::alloc::{GlobalAlloc, Layout, System};
-    use std::cell::Cell;
-
-    thread_local! {
-        static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-    }
-
-    pub struct Counting;
-
-    // SAFETY: everything is passed on to the system's allocator unchanged.
-    unsafe impl GlobalAlloc for Counting {
-        unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-            let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
-            // SAFETY: as the caller promises.
-            unsafe { System.alloc(layout) }
-        }
-
-        unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-            // SAFETY: as the caller promises.
-            unsafe { System.dealloc(pointer, layout) }
-        }
-    }
-
-    pub fn count() -> u64 {
-        ALLOCATIONS.with(Cell::get)
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: counting::Counting = counting::Counting;
 
 #[test]
 fn no_step_after_the_first_allocates() {

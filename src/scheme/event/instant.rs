@@ -68,12 +68,11 @@ impl Event {
     fn cross(&mut self, index: usize) {
         let (q, v, time, resolution) = (self.q, self.v, self.time, self.resolution);
         let Some(b) = self.barriers.get_mut(index) else { return };
-        let at_surface = b.gap(q).abs() <= resolution;
         if matches!(b.phase, Phase::Rigid(_)) {
             self.q = b.position;
             return;
         }
-        if b.cross(at_surface, time) {
+        if b.cross((q, v), resolution, time) {
             self.q = b.position;
         }
         b.settle(index, time, v, &mut self.shown.closed);

@@ -102,9 +102,17 @@ impl ExactWall {
         };
     }
 
-    /// Moves an elastic wall into its next phase at `time` (s), with the body on its surface or
-    /// behind it. Returns whether the surface was crossed.
-    pub fn cross(&mut self, at_surface: bool, time: f64) -> bool {
+    /// Moves an elastic wall into its next phase at `time` (s), with the body at `q` (m) and `v`
+    /// (m/s), on its surface within `resolution` (m) or behind it. Returns whether the surface was
+    /// crossed.
+    ///
+    /// A body behind the wall without force has reached either the surface, where k_a s = 0, or a
+    /// state where k_a s + c_a ṡ = 0. The one nearer to 0 tells which: the rounding error of the
+    /// instant, times a high speed, may put the body further from the surface than `resolution`.
+    pub fn cross(&mut self, (q, v): (f64, f64), resolution: f64, time: f64) -> bool {
+        let depth = self.gap(q).abs();
+        let emerged = self.phase == Phase::Detached && self.stiffness * depth < self.sum(q, v).abs();
+        let at_surface = emerged || depth <= resolution;
         let next = match self.phase {
             Phase::Rigid(_) => return false,
             Phase::Outside => Phase::Touching,

@@ -55,8 +55,7 @@ impl StructureEvent {
         let (w, rate) = (self.body.rows.dot(row, &self.q), self.body.rows.dot(row, &self.v));
         let resolution = self.resolution(row, self.barriers[wall].position);
         let Some(b) = self.barriers.get_mut(wall) else { return };
-        let at_surface = b.gap(w).abs() <= resolution;
-        b.cross(at_surface, self.time);
+        b.cross((w, rate), resolution, self.time);
         b.settle(wall, self.time, rate, &mut self.shown.closed);
     }
 
