@@ -67,7 +67,9 @@ pub use scene::{
     SharedStructure, Side, State, Structure, Support, System, Table, TimeFunction, Wall, WallLaw,
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
-pub use statistics::{ForceStatistics, Forces, HalfWidths, Statistics, Summary, WallStatistics};
+pub use statistics::{
+    ForceStatistics, Forces, HalfWidths, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics,
+};
 pub use step::{
     Balance, Bound, Conserves, Contact, Contract, Elastic, HoleStep, Law, Path, Promise, PromisedForce, Reached, Rigid,
     Step, Tolerance, Tolerances,

@@ -120,6 +120,44 @@ impl Builder<'_> {
 }
 
 impl Case {
+    /// True if the case has a random load.
+    #[must_use]
+    pub fn is_random(&self) -> bool {
+        self.written.origins.iter().any(|origin| matches!(origin, Origin::Random { .. }))
+    }
+
+    /// Realisation `number` of the case, from 1: the same case, where the seed of every random load
+    /// is greater by `number` − 1. So realisation 1 is the case itself, and a run with `seed` set to
+    /// that value repeats any of the others.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] under `realisation` for 0, and where a seed would exceed 2^53.
+    pub fn realisation(&self, number: u64) -> Result<Self> {
+        let Some(more) = number.checked_sub(1) else {
+            return Err(Error::invalid("realisation", 0, "1 or more: the first is the case itself"));
+        };
+        let mut case = self.clone();
+        for (index, origin) in case.written.origins.iter_mut().enumerate() {
+            let (Origin::Random { force, .. } | Origin::Second(force)) = origin else { continue };
+            let seed = force.seed.saturating_add(more);
+            if seed as f64 > MOST_SEED {
+                let most = MOST_SEED as u64 - force.seed.min(MOST_SEED as u64) + 1;
+                let expected = format!("at most {most} beside the seed {}: seeds go up to 2^53", force.seed);
+                return Err(Error::invalid("realisation", number, expected));
+            }
+            force.seed = seed;
+            let table = force.table(case.scene.duration)?;
+            let reduced = case.truncated.as_mut();
+            let others = reduced.map(|truncated| [&mut truncated.whole.scene, &mut truncated.reduction.scene]);
+            for scene in others.into_iter().flatten().chain([&mut case.scene]) {
+                if let Some(load) = scene.loads.get_mut(index) {
+                    load.kind = LoadKind::Table(table.clone());
+                }
+            }
+        }
+        Ok(case)
+    }
+
     /// Changes the end of the run. The lines of a random force are multiples of 1/end, so random
     /// loads are made anew.
     ///

@@ -16,6 +16,7 @@ mod refuted;
 mod report;
 mod request;
 mod run;
+mod seeds;
 mod stability;
 mod sweep;
 mod ui;

@@ -4,6 +4,7 @@ use super::drawing::Stretch;
 use super::pace::Pace;
 use super::refuted::Refutations;
 use super::request::Request;
+use super::seeds::{self, Seeds};
 use super::ui::{Progress, Ui};
 use super::values;
 use crate::case::Case;
@@ -35,6 +36,7 @@ Examples:
   signorini run rigid-walls-sine --restitution 0.8 --scheme moreau-jean --accuracy 1e-3
   signorini run tube-loose-supports --modes 40
   signorini run rigid-walls-sine --from 4 --to 6   pictures of these two seconds
+  signorini run tube-lattice-bars --seeds 6        means over six realisations of the random loads
 
 Schemes: implicit-euler, paoli-schatzman, moreau-jean, generalized-alpha, newmark (for demonstration), penalty, event (exact).";
 
@@ -56,6 +58,8 @@ pub struct Args {
     #[arg(long)]
     no_verdict: bool,
     #[command(flatten)]
+    seeds: Seeds,
+    #[command(flatten)]
     stretch: Stretch,
 }
 
@@ -73,6 +77,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let span = args.stretch.span(&case, case.scene.duration)?;
     let request = asked("run", &case, &[method]);
     let request = with(request, json!({ "verdict": !args.no_verdict }));
+    let count = args.seeds.check(&case)?;
+    let request = seeds::asked(request, count);
     let mut results = args.request.results(&case, "run", request)?;
     let truncated = case.truncated.is_some() && !args.no_verdict;
     let checks = if args.no_verdict { 0.0 } else { verdict::COST } + if truncated { 1.0 } else { 0.0 };
@@ -92,21 +98,25 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     if let Some(Ok(truncation)) = &truncation {
         refuted.see("the check with more modes", &truncation.findings);
     }
+    let study = seeds::study(&case, &run, &method, (count, args.no_verdict), &mut refuted, ui)?;
     refuted.announce(ui);
     ui.message(&format!("{method}: {reason}"));
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
     let checks = Checks {
         refinement: verdict.as_ref().and_then(|v| v.as_ref().ok()),
         truncation: truncation.as_ref().and_then(|t| t.as_ref().ok()),
+        realisations: study.as_ref(),
         ..Checks::default()
     };
     let document =
         output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
+    seeds::write(study.as_ref(), &mut results)?;
     if !shape.is_empty() {
         shape.write(&results.place(shape::FILE)?, run.trajectory.time(), &moved)?;
     }
     finish(&mut results, "", report, ui)?;
     tell(&case, &run, &method, document, &results, ui)?;
+    seeds::tell(study.as_ref(), &case, ui)?;
     match verdict {
         Some(Ok(verdict)) => ui.message(&format!("refinement: {verdict}")),
         Some(Err(error)) => ui.message(&format!("refinement: the check of this run failed: {error}")),
@@ -133,6 +143,8 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let span = args.stretch.span(case, case.scene.duration)?;
     let methods: Vec<Method> = method.into_iter().collect();
     let request = with(asked("run", case, &methods), json!({ "step_s": null, "accuracy": tolerance }));
+    let count = args.seeds.check(case)?;
+    let request = seeds::asked(request, count);
     let mut results = args.request.results(case, "run", request)?;
     let target = Target { method, ..Target::new(tolerance, case.time) };
     target.validate()?;
@@ -171,12 +183,15 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let Outcome { method, reason, run, accuracy, mut shortfall } = outcome?;
     let mut refuted = Refutations::default();
     refuted.see(&method.to_string(), &run.findings);
+    let study = seeds::study(&case, &run, &method, (count, args.no_verdict), &mut refuted, ui)?;
     refuted.announce(ui);
     ui.message(&format!("{method}: {reason}"));
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
-    let checks = Checks { accuracy: Some(&accuracy), modes: modes.as_ref(), ..Checks::default() };
+    let checks =
+        Checks { accuracy: Some(&accuracy), modes: modes.as_ref(), realisations: study.as_ref(), ..Checks::default() };
     let mut document =
         output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
+    seeds::write(study.as_ref(), &mut results)?;
     shortfall = shortfall.or(modes.as_ref().and_then(ChosenModes::shortfall));
     if let (Some(error), Some(map)) = (&shortfall, document.as_object_mut()) {
         map.insert("error".to_owned(), json!(error.to_string()));
@@ -184,6 +199,7 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let kept = if shortfall.is_some() { ", kept in spite of what follows" } else { "" };
     finish(&mut results, kept, !args.request.place.no_report, ui)?;
     tell(&case, &run, &method, document, &results, ui)?;
+    seeds::tell(study.as_ref(), &case, ui)?;
     if let Some(modes) = &modes {
         ui.message(&format!("modes: {modes}"));
     }

@@ -10,6 +10,7 @@
 //! | [`run`] | all files of one run, and its table |
 //! | [`compare`] | all files of a comparison, its table and its JSON |
 //! | [`document`] | a chart and a stability study as JSON |
+//! | [`realisations`] | `realisations.csv`, and its table |
 //! | [`periodic`] | a periodic orbit: its document, motion and pictures |
 //! | [`branches`] | branches of orbits: tables, document and picture |
 //! | [`loci`] | curves of special points over two keys |
@@ -37,6 +38,7 @@ mod orbit;
 pub mod periodic;
 pub mod pictures;
 mod places;
+pub mod realisations;
 pub mod results;
 pub mod run;
 pub mod shape;

@@ -45,3 +45,32 @@ pub(super) fn ratio_half_width(sums: &[f64; BATCHES], numbers: &[f64; BATCHES]) 
     // The zₖ sum to 0 up to rounding, which half_width subtracts.
     Some(half_width(&open) * BATCHES as f64 / all)
 }
+
+/// Turns the sums over time of each batch into means over the window.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sums {
+    /// Length of the window, s.
+    pub length: f64,
+    /// Length of an averaging interval, s.
+    pub bin: f64,
+}
+
+impl Sums {
+    /// Mean over time of what has the sums `sums` in the batches, and the half width of its 95 %
+    /// interval; `None` unless ten `contacts` began in the window, or what pushed (Σ|p| of each
+    /// batch, `pushed`) did so in all ten.
+    pub fn mean(self, sums: &[f64; BATCHES], pushed: &[f64; BATCHES], contacts: usize) -> (f64, Option<f64>) {
+        let batch = self.length / BATCHES as f64;
+        let means = sums.map(|p| p / batch);
+        let enough = contacts >= BATCHES || pushed.iter().all(|&p| p > 0.0);
+        (means.iter().sum::<f64>() / BATCHES as f64, enough.then(|| half_width(&means)))
+    }
+
+    /// The root of that mean, and the half width of its interval: that of the mean divided by twice
+    /// the root.
+    pub fn root_mean(self, squares: &[f64; BATCHES], pushed: &[f64; BATCHES], contacts: usize) -> (f64, Option<f64>) {
+        let (mean, half) = self.mean(squares, pushed, contacts);
+        let root = mean.sqrt();
+        (root, half.map(|half| if root > 0.0 { half / (2.0 * root) } else { 0.0 }))
+    }
+}

@@ -1,6 +1,7 @@
 //! The force of a wall over time: impulse, mean and root mean square, step by step.
 
-use super::batch::{BATCHES, half_width};
+use super::batch::{BATCHES, Sums};
+use super::support::{SupportForce, SupportTally};
 use crate::scene::Scene;
 use crate::step::{Path, Step};
 use serde::{Deserialize, Serialize};
@@ -63,6 +64,7 @@ pub struct Forces {
     /// Index of the current interval.
     at: u64,
     walls: Vec<Tally>,
+    supports: Vec<SupportTally>,
 }
 
 impl Forces {
@@ -77,7 +79,7 @@ impl Forces {
         let bins = BATCHES as u64 * stretches as u64;
         let tally = |rigid| Tally { rigid, ..Tally::default() };
         let walls = scene.walls.iter().map(|wall| tally(wall.law.is_rigid())).collect();
-        Self { from, length, bin: length / bins as f64, bins, at: 0, walls }
+        Self { from, length, bin: length / bins as f64, bins, at: 0, walls, supports: SupportTally::all(scene) }
     }
 
     /// Adds one step; steps must come in order. A step of a scene with another number of walls is
@@ -143,6 +145,7 @@ impl Forces {
     /// Ends the current interval.
     fn close(&mut self) {
         let (batch, bin) = (self.batch(), self.bin);
+        self.close_supports();
         for tally in &mut self.walls {
             let p = std::mem::take(&mut tally.stretch);
             if tally.rigid {
@@ -151,31 +154,49 @@ impl Forces {
         }
     }
 
+    /// Adds the current interval to the supports.
+    fn close_supports(&mut self) {
+        let (batch, bin) = (self.batch(), self.bin);
+        let Self { walls, supports, .. } = self;
+        let impulse = |wall: usize| walls.get(wall).map_or(0.0, |tally| tally.stretch);
+        supports.iter_mut().for_each(|support| support.close(batch, bin, impulse));
+    }
+
+    fn sums(&self) -> Option<Sums> {
+        (self.length > 0.0).then_some(Sums { length: self.length, bin: self.bin })
+    }
+
     /// Statistics of wall number `wall`, at which `contacts` began in the window; `None` for a
     /// window of length 0.
     pub(super) fn statistics(&self, wall: usize, contacts: usize) -> Option<ForceStatistics> {
-        let tally = self.walls.get(wall).filter(|_| self.length > 0.0)?;
-        let batch = self.length / BATCHES as f64;
+        let (tally, sums) = (self.walls.get(wall)?, self.sums()?);
         let mut squares = tally.square;
         if tally.rigid {
             // The current interval ends with the window.
             squares[self.batch()] += tally.stretch * tally.stretch / self.bin;
         }
-        let means = tally.pushed.map(|p| p / batch);
-        let squares = squares.map(|s| s / batch);
-        let mean = |x: &[f64; BATCHES]| x.iter().sum::<f64>() / BATCHES as f64;
-        let rms = mean(&squares).sqrt();
-        let enough = contacts >= BATCHES || tally.pushed.iter().all(|&p| p > 0.0);
-        let told = |half_width: f64| enough.then_some(half_width);
+        let (mean, mean_half) = sums.mean(&tally.pushed, &tally.pushed, contacts);
+        let (rms, rms_half) = sums.root_mean(&squares, &tally.pushed, contacts);
         Some(ForceStatistics {
             impulse_n_s: tally.impulse,
-            impulse_half_width_95_n_s: told(half_width(&means) * self.length),
-            mean_n: mean(&means),
-            mean_half_width_95_n: told(half_width(&means)),
+            impulse_half_width_95_n_s: mean_half.map(|half| half * self.length),
+            mean_n: mean,
+            mean_half_width_95_n: mean_half,
             rms_n: rms,
-            rms_half_width_95_n: told(if rms > 0.0 { half_width(&squares) / (2.0 * rms) } else { 0.0 }),
+            rms_half_width_95_n: rms_half,
             rms_averaged_over_s: tally.rigid.then_some(self.bin),
         })
+    }
+
+    /// Statistics of each support of flats, where `contacts(w)` began at wall w in the window; empty
+    /// for a window of length 0.
+    pub(super) fn of_supports(&self, contacts: impl Fn(usize) -> usize) -> Vec<SupportForce> {
+        let Some(sums) = self.sums() else { return Vec::new() };
+        // The current interval ends with the window.
+        let mut closed = self.clone();
+        closed.close_supports();
+        let pushed = |wall: usize| self.walls.get(wall).map_or([0.0; BATCHES], |tally| tally.pushed);
+        closed.supports.iter().map(|support| support.statistics(sums, &contacts, pushed)).collect()
     }
 }
 

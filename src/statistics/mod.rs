@@ -8,8 +8,12 @@
 
 mod batch;
 mod force;
+mod student;
+mod support;
 
 pub use force::{ForceStatistics, Forces};
+pub(crate) use student::student_95;
+pub use support::{SupportForce, SupportStatistics};
 
 use crate::scene::{Scene, Wall};
 use crate::step::Contact;
@@ -104,6 +108,9 @@ pub struct Statistics {
     pub to_s: f64,
     /// One entry per wall, in the scene's order.
     pub walls: Vec<WallStatistics>,
+    /// One entry per support of flats, in the scene's order; its flats are walls too.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub supports: Vec<SupportStatistics>,
 }
 
 impl Statistics {
@@ -128,7 +135,9 @@ impl Statistics {
         let wall = |(index, (wall, all)): (usize, (&Wall, &Vec<&Contact>))| {
             of_wall(wall, all, masses.get(index).copied().unwrap_or(0.0), [from, to])
         };
-        Self { from_s: from, to_s: to, walls: scene.walls.iter().zip(&by_wall).enumerate().map(wall).collect() }
+        let walls = scene.walls.iter().zip(&by_wall).enumerate().map(wall).collect();
+        let supports = support::of_supports(scene, masses, &by_wall, [from, to]);
+        Self { from_s: from, to_s: to, walls, supports }
     }
 
     /// Adds the force over time, as summed step by step.
@@ -137,6 +146,9 @@ impl Statistics {
         for (index, wall) in self.walls.iter_mut().enumerate() {
             wall.force = forces.statistics(index, wall.contacts);
         }
+        let contacts = |wall: usize| self.walls.get(wall).map_or(0, |wall| wall.contacts);
+        let all = forces.of_supports(contacts);
+        self.supports.iter_mut().zip(all).for_each(|(support, force)| support.force = Some(force));
         self
     }
 

@@ -10,6 +10,7 @@ mod exact;
 mod growth;
 pub mod horizon;
 mod perturbation;
+pub mod realisations;
 #[cfg(feature = "cli")]
 pub mod stability;
 pub mod truncation;

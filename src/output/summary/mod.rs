@@ -12,6 +12,7 @@ use crate::run::Run;
 use crate::scheme::Counters;
 use crate::statistics::Statistics;
 use crate::study::accuracy::Accuracy;
+use crate::study::realisations::Realisations;
 use crate::study::truncation::{ChosenModes, Truncation};
 use crate::study::verdict::Verdict;
 use serde::Serialize;
@@ -60,6 +61,10 @@ pub struct Checks<'a> {
     pub truncation: Option<&'a Truncation>,
     /// How the number of modes was chosen.
     pub modes: Option<&'a ChosenModes>,
+    /// The run among further realisations of its random loads; absent where they were not asked
+    /// for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub realisations: Option<&'a Realisations>,
 }
 
 /// Why the scheme and the solver were chosen, one sentence each.

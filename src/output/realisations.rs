@@ -1,0 +1,177 @@
+//! `realisations.csv`, and what a study of realisations tells the terminal.
+
+use super::csv;
+use super::table::Table;
+use crate::error::Result;
+use crate::scene::{Scene, Shape};
+use crate::study::realisations::{Estimate, Interval, Kind, Larger, Measure, Place, Realisations, StepChange};
+use std::collections::HashSet;
+use std::path::Path;
+
+/// Name of the file.
+pub const FILE: &str = "realisations.csv";
+
+/// Most rows of the table in the terminal, and lines on half the step.
+const MOST_ROWS: usize = 24;
+const MOST_LINES: usize = 4;
+
+/// Writes one row for each realisation and place: the number of the realisation, the place, its
+/// measures, and how many findings of the judge refute the realisation. What a place does not have
+/// is empty.
+///
+/// # Errors
+/// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
+pub fn write(path: &Path, study: &Realisations) -> Result<()> {
+    let mut header = vec!["realisation".to_owned(), "place".to_owned(), "kind".to_owned()];
+    header.extend(Measure::ALL.map(|measure| format!("{}_{}", measure.words().replace(' ', "_"), measure.unit())));
+    header.push("findings".to_owned());
+    let places = places(study);
+    let rows = study.members.iter().flat_map(|member| {
+        places.iter().map(move |place| {
+            let mut row = vec![member.number.to_string(), place.name.clone(), word(place.kind).to_owned()];
+            row.extend(Measure::ALL.map(|measure| csv::digits(member.value(place, measure))));
+            row.push(member.findings.len().to_string());
+            row
+        })
+    });
+    csv::table(path, &header, rows)
+}
+
+/// The places of a study, in its order.
+fn places(study: &Realisations) -> Vec<&Place> {
+    let mut places: Vec<&Place> = Vec::new();
+    for estimate in &study.estimates {
+        if places.last() != Some(&&estimate.place) {
+            places.push(&estimate.place);
+        }
+    }
+    places
+}
+
+fn word(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Wall => "wall",
+        Kind::Support => "support",
+    }
+}
+
+/// The places that the terminal shows: supports, and walls that are no flats of one; where there
+/// are many, those of the largest mean forces.
+fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a Place> {
+    let flats = scene.supports.iter().filter_map(|support| match &support.shape {
+        Shape::Flats(flats) => Some(flats),
+        Shape::Round { .. } => None,
+    });
+    let flats: HashSet<usize> = flats.flatten().map(|flat| flat.wall).collect();
+    let flats: HashSet<&str> =
+        scene.walls.iter().enumerate().filter(|(i, _)| flats.contains(i)).map(|(_, wall)| wall.name.as_str()).collect();
+    let own = |place: &&Place| place.kind == Kind::Support || !flats.contains(place.name.as_str());
+    let mut places: Vec<(usize, &Place)> = places(study).into_iter().filter(own).enumerate().collect();
+    let force = |place: &Place| find(study, place, Measure::MeanForce).map_or(0.0, |one| one.mean);
+    places.sort_by(|a, b| force(b.1).total_cmp(&force(a.1)));
+    places.truncate(most);
+    places.sort_by_key(|place| place.0);
+    places.into_iter().map(|(_, place)| place).collect()
+}
+
+fn find<'a>(study: &'a Realisations, place: &Place, measure: Measure) -> Option<&'a Estimate> {
+    study.estimates.iter().find(|one| one.place == *place && one.measure == measure)
+}
+
+/// The table for the terminal; `None` without walls. The components of forces are in the summary
+/// only.
+#[must_use]
+pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
+    let columns = [Measure::MeanForce, Measure::RmsForce, Measure::ImpactPower, Measure::PeakForce];
+    let known = |measure: &Measure| study.estimates.iter().any(|one| one.measure == *measure);
+    let columns: Vec<Measure> = columns.into_iter().filter(known).collect();
+    let mut header = vec!["place".to_owned()];
+    for measure in &columns {
+        header.push(format!("{} ({})", measure.words(), measure.unit()));
+        header.extend((study.count > 1).then(|| format!("deviation ({})", measure.unit())));
+    }
+    let row = |place: &Place| {
+        let mut row = vec![place.name.clone()];
+        for measure in &columns {
+            let one = find(study, place, *measure);
+            row.push(one.map_or_else(|| "-".to_owned(), |one| with_interval(one.mean, one.half_width_95)));
+            let deviation = one.and_then(|one| one.standard_deviation);
+            let text = deviation.map_or_else(|| "-".to_owned(), |s| with_decimals(s, decimals(s)));
+            row.extend((study.count > 1).then_some(text));
+        }
+        row
+    };
+    let rows: Vec<Vec<String>> = shown(study, scene, MOST_ROWS).into_iter().map(row).collect();
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    (!rows.is_empty()).then(|| Table::new(&header, rows))
+}
+
+/// What the reader must be told beside the table, a sentence each.
+#[must_use]
+pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
+    let count = study.count;
+    let mut remarks = vec![match study.interval {
+        Interval::StudentOfRealisations => format!(
+            "± is the 95 % interval of the mean over {count} realisations, by Student's t; the deviation is that of \
+             one realisation"
+        ),
+        Interval::TenBatchesOfOneRealisation => "± is a 95 % interval from ten batches of one realisation: it does \
+             not know what is slower than a batch; --seeds 5 or more gives that of independent realisations"
+            .to_owned(),
+    }];
+    for place in shown(study, scene, MOST_LINES) {
+        let Some(one) = find(study, place, Measure::MeanForce) else { continue };
+        let Some(StepChange { change, half_width_95, larger, .. }) = one.half_step else { continue };
+        let mean = with_interval(one.mean, one.half_width_95);
+        let verdict = match larger {
+            Some(Larger::Step) => ": the error of the step is the larger",
+            Some(Larger::Sampling) => ": the scatter of the sample is the larger",
+            None => "",
+        };
+        let change = with_interval(change, half_width_95);
+        remarks.push(format!("{}: mean force {mean} N; half the step changes it by {change} N{verdict}", place.name));
+    }
+    remarks
+}
+
+/// Decimals that show two digits of `x`.
+fn decimals(x: f64) -> usize {
+    let digits = 1.0 - x.abs().log10().floor();
+    if digits.is_finite() { digits.clamp(0.0, 12.0) as usize } else { 1 }
+}
+
+fn with_decimals(x: f64, decimals: usize) -> String {
+    // Where rounding would show −0.
+    let x = if x.abs() < 0.5 * 10_f64.powi(-(decimals as i32)) { 0.0 } else { x };
+    format!("{x:.decimals$}")
+}
+
+/// A value with two digits of its half width, or with three of its own.
+fn with_interval(x: f64, half: Option<f64>) -> String {
+    match half {
+        Some(half) if half > 0.0 => {
+            let decimals = decimals(half);
+            format!("{} ± {}", with_decimals(x, decimals), with_decimals(half, decimals))
+        }
+        _ => with_decimals(x, decimals(x) + 1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_of_their_interval() {
+        for (x, half, text) in [
+            (6.40321, Some(0.1234), "6.40 ± 0.12"),
+            (-0.0004, Some(0.1234), "0.00 ± 0.12"),
+            (1234.5, Some(56.7), "1234 ± 57"),
+            (0.001_234_5, None, "0.00123"),
+            (0.0, Some(0.0), "0.00"),
+            (2.5e-5, Some(1.3e-6), "0.0000250 ± 0.0000013"),
+        ] {
+            assert_eq!(with_interval(x, half), text);
+        }
+    }
+}

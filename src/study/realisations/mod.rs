@@ -1,0 +1,38 @@
+//! Realisations of random loads: the same scene under signals of the same density and other seeds.
+//!
+//! Under a random load, the mean force of a run is one draw. N independent realisations give the
+//! mean x̄, the standard deviation s of one of them, and the 95 % interval x̄ ± t s/√N of the mean,
+//! with t of Student's distribution with N − 1 degrees of freedom. It is an interval for the
+//! expectation over all realisations of this density and this duration; errors of the step, the
+//! modes and the data are not in it. What half the step changes is therefore computed for the same
+//! realisations, and stands beside it ([`Estimate::half_step`]).
+//!
+//! ```
+//! use signorini::study::realisations::{Measure, Realisations, realisations};
+//! use signorini::{Density, Options, RandomForce, Scene, Scheme, Wall};
+//!
+//! let density = Density::Flat { rms: 3.0, from: 1.0, to: 20.0 };
+//! let scene = |number: u64| {
+//!     let force = RandomForce { density: density.clone(), seed: number, stream: 0 };
+//!     let scene = Scene::oscillator(1.0, 2.0, 400.0).with_wall(Wall::upper("stop", 2e-3).with_restitution(0.5));
+//!     Ok(scene.with_load(force.load(5.0)?).with_duration(5.0))
+//! };
+//! let method = Scheme::MoreauJean { theta: 0.5 }.into();
+//! let members = realisations(1..=4, &scene, &method, &Options::with_step(1e-3), &mut |_| {})?;
+//! let study = Realisations::new(members);
+//! let force = study.estimates.iter().find(|one| one.measure == Measure::MeanForce).expect("there is a wall");
+//! println!("{:.3} ± {:.3} N", force.mean, force.half_width_95.expect("four realisations"));
+//! # Ok::<(), signorini::Error>(())
+//! ```
+
+mod estimate;
+mod measure;
+mod realisation;
+mod runner;
+mod sample;
+
+pub use estimate::{Estimate, Interval, Larger, StepChange};
+pub use measure::{Figure, Kind, Measure, Place};
+pub use realisation::Realisation;
+pub use runner::realisations;
+pub use sample::Realisations;

@@ -1,0 +1,32 @@
+//! The figures of one realisation.
+
+use super::measure::{self, Figure, Measure, Place};
+use crate::residual::Finding;
+use crate::run::Run;
+
+/// The figures of one realisation.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Realisation {
+    /// Its number, from 1.
+    pub number: u64,
+    /// Every measure of every place.
+    pub figures: Vec<Figure>,
+    /// What the judge refutes in its run.
+    pub findings: Vec<Finding>,
+}
+
+impl Realisation {
+    /// The figures of `run`, which is realisation `number`.
+    #[must_use]
+    pub fn of(number: u64, run: &Run) -> Self {
+        Self { number, figures: measure::figures(&run.statistics), findings: run.findings.clone() }
+    }
+
+    /// The value of `measure` at `place`.
+    #[must_use]
+    pub fn value(&self, place: &Place, measure: Measure) -> Option<f64> {
+        let same = |figure: &&Figure| figure.measure == measure && figure.place == *place;
+        self.figures.iter().find(same).map(|figure| figure.value)
+    }
+}

@@ -1,0 +1,84 @@
+//! Several realisations, and the means over them.
+
+use super::estimate::{Estimate, Interval, add_half_step, estimates};
+use super::realisation::Realisation;
+use serde::Serialize;
+
+/// Several realisations, and what follows from them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Realisations {
+    /// How many there are.
+    pub count: usize,
+    /// What the half widths are.
+    pub interval: Interval,
+    /// Numbers of those that the judge refutes: their figures are wrong, and so are the means.
+    pub refuted: Vec<u64>,
+    /// The mean of every measure of every place.
+    pub estimates: Vec<Estimate>,
+    /// The realisations.
+    #[serde(skip)]
+    pub members: Vec<Realisation>,
+}
+
+impl Realisations {
+    /// The study of `members`, one or more of one scene; a single one has the intervals of its own
+    /// ten batches.
+    #[must_use]
+    pub fn new(members: Vec<Realisation>) -> Self {
+        let interval = match members.len() {
+            0 | 1 => Interval::TenBatchesOfOneRealisation,
+            _ => Interval::StudentOfRealisations,
+        };
+        let refuted = members.iter().filter(|member| !member.findings.is_empty()).map(|member| member.number);
+        Self { count: members.len(), interval, refuted: refuted.collect(), estimates: estimates(&members), members }
+    }
+
+    /// Adds what half the step changes, from `halves`: the same realisations in the same order, with
+    /// half the step.
+    #[must_use]
+    pub fn with_half_step(mut self, halves: &[Realisation]) -> Self {
+        add_half_step(&mut self.estimates, &self.members, halves);
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::realisations::{Figure, Kind, Larger, Measure, Place};
+
+    fn member(number: u64, value: f64, batch: Option<f64>) -> Realisation {
+        let place = Place { name: "stop".to_owned(), kind: Kind::Wall };
+        let figure = Figure { place, measure: Measure::MeanForce, value, batch_half_width_95: batch };
+        Realisation { number, figures: vec![figure], findings: Vec::new() }
+    }
+
+    #[test]
+    fn the_interval_is_that_of_student() {
+        // 1, 2, 3, 6: mean 3, deviation √(14/3), t₃ = 3.182446305284.
+        let values = [1.0, 2.0, 3.0, 6.0];
+        let members: Vec<_> = values.iter().enumerate().map(|(i, &x)| member(i as u64 + 1, x, Some(9.0))).collect();
+        let halves: Vec<_> = members.iter().map(|m| member(m.number, m.figures[0].value - 4.0, None)).collect();
+        let study = Realisations::new(members).with_half_step(&halves);
+        let estimate = &study.estimates[0];
+        let deviation = (14.0_f64 / 3.0).sqrt();
+        assert_eq!(study.interval, Interval::StudentOfRealisations);
+        assert!((estimate.mean - 3.0).abs() < 1e-15);
+        assert!((estimate.standard_deviation.unwrap() - deviation).abs() < 1e-15);
+        assert!((estimate.half_width_95.unwrap() - 3.182_446_305_284 * deviation / 2.0).abs() < 1e-11);
+        // Every pair differs by the same 4, more than the half width of 3.44.
+        let step = estimate.half_step.unwrap();
+        assert_eq!((step.change, step.half_width_95, step.larger), (-4.0, Some(0.0), Some(Larger::Step)));
+    }
+
+    #[test]
+    fn one_realisation_has_the_interval_of_its_batches() {
+        let study = Realisations::new(vec![member(1, 2.0, Some(0.25))]).with_half_step(&[member(1, 2.1, None)]);
+        let estimate = &study.estimates[0];
+        assert_eq!(study.interval, Interval::TenBatchesOfOneRealisation);
+        assert_eq!((estimate.standard_deviation, estimate.half_width_95), (None, Some(0.25)));
+        let step = estimate.half_step.unwrap();
+        assert_eq!((step.half_width_95, step.larger), (None, Some(Larger::Sampling)));
+    }
+}
