@@ -5,7 +5,7 @@
 //! is not in contact with it, whatever the scheme: the force that a scheme computes there is
 //! rounding, and counts as 0.
 
-use crate::scene::{LoadKind, Scene, Side, System, WallLaw};
+use crate::scene::{Hole, LoadKind, Scene, Side, System, WallLaw};
 use crate::step::{Bound, Contact, Contract};
 
 /// An impact on a rigid wall takes one step in a velocity-level scheme and up to two in a
@@ -27,7 +27,7 @@ struct Floor {
 }
 
 impl Floor {
-    /// One per wall of `scene`.
+    /// One per wall of `scene`, then one per round support.
     fn all(scene: &Scene, masses: &[f64], contract: Contract) -> Vec<Self> {
         let size = |kind: &LoadKind| match kind {
             LoadKind::Constant { force } => force.abs(),
@@ -46,7 +46,9 @@ impl Floor {
             let inertia = if positions { mass * place } else { 0.0 };
             Self { force: ROUNDING * (loads + (spring + own) * place), inertia: ROUNDING * inertia }
         };
-        scene.walls.iter().zip(masses).map(floor).collect()
+        // Only velocity-level schemes step scenes with round supports.
+        let hole = |hole: Hole<'_>| Self { force: ROUNDING * (loads + spring * hole.gap), inertia: 0.0 };
+        scene.walls.iter().zip(masses).map(floor).chain(scene.holes().map(hole)).collect()
     }
 
     /// True if an impulse `p` (N s) of a step of `h` (s) is rounding; without a division, since
@@ -89,7 +91,8 @@ pub(crate) struct Rates {
 }
 
 /// Joins the impulses of a scheme on a grid into episodes, and closes an episode when a wall stops
-/// pushing.
+/// pushing. A round support counts as an upper wall along the normal of each step, with positive
+/// impulses.
 #[derive(Debug, Clone)]
 pub(crate) struct Episodes {
     instant: f64,
@@ -98,6 +101,8 @@ pub(crate) struct Episodes {
     /// The mass that each wall feels, kg.
     mass: Vec<f64>,
     side: Vec<Side>,
+    /// Number of walls: the entries from there on are round supports.
+    walls: usize,
     open: Vec<Option<Open>>,
     any: bool,
     /// Walls that pushed in the last step.
@@ -108,13 +113,15 @@ pub(crate) struct Episodes {
 impl Episodes {
     /// For `scene`, whose walls feel `masses` (kg).
     pub(crate) fn new(scene: &Scene, masses: &[f64], contract: Contract) -> Self {
-        let walls = scene.walls.len();
+        let holes = || scene.holes();
+        let walls = scene.walls.len() + holes().count();
         Self {
             instant: contract.instant,
-            rigid: scene.walls.iter().map(|w| w.law.is_rigid()).collect(),
+            rigid: scene.walls.iter().map(|w| w.law.is_rigid()).chain(holes().map(|_| true)).collect(),
             floor: Floor::all(scene, masses, contract),
             mass: masses.to_vec(),
-            side: scene.walls.iter().map(|w| w.side).collect(),
+            side: scene.walls.iter().map(|w| w.side).chain(holes().map(|_| Side::Upper)).collect(),
+            walls: scene.walls.len(),
             open: vec![None; walls],
             any: false,
             pushed: Vec::with_capacity(walls),
@@ -171,10 +178,15 @@ impl Episodes {
         self.pushed = before;
     }
 
+    /// The sign of the impulse of an episode.
+    fn sign(&self, wall: usize) -> f64 {
+        if wall < self.walls { self.side[wall].sign() } else { 1.0 }
+    }
+
     /// Closes the episode, if any, of a wall that does not push.
     fn part(&mut self, wall: usize) {
         if let Some(episode) = self.open.get_mut(wall).and_then(Option::take) {
-            self.closed.push(contact(wall, self.side[wall].sign(), self.rigid[wall], &episode, true));
+            self.closed.push(contact(wall, self.sign(wall), self.rigid[wall], &episode, true));
         }
     }
 
@@ -222,7 +234,7 @@ impl Episodes {
     /// Episodes still open at the end of the run.
     pub(crate) fn still_open(&self) -> Vec<Contact> {
         let rows = self.open.iter().enumerate().filter_map(|(wall, open)| open.as_ref().map(|e| (wall, e)));
-        rows.map(|(wall, e)| contact(wall, self.side[wall].sign(), self.rigid[wall], e, false)).collect()
+        rows.map(|(wall, e)| contact(wall, self.sign(wall), self.rigid[wall], e, false)).collect()
     }
 }
 

@@ -58,7 +58,7 @@ pub use interrupt::Interrupt;
 pub use residual::{Finding, Refuted};
 pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{
-    Bar, BarEnd, Beam, BeamEnd, Chain, Condensation, Damping, Flat, FlatWall, Flats, MOST_DENSE, MOST_ELEMENTS,
+    Bar, BarEnd, Beam, BeamEnd, Chain, Condensation, Damping, Flat, FlatWall, Flats, Hole, MOST_DENSE, MOST_ELEMENTS,
     MOST_FLATS, MOST_MODES, MassMatrix, ModalData, ModalPoint, Modes, PlaneRows, Reduction, WallTruncation, heading,
     matrices,
 };
@@ -71,8 +71,8 @@ pub use statistics::{
     ForceStatistics, Forces, HalfWidths, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics,
 };
 pub use step::{
-    Balance, Bound, Conserves, Contact, Contract, Elastic, HoleStep, Law, Path, Promise, PromisedForce, Reached, Rigid,
-    Step, Tolerance, Tolerances,
+    Balance, Bound, Conserves, Contact, Contract, Elastic, Friction, HoleStep, Law, Path, Promise, PromisedForce,
+    Reached, Rigid, Step, Tolerance, Tolerances, Turning,
 };
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
 pub use trajectory::{Recorder, Trajectory};

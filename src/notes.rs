@@ -12,7 +12,7 @@ pub(crate) use setup::setup;
 use crate::residual::Energy;
 use crate::run::{Judging, Recording, Run};
 use crate::scene::{Checked, Scene};
-use crate::scheme::Scheme;
+use crate::scheme::{Counters, Scheme};
 use crate::step::Contact;
 
 /// A residual of the energy ledger above this share of the energy exchanged gets a note, and so do
@@ -29,6 +29,10 @@ const ROUNDING: f64 = 1e-9;
 /// back and forth without further gain, and little of all that arrives is new. Creating more than
 /// the start and the loads ever supplied gets a note in any case.
 const SHARE_OF_LARGEST: f64 = 0.1;
+
+/// The normal of a round hole may turn by this angle in a step, rad: the midpoint rule on the circle
+/// then has an error of some per cent.
+const LARGE_TURN: f64 = 0.2;
 
 /// Maximum number of handed-over stretches with a note each.
 const MOST_HANDED: usize = 5;
@@ -84,8 +88,30 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) 
             run.counters.frozen_steps
         ));
     }
+    notes.extend(of_supports(&run.counters));
     notes.extend(run.recorded().and_then(|trajectory| approach::untouched(scene, trajectory)));
     notes.extend(setup(scene, &run.scheme, run.grid.step));
+    notes
+}
+
+/// Notes on what counters say of round holes and friction.
+fn of_supports(counters: &Counters) -> Vec<String> {
+    let mut notes = Vec::new();
+    let turn = counters.largest_turn_rad;
+    if turn > LARGE_TURN {
+        notes.push(format!(
+            "in a step that touched a round hole its normal turned by {turn:.2} rad: the step is too large for the \
+             speed along the hole, and forces there are wrong by about {:.0} %; use a smaller step",
+            100.0 * turn * turn / 3.0
+        ));
+    }
+    if counters.qp_unsettled > 0 {
+        notes.push(format!(
+            "in {} steps the contacts found no common state of sticking and slipping: the answer may not exist for \
+             large friction at unequal masses; do not trust this run unless the judge finds nothing",
+            counters.qp_unsettled
+        ));
+    }
     notes
 }
 
@@ -136,7 +162,8 @@ fn of_energy(energy: &Energy, arrived: Option<f64>) -> Option<String> {
 fn arrived(scene: &Checked, contacts: &[Contact]) -> f64 {
     let masses = scene.wall_masses();
     let mass = |wall: usize| masses.get(wall).copied().unwrap_or(0.0);
-    let rigid = |wall: usize| scene.walls.get(wall).is_some_and(|w| w.law.is_rigid());
+    // Round supports come after the walls, and all of them are rigid.
+    let rigid = |wall: usize| scene.walls.get(wall).is_none_or(|w| w.law.is_rigid());
     let contacts = contacts.iter().filter(|c| rigid(c.wall));
     contacts.map(|c| 0.5 * mass(c.wall) * c.approach_speed * c.approach_speed).sum()
 }

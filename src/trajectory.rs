@@ -39,6 +39,14 @@ pub struct Trajectory {
     velocity: Vec<Vec<f64>>,
     force: Vec<Vec<f64>>,
     impulse: Vec<Vec<f64>>,
+    #[serde(default)]
+    holes: Vec<String>,
+    #[serde(default)]
+    hole_force: Vec<[Vec<f64>; 2]>,
+    #[serde(default)]
+    hole_impulse: Vec<[Vec<f64>; 2]>,
+    #[serde(default)]
+    friction: Vec<Vec<f64>>,
     contacts: Vec<Contact>,
 }
 
@@ -52,6 +60,14 @@ struct Columns {
     velocity: Vec<Vec<f64>>,
     force: Vec<Vec<f64>>,
     impulse: Vec<Vec<f64>>,
+    #[serde(default)]
+    holes: Vec<String>,
+    #[serde(default)]
+    hole_force: Vec<[Vec<f64>; 2]>,
+    #[serde(default)]
+    hole_impulse: Vec<[Vec<f64>; 2]>,
+    #[serde(default)]
+    friction: Vec<Vec<f64>>,
     contacts: Vec<Contact>,
 }
 
@@ -59,15 +75,33 @@ impl TryFrom<Columns> for Trajectory {
     type Error = &'static str;
 
     fn try_from(columns: Columns) -> std::result::Result<Self, Self::Error> {
-        let Columns { walls, probes, time, displacement, velocity, force, impulse, contacts } = columns;
+        let Columns { walls, probes, time, displacement, velocity, force, impulse, .. } = columns;
+        let Columns { holes, hole_force, hole_impulse, friction, contacts, .. } = columns;
         let fit = |names: &[String], columns: [&Vec<Vec<f64>>; 2]| {
             let mut all = columns.iter().flat_map(|columns| columns.iter());
             columns.iter().all(|columns| columns.len() == names.len()) && all.all(|column| column.len() == time.len())
         };
-        let sound = fit(&probes, [&displacement, &velocity]) && fit(&walls, [&force, &impulse]);
-        match sound && contacts.iter().all(|contact| contact.wall < walls.len()) {
-            true => Ok(Self { walls, probes, time, displacement, velocity, force, impulse, contacts }),
-            false => Err("a column for each wall and probe, all of one length, and contacts at these walls"),
+        let mut sound = fit(&probes, [&displacement, &velocity]) && fit(&walls, [&force, &impulse]);
+        sound &= friction.is_empty() || fit(&walls, [&friction, &impulse]);
+        for columns in [&hole_force, &hole_impulse] {
+            sound &= columns.len() == holes.len() && columns.iter().flatten().all(|column| column.len() == time.len());
+        }
+        match sound && contacts.iter().all(|contact| contact.wall < walls.len() + holes.len()) {
+            true => Ok(Self {
+                walls,
+                probes,
+                time,
+                displacement,
+                velocity,
+                force,
+                impulse,
+                holes,
+                hole_force,
+                hole_impulse,
+                friction,
+                contacts,
+            }),
+            false => Err("a column for each wall, hole and probe, all of one length, and contacts at these"),
         }
     }
 }
@@ -128,6 +162,34 @@ impl Trajectory {
         &self.impulse
     }
 
+    /// Names of the round supports, in the scene's order.
+    #[must_use]
+    pub fn holes(&self) -> &[String] {
+        &self.holes
+    }
+
+    /// Force of each round support on the body at each row along y and z, normal and friction
+    /// together, N: two columns per round support, in the scene's order.
+    #[must_use]
+    pub fn hole_forces(&self) -> &[[Vec<f64>; 2]] {
+        &self.hole_force
+    }
+
+    /// Impulse of each round support on the body since the previous row along y and z, normal and
+    /// friction together, N s: two columns per round support, in the scene's order.
+    #[must_use]
+    pub fn hole_impulses(&self) -> &[[Vec<f64>; 2]] {
+        &self.hole_impulse
+    }
+
+    /// Friction impulse at each wall since the previous row, N s, along (−n_z, n_y) with n the
+    /// outward normal of the flat: one column per wall, in the scene's order; none in scenes without
+    /// round supports and friction.
+    #[must_use]
+    pub fn friction_impulses(&self) -> &[Vec<f64>] {
+        &self.friction
+    }
+
     /// Displacement (m) and velocity (m/s) of the probe of that name at each row.
     ///
     /// # Errors
@@ -184,6 +246,16 @@ fn find(kind: &'static str, name: &str, known: &[String]) -> Result<usize> {
     known.iter().position(|k| k == name).ok_or_else(missing)
 }
 
+/// What round supports and friction did since the last row; all empty in scenes without.
+#[derive(Debug, Clone)]
+struct Rubbed {
+    /// Impulse of each round support along y and z, and friction of each wall, N s.
+    holes: Vec<[f64; 2]>,
+    friction: Vec<f64>,
+    /// Force of each round support in the last step, N.
+    force: Vec<[f64; 2]>,
+}
+
 /// Builds a [`Trajectory`] from the steps of a run, at the requested rows.
 #[derive(Debug, Clone)]
 pub struct Recorder {
@@ -197,8 +269,27 @@ pub struct Recorder {
     /// Impulse per wall since the last row, N s.
     pending: Vec<f64>,
     partial: Vec<f64>,
+    /// Impulse of each round support along y and z and friction of each wall since the last row, N
+    /// s.
+    rubbed: Rubbed,
     /// Displacement and velocity at a row, n entries each.
     state: [Vec<f64>; 2],
+}
+
+impl Rubbed {
+    /// Adds one step on a grid.
+    #[inline(never)]
+    fn see(&mut self, step: &Step<'_>) {
+        let h = step.end - step.start;
+        for (sum, f) in self.friction.iter_mut().zip(step.friction) {
+            *sum += f;
+        }
+        for ((sum, force), hole) in self.holes.iter_mut().zip(&mut self.force).zip(step.holes) {
+            let push = hole.push();
+            *sum = [sum[0] + push[0], sum[1] + push[1]];
+            *force = push.map(|push| push / h);
+        }
+    }
 }
 
 impl Recorder {
@@ -210,6 +301,8 @@ impl Recorder {
         let column = || Vec::with_capacity(capacity);
         let (n, m) = (scene.system.degrees_of_freedom(), scene.walls.len());
         let columns = |count: usize| (0..count).map(|_| column()).collect::<Vec<_>>();
+        let holes: Vec<String> = scene.holes().map(|hole| hole.support.name.clone()).collect();
+        let rubbed = if scene.turns_or_rubs() { m } else { 0 };
         let mut recorder = Self {
             trajectory: Trajectory {
                 walls: scene.walls.iter().map(|w| w.name.clone()).collect(),
@@ -219,6 +312,10 @@ impl Recorder {
                 velocity: columns(scene.probes.len()),
                 force: columns(m),
                 impulse: columns(m),
+                hole_force: holes.iter().map(|_| [column(), column()]).collect(),
+                hole_impulse: holes.iter().map(|_| [column(), column()]).collect(),
+                friction: columns(rubbed),
+                holes: holes.clone(),
                 contacts: Vec::new(),
             },
             probes: scene.probes.iter().map(|p| p.at.clone()).collect(),
@@ -228,6 +325,11 @@ impl Recorder {
             due: 0.0,
             pending: vec![0.0; m],
             partial: vec![0.0; m],
+            rubbed: Rubbed {
+                force: vec![[0.0; 2]; holes.len()],
+                holes: vec![[0.0; 2]; holes.len()],
+                friction: vec![0.0; rubbed],
+            },
             state: [vec![0.0; n], vec![0.0; n]],
         };
         let force: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(q), w.at.dot(v))).collect();
@@ -250,8 +352,15 @@ impl Recorder {
         if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != m) {
             return;
         }
+        let known = &mut self.rubbed;
+        if step.holes.len() != known.holes.len() || step.friction.len() != known.friction.len() {
+            return;
+        }
         if self.trajectory.time.len() as u64 > self.rows {
             return;
+        }
+        if !step.friction.is_empty() || !step.holes.is_empty() {
+            known.see(step);
         }
         self.trajectory.contacts.extend_from_slice(step.closed);
         match step.path {
@@ -362,6 +471,16 @@ impl Recorder {
         for (index, sum) in self.pending.iter_mut().enumerate() {
             t.force[index].push(force.get(index).copied().unwrap_or(0.0));
             t.impulse[index].push(std::mem::take(sum));
+        }
+        let known = &mut self.rubbed;
+        for (columns, force) in t.hole_force.iter_mut().zip(&known.force) {
+            columns.iter_mut().zip(force).for_each(|(column, force)| column.push(*force));
+        }
+        for (columns, sum) in t.hole_impulse.iter_mut().zip(&mut known.holes) {
+            columns.iter_mut().zip(sum).for_each(|(column, sum)| column.push(std::mem::take(sum)));
+        }
+        for (column, sum) in t.friction.iter_mut().zip(&mut known.friction) {
+            column.push(std::mem::take(sum));
         }
         self.due = self.row_time(self.trajectory.time.len() as u64);
     }

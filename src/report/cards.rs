@@ -151,7 +151,7 @@ fn judged(title: &str, broken: &[String], verdict: (&str, String), text: String)
 
 fn contact(summary: &Value) -> Value {
     let residuals = &summary["residuals"];
-    let broken = found(summary, &["penetration", "tension", "complementarity", "wall_law"]);
+    let broken = found(summary, &["penetration", "tension", "complementarity", "wall_law", "normal", "friction"]);
     let text = format!(
         "Deepest {} µm behind a rigid wall; strongest pull {} N.",
         short(1e6 * number(&residuals["penetration_m"])),
@@ -164,8 +164,13 @@ fn contact(summary: &Value) -> Value {
 fn energy(summary: &Value) -> Value {
     let energy = &summary["residuals"]["energy"];
     let part = |key: &str| short(number(&energy[key]));
+    let friction = if number(&energy["friction_j"]) == 0.0 {
+        String::new()
+    } else {
+        format!(", friction {} J", part("friction_j"))
+    };
     let text = format!(
-        "The load put in {} J; damping took {} J, impacts {} J, dampers of walls {} J; {} J at first, {} J at last.",
+        "The load put in {} J; damping took {} J, impacts {} J, dampers of walls {} J{friction}; {} J at first, {} J at last.",
         part("load_work_j"),
         part("damping_j"),
         part("impact_loss_j"),

@@ -16,8 +16,12 @@ pub enum Refuted {
     /// A rigid wall pushes where its gap is open, or the bound or impact law of the scheme's
     /// contract is violated.
     Complementarity,
-    /// The force of an elastic wall is not the one its law gives.
+    /// The force of an elastic wall is not the one its law gives, or a hole out of reach pushes.
     WallLaw,
+    /// A round hole pushes in another direction than along its normal.
+    Normal,
+    /// The friction of a support is not Coulomb's.
+    Friction,
     /// The change of momentum is not the impulse of the forces.
     MomentumBalance,
     /// The recorded impulses of the walls do not account for the change of momentum from the start
@@ -46,7 +50,7 @@ pub struct Finding {
     /// End of the step with the largest residual, s; for sums over the run (energy ledger,
     /// impulses), the end of the run so far.
     pub time_s: f64,
-    /// Name of the wall; `None` where the promise is not about a wall.
+    /// Name of the wall or round support; `None` where the promise is not about one.
     pub wall: Option<String>,
 }
 
@@ -57,6 +61,8 @@ impl fmt::Display for Refuted {
             Self::Tension => "a wall pulls, in shares of the largest contact force",
             Self::Complementarity => "complementarity at a rigid wall",
             Self::WallLaw => "the force of a wall is not that of its law, in shares of the largest contact force",
+            Self::Normal => "a hole pushes across its normal, in shares of the largest contact force",
+            Self::Friction => "friction is not Coulomb's, in shares of the largest contact force",
             Self::MomentumBalance => "momentum balance",
             Self::Impulses => {
                 "the recorded impulses do not carry the momentum of the run, in shares of what was exchanged"

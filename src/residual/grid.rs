@@ -2,6 +2,7 @@
 
 use super::matrices::Part;
 use super::most::most;
+use super::pushes::pushes;
 use super::{Judge, divide};
 use crate::scene::{Scene, Wall};
 use crate::step::{Balance, Bound, Promise, Step};
@@ -32,6 +33,9 @@ impl Judge {
         let per_h = 1.0 / self.h;
         let path = self.terms_of(step, beyond, per_h, n);
         self.walls_on_grid(step, beyond);
+        if self.supports.is_some() {
+            self.supports_on_grid(step);
+        }
         self.products_of(per_h, n);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
             if p != 0.0 {
@@ -161,7 +165,11 @@ impl Judge {
         self.loads.blow(start, end, given);
         divide(&self.scene, self.mass.as_mut(), &mut s.beyond);
         divide(&self.scene, self.mass.as_mut(), given);
-        if answered(&self.scene, self.contract.promise, step.impulse, given) {
+        let by_hole = |(index, _, [push, _]): (usize, _, [[f64; 2]; 2])| {
+            let given = self.scene.supports[index].seen(given);
+            push[0] * given[0] + push[1] * given[1] < 0.0
+        };
+        if answered(&self.scene, self.contract.promise, step.impulse, given) || pushes(&self.scene, step).any(by_hole) {
             // The wall may push only because the damper felt the blow, so both cases are possible:
             // take the one that the displacement fits better.
             let mut apart = [0.0, 0.0];

@@ -7,17 +7,21 @@ mod complementarity;
 mod corrected;
 mod energy;
 mod finding;
+mod friction;
 mod grid;
 mod matrices;
 mod memory;
 mod most;
+mod pushes;
 mod quadrature;
 mod recorded;
 mod residuals;
+mod round;
 mod scales;
 mod series;
 mod sight;
 mod sums;
+mod supports;
 mod verdict;
 mod walls;
 mod whole;
@@ -39,6 +43,7 @@ use scales::Scales;
 use sight::Sight;
 use std::sync::Arc;
 use sums::Sums;
+use supports::Supports;
 
 /// Rounding error of the position of a body along exact motion, in units in the last place of its
 /// terms and of the time.
@@ -90,6 +95,8 @@ pub struct Judge {
     memory: Option<Box<Memory>>,
     /// Force of each elastic wall at the end of the last step, N.
     held: Vec<f64>,
+    /// Round holes and friction; `None` in scenes without them.
+    supports: Option<Box<Supports>>,
     /// Distance within which a wall counts as touched, m.
     touch: f64,
     energy: energy::Ledger,
@@ -214,6 +221,7 @@ impl Judge {
             sums: Sums::new(scene, &q, &v),
             memory: Memory::new(scene, contract, (&q, &v), &load, &held),
             held,
+            supports: Supports::new(scene),
             touch: scene.touching_distance(),
             q,
             load,
@@ -248,6 +256,10 @@ impl Judge {
         let moved = [step.q, step.v, step.velocity_before, step.velocity_after, step.extra];
         let pushed = [step.impulse, step.jump, step.force];
         if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != walls) {
+            return;
+        }
+        let (holes, rubbing) = self.supports.as_ref().map_or((0, 0), |supports| (supports.holes.len(), walls));
+        if step.holes.len() != holes || step.friction.len() != rubbing {
             return;
         }
         let fits = match step.path {
@@ -348,10 +360,15 @@ impl Judge {
         let balance = over(self.normal_balance, self.balance_scale.max(force));
         let path = over(self.kinematics, self.normal_reach.max(self.scales.gap));
         let rigid = self.scene.walls.iter().zip(&self.depth).filter(|(w, _)| w.law.is_rigid());
+        let holes = self.supports.as_ref().map_or(&[][..], |supports| &supports.depth);
+        let supports = self.supports.as_ref().map_or(0.0, |supports| {
+            supports.rubs.pairs.worst(speed_scale, force_scale).max(over(supports.askew, force_scale))
+        });
         Residuals {
-            complementarity: walls.max(rebounds).max(law),
+            complementarity: walls.max(rebounds).max(law).max(supports),
             depth_m: self.depth.clone(),
-            penetration_m: rigid.fold(0.0, |a, (_, d)| a.max(*d)),
+            hole_depth_m: holes.to_vec(),
+            penetration_m: rigid.map(|(_, depth)| depth).chain(holes).fold(0.0, |most, depth| most.max(*depth)),
             tension_n: self.tension,
             force_balance_n: self.balance,
             force_balance: balance.max(path),

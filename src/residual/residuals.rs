@@ -13,11 +13,16 @@ pub struct Residuals {
     /// Largest |min(γ/γ₀, |r|/r₀)| over steps and rigid walls, and of | |r| − law |/r₀ over elastic
     /// ones; dimensionless. γ and r are taken where the scheme promises them ([`Promise`]). The law
     /// of a damped wall jumps at its face, from 0 to c_a ṡ: where the body is there to within
-    /// rounding, any pressure between the two is accepted.
+    /// rounding, any pressure between the two is accepted. Round holes and friction are measured
+    /// alike: the largest part of a hole's force that is not along its normal over r₀, and the
+    /// largest min(|ẇ_t|/v₀, |μp − friction|/r₀) of sliding and missing friction.
     pub complementarity: f64,
     /// Deepest position behind each wall at the end of a step, m, ≥ 0, in the scene's order.
     pub depth_m: Vec<f64>,
-    /// Deepest position behind a rigid wall, m.
+    /// Deepest position behind each round hole at the end of a step, m, ≥ 0, in the scene's order.
+    #[serde(default)]
+    pub hole_depth_m: Vec<f64>,
+    /// Deepest position behind a rigid wall or hole, m.
     pub penetration_m: f64,
     /// Largest force with which a wall pulled, N, ≥ 0.
     pub tension_n: f64,

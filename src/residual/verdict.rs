@@ -94,6 +94,11 @@ impl Judge {
         let energy = self.energy.report();
         let open = energy.residual_j.abs() - self.rounding.energy;
         let ledger = Worst { value: if self.keeps_ledger() { open } else { 0.0 }, time: self.now, wall: None };
+        let nothing = Worst::default;
+        let [askew, sliding, beyond] = self.supports.as_ref().map_or([nothing(), nothing(), nothing()], |supports| {
+            let rubs = &supports.rubs.doubts;
+            [supports.doubt.over(force), rubs.both(speed, force), rubs.pull.over(force)]
+        });
         let mut findings: Vec<Finding> = [
             (behind, doubts.gaps.outside.over(gap), allowed.walls),
             (Refuted::Complementarity, doubts.gaps.both(gap, force), allowed.walls),
@@ -102,6 +107,9 @@ impl Judge {
             (Refuted::Tension, doubts.gaps.pull.over(force), allowed.walls),
             (Refuted::Tension, doubts.rebounds.pull.over(force), allowed.walls),
             (Refuted::WallLaw, doubts.law.over(law), allowed.walls),
+            (Refuted::Normal, askew, allowed.walls),
+            (Refuted::Friction, sliding, allowed.walls),
+            (Refuted::Friction, beyond, allowed.walls),
             (Refuted::MomentumBalance, doubts.balance.over(balance), allowed.balance),
             (Refuted::Impulses, self.open_momentum(), allowed.impulses),
             (Refuted::Kinematics, doubts.path.over(self.normal_reach.max(self.scales.gap)), allowed.balance),
@@ -122,7 +130,7 @@ impl Judge {
             tolerance: allowed.limit,
             reason: allowed.reason.into(),
             time_s: worst.time,
-            wall: worst.wall.and_then(|wall| self.scene.walls.get(wall)).map(|wall| wall.name.clone()),
+            wall: worst.wall.and_then(|wall| self.scene.contact_name(wall)).map(str::to_owned),
         }
     }
 

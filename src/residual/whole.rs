@@ -29,6 +29,27 @@ impl Judge {
         }
     }
 
+    /// As [`Judge::hear`], for the sums of each round support's impulses along y and z, N s: normal
+    /// and friction together, in the order of the scene's round supports.
+    pub fn hear_holes(&mut self, impulses: &[[f64; 2]]) {
+        if let Some(supports) = self.supports.as_mut().filter(|supports| supports.holes.len() == impulses.len()) {
+            supports.recorded = Some(impulses.to_vec());
+        }
+    }
+
+    /// The impulse of each support over the run along y and z, without the normal ones of flats,
+    /// with the recorder's sums where they are known, and the sum of the magnitudes, N s.
+    fn of_supports(&self) -> Vec<([f64; 2], f64)> {
+        let Some(supports) = &self.supports else { return Vec::new() };
+        let mut all: Vec<_> = supports.impulse.iter().copied().zip(supports.size.iter().copied()).collect();
+        for ((index, _, _), told) in supports.holes.iter().zip(supports.recorded.iter().flatten()) {
+            if let Some(one) = all.get_mut(*index) {
+                one.0 = *told;
+            }
+        }
+        all
+    }
+
     /// Adds a step, whose mean forces are in `scratch`; `self.q` still holds its state at the
     /// start.
     #[inline(always)]
@@ -88,6 +109,17 @@ impl Judge {
             let rounding = sums.steps as f64 * f64::EPSILON * size;
             worst.see(over((p - seen).abs() - rounding, *size), self.now, Some(wall));
         }
+        if let Some(supports) = &self.supports {
+            let seen = supports.impulse.iter().zip(&supports.size);
+            for (((index, _, _), told), place) in
+                supports.holes.iter().zip(supports.recorded.iter().flatten()).zip(impulses.len()..)
+            {
+                if let Some(([y, z], size)) = seen.clone().nth(*index) {
+                    let apart = (told[0] - y).hypot(told[1] - z) - sums.steps as f64 * f64::EPSILON * size;
+                    worst.see(over(apart, *size), self.now, Some(place));
+                }
+            }
+        }
         if !sums.whole || sums.steps == 0 || self.contract.balance == Balance::Exact {
             return worst;
         }
@@ -134,6 +166,14 @@ impl Judge {
                 if !wall.law.is_rigid() {
                     let last = wall.law_force(wall.at.dot(&self.q), wall.at.dot(&sums.last));
                     ends[i] += weight.abs() * self.force_scale.max(last.abs());
+                }
+            }
+        }
+        for (support, ([y, z], size)) in self.scene.supports.iter().zip(self.of_supports()) {
+            for (row, push) in [(&support.at.y, y), (&support.at.z, z)] {
+                for &(i, weight) in row.entries() {
+                    open[i] -= weight * push;
+                    exchanged[i] += weight.abs() * size;
                 }
             }
         }

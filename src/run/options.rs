@@ -155,6 +155,9 @@ impl Judging for Judged {
         if let Some(trajectory) = recorded {
             let sums: Vec<f64> = trajectory.contact_impulses().iter().map(|column| column.iter().sum()).collect();
             judge.hear(&sums);
+            let sum = |column: &Vec<f64>| column.iter().sum();
+            let holes: Vec<[f64; 2]> = trajectory.hole_impulses().iter().map(|[y, z]| [sum(y), sum(z)]).collect();
+            judge.hear_holes(&holes);
         }
         (judge.residuals(), judge.findings())
     }

@@ -41,7 +41,7 @@ pub(crate) use row::distinct;
 pub use row::{Probe, Row};
 pub use shared::SharedStructure;
 pub use structure::Structure;
-pub use support::{FlatWall, Shape, Support};
+pub use support::{FlatWall, Hole, Shape, Support};
 pub use system::{Oscillator, System};
 pub use wall::{Side, Wall, WallLaw};
 
@@ -171,8 +171,8 @@ impl Scene {
         })
     }
 
-    /// The reference length γ₀ of the scene, m: half the smallest distance between an upper and a
-    /// lower wall on one row; else the largest distance of a wall from the initial position; else
+    /// The reference length γ₀ of the scene, m: the smallest of half the distances between an upper
+    /// and a lower wall on one row and of the gaps of round supports; else the largest distance of a wall from the initial position; else
     /// the largest |position| of a wall; else the initial displacement; else 1 m. Residuals and
     /// solvers are made dimensionless by it. Zero gaps are ignored.
     #[must_use]
@@ -183,7 +183,7 @@ impl Scene {
         let spans = uppers
             .flat_map(|(upper, place)| lower[place].iter().map(move |lower| 0.5 * (upper.position - lower.position)));
         let start = |w: &Wall| w.gap(w.at.dot(&self.initial.q)).abs();
-        let least = spans.filter(positive).reduce(f64::min);
+        let least = spans.chain(self.holes().map(|hole| hole.gap)).filter(positive).reduce(f64::min);
         least
             .or_else(|| self.walls.iter().map(start).filter(positive).reduce(f64::max))
             .or_else(|| self.walls.iter().map(|w| w.position.abs()).filter(positive).reduce(f64::max))

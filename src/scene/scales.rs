@@ -1,6 +1,6 @@
 //! Reference scales of a scene: frequencies, and the mass that a wall feels.
 
-use super::{Row, Scene, Structure, System, distinct};
+use super::{Hole, Row, Scene, Structure, System, distinct};
 use crate::linear::{Factor, Symmetric};
 
 /// Iterations of the power method: as a reference scale, a frequency needs no more digits than
@@ -69,9 +69,20 @@ fn power(a: &Symmetric, factor: Option<Factor>, b: &Symmetric) -> Option<f64> {
 
 impl Scene {
     /// The mass that each wall feels, kg, in the scene's order: 1/(g M⁻¹ gᵀ). An impulse over this
-    /// mass is the change of velocity there. Infinite for a wall with a zero row.
+    /// mass is the change of velocity there. Infinite for a wall with a zero row. After the walls
+    /// come the round supports: the least mass that each feels over all its directions.
     #[must_use]
     pub fn wall_masses(&self) -> Vec<f64> {
+        let mut masses = self.masses_at_walls();
+        if self.holes().next().is_some() {
+            let structure = self.system.structure();
+            let mut factor = structure.mass_factor().ok();
+            masses.extend(self.holes().map(|hole| least_mass(&hole, structure.mass.size(), factor.as_mut())));
+        }
+        masses
+    }
+
+    fn masses_at_walls(&self) -> Vec<f64> {
         match &self.system {
             System::Oscillator(o) => {
                 let weight = |row: &Row| row.entries().iter().map(|entry| entry.1).sum::<f64>();
@@ -109,4 +120,23 @@ impl Scene {
             }
         }
     }
+}
+
+/// The least mass that a hole feels: the reciprocal of the larger eigenvalue of its 2 × 2 matrix P
+/// M⁻¹ Pᵀ; infinite where M has no factor.
+fn least_mass(hole: &Hole<'_>, n: usize, mass: Option<&mut Factor>) -> f64 {
+    let Some(mass) = mass else { return f64::INFINITY };
+    let (y, z) = (&hole.support.at.y, &hole.support.at.z);
+    let mut response = |row: &Row| {
+        let mut x = vec![0.0; n];
+        for &(i, weight) in row.entries() {
+            if let Some(x) = x.get_mut(i) {
+                *x += weight;
+            }
+        }
+        mass.solve(&mut x);
+        [y.dot(&x), z.dot(&x)]
+    };
+    let ([yy, yz], [_, zz]) = (response(y), response(z));
+    1.0 / (0.5 * (yy + zz) + (0.5 * (yy - zz)).hypot(yz))
 }

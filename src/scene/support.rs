@@ -51,12 +51,43 @@ pub struct FlatWall {
     pub direction: f64,
 }
 
+/// A round support, with the numbers of its hole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Hole<'a> {
+    /// The support.
+    pub support: &'a Support,
+    /// The radial gap γ, m.
+    pub gap: f64,
+    /// The coefficient of restitution e along the normal.
+    pub restitution: f64,
+}
+
 impl Support {
     /// The displacement (or the velocity) of the place in both planes, for `q` of one value per
     /// degree of freedom: (g_y · q, g_z · q), without the centre.
     #[must_use]
     pub fn seen(&self, q: &[f64]) -> [f64; 2] {
         [self.at.y.dot(q), self.at.z.dot(q)]
+    }
+
+    /// The displacement w of the place from the centre of the support, m, for the displacement `q`
+    /// (m, one value per degree of freedom).
+    #[must_use]
+    pub fn offset(&self, q: &[f64]) -> [f64; 2] {
+        let [y, z] = self.seen(q);
+        [y - self.centre[0], z - self.centre[1]]
+    }
+
+    /// The hole of a round support.
+    #[must_use]
+    pub fn hole(&self) -> Option<Hole<'_>> {
+        match &self.shape {
+            Shape::Round { gap, law } => {
+                Some(Hole { support: self, gap: *gap, restitution: law.restitution().unwrap_or(0.0) })
+            }
+            Shape::Flats(_) => None,
+        }
     }
 
     /// The same support, seen by a structure in other coordinates, where `row` turns each row into
@@ -74,6 +105,20 @@ impl Scene {
         self.supports.iter().any(|support| support.friction > 0.0 || matches!(support.shape, Shape::Round { .. }))
     }
 
+    /// The round supports, in the scene's order: [`Step::holes`](crate::Step::holes) has one entry
+    /// for each.
+    pub fn holes(&self) -> impl Iterator<Item = Hole<'_>> {
+        self.supports.iter().filter_map(Support::hole)
+    }
+
+    /// The name of the wall or round support that a [`Contact`](crate::Contact) refers to: first
+    /// the walls are counted, then the round supports.
+    #[must_use]
+    pub fn contact_name(&self, index: usize) -> Option<&str> {
+        let hole = || self.holes().nth(index.checked_sub(self.walls.len())?).map(|hole| &*hole.support.name);
+        self.walls.get(index).map(|wall| &*wall.name).or_else(hole)
+    }
+
     /// Checks the supports; `check_row` checks a row of one.
     pub(super) fn check_supports(&self, check_row: impl Fn(&Support, &Row) -> Result<()>) -> Result<()> {
         let mut names = HashSet::new();
@@ -85,6 +130,7 @@ impl Scene {
             }
             check_row(support, &support.at.y)?;
             check_row(support, &support.at.z)?;
+            support.check_planes()?;
             support.centre.iter().try_for_each(|&x| finite(key("centre"), x))?;
             nonnegative(key("friction"), support.friction)?;
             if support.friction > MOST_FRICTION {
@@ -120,6 +166,26 @@ impl Support {
         if entries.iter().any(|entry| rest(entry.0).abs() > 1e-9 * scale) {
             let value = format!("the wall {:?}, {:?}° from +y", wall.name, flat.direction);
             return Err(Error::invalid(key(), value, "a wall across that direction, at the place of the support"));
+        }
+        Ok(())
+    }
+
+    /// Refuses a place that can move along one line only.
+    fn check_planes(&self) -> Result<()> {
+        let product = |a: &Row, b: &Row| -> f64 {
+            let beside =
+                |i: usize| b.entries().iter().filter(move |entry| entry.0 == i).map(|entry| entry.1).sum::<f64>();
+            a.entries().iter().map(|&(i, weight)| weight * beside(i)).sum()
+        };
+        let (y, z) = (&self.at.y, &self.at.z);
+        let (yy, zz, yz) = (product(y, y), product(z, z), product(y, z));
+        if yy * zz - yz * yz <= 1e-12 * yy * zz {
+            let value = "a place that moves along one line only";
+            return Err(Error::invalid(
+                Subject::support(&self.name).part("at"),
+                value,
+                "a place that moves in both planes",
+            ));
         }
         Ok(())
     }

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 /// The work of a run, in units that do not depend on the machine.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 #[non_exhaustive]
 pub struct Counters {
     /// Steps taken (for the exact scheme: arcs between events).
@@ -16,6 +17,9 @@ pub struct Counters {
     pub pivots: u64,
     /// Programmes in which pivoting found no solution, and which Clarabel solved.
     pub qp_fallbacks: u64,
+    /// Steps in which the contacts of round holes and friction found no common state: their forces
+    /// are those of the last sweep.
+    pub qp_unsettled: u64,
     /// Newton iterations of the penalty schemes.
     pub newton_iterations: u64,
     /// Contact events of the exact scheme.
@@ -25,6 +29,8 @@ pub struct Counters {
     /// Steps in which a wall pushed right after the opposite one, so that the body stood still
     /// between them: the step is too large.
     pub frozen_steps: u64,
+    /// Largest angle by which the normal of a round hole turned in a step in which it pushed, rad.
+    pub largest_turn_rad: f64,
     /// Steps of moreau-jean through stretches of impacts that the exact scheme cannot resolve.
     pub handed_steps: u64,
 }

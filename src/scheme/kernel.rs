@@ -15,6 +15,7 @@ use super::position::Position;
 use super::rule::Rule;
 use super::space::Space;
 use super::structure_event::StructureEvent;
+use super::supports::Supports;
 use super::{Integrator, Method, Scheme};
 use crate::error::{Error, Result};
 use crate::scene::{Checked, Scene};
@@ -49,6 +50,20 @@ fn rule<S: Space>(scene: &Scene, Method { scheme, backend }: Method, h: f64) -> 
     })
 }
 
+/// `scheme` on a scene with round holes or friction: only moreau-jean steps it.
+fn supported(scene: &Checked, Method { scheme, .. }: Method, h: f64) -> Result<Supports> {
+    let round = scene.holes().next().is_some();
+    let expected = match scheme {
+        Scheme::MoreauJean { theta } => return Supports::new(scene, theta, scheme.contract(), h),
+        Scheme::PaoliSchatzman | Scheme::Newmark if round => {
+            "moreau-jean: this scheme does not keep the energy of a body in a round hole"
+        }
+        _ if round => "moreau-jean, the one scheme for round holes",
+        _ => "moreau-jean, the one scheme for friction",
+    };
+    Err(Error::invalid("scheme", scheme, expected))
+}
+
 fn grid<S: Space>(scene: &Checked, method: Method, h: f64) -> Result<Grid<S>> {
     Grid::new(scene, scene.wall_masses(), rule(scene, method, h)?, method.scheme.contract(), h)
 }
@@ -58,8 +73,7 @@ impl Kernel {
     /// of a step.
     pub fn new(scene: &Checked, method: Method, step: f64) -> Result<Self> {
         if scene.turns_or_rubs() {
-            let expected = "a scene without round supports and friction";
-            return Err(Error::invalid("scheme", method.scheme, expected));
+            return Ok(Self::Other(Box::new(supported(scene, method, step)?)));
         }
         let line = scene.is_line();
         Ok(match method.scheme {

@@ -47,6 +47,7 @@ mod start;
 mod stepper;
 mod stop;
 mod structure_event;
+mod supports;
 
 pub use counters::Counters;
 pub use equilibrium::equilibrium;
@@ -57,7 +58,7 @@ pub use penalty_law::{Integrator, PenaltyLaw};
 pub use stepper::Stepper;
 
 use crate::step::{
-    Balance, Bound, Conserves, Contract, Elastic, Law, Promise, PromisedForce, Reached, Rigid, Tolerances,
+    Balance, Bound, Conserves, Contract, Elastic, Friction, Law, Promise, PromisedForce, Reached, Rigid, Tolerances,
 };
 use serde::{Deserialize, Serialize};
 
@@ -113,7 +114,9 @@ impl Scheme {
                 (Balance::Staggered(0.25), rigid(Some(Bound::Reflected), None, Law::MeanDepth(0.25)), 0.0)
             }
             Self::MoreauJean { theta } => {
-                (Balance::Theta(theta), rigid(None, Some(Reached::Ahead(0.5)), Law::Depth(theta)), 0.5)
+                let mut promise = rigid(None, Some(Reached::Ahead(0.5)), Law::Depth(theta));
+                (promise.round, promise.friction) = (Some(supports::TURNING), Some(Friction::EndVelocity));
+                (Balance::Theta(theta), promise, 0.5)
             }
             Self::GeneralizedAlpha { rho } => {
                 let mut promise = rigid(Some(Bound::End), Some(Reached::Closed), Law::Depth(1.0));
@@ -141,7 +144,12 @@ impl Scheme {
 /// Conditions at rigid walls on the mean force of a step, and the law of the others on that mean.
 fn rigid(displacement: Option<Bound>, velocity: Option<Reached>, law: Law) -> Promise {
     let force = PromisedForce::Mean;
-    Promise { rigid: Rigid { force, displacement, velocity }, elastic: Elastic { force, law } }
+    Promise {
+        rigid: Rigid { force, displacement, velocity },
+        elastic: Elastic { force, law },
+        round: None,
+        friction: None,
+    }
 }
 
 /// Walls on the displacement at the end of the step, by the force there.
@@ -150,6 +158,8 @@ fn end_position() -> Promise {
     Promise {
         rigid: Rigid { force, displacement: Some(Bound::End), velocity: None },
         elastic: Elastic { force, law: Law::Depth(1.0) },
+        round: None,
+        friction: None,
     }
 }
 

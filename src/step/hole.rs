@@ -11,3 +11,12 @@ pub struct HoleStep {
     /// Friction impulse along t, N s, signed.
     pub friction: f64,
 }
+
+impl HoleStep {
+    /// The impulse on the structure along y and z, normal and friction together, N s: −p n + f t.
+    #[must_use]
+    pub fn push(&self) -> [f64; 2] {
+        let ([y, z], p, f) = (self.normal, self.impulse, self.friction);
+        [-p * y - f * z, -p * z + f * y]
+    }
+}

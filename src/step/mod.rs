@@ -6,7 +6,7 @@ mod promise;
 
 pub use contract::{Balance, Conserves, Contract, Tolerance, Tolerances};
 pub use hole::HoleStep;
-pub use promise::{Bound, Elastic, Law, Promise, PromisedForce, Reached, Rigid};
+pub use promise::{Bound, Elastic, Friction, Law, Promise, PromisedForce, Reached, Rigid, Turning};
 
 use crate::flow::{Arc, Series};
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,8 @@ use serde::{Deserialize, Serialize};
 /// One episode of contact at one wall.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
-    /// Index of the wall in the scene.
+    /// Index of the wall in the scene; from the number of walls on, the round supports are counted
+    /// in the scene's order ([`Scene::contact_name`](crate::Scene::contact_name)).
     pub wall: usize,
     /// When it began, s.
     pub start: f64,
@@ -22,9 +23,9 @@ pub struct Contact {
     /// end of the run.
     pub end: Option<f64>,
     /// Impulse of the wall on the body over the episode, N s; signed as the force (lower ≥ 0, upper
-    /// ≤ 0).
+    /// ≤ 0). Of a round support the sum of the magnitudes along its normals, ≥ 0.
     pub impulse: f64,
-    /// Largest |force| in the episode, N; `None` where the force was not finite (an impact).
+    /// Largest |force| in the episode, N, without friction; `None` where the force was not finite (an impact).
     pub peak_force: Option<f64>,
     /// Speed towards the wall just before, m/s, ≥ 0.
     pub approach_speed: f64,

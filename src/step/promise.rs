@@ -18,6 +18,48 @@ pub struct Promise {
     /// At walls whose force follows a law of the depth: elastic ones, and what a penalty puts in
     /// place of rigid ones.
     pub elastic: Elastic,
+    /// At round holes; `None` of a scheme that does not step scenes with such.
+    pub round: Option<Turning>,
+    /// At supports with friction; `None` as above.
+    pub friction: Option<Friction>,
+}
+
+/// What holds at round holes, |w| ≤ γ, where the normal turns while the body slides: Newton's law
+/// of impact for what arrives at the hole, and its reflection for what only the turning of the
+/// normal makes an approach.
+///
+/// ŵ = w + φ h ẇ is where the body is about to be. A hole with |ŵ| < γ(1 − `touching`) gives no
+/// impulse. Any other gives −p n with n = ŵ/|ŵ| and p ≥ 0. Let a = n·ẇ, a_r its part that arrives
+/// and a_c = a − a_r what turning adds:
+///
+/// a_r = a where |w| < γ(1 − τ), τ = max(`sagitta`, (h|ẇ|/γ)²/8), the height of the arc of a step:
+/// the body comes from inside. Else the body touches, and a_r is w·ẇ/|w|, its approach along the
+/// normal at the step's start, but at least 0 and at most a.
+///
+/// a > 0: 0 ≤ −(e a_r + a_c) − n·ẇ⁺ ⟂ p ≥ 0;    a ≤ 0: 0 ≤ −a − n·ẇ⁺ ⟂ p ≥ 0.
+///
+/// So ẇ⁺ = −ε ẇ along every normal that pushes, with ε between e and 1: a step changes the energy
+/// by −Σ p(1−ε)a/2 ≤ 0, whatever the normals and the masses. A body that slides is reflected at n
+/// and moves on the circle as by the midpoint rule; with n·ẇ⁺ ≤ −e a instead, it would lose speed
+/// at the rate h v²/2γ² and creep outwards by h v²/2γ, both times (1−e)/(1+e). In the limit of small
+/// steps the law is Newton's on a smooth wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turning {
+    /// φ.
+    pub ahead: f64,
+    /// The share of γ within which a hole counts as touched.
+    pub touching: f64,
+    /// The least τ.
+    pub sagitta: f64,
+}
+
+/// Coulomb's law at the supports that have friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Friction {
+    /// On the impulse of a step and the velocity at its end, along the tangent t = (−n_z, n_y): |p_t|
+    /// ≤ μ p, and p_t = −μ p sign(t·ẇ⁺) where t·ẇ⁺ is not 0.
+    EndVelocity,
 }
 
 /// What holds at rigid walls. With neither a bound nor an impact law they give no force, as where a
@@ -115,6 +157,8 @@ impl Promise {
         Self {
             rigid: Rigid { force: PromisedForce::Mean, displacement: Some(Bound::Throughout), velocity: None },
             elastic: Elastic { force: PromisedForce::Mean, law: Law::Throughout },
+            round: None,
+            friction: None,
         }
     }
 
@@ -124,6 +168,8 @@ impl Promise {
         Self {
             rigid: Rigid { force: PromisedForce::Mean, displacement: None, velocity: None },
             elastic: Elastic { force: PromisedForce::Mean, law },
+            round: None,
+            friction: None,
         }
     }
 }

@@ -7,6 +7,7 @@ pub(super) use arc::{Along, Instant};
 pub(super) use series::Moved;
 
 use super::matrices::{Matrices, Part};
+use super::pushes::pushes;
 use crate::scene::{Forcing, Scene, Wall, WallLaw};
 use crate::step::{Balance, Contract, Step};
 use serde::{Deserialize, Serialize};
@@ -28,11 +29,14 @@ pub struct Energy {
     pub load_work_j: f64,
     /// Dissipated by the structure's damping.
     pub damping_j: f64,
-    /// Dissipated by impacts on rigid walls, −Σ p(ẇ⁻ + ẇ⁺)/2; negative if the scheme created energy
+    /// Dissipated by impacts on rigid walls and holes, −Σ p(ẇ⁻ + ẇ⁺)/2; negative if the scheme created energy
     /// there.
     pub impact_loss_j: f64,
     /// Dissipated by the dashpots of elastic walls: the work done on a wall minus what it stores.
     pub wall_damping_j: f64,
+    /// Dissipated by friction, −Σ f(ẇ_t⁻ + ẇ_t⁺)/2.
+    #[serde(default)]
+    pub friction_j: f64,
     /// E(t) − E(0) − work + damping + losses.
     pub residual_j: f64,
     /// Energy exchanged: the largest E plus the magnitudes of all flows. The work of loads counts
@@ -78,6 +82,7 @@ struct Flows {
     damping: f64,
     impact: f64,
     dashpot: f64,
+    friction: f64,
 }
 
 impl Ledger {
@@ -143,6 +148,9 @@ impl Ledger {
         } else {
             0.0
         };
+        if !step.friction.is_empty() || !step.holes.is_empty() {
+            see_supports(scene, step, &mut flows);
+        }
         let energy = match staggered {
             Some(b) => self.half_step(matrices, (h, b), q0, after, n),
             None => {
@@ -266,8 +274,8 @@ impl Ledger {
 
     #[inline(always)]
     fn book(&mut self, energy: f64, flows: Flows) {
-        let Flows { work, passed, damping, impact, dashpot } = flows;
-        let residual = (energy - self.energy) - work + damping + impact + dashpot - self.lost;
+        let Flows { work, passed, damping, impact, dashpot, friction } = flows;
+        let residual = (energy - self.energy) - work + damping + impact + dashpot + friction - self.lost;
         let sum = self.residual + residual;
         self.lost = (sum - self.residual) - residual;
         self.residual = sum;
@@ -278,13 +286,25 @@ impl Ledger {
         r.damping_j += damping;
         r.impact_loss_j += impact;
         r.wall_damping_j += dashpot;
-        self.flowed += passed + damping.abs() + impact.abs() + dashpot.abs();
+        r.friction_j += friction;
+        self.flowed += passed + damping.abs() + impact.abs() + dashpot.abs() + friction.abs();
     }
 
     pub fn report(&self) -> Energy {
         let exchanged = self.report.largest_j.max(self.report.initial_j) + self.flowed;
         let residual = if self.residual == 0.0 { 0.0 } else { self.residual.abs() / exchanged };
         Energy { final_j: self.energy, residual_j: self.residual, exchanged_j: exchanged, residual, ..self.report }
+    }
+}
+
+/// Adds the flows at round holes, and those of friction.
+#[inline(never)]
+fn see_supports(scene: &Scene, step: &Step<'_>, flows: &mut Flows) {
+    for (_, support, [push, rub]) in pushes(scene, step) {
+        let (before, after) = (support.seen(step.velocity_before), support.seen(step.velocity_after));
+        let work = |force: [f64; 2]| 0.5 * (force[0] * (before[0] + after[0]) + force[1] * (before[1] + after[1]));
+        flows.impact -= work(push);
+        flows.friction -= work(rub);
     }
 }
 

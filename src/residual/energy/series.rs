@@ -38,8 +38,14 @@ impl Ledger {
         left: &[f64],
         mid: &[f64],
     ) {
-        let mut flows =
-            Flows { work: moved.work, passed: moved.passed, damping: moved.damping, dashpot: moved.push, impact: 0.0 };
+        let mut flows = Flows {
+            work: moved.work,
+            passed: moved.passed,
+            damping: moved.damping,
+            dashpot: moved.push,
+            impact: 0.0,
+            friction: 0.0,
+        };
         self.report.largest_j = self.report.largest_j.max(moved.largest);
         for ((blow, left), mid) in blow.iter().zip(left).zip(mid) {
             let struck = 0.5 * blow * (left + mid);

@@ -1,0 +1,61 @@
+//! Checks of friction against Coulomb's law on the impulses of a step.
+//!
+//! With p the normal impulse, f the friction impulse along t and ẇ_t⁺ the sliding velocity at the
+//! end of the step: μp − |f| ≥ 0, and μp + f sign(ẇ_t⁺) is complementary to |ẇ_t⁺|. A body that
+//! slides with another friction than −μp sign(ẇ_t⁺) violates the second by what is missing.
+
+use super::Judge;
+use super::pushes::terms;
+use super::supports::Rubs;
+use crate::scene::{Shape, Support, heading};
+use crate::step::Step;
+
+/// A contact with friction in a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rub {
+    /// Index of the wall, or number of walls plus that of the hole.
+    pub place: usize,
+    pub friction: f64,
+    /// p and f, N s.
+    pub impulse: [f64; 2],
+    pub tangent: [f64; 2],
+}
+
+impl Judge {
+    /// Checks the friction of one contact.
+    pub(super) fn rub(&mut self, step: &Step<'_>, support: &Support, rub: &Rub, rubs: &mut Rubs) {
+        let [p, f] = rub.impulse.map(|impulse| impulse / self.h);
+        if p == 0.0 && f == 0.0 {
+            return;
+        }
+        let after = support.seen(step.velocity_after);
+        let rate = rub.tangent[0] * after[0] + rub.tangent[1] * after[1];
+        let most = rub.friction * p.max(0.0);
+        let speeds = terms(support, step.velocity_before)
+            + terms(support, step.velocity_after)
+            + terms(support, &self.scratch.struck);
+        let noise = self.rounding.met(speeds, self.energy.gap_scale / self.span);
+        let force = self.rounding.wall_force(rub.place, self.span, self.clock);
+        for (slack, missing) in [(0.0, most - f.abs()), (rate.abs(), most + f * rate.signum())] {
+            rubs.pairs.add(slack, missing);
+            rubs.doubts.add((slack, noise), (missing, force), self.now, rub.place);
+        }
+    }
+
+    /// Checks the friction of all flats.
+    pub(super) fn rub_flats(&mut self, step: &Step<'_>, rubs: &mut Rubs) {
+        let scene = std::sync::Arc::clone(&self.scene);
+        for support in &scene.supports {
+            let Shape::Flats(flats) = &support.shape else { continue };
+            for flat in flats {
+                let (Some(&p), Some(&f)) = (step.impulse.get(flat.wall), step.friction.get(flat.wall)) else {
+                    continue;
+                };
+                let [y, z] = heading(flat.direction);
+                let rub = Rub { place: flat.wall, friction: support.friction, impulse: [p.abs(), f], tangent: [-z, y] };
+                self.force_scale = self.force_scale.max(f.abs() / self.h);
+                self.rub(step, support, &rub, rubs);
+            }
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Checks of round holes against the scheme's promise ([`Turning`]), from the states and impulses
+//! of a step: which holes are in reach, that they push along their normals and never pull, and that
+//! the velocity at the end keeps the bound.
+
+use super::Judge;
+use super::beyond::Worst;
+use super::friction::Rub;
+use super::pushes::{pushes, terms};
+use crate::scene::Support;
+use crate::step::{HoleStep, Step, Turning};
+
+impl Judge {
+    /// Checks round holes and friction, and adds their impulses to the momentum balance of the step.
+    #[inline(never)]
+    pub(super) fn supports_on_grid(&mut self, step: &Step<'_>) {
+        let Some(mut supports) = self.supports.take() else { return };
+        let scene = std::sync::Arc::clone(&self.scene);
+        for (hole, &(index, gap, e)) in supports.holes.iter().enumerate() {
+            let (Some(support), Some(did)) = (scene.supports.get(index), step.holes.get(hole)) else { continue };
+            let [y, z] = support.offset(step.q);
+            if let Some(depth) = supports.depth.get_mut(hole) {
+                *depth = depth.max(y.hypot(z) - gap);
+            }
+            let seen = Seen { place: scene.walls.len() + hole, support, gap, e, did };
+            let askew = self.hold_hole(step, &seen, &mut supports.doubt);
+            supports.askew = supports.askew.max(askew);
+            let rub = Rub {
+                place: seen.place,
+                friction: support.friction,
+                impulse: [did.impulse, did.friction],
+                tangent: [-did.normal[1], did.normal[0]],
+            };
+            self.rub(step, support, &rub, &mut supports.rubs);
+        }
+        self.rub_flats(step, &mut supports.rubs);
+        for support in &scene.supports {
+            self.speed_scale = self.speed_scale.max(terms(support, step.velocity_after));
+        }
+        for (index, support, [push, rub]) in pushes(&scene, step) {
+            let force = [push[0] + rub[0], push[1] + rub[1]];
+            for (row, force) in [(&support.at.y, force[0]), (&support.at.z, force[1])] {
+                for &(i, weight) in row.entries() {
+                    if let Some(residual) = self.scratch.residual.get_mut(i) {
+                        *residual -= weight * force;
+                    }
+                }
+            }
+            if let (Some([y, z]), Some(size)) = (supports.impulse.get_mut(index), supports.size.get_mut(index)) {
+                (*y, *z) = (*y + force[0], *z + force[1]);
+                *size += force[0].hypot(force[1]);
+            }
+        }
+        self.supports = Some(supports);
+    }
+
+    /// Checks one hole; returns the part of its force that is not along the normal, N.
+    fn hold_hole(&mut self, step: &Step<'_>, seen: &Seen<'_>, doubt: &mut Worst) -> f64 {
+        let Seen { place, support, gap, did, .. } = *seen;
+        let force = did.impulse.hypot(did.friction) / self.h;
+        let pressure = did.impulse / self.h;
+        self.force_scale = self.force_scale.max(force);
+        self.tension = self.tension.max(-pressure);
+        self.rounding.push(place, force, true);
+        let Some(turning) = self.contract.promise.round else { return 0.0 };
+        let (before, given) = (support.seen(step.velocity_before), support.seen(&self.scratch.struck));
+        let (start, after) = (support.offset(&self.q), support.seen(step.velocity_after));
+        let rate = [before[0] + given[0], before[1] + given[1]];
+        let ahead = [0, 1].map(|i: usize| start[i] + turning.ahead * self.h * rate[i]);
+        let reach = ahead[0].hypot(ahead[1]);
+        let speeds = terms(support, step.velocity_before)
+            + terms(support, step.velocity_after)
+            + terms(support, &self.scratch.struck);
+        let centre = support.centre[0].abs() + support.centre[1].abs();
+        let size = terms(support, &self.q) + terms(support, step.q) + centre + gap + self.h * speeds;
+        let (way, place_noise) = (reach - gap * (1.0 - turning.touching), self.rounding.of(size));
+        let (reached, edge) = (way >= 0.0, way.abs() <= place_noise);
+        if !reached && !edge {
+            self.law_error = self.law_error.max(force);
+            self.doubt_law(place, force, 0.0);
+            return 0.0;
+        }
+        if edge && force == 0.0 {
+            // Rounding decides whether the hole is in reach: either is accepted.
+            return 0.0;
+        }
+        let normal = ahead.map(|x| x / reach);
+        let bound = |touches| bound(seen.e, (start, rate, normal), touches);
+        let left = |bound: f64| bound - (normal[0] * after[0] + normal[1] * after[1]);
+        // Rounding may decide whether the body touched at the start.
+        let distance = start[0].hypot(start[1]);
+        let brim = distance - gap * (1.0 - sagitta(&turning, gap, rate, self.h));
+        let mut slack = left(bound(brim >= 0.0));
+        if brim.abs() <= place_noise {
+            let other = left(bound(brim < 0.0));
+            slack = if other.abs() < slack.abs() { other } else { slack };
+        }
+        self.rebounds.add(slack, pressure);
+        let noise = self.rounding.met(speeds, self.energy.gap_scale / self.span) + place_noise / gap * speeds;
+        let force_noise = self.rounding.wall_force(place, self.span, self.clock);
+        self.doubts.rebounds.add((slack, noise), (pressure, force_noise), self.now, place);
+        if force == 0.0 {
+            return 0.0;
+        }
+        let askew = force * (did.normal[0] - normal[0]).hypot(did.normal[1] - normal[1]);
+        doubt.see(askew - force * place_noise / reach - force_noise, self.now, Some(place));
+        askew
+    }
+}
+
+/// A hole and what it did.
+#[derive(Debug, Clone, Copy)]
+struct Seen<'a> {
+    /// Number of walls plus index of the hole.
+    place: usize,
+    support: &'a Support,
+    gap: f64,
+    e: f64,
+    did: &'a HoleStep,
+}
+
+/// τ.
+fn sagitta(turning: &Turning, gap: f64, rate: [f64; 2], h: f64) -> f64 {
+    turning.sagitta.max((h * rate[0].hypot(rate[1]) / gap).powi(2) / 8.0)
+}
+
+/// The bound on n·ẇ⁺ of a body that `touches` the hole at the start of the step, or comes from
+/// inside.
+fn bound(e: f64, (start, rate, normal): ([f64; 2], [f64; 2], [f64; 2]), touches: bool) -> f64 {
+    let a = normal[0] * rate[0] + normal[1] * rate[1];
+    if a <= 0.0 {
+        return -a;
+    }
+    let along = (start[0] * rate[0] + start[1] * rate[1]) / start[0].hypot(start[1]);
+    let arriving = if touches { along.max(0.0).min(a) } else { a };
+    -(e * arriving + (a - arriving))
+}

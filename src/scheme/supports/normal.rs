@@ -1,0 +1,90 @@
+//! The normal of a round hole in a step, and the split of the approach along it: the law stands at
+//! [`Turning`], with its reasons.
+
+use crate::step::Turning;
+
+/// The numbers of the law.
+pub(in crate::scheme) const TURNING: Turning = Turning { ahead: 0.5, touching: 1e-12, sagitta: 1e-9 };
+
+/// A hole in play.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Met {
+    /// n.
+    pub normal: [f64; 2],
+    /// The part of n·ẇ that arrives at the hole, or all of it where the body separates, m/s.
+    pub arriving: f64,
+    /// The upper bound on n·ẇ⁺, m/s.
+    pub bound: f64,
+    /// The angle by which the normal turns in the step, rad.
+    pub turn: f64,
+}
+
+/// The state of a hole of this gap γ (m) and restitution at the displacement `w` (m) from its
+/// centre, with the velocity `rate` (m/s) after the step's blows, in a step of `h` seconds; `None`
+/// if it is out of reach.
+pub(super) fn meet((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], h: f64) -> Option<Met> {
+    let ahead = [0, 1].map(|i: usize| w[i] + TURNING.ahead * h * rate[i]);
+    let reach = norm(ahead);
+    // A NaN meets nothing; the step then ends with an error.
+    if reach.is_nan() || reach < gap * (1.0 - TURNING.touching) {
+        return None;
+    }
+    let normal = ahead.map(|x| x / reach);
+    let a = dot(normal, rate);
+    let turn = h * (normal[0] * rate[1] - normal[1] * rate[0]).abs() / gap;
+    if !(a > 0.0) {
+        return Some(Met { normal, arriving: a, bound: -a, turn });
+    }
+    let distance = norm(w);
+    let sagitta = TURNING.sagitta.max((h / gap).powi(2) * dot(rate, rate) / 8.0);
+    let arriving = if distance < gap * (1.0 - sagitta) { a } else { (dot(w, rate) / distance).max(0.0).min(a) };
+    Some(Met { normal, arriving, bound: -(e * arriving + (a - arriving)), turn })
+}
+
+pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn norm(a: [f64; 2]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hole_out_of_reach_gives_nothing() {
+        // Half a step ahead the body is at 0.9999 of the gap.
+        assert_eq!(meet((1.0, 0.5), [0.5, 0.0], [0.9998, 0.0], 1.0), None);
+        assert_eq!(meet((1.0, 0.5), [0.0, 0.0], [f64::NAN, 0.0], 1.0), None);
+        assert!(meet((1.0, 0.5), [0.5, 0.0], [1.0, 0.0], 1.0).is_some());
+    }
+
+    #[test]
+    fn what_comes_from_inside_arrives_whole() {
+        // At (0.6, 0) with (0.8, 0.6): ahead (1, 0.3), so the approach along n is 0.98/√1.09.
+        let met = meet((1.0, 0.25), [0.6, 0.0], [0.8, 0.6], 1.0).unwrap();
+        let a = 0.98 / 1.09_f64.sqrt();
+        assert!((met.arriving - a).abs() < 1e-15 && (met.bound + 0.25 * a).abs() < 1e-15, "{met:?}");
+        assert!((met.normal[0] - 1.0 / 1.09_f64.sqrt()).abs() < 1e-15, "{met:?}");
+    }
+
+    #[test]
+    fn what_turns_is_reflected_and_what_separates_keeps_its_speed() {
+        // On the circle with a velocity along it: nothing arrives, whatever the restitution.
+        let (h, v) = (1e-2, 0.3);
+        let met = meet((1.0, 0.25), [1.0, 0.0], [0.0, v], h).unwrap();
+        let a = met.normal[1] * v;
+        assert!(met.arriving == 0.0 && (met.bound + a).abs() < 1e-18 && a > 0.0, "{met:?}");
+        assert!((met.turn - h * v).abs() < 1e-5 * h * v, "{met:?}");
+        // On the circle with a part across it: that part arrives, the rest turns.
+        let met = meet((1.0, 0.25), [1.0, 0.0], [0.1, v], h).unwrap();
+        let a = met.normal[0] * 0.1 + met.normal[1] * v;
+        assert!((met.arriving - 0.1).abs() < 1e-16, "{met:?}");
+        assert!((met.bound + 0.25 * 0.1 + (a - 0.1)).abs() < 1e-15, "{met:?}");
+        // Behind the hole on the way back.
+        let met = meet((1.0, 0.25), [1.5, 0.0], [-0.5, 0.0], h).unwrap();
+        assert!(met.arriving == -0.5 && met.bound == 0.5, "{met:?}");
+    }
+}

@@ -1,0 +1,193 @@
+//! One contact of a step, and the exact answer to it alone.
+//!
+//! The contact gives the structure the impulse −p n + f t, t = (−n_z, n_y). With W the 2 × 2
+//! response of its place and a = n·Wn + κ (κ the compliance of an elastic wall), b = n·Wt, c =
+//! t·Wt, the end velocity under the impulses of all other contacts changes by
+//!
+//! n·ẇ⁺ − κp = N − a p + b f + β,    t·ẇ⁺ = T − b p + c f,
+//!
+//! where β is the bound on n·ẇ⁺ − κp and N what exceeds it. The law is
+//!
+//! 0 ≤ p ⟂ n·ẇ⁺ − κp ≤ β,    |f| ≤ μp,    f = −μp sign(t·ẇ⁺) where t·ẇ⁺ ≠ 0.
+//!
+//! In the plane a contact has one tangent, so the law is piecewise linear, and one of four states
+//! answers it: open (N ≤ 0, no impulse); stick, t·ẇ⁺ = 0; slip either way, f = ∓μp. For large μ and
+//! b ≠ 0 none or several may; stick is taken before slip, and where none answers, p without
+//! friction.
+
+use super::normal::dot;
+use super::places::Places;
+
+/// What a contact does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum State {
+    Open,
+    Stick,
+    /// Slip with t·ẇ⁺ > 0, or without friction.
+    Ahead,
+    /// Slip with t·ẇ⁺ < 0.
+    Back,
+}
+
+impl State {
+    /// The sign of t·ẇ⁺.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Open | Self::Stick => 0.0,
+            Self::Ahead => 1.0,
+            Self::Back => -1.0,
+        }
+    }
+}
+
+/// A contact in play.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touch {
+    /// Index of the wall, or number of walls plus that of the hole.
+    pub index: usize,
+    /// The rows of its place; twice the same for a wall by itself, whose normal is (±1, 0).
+    pub rows: [usize; 2],
+    pub normal: [f64; 2],
+    pub tangent: [f64; 2],
+    /// β, m/s.
+    pub bound: f64,
+    /// μ, and κ in m/s per N s.
+    pub friction: f64,
+    pub compliance: f64,
+    /// a, b, c.
+    pub own: [f64; 3],
+    pub state: State,
+    /// p and f, N s.
+    pub impulse: [f64; 2],
+}
+
+impl Touch {
+    /// The contact of this normal and bound, with the state and impulse from which sweeps begin.
+    pub fn new(
+        places: &Places,
+        (index, rows): (usize, [usize; 2]),
+        (normal, bound): ([f64; 2], f64),
+        (friction, compliance): (f64, f64),
+        impulse: [f64; 2],
+    ) -> Self {
+        let tangent = if friction > 0.0 { [-normal[1], normal[0]] } else { [0.0; 2] };
+        let form = |a: [f64; 2], b: [f64; 2]| places.between((rows, a), (rows, b));
+        let own = if friction > 0.0 {
+            [form(normal, normal) + compliance, form(normal, tangent), form(tangent, tangent)]
+        } else {
+            [form(normal, normal) + compliance, 0.0, 0.0]
+        };
+        Self { index, rows, normal, tangent, bound, friction, compliance, own, state: State::Open, impulse }
+    }
+
+    /// N and T for these velocities of all rows, which contain the effect of its own impulse.
+    fn excess(&self, y: &[f64]) -> [f64; 2] {
+        let rate = self.rows.map(|row| y[row]);
+        [dot(self.normal, rate) - self.compliance * self.impulse[0] - self.bound, dot(self.tangent, rate)]
+    }
+
+    /// n·ẇ⁺ − κp − β and t·ẇ⁺ under the impulses of all contacts.
+    pub fn open(&self, y: &[f64]) -> [f64; 2] {
+        self.excess(y)
+    }
+
+    /// The impulse on the rows of its place.
+    pub fn push(&self, [p, f]: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|i: usize| f * self.tangent[i] - p * self.normal[i])
+    }
+
+    /// Answers the contact alone: sets its state and impulse for the velocities `y` of all rows
+    /// under all impulses, and changes `y` accordingly. Returns the size of the change, m/s, and
+    /// whether the law has an answer.
+    pub fn answer(&mut self, places: &Places, y: &mut [f64]) -> (f64, bool) {
+        let [a, b, c] = self.own;
+        let [p, f] = self.impulse;
+        let [n, t] = self.excess(y);
+        // Without its own impulse.
+        let (n, t) = (n + a * p - b * f, t + b * p - c * f);
+        let (state, found) = self.alone(n, t);
+        self.state = state.unwrap_or(State::Ahead);
+        let change = [found[0] - p, found[1] - f];
+        self.impulse = found;
+        places.add(self.rows, self.push(change), y);
+        (a * change[0].abs() + c * change[1].abs(), state.is_some())
+    }
+
+    fn alone(&self, n: f64, t: f64) -> (Option<State>, [f64; 2]) {
+        let ([a, b, c], mu) = (self.own, self.friction);
+        if n <= 0.0 {
+            return (Some(State::Open), [0.0; 2]);
+        }
+        if mu == 0.0 {
+            return (Some(State::Ahead), [n / a, 0.0]);
+        }
+        let p = (n - b * t / c) / (a - b * b / c);
+        let f = (b * p - t) / c;
+        if p >= 0.0 && f.abs() <= mu * p {
+            return (Some(State::Stick), [p, f]);
+        }
+        for (state, sign) in [(State::Ahead, 1.0), (State::Back, -1.0)] {
+            let per = a + sign * mu * b;
+            let p = n / per;
+            if per > 0.0 && sign * (t - b * p) - c * mu * p >= 0.0 {
+                return (Some(state), [p, -sign * mu * p]);
+            }
+        }
+        (None, [n / a, 0.0])
+    }
+
+    /// True if the velocities `y` and its impulse are those of its state, within a velocity of
+    /// `noise` (m/s).
+    pub fn holds(&self, y: &[f64], noise: f64) -> bool {
+        let ([n, t], [p, f], [a, _, c]) = (self.excess(y), self.impulse, self.own);
+        let rubs = self.friction > 0.0;
+        match self.state {
+            State::Open => n <= noise,
+            State::Stick => p * a >= -noise && (f.abs() - self.friction * p) * c <= noise,
+            State::Ahead | State::Back => p * a >= -noise && (!rubs || self.state.sign() * t >= -noise),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::{Factor, Symmetric};
+    use crate::scene::Row;
+
+    /// The contact of a mass matrix [[2, 0.9], [0.9, 1]] with a flat in the direction of `normal`.
+    fn one(normal: [f64; 2], friction: f64) -> (Places, Touch) {
+        let mass = Symmetric::from_entries(2, [(0, 0, 2.0), (0, 1, 0.9), (1, 1, 1.0)]);
+        let rows = [Row::dof(0), Row::dof(1)];
+        let places = Places::new(2, &[&rows[0], &rows[1]], &mut Factor::new(&mass).unwrap());
+        let touch = Touch::new(&places, (0, [0, 1]), (normal, 0.0), (friction, 0.0), [0.0; 2]);
+        (places, touch)
+    }
+
+    #[test]
+    fn the_answer_obeys_the_law_in_every_state() {
+        let mut seen = [0; 4];
+        for k in 0..2000 {
+            // Directions, friction and velocities that cover all states.
+            let turn = 0.37 * f64::from(k);
+            let normal = [turn.cos(), turn.sin()];
+            let friction = 0.05 * f64::from(k % 9);
+            let (places, mut touch) = one(normal, friction);
+            let mut y = vec![(1.3 * turn).sin(), (2.1 * turn).cos()];
+            let (_, answered) = touch.answer(&places, &mut y);
+            assert!(answered, "{touch:?}");
+            let (n, t) = (dot(normal, y.clone().try_into().unwrap()), y[1] * normal[0] - y[0] * normal[1]);
+            let [p, f] = touch.impulse;
+            // Some roundings of velocities near 1 m/s and of compliances near 5 1/kg.
+            let rounding = 1e-14;
+            assert!(p >= 0.0 && n <= rounding && (p * n).abs() <= rounding, "{touch:?}: {n}");
+            assert!(f.abs() <= friction * p + rounding, "{touch:?}");
+            assert!((friction * p + f * t.signum()).min(t.abs()) <= rounding || p == 0.0, "{touch:?}: {t}");
+            assert!(touch.holds(&y, rounding), "{touch:?}");
+            seen[touch.state as usize] += 1;
+            // Answered again, nothing changes.
+            assert!(touch.answer(&places, &mut y).0 <= rounding);
+        }
+        assert!(seen.iter().all(|&count| count > 50), "{seen:?}");
+    }
+}

@@ -1,0 +1,163 @@
+//! Bodies in two planes for tests: scenes with round holes and flats, and sums over their steps.
+#![allow(dead_code, reason = "each test binary uses a part of it")]
+
+use signorini::linear::Symmetric;
+use signorini::{
+    Flat, FlatWall, Flats, Load, LoadKind, PlaneRows, Row, Scene, Scheme, Shape, Step, Stepper, Structure, Support,
+    WallLaw, heading,
+};
+
+pub const MOREAU_JEAN: Scheme = Scheme::MoreauJean { theta: 0.5 };
+
+/// The place of a body whose coordinates are y and z.
+pub fn body() -> PlaneRows {
+    PlaneRows { y: Row::dof(0), z: Row::dof(1) }
+}
+
+/// A body of one place: M, c and k the same in both planes.
+pub fn isotropic(mass: f64, damping: f64, stiffness: f64) -> Scene {
+    Scene::structure(Structure {
+        mass: Symmetric::diagonal(&[mass; 2]),
+        damping: Symmetric::diagonal(&[damping; 2]),
+        stiffness: Symmetric::diagonal(&[stiffness; 2]),
+    })
+}
+
+pub fn hole(name: &str, at: PlaneRows, gap: f64, restitution: f64, friction: f64) -> Support {
+    let shape = Shape::Round { gap, law: WallLaw::Rigid { restitution } };
+    Support { name: name.to_owned(), at, centre: [0.0, 0.0], shape, friction }
+}
+
+pub fn with(mut scene: Scene, support: Support) -> Scene {
+    scene.supports.push(support);
+    scene
+}
+
+/// The scene with flats in these directions (degrees) at these gaps (m).
+pub fn with_flats(mut scene: Scene, name: &str, at: PlaneRows, flats: &[(f64, f64)], e: f64, friction: f64) -> Scene {
+    let flats = Flats {
+        name: name.to_owned(),
+        at,
+        flats: flats.iter().map(|&(direction, gap)| Flat { direction, gap }).collect(),
+        centre: [0.0, 0.0],
+        law: WallLaw::Rigid { restitution: e },
+    };
+    let first = scene.walls.len();
+    scene.walls.extend(flats.walls().expect("flats"));
+    scene.supports.push(flats.support(first, friction));
+    scene
+}
+
+pub fn load(kind: Load, row: Row) -> Load {
+    Load { at: row, ..kind }
+}
+
+/// `amplitude` (cos, sin)(2π `frequency` t).
+pub fn rotating(scene: Scene, amplitude: f64, frequency: f64) -> Scene {
+    scene
+        .with_load(load(Load::harmonic(amplitude, frequency, std::f64::consts::FRAC_PI_2), Row::dof(0)))
+        .with_load(load(Load::harmonic(amplitude, frequency, 0.0), Row::dof(1)))
+}
+
+/// What contacts did over a run.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Sums {
+    /// Σp, N s.
+    pub impulse: f64,
+    /// Σ p(|v_t⁻| + |v_t⁺|)/2: the work of wear, J, where v_t keeps its sign in every step.
+    pub work: f64,
+    /// Work of friction, J.
+    pub friction: f64,
+    /// Σ h|v_t| while pushing, m.
+    pub sliding: f64,
+    /// Steps in which something pushed after one in which nothing did.
+    pub arrivals: u32,
+    pub pushed: bool,
+}
+
+impl Sums {
+    /// Adds all contacts of a step of `scene`.
+    pub fn see(&mut self, scene: &Scene, step: &Step<'_>) {
+        let mut pushed = false;
+        let mut holes = step.holes.iter();
+        for support in &scene.supports {
+            let contacts: Vec<([f64; 2], f64, f64)> = match &support.shape {
+                Shape::Flats(flats) => {
+                    let of = |flat: &FlatWall| {
+                        (heading(flat.direction), step.impulse[flat.wall].abs(), step.friction[flat.wall])
+                    };
+                    flats.iter().map(of).collect()
+                }
+                _ => holes.next().map(|hole| (hole.normal, hole.impulse, hole.friction)).into_iter().collect(),
+            };
+            let rates = [step.velocity_before, step.velocity_after].map(|v| support.seen(v));
+            for ([y, z], p, f) in contacts.into_iter().filter(|contact| contact.1 > 0.0) {
+                let [before, after] = rates.map(|[vy, vz]| vz * y - vy * z);
+                self.impulse += p;
+                self.work += 0.5 * p * (before.abs() + after.abs());
+                self.friction -= 0.5 * f * (before + after);
+                self.sliding += 0.5 * (step.end - step.start) * (before.abs() + after.abs());
+                pushed = true;
+            }
+        }
+        self.arrivals += u32::from(pushed && !self.pushed);
+        self.pushed = pushed;
+    }
+}
+
+/// `steps` steps of `h` seconds by moreau-jean, each shown to `see`.
+pub fn follow(scene: &Scene, h: f64, steps: u64, mut see: impl FnMut(&Step<'_>)) -> Stepper {
+    let mut stepper = Stepper::new(scene, &MOREAU_JEAN, h).unwrap_or_else(|error| panic!("{error}"));
+    for _ in 0..steps {
+        see(&stepper.step().unwrap_or_else(|error| panic!("{error}")));
+    }
+    stepper
+}
+
+/// Kinetic and strain energy, J.
+pub fn energy(scene: &Scene, q: &[f64], v: &[f64]) -> f64 {
+    0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q))
+}
+
+/// The scene turned by `degrees`: flats, loads, centres and start.
+pub fn turned(scene: &Scene, degrees: f64) -> Scene {
+    let [c, s] = heading(degrees);
+    let turn = |[y, z]: [f64; 2]| [c * y - s * z, s * y + c * z];
+    let both = |x: &[f64]| {
+        // Degrees of freedom 2k and 2k + 1 are y and z of one mass.
+        x.chunks_exact(2).flat_map(|pair| turn([pair[0], pair[1]])).collect::<Vec<f64>>()
+    };
+    let mut other = scene.clone();
+    (other.initial.q, other.initial.v) = (both(&scene.initial.q), both(&scene.initial.v));
+    other.walls.clear();
+    for support in &mut other.supports {
+        support.centre = turn(support.centre);
+        let (at, centre) = (support.at.clone(), support.centre);
+        if let Shape::Flats(flats) = &mut support.shape {
+            for flat in flats {
+                let wall = &scene.walls[flat.wall];
+                flat.direction += degrees;
+                let turned = Flats {
+                    name: wall.name.clone(),
+                    at: at.clone(),
+                    flats: vec![Flat { direction: flat.direction, gap: wall.gap(0.0).abs() }],
+                    centre,
+                    law: wall.law,
+                };
+                flat.wall = other.walls.len();
+                other.walls.extend(turned.walls().expect("a flat"));
+            }
+        }
+    }
+    // Loads on y and z at once: their rows turn.
+    for load in &mut other.loads {
+        assert!(!matches!(load.kind, LoadKind::Function(_)));
+        let n = scene.initial.q.len();
+        let mut weights = vec![0.0; n];
+        for &(i, weight) in load.at.entries() {
+            weights[i] += weight;
+        }
+        load.at = Row::new(both(&weights).into_iter().enumerate().collect());
+    }
+    other
+}
