@@ -29,6 +29,7 @@ pub mod cli;
 mod contact;
 mod error;
 pub mod flow;
+mod hash;
 mod interrupt;
 pub mod linear;
 mod notes;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 /// The rooms from the ground up: each may import those before it.
 const ROOMS: &[&str] = &[
     "error",
+    "hash",
     "interrupt",
     "linear",
     "scene",

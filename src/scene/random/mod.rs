@@ -1,11 +1,11 @@
 //! Random forces with a given power spectral density.
 
-mod phase;
 mod transform;
 
 use super::system::{finite, positive};
 use super::{Load, Table};
 use crate::error::{Error, Result, Subject};
+use crate::hash;
 use std::f64::consts::{PI, TAU};
 use transform::inverse;
 
@@ -89,7 +89,7 @@ impl RandomForce {
         for (i, amplitude) in lines {
             let x = PI * i as f64 / rows as f64;
             let kept = (x.sin() / x).powi(2);
-            let (sin, cos) = (TAU * phase::unit(self.seed, self.stream, i as u64)).sin_cos();
+            let (sin, cos) = (TAU * hash::unit(hash::mix(self.seed, self.stream, i as u64))).sin_cos();
             (re[i], im[i]) = (amplitude / kept * cos, amplitude / kept * sin);
         }
         inverse(&mut re, &mut im);

@@ -1,13 +1,13 @@
 //! Latin hypercubes without a table: the slice of a point is a permutation of its number, which is
 //! computed directly.
 
-use super::hash::{mix, unit};
+use crate::hash::{mix, unit};
 
 /// Coordinate of point `point` of `points` in `dimension`: McKay, Beckman & Conover 1979
 /// (doi:10.1080/00401706.1979.10489755).
 pub(super) fn share(seed: u64, points: u64, point: u64, dimension: u64) -> f64 {
-    let slice = permuted(point, points, mix(seed, u64::MAX, dimension));
-    let within = unit(mix(seed, point, dimension));
+    let slice = permuted(point, points, mix(seed, dimension, u64::MAX));
+    let within = unit(mix(seed, dimension, point));
     // Rounding must not carry a point into the next slice.
     ((slice as f64 + within) / points as f64).min(((slice + 1) as f64 / points as f64).next_down())
 }
@@ -28,7 +28,7 @@ fn permuted(index: u64, count: u64, key: u64) -> u64 {
     loop {
         let (mut left, mut right) = (at >> half, at & mask);
         for round in 0..4 {
-            (left, right) = (right, left ^ (mix(key, right, round) & mask));
+            (left, right) = (right, left ^ (mix(key, round, right) & mask));
         }
         at = (left << half) | right;
         if at < count {

@@ -1,7 +1,6 @@
 //! Random designs: every coordinate of every point is a function of seed, point and dimension
 //! alone, so that rows can be computed in any order, on any machine, and again.
 
-mod hash;
 mod latin;
 mod normal;
 mod sobol;
@@ -10,6 +9,7 @@ pub use normal::Normal;
 pub use sobol::MOST_DIMENSIONS;
 
 use crate::error::{Error, Result};
+use crate::hash;
 use std::str::FromStr;
 
 /// The kind of a random design.
@@ -68,7 +68,7 @@ impl Random {
     pub fn share(&self, point: u64, dimension: usize) -> f64 {
         let seed = self.seed.unwrap_or(0);
         match self.design {
-            Design::Uniform => hash::unit(hash::mix(seed, point, dimension as u64)),
+            Design::Uniform => hash::unit(hash::mix(seed, dimension as u64, point)),
             Design::LatinHypercube => latin::share(seed, self.points, point, dimension as u64),
             Design::Sobol => sobol::share(self.seed, point, dimension),
         }

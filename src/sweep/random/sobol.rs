@@ -1,6 +1,6 @@
 //! Sobol's sequence, plain or scrambled.
 
-use super::hash::mix;
+use crate::hash::mix;
 use std::sync::LazyLock;
 
 /// Maximum number of dimensions.
@@ -50,7 +50,7 @@ pub(super) fn share(seed: Option<u64>, point: u64, dimension: usize) -> f64 {
     let gray = point ^ (point >> 1);
     let numbers = DIRECTIONS.get(dimension % MOST_DIMENSIONS).into_iter().flatten().enumerate();
     let bits = numbers.filter(|(k, _)| (gray >> k) & 1 == 1).fold(0u32, |sum, (_, v)| sum ^ v);
-    let bits = seed.map_or(bits, |seed| scrambled(bits, mix(seed, u64::MAX, dimension as u64) as u32));
+    let bits = seed.map_or(bits, |seed| scrambled(bits, mix(seed, dimension as u64, u64::MAX) as u32));
     f64::from(bits) / 2.0_f64.powi(BITS as i32)
 }
 

@@ -133,20 +133,21 @@ function samplesPlot(table, samples, axisColumns, pick) {
     el(
       "div",
       { class: "bar controls" },
-      selection(
-        "Quantity",
-        names.map((name) => [name, columnLabel(name)]),
-        choice.name,
-        (name) => {
-          choice.name = name;
-          fill();
-        },
-      ),
+      columnChoice("Quantity", names, choice, fill),
       keys,
       el("span", { class: "right help" }, "drag to zoom · double click for all"),
     ),
     plot.box,
   );
+}
+
+/** Chooses the column that a drawing shows, which `fill` draws anew. */
+function columnChoice(label, names, choice, fill) {
+  const options = names.map((name) => [name, columnLabel(name)]);
+  return selection(label, options, choice.name, (name) => {
+    choice.name = name;
+    fill();
+  });
 }
 
 /** A measure over two axes. */
@@ -208,15 +209,7 @@ function measureMap(columns, [first, second], measures, tell, pick) {
     el(
       "div",
       { class: "bar controls" },
-      selection(
-        "Measure",
-        measures.map((name) => [name, columnLabel(name)]),
-        choice.name,
-        (name) => {
-          choice.name = name;
-          fill();
-        },
-      ),
+      columnChoice("Measure", measures, choice, fill),
       swatch("no number", () => "rgb(128 128 128)"),
     ),
     plot.box,
