@@ -27,6 +27,7 @@ mod problem;
 mod settled;
 mod shooting;
 mod signature;
+pub(crate) mod strobe;
 mod symmetry;
 mod watch;
 

@@ -6,12 +6,12 @@
 //! no obstacle.
 
 use super::forcing::forcing_period;
+use super::strobe::{Scales, multipliers, newton_step, state, vector};
 use crate::error::{Error, Result};
 use crate::scene::{Scene, State};
 use crate::scheme::{Scheme, Stepper};
 use crate::variation::Product;
 use nalgebra::{DMatrix, DVector};
-use std::f64::consts::TAU;
 
 /// Most forcing periods of an orbit.
 const LONGEST: usize = 32;
@@ -78,9 +78,7 @@ pub fn shoot(scene: &Scene, settle: u32, progress: &dyn Fn(f64)) -> Result<Shot>
         return Err(Error::invalid("system", format!("one of {n} degrees of freedom"), expected));
     }
     let period = forcing_period(scene)?;
-    let length = scene.gap_scale();
-    let scales = DVector::from_fn(2 * n, |i, _| if i < n { length } else { length * TAU / period });
-    let shooting = Shooting { scene, period, n, scales };
+    let shooting = Shooting { scene, period, scales: Scales::new(scene.gap_scale(), period) };
     let (time, state, periods) = shooting.settled(settle, progress)?;
     shooting.solve(time, state, periods)
 }
@@ -88,9 +86,7 @@ pub fn shoot(scene: &Scene, settle: u32, progress: &dyn Fn(f64)) -> Result<Shot>
 struct Shooting<'a> {
     scene: &'a Scene,
     period: f64,
-    n: usize,
-    /// What displacements and velocities are divided by.
-    scales: DVector<f64>,
+    scales: Scales,
 }
 
 /// A run over one orbit.
@@ -106,14 +102,6 @@ impl Shooting<'_> {
         let mut scene = self.scene.clone();
         scene.duration = end;
         Stepper::new(&scene, &Scheme::Event, stride)
-    }
-
-    fn vector(&self, state: &State) -> DVector<f64> {
-        DVector::from_iterator(2 * self.n, state.q.iter().chain(&state.v).copied())
-    }
-
-    fn apart(&self, a: &DVector<f64>, b: &DVector<f64>) -> f64 {
-        (a - b).component_div(&self.scales).amax()
     }
 
     /// An instant (s) between two events after `settle` periods, the state then, and after how many
@@ -145,7 +133,7 @@ impl Shooting<'_> {
             if step.end >= due {
                 let mut state = State { q: step.q.to_vec(), v: step.v.to_vec() };
                 step.path.state(due, &mut state.q, &mut state.v);
-                states.push(self.vector(&state));
+                states.push(vector(&state.q, &state.v));
                 starts.push(state);
                 progress(step.end / end);
                 if let Some(periods) = self.comes_back(&states) {
@@ -162,15 +150,15 @@ impl Shooting<'_> {
 
     fn comes_back(&self, states: &[DVector<f64>]) -> Option<u32> {
         let count = states.len();
-        let back = |n: usize| (count - REPEATS * n..count).all(|j| self.apart(&states[j], &states[j - n]) < NEAR);
+        let back =
+            |n: usize| (count - REPEATS * n..count).all(|j| self.scales.size(&(&states[j] - &states[j - n])) < NEAR);
         (1..=LONGEST).find(|&n| count >= (REPEATS + 1) * n && back(n)).map(|n| n as u32)
     }
 
-    fn turn(&self, time: f64, state: &DVector<f64>, periods: u32) -> Result<Turn> {
+    fn turn(&self, time: f64, start: &State, periods: u32) -> Result<Turn> {
         let end = time + f64::from(periods) * self.period;
         let mut stepper = self.stepper(end, end)?;
-        let (q, v) = state.as_slice().split_at(self.n);
-        stepper.set_state(time, &State { q: q.to_vec(), v: v.to_vec() })?;
+        stepper.set_state(time, start)?;
         let mut product = Product::new(self.scene)?;
         let walls = self.scene.walls.len();
         let (mut contacts, mut impulses) = (vec![0; walls], vec![0.0; walls]);
@@ -184,46 +172,44 @@ impl Shooting<'_> {
             }
             impulses.iter_mut().zip(step.impulse).for_each(|(sum, impulse)| *sum += impulse);
         }
-        let end = self.vector(&stepper.state());
+        let State { q, v } = stepper.state();
+        let end = vector(&q, &v);
         Ok(Turn { end, derivative: product.matrix().clone(), contacts, impulses })
     }
 
     fn solve(&self, time: f64, start: State, periods: u32) -> Result<Shot> {
         // Phases are those of the first periods: nothing is lost to rounding of a late time.
         let time = time - (time / self.period).floor() * self.period;
-        let mut state = self.vector(&start);
+        let mut x = vector(&start.q, &start.v);
         let mut best: Option<(f64, DVector<f64>, Turn)> = None;
         for _ in 0..ITERATIONS {
-            let turn = self.turn(time, &state, periods)?;
-            let miss = self.apart(&turn.end, &state);
+            let turn = self.turn(time, &state(&x), periods)?;
+            let gap = &turn.end - &x;
+            let miss = self.scales.size(&gap);
             let improved = best.as_ref().is_none_or(|(least, ..)| miss < 0.5 * least);
-            let step = (DMatrix::identity(2 * self.n, 2 * self.n) - &turn.derivative).lu().solve(&(&turn.end - &state));
+            let step = newton_step(&turn.derivative, &gap);
             if best.as_ref().is_none_or(|(least, ..)| miss < *least) {
-                best = Some((miss, state.clone(), turn));
+                best = Some((miss, x.clone(), turn));
             }
             // Where rounding ends the fall, no further step helps.
             if !improved && best.as_ref().is_some_and(|(least, ..)| *least <= CLOSES) {
                 break;
             }
             let step = step.ok_or_else(|| Error::no_orbit("the equations are singular there: a multiplier is 1"))?;
-            state += step;
+            x += step;
         }
-        let Some((closure, state, turn)) = best.filter(|(miss, ..)| *miss <= CLOSES) else {
+        let Some((closure, x, turn)) = best.filter(|(miss, ..)| *miss <= CLOSES) else {
             return Err(Error::no_orbit(format!(
                 "shooting did not converge in {ITERATIONS} iterations: an impact of the orbit nearly grazes, or it has not \
                  settled yet"
             )));
         };
-        let values = turn.derivative.complex_eigenvalues();
-        let mut multipliers: Vec<[f64; 2]> = values.iter().map(|z| [z.re, z.im]).collect();
-        multipliers.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])));
-        let (q, v) = state.as_slice().split_at(self.n);
         Ok(Shot {
             periods,
             forcing_period: self.period,
             time,
-            state: State { q: q.to_vec(), v: v.to_vec() },
-            multipliers,
+            state: state(&x),
+            multipliers: multipliers(&turn.derivative).iter().map(|z| [z.re, z.im]).collect(),
             closure,
             contacts: turn.contacts,
             impulses: turn.impulses,

@@ -1,7 +1,8 @@
 //! A periodic motion near a state: Newton's method on the map over N periods of the load.
 
 use super::motion::{Attractor, Lasts, Touch};
-use crate::scene::{Checked, State, WallLaw};
+use crate::orbit::strobe::{Scales, multipliers, newton_step, state, vector};
+use crate::scene::{Checked, WallLaw};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::step::Contact;
 use crate::variation::Product;
@@ -27,38 +28,6 @@ const EQUAL: f64 = 1e-8;
 
 /// Impacts before a rest that are shown as one, chatter.
 const CHATTER: usize = 3;
-
-/// The scales of a state: m and m/s.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Scales {
-    pub length: f64,
-    pub speed: f64,
-}
-
-impl Scales {
-    /// Those of `scene` under loads of that period (s).
-    pub fn of(scene: &Checked, period: f64) -> Self {
-        let length = scene.gap_scale();
-        Self { length, speed: length * std::f64::consts::TAU / period }
-    }
-
-    /// The largest entry of a difference of states.
-    pub fn size(self, difference: &DVector<f64>) -> f64 {
-        let n = difference.len() / 2;
-        let scaled = |(i, x): (usize, &f64)| x.abs() / if i < n { self.length } else { self.speed };
-        difference.iter().enumerate().map(scaled).fold(0.0, |most, x| if x.is_nan() { f64::NAN } else { x.max(most) })
-    }
-}
-
-/// A state as one vector.
-pub(super) fn vector(state: &State) -> DVector<f64> {
-    DVector::from_iterator(2 * state.q.len(), state.q.iter().chain(&state.v).copied())
-}
-
-fn state(x: &DVector<f64>) -> State {
-    let (q, v) = x.as_slice().split_at(x.len() / 2);
-    State { q: q.to_vec(), v: v.to_vec() }
-}
 
 /// A periodic motion.
 #[derive(Debug, Clone)]
@@ -88,7 +57,7 @@ fn pass(stepper: &mut Stepper, scene: &Checked, from: &DVector<f64>, count: usiz
         product.see(&step).ok()?;
         contacts.extend_from_slice(step.closed);
         if step.end >= strobes.len() as f64 * period * (1.0 - 1e-12) {
-            strobes.push(DVector::from_iterator(2 * step.q.len(), step.q.iter().chain(step.v).copied()));
+            strobes.push(vector(step.q, step.v));
         }
     }
     contacts.extend(stepper.open_contacts());
@@ -108,8 +77,7 @@ pub(super) fn find(scene: &Checked, period: f64, count: usize, from: &DVector<f6
         if stalled || size.is_nan() {
             break;
         }
-        let identity = DMatrix::identity(x.len(), x.len());
-        let step = (identity - &passed.matrix).lu().solve(&gap)?;
+        let step = newton_step(&passed.matrix, &gap)?;
         if better {
             best = Some((size, passed));
         }
@@ -140,7 +108,7 @@ pub(super) fn find(scene: &Checked, period: f64, count: usize, from: &DVector<f6
 
 /// A stable motion of that kind no further than [`FAR`] from `x`.
 pub(super) fn near(scene: &Checked, period: f64, count: usize, x: &DVector<f64>) -> Option<Orbit> {
-    let scales = Scales::of(scene, period);
+    let scales = Scales::new(scene.gap_scale(), period);
     let is_near = |orbit: &Orbit| orbit.strobes.first().is_some_and(|first| scales.size(&(x - first)) < FAR);
     find(scene, period, count, x, scales).filter(Orbit::is_stable).filter(is_near)
 }
@@ -150,16 +118,13 @@ pub(super) fn leap(scene: &Checked, period: f64, from: &DVector<f64>) -> Option<
     let mut stepper = Stepper::by(scene, Method::new(Scheme::Event), period).ok()?;
     let passed = pass(&mut stepper, scene, from, 1, period)?;
     let gap = passed.strobes.last()? - from;
-    let identity = DMatrix::identity(from.len(), from.len());
-    Some(from + (identity - &passed.matrix).lu().solve(&gap)?)
+    Some(from + newton_step(&passed.matrix, &gap)?)
 }
 
 impl Orbit {
     /// Its Floquet multipliers, the largest first.
     pub fn multipliers(&self) -> Vec<Complex<f64>> {
-        let mut all: Vec<Complex<f64>> = self.matrix.complex_eigenvalues().iter().copied().collect();
-        all.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.im.total_cmp(&a.im)));
-        all
+        multipliers(&self.matrix)
     }
 
     /// True if it attracts.

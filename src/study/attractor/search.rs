@@ -1,7 +1,7 @@
 //! The run that is decided.
 
 use super::motion::Attractor;
-use super::orbit::{Orbit, Scales, find, leap, near, vector};
+use super::orbit::{Orbit, find, leap, near};
 use crate::error::Result;
 use crate::scene::{Checked, Scene, Side, State};
 use crate::scheme::{Method, Scheme, Stepper};
@@ -84,7 +84,7 @@ impl Attractor {
 /// load that passes near `state` at a whole one of them: ln|μ| over its time. `None` without one.
 #[cfg(feature = "cli")]
 pub(crate) fn exponent(scene: &Checked, period: f64, count: usize, state: &State) -> Option<f64> {
-    let orbit = near(scene, period, count, &vector(state))?;
+    let orbit = near(scene, period, count, &vector(&state.q, &state.v))?;
     let largest = orbit.multipliers().first()?.norm();
     Some(largest.ln() / (orbit.strobes.len() as f64 * period))
 }
@@ -98,11 +98,12 @@ pub(crate) fn follow(
     mut see: impl FnMut(&Step<'_>),
 ) -> Result<Option<Attractor>> {
     let mut stepper = Stepper::by(scene, Method::new(Scheme::Event), period)?;
+    let start = stepper.state();
     let mut search = Search {
         scene,
         period,
-        scales: Scales::of(scene, period),
-        strobes: VecDeque::from([vector(&stepper.state())]),
+        scales: Scales::new(scene.gap_scale(), period),
+        strobes: VecDeque::from([vector(&start.q, &start.v)]),
         quiet: false,
         steady: false,
         candidate: None,
@@ -155,7 +156,7 @@ impl Search<'_> {
 
     /// What the state at the end of period number `count` decides.
     fn strobe(&mut self, count: u32, state: &State) -> Option<Attractor> {
-        let x = vector(state);
+        let x = vector(&state.q, &state.v);
         self.strobes.push_back(x.clone());
         if self.strobes.len() > (REPEATS + 1) * MOST_PERIODS + 1 {
             self.strobes.pop_front();
