@@ -106,6 +106,7 @@ fn half_the_step_sees_the_same_force_and_follows_the_exact_motion() {
         let mut scene = case.scene.clone();
         scene.duration = end;
         scene.walls.clear();
+        scene.supports.clear();
         let run = run(&scene, &scheme, &Options::with_step(step)).unwrap();
         run.trajectory.probe("bars-y").unwrap().0.last().copied().unwrap()
     };

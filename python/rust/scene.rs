@@ -101,6 +101,8 @@ impl Scene {
                 Ok(sg::Wall { at, ..wall })
             };
             scene.walls = walls.into_iter().map(stand).collect::<PyResult<_>>()?;
+            // The supports of a case file are made of its own walls.
+            scene.supports.clear();
         }
         if let Some(loads) = loads {
             let act = |(i, Load { load, place }): (usize, Load)| {

@@ -73,9 +73,10 @@ pub fn study(
     let mut members = vec![Realisation::of(1, run)];
     members.extend(realisations(2..=count, &scene, method, &Options::new(time(1.0)), &mut told)?);
     let mut told = |share: f64| bar.share((others + 2.0 * halves * share) / work);
-    let halves = match checked {
-        true => realisations(1..=count, &scene, method, &Options::new(time(0.5)), &mut told)?,
-        false => Vec::new(),
+    let halves = if checked {
+        realisations(1..=count, &scene, method, &Options::new(time(0.5)), &mut told)?
+    } else {
+        Vec::new()
     };
     bar.finish();
     for member in members.iter().skip(1) {

@@ -3,6 +3,7 @@
 use super::motion::Attractor;
 use super::orbit::{Orbit, find, leap, near};
 use crate::error::Result;
+use crate::orbit::strobe::{Scales, vector};
 use crate::scene::{Checked, Scene, Side, State};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::step::{Path, Step};

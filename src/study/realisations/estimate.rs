@@ -107,10 +107,8 @@ pub(super) fn add_half_step(estimates: &mut [Estimate], members: &[Realisation],
         let differences: Option<Vec<f64>> = pairs.map(|(whole, half)| Some(of(half)? - of(whole)?)).collect();
         let Some(differences) = differences.filter(|all| all.len() == members.len()) else { continue };
         let (change, _, half_width_95) = mean_of(&differences);
-        let larger = estimate.half_width_95.map(|half| match change.abs() > half {
-            true => Larger::Step,
-            false => Larger::Sampling,
-        });
+        let larger = |half: f64| if change.abs() > half { Larger::Step } else { Larger::Sampling };
+        let larger = estimate.half_width_95.map(larger);
         estimate.half_step = Some(StepChange { change, half_width_95, larger });
     }
 }
