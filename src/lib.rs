@@ -5,7 +5,8 @@
 //! [`Scene`] says what is simulated, [`Scheme`] how time advances, [`Stepper`] does it a step at a
 //! time, [`run()`] from start to end under the eyes of [`residual::Judge`], and [`Trajectory`] is
 //! what was recorded. [`qp`] is the convex programme of a step, [`flow`] the exact motion between
-//! events, [`variation`] its derivative with respect to the start. Case files come with the feature `case`, output and the tool itself with `cli`, which is
+//! events, [`variation`] its derivative with respect to the start, [`wear`] what sliding at supports
+//! wears off. Case files come with the feature `case`, output and the tool itself with `cli`, which is
 //! the default and has `case` in it; the format of a case file is documented in [`case`].
 //!
 //! # Examples
@@ -53,6 +54,7 @@ pub mod sweep;
 mod time;
 mod trajectory;
 pub mod variation;
+pub mod wear;
 
 pub use error::{Cause, Error, Part, Result, Subject};
 pub use interrupt::Interrupt;
@@ -69,7 +71,8 @@ pub use scene::{
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{
-    ForceStatistics, Forces, HalfWidths, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics,
+    ForceStatistics, Forces, HalfWidths, Rubbing, SectorStatistics, Statistics, Summary, SupportForce,
+    SupportStatistics, WallStatistics, WearStatistics,
 };
 pub use step::{
     Balance, Bound, Conserves, Contact, Contract, Elastic, Friction, HoleStep, Law, Path, Promise, PromisedForce,

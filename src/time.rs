@@ -28,24 +28,45 @@ pub struct TimeOptions {
     /// tenth of the window holds a whole number of them, or longer where the window would hold more
     /// than 1e6.
     pub force_averaging: f64,
+    /// Number of equal sectors into which the circle around each support is divided, from 1 to
+    /// 3600; by default [`SECTORS`](Self::SECTORS).
+    #[serde(default = "TimeOptions::sectors")]
+    pub sectors: usize,
 }
 
 impl TimeOptions {
     /// A millisecond: short compared with the period of a structure, long compared with an impact.
     pub const FORCE_AVERAGING: f64 = 1e-3;
 
+    /// Of 30 degrees each.
+    pub const SECTORS: usize = 12;
+
+    /// Maximum number of sectors: of a tenth of a degree each.
+    pub const MOST_SECTORS: usize = 3600;
+
+    fn sectors() -> usize {
+        Self::SECTORS
+    }
+
     /// Steps of `step` seconds, all of them recorded, and statistics from the start.
     #[must_use]
     pub fn with_step(step: f64) -> Self {
-        Self { step, sample: None, statistics_from: 0.0, force_averaging: Self::FORCE_AVERAGING }
+        Self {
+            step,
+            sample: None,
+            statistics_from: 0.0,
+            force_averaging: Self::FORCE_AVERAGING,
+            sectors: Self::SECTORS,
+        }
     }
 
     /// Checks the times against one another and against the duration (s) of the run.
     ///
     /// # Errors
-    /// [`Error::Invalid`] naming `step`, `sample`, `statistics_from` or `force_averaging`.
+    /// [`Error::Invalid`] naming `step`, `sample`, `statistics_from`, `force_averaging` or
+    /// `sectors`.
     pub fn validate(&self, duration: f64) -> Result<()> {
-        let Self { step, sample, statistics_from, force_averaging } = *self;
+        let Self { step, sample, statistics_from, force_averaging, sectors } = *self;
         let refuse = |key: &'static str, value: f64, expected: String| {
             Err(Error::invalid(key, format_args!("{value:?}"), expected))
         };
@@ -85,6 +106,9 @@ impl TimeOptions {
         }
         if !(force_averaging.is_finite() && force_averaging > 0.0) {
             return refuse("force_averaging", force_averaging, "a finite number above 0".to_owned());
+        }
+        if !(1..=Self::MOST_SECTORS).contains(&sectors) {
+            return Err(Error::invalid("sectors", sectors, format!("from 1 to {}", Self::MOST_SECTORS)));
         }
         Ok(())
     }

@@ -108,13 +108,127 @@ const WRONG: &[Wrong] = &[
     ("a support that begins behind a flat", "centre = [0.0, 0.0]", "centre = [5e-3, 0.0]", "43:16", &["initial.displacement", "bars-flat-2", "equilibrium = true"]),
     ("two supports of one name", "[[load]]", "[[support]]\nname = \"bars\"\nat = { position = 2.0 }\nshape = \"flats\"\nsides = 4\ngap = 1e-3\n\n[[load]]", "34:8", &["support \"bars\": name", "a name of its own"]),
     ("a wall with the name of a flat", "name = \"stop\"", "name = \"bars-flat-1\"", "25:8", &["name", "another wall has"]),
-    ("an unknown key of a support", "shape = \"flats\"", "shape = \"flats\"\nfriction = 0.2", "28:1", &["unknown key `friction`", "restitution"]),
+    ("an unknown key of a support", "shape = \"flats\"", "shape = \"flats\"\nfriktion = 0.2", "28:1", &["unknown key `friktion`"]),
+    // Friction and wear.
+    ("friction that pushes", "restitution = 0.5", "restitution = 0.5\nfriction = -0.1", "32:12", &["support \"bars\": friction is -0.1", "0 or more"]),
+    ("friction of no size", "restitution = 0.5", "restitution = 0.5\nfriction = nan", "32:12", &["support \"bars\": friction is NaN", "0 or more"]),
+    ("friction beyond all bodies", "restitution = 0.5", "restitution = 0.5\nfriction = 11.0", "32:12", &["support \"bars\": friction is 11.0", "from 0 to 10"]),
+    ("no width", "restitution = 0.5", "restitution = 0.5\nwidth = 0.0", "32:9", &["support \"bars\": width", "above 0, in m"]),
+    ("a radius beside that of a beam", "restitution = 0.5", "restitution = 0.5\nwidth = 0.02\nradius = 0.01", "33:10", &["a radius, and the system is a beam", "outer_diameter"]),
+    ("a depth without a width", "restitution = 0.5", "restitution = 0.5\nradius = 0.01", "32:10", &["support \"bars\" has a radius and no width", "in m along the tube"]),
+    ("wear that adds", "restitution = 0.5", "restitution = 0.5\ncoefficient = -1e-14", "32:15", &["support \"bars\": coefficient", "above 0, in 1/Pa"]),
+    ("wear of the support that adds", "restitution = 0.5", "restitution = 0.5\nsupport_coefficient = nan", "32:23", &["support \"bars\": support_coefficient", "above 0, in 1/Pa"]),
+    ("a coefficient and no service", "restitution = 0.5", "restitution = 0.5\ncoefficient = 1e-14", "32:15", &["support \"bars\" has a wear coefficient, and there is no service", "in s, in [wear]"]),
+    ("the same beside [wear]", "restitution = 0.5", "restitution = 0.5\ncoefficient = 1e-14\n\n[wear]\nsectors = 4", "34:1", &["`wear` has no service", "in s, in [wear]"]),
+    ("no wear", "[time]", "[wear]\ncoefficient = 0.0\nservice = 1.0\n\n[time]", "46:15", &["wear: coefficient", "above 0, in 1/Pa"]),
+    ("wear of infinity", "[time]", "[wear]\nsupport_coefficient = inf\nservice = 1.0\n\n[time]", "46:23", &["wear: support_coefficient", "above 0, in 1/Pa"]),
+    ("wear for how long", "[time]", "[wear]\ncoefficient = 1e-14\n\n[time]", "46:15", &["a coefficient and no service", "volume = coefficient x work rate x service"]),
+    ("no time in service", "[time]", "[wear]\ncoefficient = 1e-14\nservice = 0.0\n\n[time]", "47:11", &["wear: service", "above 0, in s"]),
+    ("service backwards", "[time]", "[wear]\ncoefficient = 1e-14\nservice = -1.0\n\n[time]", "47:11", &["wear: service", "above 0, in s"]),
+    ("a service of what", "[time]", "[wear]\nservice = 1.0\n\n[time]", "46:11", &["a service and no coefficient", "in 1/Pa"]),
+    ("no sectors", "[time]", "[wear]\nsectors = 0\n\n[time]", "46:11", &["wear.sectors is 0", "from 1 to 3600"]),
+    ("too many sectors", "[time]", "[wear]\nsectors = 3601\n\n[time]", "46:11", &["wear.sectors is 3601", "from 1 to 3600"]),
+    ("half a sector", "[time]", "[wear]\nsectors = 2.5\n\n[time]", "46:11", &["wear.sectors is 2.5", "whole number"]),
+    ("an unknown key of wear", "[time]", "[wear]\nservise = 1.0\n\n[time]", "46:1", &["unknown key `servise`", "service"]),
     // Fields.
     ("a list of one plane", "displacement = { y = { profile = [[0.0, 0.0], [3.0, 0.0]] } }", "displacement = [0.0, 0.0]", "43:16", &["initial.displacement has 2 values", "32 numbers"]),
     ("a profile of both planes", "{ y = { profile = [[0.0, 0.0], [3.0, 0.0]] } }", "{ profile = [[0.0, 0.0], [3.0, 0.0]] }", "43:18", &["unknown key `profile`", "y = .., z = .."]),
     ("a number for a plane", "{ y = { profile = [[0.0, 0.0], [3.0, 0.0]] } }", "{ z = 1.0 }", "43:22", &["initial.displacement.z", "takes no number", "profile"]),
     ("more modes than a plane has", "modes = 3", "modes = 17", "3:9", &["modes", "16"]),
 ];
+
+/// Wrong round supports in place of the flats of `RIGHT`: what is wrong, the lines between `at` and
+/// `centre`, the restitution, line:column, what the message must contain.
+type WrongHole = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
+
+#[rustfmt::skip]
+const WRONG_HOLES: &[WrongHole] = &[
+    ("a pin", "shape = \"round\"\ngap = 0.0", "restitution = 0.5", "28:7", &["support \"bars\": gap is 0.0", "a pin, not a support"]),
+    ("a negative gap", "shape = \"round\"\ngap = -1e-3", "restitution = 0.5", "28:7", &["support \"bars\": gap is -1e-3", "above 0, in m"]),
+    ("a gap that is no number", "shape = \"round\"\ngap = nan", "restitution = 0.5", "28:7", &["support \"bars\": gap", "above 0, in m"]),
+    ("a gap without end", "shape = \"round\"\ngap = inf", "restitution = 0.5", "28:7", &["support \"bars\": gap", "above 0, in m"]),
+    ("gaps of a hole", "shape = \"round\"\ngap = [1e-3, 2e-3]", "restitution = 0.5", "28:7", &["support \"bars\": gap", "above 0, in m"]),
+    ("no gap", "shape = \"round\"", "restitution = 0.5", "24:1", &["`gap` is missing in `support`", "in m"]),
+    ("sides of a hole", "shape = \"round\"\ngap = 1e-3\nsides = 4", "restitution = 0.5", "29:9", &["is round and has sides", "\"flats\""]),
+    ("directions of a hole", "shape = \"round\"\ngap = 1e-3\ndirections = [0]", "restitution = 0.5", "29:14", &["is round and has directions", "\"flats\""]),
+    ("a turn of a hole", "shape = \"round\"\ngap = 1e-3\nturn = 4", "restitution = 0.5", "29:8", &["is round and has turn", "\"flats\""]),
+    ("a soft hole", "shape = \"round\"\ngap = 1e-3", "stiffness = 1e6", "30:13", &["is round and elastic", "a rigid hole"]),
+    ("a damped hole", "shape = \"round\"\ngap = 1e-3", "damping = 3.0", "30:11", &["is round and elastic", "a rigid hole"]),
+    ("too much restitution", "shape = \"round\"\ngap = 1e-3", "restitution = 1.5", "30:15", &["support \"bars\": restitution is 1.5", "from 0 to 1"]),
+    ("negative restitution", "shape = \"round\"\ngap = 1e-3", "restitution = -0.5", "30:15", &["support \"bars\": restitution is -0.5", "from 0 to 1"]),
+    ("friction of a hole", "shape = \"round\"\ngap = 1e-3", "friction = -0.5", "30:12", &["support \"bars\": friction is -0.5", "0 or more"]),
+];
+
+#[test]
+fn every_wrong_round_support_is_refused_at_its_place() {
+    let flats = "shape = \"flats\"\ndirections = [0, 120, 240]\ngap = [1e-3, 2e-3, 1e-3]";
+    let mut failures = String::new();
+    for (what, shape, law, place, words) in WRONG_HOLES {
+        assert!(RIGHT.contains(flats));
+        let text = RIGHT.replacen(flats, shape, 1).replacen("restitution = 0.5", law, 1);
+        let said = match Case::parse(&text, "wrong.toml", "") {
+            Ok(_) => "ACCEPTED".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        let at = format!("--> wrong.toml:{place}\n");
+        let fits = said.contains(&at) && said.contains("expected") && words.iter().all(|word| said.contains(word));
+        if !fits || !said.is_ascii() {
+            failures += &format!("{what}: wanted {place} and {words:?}\n{said}\n\n");
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn a_round_support_refuses_what_it_cannot_stand_beside() {
+    let flats = "shape = \"flats\"\ndirections = [0, 120, 240]\ngap = [1e-3, 2e-3, 1e-3]";
+    let round = RIGHT.replacen(flats, "shape = \"round\"\ngap = 1e-3", 1);
+    let case = Case::parse(&round, "right.toml", "").unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((case.scene.walls.len(), case.scene.supports.len()), (1, 1));
+    let start = "displacement = { y = { profile = [[0.0, 0.0], [3.0, 0.0]] } }";
+    for (old, new, place, words) in [
+        // Outside of the hole: at the start, or, where it is left out, at the gap.
+        (
+            "centre = [0.0, 0.0]",
+            "centre = [3e-3, 4e-3]",
+            "42:16",
+            "0.005 m from the centre of the round support \"bars\"",
+        ),
+        ("centre = [0.0, 0.0]", "centre = [3e-3, 4e-3]", "28:7", "at most its gap, 0.001 m"),
+        (start, "equilibrium = true", "42:15", "beside the round support \"bars\""),
+        ("modes = 3", "modes = 3\nstatic_correction = true", "28:9", "static_correction is true"),
+    ] {
+        assert!(round.contains(old));
+        let text = round.replacen(old, new, 1);
+        let text = if place == "28:7" { text.replacen(start, "", 1) } else { text };
+        let said = Case::parse(&text, "wrong.toml", "").unwrap_err().to_string();
+        assert!(said.contains(&format!("--> wrong.toml:{place}")) && said.contains(words), "{said}");
+    }
+    // A start on the circle, to its last digits, is inside.
+    let on = round.replacen("centre = [0.0, 0.0]", "centre = [6.000000000000001e-4, 8.000000000000001e-4]", 1);
+    assert!(Case::parse(&on, "on.toml", "").is_ok());
+}
+
+#[test]
+fn wear_without_a_support_or_a_radius_is_refused() {
+    let oscillator = "[system]\nplanes = 2\n[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0\n";
+    let rest = "[time]\nend = 1.0\nstep = 1e-3\n";
+    for (wrong, words) in [
+        ("[wear]\ncoefficient = 1e-14\nservice = 1.0\n", "`wear` without a support"),
+        ("[[support]]\nname = \"s\"\nshape = \"round\"\ngap = 1e-3\nwidth = 0.02\n", "a width and no radius"),
+    ] {
+        let said = Case::parse(&format!("{oscillator}{wrong}{rest}"), "wrong.toml", "").unwrap_err().to_string();
+        assert!(said.contains(words) && said.contains("expected"), "{said}");
+    }
+}
+
+#[test]
+fn a_wear_coefficient_in_other_units_gets_a_note() {
+    let wear = |k: &str| RIGHT.replacen("[time]", &format!("[wear]\ncoefficient = {k}\nservice = 1.0\n\n[time]"), 1);
+    let notes = |k: &str| Case::parse(&wear(k), "right.toml", "").unwrap_or_else(|error| panic!("{error}")).notes();
+    assert!(notes("1e-14").iter().all(|note| !note.contains("1/Pa")));
+    assert!(notes("1e-8").iter().any(|note| note.contains("mind the unit")));
+}
 
 #[test]
 fn the_case_that_the_wrong_ones_start_from_is_right() {

@@ -13,6 +13,7 @@ const ROOMS: &[&str] = &[
     "qp",
     "flow",
     "step",
+    "wear",
     "variation",
     "contact",
     "trajectory",

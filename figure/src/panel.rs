@@ -16,6 +16,7 @@ pub struct Panel {
     pub(super) stems: Vec<Stems>,
     pub(super) marks: Vec<Mark>,
     pub(super) outlines: Vec<Vec<(f64, f64)>>,
+    pub(super) areas: Vec<Vec<(f64, f64)>>,
     /// Smallest range that is drawn as such, and the range drawn instead of a smaller one.
     pub(super) still: (f64, f64),
 }
@@ -81,6 +82,14 @@ impl Panel {
     #[must_use]
     pub fn outline(mut self, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         self.outlines.push(points.into_iter().collect());
+        self
+    }
+
+    /// Adds an area with these corners, filled behind all lines. The ranges of the axes do not grow
+    /// for it.
+    #[must_use]
+    pub fn area(mut self, corners: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        self.areas.push(corners.into_iter().collect());
         self
     }
 

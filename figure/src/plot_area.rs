@@ -52,6 +52,14 @@ impl PlotArea<'_> {
         }
     }
 
+    /// Fills areas.
+    pub(super) fn draw_areas(&self, canvas: &mut Canvas, areas: &[Vec<(f64, f64)>]) {
+        for corners in areas {
+            let corners: Vec<(f64, f64)> = corners.iter().filter_map(|point| self.spot(*point)).collect();
+            canvas.area(&corners, "#c0452a", 0.75);
+        }
+    }
+
     /// Draws the outlines of what bounds a motion.
     pub(super) fn draw_outlines(&self, canvas: &mut Canvas, outlines: &[Vec<(f64, f64)>]) {
         let runs: Vec<Vec<(f64, f64)>> =

@@ -267,6 +267,7 @@ impl Figure {
             canvas.rect(from, frame.y, (to - from).max(0.0), frame.height, "#ececec");
         }
         draw_grid(canvas, frame);
+        frame.draw_areas(canvas, &panel.areas);
         for role in [Role::Front, Role::Backdrop] {
             for curve in panel.curves.iter().filter(|c| c.role == role) {
                 frame.draw_curve(canvas, curve, look(0, role, role == Role::Front), budget);

@@ -13,7 +13,7 @@ use super::wording::written;
 use super::written::NewLoad;
 use super::{Case, FileRead, PenaltyOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result, Subject};
-use crate::scene::{Condensation, Damping, Scene, State, Structure, System, Wall};
+use crate::scene::{Condensation, Damping, Row, Scene, Shape, State, Structure, Support, System, Wall};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
 use crate::study::truncation::{Start, Whole};
 use std::ops::Range;
@@ -69,13 +69,17 @@ impl Builder<'_> {
             scene.initial.q = self.field("displacement", initial.displacement.as_ref())?;
             scene.initial.v = self.field("velocity", initial.velocity.as_ref())?;
         }
-        let mut walls = Vec::new();
+        let (mut walls, mut supports) = (Vec::new(), Vec::new());
         for (index, wall) in file.wall.into_iter().enumerate() {
             walls.extend(self.walls(index, walls.len(), wall)?);
         }
         for (index, support) in file.support.into_iter().enumerate() {
-            walls.extend(self.support(index, walls.len(), support)?);
+            let (support, flats) = self.support(index, walls.len(), support)?;
+            supports.push(support);
+            walls.extend(flats);
         }
+        self.check_equilibrium(&supports)?;
+        let (wear, sectors) = self.wear(file.wear.as_ref())?;
         let mut second = Vec::new();
         let mut loads = Vec::new();
         for (index, load) in file.load.into_iter().enumerate() {
@@ -93,8 +97,7 @@ impl Builder<'_> {
         scene.probes = self.probes(file.probe, &walls)?;
         let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
         scene.walls = all;
-        scene.supports =
-            self.written.supports.iter().map(|support| support.flats.support(support.first, 0.0)).collect();
+        scene.supports = supports;
         let time = TimeOptions {
             step: self.number("step", &time.step),
             sample: self.optional("sample", time.sample.as_ref()),
@@ -102,6 +105,7 @@ impl Builder<'_> {
             force_averaging: self
                 .optional("force_averaging", time.force_averaging.as_ref())
                 .unwrap_or(TimeOptions::FORCE_AVERAGING),
+            sectors,
         };
         if let Some(penalty) = file.penalty.as_ref().filter(|_| self.static_correction) {
             let help = "expected no [penalty]: with static_correction rigid walls are springs of the compliance \
@@ -128,6 +132,7 @@ impl Builder<'_> {
             truncated: None,
             time,
             penalty,
+            wear,
             written: std::mem::take(&mut self.written),
         };
         if let (Some(start), None) = (start, modes) {
@@ -171,6 +176,15 @@ impl Builder<'_> {
             return Ok((scene, None));
         }
         let (mut less, condensation) = scene.condensed().map_err(|error| self.locate(error, &scene))?;
+        let massless = |row: &Row| row.entries().iter().any(|(i, _)| condensation.massless.contains(i));
+        let round = |support: &&Support| matches!(support.shape, Shape::Round { .. });
+        let hole = scene.supports.iter().filter(round).find(|hole| massless(&hole.at.y) || massless(&hole.at.z));
+        if let Some(hole) = hole {
+            let span = self.nearest(&Subject::support(&hole.name).part("at")).unwrap_or(0..0);
+            let title = format!("support {:?} is round, around degrees of freedom without mass", hole.name);
+            let help = "expected mass there, or shape = \"flats\": their stiffness makes a rigid hole an elastic one";
+            return Err(self.source.error(span, &title, help));
+        }
         let soft = less.walls.iter().zip(&condensation.compliance).filter(|(_, s)| **s > 0.0);
         for (wall, _) in soft {
             if let Some(span) = self.noted(&Subject::wall(&wall.name).part("restitution")) {
@@ -264,10 +278,13 @@ impl Builder<'_> {
         let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.at.dot(&scene.initial.q)) < 0.0;
         let start = Subject::from(("initial state", "displacement"));
         let wall = || scene.walls.iter().find(behind).filter(|_| *subject == start);
+        let outside = |support: &&Support| support.holds_out(&scene.initial.q);
+        let hole = || scene.supports.iter().find(outside).filter(|_| *subject == start);
         let span = self
             .noted(subject)
             .or_else(|| wall().and_then(|wall| self.noted(&Subject::wall(&wall.name).part("position"))))
             .or_else(|| self.nearest(subject))
+            .or_else(|| hole().and_then(|hole| self.noted(&Subject::support(&hole.name).part("gap"))))
             .unwrap_or(0..0);
         let title = format!("{} is {value}", written(subject));
         let or = match wall() {

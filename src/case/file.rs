@@ -20,6 +20,7 @@ pub(super) struct File {
     pub initial: Option<Section<Initial>>,
     #[serde(default)]
     pub probe: Vec<Section<Probe>>,
+    pub wear: Option<Section<Wear>>,
     pub time: Section<Time>,
     pub penalty: Option<Section<Penalty>>,
 }
@@ -135,7 +136,7 @@ pub(super) struct Wall {
     pub damping: Option<Spanned<Number>>,
 }
 
-/// One of `directions` and `sides` must be set.
+/// Of flats one of `directions` and `sides` must be set.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Support {
@@ -150,6 +151,20 @@ pub(super) struct Support {
     pub restitution: Option<Spanned<Number>>,
     pub stiffness: Option<Spanned<Number>>,
     pub damping: Option<Spanned<Number>>,
+    pub friction: Option<Spanned<Number>>,
+    pub width: Option<Spanned<Number>>,
+    pub radius: Option<Spanned<Number>>,
+    pub coefficient: Option<Spanned<Number>>,
+    pub support_coefficient: Option<Spanned<Number>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Wear {
+    pub coefficient: Option<Spanned<Number>>,
+    pub support_coefficient: Option<Spanned<Number>>,
+    pub service: Option<Spanned<Number>>,
+    pub sectors: Option<Spanned<Number>>,
 }
 
 /// Exactly one of the kinds must be set.

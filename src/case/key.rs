@@ -71,7 +71,7 @@ const INNER: [&str; 38] = [
 const ENDS: [&str; 3] = ["system.chain", "system.bar", "system.beam"];
 
 /// Units as written in column names, by the path without names and numbers.
-const UNITS: [(&str, &[&str]); 20] = [
+const UNITS: [(&str, &[&str]); 21] = [
     ("kg", &["system.oscillator.mass", "system.chain.masses", "system.chain.mass", "system.modal.masses"]),
     ("N_s_per_m", &["system.oscillator.damping", "wall.damping", "support.damping", "penalty.damping"]),
     (
@@ -96,6 +96,8 @@ const UNITS: [(&str, &[&str]); 20] = [
             "wall.at.position",
             "support.gap",
             "support.centre",
+            "support.width",
+            "support.radius",
             "support.at.position",
             "load.at.position",
             "load.at.spread",
@@ -124,8 +126,10 @@ const UNITS: [(&str, &[&str]); 20] = [
             "time.sample",
             "time.statistics_from",
             "time.force_averaging",
+            "wear.service",
         ],
     ),
+    ("per_Pa", &["wear.coefficient", "wear.support_coefficient", "support.coefficient", "support.support_coefficient"]),
     ("N", &["load.constant.force", "load.harmonic.amplitude", "load.random.rms"]),
     ("rad", &["load.harmonic.phase"]),
     ("N_s", &["load.impulse.impulse"]),

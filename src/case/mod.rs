@@ -24,6 +24,7 @@ mod digest;
 mod direction;
 mod embedded;
 mod file;
+mod flats;
 mod initial;
 mod key;
 mod key_value;
@@ -48,6 +49,7 @@ mod text;
 mod truncated;
 mod value;
 mod walls;
+mod wear;
 mod wording;
 mod written;
 
@@ -63,7 +65,8 @@ pub use planes::Planes;
 pub use table::TableColumns;
 pub use template::Template;
 pub use truncated::Truncated;
-pub use written::{FileRead, Origin, Support, Written};
+pub use wear::WearOptions;
+pub use written::{FileRead, Origin, Scarred, Support, Written};
 
 use crate::error::{Error, Result};
 use crate::scene::{Condensation, Scene};
@@ -97,6 +100,8 @@ pub struct Case {
     pub time: TimeOptions,
     /// The springs and the integrator of penalty runs.
     pub penalty: PenaltyOptions,
+    /// Wear coefficients and the time in service.
+    pub wear: WearOptions,
     /// Contents of the file that the scene no longer shows.
     pub written: Written,
 }

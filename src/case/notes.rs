@@ -7,6 +7,10 @@ use crate::study::truncation::Start;
 /// Shares below this are not reported.
 const WORTH_SAYING: f64 = 1e-2;
 
+/// Least and largest wear coefficient, 1/Pa, of the tables that go with code_aster.
+const LEAST_COEFFICIENT: f64 = 1e-17;
+const MOST_COEFFICIENT: f64 = 1e-12;
+
 impl Case {
     /// The notes of the case, in sentences: what condensation and the reduction to modes changed.
     #[must_use]
@@ -14,6 +18,7 @@ impl Case {
         let mut notes = self.condensed();
         notes.extend(self.cut_notes());
         notes.extend(self.open_supports());
+        notes.extend(self.odd_coefficients());
         notes.extend(self.start_note());
         notes
     }
@@ -29,13 +34,24 @@ impl Case {
 
     /// Supports that the structure may leave, since their flats stand within a half turn.
     fn open_supports(&self) -> impl Iterator<Item = String> {
-        let open = self.written.supports.iter().filter(|support| support.flats.is_open());
-        open.map(|support| {
+        let flats = self.written.supports.iter().filter_map(|support| support.flats.as_ref());
+        flats.filter(|(flats, _)| flats.is_open()).map(|(flats, _)| {
             format!(
                 "the flats of support {:?} stand within a half turn: it bounds the motion on their side only",
-                support.flats.name
+                flats.name
             )
         })
+    }
+
+    /// Wear coefficients beyond those of metals in water or air.
+    fn odd_coefficients(&self) -> Option<String> {
+        let own = self.written.supports.iter().flat_map(|s| [s.scarred.coefficient, s.scarred.support_coefficient]);
+        let mut all = own.chain([self.wear.coefficient, self.wear.support_coefficient]).flatten();
+        let odd = all.find(|k| !(LEAST_COEFFICIENT..=MOST_COEFFICIENT).contains(k))?;
+        Some(format!(
+            "the wear coefficient {odd:e} 1/Pa lies outside of what is measured for metals, {LEAST_COEFFICIENT:e} to \
+             {MOST_COEFFICIENT:e} 1/Pa: mind the unit (1/Pa = m²/N)"
+        ))
     }
 
     /// What was condensed, and the walls that this affected.

@@ -2,63 +2,99 @@
 
 use super::builder::Builder;
 use super::file;
-use super::model::Place;
+use super::model::{Model, Place};
 use super::value::{Number, Section, Value};
 use super::walls::{MOST_WALLS, NewWall};
-use super::written::Support;
-use crate::error::{Result, Subject};
-use crate::scene::{Flat, Flats, MOST_FLATS};
+use super::written::{Scarred, Support};
+use crate::error::{Error, Result, Subject};
+use crate::scene::{self, Flat, Flats, PlaneRows, Shape, WallLaw};
 use std::ops::Range;
 use toml::Spanned;
 
+/// A support that is read: its name in messages and as the subject of errors, and its table.
+pub(super) struct Owner {
+    pub name: String,
+    pub subject: Subject,
+    pub span: Range<usize>,
+}
+
 impl Builder<'_> {
-    /// The walls of the support in table `index`, the first of which has index `first` in the
-    /// scene.
-    pub fn support(&mut self, index: usize, first: usize, section: Section<file::Support>) -> Result<Vec<NewWall>> {
+    /// The support in table `index`, and the walls of its flats, the first of which has index
+    /// `first` in the scene.
+    pub fn support(
+        &mut self,
+        index: usize,
+        first: usize,
+        section: Section<file::Support>,
+    ) -> Result<(scene::Support, Vec<NewWall>)> {
         let Section { span, value: support } = section;
         let name = self.name(&format!("support {}: name", index + 1), &support.name)?;
-        let owner = format!("support {name:?}");
+        let owner = Owner { name: format!("support {name:?}"), subject: Subject::support(&name), span };
         if !self.planes.is_two() {
             let help =
                 "expected planes = 2 in [system]; in one plane, two walls: [[wall]] with side = \"both\" and gap";
-            return Err(self.source.error(span, &format!("{owner}, and the system moves in one plane"), help));
+            let title = format!("{}, and the system moves in one plane", owner.name);
+            return Err(self.source.error(owner.span, &title, help));
         }
-        if self.written.supports.iter().any(|other| other.flats.name == name) {
-            return Err(self.refuse(
-                support.name.span(),
-                &format!("{owner}: name"),
-                "a name of its own for each support",
-            ));
+        if self.written.supports.iter().any(|other| other.name == name) {
+            let key = format!("{}: name", owner.name);
+            return Err(self.refuse(support.name.span(), &key, "a name of its own for each support"));
         }
-        if support.shape.get_ref() != "flats" {
-            return Err(self.refuse(support.shape.span(), &format!("{owner}: shape"), "\"flats\""));
-        }
-        let law = self.law_of(&owner, [&support.restitution, &support.stiffness, &support.damping])?;
-        let subject = Subject::support(&name);
-        let directions = self.flat_directions(&owner, &subject, &support, &span)?;
-        let gaps = self.gaps(&owner, &subject, &support.gap, directions.len())?;
-        let centre = self.centre(&owner, &subject, support.centre.as_ref())?;
-        let sites = self.sites((&owner, subject), support.at.as_ref(), span.clone(), false)?;
-        let place = match sites.into_iter().map(|site| (site.suffix, site.place)).collect::<Vec<_>>().as_slice() {
-            [(suffix, place)] if suffix.is_empty() && !matches!(place, Place::Row(_)) => place.clone(),
+        let centre = self.centre(&owner, support.centre.as_ref())?;
+        let place = self.place_in_two_planes(&owner, support.at.as_ref())?;
+        let at = self.planes.rows(&self.model, &place)?;
+        let friction = self.optional(owner.subject.clone().part("friction"), support.friction.as_ref());
+        let friction = friction.unwrap_or(0.0);
+        let scarred = self.scarred(&owner, &support)?;
+        let (made, flats, walls) = match support.shape.get_ref().as_str() {
+            "flats" => {
+                let flats = self.flats(&owner, (&name, at, centre), &support)?;
+                let walls = self.walls_of(&owner, &support, &flats, (&place, first))?;
+                (flats.support(first, friction), Some((flats, first)), walls)
+            }
+            "round" => {
+                let shape = self.hole(&owner, &support)?;
+                (scene::Support { name: name.clone(), at, centre, shape, friction }, None, Vec::new())
+            }
             _ => {
-                let at = support.at.as_ref().map_or(span, Spanned::span);
-                let help =
-                    "expected a place with a displacement along y and one along z: a position, a dof, or y and z";
-                return Err(self.source.error(at, &format!("{owner}: at is not one place in two planes"), help));
+                let key = format!("{}: shape", owner.name);
+                return Err(self.refuse(support.shape.span(), &key, "\"flats\" or \"round\""));
             }
         };
-        let flats = Flats {
-            name: name.clone(),
-            at: self.planes.rows(&self.model, &place)?,
-            flats: directions.iter().zip(gaps).map(|(&direction, gap)| Flat { direction, gap }).collect(),
-            centre,
-            law,
-        };
+        self.written.supports.push(Support { name, place, flats, scarred });
+        Ok((made, walls))
+    }
+
+    /// The flats of a support.
+    fn flats(
+        &mut self,
+        owner: &Owner,
+        (name, at, centre): (&str, PlaneRows, [f64; 2]),
+        support: &file::Support,
+    ) -> Result<Flats> {
+        let law = self.law_of(&owner.name, [&support.restitution, &support.stiffness, &support.damping])?;
+        let directions = self.flat_directions(owner, support)?;
+        let gaps = self.gaps(owner, &support.gap, directions.len())?;
+        let flats = directions.iter().zip(gaps).map(|(&direction, gap)| Flat { direction, gap }).collect();
+        Ok(Flats { name: name.to_owned(), at, flats, centre, law })
+    }
+
+    /// The walls of flats around `place`, the first of which has index `first` in the scene.
+    fn walls_of(
+        &mut self,
+        owner: &Owner,
+        support: &file::Support,
+        flats: &Flats,
+        (place, first): (&Place, usize),
+    ) -> Result<Vec<NewWall>> {
         let walls = flats.walls().map_err(|error| self.at_key(error))?;
         if first + walls.len() > MOST_WALLS {
-            let title = format!("{owner} makes {} walls", first + walls.len());
-            return Err(self.source.error(span, &title, &format!("expected at most {MOST_WALLS} in all")));
+            let title = format!("{} makes {} walls", owner.name, first + walls.len());
+            return Err(self.source.error(
+                owner.span.clone(),
+                &title,
+                &format!("expected at most {MOST_WALLS} in all"),
+            ));
         }
         let keys = [
             ("position", Some(support.gap.span())),
@@ -76,84 +112,112 @@ impl Builder<'_> {
         let directed = |(wall, flat): (_, &Flat)| {
             let degrees = flat.direction.rem_euclid(180.0) % 180.0;
             let place = Place::Towards { place: Box::new(place.clone()), degrees };
-            NewWall { wall, site: name.clone(), place }
+            NewWall { wall, site: flats.name.clone(), place }
         };
-        let new = walls.into_iter().zip(&flats.flats).map(directed).collect();
-        self.written.supports.push(Support { flats, place, first });
-        Ok(new)
+        Ok(walls.into_iter().zip(&flats.flats).map(directed).collect())
     }
 
-    /// The directions of the flats, as a list or as a number of sides.
-    fn flat_directions(
-        &mut self,
-        owner: &str,
-        subject: &Subject,
-        support: &file::Support,
-        span: &Range<usize>,
-    ) -> Result<Vec<f64>> {
-        let subject = subject.clone().part("directions");
-        let one = "expected directions = [0, 120, 240], in deg, or sides = 3 and, where wanted, turn";
-        match (&support.directions, &support.sides, &support.turn) {
-            (Some(_), Some(at), _) | (Some(_), None, Some(at)) => {
-                Err(self.source.error(at.span(), &format!("{owner} has directions and sides"), one))
+    /// A round hole: a radial gap, and rigid.
+    fn hole(&mut self, owner: &Owner, support: &file::Support) -> Result<Shape> {
+        let file::Support { directions, sides, turn, stiffness, damping, .. } = support;
+        let flat =
+            [("directions", directions.as_ref().map(Spanned::span)), ("sides", sides.as_ref().map(Spanned::span))];
+        let flat = flat.into_iter().chain([("turn", turn.as_ref().map(Spanned::span))]);
+        if let Some((key, Some(at))) = flat.into_iter().find(|(_, at)| at.is_some()) {
+            let title = format!("{} is round and has {key}", owner.name);
+            return Err(self.source.error(at, &title, "expected shape = \"flats\" beside it, or gap alone: a radius"));
+        }
+        if let Some(value) = stiffness.as_ref().or(damping.as_ref()) {
+            let help = "expected a rigid hole, by its restitution; elastic supports are made of flats";
+            return Err(self.source.error(value.span(), &format!("{} is round and elastic", owner.name), help));
+        }
+        if self.static_correction {
+            let help = "expected shape = \"flats\", or no static_correction: the compliance that modes leave out \
+                        makes a wall a spring, and a round hole is rigid";
+            let title = format!("{} is round, and static_correction is true", owner.name);
+            return Err(self.source.error(support.shape.span(), &title, help));
+        }
+        let gap = match support.gap.get_ref() {
+            Value::Number(gap) if gap.is_finite() && *gap > 0.0 => *gap,
+            _ => {
+                let wanted = "a number above 0, in m: the radius of the hole less that of the tube; without any \
+                              gap the place is a pin, not a support";
+                return Err(self.refuse(support.gap.span(), &format!("{}: gap", owner.name), wanted));
             }
-            (None, None, _) => {
-                Err(self.source.error(span.clone(), &format!("`directions` is missing in {owner}"), one))
-            }
-            (Some(list), None, None) => {
-                self.places.push((subject.clone(), list.span()));
-                let each = |(i, x): (usize, &Spanned<Number>)| self.number(subject.clone().value(i), x);
-                Ok(list.get_ref().iter().enumerate().map(each).collect())
-            }
-            (None, Some(sides), turn) => {
-                self.places.push((subject, sides.span()));
-                let count = self.whole(Subject::support(owner).part("sides"), sides, MOST_FLATS);
-                let count = count.map_err(|_| {
-                    let expected = format!("a whole number from 1 to {MOST_FLATS}");
-                    self.refuse(sides.span(), &format!("{owner}: sides"), &expected)
-                })?;
-                let from = turn.as_ref().map_or(0.0, |turn| turn.get_ref().0);
-                match turn {
-                    Some(turn) if !from.is_finite() => {
-                        Err(self.refuse(turn.span(), &format!("{owner}: turn"), "a finite number, in deg"))
-                    }
-                    _ => Ok((0..count).map(|k| from + 360.0 * k as f64 / count as f64).collect()),
-                }
+        };
+        let restitution = self.optional(owner.subject.clone().part("restitution"), support.restitution.as_ref());
+        self.places.push((owner.subject.clone().part("gap"), support.gap.span()));
+        Ok(Shape::Round { gap, law: WallLaw::Rigid { restitution: restitution.unwrap_or(1.0) } })
+    }
+
+    /// The place that a support surrounds.
+    fn place_in_two_planes(&mut self, owner: &Owner, at: Option<&Spanned<Value>>) -> Result<Place> {
+        let sites = self.sites((&owner.name, owner.subject.clone()), at, owner.span.clone(), false)?;
+        match sites.into_iter().map(|site| (site.suffix, site.place)).collect::<Vec<_>>().as_slice() {
+            [(suffix, place)] if suffix.is_empty() && !matches!(place, Place::Row(_)) => Ok(place.clone()),
+            _ => {
+                let at = at.map_or(owner.span.clone(), Spanned::span);
+                let help =
+                    "expected a place with a displacement along y and one along z: a position, a dof, or y and z";
+                Err(self.source.error(at, &format!("{}: at is not one place in two planes", owner.name), help))
             }
         }
     }
 
-    /// The gap of each of `count` flats.
-    fn gaps(&mut self, owner: &str, subject: &Subject, gap: &Spanned<Value>, count: usize) -> Result<Vec<f64>> {
-        let (key, subject) = (format!("{owner}: gap"), subject.clone().part("gap"));
-        self.places.push((subject.clone(), gap.span()));
-        let wanted = format!("a number, 0 or more, in m, or a list of {count} of them, one for each flat");
-        match gap.get_ref() {
-            Value::Number(x) => Ok(vec![*x; count]),
-            Value::List(items) if items.len() == count => {
-                let mut gaps = Vec::with_capacity(count);
-                for (i, item) in items.iter().enumerate() {
-                    let Value::Number(x) = item.get_ref() else { return Err(self.refuse(item.span(), &key, &wanted)) };
-                    self.places.push((subject.clone().value(i), item.span()));
-                    gaps.push(*x);
-                }
-                Ok(gaps)
-            }
-            _ => Err(self.refuse(gap.span(), &key, &wanted)),
-        }
-    }
-
-    fn centre(
-        &mut self,
-        owner: &str,
-        subject: &Subject,
-        centre: Option<&Spanned<Vec<Spanned<Number>>>>,
-    ) -> Result<[f64; 2]> {
+    fn centre(&mut self, owner: &Owner, centre: Option<&Spanned<Vec<Spanned<Number>>>>) -> Result<[f64; 2]> {
         let Some(centre) = centre else { return Ok([0.0; 2]) };
-        self.places.push((subject.clone().part("centre"), centre.span()));
+        self.places.push((owner.subject.clone().part("centre"), centre.span()));
         match centre.get_ref().as_slice() {
             [y, z] => Ok([y.get_ref().0, z.get_ref().0]),
-            _ => Err(self.refuse(centre.span(), &format!("{owner}: centre"), "[y, z], two numbers in m")),
+            _ => Err(self.refuse(centre.span(), &format!("{}: centre", owner.name), "[y, z], two numbers in m")),
+        }
+    }
+
+    /// What the depth of a scar depends on.
+    fn scarred(&mut self, owner: &Owner, support: &file::Support) -> Result<Scarred> {
+        let width = self.above_0(&owner.name, "width", "m", support.width.as_ref())?;
+        let radius = self.above_0(&owner.name, "radius", "m", support.radius.as_ref())?;
+        let (coefficient, support_coefficient) = (&support.coefficient, &support.support_coefficient);
+        let first = coefficient.as_ref().or(support_coefficient.as_ref()).map(Spanned::span);
+        self.places.extend(first.map(|at| (owner.subject.clone().part("coefficient"), at)));
+        let missing = |at: &Spanned<Number>, what: &str, help: &str| -> Error {
+            self.source.error(at.span(), &format!("{} has {what}", owner.name), help)
+        };
+        let tube = if let Model::Beam(beam) = &self.model { Some(0.5 * beam.outer_diameter) } else { None };
+        match (&support.width, &support.radius) {
+            (None, Some(at)) => {
+                let help = "expected width beside it, in m along the tube: both make the depth of a scar";
+                return Err(missing(at, "a radius and no width", help));
+            }
+            (Some(_), Some(at)) if tube.is_some() => {
+                let help = "expected no radius: that of a beam is half its outer_diameter";
+                return Err(missing(at, "a radius, and the system is a beam", help));
+            }
+            (Some(at), None) if tube.is_none() => {
+                let help = "expected radius beside it, in m: that of what slides there, which only a beam has in \
+                            outer_diameter";
+                return Err(missing(at, "a width and no radius", help));
+            }
+            _ => {}
+        }
+        Ok(Scarred {
+            scar: width.zip(radius.or(tube)),
+            coefficient: self.above_0(&owner.name, "coefficient", "1/Pa", coefficient.as_ref())?,
+            support_coefficient: self.above_0(
+                &owner.name,
+                "support_coefficient",
+                "1/Pa",
+                support_coefficient.as_ref(),
+            )?,
+        })
+    }
+
+    /// A number above 0 under `key` of `owner`.
+    pub fn above_0(&self, owner: &str, key: &str, unit: &str, value: Option<&Spanned<Number>>) -> Result<Option<f64>> {
+        let Some(value) = value else { return Ok(None) };
+        match value.get_ref().0 {
+            x if x.is_finite() && x > 0.0 => Ok(Some(x)),
+            _ => Err(self.refuse(value.span(), &format!("{owner}: {key}"), &format!("a number above 0, in {unit}"))),
         }
     }
 }

@@ -193,6 +193,15 @@ impl Builder<'_> {
                 }
             }
         }
+        for support in self.written.supports.clone().into_iter().filter(|support| support.flats.is_none()) {
+            let site = Site { suffix: support.name, place: support.place, row: Row::new(Vec::new()) };
+            for (way, Site { suffix, place, row }) in self.both_ways(&site)? {
+                if all.iter().all(|probe| probe.at != row) {
+                    self.written.probes.push(place);
+                    all.push(Probe { name: format!("{suffix}{way}"), at: row });
+                }
+            }
+        }
         if all.is_empty() {
             let (name, place) = match (self.model.length(), &self.model, self.planes) {
                 (_, _, Planes::Named) => ("dof-0", Place::Row(vec![(0, 1.0)])),

@@ -15,6 +15,7 @@ pub(super) fn written(subject: &Subject) -> String {
     let key = match names.as_slice() {
         ["duration"] => "time.end".to_owned(),
         [key @ ("step" | "sample" | "statistics_from" | "force_averaging")] => format!("time.{key}"),
+        ["sectors"] => "wear.sectors".to_owned(),
         ["static correction"] => "static_correction".to_owned(),
         ["initial state", part] => format!("initial.{part}"),
         // For an end of a structure the key is that of the end; its parts are inside that value.

@@ -7,7 +7,7 @@ use super::digest::sha256;
 use super::table::TableColumns;
 use crate::scene::{Damping, Flats, Load, RandomForce};
 #[cfg(feature = "cli")]
-use crate::scene::{Row, Wall};
+use crate::scene::{Row, Wall, WallLaw};
 use crate::study::truncation::Start;
 use serde::Serialize;
 
@@ -78,16 +78,31 @@ pub(super) struct NewLoad {
     pub origin: Origin,
 }
 
-/// A support of the file, and its walls in the scene.
+/// What a support of the scene no longer shows.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Support {
-    /// The flats, with their place on the system of the file.
-    pub flats: Flats,
-    /// The location that they surround.
+    /// Its name.
+    pub name: String,
+    /// The location that it surrounds.
     pub place: Place,
-    /// Index of its first wall in the scene; the others follow.
-    pub first: usize,
+    /// Its flats, with their place on the system of the file, and the index of the first of their
+    /// walls in the scene; the others follow. `None` for a round support.
+    pub flats: Option<(Flats, usize)>,
+    /// What the depth of a scar there depends on.
+    pub scarred: Scarred,
+}
+
+/// What the depth of a scar at a support depends on.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Scarred {
+    /// Width of the support and radius of what slides there, m.
+    pub scar: Option<(f64, f64)>,
+    /// Wear coefficient of what slides there, 1/Pa; `None` where `[wear]` has it.
+    pub coefficient: Option<f64>,
+    /// Wear coefficient of the support, 1/Pa, likewise.
+    pub support_coefficient: Option<f64>,
 }
 
 /// A file that a case read.
@@ -128,15 +143,17 @@ impl Case {
         row.entries().iter().map(kept).collect::<Option<_>>().map(Row::new)
     }
 
-    /// The support whose walls in the scene begin with wall `index`, if they are as the file gave
-    /// them.
-    pub(crate) fn support_at(&self, index: usize) -> Option<&Support> {
-        let support = self.written.supports.iter().find(|support| support.first == index)?;
-        let made = support.flats.walls().ok()?;
-        let there = self.whole().walls.get(index..index + made.len())?;
-        let same =
-            |(wall, made): (&Wall, &Wall)| self.kept(&made.at).is_some_and(|at| *wall == Wall { at, ..made.clone() });
-        there.iter().zip(&made).all(same).then_some(support)
+    /// The law of the walls of support number `index`, if the scene has them as the file gave them
+    /// but for a law that all of them may have got since.
+    pub(crate) fn law_of_flats(&self, index: usize) -> Option<WallLaw> {
+        let (flats, first) = self.written.supports.get(index)?.flats.as_ref()?;
+        let made = flats.walls().ok()?;
+        let there = self.whole().walls.get(*first..first + made.len())?;
+        let law = there.first()?.law;
+        let same = |(wall, made): (&Wall, &Wall)| {
+            self.kept(&made.at).is_some_and(|at| *wall == Wall { at, law, ..made.clone() })
+        };
+        there.iter().zip(&made).all(same).then_some(law)
     }
 
     /// The number in the file of degree of freedom `i` of the scene before its reduction.

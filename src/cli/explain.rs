@@ -8,7 +8,7 @@ use crate::case::{Case, Model, Origin, Support};
 use crate::error::Result;
 use crate::notes;
 use crate::output::summary;
-use crate::scene::{Density, Flats, LoadKind, Scene, System, WallLaw};
+use crate::scene::{self, Density, Flats, LoadKind, Scene, Shape, System, WallLaw};
 use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
 use crate::study::choice::{self, Choice};
 use crate::study::truncation::Start;
@@ -75,13 +75,11 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     model.extend(excitations(case));
     model.extend(case.notes().iter().map(|note| format!("note: {note}")));
     tell("model", model);
-    tell(
-        "scheme",
-        vec![
-            format!("{}: {}", choice.method, choice.reason),
-            "event: exact, from impact to impact without a step; the reference of `compare`".to_owned(),
-        ],
-    );
+    let mut schemes = vec![format!("{}: {}", choice.method, choice.reason)];
+    if !case.scene.turns_or_rubs() {
+        schemes.push("event: exact, from impact to impact without a step; the reference of `compare`".to_owned());
+    }
+    tell("scheme", schemes);
     tell("matrices", choice::path(&case.scene, case.time.step).into_iter().collect());
     tell(
         "solver of the quadratic programmes",
@@ -297,8 +295,26 @@ fn excitations(case: &Case) -> Vec<String> {
 
 /// Each support, and what its flats are to the schemes.
 fn supports(case: &Case) -> Vec<String> {
-    let line = |support: &Support| {
-        let Flats { name, flats, centre, .. } = &support.flats;
+    let line = |(support, there): (&Support, &scene::Support)| {
+        let off = match there.centre {
+            [0.0, 0.0] => String::new(),
+            [y, z] => format!(", its centre at ({y}, {z}) m"),
+        };
+        let rubs = match there.friction {
+            0.0 => "without friction, so that its work rate is an upper figure".to_owned(),
+            friction => format!("friction {friction}"),
+        };
+        let (name, place) = (&support.name, &support.place);
+        let Some((Flats { flats, .. }, _)) = &support.flats else {
+            let (gap, e) = match &there.shape {
+                Shape::Round { gap, law } => (*gap, law.restitution().unwrap_or(0.0)),
+                Shape::Flats(_) => (0.0, 0.0),
+            };
+            return format!(
+                "support {name:?}, on {place}: a round hole, a gap of {gap} m all round{off}; rigid, restitution {e}, \
+                 {rubs}"
+            );
+        };
         let mut gaps: Vec<f64> = flats.iter().map(|flat| flat.gap).collect();
         gaps.sort_by(f64::total_cmp);
         let gap = match (gaps.first(), gaps.last()) {
@@ -309,19 +325,19 @@ fn supports(case: &Case) -> Vec<String> {
         let directions: Vec<String> =
             flats.iter().take(MOST_WALLS).map(|flat| format!("{}°", flat.direction)).collect();
         let more = if flats.len() > MOST_WALLS { ", .." } else { "" };
-        let off = match centre {
-            [0.0, 0.0] => String::new(),
-            [y, z] => format!(", its centre at ({y}, {z}) m"),
-        };
         format!(
-            "support {name:?}, on {}: {} flats towards {}{more}, {gap}{off}; each flat is a wall along its normal, \
-             without friction, under every scheme's law of walls",
-            support.place,
+            "support {name:?}, on {place}: {} flats towards {}{more}, {gap}{off}; each flat is a wall along its \
+             normal, {rubs}",
             flats.len(),
             directions.join(", ")
         )
     };
-    case.written.supports.iter().take(MOST_WALLS).map(line).collect()
+    let mut lines: Vec<String> =
+        case.written.supports.iter().zip(&case.scene.supports).take(MOST_WALLS).map(line).collect();
+    if let Some(service) = case.wear.service {
+        lines.push(format!("wear: volume = coefficient x work rate x {service:e} s"));
+    }
+    lines
 }
 
 /// Each wall, its location, and the share of the structure's compliance there that a truncation

@@ -8,7 +8,7 @@ use crate::case::{Case, CaseFile, Embedded, KeyValue};
 use crate::error::{Error, Result};
 use crate::output::results::Results;
 use crate::qp::Backend;
-use crate::scene::{System, WallLaw};
+use crate::scene::{Shape, System, WallLaw};
 use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ pub struct Request {
     /// the case's, or 1e-3]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub force_averaging: Option<f64>,
-    /// Restitution of every rigid wall, 0 to 1
+    /// Restitution of every rigid wall and round support, 0 to 1
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     pub restitution: Option<f64>,
     /// Modes to keep, in place of the case's
@@ -186,7 +186,8 @@ impl Changes {
 
 fn set_restitution(case: &mut Case, restitution: Option<f64>) -> Result<()> {
     let Some(restitution) = restitution else { return Ok(()) };
-    if !case.whole().walls.iter().any(|wall| wall.law.is_rigid()) {
+    let holes = case.whole().supports.iter().any(|support| matches!(support.shape, Shape::Round { .. }));
+    if !holes && !case.whole().walls.iter().any(|wall| wall.law.is_rigid()) {
         return Err(Error::invalid("--restitution", restitution, "a case with a rigid wall; this one has none"));
     }
     if case.truncated.as_ref().is_some_and(|truncated| truncated.whole.static_correction) {
@@ -197,6 +198,11 @@ fn set_restitution(case: &mut Case, restitution: Option<f64>) -> Result<()> {
     case.change(|scene| {
         for wall in scene.walls.iter_mut().filter(|wall| wall.law.is_rigid()) {
             wall.law = WallLaw::Rigid { restitution };
+        }
+        for support in &mut scene.supports {
+            if let Shape::Round { law, .. } = &mut support.shape {
+                *law = WallLaw::Rigid { restitution };
+            }
         }
     })
 }

@@ -15,6 +15,7 @@ use crate::output::results::Results;
 use crate::output::run::{self as output, Picture};
 use crate::output::shape::{self, Shape};
 use crate::output::summary::{Checks, Reasons};
+use crate::output::supports;
 use crate::report;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::Scene;
@@ -285,6 +286,10 @@ fn tell(case: &Case, run: &Run, method: &Method, document: Value, results: &Resu
     } else if let Some(table) = output::table(run)? {
         ui.table(&table, "summary.json")?;
         output::remarks(run).iter().for_each(|remark| ui.message(remark));
+    }
+    if let (Some(table), false) = (supports::table(case, run), ui.json()) {
+        ui.table(&table, "supports.csv")?;
+        supports::remarks(case, run).iter().for_each(|remark| ui.message(remark));
     }
     ui.message(&output::line(case, run, method));
     for note in run.notes.iter().chain(&case.notes()) {

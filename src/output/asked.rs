@@ -21,6 +21,7 @@ pub fn asked(command: &str, case: &Case, methods: &[Method]) -> Map<String, Valu
         "sample_s": case.time.sample,
         "statistics_from_s": case.time.statistics_from,
         "force_averaging_s": case.time.force_averaging,
+        "sectors": case.time.sectors,
         "modes": case.truncated.as_ref().map(|truncated| truncated.reduction.modes.count()),
         "methods": methods.iter().map(ToString::to_string).collect::<Vec<_>>(),
     }));
@@ -29,9 +30,12 @@ pub fn asked(command: &str, case: &Case, methods: &[Method]) -> Map<String, Valu
     }
     let truncated =
         case.truncated.as_ref().map(|truncated| (&truncated.whole.damping, truncated.whole.static_correction));
+    let scarred: Vec<_> = case.written.supports.iter().map(|support| support.scarred).collect();
     for (part, digest) in [
         ("system", fingerprint(&(&whole.system, truncated))),
         ("walls", fingerprint(&whole.walls)),
+        ("supports", fingerprint(&whole.supports)),
+        ("wear", fingerprint(&(case.wear, scarred))),
         ("loads", fingerprint(&whole.loads)),
         ("initial", fingerprint(&whole.initial)),
         ("probes", fingerprint(&whole.probes)),

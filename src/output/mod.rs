@@ -6,6 +6,7 @@
 //! | [`results`] | the folder of a request's results, and what it may replace |
 //! | [`asked`] | what a request asked for, as its results remember it |
 //! | [`csv`] | `trajectory.csv` and `contacts.csv` |
+//! | [`supports`] | `supports.csv`, `sectors.csv`, the table of supports and their part of the summary |
 //! | [`summary`] | `summary.json` |
 //! | [`run`] | all files of one run, and its table |
 //! | [`compare`] | all files of a comparison, its table and its JSON |
@@ -40,10 +41,12 @@ pub mod pictures;
 mod places;
 pub mod realisations;
 pub mod results;
+mod ring;
 pub mod run;
 pub mod shape;
 pub mod stability;
 pub mod summary;
+pub mod supports;
 pub mod table;
 mod window;
 pub mod work_precision;

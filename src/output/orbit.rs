@@ -1,7 +1,9 @@
-//! The orbit of a place that moves in two planes, between the flats around it.
+//! The orbit of a place that moves in two planes, between the flats around it or in its hole, with
+//! the work of wear by sectors.
 
 use super::figure::{Curve, Figure, Panel};
 use super::labelled::Labelled;
+use super::ring::Ring;
 use super::window::Span;
 use crate::scene::{Row, Scene};
 use crate::trajectory::Trajectory;
@@ -21,6 +23,7 @@ struct Place {
     /// Indices of its probes.
     probes: [usize; 2],
     flats: Vec<Flat>,
+    rings: Vec<Ring>,
 }
 
 /// A wall seen from the place: the motion stays where a y + b z ≤ c.
@@ -39,7 +42,7 @@ pub(super) fn orbits(
     span: Span,
 ) -> Option<String> {
     let mut places = places(scene);
-    places.sort_by_key(|place| std::cmp::Reverse(place.flats.len()));
+    places.sort_by_key(|place| std::cmp::Reverse((place.rings.len(), place.flats.len())));
     let count = places.len();
     places.truncate(MOST);
     // Frames one below the other have one horizontal axis: the same ranges for all.
@@ -62,7 +65,7 @@ pub(super) fn orbits(
     let mut figure = Figure::new(title(left_out.into_iter().collect()), "Displacement along y (mm)").square();
     figure = figure.range(MM * (middle - whole), MM * (middle + whole));
     for (place, centre) in views {
-        let mut panel = Panel::new("Displacement along z (mm)").heading(&place.name);
+        let mut panel = Panel::new("Displacement along z (mm)").heading(heading(&place, runs));
         panel = panel.range(MM * (centre[1] - whole), MM * (centre[1] + whole));
         for labelled in runs {
             let points = points(&place, &labelled.run.trajectory, span).map(|[y, z]| (MM * y, MM * z));
@@ -72,9 +75,28 @@ pub(super) fn orbits(
         for edge in edges(&place.flats, [middle, centre[1]], whole) {
             panel = panel.outline(edge.map(|[y, z]| (MM * y, MM * z)));
         }
+        for ring in &place.rings {
+            panel = ring.circle().into_iter().fold(panel, |panel, circle| panel.outline(in_mm(circle)));
+            panel = ring.areas(runs).into_iter().fold(panel, |panel, area| panel.area(in_mm(area)));
+        }
         figure = figure.panel(panel);
     }
     Some(figure.to_svg())
+}
+
+fn in_mm(points: Vec<[f64; 2]>) -> impl Iterator<Item = (f64, f64)> {
+    points.into_iter().map(|[y, z]| (MM * y, MM * z))
+}
+
+/// The name of the place, and what its ring shows.
+fn heading(place: &Place, runs: &[Labelled<'_>]) -> String {
+    match place.rings.iter().find_map(|ring| ring.largest(runs)) {
+        Some((most, upper)) => {
+            let upper = if upper { ", an upper figure" } else { "" };
+            format!("{}; ring: work rate by sector, at most {most:.3e} W{upper}", place.name)
+        }
+        None => place.name.clone(),
+    }
 }
 
 /// Every place with a probe along y and one along z.
@@ -89,7 +111,8 @@ fn places(scene: &Scene) -> Vec<Place> {
             let sign = -wall.side.sign();
             Some(Flat { a: sign * a, b: sign * b, c: sign * wall.position })
         });
-        Some(Place { name: name.to_owned(), probes: [index, other], flats: flats.collect() })
+        let rings = Ring::around(scene, [probe, scene.probes.get(other)?]);
+        Some(Place { name: name.to_owned(), probes: [index, other], flats: flats.collect(), rings })
     };
     scene.probes.iter().enumerate().filter_map(place).collect()
 }
@@ -138,6 +161,7 @@ fn view(place: &Place, runs: &[Labelled<'_>], span: Span) -> Option<([f64; 2], f
         let beyond = (c - a * middle[0] - b * middle[1]) / (a * a + b * b);
         include([middle[0] + beyond * a, middle[1] + beyond * b]);
     }
+    place.rings.iter().filter_map(|ring| ring.reach(runs)).flatten().for_each(&mut include);
     let half = ends.iter().map(|[low, high]| 0.5 * (high - low)).fold(0.0, f64::max);
     (half > 0.0 && half.is_finite()).then(|| (ends.map(|[low, high]| 0.5 * (low + high)), half))
 }

@@ -4,7 +4,7 @@ use super::pictures::{Labelled, Sheet};
 use super::results::Results;
 use super::summary::{self, Checks, Reasons};
 use super::table::Table;
-use super::{Span, csv};
+use super::{Span, csv, supports};
 use crate::case::Case;
 use crate::error::Result;
 use crate::run::Run;
@@ -24,8 +24,8 @@ pub struct Picture {
     pub look: usize,
 }
 
-/// Writes the files of one run: `trajectory.csv`, `contacts.csv`, the figures and `summary.json`,
-/// into the folder of `results` or, where `prefix` is not empty, into a folder of that name in it.
+/// Writes the files of one run: `trajectory.csv`, `contacts.csv`, of supports also `supports.csv`
+/// and `sectors.csv`, the figures and `summary.json`, into the folder of `results` or, where `prefix` is not empty, into a folder of that name in it.
 /// Returns the summary.
 ///
 /// # Errors
@@ -42,6 +42,7 @@ pub fn write(
     let named = |name: &str| if prefix.is_empty() { name.to_owned() } else { format!("{prefix}/{name}") };
     csv::trajectory(&results.place(&named("trajectory.csv"))?, &run.trajectory)?;
     csv::contacts(&results.place(&named("contacts.csv"))?, &run.trajectory)?;
+    supports::write(|name| results.place(&named(name)), case, run)?;
     let label = method.to_string();
     let runs = [Labelled { label: &label, run, reference: false, look: picture.look }];
     let title = case.title.as_deref().unwrap_or(&case.name);
@@ -122,7 +123,12 @@ pub fn remarks(run: &Run) -> Vec<String> {
                 .to_owned(),
         );
     }
-    remarks.push("impact power is normal impact only: frictionless contact has no sliding wear in it".to_owned());
+    let sliding = if run.statistics.wear.is_empty() {
+        "frictionless contact has no sliding wear in it"
+    } else {
+        "the table of supports has the work of sliding"
+    };
+    remarks.push(format!("impact power is normal impact only: {sliding}"));
     remarks
 }
 

@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::residual::{Finding, Judge, Residuals};
 use crate::scene::{Scene, State};
 use crate::scheme::Stepper;
-use crate::statistics::{Forces, Statistics};
+use crate::statistics::{Forces, Rubbing, Statistics};
 use crate::step::{Contact, Step};
 use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
@@ -229,27 +229,30 @@ pub struct Unrecorded;
 impl Recording for Recorded {
     type Motion = Trajectory;
     type Statistics = Statistics;
-    type Recorder = (Recorder, Forces);
+    type Recorder = (Recorder, Forces, Rubbing);
     const ROWLESS: bool = false;
 
-    fn begin(stepper: &Stepper, rows: u64, start: &State, time: &TimeOptions) -> (Recorder, Forces) {
+    fn begin(stepper: &Stepper, rows: u64, start: &State, time: &TimeOptions) -> Self::Recorder {
         let forces = Forces::new(stepper.scene(), time.statistics_from, time.force_averaging);
-        (Recorder::new(stepper.scene(), rows, &start.q, &start.v), forces)
+        let rubbing = Rubbing::new(stepper.scene(), time.statistics_from, time.sectors);
+        (Recorder::new(stepper.scene(), rows, &start.q, &start.v), forces, rubbing)
     }
 
-    fn see((recorder, forces): &mut (Recorder, Forces), step: &Step<'_>) {
+    fn see((recorder, forces, rubbing): &mut Self::Recorder, step: &Step<'_>) {
         recorder.see(step);
         forces.see(step);
+        rubbing.see(step);
     }
 
     fn finish(
-        (recorder, forces): (Recorder, Forces),
+        (recorder, forces, rubbing): Self::Recorder,
         open: &[Contact],
         (scene, masses): (&Scene, &[f64]),
         from: f64,
     ) -> (Trajectory, Statistics) {
         let trajectory = recorder.finish(open);
         let statistics = Statistics::of(scene, masses, trajectory.contacts(), from).with_forces(&forces);
+        let statistics = statistics.with_wear(&rubbing);
         (trajectory, statistics)
     }
 

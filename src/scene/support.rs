@@ -11,6 +11,9 @@ use std::collections::HashSet;
 /// Largest coefficient of friction that is accepted.
 const MOST_FRICTION: f64 = 10.0;
 
+/// Share of its gap by which a start may lie outside of a round hole: rounding.
+const TOUCHING: f64 = 1e-12;
+
 /// A support around one place of a structure that moves in two planes. The displacement there from
 /// the support's centre c is w = (g_y · q, g_z · q) − c.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -88,6 +91,14 @@ impl Support {
             }
             Shape::Flats(_) => None,
         }
+    }
+
+    /// True for a round support if the structure at `q` is outside of its hole, by more than the
+    /// rounding of a place on its circle.
+    pub(crate) fn holds_out(&self, q: &[f64]) -> bool {
+        let [y, z] = self.offset(q);
+        let distance = y.hypot(z);
+        matches!(self.shape, Shape::Round { gap, .. } if distance > gap * (1.0 + TOUCHING))
     }
 
     /// The same support, seen by a structure in other coordinates, where `row` turns each row into
@@ -202,7 +213,7 @@ impl Support {
         }
         let [y, z] = self.seen(start);
         let distance = (y - self.centre[0]).hypot(z - self.centre[1]);
-        if distance > gap {
+        if self.holds_out(start) {
             let value = format!("{distance:?} m from the centre of the round support {:?}", self.name);
             return Err(Error::invalid(
                 ("initial state", "displacement"),

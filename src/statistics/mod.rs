@@ -8,10 +8,12 @@
 
 mod batch;
 mod force;
+mod rubbing;
 mod student;
 mod support;
 
 pub use force::{ForceStatistics, Forces};
+pub use rubbing::{Rubbing, SectorStatistics, WearStatistics};
 pub(crate) use student::student_95;
 pub use support::{SupportForce, SupportStatistics};
 
@@ -111,6 +113,10 @@ pub struct Statistics {
     /// One entry per support of flats, in the scene's order; its flats are walls too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<SupportStatistics>,
+    /// What slides at each support, in the scene's order; empty in one plane, and where only the
+    /// contacts are known.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub wear: Vec<WearStatistics>,
 }
 
 impl Statistics {
@@ -137,7 +143,7 @@ impl Statistics {
         };
         let walls = scene.walls.iter().zip(&by_wall).enumerate().map(wall).collect();
         let supports = support::of_supports(scene, masses, &by_wall, [from, to]);
-        Self { from_s: from, to_s: to, walls, supports }
+        Self { from_s: from, to_s: to, walls, supports, wear: Vec::new() }
     }
 
     /// Adds the force over time, as summed step by step.
@@ -149,6 +155,13 @@ impl Statistics {
         let contacts = |wall: usize| self.walls.get(wall).map_or(0, |wall| wall.contacts);
         let all = forces.of_supports(contacts);
         self.supports.iter_mut().zip(all).for_each(|(support, force)| support.force = Some(force));
+        self
+    }
+
+    /// Adds what slides at supports, as summed step by step.
+    #[must_use]
+    pub fn with_wear(mut self, rubbing: &Rubbing) -> Self {
+        self.wear = rubbing.statistics();
         self
     }
 

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::linear::{Factor, Symmetric};
 use crate::qp::Backend;
 use crate::run::Run;
-use crate::scene::{MOST_DENSE, Scene, Side, Structure, System, Wall, WallLaw};
+use crate::scene::{MOST_DENSE, Scene, Shape, Side, Structure, System, Wall, WallLaw};
 use crate::scheme::{Method, Scheme};
 
 /// A method and the reason for it.
@@ -26,7 +26,14 @@ pub struct Choice {
 #[must_use]
 pub fn choose(scene: &Scene) -> Choice {
     let method = Method::new(Scheme::MoreauJean { theta: 0.5 });
-    let reason = if scene.walls.is_empty() {
+    let round = scene.supports.iter().any(|support| matches!(support.shape, Shape::Round { .. }));
+    let rubs = scene.supports.iter().any(|support| support.friction > 0.0);
+    let reason = if round {
+        "of the schemes it alone turns with the normal of a round support: what slides there keeps its speed, and \
+         with θ = ½ free motion its energy"
+    } else if rubs {
+        "of the schemes it alone has friction, and with θ = ½ keeps the energy of free motion exactly"
+    } else if scene.walls.is_empty() {
         "no walls: the θ-method with θ = ½ is the trapezoidal rule, and no step needs a QP"
     } else if scene.walls.iter().all(|w| !w.law.is_rigid()) {
         "elastic walls only: θ = ½ conserves energy between and within contacts to the order of the step"
@@ -47,7 +54,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         Ok(run) => run,
         Err(error) => {
             let restitution_0 = |w: &Wall| w.law == WallLaw::Rigid { restitution: 0.0 };
-            let (scheme, why) = if scene.walls.iter().all(restitution_0) {
+            let (scheme, why) = if scene.walls.iter().all(restitution_0) && !scene.turns_or_rubs() {
                 (Scheme::PaoliSchatzman, "with e = 0 at every wall paoli-schatzman is of order 2")
             } else {
                 (Scheme::MoreauJean { theta: 0.5 }, "the constrained QP honours every wall's restitution")

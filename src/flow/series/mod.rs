@@ -19,6 +19,7 @@ mod hold;
 mod terms;
 mod wave;
 
+use crate::scene::Row;
 pub(crate) use body::SeriesBody;
 pub(crate) use hold::{Held, Hold};
 pub(crate) use terms::{Start, Touching};
@@ -175,6 +176,28 @@ impl Series {
     #[inline]
     pub(crate) fn seen(&self, row: usize) -> &[f64] {
         &self.seen[row * TERMS..row * TERMS + self.terms]
+    }
+
+    /// The polynomial in x of a weighted sum of what two rows see, m.
+    pub(crate) fn seen_along(&self, rows: [&Row; 2], weights: [f64; 2]) -> [f64; TERMS] {
+        let mut out = [0.0; TERMS];
+        for (k, c) in out.iter_mut().enumerate().take(self.terms) {
+            let [a, b] = rows.map(|row| row.dot(self.term(k)));
+            *c = weights[0] * a + weights[1] * b;
+        }
+        out
+    }
+
+    /// The value of a polynomial in x at `t`, m.
+    pub(crate) fn value_of(&self, c: &[f64; TERMS], t: f64) -> f64 {
+        value(&c[..self.terms], (t - self.start) / self.unit)
+    }
+
+    /// Its rate at `t`, m/s.
+    pub(crate) fn rate_of(&self, c: &[f64; TERMS], t: f64) -> f64 {
+        let x = (t - self.start) / self.unit;
+        let rate = (1..self.terms).rev().fold(0.0, |sum, k| sum * x + k as f64 * c[k]);
+        rate / self.unit
     }
 
     /// The unit of x, s.

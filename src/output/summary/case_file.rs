@@ -1,9 +1,10 @@
 //! The case of a run in the keys of a case file: what a summary needs so that the run can be
 //! repeated.
 
-use crate::case::{Case, Model, Origin, Place, Support, TableColumns};
+use crate::case::{Case, Model, Origin, Place, Scarred, Support, TableColumns};
 use crate::scene::{
-    BarEnd, BeamEnd, Damping, Density, Flats, Load, LoadKind, MassMatrix, RandomForce, Row, Side, System, Wall, WallLaw,
+    self, BarEnd, BeamEnd, Damping, Density, Flats, Load, LoadKind, MassMatrix, RandomForce, Row, Shape, Side, System,
+    Wall, WallLaw,
 };
 use crate::scheme::PenaltyLaw;
 use crate::study::truncation::Start;
@@ -20,16 +21,24 @@ pub(super) fn case_file(case: &Case) -> Value {
     put(&mut out, "title", text(&case.title));
     put(&mut out, "source", text(&case.source));
     out.insert("system".to_owned(), system(case));
-    let (mut walls, mut supports, mut next) = (Vec::new(), Vec::new(), 0);
-    while let Some(one) = whole.walls.get(next) {
-        if let Some(flats) = case.support_at(next) {
-            supports.push(support(flats));
-            next += flats.flats.flats.len();
-        } else {
-            walls.push(wall(case, one, case.places.get(next).filter(|_| several), several));
-            next += 1;
-        }
+    let mut supports = Vec::new();
+    let is_beam = matches!(case.model, Model::Beam(_));
+    // Walls that a table of a support makes.
+    let mut made = vec![false; whole.walls.len()];
+    for (index, (written, there)) in case.written.supports.iter().zip(&whole.supports).enumerate() {
+        let shape = match (&written.flats, &there.shape) {
+            (Some((flats, first)), _) => case.law_of_flats(index).map(|law| {
+                made.iter_mut().skip(*first).take(flats.flats.len()).for_each(|made| *made = true);
+                (flats_of(flats), law)
+            }),
+            (None, Shape::Round { gap, law }) => Some((round_of(*gap), *law)),
+            (None, Shape::Flats(_)) => None,
+        };
+        supports.extend(shape.map(|(shape, law)| support((written, there), shape, law, is_beam)));
     }
+    let own = whole.walls.iter().enumerate().filter(|(index, _)| made.get(*index) == Some(&false));
+    let walls: Vec<Value> =
+        own.map(|(index, one)| wall(case, one, case.places.get(index).filter(|_| several), several)).collect();
     put(&mut out, "wall", some(walls));
     put(&mut out, "support", some(supports));
     let second = |index: usize| matches!(case.written.origins.get(index), Some(Origin::Second(_)));
@@ -65,6 +74,7 @@ pub(super) fn case_file(case: &Case) -> Value {
     let averaging = Some(case.time.force_averaging).filter(|x| *x != TimeOptions::FORCE_AVERAGING);
     put(&mut time, "force_averaging", averaging.map(|x| json!(x)));
     out.insert("time".to_owned(), Value::Object(time));
+    put(&mut out, "wear", wear(case));
     put(&mut out, "penalty", penalty(case));
     Value::Object(out)
 }
@@ -308,11 +318,9 @@ fn at(place: &Place) -> Value {
     }
 }
 
-fn support(support: &Support) -> Value {
-    let Flats { name, flats, centre, law, .. } = &support.flats;
+/// The keys of the shape of flats.
+fn flats_of(Flats { flats, .. }: &Flats) -> Map<String, Value> {
     let mut out = Map::new();
-    out.insert("name".to_owned(), json!(name));
-    out.insert("at".to_owned(), at(&support.place));
     out.insert("shape".to_owned(), json!("flats"));
     out.insert("directions".to_owned(), flats.iter().map(|flat| flat.direction).collect());
     let gap = match flats.split_first() {
@@ -320,9 +328,45 @@ fn support(support: &Support) -> Value {
         _ => flats.iter().map(|flat| flat.gap).collect(),
     };
     out.insert("gap".to_owned(), gap);
-    put(&mut out, "centre", (*centre != [0.0; 2]).then(|| json!(centre)));
-    put_law(&mut out, *law);
+    out
+}
+
+/// The keys of the shape of a round hole.
+fn round_of(gap: f64) -> Map<String, Value> {
+    [("shape".to_owned(), json!("round")), ("gap".to_owned(), json!(gap))].into_iter().collect()
+}
+
+fn support(
+    (written, there): (&Support, &scene::Support),
+    shape: Map<String, Value>,
+    law: WallLaw,
+    is_beam: bool,
+) -> Value {
+    let mut out = Map::new();
+    out.insert("name".to_owned(), json!(written.name));
+    out.insert("at".to_owned(), at(&written.place));
+    out.extend(shape);
+    put(&mut out, "centre", (there.centre != [0.0; 2]).then(|| json!(there.centre)));
+    put_law(&mut out, law);
+    put(&mut out, "friction", (there.friction != 0.0).then(|| json!(there.friction)));
+    let Scarred { scar, coefficient, support_coefficient, .. } = written.scarred;
+    put(&mut out, "width", scar.map(|(width, _)| json!(width)));
+    // The radius of a beam follows from its diameter.
+    put(&mut out, "radius", scar.filter(|_| !is_beam).map(|(_, radius)| json!(radius)));
+    put(&mut out, "coefficient", coefficient.map(|k| json!(k)));
+    put(&mut out, "support_coefficient", support_coefficient.map(|k| json!(k)));
     Value::Object(out)
+}
+
+/// The table `[wear]`.
+fn wear(case: &Case) -> Option<Value> {
+    let mut out = Map::new();
+    put(&mut out, "coefficient", case.wear.coefficient.map(|k| json!(k)));
+    put(&mut out, "support_coefficient", case.wear.support_coefficient.map(|k| json!(k)));
+    put(&mut out, "service", case.wear.service.map(|s| json!(s)));
+    let sectors = case.time.sectors;
+    put(&mut out, "sectors", (sectors != TimeOptions::SECTORS).then(|| json!(sectors)));
+    (!out.is_empty()).then_some(Value::Object(out))
 }
 
 /// An initial field: a number for one degree of freedom, else pairs for the entries that are not 0;

@@ -4,7 +4,7 @@ mod case_file;
 mod scene;
 
 use super::atomic::write_whole;
-use super::json;
+use super::{json, supports};
 use crate::case::{Case, FileRead};
 use crate::error::{Error, Result};
 use crate::residual::{Finding, Residuals};
@@ -44,6 +44,8 @@ struct Summary<'a> {
     residuals: &'a Residuals,
     impulse_whole_run_n_s: BTreeMap<&'a str, f64>,
     statistics: &'a Statistics,
+    #[serde(skip_serializing_if = "no_supports")]
+    supports: Value,
     wear: &'static str,
     #[serde(flatten)]
     checks: Checks<'a>,
@@ -84,7 +86,7 @@ pub fn scene(case: &Case) -> Value {
 
 /// The case in the keys of a case file; null where a case file cannot express it.
 #[must_use]
-pub(crate) fn case_file(case: &Case) -> Value {
+pub fn case_file(case: &Case) -> Value {
     case_file::case_file(case)
 }
 
@@ -130,10 +132,27 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         residuals: &run.residuals,
         impulse_whole_run_n_s,
         statistics: &run.statistics,
-        wear: "impact power only: contact is frictionless and the motion normal to the wall, so there is no \
-               sliding wear here",
+        supports: supports::document(case, run),
+        wear: if run.statistics.wear.is_empty() {
+            "impact power only: contact is frictionless and the motion normal to the wall, so there is no \
+             sliding wear here"
+        } else {
+            "the work rates of sliding are under `supports`; one without friction is an upper figure; the impact \
+             power of walls is that of their normal motion alone"
+        },
         checks,
         notes: run.notes.iter().cloned().chain(case.notes()).collect(),
     };
-    serde_json::to_value(&summary).map_err(|error| Error::io("the summary", error.to_string(), false).caused_by(error))
+    let mut document = serde_json::to_value(&summary)
+        .map_err(|error| Error::io("the summary", error.to_string(), false).caused_by(error))?;
+    // The wear of supports has a place of its own.
+    if let Some(statistics) = document.get_mut("statistics").and_then(Value::as_object_mut) {
+        statistics.remove("wear");
+    }
+    Ok(document)
+}
+
+/// True where there is nothing to say of supports.
+fn no_supports(supports: &Value) -> bool {
+    supports.as_array().is_none_or(Vec::is_empty)
 }

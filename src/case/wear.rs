@@ -1,0 +1,103 @@
+//! Reads the table `[wear]`, and makes the law of wear of each support.
+
+use super::builder::Builder;
+use super::file;
+use super::value::Section;
+use super::{Case, TimeOptions};
+use crate::error::Result;
+use crate::scene::Shape;
+use crate::wear::{Archard, Bearing, Scar};
+use std::ops::Range;
+use toml::Spanned;
+
+/// The table `[wear]`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct WearOptions {
+    /// Wear coefficient of what slides at the supports, 1/Pa, where a support has none of its own.
+    pub coefficient: Option<f64>,
+    /// Wear coefficient of the supports, 1/Pa, where a support has none of its own.
+    pub support_coefficient: Option<f64>,
+    /// Time in service, s.
+    pub service: Option<f64>,
+}
+
+impl Builder<'_> {
+    /// The table `[wear]` and its number of sectors; all supports have been read.
+    pub fn wear(&mut self, wear: Option<&Section<file::Wear>>) -> Result<(WearOptions, usize)> {
+        let own = self
+            .written
+            .supports
+            .iter()
+            .find(|support| support.scarred.coefficient.is_some() || support.scarred.support_coefficient.is_some());
+        let own = own.map(|support| support.name.clone());
+        let Some(Section { span, value: wear }) = wear else {
+            return match own.and_then(|name| self.coefficient_of(&name).map(|at| (name, at))) {
+                Some((name, at)) => {
+                    let title = format!("support {name:?} has a wear coefficient, and there is no service");
+                    Err(self.source.error(at, &title, SERVICE))
+                }
+                None => Ok((WearOptions::default(), TimeOptions::SECTORS)),
+            };
+        };
+        if self.written.supports.is_empty() {
+            let help = "expected one [[support]] or more beside it: only at these something slides";
+            return Err(self.source.error(span.clone(), "`wear` without a support", help));
+        }
+        let options = WearOptions {
+            coefficient: self.above_0("wear", "coefficient", "1/Pa", wear.coefficient.as_ref())?,
+            support_coefficient: self.above_0(
+                "wear",
+                "support_coefficient",
+                "1/Pa",
+                wear.support_coefficient.as_ref(),
+            )?,
+            service: self.above_0("wear", "service", "s", wear.service.as_ref())?,
+        };
+        let coefficient = wear.coefficient.as_ref().or(wear.support_coefficient.as_ref());
+        match (coefficient, &wear.service) {
+            (Some(at), None) => Err(self.source.error(at.span(), "`wear` has a coefficient and no service", SERVICE)),
+            (None, Some(at)) if own.is_none() => {
+                let help = "expected coefficient beside it, in 1/Pa: volume = coefficient x work rate x service";
+                Err(self.source.error(at.span(), "`wear` has a service and no coefficient", help))
+            }
+            _ if own.is_some() && options.service.is_none() => {
+                Err(self.source.error(span.clone(), "`wear` has no service, and a support has a coefficient", SERVICE))
+            }
+            _ => Ok((options, self.sectors(wear.sectors.as_ref())?)),
+        }
+    }
+
+    fn sectors(&mut self, sectors: Option<&Spanned<super::value::Number>>) -> Result<usize> {
+        let Some(value) = sectors else { return Ok(TimeOptions::SECTORS) };
+        self.whole("sectors", value, TimeOptions::MOST_SECTORS)
+    }
+
+    /// Where the support of that name has a coefficient.
+    fn coefficient_of(&self, name: &str) -> Option<Range<usize>> {
+        let subject = crate::error::Subject::support(name).part("coefficient");
+        self.places.iter().find(|(known, _)| *known == subject).map(|(_, at)| at.clone())
+    }
+}
+
+/// What to write where a service is missing.
+const SERVICE: &str =
+    "expected service = a number above 0, in s, in [wear]: volume = coefficient x work rate x service";
+
+impl Case {
+    /// The law of wear of support number `index` of the scene; `None` where the case has no
+    /// coefficient for it.
+    #[must_use]
+    pub fn archard(&self, index: usize) -> Option<Archard> {
+        let scarred = self.written.supports.get(index)?.scarred;
+        let coefficient = scarred.coefficient.or(self.wear.coefficient);
+        let support_coefficient = scarred.support_coefficient.or(self.wear.support_coefficient);
+        coefficient.or(support_coefficient)?;
+        let bearing = match self.scene.supports.get(index)?.shape {
+            Shape::Round { gap, .. } => Bearing::Hole { gap },
+            Shape::Flats(_) => Bearing::Flat,
+        };
+        let scar = scarred.scar.map(|(width, radius)| Scar { width, radius, bearing });
+        Some(Archard { coefficient, support_coefficient, service: self.wear.service?, scar })
+    }
+}

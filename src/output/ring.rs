@@ -1,0 +1,94 @@
+//! What bounds the motion at a support, and its work of wear by sectors as a ring around it.
+
+use super::labelled::Labelled;
+use crate::scene::{Probe, Scene, Shape};
+use crate::statistics::WearStatistics;
+
+/// Corners of a circle.
+const CORNERS: usize = 180;
+/// Radius of the inside of the ring over the support's own, and its largest height.
+const INSIDE: f64 = 1.06;
+const HEIGHT: f64 = 0.3;
+/// A corner of a lattice of four bars is √2 of its gap away.
+const CORNER: f64 = 1.45;
+
+/// A support around a place that is drawn.
+#[derive(Debug, Clone)]
+pub(super) struct Ring {
+    /// Index of the support.
+    index: usize,
+    centre: [f64; 2],
+    /// The gap of a round hole, m.
+    hole: Option<f64>,
+    /// Radius of the inside of the ring, m.
+    inside: f64,
+}
+
+impl Ring {
+    /// The supports around the place of two probes.
+    pub fn around(scene: &Scene, [y, z]: [&Probe; 2]) -> Vec<Self> {
+        let there = scene.supports.iter().enumerate().filter(|(_, s)| s.at.y == y.at && s.at.z == z.at);
+        let ring = |(index, support): (usize, &crate::scene::Support)| {
+            let (hole, reach) = match &support.shape {
+                Shape::Round { gap, .. } => (Some(*gap), *gap),
+                Shape::Flats(flats) => {
+                    let walls = flats.iter().filter_map(|flat| scene.walls.get(flat.wall).map(|wall| (flat, wall)));
+                    let gap = walls.map(|(flat, wall)| {
+                        let [y, z] = crate::scene::heading(flat.direction);
+                        -wall.side.sign() * wall.position - y * support.centre[0] - z * support.centre[1]
+                    });
+                    (None, CORNER * gap.fold(0.0, f64::max))
+                }
+            };
+            Self { index, centre: support.centre, hole, inside: INSIDE * reach }
+        };
+        there.map(ring).filter(|ring| ring.inside > 0.0).collect()
+    }
+
+    fn point(&self, degrees: f64, radius: f64) -> [f64; 2] {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        [self.centre[0] + radius * cos, self.centre[1] + radius * sin]
+    }
+
+    /// The circle of a hole.
+    pub fn circle(&self) -> Option<Vec<[f64; 2]>> {
+        let gap = self.hole?;
+        Some((0..=CORNERS).map(|k| self.point(360.0 * k as f64 / CORNERS as f64, gap)).collect())
+    }
+
+    /// The statistics of the support in the run whose ring is drawn: the first of several.
+    fn statistics<'a>(&self, runs: &[Labelled<'a>]) -> Option<&'a WearStatistics> {
+        runs.first()?.run.statistics.wear.get(self.index)
+    }
+
+    /// The largest work rate of a sector, W, and whether it is an upper figure; `None` without work.
+    pub fn largest(&self, runs: &[Labelled<'_>]) -> Option<(f64, bool)> {
+        let support = self.statistics(runs)?;
+        let most = support.sectors.iter().map(|sector| sector.work_rate_w).fold(0.0, f64::max);
+        (most > 0.0).then_some((most, support.upper_figure))
+    }
+
+    /// One area for each sector with work, whose height is in proportion to it.
+    pub fn areas(&self, runs: &[Labelled<'_>]) -> Vec<Vec<[f64; 2]>> {
+        let (Some((most, _)), Some(support)) = (self.largest(runs), self.statistics(runs)) else { return Vec::new() };
+        let worked = support.sectors.iter().filter(|sector| sector.work_rate_w > 0.0);
+        let area = |sector: &crate::statistics::SectorStatistics| {
+            let outside = self.inside * (1.0 + HEIGHT * sector.work_rate_w / most);
+            let parts = (CORNERS / support.sectors.len().max(1)).max(2);
+            let angle = |k: usize| sector.from_deg + (sector.to_deg - sector.from_deg) * k as f64 / parts as f64;
+            let there = (0..=parts).map(|k| self.point(angle(k), self.inside));
+            there.chain((0..=parts).rev().map(|k| self.point(angle(k), outside))).collect()
+        };
+        worked.map(area).collect()
+    }
+
+    /// The corners of a square that holds the ring, or the hole.
+    pub fn reach(&self, runs: &[Labelled<'_>]) -> Option<[[f64; 2]; 2]> {
+        let radius = match (self.largest(runs), self.hole) {
+            (Some(_), _) => self.inside * (1.0 + HEIGHT),
+            (None, Some(gap)) => gap,
+            (None, None) => return None,
+        };
+        Some([-radius, radius].map(|by| self.centre.map(|x| x + by)))
+    }
+}

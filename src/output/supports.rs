@@ -1,0 +1,212 @@
+//! `supports.csv` and `sectors.csv`, the table of supports, and their part of the summary: force,
+//! work of wear, sliding, and what that wears off.
+
+use super::csv::{self, digits};
+use super::table::Table;
+use crate::case::Case;
+use crate::error::Result;
+use crate::run::Run;
+use crate::statistics::WearStatistics;
+use crate::wear::Worn;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Most rows of the table in the terminal.
+const MOST_ROWS: usize = 24;
+
+/// What a work rate without friction is called.
+const UPPER: &str = "upper figure";
+
+/// Each support of a run, and what its work rate wears off.
+fn all<'a>(case: &'a Case, run: &'a Run) -> impl Iterator<Item = (&'a WearStatistics, Option<Worn>)> {
+    let worn = |(index, support): (usize, &'a WearStatistics)| {
+        (support, case.archard(index).map(|law| law.worn(support.work_rate_w)))
+    };
+    run.statistics.wear.iter().enumerate().map(worn)
+}
+
+/// Writes `supports.csv` and `sectors.csv` where `place` says, if there are supports.
+///
+/// # Errors
+/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
+pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &Run) -> Result<()> {
+    if run.statistics.wear.is_empty() {
+        return Ok(());
+    }
+    let header = [
+        "support",
+        "friction",
+        "work_rate_is",
+        "work_rate_W",
+        "work_rate_half_width_95_W",
+        "impact_share",
+        "friction_power_W",
+        "sliding_m",
+        "sliding_speed_m_per_s",
+        "mean_force_y_N",
+        "mean_force_z_N",
+        "mean_normal_force_N",
+        "mean_normal_force_half_width_95_N",
+        "contact_time_ratio",
+        "wear_volume_m3",
+        "depth_one_scar_m",
+        "depth_all_round_m",
+        "support_wear_volume_m3",
+    ];
+    let row = |(support, worn): (&WearStatistics, Option<Worn>)| {
+        let numbers = [
+            Some(support.work_rate_w),
+            support.work_rate_half_width_95_w,
+            support.impact_share,
+            Some(support.friction_power_w),
+            Some(support.sliding_m),
+            support.sliding_speed_m_per_s,
+            Some(support.mean_force_y_n),
+            Some(support.mean_force_z_n),
+            Some(support.mean_n),
+            support.mean_half_width_95_n,
+            Some(support.contact_time_ratio),
+            worn.and_then(|worn| worn.volume_m3),
+            worn.and_then(|worn| worn.depth_one_scar_m),
+            worn.and_then(|worn| worn.depth_all_round_m),
+            worn.and_then(|worn| worn.support_volume_m3),
+        ];
+        let words = [support.support.clone(), digits(Some(support.friction)), kind(support).to_owned()];
+        words.into_iter().chain(numbers.map(digits)).collect()
+    };
+    csv::table(&place("supports.csv")?, &header.map(str::to_owned), all(case, run).map(row))?;
+    let header = ["support", "from_deg", "to_deg", "work_rate_is", "work_rate_W", "impulse_share"];
+    let rows = run.statistics.wear.iter().flat_map(|support| {
+        support.sectors.iter().map(|sector| {
+            vec![
+                support.support.clone(),
+                digits(Some(sector.from_deg)),
+                digits(Some(sector.to_deg)),
+                kind(support).to_owned(),
+                digits(Some(sector.work_rate_w)),
+                digits(Some(sector.impulse_share)),
+            ]
+        })
+    });
+    csv::table(&place("sectors.csv")?, &header.map(str::to_owned), rows)
+}
+
+/// What the work rate of a support is.
+fn kind(support: &WearStatistics) -> &'static str {
+    if support.upper_figure { UPPER } else { "with friction" }
+}
+
+/// The table of supports for the terminal; where there are many, those of the largest work rates.
+/// `None` without supports.
+#[must_use]
+pub fn table(case: &Case, run: &Run) -> Option<Table> {
+    let mut supports: Vec<_> = all(case, run).enumerate().collect();
+    if supports.is_empty() {
+        return None;
+    }
+    supports.sort_by(|a, b| b.1.0.work_rate_w.total_cmp(&a.1.0.work_rate_w));
+    supports.truncate(MOST_ROWS);
+    supports.sort_by_key(|entry| entry.0);
+    let wears = supports.iter().any(|(_, (_, worn))| worn.is_some());
+    let mut header = vec![
+        "support",
+        "work rate (W)",
+        "impacts (%)",
+        "friction (W)",
+        "sliding (m)",
+        "mean force (N)",
+        "y (N)",
+        "z (N)",
+    ];
+    if wears {
+        header.extend(["worn (mm³)", "one scar (mm)", "all round (mm)", "support worn (mm³)"]);
+    }
+    let row = |(support, worn): (&WearStatistics, Option<Worn>)| {
+        let upper = if support.upper_figure { format!(" {UPPER}") } else { String::new() };
+        let mut row = vec![
+            support.support.clone(),
+            format!("{}{upper}", figures(support.work_rate_w)),
+            support.impact_share.map_or_else(|| "-".to_owned(), |share| format!("{:.1}", 100.0 * share)),
+            figures(support.friction_power_w),
+            figures(support.sliding_m),
+            figures(support.mean_n),
+            figures(support.mean_force_y_n),
+            figures(support.mean_force_z_n),
+        ];
+        if wears {
+            let part = |of: fn(&Worn) -> Option<f64>, unit: f64| {
+                worn.as_ref().and_then(of).map_or_else(|| "-".to_owned(), |x| figures(x * unit))
+            };
+            row.extend([
+                part(|worn| worn.volume_m3, 1e9),
+                part(|worn| worn.depth_one_scar_m, 1e3),
+                part(|worn| worn.depth_all_round_m, 1e3),
+                part(|worn| worn.support_volume_m3, 1e9),
+            ]);
+        }
+        row
+    };
+    Some(Table::new(&header, supports.into_iter().map(|(_, support)| row(support)).collect()))
+}
+
+/// Four significant figures.
+fn figures(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    let order = x.abs().log10().floor();
+    if (-3.0..6.0).contains(&order) {
+        let digits = (3.0 - order).max(0.0) as usize;
+        format!("{x:.digits$}")
+    } else {
+        format!("{x:.3e}")
+    }
+}
+
+/// What the reader must be told beside the table of supports.
+#[must_use]
+pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
+    let supports = &run.statistics.wear;
+    if supports.is_empty() {
+        return Vec::new();
+    }
+    let mut remarks = vec![
+        "work rate: normal force times sliding speed, in the mean over time; impacts: their share of it; friction: \
+         the power that it takes out of the motion; mean force: of the normal force, then its vector along y and z"
+            .to_owned(),
+    ];
+    if supports.len() > MOST_ROWS {
+        remarks.push(format!(
+            "{MOST_ROWS} of {} supports, those of the largest work rates; supports.csv has them all",
+            supports.len()
+        ));
+    }
+    if supports.iter().any(|support| support.upper_figure) {
+        remarks.push(
+            "a work rate without friction is an upper figure: what slides without friction is held back by its own \
+             damping alone, and in round supports it may whirl; give `friction` for a figure of wear"
+                .to_owned(),
+        );
+    }
+    if let Some(service) = case.wear.service {
+        remarks.push(format!(
+            "worn in {service:.3e} s of service, by Archard's law; the depth on the tube if all of it comes off one \
+             scar, and if it comes off evenly all round"
+        ));
+    }
+    remarks
+}
+
+/// The supports in the summary.
+#[must_use]
+pub fn document(case: &Case, run: &Run) -> Value {
+    let support = |(support, worn): (&WearStatistics, Option<Worn>)| {
+        // A struct of numbers and texts: this cannot fail.
+        let mut value = serde_json::to_value(support).unwrap_or_default();
+        if let (Some(map), Some(worn)) = (value.as_object_mut(), worn) {
+            map.insert("worn".to_owned(), json!(worn));
+        }
+        value
+    };
+    all(case, run).map(support).collect()
+}

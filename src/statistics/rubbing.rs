@@ -1,0 +1,259 @@
+//! Wear statistics of supports: force, work of wear, sliding and friction, step by step.
+
+use super::batch::{BATCHES, batch_of, half_width};
+use crate::scene::Scene;
+use crate::step::Step;
+use crate::wear::{Manner, Rub, Rubs, sector_of};
+use serde::{Deserialize, Serialize};
+
+/// An impact on a rigid support takes at most this many steps of a scheme on a grid; longer
+/// episodes are contact that lasts.
+const IMPACT_STEPS: u64 = 2;
+
+/// A support over the window of the statistics.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct WearStatistics {
+    /// The support's name.
+    pub support: String,
+    /// Its coefficient of friction.
+    pub friction: f64,
+    /// True without friction: then the work rate is an upper figure. A structure that slides
+    /// without friction is held back by its own damping alone, and may whirl round in the support.
+    pub upper_figure: bool,
+    /// Mean force of the support on the structure along y and z, friction included, N.
+    pub mean_force_y_n: f64,
+    /// See `mean_force_y_n`.
+    pub mean_force_z_n: f64,
+    /// Mean of the normal force over time, Σ|p|/T, N.
+    pub mean_n: f64,
+    /// Half width of its 95 % interval by batch means, N. This and that of the work rate are `None`
+    /// unless the support pushed in each of ten batches.
+    pub mean_half_width_95_n: Option<f64>,
+    /// Work rate W/T, W: the work of wear ∫ F_n |v_t| dt over the window, per unit time.
+    pub work_rate_w: f64,
+    /// Half width of its 95 % interval by batch means, W.
+    pub work_rate_half_width_95_w: Option<f64>,
+    /// The share of the work that impacts did: of a scheme on a grid, the first two steps of each
+    /// contact. `None` for an elastic support, where no force is an impulse, and without work.
+    pub impact_share: Option<f64>,
+    /// Distance slid in contact, m; impacts have none, since they take no time.
+    pub sliding_m: f64,
+    /// Mean sliding speed in contact, m/s: that distance over the time in contact; `None` without
+    /// contact that lasts.
+    pub sliding_speed_m_per_s: Option<f64>,
+    /// What friction takes out of the motion per unit time, W.
+    pub friction_power_w: f64,
+    /// Time in contact over the window's length. On a rigid support it depends on the step and on
+    /// the number of modes.
+    pub contact_time_ratio: f64,
+    /// The sectors, from +y towards +z.
+    pub sectors: Vec<SectorStatistics>,
+}
+
+/// A sector of a support.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct SectorStatistics {
+    /// Where it begins, degrees from +y towards +z.
+    pub from_deg: f64,
+    /// Where it ends, degrees.
+    pub to_deg: f64,
+    /// Work rate of the contacts in it, W.
+    pub work_rate_w: f64,
+    /// Its share of the support's impulse Σ|p|.
+    pub impulse_share: f64,
+}
+
+/// The sums of one support.
+#[derive(Debug, Clone)]
+struct Tally {
+    name: String,
+    friction: f64,
+    /// Impulse on the structure along y and z, N s.
+    impulse: [f64; 2],
+    /// Σ|p|, N s, and the work of wear, J, by batches.
+    pushed: [f64; BATCHES],
+    work: [f64; BATCHES],
+    impacts: f64,
+    /// True once an impulse came whose force is not known.
+    rigid: bool,
+    sliding: f64,
+    time: f64,
+    dissipated: f64,
+    /// Work, J, and Σ|p|, N s, by sectors.
+    sectors: Vec<[f64; 2]>,
+    /// The steps in which any of its contacts pushed.
+    episode: Episode,
+}
+
+/// Neighbouring steps of a scheme on a grid in which a contact pushed.
+#[derive(Debug, Clone, Copy, Default)]
+struct Episode {
+    /// The step after the last, and their number.
+    next: u64,
+    steps: u64,
+    /// What the first steps add if the episode lasts.
+    waiting: f64,
+}
+
+impl Episode {
+    /// Adds step number `index` with `amount`; returns the number of steps, and the amount that is
+    /// now known to belong to contact that lasts.
+    fn add(&mut self, index: u64, amount: f64) -> (u64, f64) {
+        if self.steps == 0 || self.next != index {
+            *self = Self::default();
+        }
+        (self.next, self.steps) = (index + 1, self.steps + 1);
+        self.waiting += amount;
+        let lasts = self.steps > IMPACT_STEPS;
+        (self.steps, if lasts { std::mem::take(&mut self.waiting) } else { 0.0 })
+    }
+}
+
+/// Sums up what slides at the supports over the steps of a run: flats under every scheme, round
+/// holes under those that step them.
+///
+/// On a grid the impulse of a step at a rigid support may be that of an impact or of a force that
+/// lasts: contacts of at most two steps are impacts, which slide no distance and take no time.
+#[derive(Debug, Clone)]
+pub struct Rubbing {
+    from: f64,
+    length: f64,
+    rubs: Rubs,
+    supports: Vec<Tally>,
+    /// One for each contact.
+    episodes: Vec<Episode>,
+    /// The last step in which each support was in contact.
+    touched: Vec<Option<u64>>,
+}
+
+impl Rubbing {
+    /// For the supports of `scene` (as the scheme sees it), from the time `from` (s) to the end,
+    /// with the work divided among `sectors` equal sectors.
+    #[must_use]
+    pub fn new(scene: &Scene, from: f64, sectors: usize) -> Self {
+        let from = from.min(scene.duration);
+        let tally = |support: &crate::scene::Support| Tally {
+            name: support.name.clone(),
+            friction: support.friction,
+            impulse: [0.0; 2],
+            pushed: [0.0; BATCHES],
+            work: [0.0; BATCHES],
+            impacts: 0.0,
+            rigid: false,
+            sliding: 0.0,
+            time: 0.0,
+            dissipated: 0.0,
+            sectors: vec![[0.0; 2]; sectors],
+            episode: Episode::default(),
+        };
+        let rubs = Rubs::new(scene);
+        Self {
+            from,
+            length: scene.duration - from,
+            supports: scene.supports.iter().map(tally).collect(),
+            episodes: vec![Episode::default(); rubs.contacts()],
+            touched: vec![None; scene.supports.len()],
+            rubs,
+        }
+    }
+
+    /// Adds one step; steps must come in order.
+    #[inline]
+    pub fn see(&mut self, step: &Step<'_>) {
+        if !self.rubs.is_empty() && step.end >= self.from && self.length > 0.0 {
+            self.add(step);
+        }
+    }
+
+    fn add(&mut self, step: &Step<'_>) {
+        let end = self.from + self.length;
+        // Rounding of the last step's end is no time after the window.
+        let window = [step.start.max(self.from), if step.end > end { end } else { step.end }];
+        let (from, length) = (self.from, self.length);
+        let Self { rubs, supports, episodes, touched, .. } = self;
+        rubs.see(step, window, |rub| {
+            let Some(tally) = supports.get_mut(rub.support) else { return };
+            let middle = if rub.manner == Manner::Instant { step.end } else { 0.5 * (window[0] + window[1]) };
+            tally.add(rub, batch_of(middle - from, length));
+            let first = touched.get_mut(rub.support).is_some_and(|last| last.replace(step.index) != Some(step.index));
+            match rub.manner {
+                Manner::Instant => tally.impacts += rub.work,
+                Manner::Lasting => {
+                    tally.sliding += rub.sliding;
+                    tally.time += if first { rub.time } else { 0.0 };
+                }
+                Manner::Unresolved => {
+                    let Some(episode) = episodes.get_mut(rub.contact) else { return };
+                    let (steps, sliding) = episode.add(step.index, rub.sliding);
+                    tally.sliding += sliding;
+                    tally.impacts += if steps <= IMPACT_STEPS { rub.work } else { 0.0 };
+                    if first {
+                        tally.time += tally.episode.add(step.index, rub.time).1;
+                    }
+                }
+            }
+        });
+    }
+
+    /// The statistics of each support, in the scene's order; none for a window of length 0.
+    #[must_use]
+    pub fn statistics(&self) -> Vec<WearStatistics> {
+        if self.length <= 0.0 {
+            return Vec::new();
+        }
+        self.supports.iter().map(|tally| tally.statistics(self.length)).collect()
+    }
+}
+
+impl Tally {
+    fn add(&mut self, rub: &Rub, batch: usize) {
+        let [y, z] = rub.normal;
+        // The structure gets −p n, and friction along t = (−n_z, n_y).
+        self.impulse[0] += -rub.impulse * y - rub.friction * z;
+        self.impulse[1] += -rub.impulse * z + rub.friction * y;
+        self.pushed[batch] += rub.impulse;
+        self.work[batch] += rub.work;
+        self.dissipated += rub.dissipated;
+        self.rigid |= rub.manner != Manner::Lasting;
+        let sector = sector_of(rub.angle, self.sectors.len());
+        if let Some([work, pushed]) = self.sectors.get_mut(sector) {
+            *work += rub.work;
+            *pushed += rub.impulse;
+        }
+    }
+
+    fn statistics(&self, length: f64) -> WearStatistics {
+        let total = |batches: &[f64; BATCHES]| batches.iter().sum::<f64>();
+        let (work, pushed) = (total(&self.work), total(&self.pushed));
+        let batch = length / BATCHES as f64;
+        let enough = self.pushed.iter().all(|&p| p > 0.0);
+        let spread = |sums: &[f64; BATCHES]| enough.then(|| half_width(&sums.map(|x| x / batch)));
+        let count = self.sectors.len();
+        let edge = |k: usize| 360.0 * k as f64 / count as f64;
+        let sectors = self.sectors.iter().enumerate().map(|(k, [work, p])| SectorStatistics {
+            from_deg: edge(k),
+            to_deg: edge(k + 1),
+            work_rate_w: work / length,
+            impulse_share: if pushed > 0.0 { p / pushed } else { 0.0 },
+        });
+        WearStatistics {
+            support: self.name.clone(),
+            friction: self.friction,
+            upper_figure: self.friction == 0.0,
+            mean_force_y_n: self.impulse[0] / length,
+            mean_force_z_n: self.impulse[1] / length,
+            mean_n: pushed / length,
+            mean_half_width_95_n: spread(&self.pushed),
+            work_rate_w: work / length,
+            work_rate_half_width_95_w: spread(&self.work),
+            impact_share: (self.rigid && work > 0.0).then(|| (self.impacts / work).min(1.0)),
+            sliding_m: self.sliding,
+            sliding_speed_m_per_s: (self.time > 0.0).then(|| self.sliding / self.time),
+            friction_power_w: self.dissipated / length,
+            contact_time_ratio: self.time / length,
+            sectors: sectors.collect(),
+        }
+    }
+}

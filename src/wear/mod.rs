@@ -1,0 +1,19 @@
+//! Wear at supports: the work of wear of each step, where around the support it is done, and the
+//! depth of the scar that follows.
+//!
+//! The work of wear is W = ∫ F_n |v_t| dt, with F_n the normal force of a support and v_t the speed
+//! at which the structure slides there. Archard's law makes a worn volume of it, V = k W, with k the
+//! wear coefficient (Archard 1953, doi:10.1063/1.1721448).
+
+mod archard;
+mod blows;
+mod depth;
+mod rubs;
+mod sectors;
+mod work;
+
+pub use archard::{Archard, Bearing, Scar, Worn};
+pub use depth::{all_round, flat_area, flat_depth, moon_area, moon_depth};
+pub(crate) use rubs::{Manner, Rub, Rubs};
+pub use sectors::sector_of;
+pub use work::{sliding_distance, work_of_impulse};
