@@ -79,4 +79,4 @@ pub use step::{
     Reached, Rigid, Step, Tolerance, Tolerances, Turning,
 };
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
-pub use trajectory::{Recorder, Trajectory};
+pub use trajectory::{ContactWear, Recorder, Trajectory};

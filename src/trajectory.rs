@@ -1,9 +1,14 @@
 //! The recorded motion: columns over time, and the contacts.
 
+mod worn;
+
+pub use worn::ContactWear;
+
 use crate::error::{Error, Result};
 use crate::scene::{Row, Scene};
 use crate::step::{Contact, Path, Step};
 use serde::{Deserialize, Serialize};
+use worn::Worn;
 
 /// A motion sampled at given times; the contact impulses between the samples are recorded in full.
 ///
@@ -47,7 +52,13 @@ pub struct Trajectory {
     hole_impulse: Vec<[Vec<f64>; 2]>,
     #[serde(default)]
     friction: Vec<Vec<f64>>,
+    #[serde(default)]
+    supports: Vec<String>,
+    #[serde(default)]
+    wear_work: Vec<Vec<f64>>,
     contacts: Vec<Contact>,
+    #[serde(default)]
+    contact_wear: Vec<Option<ContactWear>>,
 }
 
 /// A trajectory as it was written down, perhaps by another program.
@@ -68,7 +79,13 @@ struct Columns {
     hole_impulse: Vec<[Vec<f64>; 2]>,
     #[serde(default)]
     friction: Vec<Vec<f64>>,
+    #[serde(default)]
+    supports: Vec<String>,
+    #[serde(default)]
+    wear_work: Vec<Vec<f64>>,
     contacts: Vec<Contact>,
+    #[serde(default)]
+    contact_wear: Vec<Option<ContactWear>>,
 }
 
 impl TryFrom<Columns> for Trajectory {
@@ -77,12 +94,15 @@ impl TryFrom<Columns> for Trajectory {
     fn try_from(columns: Columns) -> std::result::Result<Self, Self::Error> {
         let Columns { walls, probes, time, displacement, velocity, force, impulse, .. } = columns;
         let Columns { holes, hole_force, hole_impulse, friction, contacts, .. } = columns;
+        let Columns { supports, wear_work, contact_wear, .. } = columns;
         let fit = |names: &[String], columns: [&Vec<Vec<f64>>; 2]| {
             let mut all = columns.iter().flat_map(|columns| columns.iter());
             columns.iter().all(|columns| columns.len() == names.len()) && all.all(|column| column.len() == time.len())
         };
         let mut sound = fit(&probes, [&displacement, &velocity]) && fit(&walls, [&force, &impulse]);
         sound &= friction.is_empty() || fit(&walls, [&friction, &impulse]);
+        sound &= fit(&supports, [&wear_work, &wear_work]);
+        sound &= contact_wear.is_empty() || contact_wear.len() == contacts.len();
         for columns in [&hole_force, &hole_impulse] {
             sound &= columns.len() == holes.len() && columns.iter().flatten().all(|column| column.len() == time.len());
         }
@@ -99,7 +119,10 @@ impl TryFrom<Columns> for Trajectory {
                 hole_force,
                 hole_impulse,
                 friction,
+                supports,
+                wear_work,
                 contacts,
+                contact_wear,
             }),
             false => Err("a column for each wall, hole and probe, all of one length, and contacts at these"),
         }
@@ -190,6 +213,26 @@ impl Trajectory {
         &self.friction
     }
 
+    /// Names of the supports, in the scene's order.
+    #[must_use]
+    pub fn supports(&self) -> &[String] {
+        &self.supports
+    }
+
+    /// Work of wear of each support from the start to each row, J: one column per support, in the
+    /// scene's order.
+    #[must_use]
+    pub fn wear_work(&self) -> &[Vec<f64>] {
+        &self.wear_work
+    }
+
+    /// What each of the contacts wore; `None` at walls that belong to no support. Empty in scenes
+    /// without supports.
+    #[must_use]
+    pub fn contact_wear(&self) -> &[Option<ContactWear>] {
+        &self.contact_wear
+    }
+
     /// Displacement (m) and velocity (m/s) of the probe of that name at each row.
     ///
     /// # Errors
@@ -272,6 +315,7 @@ pub struct Recorder {
     /// Impulse of each round support along y and z and friction of each wall since the last row, N
     /// s.
     rubbed: Rubbed,
+    worn: Worn,
     /// Displacement and velocity at a row, n entries each.
     state: [Vec<f64>; 2],
 }
@@ -316,8 +360,12 @@ impl Recorder {
                 hole_impulse: holes.iter().map(|_| [column(), column()]).collect(),
                 friction: columns(rubbed),
                 holes: holes.clone(),
+                supports: scene.supports.iter().map(|support| support.name.clone()).collect(),
+                wear_work: columns(scene.supports.len()),
                 contacts: Vec::new(),
+                contact_wear: Vec::new(),
             },
+            worn: Worn::new(scene),
             probes: scene.probes.iter().map(|p| p.at.clone()).collect(),
             end: scene.duration,
             rows,
@@ -365,6 +413,7 @@ impl Recorder {
         self.trajectory.contacts.extend_from_slice(step.closed);
         match step.path {
             Path::Grid | Path::OneRestitution => {
+                self.wear(step);
                 for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
                     *sum += p;
                 }
@@ -380,9 +429,29 @@ impl Recorder {
         }
     }
 
+    /// Adds what slid in a step whose motion is known at its ends only.
+    fn wear(&mut self, step: &Step<'_>) {
+        if !self.worn.is_empty() {
+            // On a grid a contact ends with the first step in which it does not push.
+            let Self { worn, trajectory, .. } = self;
+            worn.close(step.closed, |wear| trajectory.contact_wear.push(wear));
+            worn.add(step, [step.start, step.end]);
+        }
+    }
+
+    /// Adds what slid at the end of a step of exact motion, from `from` (s) on, and its contacts.
+    fn wear_exactly(&mut self, step: &Step<'_>, from: f64) {
+        if !self.worn.is_empty() {
+            let Self { worn, trajectory, .. } = self;
+            worn.add(step, [from, step.end]);
+            worn.close(step.closed, |wear| trajectory.contact_wear.push(wear));
+        }
+    }
+
     /// Adds a step whose ends need not fall on rows: between them the displacement is interpolated
     /// linearly.
     fn see_handed(&mut self, step: &Step<'_>) {
+        self.wear(step);
         for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
             *sum += p;
         }
@@ -407,6 +476,7 @@ impl Recorder {
         let path = step.path;
         let mut from = step.start;
         if step.start == 0.0 && step.end == 0.0 {
+            self.wear_exactly(step, step.start);
             self.restart(step);
             return;
         }
@@ -432,10 +502,14 @@ impl Recorder {
                 *sum += path.contact_impulse(wall, from, due);
                 *f = path.contact_force(wall, due);
             }
+            if !self.worn.is_empty() {
+                self.worn.add(step, [from, due]);
+            }
             self.push(due, &q, &v, &force);
             (self.partial, self.state) = (force, [q, v]);
             from = due;
         }
+        self.wear_exactly(step, from);
         for (wall, ((sum, &whole), &jump)) in self.pending.iter_mut().zip(step.impulse).zip(step.jump).enumerate() {
             *sum += if from > step.start { path.contact_impulse(wall, from, step.end) + jump } else { whole };
         }
@@ -459,6 +533,9 @@ impl Recorder {
         for (column, &p) in t.impulse.iter_mut().zip(step.impulse) {
             column[0] += p;
         }
+        for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
+            column[0] = work;
+        }
     }
 
     fn push(&mut self, time: f64, q: &[f64], v: &[f64], force: &[f64]) {
@@ -471,6 +548,9 @@ impl Recorder {
         for (index, sum) in self.pending.iter_mut().enumerate() {
             t.force[index].push(force.get(index).copied().unwrap_or(0.0));
             t.impulse[index].push(std::mem::take(sum));
+        }
+        for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
+            column.push(work);
         }
         let known = &mut self.rubbed;
         for (columns, force) in t.hole_force.iter_mut().zip(&known.force) {
@@ -487,9 +567,18 @@ impl Recorder {
 
     /// The trajectory, with the episodes `open` at the end of the run.
     #[must_use]
-    pub fn finish(mut self, open: &[Contact]) -> Trajectory {
-        self.trajectory.contacts.extend_from_slice(open);
-        self.trajectory.contacts.sort_by(|a, b| a.start.total_cmp(&b.start));
-        self.trajectory
+    pub fn finish(self, open: &[Contact]) -> Trajectory {
+        let Self { mut trajectory, mut worn, .. } = self;
+        trajectory.contacts.extend_from_slice(open);
+        if worn.is_empty() {
+            trajectory.contacts.sort_by(|a, b| a.start.total_cmp(&b.start));
+            return trajectory;
+        }
+        worn.close(open, |wear| trajectory.contact_wear.push(wear));
+        let contacts = std::mem::take(&mut trajectory.contacts);
+        let mut both: Vec<_> = contacts.into_iter().zip(std::mem::take(&mut trajectory.contact_wear)).collect();
+        both.sort_by(|a, b| a.0.start.total_cmp(&b.0.start));
+        (trajectory.contacts, trajectory.contact_wear) = both.into_iter().unzip();
+        trajectory
     }
 }

@@ -267,6 +267,8 @@ impl Run {
         let or_nan = |x: Option<f64>| x.unwrap_or(f64::NAN);
         let dict = PyDict::new(py);
         dict.set_item("wall", contacts.iter().map(|c| c.wall as i64).collect::<Vec<_>>().into_pyarray(py))?;
+        let motion = &self.run.trajectory;
+        dict.set_item("names", motion.walls().iter().chain(motion.holes()).collect::<Vec<_>>())?;
         dict.set_item("start", column(&|c| c.start))?;
         dict.set_item("end", column(&|c| or_nan(c.end)))?;
         dict.set_item("impulse", column(&|c| c.impulse))?;

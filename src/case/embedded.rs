@@ -44,6 +44,9 @@ const ALL: &[Embedded] = embed![
     "fuel-rod",
     "tube-lattice-bars",
     "base-pulse"["base-pulse.csv"],
+    "tube-round-supports",
+    "whirl-in-a-hole",
+    "code-aster-sdnd100",
 ];
 
 impl Embedded {

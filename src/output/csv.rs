@@ -12,9 +12,10 @@ use std::path::Path;
 const BLOCK: usize = 1 << 16;
 
 /// Writes the rows of `trajectory`: time, displacement and velocity of each probe, force and
-/// impulse of each wall. Forces are signed (lower wall ≥ 0, upper wall ≤ 0). The impulse in a row
-/// is that since the row before it, so that a column sums to the impulse of the run. Columns carry
-/// the names of probes and walls as [`words`] writes them.
+/// impulse of each wall and, along y and z, of each round support, and the work of wear of each
+/// support since the start. Forces of walls are signed (lower wall ≥ 0, upper wall ≤ 0). The impulse
+/// in a row is that since the row before it, so that a column sums to the impulse of the run. Columns
+/// carry the names of probes, walls and supports as [`words`] writes them.
 ///
 /// # Errors
 /// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
@@ -31,17 +32,29 @@ pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
         header.extend([format!("contact_force_{word}_N"), format!("contact_impulse_{word}_N_s")]);
         columns.extend([trajectory.contact_force(wall)?, trajectory.contact_impulse(wall)?]);
     }
+    let holes = trajectory.hole_forces().iter().zip(trajectory.hole_impulses());
+    for (([force_y, force_z], [impulse_y, impulse_z]), word) in holes.zip(words(trajectory.holes())) {
+        for (plane, force, impulse) in [("y", force_y, impulse_y), ("z", force_z, impulse_z)] {
+            header.extend([format!("contact_force_{word}_{plane}_N"), format!("contact_impulse_{word}_{plane}_N_s")]);
+            columns.extend([force.as_slice(), impulse.as_slice()]);
+        }
+    }
+    for (work, word) in trajectory.wear_work().iter().zip(words(trajectory.supports())) {
+        header.push(format!("wear_work_{word}_J"));
+        columns.push(work);
+    }
     numbers(path, &header, &columns)
 }
 
 /// Writes the contact episodes of `trajectory`, one per row, in order of time. A rigid impact has
 /// no peak force, and an episode still open at the end of the run has no end: those cells are
-/// empty.
+/// empty. In scenes with supports each row also says where around the support the contact began, its
+/// work of wear and the distance slid in it; those cells are empty at other walls.
 ///
 /// # Errors
 /// As [`trajectory`].
 pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
-    let header = [
+    let mut header = vec![
         "wall",
         "start_s",
         "end_s",
@@ -50,18 +63,36 @@ pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
         "approach_speed_m_per_s",
         "departure_speed_m_per_s",
     ];
-    let rows = trajectory.contacts().iter().map(|c| {
-        vec![
-            trajectory.walls().get(c.wall).cloned().unwrap_or_default(),
+    let wears = !trajectory.supports().is_empty();
+    if wears {
+        header.extend(["angle_deg", "work_J", "sliding_m"]);
+    }
+    let name = |index: usize| {
+        let hole = || trajectory.holes().get(index.checked_sub(trajectory.walls().len())?);
+        trajectory.walls().get(index).or_else(hole).cloned().unwrap_or_default()
+    };
+    let rows = trajectory.contacts().iter().enumerate().map(|(index, c)| {
+        let mut row = vec![
+            name(c.wall),
             digits(Some(c.start)),
             digits(c.end),
             digits(Some(c.impulse)),
             digits(c.peak_force),
             digits(Some(c.approach_speed)),
             digits(c.departure_speed),
-        ]
+        ];
+        if wears {
+            let wear = trajectory.contact_wear().get(index).copied().flatten();
+            row.extend([
+                digits(wear.map(|wear| wear.angle)),
+                digits(wear.map(|wear| wear.work)),
+                digits(wear.map(|wear| wear.sliding)),
+            ]);
+        }
+        row
     });
-    table(path, &header.map(str::to_owned), rows)
+    let header: Vec<String> = header.into_iter().map(str::to_owned).collect();
+    table(path, &header, rows)
 }
 
 /// Names as parts of column names: `_` for every `-`, so that a column name is an identifier in the

@@ -42,6 +42,7 @@ mod places;
 pub mod realisations;
 pub mod results;
 mod ring;
+mod rubbed;
 pub mod run;
 pub mod shape;
 pub mod stability;

@@ -9,6 +9,7 @@ pub use super::labelled::Labelled;
 use super::motion::{Instant, motion};
 use super::orbit::orbits;
 use super::places::{Chosen, WallPlace};
+use super::rubbed::Rubbed;
 use super::window::{Span, Window};
 use crate::error::Result;
 use crate::run::Run;
@@ -35,8 +36,8 @@ pub struct Sheet<'a> {
 
 impl Sheet<'_> {
     /// The figures, each with its file name without extension: displacement, velocity, phase plot,
-    /// the orbit of each place with probes NAME`-y` and NAME`-z`, contact force (the last only where
-    /// there are walls). For a run of many periods the
+    /// the orbit of each place with probes NAME`-y` and NAME`-z` with the work of wear by sectors,
+    /// contact force (where there are walls), force of round supports, work of wear. For a run of many periods the
     /// figures over time show the whole run and, beside it, the last periods; the phase plot shows
     /// the last periods only.
     ///
@@ -58,6 +59,10 @@ impl Sheet<'_> {
         if !self.scene.walls.is_empty() {
             figures.push(("contact-force", self.contact_force(&window)?));
         }
+        let title = |remarks: Vec<String>| self.title(remarks);
+        let rubbed = Rubbed { scene: self.scene, runs: self.runs, window: &window, title: &title };
+        figures.extend(rubbed.force().map(|figure| ("support-force", figure)));
+        figures.extend(rubbed.work().map(|figure| ("wear-work", figure)));
         Ok(figures)
     }
 

@@ -20,7 +20,7 @@ pub(super) fn motion(folder: &Folder<'_>, prefix: &str, summary: &Value) -> Resu
     let named = |name: &str| if prefix.is_empty() { name.to_owned() } else { format!("{prefix}/{name}") };
     let table = folder.numbers(&named("trajectory.csv"))?;
     let walls = summary["scene"]["walls"].as_array().map_or(0, Vec::len);
-    let columns = table.header.len();
+    let columns = table.header.len() - beside(summary).min(table.header.len());
     let first = table.header.get(1).is_none_or(|name| name.starts_with("displacement") || walls > 0);
     if columns < 1 + 2 * walls || !(columns - 1 - 2 * walls).is_multiple_of(2) || !first || table.count() == 0 {
         let reason = format!(
@@ -73,6 +73,12 @@ pub(super) fn motion(folder: &Folder<'_>, prefix: &str, summary: &Value) -> Resu
     Ok(out)
 }
 
+/// Columns that supports add after those of the walls: four of each round one, and the work of each.
+fn beside(summary: &Value) -> usize {
+    let supports = summary["scene"]["supports"].as_array().map_or(&[][..], Vec::as_slice);
+    supports.iter().map(|support| if support["shape"] == "round" { 5 } else { 1 }).sum()
+}
+
 /// Names of the probes, and where each is: from the case in the summary, else from the header.
 fn probe_names(table: &Numbers, summary: &Value, count: usize) -> Vec<(String, Value)> {
     let listed = summary["case_file"]["probe"].as_array().filter(|list| list.len() == count);
@@ -110,7 +116,8 @@ fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> R
     let walls = summary["scene"]["walls"].as_array().map_or(&[][..], Vec::as_slice);
     let (start, end) = (contacts.column("start_s")?, contacts.column("end_s")?);
     let peak = contacts.column("peak_force_N")?;
-    let from = table.columns.len() - 2 * walls.len();
+    // motion() has checked the number of columns.
+    let from = table.columns.len().saturating_sub(2 * walls.len() + beside(summary));
     let mut out = Vec::new();
     for (index, wall) in walls.iter().enumerate() {
         let name = wall["name"].as_str().unwrap_or_default();

@@ -19,7 +19,7 @@ _NUMBERS = ("start", "end", "impulse", "peak_force", "approach_speed", "departur
 def contacts(run: Run) -> npt.NDArray[np.void]:
     """The contact episodes, as `Run.contacts` says."""
     columns = run._contacts()
-    names = np.array(run.walls or [""])
+    names = np.array(list(columns["names"]) or [""])
     table = np.empty(len(columns["wall"]), [("wall", names.dtype), *((name, np.float64) for name in _NUMBERS)])
     table["wall"] = names[columns["wall"]]
     for name in _NUMBERS:

@@ -1,7 +1,7 @@
 //! The structure that is run, and its walls with the mass that each feels.
 
 use crate::case::{Case, Model, Place};
-use crate::scene::{BarEnd, BeamEnd, Damping, Side, System, Wall, WallLaw};
+use crate::scene::{BarEnd, BeamEnd, Damping, Shape, Side, Support, System, Wall, WallLaw};
 use crate::study::choice;
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
@@ -33,6 +33,9 @@ pub(super) fn scene(case: &Case) -> Value {
     });
     out.insert("planes".to_owned(), json!(if case.planes.is_two() { 2 } else { 1 }));
     out.insert("walls".to_owned(), walls.collect());
+    if !whole.supports.is_empty() {
+        out.insert("supports".to_owned(), whole.supports.iter().map(support).collect());
+    }
     out.insert("duration_s".to_owned(), json!(case.scene.duration));
     Value::Object(out)
 }
@@ -143,6 +146,24 @@ fn at(place: &Place) -> Value {
             }
             place
         }
+    }
+}
+
+fn support(support: &Support) -> Value {
+    let Support { name, centre, friction, .. } = support;
+    match &support.shape {
+        Shape::Flats(flats) => {
+            let directions: Vec<f64> = flats.iter().map(|flat| flat.direction).collect();
+            json!({ "name": name, "shape": "flats", "directions_deg": directions, "centre_m": centre, "friction": friction })
+        }
+        Shape::Round { gap, law } => json!({
+            "name": name,
+            "shape": "round",
+            "gap_m": gap,
+            "restitution": law.restitution(),
+            "centre_m": centre,
+            "friction": friction,
+        }),
     }
 }
 
