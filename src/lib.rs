@@ -71,8 +71,8 @@ pub use scene::{
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{
-    ForceStatistics, Forces, HalfWidths, Rubbing, SectorStatistics, Statistics, Summary, SupportForce,
-    SupportStatistics, WallStatistics, WearStatistics,
+    ContactPlace, Distribution, EpisodeStatistics, ForceStatistics, Forces, HalfWidths, PlaceKind, Rubbing,
+    SectorStatistics, Spectrum, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics, WearStatistics,
 };
 pub use step::{
     Balance, Bound, Conserves, Contact, Contract, Elastic, Friction, HoleStep, Law, Path, Promise, PromisedForce,

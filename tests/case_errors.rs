@@ -140,6 +140,16 @@ const WRONG: &[Wrong] = &[
     ("statistics after the end", "sample = 1e-3", "statistics_from = 10.0", "28:19", &["time.statistics_from", "less than the duration"]),
     ("statistics before the start", "sample = 1e-3", "statistics_from = -1", "28:19", &["time.statistics_from", "0 or more"]),
     ("averaging over nothing", "sample = 1e-3", "force_averaging = 0.0", "28:19", &["time.force_averaging", "above 0"]),
+    // Statistics.
+    ("negative rest", "[penalty]", "[statistics]\nrest = -1\n[penalty]", "31:8", &["statistics.rest", "0 or more"]),
+    ("rest that is no number", "[penalty]", "[statistics]\nrest = nan\n[penalty]", "31:8", &["statistics.rest", "0 or more"]),
+    ("rest as long as the window", "[penalty]", "[statistics]\nrest = 10\n[penalty]", "31:8", &["statistics.rest", "less than the window of the statistics, 10.0"]),
+    ("rest in words", "[penalty]", "[statistics]\nrest = \"none\"\n[penalty]", "31:8", &["statistics.rest", "a number, 0 or more"]),
+    ("spectra of few rows", "sample = 1e-3\n", "sample = 0.2\n\n[statistics]\nspectra = true\n", "31:11", &["statistics.spectra", "72 rows or more"]),
+    ("spectra of few forces", "sample = 1e-3\n", "force_averaging = 0.5\nsample = 1e-3\n[statistics]\nspectra = true\n", "31:11", &["statistics.spectra", "72 averaged forces or more"]),
+    ("spectra by number", "[penalty]", "[statistics]\nspectra = 1\n[penalty]", "31:11", &["statistics.spectra", "true or false"]),
+    ("a window under another name", "[penalty]", "[statistics]\nforce_window = 1e-3\n[penalty]", "31:1", &["unknown key `force_window`", "`force_averaging` in [time]"]),
+    ("a rest among the times", "sample = 1e-3\n", "rest = 1e-3\n", "28:1", &["unknown key `rest`", "`rest` in [statistics]"]),
     // Penalty.
     ("no epsilon", "[1e-12, 1e-9]", "[]", "31:11", &["penalty.epsilon", "one value or more"]),
     ("epsilon of nothing", "1e-9]", "0.0]", "31:19", &["penalty law 2: epsilon", "above 0"]),

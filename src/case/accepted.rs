@@ -185,12 +185,29 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("time.sample", "sample = a number above 0 and at most end, in s"),
     ("time.statistics_from", "statistics_from = a number, 0 or more and below end, in s"),
     ("time.force_averaging", "force_averaging = a number above 0, in s"),
+    ("statistics", "the table [statistics] with, where wanted, rest (s) and spectra"),
+    ("statistics.rest", "rest = a number, 0 or more and below the window of the statistics, in s"),
+    ("statistics.spectra", "spectra = true or false"),
     ("penalty", "the table [penalty] with a list epsilon (m^3/N) or a list stiffness (N/m)"),
     ("penalty.epsilon", "epsilon = a list of numbers above 0, in m^3/N: [1e-12, 1e-9]"),
     ("penalty.stiffness", "stiffness = a list of numbers above 0, in N/m: [1e6, 1e8]"),
     ("penalty.damping", "damping = a number, 0 or more, in N s/m; linear penalty only"),
     ("penalty.integrator", "integrator = a name in quotes, such as \"discrete-gradient\""),
 ];
+
+/// Keys that are looked for in another table than theirs.
+const ELSEWHERE: &[(&str, &str)] = &[
+    ("statistics.force_window", "`force_averaging` in [time]: the stretch over which forces are averaged"),
+    ("statistics.force_averaging", "`force_averaging` in [time]"),
+    ("statistics.statistics_from", "`statistics_from` in [time]"),
+    ("time.rest", "`rest` in [statistics]"),
+    ("time.spectra", "`spectra` in [statistics]"),
+];
+
+/// What a key that is in the wrong table is meant to be.
+pub(super) fn elsewhere(path: &str) -> Option<&'static str> {
+    ELSEWHERE.iter().find(|(key, _)| *key == path).map(|(_, text)| *text)
+}
 
 /// The accepted values of the key with that path.
 pub(super) fn accepted(path: &str) -> Option<&'static str> {

@@ -11,7 +11,7 @@ use super::start;
 use super::value::{Number, Section};
 use super::wording::written;
 use super::written::NewLoad;
-use super::{Case, FileRead, PenaltyOptions, TimeOptions, Truncated, Written};
+use super::{Case, FileRead, PenaltyOptions, StatisticsOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result, Subject};
 use crate::scene::{Condensation, Damping, Row, Scene, Shape, State, Structure, Support, System, Wall};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
@@ -107,6 +107,7 @@ impl Builder<'_> {
                 .unwrap_or(TimeOptions::FORCE_AVERAGING),
             sectors,
         };
+        let statistics = file.statistics.map(|section| self.statistics(&section.value));
         if let Some(penalty) = file.penalty.as_ref().filter(|_| self.static_correction) {
             let help = "expected no [penalty]: with static_correction rigid walls are springs of the compliance \
                         that the modes leave out already";
@@ -131,6 +132,7 @@ impl Builder<'_> {
             condensation,
             truncated: None,
             time,
+            statistics,
             penalty,
             wear,
             written: std::mem::take(&mut self.written),
@@ -213,6 +215,13 @@ impl Builder<'_> {
             }
         }
         Ok(modes)
+    }
+
+    fn statistics(&mut self, statistics: &file::Statistics) -> StatisticsOptions {
+        let spectra = statistics.spectra.as_ref();
+        self.places.extend(spectra.map(|word| (("statistics", "spectra").into(), word.span())));
+        let rest = self.optional(("statistics", "rest"), statistics.rest.as_ref()).unwrap_or(0.0);
+        StatisticsOptions { rest, spectra: spectra.is_some_and(|word| *word.get_ref()) }
     }
 
     fn penalty(&mut self, penalty: file::Penalty) -> Result<PenaltyOptions> {

@@ -22,6 +22,7 @@ pub(super) struct File {
     pub probe: Vec<Section<Probe>>,
     pub wear: Option<Section<Wear>>,
     pub time: Section<Time>,
+    pub statistics: Option<Section<Statistics>>,
     pub penalty: Option<Section<Penalty>>,
 }
 
@@ -261,6 +262,13 @@ pub(super) struct Time {
     pub sample: Option<Spanned<Number>>,
     pub statistics_from: Option<Spanned<Number>>,
     pub force_averaging: Option<Spanned<Number>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Statistics {
+    pub rest: Option<Spanned<Number>>,
+    pub spectra: Option<Spanned<bool>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -127,6 +127,7 @@ const UNITS: [(&str, &[&str]); 21] = [
             "time.statistics_from",
             "time.force_averaging",
             "wear.service",
+            "statistics.rest",
         ],
     ),
     ("per_Pa", &["wear.coefficient", "wear.support_coefficient", "support.coefficient", "support.support_coefficient"]),

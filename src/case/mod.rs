@@ -40,6 +40,7 @@ mod random;
 mod read;
 mod report;
 mod start;
+mod statistics;
 mod summary;
 mod supports;
 mod system;
@@ -62,6 +63,9 @@ pub use key_value::KeyValue;
 pub use model::{Model, Place};
 pub use penalty::PenaltyOptions;
 pub use planes::Planes;
+pub use statistics::StatisticsOptions;
+#[cfg(feature = "cli")]
+pub(crate) use statistics::rows_of;
 pub use table::TableColumns;
 pub use template::Template;
 pub use truncated::Truncated;
@@ -98,6 +102,8 @@ pub struct Case {
     pub truncated: Option<Truncated>,
     /// Step, recording and statistics.
     pub time: TimeOptions,
+    /// Further statistics; `None` where the file has no such table.
+    pub statistics: Option<StatisticsOptions>,
     /// The springs and the integrator of penalty runs.
     pub penalty: PenaltyOptions,
     /// Wear coefficients and the time in service.
@@ -133,6 +139,9 @@ impl Case {
             let expected =
                 format!("at least {least:.1e} s: a row has {columns} values, and a table at most {MOST_VALUES:e}");
             return Err(Error::invalid("sample", value, expected));
+        }
+        if let Some(statistics) = self.statistics {
+            statistics.validate(self.scene.duration, &self.time)?;
         }
         self.penalty.validate(&self.scene.walls)
     }

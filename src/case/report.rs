@@ -1,7 +1,7 @@
 //! Errors that show the position in the file: what is wrong, file, line and column, the line
 //! itself, and what would be accepted.
 
-use super::accepted::accepted;
+use super::accepted::{accepted, elsewhere};
 use crate::error::{Error, nearest};
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use std::borrow::Cow;
@@ -105,6 +105,7 @@ impl Source<'_> {
                 Some(near) => format!("; did you mean `{near}`?"),
                 None => String::new(),
             };
+            let known = elsewhere(&dotted(&key)).unwrap_or(&known);
             return self.error(span, &format!("unknown key `{key}` in {place}{meant}"), &format!("expected {known}"));
         }
         if let Some((found, wanted)) = message.strip_prefix("invalid type: ").and_then(|m| m.split_once(", expected "))

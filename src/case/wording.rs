@@ -16,6 +16,7 @@ pub(super) fn written(subject: &Subject) -> String {
         ["duration"] => "time.end".to_owned(),
         [key @ ("step" | "sample" | "statistics_from" | "force_averaging")] => format!("time.{key}"),
         ["sectors"] => "wear.sectors".to_owned(),
+        ["statistics", key] => format!("statistics.{key}"),
         ["static correction"] => "static_correction".to_owned(),
         ["initial state", part] => format!("initial.{part}"),
         // For an end of a structure the key is that of the end; its parts are inside that value.

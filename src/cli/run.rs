@@ -11,6 +11,7 @@ use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::asked::{asked, with};
 use crate::output::atomic::write_whole;
+use crate::output::episodes::Episodes;
 use crate::output::results::Results;
 use crate::output::run::{self as output, Picture};
 use crate::output::shape::{self, Shape};
@@ -290,6 +291,13 @@ fn tell(case: &Case, run: &Run, method: &Method, document: Value, results: &Resu
     if let (Some(table), false) = (supports::table(case, run), ui.json()) {
         ui.table(&table, "supports.csv")?;
         supports::remarks(case, run).iter().for_each(|remark| ui.message(remark));
+    }
+    if let (Some(options), false) = (case.statistics, ui.json()) {
+        let episodes = Episodes::of(case, run, options.rest);
+        if let Some(table) = episodes.table(&case.scene) {
+            ui.table(&table, "episodes.csv")?;
+            ui.message(&episodes.remark());
+        }
     }
     ui.message(&output::line(case, run, method));
     for note in run.notes.iter().chain(&case.notes()) {

@@ -11,6 +11,7 @@
 mod band;
 mod definite;
 mod factor;
+pub(crate) mod fourier;
 mod operator;
 mod rows;
 mod sparse;

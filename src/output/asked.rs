@@ -25,6 +25,10 @@ pub fn asked(command: &str, case: &Case, methods: &[Method]) -> Map<String, Valu
         "modes": case.truncated.as_ref().map(|truncated| truncated.reduction.modes.count()),
         "methods": methods.iter().map(ToString::to_string).collect::<Vec<_>>(),
     }));
+    if let Some(statistics) = case.statistics {
+        request.insert("rest_s".to_owned(), json!(statistics.rest));
+        request.insert("spectra".to_owned(), json!(statistics.spectra));
+    }
     if methods.is_empty() || methods.iter().any(integrator) {
         request.insert(format!("penalty{FINGERPRINT}"), fingerprint(&case.penalty));
     }

@@ -11,6 +11,7 @@
 //! | [`run`] | all files of one run, and its table |
 //! | [`compare`] | all files of a comparison, its table and its JSON |
 //! | [`document`] | a chart and a stability study as JSON |
+//! | [`episodes`] | `episodes.csv` and `exceedances.csv`, and their table |
 //! | [`realisations`] | `realisations.csv`, and its table |
 //! | [`periodic`] | a periodic orbit: its document, motion and pictures |
 //! | [`branches`] | branches of orbits: tables, document and picture |
@@ -28,7 +29,9 @@ pub mod atomic;
 pub mod branches;
 pub mod compare;
 pub mod csv;
+mod detail;
 pub mod document;
+pub mod episodes;
 pub use signorini_figure as figure;
 pub mod format;
 pub(crate) mod json;
@@ -45,6 +48,7 @@ mod ring;
 mod rubbed;
 pub mod run;
 pub mod shape;
+mod spectra;
 pub mod stability;
 pub mod summary;
 pub mod supports;

@@ -3,9 +3,9 @@
 use super::csv;
 use super::table::Table;
 use crate::error::Result;
-use crate::scene::{Scene, Shape};
-use crate::study::realisations::{Estimate, Interval, Kind, Larger, Measure, Place, Realisations, StepChange};
-use std::collections::HashSet;
+use crate::scene::Scene;
+use crate::statistics::{ContactPlace, PlaceKind};
+use crate::study::realisations::{Estimate, Interval, Larger, Measure, Realisations, StepChange};
 use std::path::Path;
 
 /// Name of the file.
@@ -28,7 +28,7 @@ pub fn write(path: &Path, study: &Realisations) -> Result<()> {
     let places = places(study);
     let rows = study.members.iter().flat_map(|member| {
         places.iter().map(move |place| {
-            let mut row = vec![member.number.to_string(), place.name.clone(), word(place.kind).to_owned()];
+            let mut row = vec![member.number.to_string(), place.name.clone(), place.kind.word().to_owned()];
             row.extend(Measure::ALL.map(|measure| csv::digits(member.value(place, measure))));
             row.push(member.findings.len().to_string());
             row
@@ -38,8 +38,8 @@ pub fn write(path: &Path, study: &Realisations) -> Result<()> {
 }
 
 /// The places of a study, in its order.
-fn places(study: &Realisations) -> Vec<&Place> {
-    let mut places: Vec<&Place> = Vec::new();
+fn places(study: &Realisations) -> Vec<&ContactPlace> {
+    let mut places: Vec<&ContactPlace> = Vec::new();
     for estimate in &study.estimates {
         if places.last() != Some(&&estimate.place) {
             places.push(&estimate.place);
@@ -48,33 +48,21 @@ fn places(study: &Realisations) -> Vec<&Place> {
     places
 }
 
-fn word(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Wall => "wall",
-        Kind::Support => "support",
-    }
-}
-
 /// The places that the terminal shows: supports, and walls that are no flats of one; where there
 /// are many, those of the largest mean forces.
-fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a Place> {
-    let flats = scene.supports.iter().filter_map(|support| match &support.shape {
-        Shape::Flats(flats) => Some(flats),
-        Shape::Round { .. } => None,
-    });
-    let flats: HashSet<usize> = flats.flatten().map(|flat| flat.wall).collect();
-    let flats: HashSet<&str> =
-        scene.walls.iter().enumerate().filter(|(i, _)| flats.contains(i)).map(|(_, wall)| wall.name.as_str()).collect();
-    let own = |place: &&Place| place.kind == Kind::Support || !flats.contains(place.name.as_str());
-    let mut places: Vec<(usize, &Place)> = places(study).into_iter().filter(own).enumerate().collect();
-    let force = |place: &Place| find(study, place, Measure::MeanForce).map_or(0.0, |one| one.mean);
+fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a ContactPlace> {
+    let wall = |place: &ContactPlace| scene.walls.iter().position(|wall| wall.name == place.name);
+    let own =
+        |place: &&ContactPlace| place.kind == PlaceKind::Support || wall(place).is_none_or(|wall| !scene.is_flat(wall));
+    let mut places: Vec<(usize, &ContactPlace)> = places(study).into_iter().filter(own).enumerate().collect();
+    let force = |place: &ContactPlace| find(study, place, Measure::MeanForce).map_or(0.0, |one| one.mean);
     places.sort_by(|a, b| force(b.1).total_cmp(&force(a.1)));
     places.truncate(most);
     places.sort_by_key(|place| place.0);
     places.into_iter().map(|(_, place)| place).collect()
 }
 
-fn find<'a>(study: &'a Realisations, place: &Place, measure: Measure) -> Option<&'a Estimate> {
+fn find<'a>(study: &'a Realisations, place: &ContactPlace, measure: Measure) -> Option<&'a Estimate> {
     study.estimates.iter().find(|one| one.place == *place && one.measure == measure)
 }
 
@@ -82,7 +70,7 @@ fn find<'a>(study: &'a Realisations, place: &Place, measure: Measure) -> Option<
 /// only.
 #[must_use]
 pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
-    let columns = [Measure::MeanForce, Measure::RmsForce, Measure::ImpactPower, Measure::PeakForce];
+    let columns = [Measure::MeanForce, Measure::RmsForce, Measure::PeakForce];
     let known = |measure: &Measure| study.estimates.iter().any(|one| one.measure == *measure);
     let columns: Vec<Measure> = columns.into_iter().filter(known).collect();
     let mut header = vec!["place".to_owned()];
@@ -90,7 +78,7 @@ pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
         header.push(format!("{} ({})", measure.words(), measure.unit()));
         header.extend((study.count > 1).then(|| format!("deviation ({})", measure.unit())));
     }
-    let row = |place: &Place| {
+    let row = |place: &ContactPlace| {
         let mut row = vec![place.name.clone()];
         for measure in &columns {
             let one = find(study, place, *measure);

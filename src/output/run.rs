@@ -1,5 +1,6 @@
 //! Files of one run, and the table of its walls; shared by `run`, `compare` and any other caller.
 
+use super::detail::Detail;
 use super::pictures::{Labelled, Sheet};
 use super::results::Results;
 use super::summary::{self, Checks, Reasons};
@@ -25,7 +26,8 @@ pub struct Picture {
 }
 
 /// Writes the files of one run: `trajectory.csv`, `contacts.csv`, of supports also `supports.csv`
-/// and `sectors.csv`, the figures and `summary.json`, into the folder of `results` or, where `prefix` is not empty, into a folder of that name in it.
+/// and `sectors.csv`, the figures, what `[statistics]` asks for, and `summary.json`, into the folder
+/// of `results` or, where `prefix` is not empty, into a folder of that name in it.
 /// Returns the summary.
 ///
 /// # Errors
@@ -50,6 +52,11 @@ pub fn write(
     for (name, svg) in sheet.figures()? {
         results.draw(&named(name), &svg)?;
     }
+    let detail = Detail::of(case, run)?;
+    if let Some(detail) = &detail {
+        detail.write(results, title, named)?;
+    }
+    let checks = Checks { detail: detail.as_ref(), ..checks };
     summary::write(&results.place(&named("summary.json"))?, case, run, reasons, checks)?;
     summary::document(case, run, reasons, checks)
 }

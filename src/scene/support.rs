@@ -130,6 +130,16 @@ impl Scene {
         self.walls.get(index).map(|wall| &*wall.name).or_else(hole)
     }
 
+    /// True if wall number `wall` is a flat of a support.
+    #[cfg(feature = "cli")]
+    pub(crate) fn is_flat(&self, wall: usize) -> bool {
+        let of = |shape: &Shape| match shape {
+            Shape::Flats(flats) => flats.iter().any(|flat| flat.wall == wall),
+            Shape::Round { .. } => false,
+        };
+        self.supports.iter().any(|support| of(&support.shape))
+    }
+
     /// Checks the supports; `check_row` checks a row of one.
     pub(super) fn check_supports(&self, check_row: impl Fn(&Support, &Row) -> Result<()>) -> Result<()> {
         let mut names = HashSet::new();

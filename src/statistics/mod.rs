@@ -7,13 +7,23 @@
 //! have no interval in any case, since the largest of a longer window is larger.
 
 mod batch;
+mod distribution;
+mod episodes;
 mod force;
+mod place;
 mod rubbing;
+mod spectrum;
 mod student;
 mod support;
 
+pub use distribution::Distribution;
+pub use episodes::EpisodeStatistics;
 pub use force::{ForceStatistics, Forces};
+pub use place::{ContactPlace, PlaceKind};
 pub use rubbing::{Rubbing, SectorStatistics, WearStatistics};
+#[cfg(feature = "case")]
+pub(crate) use spectrum::FEWEST as FEWEST_VALUES;
+pub use spectrum::Spectrum;
 pub(crate) use student::student_95;
 pub use support::{SupportForce, SupportStatistics};
 

@@ -139,7 +139,7 @@ pub(super) fn of_supports(
 }
 
 /// The supports of flats of `scene`: name and flats.
-fn flats(scene: &Scene) -> impl Iterator<Item = (&str, &[FlatWall])> {
+pub(super) fn flats(scene: &Scene) -> impl Iterator<Item = (&str, &[FlatWall])> {
     scene.supports.iter().filter_map(|support| match &support.shape {
         Shape::Flats(flats) => Some((support.name.as_str(), flats.as_slice())),
         Shape::Round { .. } => None,

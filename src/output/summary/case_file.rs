@@ -75,6 +75,7 @@ pub(super) fn case_file(case: &Case) -> Value {
     put(&mut time, "force_averaging", averaging.map(|x| json!(x)));
     out.insert("time".to_owned(), Value::Object(time));
     put(&mut out, "wear", wear(case));
+    put(&mut out, "statistics", case.statistics.map(|s| json!({ "rest": s.rest, "spectra": s.spectra })));
     put(&mut out, "penalty", penalty(case));
     Value::Object(out)
 }

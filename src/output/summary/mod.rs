@@ -4,6 +4,7 @@ mod case_file;
 mod scene;
 
 use super::atomic::write_whole;
+use super::detail::Detail;
 use super::{json, supports};
 use crate::case::{Case, FileRead};
 use crate::error::{Error, Result};
@@ -67,6 +68,9 @@ pub struct Checks<'a> {
     /// for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub realisations: Option<&'a Realisations>,
+    /// The statistics that the case asks for; absent where it does not.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub detail: Option<&'a Detail>,
 }
 
 /// Why the scheme and the solver were chosen, one sentence each.

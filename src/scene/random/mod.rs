@@ -1,13 +1,11 @@
 //! Random forces with a given power spectral density.
 
-mod transform;
-
 use super::system::{finite, positive};
 use super::{Load, Table};
 use crate::error::{Error, Result, Subject};
 use crate::hash;
+use crate::linear::fourier::inverse;
 use std::f64::consts::{PI, TAU};
-use transform::inverse;
 
 /// Most rows of a random table: 16 a shortest period.
 const MOST_ROWS: f64 = 16_777_216.0;

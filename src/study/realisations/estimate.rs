@@ -1,8 +1,8 @@
 //! Means over realisations, their intervals, and what half the step changes.
 
-use super::measure::{Figure, Measure, Place};
+use super::measure::{Figure, Measure};
 use super::realisation::Realisation;
-use crate::statistics::student_95;
+use crate::statistics::{ContactPlace, student_95};
 use serde::Serialize;
 
 /// What the half widths of a study are.
@@ -47,7 +47,7 @@ pub struct StepChange {
 pub struct Estimate {
     /// Where.
     #[serde(flatten)]
-    pub place: Place,
+    pub place: ContactPlace,
     /// What.
     pub measure: Measure,
     /// Unit of the numbers below.

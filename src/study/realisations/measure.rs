@@ -1,14 +1,15 @@
 //! What is estimated over realisations, and where.
 
-use crate::statistics::{Statistics, SupportStatistics, WallStatistics};
+use crate::statistics::{ContactPlace, PlaceKind, Statistics, SupportStatistics, WallStatistics};
 use serde::Serialize;
 
 /// A quantity of a wall or a support that has a mean over realisations.
 ///
 /// Only quantities that converge as steps and modes are refined are here. The number of impacts and
 /// the share of time in contact are not: each further mode and each smaller step resolves further
-/// small impacts. Nor is the root mean square of impulse/h at a rigid wall, which grows without
-/// limit as h → 0; [`Measure::RmsForce`] is that of the force averaged over
+/// small impacts. Impact power is not: the mass that a wall feels falls as modes are added. Nor is
+/// the root mean square of impulse/h at a rigid wall, which grows without limit as h → 0;
+/// [`Measure::RmsForce`] is that of the force averaged over
 /// [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -23,30 +24,8 @@ pub enum Measure {
     /// Root mean square of the force: at an elastic wall of the force itself, else averaged over
     /// intervals. N.
     RmsForce,
-    /// Kinetic energy that arrives per unit time, W.
-    ImpactPower,
     /// Largest |force| in the window, N; of elastic walls only.
     PeakForce,
-}
-
-/// Whether a place is a wall or a support.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// A wall of the scene; each flat of a support is one.
-    Wall,
-    /// A support: all its flats together.
-    Support,
-}
-
-/// Where something is measured.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Place {
-    /// Name of the wall or the support.
-    #[serde(rename = "place")]
-    pub name: String,
-    /// Which of the two it is.
-    pub kind: Kind,
 }
 
 /// One quantity of one place in one realisation.
@@ -54,7 +33,7 @@ pub struct Place {
 #[non_exhaustive]
 pub struct Figure {
     /// Where.
-    pub place: Place,
+    pub place: ContactPlace,
     /// What.
     pub measure: Measure,
     /// Its value, in the unit of the measure.
@@ -69,8 +48,7 @@ type Told = (f64, Option<f64>);
 
 impl Measure {
     /// All of them, in the order of tables.
-    pub const ALL: [Self; 6] =
-        [Self::MeanForce, Self::MeanForceY, Self::MeanForceZ, Self::RmsForce, Self::ImpactPower, Self::PeakForce];
+    pub const ALL: [Self; 5] = [Self::MeanForce, Self::MeanForceY, Self::MeanForceZ, Self::RmsForce, Self::PeakForce];
 
     /// Its name in words.
     #[must_use]
@@ -80,7 +58,6 @@ impl Measure {
             Self::MeanForceY => "mean force along y",
             Self::MeanForceZ => "mean force along z",
             Self::RmsForce => "RMS force",
-            Self::ImpactPower => "impact power",
             Self::PeakForce => "largest force",
         }
     }
@@ -89,8 +66,7 @@ impl Measure {
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
-            Self::ImpactPower => "W",
-            _ => "N",
+            Self::MeanForce | Self::MeanForceY | Self::MeanForceZ | Self::RmsForce | Self::PeakForce => "N",
         }
     }
 
@@ -101,7 +77,6 @@ impl Measure {
         match self {
             Self::MeanForce => Some((force.mean_n, force.mean_half_width_95_n)),
             Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n)),
-            Self::ImpactPower => Some((wall.impact_power_w, wall.half_width_95.map(|half| half.impact_power_w))),
             Self::PeakForce => elastic.then(|| (wall.episode_peak_force_n.max.unwrap_or(0.0), None)),
             Self::MeanForceY | Self::MeanForceZ => None,
         }
@@ -117,7 +92,6 @@ impl Measure {
             Self::MeanForceY => Some(vector(0)),
             Self::MeanForceZ => Some(vector(1)),
             Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n)),
-            Self::ImpactPower => Some((support.impact_power_w, support.impact_power_half_width_95_w)),
             Self::PeakForce => None,
         }
     }
@@ -126,18 +100,18 @@ impl Measure {
 /// Every measure of every place in `statistics`: walls, then supports, in the scene's order.
 pub(super) fn figures(statistics: &Statistics) -> Vec<Figure> {
     let mut figures = Vec::new();
-    let mut add = |name: &str, kind: Kind, of: &dyn Fn(Measure) -> Option<Told>| {
+    let mut add = |name: &str, kind: PlaceKind, of: &dyn Fn(Measure) -> Option<Told>| {
         for measure in Measure::ALL {
-            let place = || Place { name: name.to_owned(), kind };
+            let place = || ContactPlace { name: name.to_owned(), kind };
             let figure = |(value, half)| Figure { place: place(), measure, value, batch_half_width_95: half };
             figures.extend(of(measure).map(figure));
         }
     };
     for wall in &statistics.walls {
-        add(&wall.wall, Kind::Wall, &|measure| measure.of_wall(wall));
+        add(&wall.wall, PlaceKind::Wall, &|measure| measure.of_wall(wall));
     }
     for support in &statistics.supports {
-        add(&support.support, Kind::Support, &|measure| measure.of_support(support));
+        add(&support.support, PlaceKind::Support, &|measure| measure.of_support(support));
     }
     figures
 }

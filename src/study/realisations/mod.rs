@@ -32,7 +32,7 @@ mod runner;
 mod sample;
 
 pub use estimate::{Estimate, Interval, Larger, StepChange};
-pub use measure::{Figure, Kind, Measure, Place};
+pub use measure::{Figure, Measure};
 pub use realisation::Realisation;
 pub use runner::realisations;
 pub use sample::Realisations;

@@ -1,8 +1,9 @@
 //! The figures of one realisation.
 
-use super::measure::{self, Figure, Measure, Place};
+use super::measure::{self, Figure, Measure};
 use crate::residual::Finding;
 use crate::run::Run;
+use crate::statistics::ContactPlace;
 
 /// The figures of one realisation.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,7 +26,7 @@ impl Realisation {
 
     /// The value of `measure` at `place`.
     #[must_use]
-    pub fn value(&self, place: &Place, measure: Measure) -> Option<f64> {
+    pub fn value(&self, place: &ContactPlace, measure: Measure) -> Option<f64> {
         let same = |figure: &&Figure| figure.measure == measure && figure.place == *place;
         self.figures.iter().find(same).map(|figure| figure.value)
     }

@@ -46,10 +46,11 @@ impl Realisations {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::realisations::{Figure, Kind, Larger, Measure, Place};
+    use crate::statistics::{ContactPlace, PlaceKind};
+    use crate::study::realisations::{Figure, Larger, Measure};
 
     fn member(number: u64, value: f64, batch: Option<f64>) -> Realisation {
-        let place = Place { name: "stop".to_owned(), kind: Kind::Wall };
+        let place = ContactPlace { name: "stop".to_owned(), kind: PlaceKind::Wall };
         let figure = Figure { place, measure: Measure::MeanForce, value, batch_half_width_95: batch };
         Realisation { number, figures: vec![figure], findings: Vec::new() }
     }

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 /// The transform of Cooley & Tukey (1965, doi:10.1090/S0025-5718-1965-0178586-1) by squares of two,
 /// in place. Its roots of unity are computed one by one, each to an ulp, so that its error stays at
 /// some ulps of the root mean square, times √log₂ n.
-pub(super) fn inverse(re: &mut [f64], im: &mut [f64]) {
+pub(crate) fn inverse(re: &mut [f64], im: &mut [f64]) {
     let n = re.len();
     if n < 2 || !n.is_power_of_two() || im.len() != n {
         return;

@@ -1,0 +1,133 @@
+//! `episodes.csv` and `exceedances.csv`: contacts joined into episodes, and how they are
+//! distributed.
+
+use super::csv::{self, digits};
+use super::results::Results;
+use super::table::Table;
+use crate::case::Case;
+use crate::error::Result;
+use crate::run::Run;
+use crate::scene::Scene;
+use crate::statistics::{Distribution, EpisodeStatistics, PlaceKind};
+use serde::Serialize;
+
+/// Most rows of the table in the terminal.
+const MOST_ROWS: usize = 24;
+
+/// The episodes of a run.
+#[derive(Debug, Clone, Serialize)]
+pub struct Episodes {
+    /// Contacts are joined where less than this lies between them, s.
+    pub rest_s: f64,
+    /// Those of every wall, then of every support.
+    pub places: Vec<EpisodeStatistics>,
+}
+
+/// A quantity of an episode: its name, its unit in headers, and its distribution.
+type Quantity<'a> = (&'static str, &'static str, Option<&'a Distribution>);
+
+fn quantities(one: &EpisodeStatistics) -> [Quantity<'_>; 3] {
+    [
+        ("impulse", "N_s", one.impulse_n_s.as_ref()),
+        ("approach_speed", "m_per_s", one.approach_speed_m_per_s.as_ref()),
+        ("peak_force", "N", one.peak_force_n.as_ref()),
+    ]
+}
+
+impl Episodes {
+    /// Those of `run` on `case`, joined over rests shorter than `rest` (s).
+    #[must_use]
+    pub fn of(case: &Case, run: &Run, rest: f64) -> Self {
+        let contacts = run.trajectory.contacts();
+        Self { rest_s: rest, places: EpisodeStatistics::of(&case.scene, &run.statistics, contacts, rest) }
+    }
+
+    /// Writes `episodes.csv`, a row for each place and quantity, and `exceedances.csv`, a row for
+    /// each threshold, into the folder of `results`, under the names that `named` gives.
+    ///
+    /// # Errors
+    /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
+    pub fn write(&self, results: &mut Results, named: impl Fn(&str) -> String) -> Result<()> {
+        let header = ["place", "kind", "quantity", "unit", "episodes", "mean", "median", "q90", "q99", "max"];
+        let rows = self.rows().map(|(one, (name, unit, distribution))| {
+            let count = if distribution.is_some() { one.episodes } else { 0 };
+            let mut row = vec![one.place.name.clone(), one.place.kind.word().to_owned(), name.to_owned()];
+            row.extend([unit.to_owned(), count.to_string()]);
+            let number = |of: fn(&Distribution) -> f64| digits(distribution.map(of));
+            row.extend([number(|d| d.mean), number(|d| d.quantiles[0]), number(|d| d.quantiles[1])]);
+            row.extend([number(|d| d.quantiles[2]), number(|d| d.max)]);
+            row
+        });
+        csv::table(&results.place(&named("episodes.csv"))?, &header.map(str::to_owned), rows)?;
+        let header = ["place", "kind", "quantity", "unit", "threshold", "episodes"];
+        let rows = self.rows().flat_map(|(one, (name, unit, distribution))| {
+            let classes = distribution.into_iter().flat_map(|d| d.thresholds.iter().zip(&d.exceedances));
+            classes.map(move |(threshold, count)| {
+                let mut row = vec![one.place.name.clone(), one.place.kind.word().to_owned(), name.to_owned()];
+                row.extend([unit.to_owned(), digits(Some(*threshold)), count.to_string()]);
+                row
+            })
+        });
+        csv::table(&results.place(&named("exceedances.csv"))?, &header.map(str::to_owned), rows)
+    }
+
+    /// Every quantity of every place; the peak force only where there is one.
+    fn rows(&self) -> impl Iterator<Item = (&EpisodeStatistics, Quantity<'_>)> {
+        let known = |quantity: &Quantity<'_>| quantity.0 != "peak_force" || quantity.2.is_some();
+        self.places.iter().flat_map(move |one| quantities(one).into_iter().filter(known).map(move |q| (one, q)))
+    }
+
+    /// The table for the terminal: supports, and walls that are no flats of one; where there are
+    /// many, those of the largest mean impulses. `None` without walls.
+    #[must_use]
+    pub fn table(&self, scene: &Scene) -> Option<Table> {
+        let own = |one: &&EpisodeStatistics| {
+            let wall = || scene.walls.iter().position(|wall| wall.name == one.place.name);
+            one.place.kind == PlaceKind::Support || wall().is_none_or(|wall| !scene.is_flat(wall))
+        };
+        let mut shown: Vec<(usize, &EpisodeStatistics)> = self.places.iter().filter(own).enumerate().collect();
+        let impulse = |one: &EpisodeStatistics| one.impulse_n_s.as_ref().map_or(0.0, |d| d.mean * one.episodes as f64);
+        shown.sort_by(|a, b| impulse(b.1).total_cmp(&impulse(a.1)));
+        shown.truncate(MOST_ROWS);
+        shown.sort_by_key(|one| one.0);
+        let header = [
+            "place",
+            "episodes",
+            "impulse: mean (N s)",
+            "median",
+            "90 %",
+            "99 %",
+            "max",
+            "approach: mean (m/s)",
+            "median",
+            "90 %",
+            "99 %",
+            "max",
+        ];
+        let row = |(_, one): (usize, &EpisodeStatistics)| {
+            let mut row = vec![one.place.name.clone(), one.episodes.to_string()];
+            for distribution in [&one.impulse_n_s, &one.approach_speed_m_per_s] {
+                let numbers =
+                    distribution.as_ref().map(|d| [d.mean, d.quantiles[0], d.quantiles[1], d.quantiles[2], d.max]);
+                let text = |i: usize| numbers.map_or_else(|| "-".to_owned(), |all| format!("{:.3e}", all[i]));
+                row.extend((0..5).map(text));
+            }
+            row
+        };
+        let rows: Vec<Vec<String>> = shown.into_iter().map(row).collect();
+        (!rows.is_empty()).then(|| Table::new(&header, rows))
+    }
+
+    /// What the reader must be told beside the table.
+    #[must_use]
+    pub fn remark(&self) -> String {
+        match self.rest_s {
+            0.0 => "episodes are single contacts, whose number grows with each further mode and each smaller step; \
+                    [statistics] rest joins those that follow one another"
+                .to_owned(),
+            rest => {
+                format!("contacts less than {rest:e} s apart are one episode; its approach speed is the largest in it")
+            }
+        }
+    }
+}

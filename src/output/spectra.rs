@@ -1,0 +1,187 @@
+//! `spectrum-NAME.csv`: power spectral densities of displacements and of averaged forces, and their
+//! figures.
+
+use super::csv;
+use super::figure::{Curve, Figure, Panel};
+use super::results::Results;
+use crate::case::{Case, rows_of};
+use crate::error::Result;
+use crate::run::Run;
+use crate::scene::{Shape, heading};
+use crate::statistics::Spectrum;
+use serde::Serialize;
+use std::collections::HashSet;
+
+/// Most panels of a figure.
+const MOST: usize = 4;
+
+/// The spectra of one probe, wall or support.
+#[derive(Debug, Clone, Serialize)]
+pub struct SpectrumFile {
+    /// Its file, without the extension.
+    #[serde(rename = "file")]
+    pub name: String,
+    /// Name of the probe, wall or support; empty for the only probe of one degree of freedom.
+    pub place: String,
+    /// What it is a spectrum of.
+    pub quantity: Quantity,
+    /// Length over which a force was averaged, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub averaged_over_s: Option<f64>,
+    /// Number of segments.
+    pub segments: usize,
+    /// Distance of its frequencies, Hz.
+    pub spacing_hz: f64,
+    /// Degrees of freedom of the estimate at a frequency.
+    pub degrees_of_freedom: f64,
+    /// The spectra: of one signal, or along y and along z.
+    #[serde(skip)]
+    spectra: Vec<(&'static str, Spectrum)>,
+}
+
+/// What a spectrum is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// The displacement of a probe, m.
+    Displacement,
+    /// The force of a wall or a support, averaged, N.
+    ContactForce,
+}
+
+impl Quantity {
+    fn column(self, way: &str) -> String {
+        let way = if way.is_empty() { String::new() } else { format!("_{way}") };
+        match self {
+            Self::Displacement => format!("displacement{way}_m2_per_Hz"),
+            Self::ContactForce => format!("contact_force{way}_N2_per_Hz"),
+        }
+    }
+}
+
+/// The spectra of every probe, of every wall that is no flat of a support, and of every support of
+/// flats, over the window of the statistics.
+///
+/// # Errors
+/// [`crate::Error::Invalid`] for a run with too few rows.
+pub(super) fn of(case: &Case, run: &Run) -> Result<Vec<SpectrumFile>> {
+    let (motion, scene) = (&run.trajectory, &case.scene);
+    let row = run.grid.end / run.grid.rows as f64;
+    // The first row in the window, up to rounding.
+    let from = run.statistics.from_s - 1e-9 * row;
+    let first = motion.time().partition_point(|t| *t < from);
+    let mut files = Vec::new();
+    let mut taken = HashSet::new();
+    let mut add = |place: &str, quantity: Quantity, signals: Vec<(&'static str, Vec<f64>)>, spacing: f64| {
+        let stem = if place.is_empty() { "displacement" } else { place };
+        let names = std::iter::once(format!("spectrum-{stem}")).chain((2..).map(|i| format!("spectrum-{stem}-{i}")));
+        let Some(name) = names.into_iter().find(|name| taken.insert(name.clone())) else { return Ok(()) };
+        let spectra: Vec<(&'static str, Spectrum)> = signals
+            .into_iter()
+            .map(|(way, signal)| Ok((way, Spectrum::of(&signal, spacing)?)))
+            .collect::<Result<_>>()?;
+        let Some((_, one)) = spectra.first() else { return Ok(()) };
+        files.push(SpectrumFile {
+            name,
+            place: place.to_owned(),
+            quantity,
+            averaged_over_s: (quantity == Quantity::ContactForce).then_some(spacing),
+            segments: one.segments,
+            spacing_hz: one.spacing,
+            degrees_of_freedom: one.degrees_of_freedom(),
+            spectra,
+        });
+        Result::Ok(())
+    };
+    for (probe, values) in motion.probes().iter().zip(motion.displacements()) {
+        add(probe, Quantity::Displacement, vec![("", values.get(first..).unwrap_or_default().to_vec())], row)?;
+    }
+    // The impulse in a row is that since the row before it.
+    let rows = rows_of(case.time.force_averaging, row);
+    let stretch = rows as f64 * row;
+    let averaged = |wall: usize| -> Vec<f64> {
+        let impulses = motion.contact_impulses().get(wall).and_then(|all| all.get(first + 1..)).unwrap_or_default();
+        impulses.chunks_exact(rows).map(|part| part.iter().sum::<f64>() / stretch).collect()
+    };
+    for (index, wall) in scene.walls.iter().enumerate().filter(|(index, _)| !scene.is_flat(*index)) {
+        add(&wall.name, Quantity::ContactForce, vec![("", averaged(index))], stretch)?;
+    }
+    for support in &scene.supports {
+        let Shape::Flats(flats) = &support.shape else { continue };
+        let mut ways = [("y", Vec::new()), ("z", Vec::new())];
+        for flat in flats {
+            let Some(wall) = scene.walls.get(flat.wall) else { continue };
+            let normal = heading(flat.direction).map(|x| -wall.side.sign() * x);
+            let force = averaged(flat.wall);
+            for ((_, sum), n) in ways.iter_mut().zip(normal) {
+                sum.resize(force.len(), 0.0);
+                sum.iter_mut().zip(&force).for_each(|(sum, f)| *sum += n * f);
+            }
+        }
+        add(&support.name, Quantity::ContactForce, ways.to_vec(), stretch)?;
+    }
+    Ok(files)
+}
+
+/// Writes the files of `spectra` and their figures into the folder of `results`, under the names
+/// that `named` gives; `title` is that of the figures.
+///
+/// # Errors
+/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
+pub(super) fn write(
+    spectra: &[SpectrumFile],
+    results: &mut Results,
+    title: &str,
+    named: impl Fn(&str) -> String,
+) -> Result<()> {
+    for file in spectra {
+        let Some((_, one)) = file.spectra.first() else { continue };
+        let mut header = vec!["frequency_Hz".to_owned()];
+        header.extend(file.spectra.iter().map(|(way, _)| file.quantity.column(way)));
+        let frequencies: Vec<f64> = one.frequencies().collect();
+        let mut columns = vec![frequencies.as_slice()];
+        columns.extend(file.spectra.iter().map(|(_, spectrum)| spectrum.density.as_slice()));
+        csv::numbers(&results.place(&named(&format!("{}.csv", file.name)))?, &header, &columns)?;
+    }
+    for (quantity, name, label) in [
+        (Quantity::Displacement, "displacement-spectrum", "Displacement (mm²/Hz)"),
+        (Quantity::ContactForce, "contact-force-spectrum", "Averaged contact force (N²/Hz)"),
+    ] {
+        let own: Vec<&SpectrumFile> = spectra.iter().filter(|file| file.quantity == quantity).collect();
+        if let Some(svg) = figure(&own, title, label) {
+            results.draw(&named(name), &svg)?;
+        }
+    }
+    Ok(())
+}
+
+/// The figure of one quantity: a panel for each place, the first ones where there are many. `None`
+/// where nothing moves.
+fn figure(files: &[&SpectrumFile], title: &str, label: &str) -> Option<String> {
+    let scale = |quantity: Quantity| if quantity == Quantity::Displacement { 1e6 } else { 1.0 };
+    // A density of 0 has no place on a logarithmic axis.
+    let points = |file: &SpectrumFile, spectrum: &Spectrum| -> Vec<(f64, f64)> {
+        let all = spectrum.frequencies().zip(&spectrum.density).skip(1);
+        all.filter(|(_, s)| **s > 0.0).map(|(f, s)| (f, scale(file.quantity) * s)).collect()
+    };
+    let moving: Vec<&&SpectrumFile> =
+        files.iter().filter(|file| file.spectra.iter().any(|(_, one)| !points(file, one).is_empty())).collect();
+    let title = match moving.len() {
+        0 => return None,
+        count if count > MOST => format!("{title}: spectra (the first {MOST} of {count})"),
+        _ => format!("{title}: spectra"),
+    };
+    let mut figure = Figure::new(title, "Frequency (Hz)").log();
+    for file in moving.into_iter().take(MOST) {
+        let mut panel = Panel::new(label).log().heading(&file.place);
+        for (look, (way, spectrum)) in file.spectra.iter().enumerate() {
+            let way = if way.is_empty() { String::new() } else { format!("along {way}") };
+            let points = points(file, spectrum);
+            if !points.is_empty() {
+                panel = panel.curve(Curve::new(way, points).look(look));
+            }
+        }
+        figure = figure.panel(panel);
+    }
+    Some(figure.to_svg())
+}
