@@ -22,6 +22,7 @@ mod sweep;
 mod ui;
 mod values;
 mod verdicts;
+mod watch;
 
 use crate::error::Result;
 use clap::{Parser, Subcommand};

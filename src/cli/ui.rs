@@ -1,6 +1,7 @@
 //! Output of the tool: data on stdout, messages and progress on stderr.
 
-use super::pace::{Pace, Watch};
+use super::pace::Pace;
+use super::watch::Watch;
 use crate::error::{Error, Result};
 use crate::output::json;
 use crate::output::table::Table;

@@ -37,6 +37,8 @@ mod backend;
 mod block;
 mod clamp;
 mod clarabel;
+mod condensed;
+mod counters;
 mod crowd;
 mod delassus;
 mod elimination;
@@ -48,8 +50,9 @@ mod sums;
 
 pub use backend::Backend;
 pub use clamp::{ScalarRow, clamp};
+pub use counters::SolverCounters;
 pub use failure::Failure;
-pub use solver::{Solver, SolverCounters};
+pub use solver::Solver;
 
 /// What stays the same over all steps of a run.
 #[derive(Debug, Clone)]

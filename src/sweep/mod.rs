@@ -35,6 +35,7 @@ mod attractors;
 mod axis;
 mod basin;
 mod batched;
+mod check;
 mod columns;
 mod curves;
 mod file;

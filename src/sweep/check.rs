@@ -1,0 +1,135 @@
+//! What is checked of a sweep before its rows run.
+
+use super::forcing;
+use super::plan::Plan;
+use super::request::{Stretch, Sweep};
+use super::sample::Samples;
+use super::target::Target;
+use crate::case::Case;
+use crate::error::{Error, Result};
+use crate::scheme::Scheme;
+
+impl Sweep {
+    /// An error for a key that is varied twice, or set by two axes under different names.
+    pub(super) fn unique(&self) -> Result<()> {
+        let all: Vec<String> =
+            self.axes.iter().flat_map(|axis| &axis.targets).map(|(target, _)| target.to_string()).collect();
+        let twice =
+            all.iter().enumerate().find(|(index, target)| all.iter().take(*index).any(|other| other == *target));
+        twice.map_or(Ok(()), |(_, target)| {
+            Err(Error::invalid("[[vary]] key", format!("{target}, twice"), "each key once"))
+        })
+    }
+
+    /// An error for settings of time that contradict one another.
+    pub(super) fn times(&self, base: &Case) -> Result<()> {
+        let axes = || self.axes.iter().flat_map(|axis| &axis.targets);
+        let varies = |key: &str| axes().any(|(target, _)| target.to_string() == key);
+        if self.stretch != Stretch::Case
+            && let Some(key) = ["time.end", "time.statistics_from"].into_iter().find(|key| varies(key))
+        {
+            return Err(Error::invalid("[[vary]] key", key, "no settle and keep beside it: they set the same"));
+        }
+        match self.stretch {
+            Stretch::Case => {}
+            Stretch::Periods { keep: 0, .. } => {
+                return Err(Error::invalid("[run] keep", 0, "one forcing period or more"));
+            }
+            Stretch::Periods { settle, keep } if settle.checked_add(keep).is_none_or(|all| all == u32::MAX) => {
+                let found = format_args!("{settle} + {keep} periods");
+                return Err(Error::invalid("[run] settle and keep", found, "less than 2^32 - 1 periods in all"));
+            }
+            Stretch::Periods { .. } => {
+                forcing::period(&base.scene)?;
+            }
+            Stretch::Seconds { settle, keep } => {
+                if !(settle.is_finite() && settle >= 0.0) {
+                    return Err(Error::invalid(
+                        "[run] settle",
+                        format_args!("{settle:?} s"),
+                        "a finite time, 0 or more",
+                    ));
+                }
+                if !(keep.is_finite() && keep > 0.0) {
+                    return Err(Error::invalid("[run] keep", format_args!("{keep:?} s"), "a finite time above 0"));
+                }
+            }
+        }
+        let periods = matches!(self.stretch, Stretch::Periods { .. });
+        if let Some(measure) = self.measures.iter().find(|measure| measure.needs_period()).filter(|_| !periods) {
+            let expected = "settle and keep in forcing periods ([run] keep = { periods = N }, --keep N) beside it";
+            return Err(Error::invalid("[measure] columns", measure, expected));
+        }
+        if self.samples == Some(Samples::Periods) && !periods {
+            let expected = "settle and keep in forcing periods ([run] keep = { periods = N }, --keep N) beside it";
+            return Err(Error::invalid("[measure] samples", "\"periods\"", expected));
+        }
+        let Some(followed) = self.followed().and_then(|index| self.axes.get(index)) else { return Ok(()) };
+        if !periods && forcing::has_sine(&base.scene) {
+            let expected = "settle and keep in forcing periods beside it, so that the load goes on at the phase at which the last row ended";
+            return Err(Error::invalid("follow", followed.label(), expected));
+        }
+        let shapes = |(target, _): &(Target, f64)| matches!(target, Target::Case(key) if key.shapes_system());
+        if base.truncated.is_some() && followed.targets.iter().any(shapes) {
+            let expected = "a key outside [system]: the state of a case cut to modes is that of its modes, which change with the system";
+            return Err(Error::invalid("follow", followed.label(), expected));
+        }
+        Ok(())
+    }
+}
+
+impl Plan {
+    /// An error for a measure that takes the derivative with respect to the start if the scheme has
+    /// none.
+    pub(super) fn check_event(&self) -> Result<()> {
+        let asked = self.sweep.measures.iter().find(|measure| measure.needs_event());
+        match asked.filter(|_| self.method.scheme != Scheme::Event || self.sweep.varies_scheme()) {
+            Some(measure) => Err(Error::invalid(
+                "[measure] columns",
+                measure,
+                format!("scheme = \"event\" in [run] (--scheme event) beside it, not {}", self.method),
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// An error for an axis none of whose values gives a valid case: better now than as a table of
+    /// failed rows.
+    pub(super) fn try_values(&self) -> Result<()> {
+        let middle = |count: u64| count / 2;
+        for axis in &self.sweep.axes {
+            let tries = [(0, 0.001), (middle(axis.count()), 0.5), (axis.count() - 1, 0.999)];
+            let mut failure = None;
+            for (number, share) in tries {
+                let mut file = self.sweep.case.clone();
+                let value = axis.value(number, share);
+                let set = axis.settings(&value).try_for_each(|(target, value)| match target {
+                    Target::Case(key) => file.set(key, &value),
+                    Target::Scheme => self.base.method(&value.to_string()).map(drop),
+                });
+                match set.and_then(|()| file.case()) {
+                    Ok(_) => {
+                        failure = None;
+                        break;
+                    }
+                    Err(error) => failure = failure.or(Some(error)),
+                }
+            }
+            // Values that are valid only together with those of another axis, such as both walls
+            // moved past the body, are checked row by row.
+            if let Some(error) = failure.filter(|_| self.sweep.axes.len() == 1 || !self.any_works()) {
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// True if one of a few rows gives a valid case.
+    fn any_works(&self) -> bool {
+        let last = self.chains - 1;
+        let places = [0, self.chain_rows() / 2];
+        [0, last / 3, last / 2, last]
+            .iter()
+            .any(|&chain| places.iter().any(|&place| self.build(&self.point(chain, place), None).is_ok()))
+    }
+}
