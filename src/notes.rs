@@ -107,8 +107,8 @@ fn of_supports(counters: &Counters) -> Vec<String> {
     }
     if counters.qp_unsettled > 0 {
         notes.push(format!(
-            "in {} steps the contacts found no common state of sticking and slipping: the answer may not exist for \
-             large friction at unequal masses; do not trust this run unless the judge finds nothing",
+            "in {} steps the contacts found no common state of sticking and slipping, as may happen with much \
+             friction: trust this run only if the judge finds nothing",
             counters.qp_unsettled
         ));
     }

@@ -5,8 +5,8 @@
 //! Sweeps start from the impulses of the last step. They and the linear system are those of
 //! Jourdan, Alart & Jean 1998, doi:10.1016/S0045-7825(97)00137-0, and of semismooth Newton methods.
 //! Without friction the problem is a convex programme, the sweeps descend in its dual and the
-//! answer is its minimiser. With friction it is no minimisation, and for large μ an answer may not
-//! exist; steps without one are counted.
+//! answer is its minimiser. With friction it is no minimisation: for large μ answers may be several, and
+//! sweeps may not settle; such steps are counted.
 
 use super::normal::dot;
 use super::places::Places;

@@ -12,8 +12,8 @@
 //!
 //! In the plane a contact has one tangent, so the law is piecewise linear, and one of four states
 //! answers it: open (N ≤ 0, no impulse); stick, t·ẇ⁺ = 0; slip either way, f = ∓μp. For large μ and
-//! b ≠ 0 none or several may; stick is taken before slip, and where none answers, p without
-//! friction.
+//! b ≠ 0 several may: the first in this order is taken. Where rounding leaves none, p is taken
+//! without friction, and the step counts as unsettled.
 
 use super::normal::dot;
 use super::places::Places;
