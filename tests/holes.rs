@@ -5,12 +5,12 @@ mod random_structures;
 mod rubbing;
 
 use random_structures::Draws;
-use rubbing::{MOREAU_JEAN, Sums, body, energy, follow, hole, isotropic, load, rotating, turned, with, with_flats};
+use rubbing::{
+    MOREAU_JEAN, Sums, body, energy, follow, hole, isotropic, load, random_scene, rotating, turned, with, with_flats,
+};
 use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, Solver};
-use signorini::{
-    Bound, Load, Options, PlaneRows, Promise, Row, Scene, Scheme, Stepper, Structure, System, Wall, heading, run,
-};
+use signorini::{Bound, Load, Options, Promise, Row, Scene, Scheme, Stepper, Structure, System, Wall, heading, run};
 use std::f64::consts::TAU;
 
 /// The body of `disk-whirl`, which a rotating force presses round a hole: start with this lag (rad)
@@ -187,45 +187,12 @@ fn a_plane_that_nothing_moves_stays_at_rest() {
     assert!(pushed > 10);
 }
 
-/// Random masses in two planes, coupled by random matrices, in holes and between flats, from a
-/// random start.
-fn random_scene(draws: &mut Draws) -> Scene {
-    let n = 2 * (1 + draws.below(4));
-    // A Gram matrix of random vectors, plus a diagonal: positive definite.
-    let mut gram = |own: f64, scale: f64| {
-        let x: Vec<Vec<f64>> = (0..n).map(|_| (0..n).map(|_| draws.between(-1.0, 1.0)).collect()).collect();
-        let entry = |i: usize, j: usize| -> f64 { x.iter().map(|row| row[i] * row[j]).sum::<f64>() };
-        let all = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j)));
-        let entries = all.map(|(i, j)| (i, j, scale * (entry(i, j) + if i == j { own } else { 0.0 })));
-        Symmetric::from_entries(n, entries.collect::<Vec<_>>())
-    };
-    let (mass, stiffness) = (gram(0.3, 1.0), gram(0.0, 300.0));
-    let mut scene = Scene::structure(Structure { mass, damping: Symmetric::diagonal(&vec![0.0; n]), stiffness });
-    for index in 0..1 + draws.below(3) {
-        let mut row = || Row::new((0..n).map(|i| (i, draws.between(-1.0, 1.0))).collect());
-        let at = PlaneRows { y: row(), z: row() };
-        let (name, gap) = (format!("support-{index}"), draws.between(0.5e-3, 2e-3));
-        let e = [0.0, 1.0, draws.unit()][draws.below(3)];
-        if draws.chance(0.6) {
-            scene = with(scene, hole(&name, at, gap, e, 0.0));
-        } else {
-            let turn = draws.between(0.0, 360.0);
-            let flats: Vec<(f64, f64)> = (0..3 + draws.below(3)).map(|k| (turn + 73.0 * k as f64, gap)).collect();
-            scene = with_flats(scene, &name, at, &flats, e, 0.0);
-        }
-    }
-    // Flats alone are no scene with supports.
-    scene = with(scene, hole("wide", body(), 5e-3, draws.unit(), 0.0));
-    let v: Vec<f64> = (0..n).map(|_| draws.between(-0.3, 0.3)).collect();
-    scene.with_initial(&vec![0.0; n], &v)
-}
-
 /// The largest relative growth of the energy in a step of `scenes` random scenes.
 fn growth(seeds: std::ops::Range<u64>, steps: u64) -> (f64, u64) {
     let (mut worst, mut unsettled) = (0.0_f64, 0);
     for seed in seeds {
         let mut draws = Draws::new(seed);
-        let scene = random_scene(&mut draws);
+        let scene = random_scene(&mut draws, 0.0);
         let h = [1e-4, 1e-3, 5e-3][draws.below(3)];
         let mut before = energy(&scene, &scene.initial.q, &scene.initial.v);
         let stepper = follow(&scene, h, steps, |step| {
@@ -305,7 +272,7 @@ fn without_friction_a_step_is_the_minimiser_that_clarabel_finds() {
     let mut crowded = 0;
     for seed in 1000..1040 {
         let mut draws = Draws::new(seed);
-        let scene = random_scene(&mut draws);
+        let scene = random_scene(&mut draws, 0.0);
         let h = 1e-3;
         let (mut q, mut v) = (scene.initial.q.clone(), scene.initial.v.clone());
         follow(&scene, h, 100, |step| {

@@ -1,6 +1,7 @@
 //! The judge of round holes and friction: faultless steps are not accused, and every fault of known
 //! size is found.
 
+mod random_structures;
 mod rubbing;
 
 use rubbing::{MOREAU_JEAN, body, hole, isotropic, load, rotating, with, with_flats};

@@ -1,6 +1,7 @@
 //! Bodies in two planes for tests: scenes with round holes and flats, and sums over their steps.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
+use crate::random_structures::Draws;
 use signorini::linear::Symmetric;
 use signorini::{
     Flat, FlatWall, Flats, Load, LoadKind, PlaneRows, Row, Scene, Scheme, Shape, Step, Stepper, Structure, Support,
@@ -57,6 +58,39 @@ pub fn rotating(scene: Scene, amplitude: f64, frequency: f64) -> Scene {
     scene
         .with_load(load(Load::harmonic(amplitude, frequency, std::f64::consts::FRAC_PI_2), Row::dof(0)))
         .with_load(load(Load::harmonic(amplitude, frequency, 0.0), Row::dof(1)))
+}
+
+/// Random masses in two planes, coupled by random matrices, in holes and between flats, from a
+/// random start, with this friction everywhere.
+pub fn random_scene(draws: &mut Draws, friction: f64) -> Scene {
+    let n = 2 * (1 + draws.below(4));
+    // A Gram matrix of random vectors, plus a diagonal: positive definite.
+    let mut gram = |own: f64, scale: f64| {
+        let x: Vec<Vec<f64>> = (0..n).map(|_| (0..n).map(|_| draws.between(-1.0, 1.0)).collect()).collect();
+        let entry = |i: usize, j: usize| -> f64 { x.iter().map(|row| row[i] * row[j]).sum::<f64>() };
+        let all = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j)));
+        let entries = all.map(|(i, j)| (i, j, scale * (entry(i, j) + if i == j { own } else { 0.0 })));
+        Symmetric::from_entries(n, entries.collect::<Vec<_>>())
+    };
+    let (mass, stiffness) = (gram(0.3, 1.0), gram(0.0, 300.0));
+    let mut scene = Scene::structure(Structure { mass, damping: Symmetric::diagonal(&vec![0.0; n]), stiffness });
+    for index in 0..1 + draws.below(3) {
+        let mut row = || Row::new((0..n).map(|i| (i, draws.between(-1.0, 1.0))).collect());
+        let at = PlaneRows { y: row(), z: row() };
+        let (name, gap) = (format!("support-{index}"), draws.between(0.5e-3, 2e-3));
+        let e = [0.0, 1.0, draws.unit()][draws.below(3)];
+        if draws.chance(0.6) {
+            scene = with(scene, hole(&name, at, gap, e, friction));
+        } else {
+            let turn = draws.between(0.0, 360.0);
+            let flats: Vec<(f64, f64)> = (0..3 + draws.below(3)).map(|k| (turn + 73.0 * k as f64, gap)).collect();
+            scene = with_flats(scene, &name, at, &flats, e, friction);
+        }
+    }
+    // Flats alone are no scene with supports.
+    scene = with(scene, hole("wide", body(), 5e-3, draws.unit(), friction));
+    let v: Vec<f64> = (0..n).map(|_| draws.between(-0.3, 0.3)).collect();
+    scene.with_initial(&vec![0.0; n], &v)
 }
 
 /// What contacts did over a run.

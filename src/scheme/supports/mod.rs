@@ -86,6 +86,8 @@ pub(super) struct Supports {
     b: Vec<f64>,
     ahead: Vec<f64>,
     delta: Vec<f64>,
+    /// v + δ without contacts.
+    free: Vec<f64>,
     /// Friction of each wall, N s, and what the holes did.
     friction: Vec<f64>,
     holes: Vec<HoleStep>,
@@ -111,7 +113,8 @@ impl Supports {
     pub fn new(scene: &Checked, theta: f64, contract: Contract, h: f64) -> Result<Self> {
         let mut body = Body::<Matrices>::new(scene, h)?;
         body.restart(0.0);
-        let mut factor = Matrices::factor(&body.theta_matrix(theta))?;
+        let a = body.theta_matrix(theta);
+        let mut factor = Matrices::factor(&a)?;
         let (seats, rows) = seats(scene);
         let places = Places::new(body.n, &rows, &mut factor);
         let round = |hole: crate::scene::Hole<'_>| Round {
@@ -127,10 +130,11 @@ impl Supports {
             theta,
             frame: Frame::new(scene)?,
             factor,
-            sweeps: Sweeps::new(places.count(), seats.len()),
+            sweeps: Sweeps::new(a, &rows, seats.len()),
             b: zero(),
             ahead: zero(),
             delta: zero(),
+            free: zero(),
             friction: vec![0.0; scene.walls.len()],
             holes: vec![HoleStep::default(); rounds.len()],
             turns: vec![0.0; rounds.len()],
@@ -206,9 +210,12 @@ impl Supports {
         let Some(met) = meet((round.gap, round.restitution), from(&self.frame.q), rate, self.body.h) else { return };
         self.holes[hole].normal = met.normal;
         self.rates[index].struck = met.arriving;
-        // The velocity before the blows, by what they give towards the hole.
-        let before = self.places.pair(seat.rows, &self.frame.before);
-        self.rates[index].before = met.arriving - dot(met.normal, [rate[0] - before[0], rate[1] - before[1]]);
+        self.rates[index].before = met.arriving;
+        if self.frame.blown {
+            // Less what the blows give towards the hole.
+            let before = self.places.pair(seat.rows, &self.frame.before);
+            self.rates[index].before -= dot(met.normal, [rate[0] - before[0], rate[1] - before[1]]);
+        }
         self.turns[hole] = met.turn;
         let touch = Touch::new(
             &self.places,
@@ -222,14 +229,17 @@ impl Supports {
 
     /// Solves for δ and the impulses, and writes the impulses.
     fn settle(&mut self) {
-        let Self { factor, delta, b, sweeps, places, frame, .. } = self;
+        let Self { factor, delta, b, sweeps, places, frame, free, .. } = self;
         delta.copy_from_slice(b);
         factor.solve(delta);
         if sweeps.touches.is_empty() {
             return;
         }
-        for (row, free) in sweeps.free.iter_mut().enumerate() {
-            *free = places.seen(row, &frame.v) + places.seen(row, delta);
+        for (free, (v, d)) in free.iter_mut().zip(frame.v.iter().zip(&*delta)) {
+            *free = v + d;
+        }
+        for (row, rate) in sweeps.free.iter_mut().enumerate() {
+            *rate = places.seen(row, free);
         }
         if sweeps.solve(places) {
             places.lift(&sweeps.impulse, delta);

@@ -3,50 +3,91 @@
 use crate::linear::{Factor, Rows};
 use crate::scene::Row;
 
+/// A vector without the zeros at its two ends: rows of one plane, and their responses, cover that
+/// plane's degrees of freedom alone.
+#[derive(Debug)]
+struct Run {
+    first: usize,
+    values: Vec<f64>,
+}
+
+impl Run {
+    fn new(x: &[f64]) -> Self {
+        let first = x.iter().position(|x| *x != 0.0).unwrap_or(0);
+        let end = x.iter().rposition(|x| *x != 0.0).map_or(first, |last| last + 1);
+        Self { first, values: x[first..end].to_vec() }
+    }
+
+    /// Its product with `x`, in four independent sums, so that their additions overlap.
+    #[inline]
+    fn dot(&self, x: &[f64]) -> f64 {
+        let x = &x[self.first..self.first + self.values.len()];
+        let (mut a, mut b) = (self.values.chunks_exact(4), x.chunks_exact(4));
+        let mut sums = [0.0; 4];
+        for (a, b) in a.by_ref().zip(b.by_ref()) {
+            for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+                *sum += a * b;
+            }
+        }
+        let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
+        (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+    }
+
+    /// Adds `scale` times the vector to `out`.
+    #[inline]
+    fn add(&self, scale: f64, out: &mut [f64]) {
+        let out = &mut out[self.first..self.first + self.values.len()];
+        out.iter_mut().zip(&self.values).for_each(|(out, value)| *out += scale * value);
+    }
+}
+
 /// The rows of all places, and the response of the structure to an impulse on each: A⁻¹gᵀ, and W =
 /// G A⁻¹ Gᵀ. All of it is computed once, since only the directions of the contacts change.
 #[derive(Debug)]
 pub(super) struct Places {
-    rows: Rows,
-    /// A⁻¹gᵢᵀ, n entries for each row.
-    lift: Vec<f64>,
+    rows: Vec<Run>,
+    /// A⁻¹gᵢᵀ.
+    lift: Vec<Run>,
     /// W, row by row.
     delassus: Vec<f64>,
-    n: usize,
 }
 
 impl Places {
     /// For a structure of `n` degrees of freedom with the factor of A.
     pub fn new(n: usize, rows: &[&Row], factor: &mut Factor) -> Self {
-        let rows = Rows::new(n, rows.iter().map(|row| row.entries()));
-        let count = rows.count();
-        let mut lift = vec![0.0; n * count];
+        let sparse = Rows::new(n, rows.iter().map(|row| row.entries()));
+        let count = sparse.count();
+        let (mut rows, mut lift) = (Vec::with_capacity(count), Vec::with_capacity(count));
         let mut delassus = vec![0.0; count * count];
-        for (i, x) in lift.chunks_exact_mut(n).enumerate() {
-            rows.add_transposed(i, 1.0, x);
-            factor.solve(x);
+        let mut x = vec![0.0; n];
+        for i in 0..count {
+            x.fill(0.0);
+            sparse.add_transposed(i, 1.0, &mut x);
+            rows.push(Run::new(&x));
+            factor.solve(&mut x);
             for j in 0..count {
-                delassus[j * count + i] = rows.dot(j, x);
+                delassus[j * count + i] = sparse.dot(j, &x);
             }
+            lift.push(Run::new(&x));
         }
-        Self { rows, lift, delassus, n }
+        Self { rows, lift, delassus }
     }
 
     /// Number of rows.
     pub fn count(&self) -> usize {
-        self.rows.count()
+        self.rows.len()
     }
 
     /// g·x of a row.
     #[inline]
     pub fn seen(&self, row: usize, x: &[f64]) -> f64 {
-        self.rows.dot(row, x)
+        self.rows[row].dot(x)
     }
 
     /// g·x of two rows.
     #[inline]
     pub fn pair(&self, rows: [usize; 2], x: &[f64]) -> [f64; 2] {
-        rows.map(|row| self.rows.dot(row, x))
+        rows.map(|row| self.rows[row].dot(x))
     }
 
     /// The motion of row `i` by a unit impulse on row `j`.
@@ -84,10 +125,8 @@ impl Places {
     /// Adds the motion of the structure by the impulse of each row to `x`, n entries.
     #[inline]
     pub fn lift(&self, impulse: &[f64], x: &mut [f64]) {
-        for (lift, &push) in self.lift.chunks_exact(self.n).zip(impulse) {
-            if push != 0.0 {
-                x.iter_mut().zip(lift).for_each(|(x, lift)| *x += push * lift);
-            }
+        for (lift, &push) in self.lift.iter().zip(impulse).filter(|(_, push)| **push != 0.0) {
+            lift.add(push, x);
         }
     }
 }

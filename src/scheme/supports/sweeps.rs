@@ -2,8 +2,12 @@
 //! exactly ([`Touch::answer`]), until their states stay; then one linear system for these states,
 //! so that the result is exact to rounding.
 //!
-//! Sweeps start from the impulses of the last step. They and the linear system are those of
-//! Jourdan, Alart & Jean 1998, doi:10.1016/S0045-7825(97)00137-0, and of semismooth Newton methods.
+//! Sweeps start from the impulses of the last step (Jourdan, Alart & Jean 1998,
+//! doi:10.1016/S0045-7825(97)00137-0). Where the linear system does not confirm the states, those
+//! that it suggests are tried before the sweeps go on, as in a semismooth Newton method. Where
+//! contacts without friction still do not settle, as where several press on few degrees of freedom
+//! from nearly opposite sides, the pivoting of [`crate::qp`] answers them.
+//!
 //! Without friction the problem is a convex programme, the sweeps descend in its dual and the
 //! answer is its minimiser. With friction it is no minimisation: for large μ answers may be several, and
 //! sweeps may not settle; such steps are counted.
@@ -11,9 +15,19 @@
 use super::normal::dot;
 use super::places::Places;
 use super::touch::{State, Touch};
+use crate::linear::{Rows, Symmetric};
+use crate::qp::{Backend, Problem, Rhs, Solver};
+use crate::scene::Row;
 
 /// Most sweeps in a step.
-const MOST_SWEEPS: u32 = 2000;
+const MOST_SWEEPS: u32 = 3000;
+
+/// From this sweep on each makes half of the change only, since states that alternate may settle
+/// so; contacts without friction are left to pivoting there.
+const LONG: u32 = 200;
+
+/// Most states that are tried after one another between sweeps.
+const MOST_GUESSES: u32 = 8;
 
 /// Sweeps that change no velocity by more than this share of the largest are done.
 const STILL: f64 = 4.0 * f64::EPSILON;
@@ -22,11 +36,12 @@ const STILL: f64 = 4.0 * f64::EPSILON;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A pivot below this share of the diagonal, which is scaled to 1, belongs to contacts whose rows
-/// depend on those before: their impulses stay as the sweeps left them.
+/// depend on those before: their impulses stay as the sweeps left them, and the result is accepted
+/// only if it meets their bounds too.
 const DEPENDENT: f64 = 1e-11;
 
 /// The contacts of a step.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Sweeps {
     pub touches: Vec<Touch>,
     /// Velocity of each row at the step's end without contacts, m/s, and with them.
@@ -36,14 +51,20 @@ pub(super) struct Sweeps {
     pub impulse: Vec<f64>,
     states: Vec<State>,
     linear: Linear,
+    /// A, and the rows of all places.
+    problem: (Symmetric, Rows),
     /// Steps that met something, and those whose states did not settle.
     pub solves: u64,
     pub unsettled: u64,
 }
 
 impl Sweeps {
-    pub fn new(rows: usize, contacts: usize) -> Self {
+    /// For the matrix `a` of the step, these rows, and at most this number of contacts.
+    pub fn new(a: Symmetric, rows: &[&Row], contacts: usize) -> Self {
+        let places = Rows::new(a.size(), rows.iter().map(|row| row.entries()));
+        let rows = rows.len();
         Self {
+            problem: (a, places),
             touches: Vec::with_capacity(contacts),
             free: vec![0.0; rows],
             y: vec![0.0; rows],
@@ -72,7 +93,10 @@ impl Sweeps {
         for touch in touches.iter() {
             places.add(touch.rows, touch.push(touch.impulse), y);
         }
-        let settled = if let [touch] = &mut touches[..] { touch.answer(places, y).1 } else { self.sweep(places) };
+        let settled = match &mut touches[..] {
+            [touch] => touch.answer(places, y, 1.0).1,
+            _ => self.sweep(places) || self.pivot().is_some(),
+        };
         self.unsettled += u64::from(!settled);
         for touch in &self.touches {
             for (row, push) in touch.rows.into_iter().zip(touch.push(touch.impulse)) {
@@ -90,10 +114,12 @@ impl Sweeps {
         let bounds = touches.iter().fold(0.0_f64, |most, touch| most.max(touch.bound.abs()));
         let largest = size(free).max(bounds);
         let mut due = 2;
-        for sweep in 1..=MOST_SWEEPS {
+        let most_sweeps = if touches.iter().any(|touch| touch.friction > 0.0) { MOST_SWEEPS } else { LONG };
+        for sweep in 1..=most_sweeps {
+            let share = if sweep <= LONG { 1.0 } else { 0.5 };
             let (mut moved, mut answered) = (0.0_f64, true);
             for touch in touches.iter_mut() {
-                let (by, found) = touch.answer(places, y);
+                let (by, found) = touch.answer(places, y, share);
                 moved = moved.max(by);
                 answered &= found;
             }
@@ -104,7 +130,7 @@ impl Sweeps {
                 // The states of a problem that converges slowly may stay for long and yet be wrong.
                 due = 2 * sweep;
                 let noise = ROUNDING * most(largest, touches);
-                if linear.polish(places, touches, (free, y), noise) || still {
+                if linear.settle(places, touches, (free, y), noise) || still {
                     return true;
                 }
             }
@@ -112,6 +138,39 @@ impl Sweeps {
             states.extend(touches.iter().map(|touch| touch.state));
         }
         false
+    }
+}
+
+impl Sweeps {
+    /// Solves for the impulses of contacts without friction as a quadratic programme in the change
+    /// of velocity that they cause; `None` where a contact has friction, or the programme fails. So
+    /// rare that it may allocate.
+    #[cold]
+    fn pivot(&mut self) -> Option<()> {
+        let Self { touches, free, .. } = self;
+        if touches.iter().any(|touch| touch.friction > 0.0) {
+            return None;
+        }
+        let (a, places) = &self.problem;
+        let part = |row: usize, share: f64| places.row(row).iter().map(move |&(i, x)| (i, share * x));
+        let turned = |touch: &Touch| -> Vec<(usize, f64)> {
+            let ([first, second], [y, z]) = (touch.rows, touch.normal);
+            part(first, y).chain(part(second, z)).collect()
+        };
+        let rows: Vec<Vec<(usize, f64)>> = touches.iter().map(turned).collect();
+        let slack = |touch: &Touch| touch.bound - dot(touch.normal, touch.rows.map(|row| free[row]));
+        let hi: Vec<f64> = touches.iter().map(slack).collect();
+        let scale = hi.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let g = Rows::new(a.size(), rows.iter().map(Vec::as_slice));
+        let compliance = touches.iter().map(|touch| touch.compliance).collect();
+        let mut solver = Solver::new(Problem { a: a.clone(), g, compliance }, Backend::Auto, scale).ok()?;
+        let (b, lo) = (vec![0.0; a.size()], vec![f64::NEG_INFINITY; hi.len()]);
+        let solution = solver.solve(&Rhs { b: &b, lo: &lo, hi: &hi }).ok()?;
+        for (touch, r) in touches.iter_mut().zip(&solution.multiplier) {
+            touch.impulse = [(-r).max(0.0), 0.0];
+            touch.state = if touch.impulse[0] > 0.0 { State::Ahead } else { State::Open };
+        }
+        Some(())
     }
 }
 
@@ -126,7 +185,7 @@ struct Linear {
     /// columns.
     matrix: Vec<f64>,
     order: Vec<usize>,
-    kept: Vec<[f64; 2]>,
+    kept: Vec<(State, [f64; 2])>,
 }
 
 impl Linear {
@@ -140,11 +199,41 @@ impl Linear {
         }
     }
 
-    /// Solves for the impulses of contacts in the states that they have, and accepts the result
-    /// if it confirms these states within `noise` (m/s); else all stays as it is.
-    fn polish(&mut self, places: &Places, touches: &mut [Touch], (free, y): (&[f64], &mut [f64]), noise: f64) -> bool {
+    /// Solves for the impulses of contacts in the states that they have. If the result does not
+    /// confirm these states within `noise` (m/s), tries the states that it suggests, some times; if
+    /// none is confirmed, all stays as it is.
+    fn settle(&mut self, places: &Places, touches: &mut [Touch], (free, y): (&[f64], &mut [f64]), noise: f64) -> bool {
         self.kept.clear();
-        self.kept.extend(touches.iter().map(|touch| touch.impulse));
+        self.kept.extend(touches.iter().map(|touch| (touch.state, touch.impulse)));
+        for _ in 0..MOST_GUESSES {
+            self.solve(places, touches, (free, y));
+            if touches.iter().all(|touch| touch.holds(y, noise)) {
+                // A force of −1e-20 N is none.
+                for touch in touches.iter_mut().filter(|touch| touch.impulse[0] < 0.0) {
+                    touch.impulse = [0.0; 2];
+                }
+                return true;
+            }
+            let mut changed = false;
+            for touch in touches.iter_mut() {
+                let state = touch.guess(y);
+                changed |= state != touch.state;
+                touch.state = state;
+                touch.comply();
+            }
+            if !changed {
+                break;
+            }
+        }
+        for (touch, kept) in touches.iter_mut().zip(&self.kept) {
+            (touch.state, touch.impulse) = *kept;
+        }
+        renew(places, touches, free, y);
+        false
+    }
+
+    /// Solves for the impulses of contacts in the states that they have.
+    fn solve(&mut self, places: &Places, touches: &mut [Touch], (free, y): (&[f64], &mut [f64])) {
         renew(places, touches, free, y);
         self.set(places, touches, y);
         self.eliminate();
@@ -153,21 +242,8 @@ impl Linear {
             let change = self.matrix[k * (m + 1) + m] * self.scale[k];
             touches[index].impulse[usize::from(rubs)] += change;
         }
-        for touch in touches.iter_mut().filter(|touch| matches!(touch.state, State::Ahead | State::Back)) {
-            touch.impulse[1] = -touch.state.sign() * touch.friction * touch.impulse[0];
-        }
+        touches.iter_mut().for_each(Touch::comply);
         renew(places, touches, free, y);
-        let holds = touches.iter().all(|touch| touch.holds(y, noise));
-        if holds {
-            // A force of −1e-20 N is none.
-            for touch in touches.iter_mut().filter(|touch| touch.impulse[0] < 0.0) {
-                touch.impulse = [0.0; 2];
-            }
-        } else {
-            touches.iter_mut().zip(&self.kept).for_each(|(touch, kept)| touch.impulse = *kept);
-            renew(places, touches, free, y);
-        }
-        holds
     }
 
     /// Sets up the system for the changes of the impulses: one row for n·ẇ⁺ − κp = β of each
@@ -197,7 +273,7 @@ impl Linear {
                 }
                 self.matrix.push(entry * scale * other);
             }
-            let [n, t] = touch.open(y);
+            let [n, t] = touch.excess(y);
             self.matrix.push(scale * if rubbed { -t } else { n });
         }
     }

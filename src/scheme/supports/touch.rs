@@ -80,15 +80,10 @@ impl Touch {
         Self { index, rows, normal, tangent, bound, friction, compliance, own, state: State::Open, impulse }
     }
 
-    /// N and T for these velocities of all rows, which contain the effect of its own impulse.
-    fn excess(&self, y: &[f64]) -> [f64; 2] {
+    /// n·ẇ⁺ − κp − β and t·ẇ⁺ for these velocities of all rows.
+    pub fn excess(&self, y: &[f64]) -> [f64; 2] {
         let rate = self.rows.map(|row| y[row]);
         [dot(self.normal, rate) - self.compliance * self.impulse[0] - self.bound, dot(self.tangent, rate)]
-    }
-
-    /// n·ẇ⁺ − κp − β and t·ẇ⁺ under the impulses of all contacts.
-    pub fn open(&self, y: &[f64]) -> [f64; 2] {
-        self.excess(y)
     }
 
     /// The impulse on the rows of its place.
@@ -97,9 +92,9 @@ impl Touch {
     }
 
     /// Answers the contact alone: sets its state and impulse for the velocities `y` of all rows
-    /// under all impulses, and changes `y` accordingly. Returns the size of the change, m/s, and
-    /// whether the law has an answer.
-    pub fn answer(&mut self, places: &Places, y: &mut [f64]) -> (f64, bool) {
+    /// under all impulses, and changes `y` accordingly; of the change of its impulse this `share` is
+    /// made. Returns the size of the change, m/s, and whether the law has an answer.
+    pub fn answer(&mut self, places: &Places, y: &mut [f64], share: f64) -> (f64, bool) {
         let [a, b, c] = self.own;
         let [p, f] = self.impulse;
         let [n, t] = self.excess(y);
@@ -107,10 +102,27 @@ impl Touch {
         let (n, t) = (n + a * p - b * f, t + b * p - c * f);
         let (state, found) = self.alone(n, t);
         self.state = state.unwrap_or(State::Ahead);
-        let change = [found[0] - p, found[1] - f];
-        self.impulse = found;
+        let change = [share * (found[0] - p), share * (found[1] - f)];
+        self.impulse = if share == 1.0 { found } else { [p + change[0], f + change[1]] };
         places.add(self.rows, self.push(change), y);
         (a * change[0].abs() + c * change[1].abs(), state.is_some())
+    }
+
+    /// The state in which it would answer these velocities, with the impulses of all others as they
+    /// are.
+    pub fn guess(&self, y: &[f64]) -> State {
+        let ([a, b, c], [p, f]) = (self.own, self.impulse);
+        let [n, t] = self.excess(y);
+        self.alone(n + a * p - b * f, t + b * p - c * f).0.unwrap_or(State::Ahead)
+    }
+
+    /// Sets f to what its state and p ask for, or both to 0.
+    pub fn comply(&mut self) {
+        match self.state {
+            State::Open => self.impulse = [0.0; 2],
+            State::Stick => {}
+            State::Ahead | State::Back => self.impulse[1] = -self.state.sign() * self.friction * self.impulse[0],
+        }
     }
 
     fn alone(&self, n: f64, t: f64) -> (Option<State>, [f64; 2]) {
@@ -141,10 +153,11 @@ impl Touch {
     pub fn holds(&self, y: &[f64], noise: f64) -> bool {
         let ([n, t], [p, f], [a, _, c]) = (self.excess(y), self.impulse, self.own);
         let rubs = self.friction > 0.0;
+        let presses = p * a >= -noise && n.abs() <= noise;
         match self.state {
             State::Open => n <= noise,
-            State::Stick => p * a >= -noise && (f.abs() - self.friction * p) * c <= noise,
-            State::Ahead | State::Back => p * a >= -noise && (!rubs || self.state.sign() * t >= -noise),
+            State::Stick => presses && t.abs() <= noise && (f.abs() - self.friction * p) * c <= noise,
+            State::Ahead | State::Back => presses && (!rubs || self.state.sign() * t >= -noise),
         }
     }
 }
@@ -174,7 +187,7 @@ mod tests {
             let friction = 0.05 * f64::from(k % 9);
             let (places, mut touch) = one(normal, friction);
             let mut y = vec![(1.3 * turn).sin(), (2.1 * turn).cos()];
-            let (_, answered) = touch.answer(&places, &mut y);
+            let (_, answered) = touch.answer(&places, &mut y, 1.0);
             assert!(answered, "{touch:?}");
             let (n, t) = (dot(normal, y.clone().try_into().unwrap()), y[1] * normal[0] - y[0] * normal[1]);
             let [p, f] = touch.impulse;
@@ -186,7 +199,7 @@ mod tests {
             assert!(touch.holds(&y, rounding), "{touch:?}");
             seen[touch.state as usize] += 1;
             // Answered again, nothing changes.
-            assert!(touch.answer(&places, &mut y).0 <= rounding);
+            assert!(touch.answer(&places, &mut y, 1.0).0 <= rounding);
         }
         assert!(seen.iter().all(|&count| count > 50), "{seen:?}");
     }
