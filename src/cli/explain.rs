@@ -166,7 +166,13 @@ fn duration(estimate: &Estimate) -> String {
 }
 
 fn solver(case: &Case) -> &'static str {
-    if matches!(case.scene.system, System::Oscillator(_)) { "clamp" } else { "condensed" }
+    if case.scene.turns_or_rubs() {
+        "sweeps"
+    } else if matches!(case.scene.system, System::Oscillator(_)) {
+        "clamp"
+    } else {
+        "condensed"
+    }
 }
 
 fn masses(case: &Case) -> Vec<f64> {

@@ -62,7 +62,13 @@ pub(super) fn orbits(
     let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
     let (middle, whole) = (0.5 * (low + high), whole + 0.5 * (high - low));
     let left_out = (views.len() < count).then(|| format!("{} of {count} places", views.len()));
-    let mut figure = Figure::new(title(left_out.into_iter().collect()), "Displacement along y (mm)").square();
+    let rings = views.iter().flat_map(|(place, _)| &place.rings).filter_map(|ring| ring.largest(runs));
+    let ring = rings.map(|(_, upper)| upper).reduce(|a, b| a || b).map(|upper| {
+        let upper = if upper { ", without friction an upper figure" } else { "" };
+        format!("ring: work rate by sector{upper}")
+    });
+    let remarks = left_out.into_iter().chain(ring).collect();
+    let mut figure = Figure::new(title(remarks), "Displacement along y (mm)").square();
     figure = figure.range(MM * (middle - whole), MM * (middle + whole));
     for (place, centre) in views {
         let mut panel = Panel::new("Displacement along z (mm)").heading(heading(&place, runs));
@@ -88,13 +94,10 @@ fn in_mm(points: Vec<[f64; 2]>) -> impl Iterator<Item = (f64, f64)> {
     points.into_iter().map(|[y, z]| (MM * y, MM * z))
 }
 
-/// The name of the place, and what its ring shows.
+/// The name of the place, and the work rate that the highest part of its ring stands for.
 fn heading(place: &Place, runs: &[Labelled<'_>]) -> String {
     match place.rings.iter().find_map(|ring| ring.largest(runs)) {
-        Some((most, upper)) => {
-            let upper = if upper { ", an upper figure" } else { "" };
-            format!("{}; ring: work rate by sector, at most {most:.3e} W{upper}", place.name)
-        }
+        Some((most, _)) => format!("{}: up to {most:.2e} W a sector", place.name),
         None => place.name.clone(),
     }
 }

@@ -92,3 +92,52 @@ impl Ring {
         Some([-radius, radius].map(|by| self.centre.map(|x| x + by)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::labelled::Labelled;
+    use crate::run::{Options, run};
+    use crate::scene::{PlaneRows, Row, Structure, Support, WallLaw};
+    use crate::scheme::Scheme;
+
+    /// A free mass of 1 kg in a hole of 1 mm about (0.2, 0) mm.
+    fn scene() -> Scene {
+        let structure = Structure {
+            mass: crate::linear::Symmetric::from_entries(2, [(0, 0, 1.0), (1, 1, 1.0)]),
+            damping: crate::linear::Symmetric::from_entries(2, []),
+            stiffness: crate::linear::Symmetric::from_entries(2, []),
+        };
+        let mut scene = Scene::structure(structure).with_initial(&[0.2e-3, 0.0], &[0.1, 0.07]).with_duration(0.2);
+        let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+        scene.probes = ["s-y", "s-z"]
+            .into_iter()
+            .zip([0, 1])
+            .map(|(name, i)| Probe { name: name.to_owned(), at: Row::dof(i) })
+            .collect();
+        let shape = Shape::Round { gap: 1e-3, law: WallLaw::Rigid { restitution: 0.9 } };
+        scene.supports.push(Support { name: "s".to_owned(), at, centre: [0.2e-3, 0.0], shape, friction: 0.0 });
+        scene
+    }
+
+    #[test]
+    fn the_height_of_the_ring_is_the_work_of_its_sector() {
+        let scene = scene();
+        let run = run(&scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(1e-4)).unwrap();
+        let runs = [Labelled { label: "", run: &run, reference: false, look: 0 }];
+        let [ring] = <[Ring; 1]>::try_from(Ring::around(&scene, [&scene.probes[0], &scene.probes[1]])).unwrap();
+        let from_centre = |[y, z]: [f64; 2]| (y - 0.2e-3).hypot(z);
+        assert!(ring.circle().unwrap().into_iter().all(|point| (from_centre(point) / 1e-3 - 1.0).abs() < 1e-12));
+        let (most, upper) = ring.largest(&runs).unwrap();
+        let worked: Vec<f64> =
+            run.statistics.wear[0].sectors.iter().map(|s| s.work_rate_w).filter(|work| *work > 0.0).collect();
+        assert!(upper && worked.len() > 2);
+        let areas = ring.areas(&runs);
+        assert_eq!(areas.len(), worked.len());
+        for (area, work) in areas.into_iter().zip(worked) {
+            let (least, largest) = area.into_iter().map(from_centre).fold((1.0, 0.0), |(a, b), r| (r.min(a), r.max(b)));
+            assert!((least / (INSIDE * 1e-3) - 1.0).abs() < 1e-12);
+            assert!(((largest / least - 1.0) / (HEIGHT * work / most) - 1.0).abs() < 1e-9);
+        }
+    }
+}

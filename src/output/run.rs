@@ -8,6 +8,7 @@ use super::table::Table;
 use super::{Span, csv, supports};
 use crate::case::Case;
 use crate::error::Result;
+use crate::qp::Backend;
 use crate::run::Run;
 use crate::scheme::{Method, Scheme};
 use crate::statistics::{ForceStatistics, WallStatistics};
@@ -178,6 +179,8 @@ fn solved(run: &Run) -> String {
     match run.scheme {
         Scheme::Event => format!("{} contact events", counters.events),
         Scheme::Penalty { .. } => format!("{} Newton iterations", counters.newton_iterations),
+        // Round supports and friction have no quadratic programme, hence no solver of one.
+        _ if run.backend == Backend::Auto => format!("{} steps in contact, solved in sweeps", counters.qp_solves),
         _ if counters.qp_fallbacks > 0 => {
             let (all, left) = (counters.qp_solves, counters.qp_fallbacks);
             format!("{all} QPs by {}, {left} of them solved by Clarabel as fallback", run.backend)

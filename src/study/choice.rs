@@ -92,6 +92,11 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
 #[must_use]
 pub fn qp_reason(method: &Method, scene: &Scene) -> String {
     let single = matches!(scene.system, System::Oscillator(_));
+    if scene.turns_or_rubs() {
+        return "round supports and friction are no QP: the contacts are solved one by one in closed form, in sweeps, \
+                and then together"
+            .to_owned();
+    }
     match (method.scheme, method.backend) {
         (Scheme::Penalty { .. }, _) => "a penalty has no QP: Newton's method solves each step",
         (Scheme::Event, _) if single => "for one degree of freedom the QP at an impact has the closed form v⁺ = −e v⁻",
