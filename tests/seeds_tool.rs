@@ -89,7 +89,7 @@ fn the_first_is_the_plain_run_and_any_other_can_be_repeated() {
     assert_eq!(four["case_file"], plain["case_file"]);
 
     let header = "realisation,place,kind,mean_force_N,mean_force_along_y_N,mean_force_along_z_N,RMS_force_N,\
-                  largest_force_N,findings";
+                  work_rate_W,friction_power_W,largest_force_N,findings";
     let rows = rows(&path.join("four"));
     assert_eq!(rows[0].join(","), header);
     // Four flats, the stop and the support.
@@ -106,11 +106,13 @@ fn the_first_is_the_plain_run_and_any_other_can_be_repeated() {
         let support = &run["statistics"]["supports"][0]["force"];
         assert_eq!(Some(number(&bars[3])), support["mean_n"].as_f64());
         assert_eq!(Some(number(&bars[6])), support["rms_n"].as_f64());
-        assert_eq!(bars[7], "", "a rigid support has no largest force");
+        assert_eq!(bars[9], "", "a rigid support has no largest force");
+        assert_eq!(Some(number(&bars[7])), run["supports"][0]["work_rate_w"].as_f64());
+        assert_eq!(bars[8], "", "a support without friction has no friction power");
         let wall = &run["statistics"]["walls"][0];
         assert_eq!(wall["wall"], "stop");
         assert_eq!(Some(number(&stop[3])), wall["force"]["mean_n"].as_f64());
-        assert_eq!(Some(number(&stop[7])), wall["episode_peak_force_n"]["max"].as_f64());
+        assert_eq!(Some(number(&stop[9])), wall["episode_peak_force_n"]["max"].as_f64());
         assert_eq!(stop[4], "", "a wall has no components");
     }
     // The interval, with t of three degrees of freedom from a table.

@@ -70,7 +70,7 @@ fn find<'a>(study: &'a Realisations, place: &ContactPlace, measure: Measure) -> 
 /// only.
 #[must_use]
 pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
-    let columns = [Measure::MeanForce, Measure::RmsForce, Measure::PeakForce];
+    let columns = [Measure::MeanForce, Measure::RmsForce, Measure::WorkRate, Measure::PeakForce];
     let known = |measure: &Measure| study.estimates.iter().any(|one| one.measure == *measure);
     let columns: Vec<Measure> = columns.into_iter().filter(known).collect();
     let mut header = vec!["place".to_owned()];
@@ -107,6 +107,9 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
              not know what is slower than a batch; --seeds 5 or more gives that of independent realisations"
             .to_owned(),
     }];
+    if scene.supports.iter().any(|support| support.friction == 0.0) {
+        remarks.push("work rates without friction are upper figures".to_owned());
+    }
     for place in shown(study, scene, MOST_LINES) {
         let Some(one) = find(study, place, Measure::MeanForce) else { continue };
         let Some(StepChange { change, half_width_95, larger, .. }) = one.half_step else { continue };

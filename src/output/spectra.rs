@@ -59,8 +59,8 @@ impl Quantity {
     }
 }
 
-/// The spectra of every probe, of every wall that is no flat of a support, and of every support of
-/// flats, over the window of the statistics.
+/// The spectra of every probe, of every wall that is no flat of a support, and of every support, over
+/// the window of the statistics. Friction at flats is not in theirs.
 ///
 /// # Errors
 /// [`crate::Error::Invalid`] for a run with too few rows.
@@ -99,20 +99,26 @@ pub(super) fn of(case: &Case, run: &Run) -> Result<Vec<SpectrumFile>> {
     // The impulse in a row is that since the row before it.
     let rows = rows_of(case.time.force_averaging, row);
     let stretch = rows as f64 * row;
-    let averaged = |wall: usize| -> Vec<f64> {
-        let impulses = motion.contact_impulses().get(wall).and_then(|all| all.get(first + 1..)).unwrap_or_default();
-        impulses.chunks_exact(rows).map(|part| part.iter().sum::<f64>() / stretch).collect()
+    let averaged = |impulses: &[f64]| -> Vec<f64> {
+        let here = impulses.get(first + 1..).unwrap_or_default();
+        here.chunks_exact(rows).map(|part| part.iter().sum::<f64>() / stretch).collect()
     };
+    let of_wall = |wall: usize| averaged(motion.contact_impulses().get(wall).map_or(&[], Vec::as_slice));
     for (index, wall) in scene.walls.iter().enumerate().filter(|(index, _)| !scene.is_flat(*index)) {
-        add(&wall.name, Quantity::ContactForce, vec![("", averaged(index))], stretch)?;
+        add(&wall.name, Quantity::ContactForce, vec![("", of_wall(index))], stretch)?;
     }
+    let mut holes = motion.hole_impulses().iter();
     for support in &scene.supports {
-        let Shape::Flats(flats) = &support.shape else { continue };
+        let Shape::Flats(flats) = &support.shape else {
+            let Some([y, z]) = holes.next() else { continue };
+            add(&support.name, Quantity::ContactForce, vec![("y", averaged(y)), ("z", averaged(z))], stretch)?;
+            continue;
+        };
         let mut ways = [("y", Vec::new()), ("z", Vec::new())];
         for flat in flats {
             let Some(wall) = scene.walls.get(flat.wall) else { continue };
             let normal = heading(flat.direction).map(|x| -wall.side.sign() * x);
-            let force = averaged(flat.wall);
+            let force = of_wall(flat.wall);
             for ((_, sum), n) in ways.iter_mut().zip(normal) {
                 sum.resize(force.len(), 0.0);
                 sum.iter_mut().zip(&force).for_each(|(sum, f)| *sum += n * f);

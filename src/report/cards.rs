@@ -9,9 +9,12 @@ use serde_json::{Value, json};
 /// share of what was exchanged.
 const SMALL: f64 = 1e-2;
 
+/// An interval of a mean up to this share of it needs no attention.
+const SCATTER: f64 = 0.1;
+
 /// The cards of the run with this summary.
 pub(super) fn cards(summary: &Value) -> Vec<Value> {
-    let checks = [refinement(summary), accuracy(summary), modes(summary)];
+    let checks = [refinement(summary), realisations(summary), accuracy(summary), modes(summary)];
     let judged = [contact(summary), energy(summary), momentum(summary)];
     checks.into_iter().flatten().chain(judged).collect()
 }
@@ -92,6 +95,39 @@ fn refinement(summary: &Value) -> Option<Value> {
     let verdict = format!("{how} changes impulses by up to {}", percent(change));
     let state = if change <= SMALL && displacement <= SMALL { State::Good } else { State::Mind };
     Some(card("Refinement", state, verdict, text))
+}
+
+/// The scatter of the largest mean force over realisations, beside what half the step changes.
+fn realisations(summary: &Value) -> Option<Value> {
+    let study = summary.get("realisations")?;
+    let forces = list(&study["estimates"]).iter().filter(|one| one["measure"] == "mean_force");
+    let most = forces.max_by(|a, b| number(&a["mean"]).total_cmp(&number(&b["mean"])))?;
+    let count = number(&study["count"]);
+    let told = |value: &Value, half: &Value| match half.as_f64() {
+        Some(half) => format!("{} ± {} N", short(number(value)), short(half)),
+        None => format!("{} N", short(number(value))),
+    };
+    let step = &most["half_step"];
+    let changed = match step["change"].is_null() {
+        true => String::new(),
+        false => format!("; half the step changes it by {}", told(&step["change"], &step["half_width_95"])),
+    };
+    let text = format!(
+        "{}: mean force {}{changed}.",
+        most["place"].as_str().unwrap_or_default(),
+        told(&most["mean"], &most["half_width_95"])
+    );
+    if !list(&study["refuted"]).is_empty() {
+        return Some(card("Realisations", State::Bad, "Some of them are refuted".to_owned(), text));
+    }
+    let relative = number(&most["half_width_95"]) / number(&most["mean"]);
+    let state = if relative <= SCATTER && step["larger"] != "step" { State::Good } else { State::Mind };
+    let of = if count > 1.0 { format!("over {count} realisations") } else { "from ten batches of one".to_owned() };
+    let verdict = match relative.is_finite() {
+        true => format!("The mean force is known to ±{} {of}", percent(relative)),
+        false => "The mean force has no interval: too few contacts".to_owned(),
+    };
+    Some(card("Realisations", state, verdict, text))
 }
 
 fn accuracy(summary: &Value) -> Option<Value> {

@@ -3,8 +3,8 @@
 use super::Statistics;
 use super::distribution::Distribution;
 use super::place::{ContactPlace, PlaceKind};
-use super::support::flats;
-use crate::scene::{FlatWall, Scene};
+use super::support::parts;
+use crate::scene::Scene;
 use crate::step::Contact;
 use serde::Serialize;
 
@@ -44,13 +44,14 @@ struct Episode {
 }
 
 impl EpisodeStatistics {
-    /// Those of every wall, then of every support of flats of `scene`, from the `contacts` of a run
+    /// Those of every wall, then of every support of `scene`, from the `contacts` of a run
     /// with these `statistics` and their window, joined where less than `rest` (s) lies between
     /// them.
     #[must_use]
     pub fn of(scene: &Scene, statistics: &Statistics, contacts: &[Contact], rest: f64) -> Vec<Self> {
         let window = [statistics.from_s, statistics.to_s];
-        let mut by_wall = vec![Vec::new(); scene.walls.len()];
+        // Round supports are counted after the walls.
+        let mut by_wall = vec![Vec::new(); scene.walls.len() + scene.supports.len()];
         for contact in contacts {
             if let Some(list) = by_wall.get_mut(contact.wall) {
                 list.push(*contact);
@@ -62,10 +63,10 @@ impl EpisodeStatistics {
             let elastic = wall.force.is_some_and(|force| force.rms_averaged_over_s.is_none());
             all.push(Self::at(place, own.clone(), elastic, window, rest));
         }
-        for (name, flats) in flats(scene) {
+        for (name, parts) in parts(scene) {
             let place = ContactPlace { name: name.to_owned(), kind: PlaceKind::Support };
-            let of = |flat: &FlatWall| by_wall.get(flat.wall).cloned().unwrap_or_default();
-            all.push(Self::at(place, flats.iter().flat_map(of).collect(), false, window, rest));
+            let of = |part: &usize| by_wall.get(*part).cloned().unwrap_or_default();
+            all.push(Self::at(place, parts.iter().flat_map(of).collect(), false, window, rest));
         }
         all
     }

@@ -89,12 +89,12 @@ impl Forces {
         if step.impulse.len() != self.walls.len() || self.length <= 0.0 || step.end < self.from {
             return;
         }
-        if step.impulse.iter().all(|&p| p == 0.0) {
+        if step.impulse.iter().all(|&p| p == 0.0) && step.holes.iter().all(|hole| hole.impulse == 0.0) {
             return;
         }
         // Where all impulses are jumps at the end of the step, there is no force to integrate over
         // it.
-        let along = step.impulse.iter().zip(step.jump).any(|(p, jump)| p != jump);
+        let along = !step.holes.is_empty() || step.impulse.iter().zip(step.jump).any(|(p, jump)| p != jump);
         let mut from = if along { step.start.max(self.from) } else { end };
         while from < end {
             let edge = self.move_to(from);
@@ -104,6 +104,10 @@ impl Forces {
                     let (p, square) = piece(step, wall, [from, to]);
                     self.add(wall, p, square);
                 }
+            }
+            if !self.supports.is_empty() && step.end > step.start {
+                let (batch, share) = (self.batch(), (to - from) / (step.end - step.start));
+                self.supports.iter_mut().for_each(|support| support.add(batch, step, share));
             }
             // By rounding, the edge of an interval may coincide with the time itself.
             from = if to > from { to } else { from.next_up() };
@@ -188,15 +192,15 @@ impl Forces {
         })
     }
 
-    /// Statistics of each support of flats, where `contacts(w)` began at wall w in the window; empty
-    /// for a window of length 0.
+    /// Statistics of each support, where `contacts(i)` began at support i in the window; empty for a
+    /// window of length 0.
     pub(super) fn of_supports(&self, contacts: impl Fn(usize) -> usize) -> Vec<SupportForce> {
         let Some(sums) = self.sums() else { return Vec::new() };
         // The current interval ends with the window.
         let mut closed = self.clone();
         closed.close_supports();
         let pushed = |wall: usize| self.walls.get(wall).map_or([0.0; BATCHES], |tally| tally.pushed);
-        closed.supports.iter().map(|support| support.statistics(sums, &contacts, pushed)).collect()
+        closed.supports.iter().enumerate().map(|(i, support)| support.statistics(sums, contacts(i), pushed)).collect()
     }
 }
 

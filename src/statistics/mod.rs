@@ -120,7 +120,7 @@ pub struct Statistics {
     pub to_s: f64,
     /// One entry per wall, in the scene's order.
     pub walls: Vec<WallStatistics>,
-    /// One entry per support of flats, in the scene's order; its flats are walls too.
+    /// One entry per support, in the scene's order; flats are walls too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<SupportStatistics>,
     /// What slides at each support, in the scene's order; empty in one plane, and where only the
@@ -142,7 +142,8 @@ impl Statistics {
     pub(crate) fn of(scene: &Scene, masses: &[f64], contacts: &[Contact], from: f64) -> Self {
         let to = scene.duration;
         let from = from.min(to);
-        let mut by_wall = vec![Vec::new(); scene.walls.len()];
+        // Round supports are counted after the walls.
+        let mut by_wall = vec![Vec::new(); scene.walls.len() + scene.supports.len()];
         for contact in contacts {
             if let Some(list) = by_wall.get_mut(contact.wall) {
                 list.push(contact);
@@ -152,7 +153,7 @@ impl Statistics {
             of_wall(wall, all, masses.get(index).copied().unwrap_or(0.0), [from, to])
         };
         let walls = scene.walls.iter().zip(&by_wall).enumerate().map(wall).collect();
-        let supports = support::of_supports(scene, masses, &by_wall, [from, to]);
+        let supports = support::of_supports(scene, &by_wall, from);
         Self { from_s: from, to_s: to, walls, supports, wear: Vec::new() }
     }
 
@@ -162,7 +163,7 @@ impl Statistics {
         for (index, wall) in self.walls.iter_mut().enumerate() {
             wall.force = forces.statistics(index, wall.contacts);
         }
-        let contacts = |wall: usize| self.walls.get(wall).map_or(0, |wall| wall.contacts);
+        let contacts = |index: usize| self.supports.get(index).map_or(0, |support| support.contacts);
         let all = forces.of_supports(contacts);
         self.supports.iter_mut().zip(all).for_each(|(support, force)| support.force = Some(force));
         self

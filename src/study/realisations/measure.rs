@@ -1,6 +1,6 @@
 //! What is estimated over realisations, and where.
 
-use crate::statistics::{ContactPlace, PlaceKind, Statistics, SupportStatistics, WallStatistics};
+use crate::statistics::{ContactPlace, PlaceKind, Statistics, SupportStatistics, WallStatistics, WearStatistics};
 use serde::Serialize;
 
 /// A quantity of a wall or a support that has a mean over realisations.
@@ -24,6 +24,11 @@ pub enum Measure {
     /// Root mean square of the force: at an elastic wall of the force itself, else averaged over
     /// intervals. N.
     RmsForce,
+    /// Work of wear per unit time, W; of supports in two planes. Without friction it is an upper
+    /// figure.
+    WorkRate,
+    /// What friction takes out of the motion per unit time, W; of supports with friction.
+    FrictionPower,
     /// Largest |force| in the window, N; of elastic walls only.
     PeakForce,
 }
@@ -48,7 +53,15 @@ type Told = (f64, Option<f64>);
 
 impl Measure {
     /// All of them, in the order of tables.
-    pub const ALL: [Self; 5] = [Self::MeanForce, Self::MeanForceY, Self::MeanForceZ, Self::RmsForce, Self::PeakForce];
+    pub const ALL: [Self; 7] = [
+        Self::MeanForce,
+        Self::MeanForceY,
+        Self::MeanForceZ,
+        Self::RmsForce,
+        Self::WorkRate,
+        Self::FrictionPower,
+        Self::PeakForce,
+    ];
 
     /// Its name in words.
     #[must_use]
@@ -58,6 +71,8 @@ impl Measure {
             Self::MeanForceY => "mean force along y",
             Self::MeanForceZ => "mean force along z",
             Self::RmsForce => "RMS force",
+            Self::WorkRate => "work rate",
+            Self::FrictionPower => "friction power",
             Self::PeakForce => "largest force",
         }
     }
@@ -66,6 +81,7 @@ impl Measure {
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
+            Self::WorkRate | Self::FrictionPower => "W",
             Self::MeanForce | Self::MeanForceY | Self::MeanForceZ | Self::RmsForce | Self::PeakForce => "N",
         }
     }
@@ -78,12 +94,12 @@ impl Measure {
             Self::MeanForce => Some((force.mean_n, force.mean_half_width_95_n)),
             Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n)),
             Self::PeakForce => elastic.then(|| (wall.episode_peak_force_n.max.unwrap_or(0.0), None)),
-            Self::MeanForceY | Self::MeanForceZ => None,
+            Self::MeanForceY | Self::MeanForceZ | Self::WorkRate | Self::FrictionPower => None,
         }
     }
 
     /// The value at a support.
-    fn of_support(self, support: &SupportStatistics) -> Option<Told> {
+    fn of_support(self, support: &SupportStatistics, wear: Option<&WearStatistics>) -> Option<Told> {
         let force = support.force?;
         let vector =
             |axis: usize| (force.mean_vector_n[axis], force.mean_vector_half_width_95_n.map(|half| half[axis]));
@@ -92,6 +108,8 @@ impl Measure {
             Self::MeanForceY => Some(vector(0)),
             Self::MeanForceZ => Some(vector(1)),
             Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n)),
+            Self::WorkRate => wear.map(|wear| (wear.work_rate_w, wear.work_rate_half_width_95_w)),
+            Self::FrictionPower => wear.filter(|wear| wear.friction > 0.0).map(|wear| (wear.friction_power_w, None)),
             Self::PeakForce => None,
         }
     }
@@ -111,7 +129,8 @@ pub(super) fn figures(statistics: &Statistics) -> Vec<Figure> {
         add(&wall.wall, PlaceKind::Wall, &|measure| measure.of_wall(wall));
     }
     for support in &statistics.supports {
-        add(&support.support, PlaceKind::Support, &|measure| measure.of_support(support));
+        let wear = statistics.wear.iter().find(|wear| wear.support == support.support);
+        add(&support.support, PlaceKind::Support, &|measure| measure.of_support(support, wear));
     }
     figures
 }
