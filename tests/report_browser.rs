@@ -172,6 +172,165 @@ fn pages_open_and_their_controls_work_in_a_browser() {
     injected(&mut browser, dir.path(), &run);
 }
 
+/// Branches of orbits: hover, zoom, click, and the command of the orbit that was clicked gives it.
+#[test]
+fn branches_show_the_orbit_that_is_clicked() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let soft = ["rigid-walls-sine", "--set", "wall.*.restitution=0.8"];
+    let key = ["--key", "load.1.harmonic.frequency", "--range", "3.6:6"];
+    let page = results(dir.path(), &[&["continue"], &soft[..], &key].concat());
+    let mut tab = opened(&mut browser, &page);
+    let picture = "document.querySelector('#branches .plot canvas').toDataURL()";
+    let text = |selector: &str| format!("document.querySelector('{selector}').textContent");
+
+    // The end of a branch: its symmetry breaks at 4.57083913378074 Hz.
+    let rows = "[...document.querySelectorAll('#specials tbody tr:not(.space)')]";
+    tab.evaluate(&format!("{rows}.find((tr) => tr.textContent.includes('symmetry-breaking')).click()"));
+    let facts = tab.evaluate(&text("#orbit .facts"));
+    assert!(facts.as_str().unwrap().contains("4.5708391"), "{facts}");
+    // An orbit from the table; its motion is drawn, and the plot of the branches marks it.
+    tab.evaluate("document.querySelector('#branches .plot canvas + canvas').scrollIntoView({ block: 'center' })");
+    tab.frame();
+    let over = "document.querySelector('#branches .plot canvas + canvas').toDataURL()";
+    let (before, portrait) =
+        (tab.evaluate(over), tab.evaluate("document.querySelector('#orbit .plot canvas').toDataURL()"));
+    tab.evaluate("document.querySelectorAll('#orbits tbody tr:not(.space)')[7].click()");
+    tab.frame();
+    assert_ne!(tab.evaluate(over), before);
+    assert_ne!(tab.evaluate("document.querySelector('#orbit .plot canvas').toDataURL()"), portrait);
+
+    // Hover tells the nearest orbit, a click chooses it: somewhere along the middle of the picture.
+    let [x, y, w, h] = tab.place("#branches .plot canvas + canvas");
+    let told =
+        "(() => { const tip = document.querySelector('#branches .tip'); return tip.hidden ? '' : tip.textContent; })()";
+    let mut found = String::new();
+    for step in 0..60 {
+        let place = (x + 0.75 * w, y + h * f64::from(step) / 60.0);
+        tab.hover(place.0, place.1);
+        found = tab.evaluate(told).as_str().unwrap().to_owned();
+        if !found.is_empty() {
+            tab.click(place.0, place.1);
+            break;
+        }
+    }
+    assert!(found.contains("branch ") && found.contains("Frequency (Hz)"), "{found}");
+    let chosen = tab.evaluate(&text("#orbit .facts")).as_str().unwrap().to_owned();
+    let frequency = found.split("(Hz): ").nth(1).unwrap().lines().next().unwrap().to_owned();
+    assert!(chosen.contains(&frequency[..5]), "{found}: {chosen}");
+
+    // The command beside it finds the same orbit.
+    let command = tab.evaluate(&text("#orbit pre")).as_str().unwrap().to_owned();
+    let tool = command.replacen("signorini", env!("CARGO_BIN_EXE_signorini"), 1);
+    let run = Command::new("sh").args(["-c", &tool]).current_dir(dir.path()).output().unwrap();
+    assert!(run.status.success(), "{command}: {}", String::from_utf8_lossy(&run.stderr));
+    let out = command.split("--out ").nth(1).unwrap();
+    let orbit: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(dir.path().join(out).join("orbit.json")).unwrap()).unwrap();
+    let modulus =
+        orbit["multipliers"][0].as_array().unwrap().iter().map(|x| x.as_f64().unwrap().powi(2)).sum::<f64>().sqrt();
+    let shown = chosen.rsplit("largest |multiplier|").next().unwrap().parse::<f64>().unwrap();
+    // The page shows six digits.
+    assert!((modulus - shown).abs() <= 1e-5 * shown, "{modulus} {shown}");
+
+    // Another measure, a zoom and back, the keyboard, the dark theme, a phone, paper.
+    let whole = tab.evaluate(picture);
+    tab.evaluate("(() => { const list = document.querySelector('#branches select'); list.value = 'multiplier'; list.dispatchEvent(new Event('change')); })()");
+    tab.frame();
+    assert_ne!(tab.evaluate(picture), whole);
+    tab.evaluate("(() => { const list = document.querySelector('#branches select'); list.value = 'speed'; list.dispatchEvent(new Event('change')); })()");
+    tab.drag((x + 0.3 * w, y + 0.5 * h), (x + 0.5 * w, y + 0.5 * h));
+    tab.frame();
+    assert_ne!(tab.evaluate(picture), whole);
+    tab.press_button("Whole range");
+    tab.frame();
+    assert_eq!(tab.evaluate(picture), whole);
+    let slider = "document.querySelector('#orbit input[type=range]')";
+    tab.evaluate(&format!("{slider}.value = 3; {slider}.dispatchEvent(new Event('input'))"));
+    assert_ne!(tab.evaluate(&text("#orbit .facts")).as_str().unwrap(), chosen);
+    tab.evaluate(
+        "[...document.querySelectorAll('#orbits th')].find((th) => th.textContent.startsWith('Displacement')).click()",
+    );
+    assert_eq!(tab.evaluate("document.querySelectorAll('#orbits th[aria-sort]').length"), 1);
+    tab.press_button("◐");
+    assert!(tab.pdf() > 30_000);
+    tab.width(390);
+    tab.frame();
+    assert_eq!(tab.evaluate("Math.max(0, document.documentElement.scrollWidth - innerWidth)"), 0);
+    assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), "0");
+    assert_eq!(tab.complaints(), Vec::<String>::new());
+    tab.close();
+
+    // One orbit, with its contacts; and one that no body can follow.
+    let page = results(dir.path(), &[&["orbit"], &soft[..]].concat());
+    let mut tab = opened(&mut browser, &page);
+    assert_eq!(tab.evaluate("document.querySelectorAll('.hero .plot').length"), 1);
+    assert_eq!(tab.evaluate("document.querySelectorAll('.cards .card.good').length"), 3);
+    tab.evaluate("document.querySelector('#motion .plot canvas + canvas').scrollIntoView({ block: 'center' })");
+    let [x, y, w, h] = tab.place("#motion .plot canvas + canvas");
+    tab.hover(x + 0.5 * w, y + 0.5 * h);
+    assert!(tab.evaluate(&text("#motion .tip")).as_str().unwrap().contains("velocity"));
+    tab.evaluate(
+        "[...document.querySelectorAll('#contacts th')].find((th) => th.textContent.startsWith('impulse')).click()",
+    );
+    let impulses =
+        "[...document.querySelectorAll('#contacts tbody tr:not(.space)')].map((tr) => tr.children[4].textContent)";
+    // ∓ m (1 + e) v.
+    assert_eq!(tab.evaluate(impulses), serde_json::json!(["0.304939", "−0.304939"]));
+    tab.width(390);
+    tab.frame();
+    assert_eq!(tab.evaluate("Math.max(0, document.documentElement.scrollWidth - innerWidth)"), 0);
+    assert!(tab.pdf() > 20_000);
+    assert_eq!(tab.complaints(), Vec::<String>::new());
+    tab.close();
+}
+
+/// Basins: the legend has the shares, the pointer tells the attractor, a click the command.
+#[test]
+fn basins_tell_the_attractor_of_each_start() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let vary = ["--vary", "initial.displacement=-4e-3:4e-3:10", "--vary", "initial.velocity=-0.3:0.3:12"];
+    let set = ["--set", "wall.*.restitution=0.8", "--set", "load.1.harmonic.frequency=3.9"];
+    let more = ["--measure", "attractor,period", "--settle", "400", "--keep", "60", "--scheme", "event"];
+    let page = results(dir.path(), &[&["sweep", "rigid-walls-sine"], &vary[..], &set[..], &more[..]].concat());
+    let table = fs::read_to_string(page.with_file_name("attractors.csv")).unwrap();
+    let first: Vec<&str> = table.lines().nth(1).unwrap().split(',').collect();
+    let share = 100.0 * first[2].parse::<f64>().unwrap();
+    assert!(table.lines().count() >= 3 && share > 1.0 && share < 99.0, "{table}");
+    let mut tab = opened(&mut browser, &page);
+    let legend = tab.evaluate("document.querySelector('#sweep .key').textContent");
+    let shown: f64 = legend.as_str().unwrap()[3..].split(' ').next().unwrap().parse().unwrap();
+    // The legend has three digits.
+    assert!((shown - share).abs() <= 5e-3 * share, "{legend} {share}");
+    // The start at the lower left is the first row of the table, and the attractor of the first row
+    // is the first.
+    let [x, y, _, h] = tab.place("#sweep .plot canvas + canvas");
+    tab.hover(x + 76.0, y + h - 50.0);
+    let told = tab.evaluate("document.querySelector('#sweep .tip').textContent");
+    assert!(told.as_str().unwrap().contains("leads to attractor 1: "), "{told}");
+    assert!(told.as_str().unwrap().contains("Displacement (m): −0.004\nVelocity (m/s): −0.3\n"), "{told}");
+    tab.click(x + 76.0, y + h - 50.0);
+    let command = tab.evaluate("document.querySelector('#sweep pre').textContent").as_str().unwrap().to_owned();
+    let words = "signorini run rigid-walls-sine.toml --set initial.displacement=-0.004 --set initial.velocity=-0.3 --scheme event";
+    assert!(command.ends_with(words), "{command}");
+    // With the case of the page the command runs.
+    let case = tab.evaluate("document.querySelector('#text details pre').textContent").as_str().unwrap().to_owned();
+    assert!(case.contains("restitution = 0.8") && case.contains("frequency = 3.9"), "{case}");
+    assert_eq!(
+        tab.evaluate("document.querySelectorAll('#attractors tbody tr:not(.space)').length"),
+        table.lines().count() - 1
+    );
+    tab.press_button("◐");
+    tab.width(390);
+    tab.frame();
+    assert_eq!(tab.evaluate("Math.max(0, document.documentElement.scrollWidth - innerWidth)"), 0);
+    assert!(tab.pdf() > 10_000);
+    assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), "0");
+    assert_eq!(tab.complaints(), Vec::<String>::new());
+    tab.close();
+}
+
 /// A title of markup is text, and a script put into the file afterwards is not run.
 fn injected(browser: &mut Browser, dir: &Path, page: &Path) {
     let html = fs::read_to_string(page).unwrap();

@@ -8,11 +8,10 @@ use crate::orbit::branch::{Graph, Label, Locus, Request, Switch, graph, locus};
 use crate::orbit::{Orbit, Problem};
 use crate::output::asked::{asked, with};
 use crate::output::atomic::write_whole;
-use crate::output::branches::{Drawn, beneath, ended};
-use crate::output::json;
-use crate::output::loci;
+use crate::output::branches::{Drawn, ended};
 use crate::output::periodic::read;
 use crate::output::table::Table;
+use crate::output::{beneath, json, loci, orbits, summary};
 use crate::scene::Scene;
 use serde_json::json;
 use std::path::PathBuf;
@@ -28,8 +27,9 @@ Examples:
 
 The branch starts from the orbit of --from, or from the one on which the case settles, at the case's value of the key.
 Writes branches.csv (every orbit), special.csv (folds, period doublings, broken symmetries, grazings, rests), branches.json,
-and a picture: stable orbits solid, unstable ones dashed. With --second also loci.csv and a picture: where the special points
-of the branches move in the plane of two keys. docs/orbits.md has the method and the labels.";
+a picture (stable orbits solid, unstable ones dashed), and report.html, in which a click on an orbit shows it, drawn from
+orbits.csv. With --second also loci.csv and a picture: where the special points of the branches move in the plane of two keys.
+docs/orbits.md has the method and the labels.";
 
 /// Branches of periodic orbits over a key: special points located, other branches found
 #[derive(Debug, clap::Args)]
@@ -136,17 +136,27 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         }),
     );
     let column = column(&key);
-    let points = args.over.as_deref().map(|path| beneath(path, &column)).transpose()?.unwrap_or_default();
+    let points = args.over.as_deref().map(|path| beneath::read(path, &column)).transpose()?.unwrap_or_default();
     let mut results = args.place.results(&case, "continue", asked)?;
     let start = args.start(&problem, ui)?;
     let found = watched(&scene_at, &start, value, &request, ui)?;
     let drawn = Drawn { graph: &found, column, label: axis(&key), scene: problem.scene() };
     drawn.branches(&results.place("branches.csv")?)?;
     drawn.specials(&results.place("special.csv")?)?;
-    let document = drawn.document();
+    let mut document = drawn.document();
+    // Another value of the key tells which walls it moves.
+    let moved = found.branches.iter().flat_map(|branch| &branch.points).find(|point| point.value != value);
+    let other = moved.map(|point| scene_at(point.value)).transpose()?;
+    document["walls"] = orbits::walls(problem.scene(), other.as_ref().unwrap_or(problem.scene()));
     write_whole(&results.place("branches.json")?, json::text(&document).as_bytes())?;
     let title = case.title.as_deref().unwrap_or(&case.name);
     results.draw("branches", &drawn.picture(&format!("{title}: branches of periodic orbits"), &points))?;
+    if args.over.is_some() {
+        beneath::write(&results.place(beneath::FILE)?, &drawn.column, &points)?;
+    }
+    if !args.place.no_report {
+        orbits::write(&results.place(orbits::FILE)?, &drawn, &scene_at)?;
+    }
     let mut traced = Vec::new();
     if let Some(second) = &second {
         traced = args.loci(&file, &found, (&key, range), second, ui)?;
@@ -155,9 +165,9 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         let labels = [axis(&key), axis(&second.key)];
         results.draw("loci", &loci::picture(&traced, &labels, &format!("{title}: loci of special points")))?;
     }
-    if let Some(replaced) = results.finish()? {
-        ui.message(&replaced);
-    }
+    results.tell("orbit_command", json!(args.changes.command_line("orbit", &args.case)));
+    results.tell("case_file", summary::case_file(&case));
+    super::run::finish(&mut results, "", !args.place.no_report, ui)?;
     if ui.json() {
         ui.document(&document)?;
     } else {
@@ -178,7 +188,6 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
             ))?;
         }
     }
-    ui.message(&format!("results in {}", results.folder().display()));
     Ok(())
 }
 

@@ -9,6 +9,8 @@ use crate::output::asked::{asked, with};
 use crate::output::atomic::write_whole;
 use crate::output::json;
 use crate::output::periodic::{Known, listed, read, shot};
+use crate::output::results::Results;
+use crate::output::summary;
 use crate::output::table::Table;
 use crate::scene::System;
 use serde_json::{Map, Value, json};
@@ -24,8 +26,9 @@ Examples:
 A signature is a list of walls, one for each impact, by name (upper,lower) or, where no two names begin alike, by letter (UL);
 other events are written upper:rest, upper:release, pad:enter, pad:leave. --start has the phase of each event in cycles of the
 forcing period and its speed in m/s. With --symmetric both mean the first half of an orbit that is its own mirror image.
-Writes orbit.json (which --from and `signorini continue` read), orbit.csv (the motion), and pictures of phase plane and time.
-Of a structure the orbit on which its run settles is found by shooting, and orbit.json alone is written.
+Writes orbit.json (which --from and `signorini continue` read), orbit.csv (the motion), contacts.csv, pictures of phase plane
+and time, and report.html, which shows them all. Of a structure the orbit on which its run settles is found by shooting, and
+orbit.json and report.html are written.
 docs/orbits.md has the method.";
 
 /// A periodic orbit: from a run that settles, a signature or a file; multipliers, forces, check
@@ -109,19 +112,17 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     write_whole(&place, json::text(&document).as_bytes())?;
     if !judged.motion.is_empty() {
         known.motion(&results.place("orbit.csv")?)?;
+        known.contacts(&results.place("contacts.csv")?)?;
         let title = format!("{}: {}", case.title.as_deref().unwrap_or(&case.name), headline(&problem, &orbit));
         results.draw("phase", &known.portrait(&title))?;
         results.draw("motion", &known.picture(&title))?;
     }
-    if let Some(replaced) = results.finish()? {
-        ui.message(&replaced);
-    }
+    args.finish(&mut results, &case, ui)?;
     if ui.json() {
         ui.document(&document)?;
     } else {
         report(&known, ui)?;
     }
-    ui.message(&format!("results in {}", results.folder().display()));
     match known.admissible.reason(problem.scene()) {
         Some(reason) => Err(Error::no_orbit(format!("no body can follow what was found: {reason}"))),
         None if !judged.holds() => Err(Error::no_orbit(format!(
@@ -135,6 +136,12 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 }
 
 impl Args {
+    /// Finishes the folder, with the report where one is wanted.
+    fn finish(&self, results: &mut Results, case: &Case, ui: &Ui) -> Result<()> {
+        results.tell("case_file", summary::case_file(case));
+        super::run::finish(results, "", !self.place.no_report, ui)
+    }
+
     /// The orbit from which Newton's method starts; `None` where a run is to settle.
     fn start(&self, problem: &Problem) -> Result<Option<Orbit>> {
         if let Some(path) = &self.from {
@@ -171,9 +178,7 @@ fn structure(args: &Args, case: &Case, request: Map<String, Value>, ui: &Ui) -> 
     let found = found?;
     let document = shot(&found, scene, &case.name, case.truncated.is_some());
     write_whole(&results.place("orbit.json")?, json::text(&document).as_bytes())?;
-    if let Some(replaced) = results.finish()? {
-        ui.message(&replaced);
-    }
+    args.finish(&mut results, case, ui)?;
     if ui.json() {
         return ui.document(&document);
     }
@@ -196,9 +201,7 @@ fn structure(args: &Args, case: &Case, request: Map<String, Value>, ui: &Ui) -> 
         vec![wall.name.clone(), contacts.to_string(), format!("{impulse:.9e}")]
     };
     ui.table(&Table::new(&["wall", "contacts", "impulse (N s)"], rows.map(row).collect()), "orbit.json")?;
-    ui.answer(&format!("free run over one period: comes back within {:.1e} of the gap", found.closure))?;
-    ui.message(&format!("results in {}", results.folder().display()));
-    Ok(())
+    ui.answer(&format!("free run over one period: comes back within {:.1e} of the gap", found.closure))
 }
 
 /// The orbit in a few words.

@@ -15,9 +15,9 @@ Examples:
   signorini report out/rigid-walls-sine/run
   signorini report out/rigid-walls-sine/compare --out comparison.html
 
-run, compare, chart, stability and sweep write report.html beside their results already, unless --no-report is given.")]
+run, compare, chart, stability, sweep, orbit and continue write report.html beside their results already, unless --no-report is given.")]
 pub struct Args {
-    /// Folder of results of run, compare, chart, stability or sweep
+    /// Folder of results of run, compare, chart, stability, sweep, orbit or continue
     #[arg(value_hint = clap::ValueHint::DirPath)]
     folder: PathBuf,
     /// The file to write [default: report.html in that folder]
@@ -49,10 +49,16 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 
 /// The command line of this process as a POSIX shell takes it.
 pub(super) fn command_line() -> String {
-    let quoted = |word: String| {
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_=+.,/:@%".contains(c);
-        if !word.is_empty() && word.chars().all(plain) { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
-    };
-    let words = std::env::args_os().skip(1).map(|word| quoted(word.to_string_lossy().into_owned()));
+    let words = std::env::args_os().skip(1).map(|word| quoted(&word.to_string_lossy()));
     std::iter::once("signorini".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+/// A word as a POSIX shell takes it.
+pub(super) fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=+.,/:@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
 }

@@ -1,7 +1,7 @@
 //! The case of a command, and the changes by the command line.
 
 use super::drawing::Formats;
-use super::report::command_line;
+use super::report::{command_line, quoted};
 use super::ui::Ui;
 use super::values;
 use crate::case::{Case, CaseFile, Embedded, KeyValue};
@@ -72,7 +72,7 @@ pub struct Destination {
     /// Replace the results of another request
     #[arg(long)]
     pub force: bool,
-    /// Write no report.html, nor the shape.csv from which it draws a structure in motion
+    /// Write no report.html, nor the shape.csv or orbits.csv from which it draws motions
     #[arg(long)]
     pub no_report: bool,
     /// What pictures are written as
@@ -162,6 +162,14 @@ impl Changes {
             Ok((key.to_owned(), value.parse()?))
         };
         self.set.iter().map(pair).collect()
+    }
+
+    /// The command line that asks `command` of the case `name` with the values set, without its
+    /// other options.
+    #[must_use]
+    pub fn command_line(&self, command: &str, name: &str) -> String {
+        let sets = self.set.iter().map(|pair| format!(" --set {}", quoted(pair)));
+        format!("signorini {command} {}{}", quoted(name), sets.collect::<String>())
     }
 
     /// The case of that file.

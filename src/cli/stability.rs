@@ -28,6 +28,7 @@ Writes impact-map.csv and .svg (the restitution of one free impact by its phase 
 every map) and one stability-*.svg a scheme: classes over step and restitution, ε or wall stiffness; and lasting-contact.csv,
 what each scheme does at the case's step, at a quarter and at four times of it, to the energy and to the force of the largest
 contact that lasts: its ripple is the deviation of the force from its mean, over that mean (0: constant, 1: on and off).
+report.html shows them all; every cell of a map tells its class and the reason.
 
 Classes, from harmless to worst, against a fine run of the same scene:
   stable           energy kept as the walls' law has it; speeds, contacts and rest as in the reference (right in kind, not exact)

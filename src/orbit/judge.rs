@@ -7,7 +7,7 @@ use super::watch::Watch;
 use crate::error::{Error, Result};
 use crate::scene::State;
 use crate::scheme::{Scheme, Stepper};
-use crate::step::Path;
+use crate::step::{Contact, Path};
 
 /// How near the free run must come back, in gaps, and gaps times the forcing's Ω …
 const CLOSES: f64 = 1e-10;
@@ -54,6 +54,8 @@ pub struct Judged {
     pub same_events: bool,
     /// The walls, in the scene's order.
     pub walls: Vec<WallShare>,
+    /// The contact episodes that ended, in order of time.
+    pub contacts: Vec<Contact>,
     /// The motion, in order of time; both sides of each impact.
     pub motion: Vec<Instant>,
 }
@@ -82,6 +84,7 @@ impl Problem {
                 tolerance: CLOSES,
                 same_events: false,
                 walls,
+                contacts: Vec::new(),
                 motion: Vec::new(),
             });
         }
@@ -95,7 +98,7 @@ impl Problem {
         stepper.set_state(start, &State { q: vec![state[0]], v: vec![state[1]] })?;
         let mut watch = Watch::new(self);
         let mut walls = vec![WallShare::default(); self.stops().len()];
-        let mut motion = Vec::new();
+        let (mut contacts, mut motion) = (Vec::new(), Vec::new());
         let spacing = whole.period() / f64::from(points.max(1));
         let mut closure = f64::INFINITY;
         while closure.is_infinite() {
@@ -119,6 +122,7 @@ impl Problem {
                 share.impulse += jump + arc.contact_impulse(index, arc.start(), until);
             }
             for contact in step.closed.iter().filter(|_| !last) {
+                contacts.push(*contact);
                 if let Some(share) = walls.get_mut(contact.wall) {
                     share.contacts += 1;
                     share.approach_speed = share.approach_speed.max(contact.approach_speed);
@@ -137,6 +141,7 @@ impl Problem {
             tolerance: CLOSES.max(UNITS * f64::EPSILON * largest),
             same_events: self.same_events(&whole, start, &seen),
             walls,
+            contacts,
             motion,
         })
     }

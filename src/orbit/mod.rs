@@ -18,6 +18,7 @@ pub mod branch;
 mod closed;
 mod equations;
 mod extremes;
+mod flights;
 mod floquet;
 mod forcing;
 mod judge;

@@ -2,7 +2,8 @@
 
 use super::csv::{self, digits};
 use super::figure::{Line, Scale, Scatter, Sign};
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::orbit::Orbit;
 use crate::orbit::branch::{End, Graph, Label, Point, Special};
 use crate::scene::Scene;
 use serde_json::{Value, json};
@@ -82,42 +83,51 @@ impl Drawn<'_> {
         row
     }
 
+    /// Every point in the order of `branches.csv`, special points among the others: the numbers of
+    /// branch and point, from 1, the point, and its label, which is empty but for special points.
+    #[must_use]
+    pub fn points(&self) -> Vec<(usize, usize, &Point, &'static str)> {
+        let mut all = Vec::new();
+        for (number, branch) in self.graph.branches.iter().enumerate() {
+            let mut count = 0;
+            let mut add = |point, label| {
+                count += 1;
+                all.push((number + 1, count, point, label));
+            };
+            let own = |special: &&Special| special.branch == number;
+            for (index, point) in branch.points.iter().enumerate() {
+                for special in self.graph.specials.iter().filter(own).filter(|special| special.after == index) {
+                    add(&special.point, special.label.name());
+                }
+                // A branch that ends at a special point has it as its last.
+                if !self.graph.specials.iter().filter(own).any(|special| special.point == *point) {
+                    add(point, "");
+                }
+            }
+            for special in self.graph.specials.iter().filter(own).filter(|s| s.after >= branch.points.len()) {
+                add(&special.point, special.label.name());
+            }
+        }
+        all
+    }
+
     /// Writes one row per point of each branch, in order along it; special points stand among them
     /// with their label.
     ///
     /// # Errors
-    /// [`Error::Io`] where the file cannot be written.
+    /// [`Error::Io`](crate::Error::Io) where the file cannot be written.
     pub fn branches(&self, path: &Path) -> Result<()> {
-        let mut rows = Vec::new();
-        for (number, branch) in self.graph.branches.iter().enumerate() {
-            let mut count = 0;
-            for (index, point) in branch.points.iter().enumerate() {
-                let passed = self.graph.specials.iter().filter(|s| s.branch == number && s.after == index);
-                for special in passed {
-                    count += 1;
-                    let first = vec![(number + 1).to_string(), count.to_string()];
-                    rows.push(self.row(first, &special.point, special.label.name()));
-                }
-                // A branch that ends at a special point has it as its last.
-                if self.graph.specials.iter().any(|s| s.branch == number && s.point == *point) {
-                    continue;
-                }
-                count += 1;
-                rows.push(self.row(vec![(number + 1).to_string(), count.to_string()], point, ""));
-            }
-            for special in self.graph.specials.iter().filter(|s| s.branch == number && s.after >= branch.points.len()) {
-                count += 1;
-                let first = vec![(number + 1).to_string(), count.to_string()];
-                rows.push(self.row(first, &special.point, special.label.name()));
-            }
-        }
-        csv::table(path, &self.header(&["branch", "point"]), rows.into_iter())
+        let rows = self
+            .points()
+            .into_iter()
+            .map(|(branch, number, point, label)| self.row(vec![branch.to_string(), number.to_string()], point, label));
+        csv::table(path, &self.header(&["branch", "point"]), rows)
     }
 
     /// Writes one row per special point, with the branches that it leads to.
     ///
     /// # Errors
-    /// [`Error::Io`] where the file cannot be written.
+    /// [`Error::Io`](crate::Error::Io) where the file cannot be written.
     pub fn specials(&self, path: &Path) -> Result<()> {
         let rows = self.graph.specials.iter().enumerate().map(|(number, special)| {
             let leads = special.leads_to.iter().map(|branch| (branch + 1).to_string()).collect::<Vec<_>>().join(" ");
@@ -139,11 +149,17 @@ impl Drawn<'_> {
             None => json!("special point"),
             Some(end) => json!(ended(end)),
         };
+        let events = |orbit: &Orbit| -> Vec<Value> {
+            let name = |wall: usize| self.scene.walls.get(wall).map(|wall| wall.name.as_str());
+            let events = orbit.signature.events.iter();
+            events.map(|event| json!({ "wall": name(event.wall), "kind": event.kind.name() })).collect()
+        };
         let branches = self.graph.branches.iter().enumerate().map(|(number, branch)| {
             let (first, last) = (branch.points.first(), branch.points.last());
             json!({
                 "branch": number + 1,
                 "signature": first.map(|point| point.orbit.signature.written(self.scene)),
+                "events": first.map(|point| events(&point.orbit)),
                 "periods": first.map(|point| point.orbit.signature.periods),
                 "symmetric": first.map(|point| point.orbit.signature.symmetric),
                 "points": branch.points.len(),
@@ -169,6 +185,7 @@ impl Drawn<'_> {
         };
         json!({
             "key": self.column,
+            "label": self.label,
             "branches": branches.collect::<Vec<_>>(),
             "specials": self.graph.specials.iter().enumerate().map(special).collect::<Vec<_>>(),
         })
@@ -264,54 +281,4 @@ pub fn ended(end: &End) -> String {
         End::Points => "as many points as were asked for".to_owned(),
         End::Stuck(reason) => format!("stuck: {reason}"),
     }
-}
-
-/// Points of a sweep that vary `column`, to be drawn beneath: the approach speeds of the instants
-/// beside the table, else the column of the table that begins with `approach_speed`.
-///
-/// # Errors
-/// [`Error::Io`] for a table that cannot be read; [`Error::Unknown`] for one without the column.
-pub fn beneath(path: &Path, column: &str) -> Result<Vec<(f64, f64)>> {
-    let failed = |path: &Path, error: &::csv::Error| Error::io(path.display(), error.to_string(), true);
-    let open = |path: &Path| ::csv::Reader::from_path(path).map_err(|error| failed(path, &error));
-    let place = |header: &::csv::StringRecord, name: &str| header.iter().position(|own| own == name);
-    let mut table = open(path)?;
-    let header = table.headers().map_err(|error| failed(path, &error))?.clone();
-    let unknown = |name: &str| Error::Unknown {
-        kind: "column of the sweep",
-        name: name.to_owned(),
-        known: header.iter().map(str::to_owned).collect(),
-    };
-    let own = place(&header, column).ok_or_else(|| unknown(column))?;
-    let number =
-        |record: &::csv::StringRecord, index: usize| record.get(index).and_then(|text| text.parse::<f64>().ok());
-    let samples = path.with_file_name("samples.csv");
-    let speed = header.iter().position(|name| name.starts_with("approach_speed"));
-    let mut of_row = std::collections::BTreeMap::new();
-    let mut points = Vec::new();
-    for record in table.records() {
-        let record = record.map_err(|error| failed(path, &error))?;
-        let (Some(row), Some(x)) = (record.get(0).map(str::to_owned), number(&record, own)) else { continue };
-        of_row.insert(row, x);
-        points.extend(speed.and_then(|index| number(&record, index)).map(|y| (x, y)));
-    }
-    if !samples.is_file() {
-        return if speed.is_some() { Ok(points) } else { Err(unknown("approach_speed")) };
-    }
-    points.clear();
-    let mut table = open(&samples)?;
-    let header = table.headers().map_err(|error| failed(&samples, &error))?.clone();
-    let Some(speed) = place(&header, "approach_speed_m_per_s") else {
-        return Err(Error::Unknown {
-            kind: "column of the sweep's instants",
-            name: "approach_speed_m_per_s".to_owned(),
-            known: header.iter().map(str::to_owned).collect(),
-        });
-    };
-    for record in table.records() {
-        let record = record.map_err(|error| failed(&samples, &error))?;
-        let x = record.get(0).and_then(|row| of_row.get(row));
-        points.extend(x.zip(number(&record, speed)).map(|(x, y)| (*x, y)));
-    }
-    Ok(points)
 }

@@ -3,6 +3,7 @@
 
 use super::atomic::WholeFile;
 use crate::error::{Error, Result};
+use crate::step::Contact;
 use crate::trajectory::Trajectory;
 use std::collections::HashSet;
 use std::io::Write;
@@ -54,15 +55,7 @@ pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
 /// # Errors
 /// As [`trajectory`].
 pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
-    let mut header = vec![
-        "wall",
-        "start_s",
-        "end_s",
-        "impulse_N_s",
-        "peak_force_N",
-        "approach_speed_m_per_s",
-        "departure_speed_m_per_s",
-    ];
+    let mut header = CONTACT.to_vec();
     let wears = !trajectory.supports().is_empty();
     if wears {
         header.extend(["angle_deg", "work_J", "sliding_m"]);
@@ -72,15 +65,7 @@ pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
         trajectory.walls().get(index).or_else(hole).cloned().unwrap_or_default()
     };
     let rows = trajectory.contacts().iter().enumerate().map(|(index, c)| {
-        let mut row = vec![
-            name(c.wall),
-            digits(Some(c.start)),
-            digits(c.end),
-            digits(Some(c.impulse)),
-            digits(c.peak_force),
-            digits(Some(c.approach_speed)),
-            digits(c.departure_speed),
-        ];
+        let mut row = contact_cells(name(c.wall), c);
         if wears {
             let wear = trajectory.contact_wear().get(index).copied().flatten();
             row.extend([
@@ -93,6 +78,23 @@ pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
     });
     let header: Vec<String> = header.into_iter().map(str::to_owned).collect();
     table(path, &header, rows)
+}
+
+/// The columns of a contact, whatever the scene.
+pub(super) const CONTACT: [&str; 7] =
+    ["wall", "start_s", "end_s", "impulse_N_s", "peak_force_N", "approach_speed_m_per_s", "departure_speed_m_per_s"];
+
+/// The cells of a contact under [`CONTACT`].
+pub(super) fn contact_cells(wall: String, c: &Contact) -> Vec<String> {
+    vec![
+        wall,
+        digits(Some(c.start)),
+        digits(c.end),
+        digits(Some(c.impulse)),
+        digits(c.peak_force),
+        digits(Some(c.approach_speed)),
+        digits(c.departure_speed),
+    ]
 }
 
 /// Names as parts of column names: `_` for every `-`, so that a column name is an identifier in the

@@ -15,6 +15,8 @@
 //! | [`realisations`] | `realisations.csv`, and its table |
 //! | [`periodic`] | a periodic orbit: its document, motion and pictures |
 //! | [`branches`] | branches of orbits: tables, document and picture |
+//! | [`beneath`] | `beneath.csv`: points of a sweep beneath the branches |
+//! | [`orbits`] | `orbits.csv`: the motion of the orbits along branches, for a drawing |
 //! | [`loci`] | curves of special points over two keys |
 //! | [`table`] | tables for people, as wide as the terminal |
 //! | [`pictures`] | the figures of one or several runs |
@@ -26,6 +28,7 @@
 
 pub mod asked;
 pub mod atomic;
+pub mod beneath;
 pub mod branches;
 pub mod compare;
 pub mod csv;
@@ -39,6 +42,7 @@ mod labelled;
 pub mod loci;
 mod motion;
 mod orbit;
+pub mod orbits;
 pub mod periodic;
 pub mod pictures;
 mod places;

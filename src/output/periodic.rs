@@ -4,7 +4,7 @@ use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
 use crate::error::{Error, Result};
 use crate::orbit::{Admissible, ClosedForm, Event, Floquet, Judged, Kind, Orbit, Problem, Shot, Signature};
-use crate::scene::Scene;
+use crate::scene::{Scene, Side};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -50,9 +50,12 @@ impl Known<'_> {
                 "speed_m_per_s": orbit.speeds.get(index),
             })
         });
-        let walls = judged.walls.iter().enumerate().map(|(wall, share)| {
+        let walls = judged.walls.iter().zip(&scene.walls).map(|(share, wall)| {
             json!({
-                "wall": name(wall),
+                "wall": wall.name,
+                "side": if wall.side == Side::Upper { "upper" } else { "lower" },
+                "position_m": wall.position,
+                "rigid": wall.law.is_rigid(),
                 "contacts": share.contacts,
                 "impulse_n_s": share.impulse,
                 "peak_force_n": share.peak_force,
@@ -99,6 +102,16 @@ impl Known<'_> {
             cells.iter().chain(&at.forces).map(|x| csv::digits(Some(*x))).collect()
         });
         csv::table(path, &header, rows)
+    }
+
+    /// Writes the contact episodes of the free run over one period, as `contacts.csv` of a run.
+    ///
+    /// # Errors
+    /// [`Error::Io`] where the file cannot be written.
+    pub fn contacts(&self, path: &Path) -> Result<()> {
+        let name = |wall: usize| self.problem.scene().walls.get(wall).map_or("", |wall| wall.name.as_str());
+        let rows = self.judged.contacts.iter().map(|c| csv::contact_cells(name(c.wall).to_owned(), c));
+        csv::table(path, &csv::CONTACT.map(str::to_owned), rows)
     }
 
     /// The orbit in the plane of displacement and velocity.

@@ -21,14 +21,14 @@ pub(super) fn cards(summary: &Value) -> Vec<Value> {
 
 /// How a card stands: what was promised is kept, needs attention, or is broken; or was not checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum State {
+pub(super) enum State {
     Good,
     Mind,
     Bad,
     Open,
 }
 
-fn card(title: &str, state: State, verdict: String, text: String) -> Value {
+pub(super) fn card(title: &str, state: State, verdict: String, text: String) -> Value {
     let state = match state {
         State::Good => "good",
         State::Mind => "mind",

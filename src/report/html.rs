@@ -14,7 +14,7 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 20] = [
+const SCRIPT: [&str; 27] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
@@ -33,7 +33,14 @@ const SCRIPT: [&str; 20] = [
     include_str!("page/js/studies.js"),
     include_str!("page/js/map.js"),
     include_str!("page/js/stability.js"),
+    include_str!("page/js/basin.js"),
     include_str!("page/js/sweep.js"),
+    include_str!("page/js/orbit.js"),
+    include_str!("page/js/periodic.js"),
+    include_str!("page/js/chosen.js"),
+    include_str!("page/js/branches.js"),
+    include_str!("page/js/diagram.js"),
+    include_str!("page/js/continuation.js"),
     include_str!("page/js/page.js"),
 ];
 

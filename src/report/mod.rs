@@ -8,13 +8,14 @@
 //! | `motion` | `trajectory.csv`, `contacts.csv` and `shape.csv` of one run |
 //! | `scene` | what is drawn: the structure, its walls and loads |
 //! | `cards` | how far a run is to be trusted, in sentences |
-//! | `run`, `compare`, `chart`, `stability`, `sweep` | the contents of each kind of page |
+//! | `run`, `compare`, `chart`, `stability`, `sweep`, `orbit`, `branches` | the contents of each kind of page |
 //! | `html` | the file itself: escapes, and what it may load (nothing) |
 //! | `page/` | the page's HTML, CSS and JavaScript |
 //!
 //! A report is made from the files of the folder alone, so that `signorini report FOLDER` gives the
 //! bytes that the command which filled the folder gave.
 
+mod branches;
 mod cards;
 mod chart;
 mod column;
@@ -22,6 +23,7 @@ mod compare;
 mod folder;
 mod html;
 mod motion;
+mod orbit;
 mod run;
 mod scene;
 mod stability;
@@ -49,10 +51,12 @@ pub fn page(path: &Path, manifest: &Value) -> Result<String> {
         "chart" => chart::contents(&folder)?,
         "stability" => stability::contents(&folder)?,
         "sweep" => sweep::contents(&folder)?,
+        "orbit" => orbit::contents(&folder)?,
+        "continue" => branches::contents(&folder)?,
         other => {
             let reason = format!(
                 "holds results of {other:?}, which has no report\n\
-                 help: there is one of run, compare, chart, stability and sweep"
+                 help: there is one of run, compare, chart, stability, sweep, orbit and continue"
             );
             return Err(Error::io(path.display(), reason, true));
         }

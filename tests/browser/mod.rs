@@ -177,6 +177,11 @@ impl Tab<'_> {
         self.ask("Input.dispatchMouseEvent", params);
     }
 
+    /// Moves the pointer there.
+    pub fn hover(&mut self, x: f64, y: f64) {
+        self.mouse("mouseMoved", (x, y), false);
+    }
+
     pub fn click(&mut self, x: f64, y: f64) {
         self.drag((x, y), (x, y));
     }

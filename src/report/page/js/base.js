@@ -114,6 +114,10 @@ function lengthUnit(size) {
   return units.find(([, factor]) => size * factor >= 0.05) || units[3];
 }
 
+/** A word as a POSIX shell takes it. */
+const shellWord = (word) =>
+  /^[\w=+.,/:@%-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`;
+
 /** Offers a text as a file. */
 function save(name, text, type) {
   const link = el("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });

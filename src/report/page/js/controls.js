@@ -82,6 +82,21 @@ function sampleOf(look) {
   return canvas;
 }
 
+/** A marker for a legend. */
+function markerSample(kind) {
+  const canvas = el("canvas", { width: 42, height: 42, "aria-hidden": "true" });
+  const draw = () => {
+    const ctx = canvas.getContext("2d");
+    ctx.setTransform(3, 0, 0, 3, 0, 0);
+    ctx.clearRect(0, 0, 14, 14);
+    ctx.fillStyle = ctx.strokeStyle = ink.ink;
+    drawMarker(ctx, kind, 7, 7, 4);
+  };
+  samples.push(draw);
+  draw();
+  return canvas;
+}
+
 /** Chips that switch things on and off: items are { label, look, shown }. */
 function chips(items, changed) {
   const box = el("div", { class: "chips" });

@@ -125,12 +125,15 @@ if (lead && lead.probes.length && duration > 0) {
   firstInstant();
   heroSection();
 }
-if (DATA.facts) factList();
+if (DATA.orbit) orbitHead();
+if (DATA.facts) page.append(factsOf(DATA.facts));
 if (DATA.compare) compareSection();
 if (lead && lead.probes.length) motionSection();
 if (DATA.chart) chartSection();
 if (DATA.stability) stabilitySection();
 if (DATA.sweep) sweepSection();
+if (DATA.continue) branchSection();
+if (DATA.orbit) orbitSections();
 if (lead && lead.probes.length) phaseSection();
 if (lead && runs.some((run) => run.contacts.count)) contactSection();
 if (DATA.kind === "run" && DATA.summary.statistics && DATA.summary.statistics.walls.length)

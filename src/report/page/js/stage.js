@@ -142,7 +142,8 @@ function cardList() {
   return el("div", { class: "cards" }, whose, (DATA.cards || []).map(card));
 }
 
-function factList() {
+/** Numbers under their names. */
+function factsOf(facts) {
   const fact = (f) =>
     el(
       "div",
@@ -150,5 +151,5 @@ function factList() {
       el("dt", {}, f.label),
       el("dd", {}, f.value, f.unit ? el("small", {}, ` ${f.unit}`) : null),
     );
-  page.append(el("dl", { class: "facts" }, DATA.facts.map(fact)));
+  return el("dl", { class: "facts" }, facts.map(fact));
 }

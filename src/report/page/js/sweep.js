@@ -6,19 +6,22 @@ function sweepSection() {
   const { columns } = table;
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
   const axisColumns = axes.map((axis) => axis.column).filter(numeric);
+  const attractors = readAttractors();
   const measures = table.names.filter(
     (name) =>
       !["row", "status", "error", "direction"].includes(name) &&
+      !(attractors && name === "attractor") &&
       !axes.some((axis) => axis.column === name) &&
       numeric(name),
   );
-  const command = el("pre", { hidden: true });
+  const command = el("pre", { class: "command", hidden: true });
   const tell = (i) =>
     [
       ...axes.map(
         (axis) =>
           `${columnLabel(axis.column)}: ${Array.isArray(columns[axis.column]) ? columns[axis.column][i] : digits(columns[axis.column][i], 6)}`,
       ),
+      attractors && columns.attractor ? attractorText(attractors, columns.attractor[i]) : null,
       ...measures.slice(0, 14).map((name) => `${columnLabel(name)}: ${digits(columns[name][i])}`),
       columns.status && columns.status[i] !== "ok"
         ? `${columns.status[i]}: ${columns.error[i] || ""}`
@@ -26,20 +29,27 @@ function sweepSection() {
     ]
       .filter((line) => line)
       .join("\n");
-  /** The command that runs this row alone. */
+  /**
+   * The command that runs this row alone, on the case as the sweep has it: the name of a built-in
+   * case would stand for that case without what the sweep has set.
+   */
   const pick = (i) => {
     const set = axes.flatMap((axis) =>
       axis.keys.map(({ key, factor }) => {
         const value = columns[axis.column][i];
-        return `--set '${key}=${typeof value === "number" ? value * factor : value}'`;
+        return `--set ${shellWord(`${key}=${typeof value === "number" ? value * factor : value}`)}`;
       }),
     );
-    command.textContent = `signorini run ${DATA.name} ${set.join(" ")}${scheme ? ` --scheme '${scheme}'` : ""}`;
+    const by = scheme ? ` --scheme ${shellWord(scheme)}` : "";
+    const file = shellWord(`${DATA.name}.toml`);
+    command.textContent = `# ${DATA.name}.toml is what "Save the case" below gives\nsignorini run ${file} ${set.join(" ")}${by}`;
     command.hidden = false;
   };
   const content = [];
   if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns, pick));
-  if (measures.length && axisColumns.length) {
+  const basins = attractors && numeric("attractor") && axisColumns.length > 1;
+  if (basins) content.push(basinMap(columns, axisColumns, attractors, tell, pick));
+  if (measures.length && axisColumns.length && !basins) {
     content.push(
       axisColumns.length > 1
         ? measureMap(columns, axisColumns, measures, tell, pick)
@@ -60,6 +70,7 @@ function sweepSection() {
     ...content,
     command,
   );
+  if (attractors) attractorSection(attractors);
   section(
     "rows",
     "Rows",

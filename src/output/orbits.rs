@@ -1,0 +1,70 @@
+//! `orbits.csv`: the motion of the orbits along branches, for a drawing.
+
+use super::atomic::WholeFile;
+use super::branches::Drawn;
+use crate::error::{Error, Result};
+use crate::orbit::Problem;
+use crate::orbit::branch::Family;
+use crate::scene::{Scene, Side, Wall};
+use serde_json::{Value, json};
+use std::io::Write;
+use std::path::Path;
+
+/// The file beside the branches.
+pub const FILE: &str = "orbits.csv";
+
+/// About so many instants are written, some megabytes; of more orbits than they suffice for, every
+/// second, third and so on.
+const MOST_INSTANTS: usize = 60_000;
+
+/// Instants of one forcing period and of one event, about.
+const OF_PERIOD: usize = 24;
+const OF_EVENT: usize = 2;
+
+/// Writes the motion of the orbits of `drawn`, of the scenes of `family`, one row per instant with
+/// six digits: a drawing shows no more. Branch and point are numbered as in `branches.csv`. Special
+/// points are all there; of the others every second, third and so on where they are many.
+///
+/// # Errors
+/// Those of `family`; [`Error::Io`] where the file cannot be written, which is whole or not at all.
+pub fn write(path: &Path, drawn: &Drawn<'_>, family: &Family<'_>) -> Result<()> {
+    let failed = |error: std::io::Error| Error::io(path.display(), error.to_string(), false).caused_by(error);
+    let points = drawn.points();
+    let instants: usize = points
+        .iter()
+        .map(|(_, _, point, _)| {
+            let signature = &point.orbit.signature;
+            OF_PERIOD * signature.periods as usize + OF_EVENT * signature.events.len()
+        })
+        .sum();
+    let every = instants.div_ceil(MOST_INSTANTS).max(1);
+    let mut file = WholeFile::create(path)?;
+    writeln!(file, "branch,point,phase_cycles,displacement_m,velocity_m_per_s").map_err(failed)?;
+    for (branch, number, point, label) in points {
+        if label.is_empty() && !number.is_multiple_of(every) {
+            continue;
+        }
+        let problem = Problem::new(family(point.value)?)?;
+        for at in problem.flights(&point.orbit)? {
+            let phase = at.time / problem.forcing_period();
+            writeln!(file, "{branch},{number},{phase:.6},{:.5e},{:.5e}", at.displacement, at.velocity)
+                .map_err(failed)?;
+        }
+    }
+    file.finish()
+}
+
+/// Name, side and place (m) of each wall of `scene`; without a place where `other`, the scene at
+/// another value of the key, has the wall elsewhere.
+#[must_use]
+pub fn walls(scene: &Scene, other: &Scene) -> Value {
+    let wall = |(wall, other): (&Wall, &Wall)| {
+        json!({
+            "name": wall.name,
+            "side": if wall.side == Side::Upper { "upper" } else { "lower" },
+            "position_m": (wall.position == other.position).then_some(wall.position),
+            "rigid": wall.law.is_rigid(),
+        })
+    };
+    scene.walls.iter().zip(&other.walls).map(wall).collect()
+}

@@ -1,0 +1,154 @@
+//! The page of one periodic orbit.
+
+use super::cards::{State, card, short};
+use super::column;
+use super::folder::{Folder, Numbers};
+use super::run::case_text;
+use crate::error::Result;
+use serde_json::{Value, json};
+
+/// Most walls whose impulses are among the facts; a table has all.
+const MOST_WALLS: usize = 4;
+
+/// What the page of an orbit shows; of a structure's the multipliers and the walls, since nothing of
+/// its motion is written.
+pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
+    let document = folder.json("orbit.json")?;
+    let mut orbit = json!({
+        "forcing": document["forcing_period_s"],
+        "periods": document["periods"],
+        "events": document["events"],
+        "multipliers": document["multipliers"],
+        "half": document["half_map_multipliers"],
+        "walls": document["walls"],
+        "state": {
+            "coordinates": document["coordinates"],
+            "time": document["time_s"],
+            "q": document["displacement_m"],
+            "v": document["velocity_m_per_s"],
+        },
+    });
+    if folder.has("orbit.csv") {
+        orbit["motion"] = motion(&folder.numbers("orbit.csv")?, document["walls"].as_array().map_or(0, Vec::len))?;
+        let contacts = folder.cells("contacts.csv")?;
+        for name in ["start_s", "impulse_N_s", "approach_speed_m_per_s", "departure_speed_m_per_s", "peak_force_N"] {
+            contacts.column(name)?;
+        }
+        orbit["contacts"] = contacts.for_page(None);
+    }
+    Ok(json!({
+        "subtitle": format!("periodic orbit: {}", headline(&document)),
+        "orbit": orbit,
+        "facts": facts(&document),
+        "cards": cards(&document),
+        "case": case_text(&folder.manifest["case_file"]),
+        "summary": document,
+    }))
+}
+
+/// The motion: phase, displacement, velocity, and the force of each wall that pushes for a while.
+fn motion(table: &Numbers, walls: usize) -> Result<Value> {
+    let wrong = || {
+        let expected = "time_s, phase_cycles, displacement_m, velocity_m_per_s and the force of each";
+        table.wrong(format!("has {} columns; expected {expected} of {walls} walls", table.columns.len()))
+    };
+    let [_, phase, q, v, forces @ ..] = &table.columns[..] else { return Err(wrong()) };
+    if forces.len() != walls {
+        return Err(wrong());
+    }
+    let lasting = forces.iter().enumerate().filter(|(_, force)| force.iter().any(|f| *f != 0.0));
+    let force =
+        |(wall, force): (usize, &Vec<f64>)| json!({ "wall": wall, "force": column::f32(force.iter().copied()) });
+    Ok(json!({
+        "phase": column::f64(phase),
+        "q": column::f32(q.iter().copied()),
+        "v": column::f32(v.iter().copied()),
+        "forces": lasting.map(force).collect::<Vec<_>>(),
+    }))
+}
+
+/// The orbit in a few words.
+fn headline(document: &Value) -> String {
+    let periods = match document["periods"].as_u64() {
+        Some(1) => "one forcing period".to_owned(),
+        Some(n) => format!("{n} forcing periods"),
+        None => String::new(),
+    };
+    match document["signature"].as_str() {
+        Some("") => format!("touches no wall, {periods}"),
+        Some(written) if document["symmetric"] == true => format!("{written} and its mirror image, {periods}"),
+        Some(written) => format!("{written}, {periods}"),
+        None => periods,
+    }
+}
+
+fn moduli(list: &Value) -> Vec<f64> {
+    let modulus = |pair: &Value| pair[0].as_f64().zip(pair[1].as_f64()).map(|(re, im)| re.hypot(im));
+    list.as_array().into_iter().flatten().filter_map(modulus).collect()
+}
+
+/// The numbers that are asked for first.
+fn facts(document: &Value) -> Value {
+    let fact = |label: &str, value: String, unit: &str| json!({ "label": label, "value": value, "unit": unit });
+    let mut facts = Vec::new();
+    let number = |key: &str| document[key].as_f64();
+    if let (Some(forcing), Some(periods)) = (number("forcing_period_s"), number("periods")) {
+        facts.push(fact("period", format!("{:.9}", forcing * periods), "s"));
+    }
+    let largest = moduli(&document["multipliers"]).into_iter().reduce(f64::max);
+    facts.extend(largest.map(|modulus| fact("largest |multiplier|", short(modulus), "")));
+    facts.extend(number("displacement_max_m").map(|q| fact("largest |displacement|", short(1e3 * q), "mm")));
+    facts.extend(number("least_gap_m").map(|gap| fact("least gap to a wall not met", short(1e3 * gap), "mm")));
+    let walls = document["walls"].as_array().map_or(&[][..], Vec::as_slice);
+    for wall in walls.iter().filter(|_| walls.len() <= MOST_WALLS) {
+        let name = wall["wall"].as_str().unwrap_or_default();
+        facts.extend(wall["impulse_n_s"].as_f64().map(|p| fact(&format!("impulse, {name}"), short(p), "N s")));
+        let peak = wall["peak_force_n"].as_f64().filter(|peak| *peak > 0.0);
+        facts.extend(peak.map(|peak| fact(&format!("largest lasting force, {name}"), short(peak), "N")));
+    }
+    json!(facts)
+}
+
+/// What the program found of the orbit: is it one, can a body follow it, do runs settle on it.
+fn cards(document: &Value) -> Vec<Value> {
+    let mut cards = Vec::new();
+    let stable = document["stable"] == true;
+    let largest = moduli(&document["multipliers"]).into_iter().fold(0.0, f64::max);
+    cards.push(card(
+        "Stability",
+        if stable { State::Good } else { State::Mind },
+        if stable { "Stable: runs settle on it" } else { "Unstable: runs leave it" }.to_owned(),
+        format!("The largest multiplier has the modulus {}; below 1 a small change dies out.", short(largest)),
+    ));
+    if document["admissible"].is_boolean() {
+        let reason = document["not_admissible_because"].as_str();
+        cards.push(match reason {
+            None => card(
+                "Admissible",
+                State::Good,
+                "A body can follow it".to_owned(),
+                "It passes no wall between its events, and walls only push.".to_owned(),
+            ),
+            Some(reason) => card("Admissible", State::Bad, "No body can follow it".to_owned(), format!("{reason}.")),
+        });
+    }
+    let judge = &document["judge"];
+    let closure = judge["closure"].as_f64().or(document["closure"].as_f64());
+    let same = judge["same_events"].as_bool().unwrap_or(true);
+    cards.push(match (closure, judge["tolerance"].as_f64()) {
+        (None, _) => card("Free run", State::Open, "Not run".to_owned(), String::new()),
+        (Some(closure), tolerance) => {
+            let back = format!("It ends within {} of the gap from where it began", short(closure));
+            let text = tolerance.map_or(format!("{back}."), |most| format!("{back}; rounding allows {}.", short(most)));
+            let holds = same && tolerance.is_none_or(|most| closure <= most);
+            match (holds, same) {
+                (true, _) => card("Free run", State::Good, "The free run over one period comes back".to_owned(), text),
+                (false, true) => card("Free run", State::Bad, "The free run does not come back".to_owned(), text),
+                (false, false) => {
+                    card("Free run", State::Bad, "The free run goes through other events".to_owned(), text)
+                }
+            }
+        }
+    });
+    cards
+}

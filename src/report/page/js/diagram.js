@@ -1,0 +1,170 @@
+// The picture of branches over the key.
+
+/** The picture of `points`; `choice` has the measure and the row chosen, select(row) chooses one. */
+function branchPlot(points, choice, select) {
+  const measures = branchMeasures(points);
+  const specials = [];
+  for (let i = 0; i < points.count; i++) if (points.label(i)) specials.push(i);
+  const beneath = DATA.continue.beneath && {
+    x: decode(DATA.continue.beneath.x),
+    y: decode(DATA.continue.beneath.y),
+  };
+  choice.measure = measures[0];
+  let curves = { lines: [], all: [] };
+  /** Where the marker of a special point stands: a graze on the axis, else the fastest impact. */
+  const heightOf = (i) => {
+    const values = choice.measure.of(i).filter(Number.isFinite);
+    if (choice.measure.name !== "speed") return values[0];
+    return points.label(i).startsWith("grazing") ? 0 : Math.max(...values);
+  };
+  const drawBeneath = (ctx, plot) => {
+    if (!beneath || choice.measure.name !== "speed") return;
+    ctx.fillStyle = clear(ink.faint, 0.75);
+    for (let k = 0; k < beneath.x.length; k++)
+      ctx.fillRect(plot.sx(beneath.x[k]) - 1, plot.sy(beneath.y[k]) - 1, 2, 2);
+  };
+  const drawLines = (ctx, plot) => {
+    for (const run of curves.lines) {
+      const look = BRANCH_LOOKS[run.state];
+      ctx.strokeStyle = look.colour();
+      ctx.lineWidth = look.width;
+      ctx.setLineDash(look.dash);
+      ctx.beginPath();
+      for (let k = 0; k < run.x.length; k++) {
+        const y = clamp(plot.sy(run.y[k]), -1e4, 1e4);
+        if (k) ctx.lineTo(plot.sx(run.x[k]), y);
+        else ctx.moveTo(plot.sx(run.x[k]), y);
+      }
+      ctx.stroke();
+    }
+    ctx.setLineDash([]);
+  };
+  const drawSpecials = (ctx, plot) => {
+    const taken = [];
+    ctx.font = font(0.92);
+    for (const i of specials) {
+      const [x, y] = [plot.sx(points.value[i]), plot.sy(heightOf(i))];
+      if (!(x >= plot.x0 - 5 && x <= plot.x1 + 5 && Number.isFinite(y))) continue;
+      ctx.fillStyle = ctx.strokeStyle = ink.ink;
+      drawMarker(ctx, specialMarker(points.label(i)), x, y, 4.2);
+      taken.push([x - 6, y, 12]);
+    }
+    for (const i of specials) {
+      const [x, y] = [plot.sx(points.value[i]), plot.sy(heightOf(i))];
+      if (!(x >= plot.x0 && x <= plot.x1 && y >= plot.y0 - 9 && y <= plot.y1 + 9)) continue;
+      const width = ctx.measureText(points.label(i)).width + 8;
+      // Above, below, or beside; where nothing is free the marker alone tells.
+      const places = [
+        [x - width / 2, y - 16],
+        [x - width / 2, y + 16],
+        [x + 10, y],
+        [x - 10 - width, y],
+        [x - width / 2, y - 32],
+      ];
+      const free = places.find(([left, middle]) => {
+        const inside =
+          left >= plot.x0 &&
+          left + width <= plot.x1 &&
+          middle > plot.y0 + 8 &&
+          middle < plot.y1 - 8;
+        return (
+          inside &&
+          !taken.some(([a, b, w]) => left < a + w && a < left + width && Math.abs(b - middle) < 14)
+        );
+      });
+      if (!free) continue;
+      taken.push([...free, width]);
+      drawLabel(ctx, points.label(i), free[0] + 4, free[1]);
+    }
+  };
+  const own = (draw) => ({ kind: "own", look: lookOf(0), x: [], y: [], draw });
+  const plot = new Plot({
+    x: DATA.continue.label,
+    y: " ",
+    height: 500,
+    alt: "Branches of periodic orbits",
+    view: new View(
+      ...padded(extent([...points.value, ...(beneath ? beneath.x : [])]) || [0, 1], 0.02),
+    ),
+    series: [own(drawBeneath), own(drawLines), own(drawSpecials)],
+  });
+  plot.range = () => {
+    const [lo, hi] = plot.X;
+    const seen = curves.all.filter(({ x }) => x >= lo && x <= hi).map(({ y }) => y);
+    if (beneath && choice.measure.name === "speed")
+      for (let k = 0; k < beneath.x.length; k++)
+        if (beneath.x[k] >= lo && beneath.x[k] <= hi) seen.push(beneath.y[k]);
+    const span = extent(choice.measure.log ? seen.filter((y) => y > 0) : seen) || [0, 1];
+    // Towards a graze a multiplier grows without bound.
+    if (choice.measure.log) return [clamp(span[0], 1e-4, 0.5) / 1.5, clamp(span[1], 2, 1e3) * 1.5];
+    const [least, most] = padded(span, 0.06);
+    return choice.measure.floor === undefined
+      ? [least, most]
+      : [Math.min(-0.03 * most, least), most];
+  };
+  tellNearest(
+    plot,
+    () => curves.all,
+    ({ i, y }) =>
+      [
+        `branch ${points.columns.branch[i]}, point ${points.columns.point[i]}${points.label(i) ? `: ${points.label(i)}` : ""}`,
+        `${columnLabel(DATA.continue.key)}: ${digits(points.value[i], 7)}`,
+        `${choice.measure.text}: ${digits(y)}`,
+        `${points.columns.signature[i] || "no contact"}, ${points.state(i)}`,
+      ].join("\n"),
+  );
+  const ring = plot.over;
+  plot.over = (ctx) => {
+    ring(ctx);
+    if (choice.row === null) return;
+    for (const y of choice.measure.of(choice.row)) {
+      ctx.strokeStyle = ink.ink;
+      ctx.lineWidth = 2;
+      ctx.beginPath();
+      ctx.arc(plot.sx(points.value[choice.row]), plot.sy(y), 6.5, 0, TURN);
+      ctx.stroke();
+    }
+  };
+  plot.click = () => plot.found && select(plot.found.i);
+  const fill = () => {
+    curves = branchCurves(points, choice.measure);
+    plot.y = choice.measure.text;
+    plot.log = [false, Boolean(choice.measure.log)];
+    plot.marks = choice.measure.log ? [{ y: 1, dash: [2, 3], label: "stable below 1" }] : [];
+    plot.dirty = true;
+    refresh();
+  };
+  fill();
+  const pick = selection(
+    "Measure",
+    measures.map(({ name, text }) => [name, text]),
+    choice.measure.name,
+    (name) => {
+      choice.measure = measures.find((measure) => measure.name === name);
+      fill();
+    },
+  );
+  const used = new Set(curves.lines.map((run) => run.state));
+  const labels = [...new Set(specials.map(points.label))];
+  const keys = el(
+    "div",
+    { class: "bar" },
+    Object.keys(BRANCH_LOOKS)
+      .filter((state) => used.has(state))
+      .map((state) => el("span", { class: "key" }, sampleOf(BRANCH_LOOKS[state]), state)),
+    labels.map((label) => el("span", { class: "key" }, markerSample(specialMarker(label)), label)),
+    beneath ? swatch("runs of a sweep", () => ink.faint) : null,
+  );
+  const bar = el(
+    "div",
+    { class: "bar controls" },
+    pick,
+    button("The whole range", () => plot.view.set(...plot.view.full), "Whole range"),
+    el(
+      "span",
+      { class: "right help" },
+      "drag to zoom · double click for all · click an orbit to see it",
+    ),
+  );
+  return { plot, box: el("div", {}, bar, plot.box, keys) };
+}
