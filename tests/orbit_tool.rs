@@ -106,6 +106,9 @@ fn branches_are_written_and_joined() {
     for words in ["fold", "symmetry-breaking", "grazing-out", "14.610019877", "4.570839133", "4.210773813"] {
         assert!(out.contains(words), "{words}: {out}");
     }
+    // The points beneath are the impacts of the sweep's rows.
+    let lines = |file: &str| fs::read_to_string(path.join(file)).unwrap().lines().count();
+    assert!(lines("b/beneath.csv") > 100 && lines("b/beneath.csv") == lines("s/samples.csv"));
     let graph = json(&path.join("b/branches.json"));
     assert!(graph["branches"].as_array().unwrap().len() >= 3);
     let leads = |label: &str| {

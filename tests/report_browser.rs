@@ -285,6 +285,33 @@ fn branches_show_the_orbit_that_is_clicked() {
     tab.close();
 }
 
+/// An orbit through a wall is told as such, and has nothing that could be drawn but its multipliers.
+#[test]
+fn an_orbit_that_no_body_can_follow_has_a_page_that_says_so() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let tool = |args: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(dir.path()).output().unwrap()
+    };
+    let soft = ["orbit", "rigid-walls-sine", "--set", "wall.*.restitution=0.8"];
+    let listed: serde_json::Value =
+        serde_json::from_slice(&tool(&[&soft[..], &["--json", "--list"]].concat()).stdout).unwrap();
+    let through = listed["orbits"].as_array().unwrap().iter().find(|orbit| orbit["admissible"] == false).unwrap();
+    let start = format!("{},{}", through["phase_cycles"], through["speed_m_per_s"]);
+    let (wall, periods) = (through["wall"].as_str().unwrap(), through["periods"].to_string());
+    let mut args = [&soft[..], &["--signature", wall, "--start", &start, "--periods", &periods, "--out", "o"]].concat();
+    if through["symmetric"] == true {
+        args.push("--symmetric");
+    }
+    assert_eq!(tool(&args).status.code(), Some(1));
+    let mut tab = opened(&mut browser, &dir.path().join("o/report.html"));
+    let bad = tab.evaluate("document.querySelector('.card.bad .verdict').textContent");
+    assert_eq!(bad, "✗ No body can follow it");
+    assert_eq!(tab.evaluate("document.querySelectorAll('#motion, #contacts').length"), 0);
+    assert_eq!(tab.evaluate("document.querySelectorAll('.hero .plot').length"), 1);
+    tab.close();
+}
+
 /// Basins: the legend has the shares, the pointer tells the attractor, a click the command.
 #[test]
 fn basins_tell_the_attractor_of_each_start() {

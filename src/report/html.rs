@@ -14,7 +14,7 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 27] = [
+const SCRIPT: [&str; 28] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
@@ -26,6 +26,7 @@ const SCRIPT: [&str; 27] = [
     include_str!("page/js/table.js"),
     include_str!("page/js/stage.js"),
     include_str!("page/js/body.js"),
+    include_str!("page/js/stations.js"),
     include_str!("page/js/structure.js"),
     include_str!("page/js/panels.js"),
     include_str!("page/js/phase.js"),

@@ -139,8 +139,11 @@ function chosenOrbit(points, choice) {
         { label: "branch, point", value: `${number}, ${columns.point[i]}` },
         {
           label: "signature",
-          value:
-            (columns.signature[i] || "no contact") + (columns.symmetric[i] ? " and mirror" : ""),
+          value: signatureText(
+            columns.signature[i],
+            columns.symmetric[i],
+            points.branchAt(i).events.length,
+          ),
         },
         {
           label: "period",

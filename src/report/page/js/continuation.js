@@ -22,7 +22,7 @@ function branchSection() {
     Array.from(points.value, (_, i) => i).filter((i) => points.columns.branch[i] === number);
   const branches = DATA.continue.branches.map((branch) => ({
     ...branch,
-    signature: (branch.signature || "no contact") + (branch.symmetric ? " and mirror" : ""),
+    signature: signatureText(branch.signature, branch.symmetric, branch.events.length),
     begins:
       branch.found_at_special && branch.begins === "special point"
         ? `special ${branch.found_at_special}`

@@ -110,7 +110,7 @@ function branchPlot(points, choice, select) {
         `branch ${points.columns.branch[i]}, point ${points.columns.point[i]}${points.label(i) ? `: ${points.label(i)}` : ""}`,
         `${columnLabel(DATA.continue.key)}: ${digits(points.value[i], 7)}`,
         `${choice.measure.text}: ${digits(y)}`,
-        `${points.columns.signature[i] || "no contact"}, ${points.state(i)}`,
+        `${signatureText(points.columns.signature[i], points.columns.symmetric[i], points.branchAt(i).events.length)}, ${points.state(i)}`,
       ].join("\n"),
   );
   const ring = plot.over;

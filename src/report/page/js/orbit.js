@@ -20,6 +20,17 @@ function multipliersText(list) {
   return list.map((m) => complexText(m)).join(", ");
 }
 
+/** Letters of a signature that are shown. */
+const SIGNATURE = 40;
+
+/** A signature in words; of a long one its beginning. */
+function signatureText(signature, symmetric, events) {
+  if (!signature) return "no contact";
+  const cut = signature.length > SIGNATURE;
+  const text = cut ? `${signature.slice(0, SIGNATURE)}… (${events} events)` : signature;
+  return text + (symmetric ? " and mirror" : "");
+}
+
 const largestModulus = (list) =>
   list.reduce((most, [re, im]) => Math.max(most, Math.hypot(re, im)), 0);
 
