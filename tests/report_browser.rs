@@ -307,7 +307,7 @@ fn an_orbit_that_no_body_can_follow_has_a_page_that_says_so() {
     let mut tab = opened(&mut browser, &dir.path().join("o/report.html"));
     let bad = tab.evaluate("document.querySelector('.card.bad .verdict').textContent");
     assert_eq!(bad, "✗ No body can follow it");
-    assert_eq!(tab.evaluate("document.querySelectorAll('#motion, #contacts').length"), 0);
+    assert_eq!(tab.evaluate("document.querySelectorAll('#motion, #contacts, #walls, .card.good').length"), 0);
     assert_eq!(tab.evaluate("document.querySelectorAll('.hero .plot').length"), 1);
     tab.close();
 }

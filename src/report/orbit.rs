@@ -21,6 +21,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "multipliers": document["multipliers"],
         "half": document["half_map_multipliers"],
         "walls": document["walls"],
+        "run": was_run(&document),
         "state": {
             "coordinates": document["coordinates"],
             "time": document["time_s"],
@@ -87,6 +88,11 @@ fn moduli(list: &Value) -> Vec<f64> {
     list.as_array().into_iter().flatten().filter_map(modulus).collect()
 }
 
+/// True if the orbit was run once around: what no body can follow is not, and has no impulses.
+fn was_run(document: &Value) -> bool {
+    document["judge"]["closure"].is_number() || document["closure"].is_number()
+}
+
 /// The numbers that are asked for first.
 fn facts(document: &Value) -> Value {
     let fact = |label: &str, value: String, unit: &str| json!({ "label": label, "value": value, "unit": unit });
@@ -100,7 +106,7 @@ fn facts(document: &Value) -> Value {
     facts.extend(number("displacement_max_m").map(|q| fact("largest |displacement|", short(1e3 * q), "mm")));
     facts.extend(number("least_gap_m").map(|gap| fact("least gap to a wall not met", short(1e3 * gap), "mm")));
     let walls = document["walls"].as_array().map_or(&[][..], Vec::as_slice);
-    for wall in walls.iter().filter(|_| walls.len() <= MOST_WALLS) {
+    for wall in walls.iter().filter(|_| walls.len() <= MOST_WALLS && was_run(document)) {
         let name = wall["wall"].as_str().unwrap_or_default();
         facts.extend(wall["impulse_n_s"].as_f64().map(|p| fact(&format!("impulse, {name}"), short(p), "N s")));
         let peak = wall["peak_force_n"].as_f64().filter(|peak| *peak > 0.0);
@@ -114,12 +120,14 @@ fn cards(document: &Value) -> Vec<Value> {
     let mut cards = Vec::new();
     let stable = document["stable"] == true;
     let largest = moduli(&document["multipliers"]).into_iter().fold(0.0, f64::max);
-    cards.push(card(
-        "Stability",
-        if stable { State::Good } else { State::Mind },
-        if stable { "Stable: runs settle on it" } else { "Unstable: runs leave it" }.to_owned(),
-        format!("The largest multiplier has the modulus {}; below 1 a small change dies out.", short(largest)),
-    ));
+    // Of an orbit that no body can follow the multipliers tell nothing of runs.
+    let (state, verdict) = match (document["admissible"] == false, stable) {
+        (true, _) => (State::Open, "As a solution of the equations only"),
+        (false, true) => (State::Good, "Stable: runs settle on it"),
+        (false, false) => (State::Mind, "Unstable: runs leave it"),
+    };
+    let text = format!("The largest multiplier has the modulus {}; below 1 a small change dies out.", short(largest));
+    cards.push(card("Stability", state, verdict.to_owned(), text));
     if document["admissible"].is_boolean() {
         let reason = document["not_admissible_because"].as_str();
         cards.push(match reason {
@@ -129,7 +137,10 @@ fn cards(document: &Value) -> Vec<Value> {
                 "A body can follow it".to_owned(),
                 "It passes no wall between its events, and walls only push.".to_owned(),
             ),
-            Some(reason) => card("Admissible", State::Bad, "No body can follow it".to_owned(), format!("{reason}.")),
+            Some(reason) => {
+                let text = format!("Reason: {reason}.");
+                card("Admissible", State::Bad, "No body can follow it".to_owned(), text)
+            }
         });
     }
     let judge = &document["judge"];

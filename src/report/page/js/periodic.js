@@ -76,7 +76,7 @@ function orbitSections() {
         })),
       }),
     );
-  if (!plots) wallTable();
+  if (!plots && DATA.orbit.run) wallTable();
   const rows = DATA.orbit.multipliers.map((multiplier, i) => ({ multiplier, i }));
   const half = DATA.orbit.half || [];
   const modulus = ([re, im]) => Math.hypot(re, im);
