@@ -108,7 +108,7 @@ mod tests {
             damping: crate::linear::Symmetric::from_entries(2, []),
             stiffness: crate::linear::Symmetric::from_entries(2, []),
         };
-        let mut scene = Scene::structure(structure).with_initial(&[0.2e-3, 0.0], &[0.1, 0.07]).with_duration(0.2);
+        let mut scene = Scene::structure(structure).with_initial(&[0.5e-3, -0.3e-3], &[0.1, 0.07]).with_duration(0.2);
         let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
         scene.probes = ["s-y", "s-z"]
             .into_iter()
