@@ -105,7 +105,7 @@ impl Source<'_> {
                 Some(near) => format!("; did you mean `{near}`?"),
                 None => String::new(),
             };
-            let known = elsewhere(&dotted(&key)).unwrap_or(&known);
+            let known = elsewhere(&dotted(&key)).unwrap_or(known);
             return self.error(span, &format!("unknown key `{key}` in {place}{meant}"), &format!("expected {known}"));
         }
         if let Some((found, wanted)) = message.strip_prefix("invalid type: ").and_then(|m| m.split_once(", expected "))

@@ -11,7 +11,7 @@ use std::path::Path;
 /// Name of the file.
 pub const FILE: &str = "realisations.csv";
 
-/// Most rows of the table in the terminal, and lines on half the step.
+/// Most rows of the table in the terminal, and places of which half the step is told.
 const MOST_ROWS: usize = 24;
 const MOST_LINES: usize = 4;
 
@@ -110,8 +110,9 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
     if scene.supports.iter().any(|support| support.friction == 0.0) {
         remarks.push("work rates without friction are upper figures".to_owned());
     }
-    for place in shown(study, scene, MOST_LINES) {
-        let Some(one) = find(study, place, Measure::MeanForce) else { continue };
+    let measures = [Measure::MeanForce, Measure::WorkRate];
+    let shown = shown(study, scene, MOST_LINES);
+    for one in shown.iter().flat_map(|place| measures.map(|measure| find(study, place, measure))).flatten() {
         let Some(StepChange { change, half_width_95, larger, .. }) = one.half_step else { continue };
         let mean = with_interval(one.mean, one.half_width_95);
         let verdict = match larger {
@@ -120,7 +121,8 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
             None => "",
         };
         let change = with_interval(change, half_width_95);
-        remarks.push(format!("{}: mean force {mean} N; half the step changes it by {change} N{verdict}", place.name));
+        let (place, what, unit) = (&one.place.name, one.measure.words(), one.unit);
+        remarks.push(format!("{place}: {what} {mean} {unit}; half the step changes it by {change} {unit}{verdict}"));
     }
     remarks
 }
