@@ -76,8 +76,8 @@ fn a_released_mass_swings_and_stops_as_coulomb_says() {
     };
     let [coarse, fine] = [2000, 8000].map(errors);
     // Turning points and rest are of order 2. In the step in which the velocity turns, friction has
-    // one sign instead of two, so what follows is late by up to 2μN h/mω in displacement: 2e-6 m at h
-    // = 1e-4 s.
+    // one sign instead of two, so what follows is off by up to 2μN h/mω in displacement: 2e-6 m at
+    // h = 1e-4 s.
     assert!(coarse[0] < 5e-8 && fine[0] < coarse[0] / 8.0, "{coarse:?} {fine:?}");
     assert!(coarse[1] < 2e-6 && fine[1] < 0.5e-6, "{coarse:?} {fine:?}");
     assert!(coarse[2] < 5e-8 && fine[2] < 3e-9, "{coarse:?} {fine:?}");

@@ -10,7 +10,8 @@ use crate::scene::Support;
 use crate::step::{HoleStep, Step, Turning};
 
 impl Judge {
-    /// Checks round holes and friction, and adds their impulses to the momentum balance of the step.
+    /// Checks round holes and friction, and adds their impulses to the momentum balance of the
+    /// step.
     #[inline(never)]
     pub(super) fn supports_on_grid(&mut self, step: &Step<'_>) {
         let Some(mut supports) = self.supports.take() else { return };

@@ -41,8 +41,8 @@ pub struct Promise {
 /// So ẇ⁺ = −ε ẇ along every normal that pushes, with ε between e and 1: a step changes the energy
 /// by −Σ p(1−ε)a/2 ≤ 0, whatever the normals and the masses. A body that slides is reflected at n
 /// and moves on the circle as by the midpoint rule; with n·ẇ⁺ ≤ −e a instead, it would lose speed
-/// at the rate h v²/2γ² and creep outwards by h v²/2γ, both times (1−e)/(1+e). In the limit of small
-/// steps the law is Newton's on a smooth wall.
+/// at the rate h v²/2γ² and creep outwards by h v²/2γ, both times (1−e)/(1+e). In the limit of
+/// small steps the law is Newton's on a smooth wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turning {
     /// φ.
@@ -57,8 +57,8 @@ pub struct Turning {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Friction {
-    /// On the impulse of a step and the velocity at its end, along the tangent t = (−n_z, n_y): |p_t|
-    /// ≤ μ p, and p_t = −μ p sign(t·ẇ⁺) where t·ẇ⁺ is not 0.
+    /// On the impulse of a step and the velocity at its end, along the tangent t = (−n_z, n_y):
+    /// |p_t| ≤ μ p, and p_t = −μ p sign(t·ẇ⁺) where t·ẇ⁺ is not 0.
     EndVelocity,
 }
 

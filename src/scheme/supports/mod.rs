@@ -170,7 +170,7 @@ impl Supports {
         let (stop, seat, ht) = (body.walls[wall], seats[wall], body.h * *theta);
         let (bound, compliance) = match stop.law {
             WallLaw::Elastic { stiffness, damping } => {
-                // As in moreau-jean, where the row exceeds a bound on δ by compliance times impulse.
+                // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
                 let stiff = stiffness + damping / ht;
                 let (w, before) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
                 let ahead = w + ht * before;
@@ -284,9 +284,9 @@ impl Supports {
         }
     }
 
-    /// As in moreau-jean: solves again with the displacement that the blows cause in addition to the
-    /// rule's, unless they drive the structure into a rigid wall or hole that pushes. Returns whether
-    /// that displacement must be added.
+    /// As in moreau-jean: solves again with the displacement that the blows cause in addition to
+    /// the rule's, unless they drive the structure into a rigid wall or hole that pushes. Returns
+    /// whether that displacement must be added.
     #[inline(never)]
     fn carry(&mut self) -> bool {
         let Self { body, frame, theta, .. } = self;

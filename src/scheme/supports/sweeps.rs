@@ -9,8 +9,8 @@
 //! from nearly opposite sides, the pivoting of [`crate::qp`] answers them.
 //!
 //! Without friction the problem is a convex programme, the sweeps descend in its dual and the
-//! answer is its minimiser. With friction it is no minimisation: for large μ answers may be several, and
-//! sweeps may not settle; such steps are counted.
+//! answer is its minimiser. With friction it is no minimisation: for large μ answers may be several,
+//! and sweeps may not settle; such steps are counted.
 
 use super::normal::dot;
 use super::places::Places;
@@ -34,6 +34,9 @@ const STILL: f64 = 4.0 * f64::EPSILON;
 
 /// Rounding of velocities, relative to the largest: a state is accepted within this.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The most by which changes of velocity may exceed the velocities.
+const WEDGED: f64 = 1e5;
 
 /// A pivot below this share of the diagonal, which is scaled to 1, belongs to contacts whose rows
 /// depend on those before: their impulses stay as the sweeps left them, and the result is accepted
@@ -339,12 +342,15 @@ impl Linear {
 }
 
 /// The largest of `rate` and the changes of velocity that the contacts make, m/s: contacts that
-/// press against each other make larger ones than what remains of them.
+/// press against each other make larger ones than what remains of them. At most [`WEDGED`] times
+/// `rate`: impulses that grow from sweep to sweep, as of a body that wedges itself, would have any
+/// velocity count as rounding.
 fn most(rate: f64, touches: &[Touch]) -> f64 {
-    touches.iter().fold(rate, |most, touch| {
+    let largest = touches.iter().fold(rate, |most, touch| {
         let ([a, _, c], [p, f]) = (touch.own, touch.impulse);
         most.max(a * p.abs()).max(c * f.abs())
-    })
+    });
+    largest.min(WEDGED * rate)
 }
 
 /// Computes the velocities of all rows anew from those without contacts.

@@ -92,8 +92,8 @@ impl Touch {
     }
 
     /// Answers the contact alone: sets its state and impulse for the velocities `y` of all rows
-    /// under all impulses, and changes `y` accordingly; of the change of its impulse this `share` is
-    /// made. Returns the size of the change, m/s, and whether the law has an answer.
+    /// under all impulses, and changes `y` accordingly; of the change of its impulse this `share`
+    /// is made. Returns the size of the change, m/s, and whether the law has an answer.
     pub fn answer(&mut self, places: &Places, y: &mut [f64], share: f64) -> (f64, bool) {
         let [a, b, c] = self.own;
         let [p, f] = self.impulse;
