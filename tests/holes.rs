@@ -241,7 +241,7 @@ fn by_clarabel(scene: &Scene, h: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
         let n = ahead.map(|x| x / reach);
         let approach = n[0] * rate[0] + n[1] * rate[1];
         let distance = w[0].hypot(w[1]);
-        let arc = ((h * rate[0].hypot(rate[1]) / hole.gap).powi(2) / 8.0).max(1e-9);
+        let arc = ((h * rate[0].hypot(rate[1]) / hole.gap).powi(2) / 8.0).clamp(1e-9, 0.999);
         let arriving = if distance < hole.gap * (1.0 - arc) {
             approach
         } else {
@@ -270,7 +270,7 @@ fn by_clarabel(scene: &Scene, h: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
 #[test]
 fn without_friction_a_step_is_the_minimiser_that_clarabel_finds() {
     let mut crowded = 0;
-    for seed in 1000..1040 {
+    for seed in 1000..1040_u64 {
         let mut draws = Draws::new(seed);
         let scene = random_scene(&mut draws, 0.0);
         let h = 1e-3;

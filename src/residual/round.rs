@@ -121,7 +121,8 @@ struct Seen<'a> {
 
 /// τ.
 fn sagitta(turning: &Turning, gap: f64, rate: [f64; 2], h: f64) -> f64 {
-    turning.sagitta.max((h * rate[0].hypot(rate[1]) / gap).powi(2) / 8.0)
+    let arc = (h * rate[0].hypot(rate[1]) / gap).powi(2) / 8.0;
+    arc.max(turning.sagitta).min(turning.deepest)
 }
 
 /// The bound on n·ẇ⁺ of a body that `touches` the hole at the start of the step, or comes from

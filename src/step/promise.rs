@@ -32,8 +32,8 @@ pub struct Promise {
 /// impulse. Any other gives −p n with n = ŵ/|ŵ| and p ≥ 0. Let a = n·ẇ, a_r its part that arrives
 /// and a_c = a − a_r what turning adds:
 ///
-/// a_r = a where |w| < γ(1 − τ), τ = max(`sagitta`, (h|ẇ|/γ)²/8), the height of the arc of a step:
-/// the body comes from inside. Else the body touches, and a_r is w·ẇ/|w|, its approach along the
+/// a_r = a where |w| < γ(1 − τ), τ = (h|ẇ|/γ)²/8, the height of the arc of a step, but at least
+/// `sagitta` and at most `deepest`: the body comes from inside. Else the body touches, and a_r is w·ẇ/|w|, its approach along the
 /// normal at the step's start, but at least 0 and at most a.
 ///
 /// a > 0: 0 ≤ −(e a_r + a_c) − n·ẇ⁺ ⟂ p ≥ 0;    a ≤ 0: 0 ≤ −a − n·ẇ⁺ ⟂ p ≥ 0.
@@ -51,6 +51,8 @@ pub struct Turning {
     pub touching: f64,
     /// The least τ.
     pub sagitta: f64,
+    /// The largest τ.
+    pub deepest: f64,
 }
 
 /// Coulomb's law at the supports that have friction.

@@ -4,7 +4,7 @@
 use crate::step::Turning;
 
 /// The numbers of the law.
-pub(in crate::scheme) const TURNING: Turning = Turning { ahead: 0.5, touching: 1e-12, sagitta: 1e-9 };
+pub(in crate::scheme) const TURNING: Turning = Turning { ahead: 0.5, touching: 1e-12, sagitta: 1e-9, deepest: 0.999 };
 
 /// A hole in play.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,11 +32,12 @@ pub(super) fn meet((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], h: f64) ->
     let normal = ahead.map(|x| x / reach);
     let a = dot(normal, rate);
     let turn = h * (normal[0] * rate[1] - normal[1] * rate[0]).abs() / gap;
-    if !(a > 0.0) {
+    if a <= 0.0 {
         return Some(Met { normal, arriving: a, bound: -a, turn });
     }
     let distance = norm(w);
-    let sagitta = TURNING.sagitta.max((h / gap).powi(2) * dot(rate, rate) / 8.0);
+    // Nearer to the centre the direction of w says nothing.
+    let sagitta = TURNING.sagitta.max((h / gap).powi(2) * dot(rate, rate) / 8.0).min(TURNING.deepest);
     let arriving = if distance < gap * (1.0 - sagitta) { a } else { (dot(w, rate) / distance).max(0.0).min(a) };
     Some(Met { normal, arriving, bound: -(e * arriving + (a - arriving)), turn })
 }

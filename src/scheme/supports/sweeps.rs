@@ -334,8 +334,7 @@ impl Linear {
             }
             a[k * width + k] = x;
         }
-        for k in 0..m {
-            let place = self.order[k];
+        for (k, &place) in self.order.iter().enumerate() {
             a[place * width + m] = a[k * width + k];
         }
     }
