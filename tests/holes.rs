@@ -10,7 +10,9 @@ use rubbing::{
 };
 use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, Solver};
-use signorini::{Bound, Load, Options, Promise, Row, Scene, Scheme, Stepper, Structure, System, Wall, heading, run};
+use signorini::{
+    Bound, Load, Method, Options, Promise, Row, Scene, Scheme, Stepper, Structure, System, Wall, heading, run,
+};
 use std::f64::consts::TAU;
 
 /// The body of `disk-whirl`, which a rotating force presses round a hole: start with this lag (rad)
@@ -324,6 +326,10 @@ fn other_schemes_refuse_round_holes_and_say_why() {
     ] {
         let error = Stepper::new(&scene, &scheme, 1e-4).unwrap_err();
         assert!(error.is_request() && error.to_string().contains(words), "{error}");
+    }
+    for backend in [Backend::Condensed, Backend::Clarabel, Backend::Clamp] {
+        let error = Stepper::new(&scene, &Method { scheme: MOREAU_JEAN, backend }, 1e-4).unwrap_err();
+        assert!(error.is_request() && error.to_string().contains("no quadratic programme"), "{error}");
     }
     // The contract states the split, and only moreau-jean's does.
     let Promise { round, rigid, .. } = MOREAU_JEAN.contract().promise;

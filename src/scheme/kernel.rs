@@ -18,6 +18,7 @@ use super::structure_event::StructureEvent;
 use super::supports::Supports;
 use super::{Integrator, Method, Scheme};
 use crate::error::{Error, Result};
+use crate::qp::Backend;
 use crate::scene::{Checked, Scene};
 use crate::step::Step;
 
@@ -51,7 +52,12 @@ fn rule<S: Space>(scene: &Scene, Method { scheme, backend }: Method, h: f64) -> 
 }
 
 /// `scheme` on a scene with round holes or friction: only moreau-jean steps it.
-fn supported(scene: &Checked, Method { scheme, .. }: Method, h: f64) -> Result<Supports> {
+fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Result<Supports> {
+    if backend != Backend::Auto {
+        let expected = "auto: with round supports or friction a step is no quadratic programme, and sweeps over its \
+                        contacts solve it";
+        return Err(Error::invalid("QP solver", backend, expected));
+    }
     let round = scene.holes().next().is_some();
     let expected = match scheme {
         Scheme::MoreauJean { theta } => return Supports::new(scene, theta, scheme.contract(), h),

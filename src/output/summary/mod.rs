@@ -8,6 +8,7 @@ use super::detail::Detail;
 use super::{json, supports};
 use crate::case::{Case, FileRead};
 use crate::error::{Error, Result};
+use crate::qp::Backend;
 use crate::residual::{Finding, Residuals};
 use crate::run::Run;
 use crate::scheme::Counters;
@@ -126,7 +127,12 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         scene: scene::scene(case),
         scheme: run.scheme.to_string(),
         scheme_reason: &reasons.scheme,
-        qp_solver: if run.scheme.has_qp() { run.backend.to_string() } else { "none".into() },
+        qp_solver: match run.backend {
+            _ if !run.scheme.has_qp() => "none".into(),
+            // Round supports and friction have no quadratic programme.
+            Backend::Auto => "sweeps".into(),
+            backend => backend.to_string(),
+        },
         qp_reason: &reasons.qp,
         step_s: (!exact).then_some(run.grid.step),
         steps: run.counters.steps,
