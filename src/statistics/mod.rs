@@ -181,6 +181,15 @@ impl Statistics {
     pub(crate) fn impulse(&self, wall: usize) -> f64 {
         self.walls.get(wall).and_then(|wall| wall.force).map_or(0.0, |force| force.impulse_n_s)
     }
+
+    /// Contacts of round support number `hole` of `scene` in the window, and its impulse Σ|p|, N s,
+    /// which is 0 where only the contacts are known.
+    pub(crate) fn round(&self, scene: &Scene, hole: usize) -> (usize, f64) {
+        let rounds = scene.supports.iter().zip(&self.supports).filter(|(support, _)| support.hole().is_some());
+        let found = rounds.map(|(_, statistics)| statistics).nth(hole);
+        let impulse = |force: SupportForce| force.mean_n * (self.to_s - self.from_s);
+        found.map_or((0, 0.0), |support| (support.contacts, support.force.map_or(0.0, impulse)))
+    }
 }
 
 fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> WallStatistics {

@@ -2,8 +2,8 @@
 
 use super::difference::{self, wall_speeds, worse};
 use crate::run::Run;
-use crate::scene::{Scene, WallLaw};
-use crate::statistics::{Statistics, WallStatistics};
+use crate::scene::{Hole, Scene, WallLaw};
+use crate::statistics::{PlaceKind, Statistics, WallStatistics};
 use crate::step::Contact;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
@@ -18,20 +18,22 @@ const SLOW: f64 = 1e-2;
 pub struct Change {
     /// Largest |Δu| of any probe over [`Scene::gap_scale`], at the rows up to the time asked for.
     pub displacement: f64,
-    /// One entry per wall, in the scene's order.
+    /// One entry per wall, then per round support, in the scene's order.
     pub walls: Vec<WallChange>,
 }
 
-/// Changes at one wall, over the window of the statistics. Each is relative to the largest value at
+/// Changes at one wall or round support, over the window of the statistics. Each is relative to the largest value at
 /// any wall of the scene, or to the value of a single impact at the largest speed v at this wall if
 /// that is larger (with the mass m that the wall feels, [`Scene::wall_masses`]); so a wall that is
 /// hardly touched does not dominate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WallChange {
-    /// The wall's name.
+    /// Its name.
     pub wall: String,
-    /// Change of its impulse; the reference is at least m v.
+    /// Which of the two it is.
+    pub kind: PlaceKind,
+    /// Change of its impulse, at a round support of Σ|p|; the reference is at least m v.
     pub impulse: f64,
     /// Change of its number of contacts; the reference is at least 1. `None` at a rigid wall where
     /// impacts accumulate (0 < e < 1, and a contact lasts or some impacts are slower than 1 % of
@@ -92,6 +94,10 @@ impl Change {
                 most.force = most.force.max(part(own, index, |w| w.episode_peak_force_n.max.unwrap_or(0.0)));
             }
         }
+        for hole in 0..scene.holes().count() {
+            most.impulse = most.impulse.max(own.round(scene, hole).1);
+            most.number = most.number.max(numbers(scene.walls.len() + hole)[1].unwrap_or(0.0));
+        }
         let mut walls = Vec::new();
         for (index, wall) in scene.walls.iter().enumerate() {
             let mass = masses.get(index).copied().unwrap_or(0.0);
@@ -112,6 +118,7 @@ impl Change {
             };
             walls.push(WallChange {
                 wall: wall.name.clone(),
+                kind: PlaceKind::Wall,
                 impulse: relative(impulses, most.impulse.max(mass * speed)),
                 contacts,
                 impact_energy: relative(of(|w| w.impact_power_w), most.power.max(0.5 * mass * speed * speed / window)),
@@ -119,6 +126,8 @@ impl Change {
                 peak_force,
             });
         }
+        let masses = masses.get(scene.walls.len()..).unwrap_or_default();
+        walls.extend(round_changes(scene, [run, against], statistics, &most, masses));
         Self { displacement, walls }
     }
 
@@ -136,12 +145,52 @@ impl Change {
         for wall in &self.walls {
             for (part, name) in wall.parts() {
                 if part > worst.0 || part.is_nan() && !worst.0.is_nan() {
-                    worst = (part, format!("{name} of wall {:?}", wall.wall));
+                    worst = (part, format!("{name} of {} {:?}", wall.kind.word(), wall.wall));
                 }
             }
         }
         worst
     }
+}
+
+/// The changes at the round supports of `scene`, which feel `masses` (kg).
+fn round_changes(
+    scene: &Scene,
+    runs: [&Trajectory; 2],
+    statistics: [&Statistics; 2],
+    most: &Largest,
+    masses: &[f64],
+) -> Vec<WallChange> {
+    let (from, window) = (statistics[1].from_s, statistics[1].to_s - statistics[1].from_s);
+    let change = |((hole, round), &mass): ((usize, Hole<'_>), &f64)| {
+        // Their contacts are counted after those of the walls.
+        let index = scene.walls.len() + hole;
+        let energy = |speed: f64| 0.5 * mass * speed * speed;
+        let met = |run: &Trajectory| {
+            let here = run.contacts().iter().filter(|c| c.wall == index && c.start >= from);
+            let speeds = here.map(|c| c.approach_speed);
+            (speeds.clone().map(energy).sum::<f64>() / window, speeds.fold(0.0, f64::max))
+        };
+        let [(power, _), (power_against, speed)] = runs.map(met);
+        let contacts = match runs.map(|run| number(scene, run.contacts(), index, from)) {
+            [Some(a), Some(b)] => Some(relative([a, b], most.number.max(1.0))),
+            _ => None,
+        };
+        let time = |s: &Statistics| {
+            let worn = s.wear.iter().find(|worn| worn.support == round.support.name);
+            worn.map_or(0.0, |worn| worn.contact_time_ratio)
+        };
+        WallChange {
+            wall: round.support.name.clone(),
+            kind: PlaceKind::Support,
+            impulse: relative(statistics.map(|s| s.round(scene, hole).1), most.impulse.max(mass * speed)),
+            contacts,
+            impact_energy: relative([power, power_against], most.power.max(energy(speed) / window)),
+            contact_time: (time(statistics[0]) - time(statistics[1])).abs(),
+            peak_force: 0.0,
+        }
+    };
+    scene.holes().enumerate().zip(masses).map(change).collect()
 }
 
 pub(super) fn relative([a, b]: [f64; 2], least: f64) -> f64 {
@@ -161,19 +210,20 @@ struct Largest {
     force: f64,
 }
 
-/// Contacts of a wall that begin at or after `from` (s); `None` where impacts accumulate. Slow
+/// Contacts of a wall or round support that begin at or after `from` (s); `None` where impacts accumulate. Slow
 /// contacts count in proportion to their speed, so that a graze that only one of two runs has
 /// changes little.
 fn number(scene: &Scene, contacts: &[Contact], wall: usize, from: f64) -> Option<f64> {
     let here = contacts.iter().filter(|c| c.wall == wall && c.start >= from);
     let speeds = here.clone().map(|c| c.approach_speed);
     let slow = SLOW * speeds.clone().fold(0.0, f64::max);
-    let bounces =
-        |law: WallLaw| matches!(law, WallLaw::Rigid { restitution } if restitution > 0.0 && restitution < 1.0);
+    let bounces = |e: f64| e > 0.0 && e < 1.0;
     // Where the step is too long for slow impacts, they appear as the lasting contact at their end.
     let lasts = here.clone().any(|c| c.end != Some(c.start));
     let settles = lasts || speeds.clone().filter(|v| *v < slow).count() > 1;
-    let accumulates = scene.walls.get(wall).is_some_and(|w| bounces(w.law)) && settles;
+    let hole = || scene.holes().nth(wall.checked_sub(scene.walls.len())?).map(|hole| hole.restitution);
+    let restitution = scene.walls.get(wall).map_or_else(hole, |wall| wall.law.restitution());
+    let accumulates = restitution.is_some_and(bounces) && settles;
     (!accumulates).then(|| speeds.map(|v| if v >= slow { 1.0 } else { v / slow }).sum())
 }
 

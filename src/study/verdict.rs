@@ -8,6 +8,7 @@ use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
+use crate::statistics::PlaceKind;
 use crate::time::TimeOptions;
 use serde::Serialize;
 use std::fmt;
@@ -35,13 +36,16 @@ pub enum Check {
     },
 }
 
-/// One wall in the run and in its check.
+/// One wall or round support in the run and in its check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WallVerdict {
-    /// The wall's name.
+    /// Its name.
     pub wall: String,
-    /// Impulse of the run and of its check in the window for statistics, N s, signed.
+    /// Which of the two it is.
+    pub kind: PlaceKind,
+    /// Impulse of the run and of its check in the window for statistics, N s: of a wall signed, of a
+    /// round support Σ|p|.
     pub impulse_n_s: [f64; 2],
     /// Contacts of the run and of its check in that window.
     pub contacts: [usize; 2],
@@ -61,8 +65,8 @@ pub struct Verdict {
     /// Time up to which displacements were compared, s: the end, or where a perturbation of the
     /// start has grown [`LARGEST_GROWTH`]-fold.
     pub horizon_s: f64,
-    /// One entry per wall, in the scene's order. Unlike displacements, these are compared over the
-    /// whole run.
+    /// One entry per wall, then per round support, in the scene's order. Unlike displacements, these
+    /// are compared over the whole run.
     pub walls: Vec<WallVerdict>,
     /// What the judge refutes in the check's own run; if there is anything, the verdict is
     /// meaningless.
@@ -109,9 +113,20 @@ impl Verdict {
         for (index, (before, after)) in run.statistics.walls.iter().zip(&again.statistics.walls).enumerate() {
             walls.push(WallVerdict {
                 wall: before.wall.clone(),
+                kind: PlaceKind::Wall,
                 impulse_n_s: [&run.statistics, &again.statistics].map(|s| s.impulse(index)),
                 contacts: [before.contacts, after.contacts],
                 peak_force_n: [before.episode_peak_force_n.max, after.episode_peak_force_n.max],
+            });
+        }
+        for (index, hole) in scene.holes().enumerate() {
+            let [before, after] = [&run.statistics, &again.statistics].map(|s| s.round(scene, index));
+            walls.push(WallVerdict {
+                wall: hole.support.name.clone(),
+                kind: PlaceKind::Support,
+                impulse_n_s: [before.1, after.1],
+                contacts: [before.0, after.0],
+                peak_force_n: [None, None],
             });
         }
         Ok(Self { check, displacement: change.displacement, horizon_s, walls, findings: again.findings })
@@ -156,7 +171,7 @@ impl fmt::Display for Verdict {
             self.displacement, self.horizon_s
         )?;
         for wall in self.foremost() {
-            write!(f, "; wall {:?}: impulse {}", wall.wall, relative(wall.impulse_n_s))?;
+            write!(f, "; {} {:?}: impulse {}", wall.kind.word(), wall.wall, relative(wall.impulse_n_s))?;
             let [before, after] = wall.contacts;
             if before == after {
                 write!(f, ", {before} contacts as before")?
@@ -199,6 +214,7 @@ mod tests {
     fn verdict(impulses: &[[f64; 2]]) -> Verdict {
         let wall = |(i, &impulse_n_s): (usize, &[f64; 2])| WallVerdict {
             wall: format!("wall-{i}"),
+            kind: PlaceKind::Wall,
             impulse_n_s,
             contacts: [1, 1],
             peak_force_n: [None, None],

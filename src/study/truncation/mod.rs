@@ -17,7 +17,7 @@ use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Damping, Reduction, Scene};
 use crate::scheme::{Method, equilibrium};
-use crate::statistics::WallStatistics;
+use crate::statistics::PlaceKind;
 use crate::time::TimeOptions;
 use serde::Serialize;
 use std::fmt;
@@ -68,11 +68,13 @@ impl Whole {
     }
 }
 
-/// One wall in the run and in the run with more modes.
+/// One wall or round support in the run and in the run with more modes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WallTruncated {
-    /// The wall's name.
+    /// Its name.
     pub wall: String,
+    /// Which of the two it is.
+    pub kind: PlaceKind,
     /// Impulse over the window for statistics, N s, signed: of the run, and with more modes.
     pub impulse_n_s: [f64; 2],
     /// Its change, defined as [`WallChange::impulse`](super::change::WallChange::impulse).
@@ -84,10 +86,40 @@ pub struct WallTruncated {
     /// Change of the peak force where both are finite, else of the largest impulse of one contact;
     /// as a share of the largest value at any wall.
     pub peak_change: f64,
-    /// Mass that the wall feels, kg.
+    /// Mass that it feels, kg.
     pub effective_mass_kg: [f64; 2],
-    /// Share of the static compliance at the wall that the modes carry, 0 to 1.
+    /// Share of the static compliance at the wall that the modes carry, 0 to 1; NaN at a round
+    /// support, where it depends on the direction.
     pub compliance_share: [f64; 2],
+}
+
+/// What one wall or round support felt in a run, in the window of the statistics.
+struct Felt {
+    /// Impulse, N s: of a wall signed, of a round support Σ|p|.
+    impulse: f64,
+    /// Largest finite force, N.
+    peak: Option<f64>,
+    /// Largest |impulse| of one contact, N s.
+    largest: Option<f64>,
+}
+
+impl Felt {
+    /// Number `index` of the walls of `scene` and then its round supports.
+    fn of(run: &Run, scene: &Scene, index: usize) -> Self {
+        let statistics = &run.statistics;
+        match (statistics.walls.get(index), index.checked_sub(statistics.walls.len())) {
+            (None, Some(hole)) => {
+                let here = run.trajectory.contacts().iter().filter(|c| c.wall == index && c.start >= statistics.from_s);
+                let impulse = statistics.round(scene, hole).1;
+                Self { impulse, peak: None, largest: here.map(|c| c.impulse.abs()).reduce(f64::max) }
+            }
+            (wall, _) => Self {
+                impulse: statistics.impulse(index),
+                peak: wall.and_then(|wall| wall.episode_peak_force_n.max),
+                largest: wall.and_then(|wall| wall.episode_impulse_n_s.max),
+            },
+        }
+    }
 }
 
 /// The effect of more modes on a run.
@@ -103,7 +135,7 @@ pub struct Truncation {
     /// Largest |Δu| of the first probe over the gap scale, over the whole run; meaningless where
     /// the motion is chaotic.
     pub displacement: f64,
-    /// One entry per wall, in the scene's order.
+    /// One entry per wall, then per round support, in the scene's order.
     pub walls: Vec<WallTruncated>,
     /// What the judge refutes in the run with more modes; if there is anything, this comparison is
     /// meaningless.
@@ -145,17 +177,15 @@ impl Truncation {
         let mut walls = Vec::new();
         // Changes are shares of the largest wall's value, so that a wall that is hardly touched, or
         // in one of the runs only, does not dominate.
-        let most = |part: fn(&WallStatistics) -> f64| {
-            runs.iter().flat_map(|run| run.statistics.walls.iter().map(part)).fold(0.0, f64::max)
-        };
-        let (most_force, most_impulse) =
-            (most(|w| w.episode_peak_force_n.max.unwrap_or(0.0)), most(|w| w.episode_impulse_n_s.max.unwrap_or(0.0)));
-        for (index, wall) in change.walls.iter().enumerate() {
-            let of = |run: &Run| {
-                run.statistics.walls.get(index).map(|w| (w.episode_peak_force_n.max, w.episode_impulse_n_s.max))
-            };
-            let peaks = runs.map(|run| of(run).and_then(|w| w.0));
-            let largest = runs.map(|run| of(run).and_then(|w| w.1));
+        let scene = &cuts[1].scene;
+        let felt: Vec<[Felt; 2]> =
+            (0..change.walls.len()).map(|index| runs.map(|run| Felt::of(run, scene, index))).collect();
+        let most = |part: fn(&Felt) -> Option<f64>| felt.iter().flatten().filter_map(part).fold(0.0, f64::max);
+        let (most_force, most_impulse) = (most(|felt| felt.peak), most(|felt| felt.largest));
+        let masses = cuts.map(|cut| cut.scene.wall_masses());
+        for (index, (wall, felt)) in change.walls.iter().zip(&felt).enumerate() {
+            let peaks = [felt[0].peak, felt[1].peak];
+            let largest = [felt[0].largest, felt[1].largest];
             let peak_change = match peaks {
                 [Some(a), Some(b)] => relative([a, b], most_force),
                 _ => relative(largest.map(|x| x.unwrap_or(0.0)), most_impulse),
@@ -163,12 +193,13 @@ impl Truncation {
             let kept = cuts.map(|cut| cut.walls.get(index).copied());
             walls.push(WallTruncated {
                 wall: wall.wall.clone(),
-                impulse_n_s: runs.map(|run| run.statistics.impulse(index)),
+                kind: wall.kind,
+                impulse_n_s: [felt[0].impulse, felt[1].impulse],
                 impulse_change: wall.impulse,
                 peak_force_n: peaks,
                 largest_impulse_n_s: largest,
                 peak_change,
-                effective_mass_kg: kept.map(|w| w.map_or(f64::NAN, |w| w.mass_kept)),
+                effective_mass_kg: [0, 1].map(|cut: usize| masses[cut].get(index).copied().unwrap_or(f64::NAN)),
                 compliance_share: kept.map(|w| w.map_or(f64::NAN, |w| w.share())),
             });
         }
@@ -195,12 +226,12 @@ impl Truncation {
             } else {
                 "largest impulse of one contact"
             };
-            [(w.impulse_change, "impulse", &w.wall), (w.peak_change, peak, &w.wall)]
+            [(w.impulse_change, "impulse", w), (w.peak_change, peak, w)]
         });
         let mut worst = (0.0, "impulse".to_owned());
         for (part, name, wall) in parts {
             if part > worst.0 || part.is_nan() {
-                worst = (part, format!("{name} of wall {wall:?}"));
+                worst = (part, format!("{name} of {} {:?}", wall.kind.word(), wall.wall));
             }
         }
         worst
@@ -222,13 +253,14 @@ impl fmt::Display for Truncation {
         {
             write!(
                 f,
-                " the impulse changes by up to {:.2} % (wall {:?}: {:+.4} to {:+.4} N s)",
+                " the impulse changes by up to {:.2} % ({} {:?}: {:+.4} to {:+.4} N s)",
                 100.0 * impulse,
+                at.kind.word(),
                 at.wall,
                 at.impulse_n_s[0],
                 at.impulse_n_s[1]
             )?;
-            write!(f, ", the peak by up to {:.2} % (wall {:?}: ", 100.0 * peak, peak_at.wall)?;
+            write!(f, ", the peak by up to {:.2} % ({} {:?}: ", 100.0 * peak, peak_at.kind.word(), peak_at.wall)?;
             match (peak_at.peak_force_n, peak_at.largest_impulse_n_s) {
                 ([Some(a), Some(b)], _) => write!(f, "{a:.4} to {b:.4} N)")?,
                 (_, [a, b]) => {
@@ -245,7 +277,12 @@ impl fmt::Display for Truncation {
             && let Some((_, wall)) = largest(|w| w.effective_mass_kg[0] / w.effective_mass_kg[1])
         {
             let [kept, more] = wall.effective_mass_kg;
-            write!(f, "; the mass that wall {:?} feels goes from {kept:.4} to {more:.4} kg", wall.wall)?;
+            write!(
+                f,
+                "; the mass that {} {:?} feels goes from {kept:.4} to {more:.4} kg",
+                wall.kind.word(),
+                wall.wall
+            )?;
         }
         Ok(())
     }
