@@ -4,6 +4,8 @@
 //! a table, checks that both found the same motion while that is predictable, and asserts nothing
 //! about time.
 
+#![allow(clippy::needless_range_loop, reason = "a loop by hand")]
+
 use signorini::linear::Symmetric;
 use signorini::{Load, PlaneRows, Row, Scene, Scheme, Shape, Stepper, Structure, Support, WallLaw};
 use std::f64::consts::{PI, TAU};

@@ -51,7 +51,7 @@ fn a_body_pressed_round_a_hole_slides_with_the_exact_force() {
 #[test]
 fn a_pendulum_in_a_hole_is_followed_with_order_two() {
     const PERIOD: f64 = 0.095_360_440_582_049_22;
-    const WORK: f64 = 0.055_831_631_725_641_855;
+    const WORK: f64 = 0.055_831_631_725_641_85;
     const IMPULSE: f64 = 0.699_788_566_584_456_3;
     let (gap, angle) = (1.5e-3_f64, 60.0_f64.to_radians());
     let scene = with(isotropic(0.8, 0.0, 0.0), hole("hole", body(), gap, 0.7, 0.0))
