@@ -2,6 +2,9 @@
 //! accepted.
 #![cfg(feature = "cli")]
 
+mod refused;
+
+use refused::{Wrong, not_refused};
 use signorini::Error;
 use signorini::case::Case;
 use std::fs;
@@ -39,10 +42,6 @@ sample = 1e-3
 [penalty]
 epsilon = [1e-12, 1e-9]
 "#;
-
-/// What is wrong; the text of `RIGHT` that is replaced, and its replacement; line:column of the
-/// error; what the message must contain.
-type Wrong = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
 #[rustfmt::skip]
 const WRONG: &[Wrong] = &[
@@ -172,24 +171,7 @@ fn the_case_that_the_wrong_ones_start_from_is_right() {
 #[test]
 fn every_wrong_case_file_is_refused_at_its_place() {
     assert!(WRONG.len() >= 40);
-    let mut failures = String::new();
-    for (what, old, new, place, words) in WRONG {
-        assert!(RIGHT.contains(old), "{what}: nothing to replace");
-        let text = RIGHT.replacen(old, new, 1);
-        let said = match Case::parse(&text, "wrong.toml", "") {
-            Ok(_) => "ACCEPTED".to_owned(),
-            Err(error) => error.to_string(),
-        };
-        let at = format!("--> wrong.toml:{place}\n");
-        let fits = said.starts_with("error: ")
-            && said.contains(&at)
-            && said.contains("expected")
-            && words.iter().all(|w| said.contains(w))
-            && said.is_ascii();
-        if !fits {
-            failures += &format!("{what}: wanted {place} and {words:?}\n{said}\n\n");
-        }
-    }
+    let failures = not_refused(RIGHT, WRONG);
     assert!(failures.is_empty(), "{failures}");
 }
 
@@ -569,29 +551,6 @@ const WRONG_MODES: &[Wrong] = &[
     ("points by number", "[[\"tip\", 1.0], [\"base\", -1.0]]", "[1.0]", "16:18", &["at: points", "pairs of a point"]),
     ("a point where nothing moves", "tip = [1.0, -1.0]", "tip = [0.0, 0.0]", "11:6", &["nothing moves there"]),
 ];
-
-/// The wrong texts that are not rejected at the expected place and with the expected words.
-fn not_refused(right: &str, all: &[Wrong]) -> String {
-    let mut failures = String::new();
-    for (what, old, new, place, words) in all {
-        assert!(right.contains(old), "{what}: nothing to replace");
-        let text = right.replacen(old, new, 1);
-        let said = match Case::parse(&text, "wrong.toml", "") {
-            Ok(_) => "ACCEPTED".to_owned(),
-            Err(error) => error.to_string(),
-        };
-        let at = format!("--> wrong.toml:{place}\n");
-        let fits = said.starts_with("error: ")
-            && said.contains(&at)
-            && said.contains("expected")
-            && words.iter().all(|w| said.contains(w))
-            && said.is_ascii();
-        if !fits {
-            failures += &format!("{what}: wanted {place} and {words:?}\n{said}\n\n");
-        }
-    }
-    failures
-}
 
 #[test]
 fn the_structures_that_the_wrong_ones_start_from_are_right() {

@@ -2,6 +2,9 @@
 //! column, key and what would be accepted.
 #![cfg(feature = "cli")]
 
+mod refused;
+
+use refused::{Wrong, not_refused};
 use signorini::case::Case;
 
 /// A valid case file. Each wrong one differs from it in one place.
@@ -53,10 +56,6 @@ displacement = { y = { profile = [[0.0, 0.0], [3.0, 0.0]] } }
 end = 2.0
 step = 1e-3
 "#;
-
-/// What is wrong; the text of `RIGHT` that is replaced, and its replacement; line:column of the
-/// error; what the message must contain.
-type Wrong = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
 #[rustfmt::skip]
 const WRONG: &[Wrong] = &[
@@ -239,24 +238,7 @@ fn the_case_that_the_wrong_ones_start_from_is_right() {
 
 #[test]
 fn every_wrong_case_file_is_refused_at_its_place() {
-    let mut failures = String::new();
-    for (what, old, new, place, words) in WRONG {
-        assert!(RIGHT.contains(old), "{what}: nothing to replace");
-        let text = RIGHT.replacen(old, new, 1);
-        let said = match Case::parse(&text, "wrong.toml", "") {
-            Ok(_) => "ACCEPTED".to_owned(),
-            Err(error) => error.to_string(),
-        };
-        let at = format!("--> wrong.toml:{place}\n");
-        let fits = said.starts_with("error: ")
-            && said.contains(&at)
-            && said.contains("expected")
-            && words.iter().all(|word| said.contains(word))
-            && said.is_ascii();
-        if !fits {
-            failures += &format!("{what}: wanted {place} and {words:?}\n{said}\n\n");
-        }
-    }
+    let failures = not_refused(RIGHT, WRONG);
     assert!(failures.is_empty(), "{failures}");
 }
 

@@ -280,12 +280,15 @@ fn no_built_in_case_is_accused() {
         let end = if embedded.name == "bouncing-ball" { 2.0 } else { 0.1 };
         let mut scene = case.scene.clone();
         scene.duration = scene.duration.min(end).min(2e4 * case.time.step);
+        let rubs = scene.turns_or_rubs();
         for method in every_method(&case.penalty.laws) {
             for coarser in [1.0, 8.0] {
                 let step = (coarser * case.time.step).min(scene.duration / 10.0);
                 match run(&scene, &method, &Options::with_step(step).with_sample(scene.duration)) {
                     Ok(run) => assert_eq!(run.findings, [], "{}, {method}, h = {step}", embedded.name),
                     Err(Error::NotFinite { .. } | Error::Newton { .. } | Error::Qp { .. }) => continue,
+                    // Round supports and friction are those of moreau-jean alone.
+                    Err(error) if error.is_request() && rubs && method.scheme != MOREAU_JEAN => continue,
                     Err(error) => panic!("{}, {method}: {error}", embedded.name),
                 }
                 judged_runs += 1;

@@ -251,6 +251,12 @@ fn a_case_without_walls_is_refused() {
 }
 
 #[test]
+fn a_case_that_only_one_scheme_steps_is_refused() {
+    let error = Plan::new(question(&Case::embedded("whirl-in-a-hole").unwrap()), &Grid::default()).unwrap_err();
+    assert!(error.is_request() && error.to_string().contains("moreau-jean alone"), "{error}");
+}
+
+#[test]
 fn one_thread_and_two_give_the_same_maps() {
     let families = [Family::Constrained(Scheme::PaoliSchatzman), Family::Penalty(Integrator::CentralDifference)];
     let with = |threads: usize| {

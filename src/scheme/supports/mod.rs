@@ -24,8 +24,10 @@
 //! not keep energy on a circle (with e = 1, over a way of 200 gaps, it lost 95 % to gained 60 % at
 //! h v = γ/10), and newmark does not keep it on any wall.
 
+mod linear;
 mod normal;
 mod places;
+mod seats;
 mod sweeps;
 mod touch;
 
@@ -41,25 +43,16 @@ use crate::contact::{Episodes, Rates};
 use crate::error::Result;
 use crate::linear::Factor;
 use crate::qp::Backend;
-use crate::scene::{Checked, Row, Scene, Shape, WallLaw, heading};
+use crate::scene::{Checked, Scene, WallLaw};
 use crate::step::{Contact, Contract, HoleStep, Step};
 use normal::{dot, meet};
 use places::Places;
+use seats::{Seat, seats};
 use sweeps::Sweeps;
 use touch::Touch;
 
 /// Normals of flats at one place that are opposite to rounding.
 const OPPOSITE: f64 = -1.0 + 1e-9;
-
-/// Where a wall or hole pushes.
-#[derive(Debug, Clone, Copy)]
-struct Seat {
-    /// The rows of its place; twice the same for a wall that belongs to no support.
-    rows: [usize; 2],
-    /// Outward normal of a wall.
-    normal: [f64; 2],
-    friction: f64,
-}
 
 /// A hole.
 #[derive(Debug, Clone, Copy)]
@@ -427,36 +420,4 @@ impl Motion for Supports {
     fn backend(&self) -> Option<Backend> {
         None
     }
-}
-
-/// The seats of a scene, and the rows of their places: two of each support, one of each wall that
-/// belongs to none.
-fn seats(scene: &Scene) -> (Vec<Seat>, Vec<&Row>) {
-    let mut rows: Vec<&Row> = Vec::new();
-    let mut walls: Vec<Option<Seat>> = vec![None; scene.walls.len()];
-    let mut holes = Vec::new();
-    for support in &scene.supports {
-        let first = rows.len();
-        rows.extend([&support.at.y, &support.at.z]);
-        let seat = |normal| Seat { rows: [first, first + 1], normal, friction: support.friction };
-        match &support.shape {
-            Shape::Round { .. } => holes.push(seat([0.0; 2])),
-            Shape::Flats(flats) => {
-                for flat in flats {
-                    if let Some(wall) = walls.get_mut(flat.wall) {
-                        *wall = Some(seat(heading(flat.direction)));
-                    }
-                }
-            }
-        }
-    }
-    let mut seats: Vec<Seat> = Vec::with_capacity(walls.len() + holes.len());
-    for (wall, seat) in scene.walls.iter().zip(walls) {
-        seats.push(seat.unwrap_or_else(|| {
-            rows.push(&wall.at);
-            Seat { rows: [rows.len() - 1; 2], normal: [-wall.side.sign(), 0.0], friction: 0.0 }
-        }));
-    }
-    seats.extend(holes);
-    (seats, rows)
 }

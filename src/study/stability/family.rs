@@ -206,11 +206,15 @@ impl Parameter {
     }
 }
 
-/// Refuses a case without walls.
+/// Refuses a case without walls, and one with round supports or friction.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a case without walls.
+/// [`Error::Invalid`] for such a case.
 pub fn check(case: Question<'_>) -> Result<()> {
+    if case.scene.turns_or_rubs() {
+        let expected = "walls without friction: the maps compare schemes, and moreau-jean alone steps such a scene";
+        return Err(Error::invalid("support", "round or with friction", expected));
+    }
     if case.scene.walls.is_empty() {
         return Err(Error::invalid("wall", "missing", "a scene with a wall to hit"));
     }
