@@ -150,6 +150,7 @@ fn pages_open_and_their_controls_work_in_a_browser() {
             &["sweep", "rigid-walls-sine", "--vary", "load.1.harmonic.frequency=4:5:5", "--measure", "contacts"],
         ),
         results(dir.path(), &["run", "bars.toml", "--no-verdict"]),
+        results(dir.path(), &["run", "tube-round-supports", "--end", "0.3", "--no-verdict"]),
     ];
     for page in pages.iter().chain([&run]) {
         let mut tab = opened(&mut browser, page);
@@ -159,6 +160,15 @@ fn pages_open_and_their_controls_work_in_a_browser() {
         assert!(wider <= 0.0, "{}: {wider} pixels wider than a phone", page.display());
         tab.close();
     }
+
+    // Round supports: the orbit in each, a table of all, and contacts that name them.
+    let mut tab = opened(&mut browser, &pages[5]);
+    let shown = "[document.querySelectorAll('#supports .plot').length, \
+                 document.querySelectorAll('#supports tbody tr:not(.space)').length, \
+                 document.querySelector('#contacts tbody tr:not(.space) td').textContent].join(' ')";
+    let shown = tab.evaluate(shown);
+    assert!(shown.as_str().unwrap().starts_with("2 2 plate-"), "{shown}");
+    tab.close();
 
     // Methods are switched on and off.
     let mut tab = opened(&mut browser, &pages[2]);

@@ -30,6 +30,7 @@ const SCRIPT: [&str; 28] = [
     include_str!("page/js/structure.js"),
     include_str!("page/js/panels.js"),
     include_str!("page/js/phase.js"),
+    include_str!("page/js/supports.js"),
     include_str!("page/js/contacts.js"),
     include_str!("page/js/studies.js"),
     include_str!("page/js/map.js"),

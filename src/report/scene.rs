@@ -30,6 +30,7 @@ pub(super) fn scene(summary: &Value) -> Value {
     let mut out = Map::new();
     out.insert("kind".to_owned(), json!(if two { "planes" } else { system }));
     out.insert("walls".to_owned(), json!(walls));
+    out.insert("supports".to_owned(), summary["scene"]["supports"].clone());
     out.insert("loads".to_owned(), loads.collect());
     for key in ["mass", "damping", "stiffness", "length", "left", "right", "masses"] {
         let value = if two { &Value::Null } else { &case["system"][system][key] };

@@ -9,7 +9,8 @@ function contactSection() {
     (key) =>
     ([run, k]) =>
       run.contacts[key][k];
-  const wallOf = ([run, k]) => (DATA.scene.walls[run.contacts.wall[k]] || { name: "–" }).name;
+  const places = meetingPlaces();
+  const wallOf = ([run, k]) => places[run.contacts.wall[k]] || "–";
   const lasts = (row) => of("end")(row) - of("start")(row);
   const lasting = rows.some((row) => !Number.isNaN(of("peak")(row)));
   const [unit, factor] = lengthUnit(
@@ -109,9 +110,9 @@ const GROUPS = 8;
 function histogramOf(columns, rows, wallOf) {
   const one = runs.length === 1;
   const groups = one
-    ? DATA.scene.walls.slice(0, GROUPS).map((wall, n) => ({
-        name: wall.name,
-        has: (row) => wallOf(row) === wall.name,
+    ? meetingPlaces().slice(0, GROUPS).map((name, n) => ({
+        name,
+        has: (row) => wallOf(row) === name,
         colour: () => wallColour(n),
       }))
     : runs.slice(0, GROUPS).map((run) => ({

@@ -12,13 +12,19 @@ function readRun(run) {
   for (const key of ["start", "end", "impulse", "peak", "approach", "departure"]) {
     contacts[key] = decode(run.contacts[key]);
   }
-  const numberOf = new Map(DATA.scene.walls.map((wall, i) => [wall.name, i]));
+  const numberOf = new Map(meetingPlaces().map((name, i) => [name, i]));
   contacts.wall = decode(run.contacts.wall).map((name) => numberOf.get(name));
   contacts.largest = contacts.impulse.reduce((most, p) => Math.max(most, Math.abs(p)), 0) || 1;
   const probes = run.probes.map((probe) => readProbe(probe, time, contacts));
   const forces = run.forces.map((f) => ({ wall: f.wall, T: decode(f.time), F: decode(f.force) }));
   const shape = run.shape && readShape(run.shape);
   return { ...run, time, contacts, probes, forces, shape, shown: !run.hidden };
+}
+
+/** Names of the places that contacts belong to: the walls, then the round supports. */
+function meetingPlaces() {
+  const round = (DATA.scene.supports || []).filter((support) => support.shape === "round");
+  return [...DATA.scene.walls, ...round].map((place) => place.name);
 }
 
 const samePlace = (a, b) => JSON.stringify(a ?? null) === JSON.stringify(b ?? null);

@@ -1,0 +1,169 @@
+// The supports of a structure in two planes: the orbit in each, with the work of wear by sector as a
+// ring around it, and their numbers.
+
+/** The ring begins at this multiple of the gap, and its highest sector is this share of it high. */
+const RING = [1.06, 0.3];
+
+function supportSection() {
+  const rows = DATA.summary.supports;
+  const drawn = DATA.summary.scene.supports
+    .map((support, i) => ({ support, worn: rows[i], pair: watching(support.name) }))
+    .filter(({ pair, worn }) => pair && worn);
+  const upper = rows.some((row) => row.upper_figure);
+  section(
+    "supports",
+    "Supports",
+    "Where the structure went within its supports, over the stretch of time shown above; the ring " +
+      "shows the work rate by sector, over the window of the statistics." +
+      (upper
+        ? " A work rate without friction is an upper figure: what slides is then held back by " +
+          "structural damping alone."
+        : ""),
+    drawn.length
+      ? el(
+          "div",
+          { class: drawn.length > 1 ? "two" : "" },
+          drawn.map((one) => supportPlot(one)),
+        )
+      : null,
+    supportTable(rows),
+  );
+}
+
+/** The probes of a support along y and z, where a run has them. */
+function watching(name) {
+  const pair = ["y", "z"].map((axis) =>
+    lead.probes.find((probe) => probe.name === `${name}-${axis}`),
+  );
+  return pair.every(Boolean) ? pair : null;
+}
+
+/** The directions (rad) and positions of the flats of a support; empty for a round one. */
+function flatsOf(support) {
+  return DATA.scene.walls
+    .filter((wall) => wall.name.startsWith(`${support.name}-flat-`) && wall.at)
+    .map((wall) => ({ angle: ((wall.at.direction || 0) * TURN) / 360, position: wall.position }));
+}
+
+function supportPlot({ support, worn, pair: [y, z] }) {
+  const flats = flatsOf(support);
+  const centre = support.centre_m || [0, 0];
+  const gap = support.gap_m || Math.max(...flats.map((flat) => Math.abs(flat.position)));
+  const [unit, factor] = lengthUnit(gap);
+  const at = (probe) => (t) => stateAt(probe, t)[0] * factor;
+  const orbit = {
+    kind: "orbit",
+    look: lead.look,
+    t: y.T,
+    x: y.Q.map((q) => q * factor),
+    y: y.T.map(at(z)),
+    view,
+    alpha: 0.6,
+    hidden: () => !lead.shown,
+  };
+  const edge = { kind: "own", look: lead.look, x: [], y: [], draw: drawEdge };
+  const most = Math.max(...worn.sectors.map((sector) => sector.work_rate_w));
+  const scale = (plot) => (plot.x1 - plot.x0) / (plot.X[1] - plot.X[0]);
+  function drawEdge(ctx, plot) {
+    ctx.strokeStyle = ink.wall;
+    ctx.lineWidth = 2;
+    ctx.beginPath();
+    const [cx, cy] = [plot.sx(centre[0] * factor), plot.sy(centre[1] * factor)];
+    if (!flats.length) ctx.arc(cx, cy, gap * factor * scale(plot), 0, TURN);
+    for (const { angle, position } of flats) {
+      const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+      for (const [k, along] of [2 * gap, -2 * gap].entries()) {
+        const x = plot.sx((position * cos - along * sin) * factor);
+        const end = plot.sy((position * sin + along * cos) * factor);
+        if (k) ctx.lineTo(x, end);
+        else ctx.moveTo(x, end);
+      }
+    }
+    ctx.stroke();
+    if (!(most > 0)) return;
+    ctx.fillStyle = clear(ink.c2, 0.65);
+    for (const sector of worn.sectors) {
+      const [from, to] = [sector.from_deg, sector.to_deg].map((deg) => (-deg * TURN) / 360);
+      const inner = RING[0] * gap * factor * scale(plot);
+      const outer = inner + (sector.work_rate_w / most) * RING[1] * gap * factor * scale(plot);
+      ctx.beginPath();
+      ctx.arc(cx, cy, inner, from, to, true);
+      ctx.arc(cx, cy, outer, to, from, false);
+      ctx.closePath();
+      ctx.fill();
+    }
+  }
+  const plot = new Plot({
+    x: `Displacement along y (${unit})`,
+    y: `along z (${unit})`,
+    height: 430,
+    heading: support.name,
+    alt: `Orbit within the support ${support.name}, and its work rate by sector`,
+    series: [orbit, edge],
+  });
+  plot.limits = () => {
+    // One length is as long along both axes.
+    const [w, h] = [plot.x1 - plot.x0, plot.y1 - plot.y0];
+    const reach = (1.05 * (RING[0] + RING[1]) * gap * factor) / Math.min(w, h);
+    const around = (c, size) => [c * factor - reach * size, c * factor + reach * size];
+    [plot.X, plot.Y] = [around(centre[0], w), around(centre[1], h)];
+  };
+  view.listeners.push(() => {
+    plot.dirty = true;
+    refresh();
+  });
+  plot.over = (ctx) => {
+    if (!lead.shown) return;
+    const [w, u] = [y, z].map((probe) => at(probe)(now()));
+    ctx.fillStyle = ink.c2;
+    ctx.strokeStyle = ink.paper;
+    ctx.lineWidth = 1.5;
+    ctx.beginPath();
+    ctx.arc(plot.sx(w), plot.sy(u), 5, 0, TURN);
+    ctx.fill();
+    ctx.stroke();
+  };
+  const told = most > 0 ? `highest sector: ${digits(most)} W` : "no work of wear";
+  return el("div", {}, el("div", { class: "bar help" }, told), plot.box);
+}
+
+/** The numbers of the supports, as in supports.csv. */
+function supportTable(rows) {
+  const number = (name, value, half) => ({
+    name,
+    value: (row) => value(row) ?? NaN,
+    show: (row) => {
+      const [x, h] = [value(row), half && half(row)];
+      return digits(x) + (h > 0 ? ` ± ${digits(h, 2)}` : "");
+    },
+  });
+  const worn = (key, factor) => (row) => row.worn && row.worn[key] * factor;
+  const columns = [
+    { name: "support", text: true, value: (row) => row.support, show: (row) => row.support },
+    {
+      name: "work rate is",
+      text: true,
+      value: (row) => (row.upper_figure ? "upper figure" : "with friction"),
+      show: (row) => (row.upper_figure ? "upper figure" : "with friction"),
+    },
+    number(
+      "work rate (W)",
+      (row) => row.work_rate_w,
+      (row) => row.work_rate_half_width_95_w,
+    ),
+    number("by impacts (%)", (row) => row.impact_share && 100 * row.impact_share),
+    number("friction power (W)", (row) => row.friction_power_w),
+    number("sliding (m)", (row) => row.sliding_m),
+    number(
+      "mean force (N)",
+      (row) => row.mean_n,
+      (row) => row.mean_half_width_95_n,
+    ),
+    number("along y (N)", (row) => row.mean_force_y_n),
+    number("along z (N)", (row) => row.mean_force_z_n),
+    rows.some((row) => row.worn) ? number("worn (mm³)", worn("volume_m3", 1e9)) : null,
+    rows.some((row) => row.worn) ? number("one scar (mm)", worn("depth_one_scar_m", 1e3)) : null,
+    rows.some((row) => row.worn) ? number("all round (mm)", worn("depth_all_round_m", 1e3)) : null,
+  ].filter(Boolean);
+  return sortable(columns, rows, { height: Math.min(420, 70 + ROW * rows.length) });
+}
