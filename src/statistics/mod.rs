@@ -121,11 +121,11 @@ pub struct Statistics {
     /// One entry per wall, in the scene's order.
     pub walls: Vec<WallStatistics>,
     /// One entry per support, in the scene's order; flats are walls too.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub supports: Vec<SupportStatistics>,
     /// What slides at each support, in the scene's order; empty in one plane, and where only the
     /// contacts are known.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub wear: Vec<WearStatistics>,
 }
 

@@ -284,7 +284,7 @@ def _send(
     take: Callable[[Sequence[int], _Rows], None],
     shown: Progress,
 ) -> None:
-    """Gives each piece to the executor; what a broken pool has lost is run here."""
+    """Gives each piece to the executor; what fails there is run here."""
     futures = {executor.submit(_task, make, [points[i] for i in p], walls, options): p for p in pieces}
     lost = []
     try:
@@ -295,6 +295,10 @@ def _send(
             except BrokenExecutor:
                 lost.append(piece)
                 continue
+            except Exception:
+                # The task's own error comes here too. Any other is the executor's: Dask fails with
+                # one of its own where a worker dies just after its result was fetched.
+                take(piece, _task(make, [points[i] for i in piece], walls, options))
             shown.step(len(piece))
     except BaseException:
         for future in futures:
