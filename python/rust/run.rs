@@ -144,6 +144,79 @@ impl Run {
         self.run.trajectory.impulse(wall).map_err(raise)
     }
 
+    /// The names of the round supports.
+    #[getter]
+    fn holes(&self) -> Vec<String> {
+        self.run.trajectory.holes().to_vec()
+    }
+
+    /// Force of a round support on the body along y and z, friction included, N; each of shape
+    /// (rows,).
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a name that no round support has; it lists those there are.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> run = sg.load("whirl-in-a-hole").scene.replace(duration=0.1).run(step=1e-3)
+    /// >>> y, z = run.hole_force("hole")
+    /// >>> y.shape
+    /// (101,)
+    fn hole_force<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<(Array<'py>, Array<'py>)> {
+        let motion = &slf.get().run.trajectory;
+        let [y, z] = of("round support", motion.holes(), motion.hole_forces(), name)?;
+        Ok((view(slf, y), view(slf, z)))
+    }
+
+    /// Impulse of a round support on the body along y and z since the row before, friction included,
+    /// N s; each of shape (rows,).
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a name that no round support has; it lists those there are.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> run = sg.load("whirl-in-a-hole").scene.replace(duration=0.1).run(step=1e-3)
+    /// >>> y, z = run.hole_impulse("hole")
+    /// >>> z.shape
+    /// (101,)
+    fn hole_impulse<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<(Array<'py>, Array<'py>)> {
+        let motion = &slf.get().run.trajectory;
+        let [y, z] = of("round support", motion.holes(), motion.hole_impulses(), name)?;
+        Ok((view(slf, y), view(slf, z)))
+    }
+
+    /// The names of the supports: flats and round ones.
+    #[getter]
+    fn supports(&self) -> Vec<String> {
+        self.run.trajectory.supports().to_vec()
+    }
+
+    /// Work of wear at a support from the start to each row, J; shape (rows,). Without friction it is
+    /// an upper figure.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a name that no support has; it lists those there are.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> run = sg.load("whirl-in-a-hole").scene.replace(duration=0.1).run(step=1e-3)
+    /// >>> bool(run.wear_work("hole")[-1] > 0.0)
+    /// True
+    fn wear_work<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Array<'py>> {
+        let motion = &slf.get().run.trajectory;
+        Ok(view(slf, of("support", motion.supports(), motion.wear_work(), name)?))
+    }
+
     /// The names of the walls.
     #[getter]
     fn walls(&self) -> Vec<String> {
@@ -323,4 +396,10 @@ impl Run {
             motion.contacts().len()
         )
     }
+}
+
+/// The column of that name.
+fn of<'a, T>(kind: &'static str, names: &[String], columns: &'a [T], name: &str) -> PyResult<&'a T> {
+    let found = names.iter().position(|known| known == name).and_then(|index| columns.get(index));
+    found.ok_or_else(|| raise(sg::Error::Unknown { kind, name: name.to_owned(), known: names.to_vec() }))
 }

@@ -90,6 +90,27 @@ def test_an_accuracy_is_kept_or_a_warning_says_until_when(scene: sg.Scene) -> No
         assert chaotic.run("event", accuracy=1e-6).summary["accuracy"]["until_s"] < 30.0
 
 
+def test_round_supports_have_columns_of_their_own() -> None:
+    scene = sg.load("whirl-in-a-hole").scene.replace(duration=0.2)
+    run = scene.run("moreau-jean", step=1e-4)
+    assert run.holes == run.supports == ["hole"]
+    names = [f"contact_{what}_hole_{plane}_{unit}" for plane in "yz" for what, unit in (("force", "N"), ("impulse", "N_s"))]
+    assert [name for name in run.columns if "hole" in name and not name.startswith(("disp", "velo"))] == [
+        *names,
+        "wear_work_hole_J",
+    ]
+    # The impulses of a row are those of its one step: force times step.
+    force, impulse = run.hole_force("hole"), run.hole_impulse("hole")
+    for f, p in zip(force, impulse, strict=True):
+        assert np.allclose(p[1:], 1e-4 * f[1:], rtol=1e-9, atol=1e-15)
+    # The body is pressed round the hole all the time: its work only grows.
+    assert (np.diff(run.wear_work("hole")) > 0.0).all()
+    with pytest.raises(ValueError, match="round support"):
+        run.hole_force("elsewhere")
+    back = pickle.loads(pickle.dumps(run))
+    assert (back.wear_work("hole") == run.wear_work("hole")).all()
+
+
 def test_runs_survive_pickling(scene: sg.Scene) -> None:
     run = scene.run("moreau-jean", step=1e-3)
     back = pickle.loads(pickle.dumps(run))

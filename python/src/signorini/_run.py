@@ -49,6 +49,13 @@ def columns(run: Run) -> dict[str, npt.NDArray[np.float64]]:
     for name, word in zip(run.walls, _words(run.walls), strict=True):
         out[f"contact_force_{word}_N"] = run.contact_force(name)
         out[f"contact_impulse_{word}_N_s"] = run.contact_impulse(name)
+    for name, word in zip(run.holes, _words(run.holes), strict=True):
+        parts = zip("yz", run.hole_force(name), run.hole_impulse(name), strict=True)
+        for plane, force, impulse in parts:
+            out[f"contact_force_{word}_{plane}_N"] = force
+            out[f"contact_impulse_{word}_{plane}_N_s"] = impulse
+    for name, word in zip(run.supports, _words(run.supports), strict=True):
+        out[f"wear_work_{word}_J"] = run.wear_work(name)
     return out
 
 
