@@ -2,7 +2,7 @@
 
 import os
 import sys
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -117,6 +117,21 @@ def test_a_callable_that_cannot_be_pickled_is_told() -> None:
     closed.shutdown()
     with pytest.raises(RuntimeError, match="shutdown"):
         sg.sweep(cluster.make, sg.grid(gap=[4e-3]), "event", executor=closed)
+
+
+def test_an_error_of_dasks_own_costs_no_row(whole: sg.Table) -> None:
+    class Failing(ThreadPoolExecutor):
+        """Fails as Dask does where a worker dies just after its result was fetched."""
+
+        def submit(self, *_: Any) -> Future[Any]:  # type: ignore[override]
+            future: Future[Any] = Future()
+            try:
+                exec(compile("_, _, _ = 1, 2", "/site-packages/distributed/cfexecutor.py", "exec"))
+            except ValueError as error:
+                future.set_exception(error)
+            return future
+
+    assert_same(sg.sweep(cluster.make, POINTS, "event", executor=Failing(1), chunk=40), whole)
 
 
 def test_a_folder_keeps_rows_of_equal_scenes_only(tmp_path: Path, whole: sg.Table) -> None:

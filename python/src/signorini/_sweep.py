@@ -6,6 +6,7 @@ import itertools
 import math
 import os
 import time
+import traceback
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, as_completed
@@ -274,6 +275,12 @@ def _size(
     return max(1, math.ceil(max(most, _LEAST_SECONDS / seconds)))
 
 
+def _of_dask(error: Exception) -> bool:
+    """Whether Dask's executor itself has failed, as it does where a worker dies just after its result was fetched."""
+    frames = traceback.extract_tb(error.__traceback__)
+    return bool(frames) and frames[-1].filename.replace("\\", "/").endswith("/distributed/cfexecutor.py")
+
+
 def _send(
     executor: Any,
     make: Callable[..., Scene],
@@ -295,9 +302,9 @@ def _send(
             except BrokenExecutor:
                 lost.append(piece)
                 continue
-            except Exception:
-                # The task's own error comes here too. Any other is the executor's: Dask fails with
-                # one of its own where a worker dies just after its result was fetched.
+            except Exception as error:
+                if not _of_dask(error):
+                    raise
                 take(piece, _task(make, [points[i] for i in piece], walls, options))
             shown.step(len(piece))
     except BaseException:
