@@ -11,7 +11,7 @@ use crate::step::{Bound, Contact, Contract};
 /// An impact on a rigid wall takes one step in a velocity-level scheme and up to two in a
 /// position-level one. Longer episodes are lasting contact, whose force is finite after those first
 /// steps.
-const IMPACT_STEPS: u64 = 2;
+pub(crate) const IMPACT_STEPS: u64 = 2;
 
 /// Rounding error of a sum of a few terms, relative to the largest.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;

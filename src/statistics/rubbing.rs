@@ -1,14 +1,11 @@
 //! Wear statistics of supports: force, work of wear, sliding and friction, step by step.
 
 use super::batch::{BATCHES, batch_of, half_width};
+use crate::contact::IMPACT_STEPS;
 use crate::scene::Scene;
 use crate::step::Step;
 use crate::wear::{Manner, Rub, Rubs, sector_of};
 use serde::{Deserialize, Serialize};
-
-/// An impact on a rigid support takes at most this many steps of a scheme on a grid; longer
-/// episodes are contact that lasts.
-const IMPACT_STEPS: u64 = 2;
 
 /// A support over the window of the statistics.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
