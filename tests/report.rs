@@ -317,6 +317,65 @@ fn a_structure_has_its_shape_beside_its_rows() {
     assert!(watched.iter().zip(&drawn).all(|(a, b)| (a - b).abs() <= 1e-5 * a.abs()));
 }
 
+/// In two planes the shape has both, and its station at a support moves as the support's probes do.
+#[test]
+fn a_structure_in_two_planes_has_both_in_its_shape() {
+    let dir = tempfile::tempdir().unwrap();
+    for case in ["tube-round-supports", "tube-lattice-bars"] {
+        let late = ["--end", "0.1", "--set", "time.statistics_from=0"];
+        said(dir.path(), &[&["run", case, "--no-verdict", "--out", case], &late[..]].concat(), 0);
+        let page = fs::read_to_string(dir.path().join(case).join("report.html")).unwrap();
+        let page = data(&page);
+        let shape = &page["runs"][0]["shape"];
+        let stations: Vec<f64> = shape["stations"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
+        assert_eq!(shape["planes"], 2);
+        let supports = page["scene"]["supports"].as_array().unwrap();
+        assert_eq!(supports.len(), 2);
+        let rows = fs::read_to_string(dir.path().join(case).join("trajectory.csv")).unwrap();
+        let header: Vec<&str> = rows.lines().next().unwrap().split(',').collect();
+        for support in supports {
+            let at = support["at"]["position"].as_f64().unwrap();
+            let station = stations.iter().position(|other| (other - at).abs() < 1e-9).unwrap();
+            for (plane, axis) in ["y", "z"].into_iter().enumerate() {
+                let drawn = column(&dir.path().join(case).join("shape.csv"), 1 + plane * stations.len() + station);
+                let name = format!("displacement_{}_{axis}_m", support["name"].as_str().unwrap().replace('-', "_"));
+                let watched =
+                    header.iter().position(|head| **head == name).unwrap_or_else(|| panic!("{name} {rows:.900}"));
+                let watched = column(&dir.path().join(case).join("trajectory.csv"), watched);
+                assert!(watched.iter().any(|u| *u != 0.0));
+                // The file has six digits.
+                assert!(watched.iter().zip(&drawn).all(|(a, b)| (a - b).abs() <= 1e-5 * a.abs()), "{case} {name}");
+            }
+            // The gap of 0.2 mm, and the corners of bars.
+            let reach = support["reach"].as_f64().unwrap();
+            let corner = if support["round"] == true { 1.0 } else { 1.45 };
+            assert!((reach - corner * 0.2e-3).abs() < 1e-12, "{reach}");
+            assert!(
+                support["gaps"].as_array().unwrap().iter().all(|gap| (gap.as_f64().unwrap() - 0.2e-3).abs() < 1e-12)
+            );
+        }
+    }
+}
+
+/// A row of a sweep whose own run was kept is named on the page that is made anew, and no other.
+#[test]
+fn the_page_of_a_sweep_knows_the_runs_kept_of_its_rows() {
+    let dir = tempfile::tempdir().unwrap();
+    let sweep = ["sweep", CASE, "--vary", "load.1.harmonic.frequency=4:5:3", "--measure", "contacts", "--out", "s"];
+    said(dir.path(), &sweep, 0);
+    let page = || fs::read_to_string(dir.path().join("s/report.html")).unwrap();
+    assert_eq!(data(&page())["sweep"]["kept"], serde_json::json!([]));
+    said(dir.path(), &["run", CASE, "--end", "0.1", "--no-verdict", "--out", "s/rows/2"], 0);
+    for folder in ["s/rows/77", "s/rows/1", "s/rows/3", "s/rows/other"] {
+        fs::create_dir_all(dir.path().join(folder)).unwrap();
+    }
+    for row in [3, 77] {
+        fs::write(dir.path().join(format!("s/rows/{row}/report.html")), "").unwrap();
+    }
+    said(dir.path(), &["report", "s"], 0);
+    assert_eq!(data(&page())["sweep"]["kept"], serde_json::json!([2]));
+}
+
 #[test]
 fn a_long_run_is_drawn_from_its_extremes_and_says_so() {
     let dir = tempfile::tempdir().unwrap();

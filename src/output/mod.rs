@@ -48,7 +48,7 @@ pub mod pictures;
 mod places;
 pub mod realisations;
 pub mod results;
-mod ring;
+pub(crate) mod ring;
 mod rubbed;
 pub mod run;
 pub mod shape;

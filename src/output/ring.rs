@@ -1,7 +1,7 @@
 //! What bounds the motion at a support, and its work of wear by sectors as a ring around it.
 
 use super::labelled::Labelled;
-use crate::scene::{Probe, Scene, Shape};
+use crate::scene::{Probe, Scene, Support};
 use crate::statistics::WearStatistics;
 
 /// Corners of a circle.
@@ -11,6 +11,12 @@ const INSIDE: f64 = 1.06;
 const HEIGHT: f64 = 0.3;
 /// A corner of a lattice of four bars is √2 of its gap away.
 const CORNER: f64 = 1.45;
+
+/// How far from its centre the outline of a support is drawn, m: to the circle of a round one, and
+/// to the corners between flats, the farthest of which is `gap` away.
+pub(crate) fn reach(gap: f64, round: bool) -> f64 {
+    if round { gap } else { CORNER * gap }
+}
 
 /// A support around a place that is drawn.
 #[derive(Debug, Clone)]
@@ -28,19 +34,10 @@ impl Ring {
     /// The supports around the place of two probes.
     pub fn around(scene: &Scene, [y, z]: [&Probe; 2]) -> Vec<Self> {
         let there = scene.supports.iter().enumerate().filter(|(_, s)| s.at.y == y.at && s.at.z == z.at);
-        let ring = |(index, support): (usize, &crate::scene::Support)| {
-            let (hole, reach) = match &support.shape {
-                Shape::Round { gap, .. } => (Some(*gap), *gap),
-                Shape::Flats(flats) => {
-                    let walls = flats.iter().filter_map(|flat| scene.walls.get(flat.wall).map(|wall| (flat, wall)));
-                    let gap = walls.map(|(flat, wall)| {
-                        let [y, z] = crate::scene::heading(flat.direction);
-                        -wall.side.sign() * wall.position - y * support.centre[0] - z * support.centre[1]
-                    });
-                    (None, CORNER * gap.fold(0.0, f64::max))
-                }
-            };
-            Self { index, centre: support.centre, hole, inside: INSIDE * reach }
+        let ring = |(index, support): (usize, &Support)| {
+            let hole = support.hole().map(|hole| hole.gap);
+            let gap = support.gaps(&scene.walls).into_iter().fold(0.0, f64::max);
+            Self { index, centre: support.centre, hole, inside: INSIDE * reach(gap, hole.is_some()) }
         };
         there.map(ring).filter(|ring| ring.inside > 0.0).collect()
     }
@@ -98,7 +95,7 @@ mod tests {
     use super::*;
     use crate::output::labelled::Labelled;
     use crate::run::{Options, run};
-    use crate::scene::{PlaneRows, Row, Structure, Support, WallLaw};
+    use crate::scene::{PlaneRows, Row, Shape, Structure, WallLaw};
     use crate::scheme::Scheme;
 
     /// A free mass of 1 kg in a hole of 1 mm about (0.2, 0) mm.

@@ -17,6 +17,11 @@ use std::path::Path;
 /// The file's name.
 pub const FILE: &str = "shape.csv";
 
+/// How the columns of a structure in one plane begin; and of one in two planes, with the direction
+/// of each plane, degrees.
+const ONE: (&str, f64) = ("displacement_", 0.0);
+const PLANES: [(&str, f64); 2] = [("displacement_y_", 0.0), ("displacement_z_", 90.0)];
+
 /// Stations at equal distances along a bar or beam, beside those at walls and loads; and most
 /// masses of a chain.
 const ALONG: usize = 31;
@@ -34,8 +39,9 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// The stations of `case`: none for an oscillator, for matrices and for modes, whose places are
-    /// not in a line, for two planes, nor for a run of very many rows.
+    /// The stations of `case`, in two planes those along y and then those along z: none for an
+    /// oscillator, for matrices and for modes, whose places are not in a line, nor for a run of
+    /// very many rows.
     #[must_use]
     pub fn of(case: &Case) -> Self {
         let places: Vec<(String, Place)> = match &case.model {
@@ -44,18 +50,21 @@ impl Shape {
             Model::Chain(chain) => {
                 let every = chain.masses.len().div_ceil(MOST_MASSES).max(1);
                 let masses = (0..chain.masses.len()).step_by(every);
-                masses.map(|i| (format!("displacement_of_mass_{i}_m"), Place::Dof(i))).collect()
+                masses.map(|i| (format!("of_mass_{i}_m"), Place::Dof(i))).collect()
             }
             _ => Vec::new(),
         };
-        // In two planes a place has two displacements, which one line of stations does not show.
-        let places = if case.planes.is_two() { Vec::new() } else { places };
+        let planes = if case.planes.is_two() { &PLANES[..] } else { &[ONE][..] };
         let rows = case.scene.duration / case.time.sample.unwrap_or(case.time.step).max(case.time.step);
-        if 2.0 * rows * places.len() as f64 > MOST_VALUES {
+        if 2.0 * rows * (planes.len() * places.len()) as f64 > MOST_VALUES {
             return Self::default();
         }
-        let probe = |(name, place): (String, Place)| Some(Probe { name, at: row(case, &place)? });
-        Self { probes: places.into_iter().filter_map(probe).collect() }
+        let station = |&(plane, degrees): &(&str, f64), (name, place): &(String, Place)| {
+            let place = Place::Towards { place: Box::new(place.clone()), degrees };
+            Some(Probe { name: format!("{plane}{name}"), at: row(case, &place)? })
+        };
+        let all = planes.iter().flat_map(|plane| places.iter().map(move |place| (plane, place)));
+        Self { probes: all.filter_map(|(plane, place)| station(plane, place)).collect() }
     }
 
     /// The scene of `case` with the stations among its probes, after those of the case.
@@ -106,10 +115,20 @@ impl Shape {
 fn along(case: &Case, length: f64) -> Vec<(String, Place)> {
     let mut at: Vec<f64> = (0..ALONG).map(|i| length * (i as f64 / (ALONG - 1) as f64)).collect();
     let places = case.places.iter().chain(&case.written.loads);
-    at.extend(places.filter_map(|place| if let Place::Position(x) = place { Some(*x) } else { None }));
+    let supports = case.written.supports.iter().map(|support| &support.place);
+    at.extend(places.chain(supports).filter_map(position));
     at.sort_by(f64::total_cmp);
     at.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * length);
     at.into_iter().map(|x| (column(x), Place::Position(x))).collect()
+}
+
+/// Where along a bar or beam the place is, m.
+fn position(place: &Place) -> Option<f64> {
+    match place {
+        Place::Position(x) => Some(*x),
+        Place::Towards { place, .. } => position(place),
+        _ => None,
+    }
 }
 
 /// The row of the scene that sees `place`, in modal coordinates where the case is reduced to modes.
@@ -121,36 +140,76 @@ fn row(case: &Case, place: &Place) -> Option<Row> {
     })
 }
 
-/// The column of the station at `x` m: its digits as part of an identifier, `p` for the point and
-/// `m` for a minus.
+/// The column of the station at `x` m, after its plane: the digits as part of an identifier, `p` for
+/// the point and `m` for a minus.
 fn column(x: f64) -> String {
-    format!("displacement_at_{}_m", digits(Some(x)).replace('.', "p").replace('-', "m"))
+    format!("at_{}_m", digits(Some(x)).replace('.', "p").replace('-', "m"))
 }
 
-/// Where the stations of a table with that header are: in m along the structure, or the numbers of
-/// masses; `None` for another table.
-#[must_use]
-pub fn stations(header: &[String]) -> Option<Vec<f64>> {
-    let (first, rest) = header.split_first()?;
-    let station = |name: &String| {
-        let inner = name.strip_suffix("_m")?;
-        let number = inner.strip_prefix("displacement_at_").or(inner.strip_prefix("displacement_of_mass_"))?;
-        number.replace('p', ".").replace('m', "-").parse::<f64>().ok()
-    };
-    (first == "time_s").then(|| rest.iter().map(station).collect()).flatten()
+/// The stations of a `shape.csv`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stations {
+    /// Where they are: in m along the structure, or the numbers of masses.
+    pub places: Vec<f64>,
+    /// The planes, 1 or 2, in each of which the table has a displacement of every station.
+    pub planes: usize,
+}
+
+impl Stations {
+    /// The stations of a table with that header; `None` for another table.
+    #[must_use]
+    pub fn of(header: &[String]) -> Option<Self> {
+        let (first, rest) = header.split_first()?;
+        let all = |names: &[String], plane: &str| -> Option<Vec<f64>> {
+            let station = |name: &String| {
+                let inner = name.strip_prefix(plane)?.strip_suffix("_m")?;
+                let number = inner.strip_prefix("at_").or(inner.strip_prefix("of_mass_"))?;
+                number.replace('p', ".").replace('m', "-").parse::<f64>().ok()
+            };
+            names.iter().map(station).collect()
+        };
+        if first != "time_s" {
+            return None;
+        }
+        if let Some(places) = all(rest, ONE.0) {
+            return Some(Self { places, planes: 1 });
+        }
+        let (y, z) = rest.split_at(rest.len() / 2);
+        let [y, z] = [all(y, PLANES[0].0)?, all(z, PLANES[1].0)?];
+        (y == z).then_some(Self { places: y, planes: 2 })
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{column, stations};
+    use super::{ONE, PLANES, Stations, column};
+
+    fn header(planes: &[(&str, f64)], places: &[f64]) -> Vec<String> {
+        let stations = |plane: &str| places.iter().map(|&x| format!("{plane}{}", column(x))).collect::<Vec<_>>();
+        let all = planes.iter().flat_map(|(plane, _)| stations(plane));
+        std::iter::once("time_s".to_owned()).chain(all).collect()
+    }
 
     #[test]
     fn a_header_says_where_its_stations_are() {
-        let places = [0.0, 0.1, 1.0 / 3.0, 1e-7, 2.5e21];
-        let names: Vec<String> = std::iter::once("time_s".to_owned()).chain(places.map(column)).collect();
-        assert!(names.iter().all(|name| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')));
-        assert_eq!(stations(&names).unwrap(), places);
-        assert_eq!(stations(&["time_s".to_owned(), "displacement_of_mass_7_m".to_owned()]).unwrap(), [7.0]);
-        assert!(stations(&["time_s".to_owned(), "contact_force_m".to_owned()]).is_none());
+        let places = vec![0.0, 0.1, 1.0 / 3.0, 1e-7, 2.5e21];
+        for planes in [&[ONE][..], &PLANES[..]] {
+            let names = header(planes, &places);
+            assert!(names.iter().all(|name| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')));
+            let expected = Stations { places: places.clone(), planes: planes.len() };
+            assert_eq!(Stations::of(&names), Some(expected));
+        }
+        let mass = ["time_s".to_owned(), "displacement_of_mass_7_m".to_owned()];
+        assert_eq!(Stations::of(&mass).unwrap().places, [7.0]);
+    }
+
+    #[test]
+    fn another_header_has_no_stations() {
+        let mut names = header(&PLANES, &[0.0, 1.0]);
+        names.swap(3, 4);
+        assert_eq!(Stations::of(&names), None, "the planes differ");
+        assert_eq!(Stations::of(&["time_s".to_owned(), "contact_force_m".to_owned()]), None);
+        assert_eq!(Stations::of(&["step".to_owned()]), None);
+        assert_eq!(Stations::of(&[]), None);
     }
 }

@@ -10,11 +10,14 @@ use crate::error::{Error, Result};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
+/// The name of the report within a folder of results.
+pub const FILE: &str = "report.html";
+
 const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 29] = [
+const SCRIPT: [&str; 31] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
@@ -28,6 +31,8 @@ const SCRIPT: [&str; 29] = [
     include_str!("page/js/body.js"),
     include_str!("page/js/stations.js"),
     include_str!("page/js/structure.js"),
+    include_str!("page/js/outlines.js"),
+    include_str!("page/js/planes.js"),
     include_str!("page/js/panels.js"),
     include_str!("page/js/phase.js"),
     include_str!("page/js/supports.js"),

@@ -29,13 +29,12 @@ mod scene;
 mod stability;
 mod sweep;
 
+pub use html::FILE;
+
 use crate::error::{Error, Result};
 use folder::Folder;
 use serde_json::{Map, Value, json};
 use std::path::Path;
-
-/// The name of the report within a folder of results.
-pub const FILE: &str = "report.html";
 
 /// The report on the results in `path`, of which `manifest` says what was asked: an HTML page.
 ///

@@ -5,7 +5,7 @@ use super::column::{extremes, f32, f64, i16, u32, words};
 use super::folder::{Cells, Folder, Numbers};
 use super::scene::place;
 use crate::error::{Error, Result};
-use crate::output::shape;
+use crate::output::shape::{self, Stations};
 use serde_json::{Value, json};
 
 /// Most rows of a run that the page holds; of a longer one the rows with extremes.
@@ -151,15 +151,21 @@ fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> R
 
 /// The shape: where its stations are, and their displacement over time.
 fn drawn_shape(table: &Numbers) -> Result<Value> {
-    let (Some(time), Some(stations)) = (table.columns.first(), shape::stations(&table.header)) else {
+    let (Some(time), Some(stations)) = (table.columns.first(), Stations::of(&table.header)) else {
         return Err(table.wrong("its columns are not time_s and the displacement at each station"));
     };
-    let every = (table.count() * stations.len()).div_ceil(MOST_SHAPE).max(1);
+    let every = (table.count() * table.columns.len()).div_ceil(MOST_SHAPE).max(1);
     let picked = |column: &[f64]| column.iter().copied().step_by(every).collect::<Vec<_>>();
-    // Row by row, so that the shape at an instant lies together.
+    // Row by row, so that the shape at an instant lies together: along y, then along z.
     let columns: Vec<Vec<f64>> = table.columns.iter().skip(1).map(|column| picked(column)).collect();
     let time = picked(time);
     let values: Vec<f64> =
         (0..time.len()).flat_map(|row| columns.iter().filter_map(move |c| c.get(row).copied())).collect();
-    Ok(json!({ "stations": stations, "time": f64(&time), "every": every, "u": i16(&values) }))
+    Ok(json!({
+        "stations": stations.places,
+        "planes": stations.planes,
+        "time": f64(&time),
+        "every": every,
+        "u": i16(&values),
+    }))
 }

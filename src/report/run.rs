@@ -71,6 +71,14 @@ fn facts(summary: &Value) -> Value {
         let power: f64 = walls.iter().filter_map(|wall| number(&wall["impact_power_w"])).sum();
         facts.push(fact("impact power", short(1e3 * power), "mW"));
     }
+    let supports = summary["supports"].as_array().map_or(&[][..], Vec::as_slice);
+    if !supports.is_empty() {
+        let sum = |key: &str| supports.iter().filter_map(|support| number(&support[key])).sum::<f64>();
+        let upper = supports.iter().any(|support| support["upper_figure"] == true);
+        let unit = if upper { "mW, upper figure" } else { "mW" };
+        facts.push(fact("work rate", short(1e3 * sum("work_rate_w")), unit));
+        facts.push(fact("mean force", short(sum("mean_n")), "N, of all supports"));
+    }
     facts.push(fact("method", summary["scheme"].as_str().unwrap_or_default().to_owned(), ""));
     let length =
         |h: f64| if h < 1e-3 { format!("of {} µs", short(1e6 * h)) } else { format!("of {} ms", short(1e3 * h)) };

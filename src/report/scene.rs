@@ -1,16 +1,15 @@
 //! What is drawn of a scene: the structure, its walls and loads with where they are, from the
 //! summary of a run.
 
+use crate::output::ring::reach;
 use serde_json::{Map, Value, json};
 
-/// The drawing's data. A structure in two planes has no drawing of its own yet: its watched places
-/// are drawn side by side, each in its direction.
+/// The drawing's data.
 pub(super) fn scene(summary: &Value) -> Value {
     let case = &summary["case_file"];
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
     let kinds = ["oscillator", "chain", "bar", "beam", "matrices", "modal"];
     let system = kinds.into_iter().find(|kind| case["system"].get(kind).is_some()).unwrap_or("matrices");
-    let two = summary["scene"]["planes"] == 2;
     let walls: Vec<Value> = list(&summary["scene"]["walls"])
         .iter()
         .map(|wall| {
@@ -28,15 +27,33 @@ pub(super) fn scene(summary: &Value) -> Value {
         load
     });
     let mut out = Map::new();
-    out.insert("kind".to_owned(), json!(if two { "planes" } else { system }));
+    out.insert("kind".to_owned(), json!(system));
+    out.insert("planes".to_owned(), summary["scene"]["planes"].clone());
     out.insert("walls".to_owned(), json!(walls));
-    out.insert("supports".to_owned(), summary["scene"]["supports"].clone());
+    out.insert("supports".to_owned(), list(&summary["scene"]["supports"]).iter().map(support).collect());
     out.insert("loads".to_owned(), loads.collect());
     for key in ["mass", "damping", "stiffness", "length", "left", "right", "masses"] {
-        let value = if two { &Value::Null } else { &case["system"][system][key] };
-        out.insert(key.to_owned(), value.clone());
+        out.insert(key.to_owned(), case["system"][system][key].clone());
     }
     Value::Object(out)
+}
+
+/// A support: where it is, its centre, and its outline, a circle or flats with their directions and
+/// distances from the centre; and how far its drawing reaches, m.
+fn support(support: &Value) -> Value {
+    let round = support["shape"] == "round";
+    let numbers = |value: &Value| value.as_array().cloned().unwrap_or_default();
+    let gaps = if round { vec![support["gap_m"].clone()] } else { numbers(&support["gaps_m"]) };
+    let largest = gaps.iter().filter_map(Value::as_f64).fold(0.0, f64::max);
+    json!({
+        "name": support["name"],
+        "at": in_keys(&support["at"]),
+        "centre": support["centre_m"],
+        "round": round,
+        "gaps": gaps,
+        "directions": numbers(&support["directions_deg"]),
+        "reach": reach(largest, round),
+    })
 }
 
 /// Where a load or probe of a case file is, its direction with it.

@@ -1,9 +1,12 @@
 //! The page of a sweep: curves, maps and bifurcation diagrams.
 
-use super::folder::Folder;
+use super::folder::{Cells, Folder};
+use super::html::FILE;
 use crate::error::{Error, Result};
 use crate::output::results;
 use serde_json::{Value, json};
+use std::collections::HashSet;
+use std::path::Path;
 
 /// Most cells of the tables that a page holds: some tens of megabytes of HTML.
 const MOST_CELLS: usize = 4_000_000;
@@ -13,12 +16,29 @@ const ATTRACTORS: &str = "attractors.csv";
 const TOLD: [&str; 8] =
     ["attractor", "rows", "share", "signature", "period", "phases_cycles", "approach_speeds_m_per_s", "multipliers"];
 
+/// Where the run of a row of a sweep is looked for, within the folder of the sweep: in a folder of
+/// that row's number.
+const ROWS: &str = "rows";
+
+/// The rows whose own runs have a report, by their numbers.
+fn kept(folder: &Path, table: &Cells) -> Vec<usize> {
+    let all = std::fs::read_dir(folder.join(ROWS)).into_iter().flatten().flatten();
+    let row = |entry: std::fs::DirEntry| entry.file_name().to_str()?.parse::<usize>().ok();
+    let known: HashSet<&str> = (0..table.rows.len()).map(|row| table.text(row, "row")).collect();
+    let has = |row: &usize| {
+        known.contains(row.to_string().as_str()) && folder.join(ROWS).join(row.to_string()).join(FILE).is_file()
+    };
+    let mut rows: Vec<usize> = all.filter_map(row).filter(has).collect();
+    rows.sort_unstable();
+    rows
+}
+
 /// What the page of a sweep shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let table = folder.cells("sweep.csv")?;
     let samples = if folder.has("samples.csv") { Some(folder.cells("samples.csv")?) } else { None };
     let attractors = if folder.has(ATTRACTORS) { Some(folder.cells(ATTRACTORS)?) } else { None };
-    let cells = |table: &super::folder::Cells| table.rows.len() * table.header.len();
+    let cells = |table: &Cells| table.rows.len() * table.header.len();
     let count = cells(&table) + samples.as_ref().map_or(0, cells);
     if count > MOST_CELLS {
         let reason = format!("its tables have {count} cells; a report holds {MOST_CELLS} at most");
@@ -39,6 +59,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "samples": samples.map(|samples| samples.for_page(None)),
             "axes": axes,
             "scheme": request["methods"][0],
+            "kept": kept(folder.path, &table),
         },
         "case": folder.manifest["case_text"],
         "summary": { "status": summary["status"], "first_error": summary["first_error"], results::MANIFEST: request },

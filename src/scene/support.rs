@@ -82,6 +82,21 @@ impl Support {
         [y - self.centre[0], z - self.centre[1]]
     }
 
+    /// The distance of each flat from the centre, m, where `walls` are those of the scene; of a
+    /// round support the radial gap.
+    #[must_use]
+    pub fn gaps(&self, walls: &[Wall]) -> Vec<f64> {
+        let distance = |flat: &FlatWall| {
+            let wall = walls.get(flat.wall)?;
+            let [y, z] = heading(flat.direction);
+            Some(-wall.side.sign() * wall.position - y * self.centre[0] - z * self.centre[1])
+        };
+        match &self.shape {
+            Shape::Flats(flats) => flats.iter().filter_map(distance).collect(),
+            Shape::Round { gap, .. } => vec![*gap],
+        }
+    }
+
     /// The hole of a round support.
     #[must_use]
     pub fn hole(&self) -> Option<Hole<'_>> {

@@ -34,7 +34,7 @@ pub(super) fn scene(case: &Case) -> Value {
     out.insert("planes".to_owned(), json!(if case.planes.is_two() { 2 } else { 1 }));
     out.insert("walls".to_owned(), walls.collect());
     if !whole.supports.is_empty() {
-        out.insert("supports".to_owned(), whole.supports.iter().map(support).collect());
+        out.insert("supports".to_owned(), supports(case).collect());
     }
     out.insert("duration_s".to_owned(), json!(case.scene.duration));
     Value::Object(out)
@@ -149,12 +149,26 @@ fn at(place: &Place) -> Value {
     }
 }
 
-fn support(support: &Support) -> Value {
+/// The supports, each with where it is.
+fn supports(case: &Case) -> impl Iterator<Item = Value> {
+    let whole = case.whole();
+    let places = case.written.supports.iter().map(|written| Some(&written.place)).chain(std::iter::repeat(None));
+    whole.supports.iter().zip(places).map(|(one, place)| support(one, place, &whole.walls))
+}
+
+fn support(support: &Support, place: Option<&Place>, walls: &[Wall]) -> Value {
     let Support { name, centre, friction, .. } = support;
-    match &support.shape {
+    let mut out = match &support.shape {
         Shape::Flats(flats) => {
             let directions: Vec<f64> = flats.iter().map(|flat| flat.direction).collect();
-            json!({ "name": name, "shape": "flats", "directions_deg": directions, "centre_m": centre, "friction": friction })
+            json!({
+                "name": name,
+                "shape": "flats",
+                "directions_deg": directions,
+                "gaps_m": support.gaps(walls),
+                "centre_m": centre,
+                "friction": friction,
+            })
         }
         Shape::Round { gap, law } => json!({
             "name": name,
@@ -164,7 +178,11 @@ fn support(support: &Support) -> Value {
             "centre_m": centre,
             "friction": friction,
         }),
+    };
+    if let (Some(place), Some(map)) = (place, out.as_object_mut()) {
+        map.insert("at".to_owned(), at(place));
     }
+    out
 }
 
 fn wall(wall: &Wall) -> Value {

@@ -23,7 +23,7 @@ function readRun(run) {
 
 /** Names of the places that contacts belong to: the walls, then the round supports. */
 function meetingPlaces() {
-  const round = (DATA.scene.supports || []).filter((support) => support.shape === "round");
+  const round = (DATA.scene.supports || []).filter((support) => support.round);
   return [...DATA.scene.walls, ...round].map((place) => place.name);
 }
 
@@ -35,7 +35,7 @@ const samePlace = (a, b) => JSON.stringify(a ?? null) === JSON.stringify(b ?? nu
  * time and upright in the phase plane, at any zoom.
  */
 function readProbe(probe, time, contacts) {
-  const alone = DATA.scene.kind === "oscillator";
+  const alone = DATA.scene.kind === "oscillator" && DATA.scene.planes !== 2;
   const walls = DATA.scene.walls
     .map((_, i) => i)
     .filter((i) => alone || samePlace(DATA.scene.walls[i].at, probe.at));
@@ -67,10 +67,11 @@ function readProbe(probe, time, contacts) {
   return { name: probe.name, at: probe.at, walls, extents, T, Q, V };
 }
 
-/** The shape of a structure: displacement u[row * stations + station]. */
+/** The shape of a structure: displacement u[(row * planes + plane) * stations + station]. */
 function readShape(shape) {
   return {
     stations: shape.stations,
+    planes: shape.planes,
     T: decode(shape.time),
     u: decode(shape.u),
     unit: shape.u.unit,
@@ -94,16 +95,17 @@ function stateAt(probe, t) {
   return [q, V[i] + s * (V[i + 1] - V[i])];
 }
 
-/** The displacement of every station at a time, between rows linearly. */
-function shapeAt(shape, t, out) {
+/** The displacement of every station in a plane at a time, between rows linearly. */
+function shapeAt(shape, plane, t, out) {
   const n = shape.stations.length;
+  const [row, first] = [shape.planes * n, plane * n];
   const last = shape.T.length - 1;
   const i = clamp(before(shape.T, t), 0, Math.max(0, last - 1));
   const j = Math.min(i + 1, last);
   const span = shape.T[j] - shape.T[i];
   const s = span > 0 ? clamp((t - shape.T[i]) / span, 0, 1) : 0;
   for (let k = 0; k < n; k++) {
-    const [a, b] = [shape.u[i * n + k], shape.u[j * n + k]];
+    const [a, b] = [shape.u[i * row + first + k], shape.u[j * row + first + k]];
     out[k] = shape.unit * (a + s * (b - a));
   }
   return out;

@@ -21,11 +21,11 @@ class Stage {
 }
 
 /**
- * How lately each wall was struck: [fresh, share], fresh from 1 (now) to 0 (`memory` seconds ago),
+ * How lately each wall and round support was struck: [fresh, share], fresh from 1 (now) to 0 (`memory` seconds ago),
  * share that of the largest impulse of the run.
  */
 function struckAt(t, memory) {
-  const out = DATA.scene.walls.map(() => [0, 0]);
+  const out = meetingPlaces().map(() => [0, 0]);
   const { start, end, wall, impulse, largest } = lead.contacts;
   const earliest = t - memory;
   for (let i = before(start, t), looked = 0; i >= 0 && looked < 400; i--, looked++) {
@@ -48,7 +48,12 @@ function fittingSpeed() {
 
 /** Drawing, its controls, and the cards of how far the run is to be trusted. */
 function heroSection() {
-  const drawing = DATA.scene.kind === "oscillator" ? bodyStage() : structureStage();
+  const drawing =
+    DATA.scene.planes === 2
+      ? planesStage()
+      : DATA.scene.kind === "oscillator"
+        ? bodyStage()
+        : structureStage();
   state.speed = fittingSpeed();
   const play = button("Play or pause (space)", () => toggle());
   let last = null;

@@ -1,24 +1,32 @@
 // Where a structure is drawn, and what it does there.
 
 /**
- * Where the structure is drawn: stations with their places x, at(t) which gives the displacement of
- * each, and the range of each over the run.
+ * Where the structure is drawn, in that plane of two: stations with their places x, at(t) which
+ * gives the displacement of each, and the range of each over the run.
  */
-function stationsOf() {
+function stationsOf(plane = 0) {
   const length = DATA.scene.length;
   if (lead.shape) {
-    const { stations, u, unit } = lead.shape;
+    const { stations, planes, u, unit } = lead.shape;
     const n = stations.length;
     const [low, high] = [new Float64Array(n), new Float64Array(n)];
-    for (let i = 0; i < u.length; i++) {
-      low[i % n] = Math.min(low[i % n], unit * u[i]);
-      high[i % n] = Math.max(high[i % n], unit * u[i]);
+    for (let row = plane * n; row < u.length; row += planes * n) {
+      for (let k = 0; k < n; k++) {
+        low[k] = Math.min(low[k], unit * u[row + k]);
+        high[k] = Math.max(high[k], unit * u[row + k]);
+      }
     }
     const buffer = new Float64Array(n);
-    return { x: stations, low, high, at: (t) => shapeAt(lead.shape, t, buffer), whole: true };
+    return {
+      x: stations,
+      low,
+      high,
+      at: (t) => shapeAt(lead.shape, plane, t, buffer),
+      whole: true,
+    };
   }
   // Without a shape: the watched places, by where they are if they say so.
-  const two = DATA.scene.kind === "planes";
+  const two = DATA.scene.planes === 2;
   const place = (probe) => probe.at && (probe.at.position ?? probe.at.dof);
   const placed = lead.probes.every((probe) => Number.isFinite(place(probe)) && !two);
   const probes = placed ? [...lead.probes].sort((a, b) => place(a) - place(b)) : lead.probes;
@@ -32,4 +40,39 @@ function stationsOf() {
     ats: probes.map((probe) => probe.at),
     whole: placed && !length,
   };
+}
+
+/** Where the drawing along a structure begins and ends, of stations at x. */
+const endsOf = (x) =>
+  DATA.scene.length ? [0, DATA.scene.length] : [Math.min(...x) - 0.5, Math.max(...x) + 0.5];
+
+/** How an end of a bar or beam is held: pinned, clamped, or on a spring. */
+function drawEnd(ctx, x, middle, side, held) {
+  ctx.fillStyle = ink.sheet;
+  ctx.strokeStyle = ink.wall;
+  ctx.lineWidth = 1.8;
+  ctx.beginPath();
+  if (held === "pinned") {
+    ctx.moveTo(x, middle + 4);
+    ctx.lineTo(x - 10, middle + 22);
+    ctx.lineTo(x + 10, middle + 22);
+    ctx.closePath();
+    ctx.fill();
+    ctx.stroke();
+    ctx.fillStyle = hatch(ctx);
+    ctx.fillRect(x - 14, middle + 23, 28, 7);
+  } else if (held === "clamped") {
+    ctx.moveTo(x, middle - 26);
+    ctx.lineTo(x, middle + 26);
+    ctx.stroke();
+    ctx.fillStyle = hatch(ctx);
+    ctx.fillRect(side < 0 ? x - 10 : x, middle - 26, 10, 52);
+  } else if (held && held.stiffness) {
+    ctx.moveTo(x, middle + 4);
+    for (let k = 0; k < 6; k++) ctx.lineTo(x + (k % 2 ? -5 : 5), middle + 6 + 3 * k);
+    ctx.lineTo(x, middle + 26);
+    ctx.stroke();
+    ctx.fillStyle = hatch(ctx);
+    ctx.fillRect(x - 10, middle + 26, 20, 7);
+  }
 }

@@ -6,9 +6,7 @@ function structureStage() {
   const { kind, loads } = DATA.scene;
   const stations = stationsOf();
   const n = stations.x.length;
-  const ends = DATA.scene.length
-    ? [0, DATA.scene.length]
-    : [Math.min(...stations.x) - 0.5, Math.max(...stations.x) + 0.5];
+  const ends = endsOf(stations.x);
   /** Where along the structure a wall or load is; undefined where the drawing has no place for it. */
   const placeOf = (at) => {
     const x = at && (at.position ?? (lead.shape ? at.dof : undefined));
@@ -46,36 +44,6 @@ function structureStage() {
         X(x[i]),
         Y(u[i]),
       );
-    }
-  };
-
-  const drawEnd = (ctx, x, side, held) => {
-    ctx.fillStyle = ink.sheet;
-    ctx.strokeStyle = ink.wall;
-    ctx.lineWidth = 1.8;
-    ctx.beginPath();
-    if (held === "pinned") {
-      ctx.moveTo(x, middle + 4);
-      ctx.lineTo(x - 10, middle + 22);
-      ctx.lineTo(x + 10, middle + 22);
-      ctx.closePath();
-      ctx.fill();
-      ctx.stroke();
-      ctx.fillStyle = hatch(ctx);
-      ctx.fillRect(x - 14, middle + 23, 28, 7);
-    } else if (held === "clamped") {
-      ctx.moveTo(x, middle - 26);
-      ctx.lineTo(x, middle + 26);
-      ctx.stroke();
-      ctx.fillStyle = hatch(ctx);
-      ctx.fillRect(side < 0 ? x - 10 : x, middle - 26, 10, 52);
-    } else if (held && held.stiffness) {
-      ctx.moveTo(x, middle + 4);
-      for (let k = 0; k < 6; k++) ctx.lineTo(x + (k % 2 ? -5 : 5), middle + 6 + 3 * k);
-      ctx.lineTo(x, middle + 26);
-      ctx.stroke();
-      ctx.fillStyle = hatch(ctx);
-      ctx.fillRect(x - 10, middle + 26, 20, 7);
     }
   };
 
@@ -279,8 +247,8 @@ function structureStage() {
       if (wall.x !== undefined) drawWall(ctx, X, wall, struck[i]);
     });
     if (DATA.scene.length) {
-      drawEnd(ctx, left, -1, DATA.scene.left);
-      drawEnd(ctx, right, 1, DATA.scene.right);
+      drawEnd(ctx, left, middle, -1, DATA.scene.left);
+      drawEnd(ctx, right, middle, 1, DATA.scene.right);
     }
     const u = Float64Array.from(stations.at(t));
     drawBody(ctx, X, u);

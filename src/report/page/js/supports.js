@@ -1,12 +1,12 @@
 // The supports of a structure in two planes: the orbit in each, with the work of wear by sector as a
 // ring around it, and their numbers.
 
-/** The ring begins at this multiple of the gap, and its highest sector is this share of it high. */
+/** The ring begins at this multiple of the support's reach, and its highest sector is this share of it high. */
 const RING = [1.06, 0.3];
 
 function supportSection() {
   const rows = DATA.summary.supports;
-  const drawn = DATA.summary.scene.supports
+  const drawn = DATA.scene.supports
     .map((support, i) => ({ support, worn: rows[i], pair: watching(support.name) }))
     .filter(({ pair, worn }) => pair && worn);
   const upper = rows.some((row) => row.upper_figure);
@@ -30,26 +30,9 @@ function supportSection() {
   );
 }
 
-/** The probes of a support along y and z, where a run has them. */
-function watching(name) {
-  const pair = ["y", "z"].map((axis) =>
-    lead.probes.find((probe) => probe.name === `${name}-${axis}`),
-  );
-  return pair.every(Boolean) ? pair : null;
-}
-
-/** The directions (rad) and positions of the flats of a support; empty for a round one. */
-function flatsOf(support) {
-  return DATA.scene.walls
-    .filter((wall) => wall.name.startsWith(`${support.name}-flat-`) && wall.at)
-    .map((wall) => ({ angle: ((wall.at.direction || 0) * TURN) / 360, position: wall.position }));
-}
-
 function supportPlot({ support, worn, pair: [y, z] }) {
-  const flats = flatsOf(support);
-  const centre = support.centre_m || [0, 0];
-  const gap = support.gap_m || Math.max(...flats.map((flat) => Math.abs(flat.position)));
-  const [unit, factor] = lengthUnit(gap);
+  const { centre, reach } = support;
+  const [unit, factor] = lengthUnit(reach);
   const at = (probe) => (t) => stateAt(probe, t)[0] * factor;
   const orbit = {
     kind: "orbit",
@@ -65,27 +48,15 @@ function supportPlot({ support, worn, pair: [y, z] }) {
   const most = Math.max(...worn.sectors.map((sector) => sector.work_rate_w));
   const scale = (plot) => (plot.x1 - plot.x0) / (plot.X[1] - plot.X[0]);
   function drawEdge(ctx, plot) {
-    ctx.strokeStyle = ink.wall;
-    ctx.lineWidth = 2;
-    ctx.beginPath();
-    const [cx, cy] = [plot.sx(centre[0] * factor), plot.sy(centre[1] * factor)];
-    if (!flats.length) ctx.arc(cx, cy, gap * factor * scale(plot), 0, TURN);
-    for (const { angle, position } of flats) {
-      const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
-      for (const [k, along] of [2 * gap, -2 * gap].entries()) {
-        const x = plot.sx((position * cos - along * sin) * factor);
-        const end = plot.sy((position * sin + along * cos) * factor);
-        if (k) ctx.lineTo(x, end);
-        else ctx.moveTo(x, end);
-      }
-    }
-    ctx.stroke();
+    const [X, Y] = [(y) => plot.sx(y * factor), (z) => plot.sy(z * factor)];
+    drawOutline(ctx, support, X, Y, factor * scale(plot), ink.wall);
+    const [cx, cy] = [X(centre[0]), Y(centre[1])];
     if (!(most > 0)) return;
     ctx.fillStyle = clear(ink.c2, 0.65);
     for (const sector of worn.sectors) {
       const [from, to] = [sector.from_deg, sector.to_deg].map((deg) => (-deg * TURN) / 360);
-      const inner = RING[0] * gap * factor * scale(plot);
-      const outer = inner + (sector.work_rate_w / most) * RING[1] * gap * factor * scale(plot);
+      const inner = RING[0] * reach * factor * scale(plot);
+      const outer = inner + (sector.work_rate_w / most) * RING[1] * reach * factor * scale(plot);
       ctx.beginPath();
       ctx.arc(cx, cy, inner, from, to, true);
       ctx.arc(cx, cy, outer, to, from, false);
@@ -104,8 +75,8 @@ function supportPlot({ support, worn, pair: [y, z] }) {
   plot.limits = () => {
     // One length is as long along both axes.
     const [w, h] = [plot.x1 - plot.x0, plot.y1 - plot.y0];
-    const reach = (1.05 * (RING[0] + RING[1]) * gap * factor) / Math.min(w, h);
-    const around = (c, size) => [c * factor - reach * size, c * factor + reach * size];
+    const shown = (1.05 * (RING[0] + RING[1]) * reach * factor) / Math.min(w, h);
+    const around = (c, size) => [c * factor - shown * size, c * factor + shown * size];
     [plot.X, plot.Y] = [around(centre[0], w), around(centre[1], h)];
   };
   view.listeners.push(() => {

@@ -14,6 +14,7 @@ function sweepSection() {
       !axes.some((axis) => axis.column === name) &&
       numeric(name),
   );
+  const kept = new Set(DATA.sweep.kept);
   const command = el("pre", { class: "command", hidden: true });
   const tell = (i) =>
     [
@@ -42,8 +43,13 @@ function sweepSection() {
     );
     const by = scheme ? ` --scheme ${shellWord(scheme)}` : "";
     const file = shellWord(`${DATA.name}.toml`);
-    command.textContent = `# ${DATA.name}.toml is what "Save the case" below gives\nsignorini run ${file} ${set.join(" ")}${by}`;
+    const row = columns.row[i];
+    command.textContent =
+      `# In the folder of this page, where ${DATA.name}.toml is what "Save the case" below gives:\n` +
+      `signorini run ${file} ${set.join(" ")}${by} --out rows/${row}\n` +
+      "# A click opens that run, once this page was made anew:\nsignorini report .";
     command.hidden = false;
+    if (kept.has(row)) open(`rows/${row}/report.html`);
   };
   const content = [];
   if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns, pick));
@@ -66,7 +72,10 @@ function sweepSection() {
   section(
     "sweep",
     "Sweep",
-    "Point at a row for its numbers; click it for the command that runs it alone.",
+    "Point at a row for its numbers; click it for the command that runs it alone" +
+      (kept.size
+        ? `, or for its own report (there ${kept.size === 1 ? "is" : "are"} ${kept.size}).`
+        : "."),
     ...content,
     command,
   );
