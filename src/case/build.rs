@@ -78,7 +78,6 @@ impl Builder<'_> {
             supports.push(support);
             walls.extend(flats);
         }
-        self.check_equilibrium(&supports)?;
         let (wear, sectors) = self.wear(file.wear.as_ref())?;
         let mut second = Vec::new();
         let mut loads = Vec::new();
@@ -296,9 +295,10 @@ impl Builder<'_> {
             .or_else(|| hole().and_then(|hole| self.noted(&Subject::support(&hole.name).part("gap"))))
             .unwrap_or(0..0);
         let title = format!("{} is {value}", written(subject));
-        let or = match wall() {
-            Some(_) => "; or equilibrium = true in place of it: at rest between the walls",
-            None => "",
+        let or = if wall().is_some() || hole().is_some() {
+            "; or equilibrium = true in place of it: at rest between the walls and in the holes"
+        } else {
+            ""
         };
         self.source.error(span, &title, &format!("expected {expected}{or}")).caused_by(error.clone())
     }

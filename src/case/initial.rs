@@ -6,7 +6,6 @@ use super::model::Model;
 use super::planes::Planes;
 use super::value::Value;
 use crate::error::{Result, Subject};
-use crate::scene::{Shape, Support};
 use crate::study::truncation::Start;
 use toml::Spanned;
 
@@ -44,22 +43,6 @@ impl Builder<'_> {
                 Err(self.source.error(given.span(), "`initial.equilibrium` beside a start", help))
             }
             None => Ok(Start::Equilibrium),
-        }
-    }
-
-    /// Refuses an equilibrium beside round supports.
-    pub fn check_equilibrium(&self, supports: &[Support]) -> Result<()> {
-        let round = supports.iter().find(|support| matches!(support.shape, Shape::Round { .. }));
-        let subject = Subject::from(("initial state", "equilibrium"));
-        let at = self.places.iter().find(|(known, _)| *known == subject).map(|(_, at)| at.clone());
-        match round.zip(at) {
-            Some((support, at)) => {
-                let title = format!("`initial.equilibrium` beside the round support {:?}", support.name);
-                let help = "expected a displacement within its gap: static equilibrium is found between walls, and \
-                            flats are walls";
-                Err(self.source.error(at, &title, help))
-            }
-            None => Ok(()),
         }
     }
 

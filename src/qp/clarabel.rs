@@ -16,7 +16,7 @@ use super::delassus::Delassus;
 use super::pivoting::{Pivoting, Side};
 use super::{Failure, NOISE, Problem, Rhs};
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus};
 
 /// Stopping tolerance of duality gap and feasibility (dimensionless). The solution only has to tell
 /// rows in play from free ones, since the forces are then solved for exactly; below 1e-12 the
@@ -196,6 +196,62 @@ fn run(solver: &mut DefaultSolver<f64>) -> Result<u64, Failure> {
 fn shorten(solver: &mut DefaultSolver<f64>, step: f64) -> Result<(), Failure> {
     let settings = DefaultSettings { max_step_fraction: step, ..solver.settings().clone() };
     solver.update_settings(settings).map_err(|_| Failure::NotSolved { status: "settings refused" })
+}
+
+/// A cone of a programme with disks.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Cone {
+    /// s ≥ 0: one line.
+    Half,
+    /// |(s₁, s₂)| ≤ s₀: three lines.
+    Disk,
+}
+
+/// Stopping tolerance of programmes with disks (dimensionless).
+const ROUND_TOLERANCE: f64 = 1e-10;
+
+/// Minimises ½ xᵀP x with b − C x in these cones; P (its upper triangle) and C by columns. Returns
+/// the dual variables and the number of iterations; `None` for the iterations if these are a
+/// certificate that there is no such x.
+///
+/// # Errors
+/// [`Failure::NotSolved`].
+pub(super) fn solve_cones(
+    cost: &[Vec<(usize, f64)>],
+    columns: &[Vec<(usize, f64)>],
+    bound: &[f64],
+    cones: &[Cone],
+) -> Result<(Vec<f64>, Option<u64>), Failure> {
+    let settings = DefaultSettings {
+        verbose: false,
+        max_threads: 1,
+        presolve_enable: false,
+        tol_gap_abs: ROUND_TOLERANCE,
+        tol_gap_rel: ROUND_TOLERANCE,
+        tol_feas: ROUND_TOLERANCE,
+        ..DefaultSettings::default()
+    };
+    let cones: Vec<_> = cones
+        .iter()
+        .map(|cone| match cone {
+            Cone::Half => NonnegativeConeT(1),
+            Cone::Disk => SecondOrderConeT(3),
+        })
+        .collect();
+    let (cost, inequality) = (by_columns(cost.len(), cost), by_columns(bound.len(), columns));
+    let zero = vec![0.0; cost.n];
+    let mut solver = DefaultSolver::new(&cost, &zero, &inequality, bound, &cones, settings)
+        .map_err(|_| Failure::NotSolved { status: "programme refused" })?;
+    solver.solve();
+    let dual = solver.solution.z.clone();
+    match solver.solution.status {
+        // What is found is polished and tested, so reduced accuracy will do.
+        SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => {
+            Ok((dual, Some(u64::from(solver.solution.iterations))))
+        }
+        SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => Ok((dual, None)),
+        status => Err(Failure::NotSolved { status: words(status) }),
+    }
 }
 
 /// Compressed columns without zeros; entries at one place are added up.

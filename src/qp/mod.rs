@@ -27,6 +27,8 @@
 //! pivoting. Where A is a narrow band and so many rows are in play that a pass over W costs more
 //! than one over the band, the unknowns of those rows are eliminated on the band instead.
 //!
+//! [`DiskSolver`] solves programmes with disks |P x − c| ≤ γ beside bounds, as round holes need.
+//!
 //! [`clamp()`] solves the same scalar programme without matrices, for schemes that hold plain
 //! floats.
 
@@ -41,6 +43,7 @@ mod condensed;
 mod counters;
 mod crowd;
 mod delassus;
+mod disks;
 mod elimination;
 mod failure;
 mod pivoting;
@@ -51,6 +54,7 @@ mod sums;
 pub use backend::Backend;
 pub use clamp::{ScalarRow, clamp};
 pub use counters::SolverCounters;
+pub use disks::{DiskBound, DiskCounters, DiskProblem, DiskSolver};
 pub use failure::Failure;
 pub use solver::Solver;
 

@@ -1,13 +1,13 @@
-//! Moves a state that lies behind rigid walls to them.
+//! Moves a state that lies behind rigid walls and holes to them.
 
-use super::{Scene, Side, System};
+use super::{Row, Scene, Shape, Side, Support, System, WallLaw};
 
-/// Most passes over the walls behind which the state lies.
+/// Most passes over the walls and holes behind which the state lies.
 const PASSES: usize = 50;
 
 impl Scene {
-    /// Moves an initial state that lies behind rigid walls to them, by the smallest moves, so that
-    /// it is valid; velocities stay.
+    /// Moves an initial state that lies behind rigid walls and holes to them, by the smallest
+    /// moves, so that it is valid; velocities stay.
     pub(crate) fn step_out_of_walls(&mut self) {
         // Several walls may require different moves: each is applied in turn, in several passes.
         for _ in 0..PASSES {
@@ -37,9 +37,68 @@ impl Scene {
                     }
                 }
             }
+            moved |= self.step_out_of_holes();
             if !moved {
                 break;
             }
         }
+    }
+
+    /// One pass over the rigid holes. Returns whether the state was behind one.
+    fn step_out_of_holes(&mut self) -> bool {
+        let mut moved = false;
+        let Self { supports, initial, .. } = self;
+        for support in supports {
+            if support.holds_out(&initial.q) {
+                move_onto(support, &mut initial.q);
+                moved = true;
+            }
+        }
+        moved
+    }
+
+    /// Moves an initial state that stands at the rigid walls and holes `pressed`, up to the rounding
+    /// of how it was found, onto all of them; they are counted as contacts are
+    /// ([`Scene::contact_name`]).
+    pub(crate) fn press_onto(&mut self, pressed: &[usize]) {
+        let Self { walls, supports, initial, .. } = self;
+        let rounds: Vec<&Support> = supports.iter().filter(|support| support.hole().is_some()).collect();
+        for _ in 0..PASSES {
+            for &index in pressed {
+                match (walls.get(index), index.checked_sub(walls.len()).and_then(|hole| rounds.get(hole))) {
+                    (Some(wall), _) if wall.law.is_rigid() => {
+                        let by = wall.at.dot(&initial.q) - wall.position;
+                        move_along(&wall.at, by, &mut initial.q);
+                    }
+                    (None, Some(support)) => move_onto(support, &mut initial.q),
+                    _ => {}
+                }
+            }
+        }
+    }
+}
+
+/// Moves `q` onto the circle of a rigid hole by the smallest move.
+fn move_onto(support: &Support, q: &mut [f64]) {
+    let Shape::Round { gap, law: WallLaw::Rigid { .. } } = support.shape else { return };
+    let [y, z] = support.offset(q);
+    let distance = y.hypot(z);
+    if distance > 0.0 {
+        move_along(&support.at.towards([y / distance, z / distance]), distance - gap, q);
+    }
+}
+
+/// Moves `q` by the smallest move that takes g · q back by `by`. A row may name a degree of freedom
+/// twice.
+fn move_along(at: &Row, by: f64, q: &mut [f64]) {
+    let mut row = vec![0.0; q.len()];
+    for &(i, weight) in at.entries() {
+        if let Some(sum) = row.get_mut(i) {
+            *sum += weight;
+        }
+    }
+    let square: f64 = row.iter().map(|weight| weight * weight).sum();
+    if square > 0.0 {
+        q.iter_mut().zip(&row).for_each(|(q, weight)| *q -= by * weight / square);
     }
 }

@@ -68,12 +68,16 @@ impl PlaneRows {
     /// sin α g_z.
     #[must_use]
     pub fn along(&self, degrees: f64) -> Row {
+        self.towards(heading(degrees))
+    }
+
+    /// The row of the displacement along the unit vector (y, z).
+    pub(crate) fn towards(&self, [y, z]: [f64; 2]) -> Row {
         let part = |row: &Row, share: f64| {
             let entries = row.entries().iter().map(move |&(i, weight)| (i, share * weight));
             entries.filter(|_| share != 0.0).collect::<Vec<_>>()
         };
-        let [cos, sin] = heading(degrees);
-        Row::new([part(&self.y, cos), part(&self.z, sin)].concat())
+        Row::new([part(&self.y, y), part(&self.z, z)].concat())
     }
 }
 

@@ -108,12 +108,12 @@ impl Support {
         }
     }
 
-    /// True for a round support if the structure at `q` is outside of its hole, by more than the
-    /// rounding of a place on its circle.
+    /// True for a rigid round support if the structure at `q` is outside of its hole, by more than
+    /// the rounding of a place on its circle.
     pub(crate) fn holds_out(&self, q: &[f64]) -> bool {
         let [y, z] = self.offset(q);
         let distance = y.hypot(z);
-        matches!(self.shape, Shape::Round { gap, .. } if distance > gap * (1.0 + TOUCHING))
+        matches!(&self.shape, Shape::Round { gap, law } if law.is_rigid() && distance > gap * (1.0 + TOUCHING))
     }
 
     /// The same support, seen by a structure in other coordinates, where `row` turns each row into

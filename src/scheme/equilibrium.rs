@@ -1,9 +1,9 @@
-//! Static equilibrium between walls.
+//! Static equilibrium between walls and in holes.
 
 use crate::error::{Error, Result, Subject};
 use crate::linear::{Rows, Symmetric};
-use crate::qp::{Backend, Failure, Problem, Rhs, Solver};
-use crate::scene::{LoadKind, Loads, Scene, Side, State, Wall, WallLaw};
+use crate::qp::{Backend, DiskBound, DiskProblem, DiskSolver, Failure, Problem, Rhs, Solver};
+use crate::scene::{LoadKind, Loads, Row, Scene, Shape, Side, State, Support, Wall, WallLaw};
 
 /// Most programmes solved: with a stiffness that holds every motion two or three are enough.
 const MOST_ROUNDS: usize = 200;
@@ -25,8 +25,8 @@ const SETTLED: f64 = 1e-13;
 ///
 /// ½ qᵀK q − fᵀq + Σ k s²/2
 ///
-/// over all rigid walls, with the depth s in each elastic wall. A wall that the free shape would
-/// pass carries preload from the start.
+/// over all rigid walls and holes, with the depth s in each elastic one. A wall or hole that the
+/// free shape would pass carries preload from the start. Friction is left out.
 ///
 /// K may leave motions free, as those of a body without springs. So the programmes add ½σ ‖q − q′‖²
 /// in the metric of M, with the answer q′ of the programme before (Rockafellar 1976,
@@ -47,32 +47,19 @@ pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
     Loads::new(&constant.collect::<Vec<_>>()).add_force(0.0, 1.0, &mut force);
     let scale = Scene { initial: State { q: vec![0.0; n], v: vec![0.0; n] }, ..scene.clone() }.gap_scale();
     let pull = pull(scene, &force, scale);
-    let compliance = |law: &WallLaw| match law {
-        WallLaw::Elastic { stiffness, .. } => 1.0 / stiffness,
-        WallLaw::Rigid { .. } | WallLaw::Quartic { .. } => 0.0,
-    };
-    let problem = Problem {
-        a: Symmetric::sum(&[(1.0, &structure.stiffness), (pull, &structure.mass)]),
-        g: Rows::new(n, scene.walls.iter().map(|wall| wall.at.entries())),
-        compliance: scene.walls.iter().map(|wall| compliance(&wall.law)).collect(),
-    };
-    let failed = |failure: &Failure| refused(scene, failure);
-    let mut solver = Solver::new(problem, Backend::Condensed, scale).map_err(|failure| failed(&failure))?;
-    let bound = |side: Side, none: f64| {
-        let of = move |wall: &Wall| if wall.side == side { wall.position } else { none };
-        scene.walls.iter().map(of).collect::<Vec<f64>>()
-    };
-    let (lo, hi) = (bound(Side::Lower, f64::NEG_INFINITY), bound(Side::Upper, f64::INFINITY));
+    let a = Symmetric::sum(&[(1.0, &structure.stiffness), (pull, &structure.mass)]);
+    let mut held = Held::new(scene, a, scale).map_err(|failure| refused(scene, &failure))?;
     let mut q = vec![0.0; n];
     for _ in 0..MOST_ROUNDS {
         let mut b = force.clone();
         scene.system.add_mass(pull, &q, &mut b);
-        let solution = solver.solve(&Rhs { b: &b, lo: &lo, hi: &hi }).map_err(|failure| failed(&failure))?;
-        let size = solution.x.iter().fold(scale, |most, x| most.max(x.abs()));
-        let moved = solution.x.iter().zip(&q).map(|(new, old)| (new - old).abs()).fold(0.0, f64::max);
-        q.clone_from(&solution.x);
+        let x = held.solve(&b).map_err(|failure| refused(scene, &failure))?;
+        let size = x.iter().fold(scale, |most, x| most.max(x.abs()));
+        let moved = x.iter().zip(&q).map(|(new, old)| (new - old).abs()).fold(0.0, f64::max);
+        q.copy_from_slice(x);
         if moved <= SETTLED * size {
             let mut rest = Scene { initial: State { q, v: vec![0.0; n] }, ..scene.clone() };
+            rest.press_onto(&held.pressed());
             rest.step_out_of_walls();
             return Ok(rest.initial.q);
         }
@@ -80,6 +67,76 @@ pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
     let key = Subject::from(("initial state", "equilibrium"));
     let value = "not found: the constant loads move the structure, and neither its stiffness nor a wall holds it";
     Err(Error::invalid(key, value, "a structure that is held, or walls where the loads push it"))
+}
+
+/// The programme of a static shape.
+enum Held {
+    /// Between walls alone.
+    Walls { solver: Box<Solver>, lo: Vec<f64>, hi: Vec<f64> },
+    /// In holes, and between walls too.
+    Holes { solver: Box<DiskSolver>, bounds: Vec<DiskBound> },
+}
+
+impl Held {
+    /// With the matrix `a`, for lengths of the size `scale`.
+    fn new(scene: &Scene, a: Symmetric, scale: f64) -> std::result::Result<Self, Failure> {
+        let n = a.size();
+        let compliance = |law: &WallLaw| match law {
+            WallLaw::Elastic { stiffness, .. } => 1.0 / stiffness,
+            WallLaw::Rigid { .. } | WallLaw::Quartic { .. } => 0.0,
+        };
+        let mut soft: Vec<f64> = scene.walls.iter().map(|wall| compliance(&wall.law)).collect();
+        let bound = |wall: &Wall, side: Side, none: f64| if wall.side == side { wall.position } else { none };
+        let (lo, hi) = (
+            scene.walls.iter().map(|wall| bound(wall, Side::Lower, f64::NEG_INFINITY)),
+            scene.walls.iter().map(|wall| bound(wall, Side::Upper, f64::INFINITY)),
+        );
+        let round = |support: &'_ Support| matches!(support.shape, Shape::Round { .. });
+        let mut rows: Vec<&Row> = scene.walls.iter().map(|wall| &wall.at).collect();
+        if !scene.supports.iter().any(round) {
+            let g = Rows::new(n, rows.iter().map(|row| row.entries()));
+            let solver = Solver::new(Problem { a, g, compliance: soft }, Backend::Condensed, scale)?;
+            return Ok(Self::Walls { solver: Box::new(solver), lo: lo.collect(), hi: hi.collect() });
+        }
+        let strip = |(lo, hi)| DiskBound::Strip { normal: [1.0, 0.0], lo, hi };
+        let mut bounds: Vec<DiskBound> = lo.zip(hi).map(strip).collect();
+        let mut blocks = vec![1; rows.len()];
+        for support in &scene.supports {
+            if let Shape::Round { gap, law } = &support.shape {
+                rows.extend([&support.at.y, &support.at.z]);
+                blocks.push(2);
+                soft.push(compliance(law));
+                bounds.push(DiskBound::Disk { centre: support.centre, radius: *gap });
+            }
+        }
+        let g = Rows::new(n, rows.iter().map(|row| row.entries()));
+        let solver = DiskSolver::new(DiskProblem { a, g, blocks, compliance: soft }, scale)?;
+        Ok(Self::Holes { solver: Box::new(solver), bounds })
+    }
+
+    /// The holes and walls that press, where there are holes: a hole counts as touched within 1e-12
+    /// of its gap, which is less than the rounding of displacements of many gaps.
+    fn pressed(&self) -> Vec<usize> {
+        let Self::Holes { solver, bounds } = self else { return Vec::new() };
+        let forces = &solver.solution().multiplier;
+        let rows = |bound: &DiskBound| if matches!(bound, DiskBound::Disk { .. }) { 2 } else { 1 };
+        let mut next = 0;
+        let presses = |bound: &DiskBound| {
+            let first = next;
+            next += rows(bound);
+            forces.get(first..next).is_some_and(|forces| forces.iter().any(|force| *force != 0.0))
+        };
+        let found: Vec<bool> = bounds.iter().map(presses).collect();
+        (0..found.len()).filter(|&index| found[index]).collect()
+    }
+
+    /// The minimiser for b, n entries.
+    fn solve(&mut self, b: &[f64]) -> std::result::Result<&[f64], Failure> {
+        Ok(match self {
+            Self::Walls { solver, lo, hi } => &solver.solve(&Rhs { b, lo, hi })?.x,
+            Self::Holes { solver, bounds } => &solver.solve(b, bounds)?.x,
+        })
+    }
 }
 
 /// σ, 1/s².
@@ -102,13 +159,12 @@ fn pull(scene: &Scene, force: &[f64], scale: f64) -> f64 {
 
 /// Why there is no equilibrium.
 fn refused(scene: &Scene, failure: &Failure) -> Error {
-    let name = |row: usize| scene.walls.get(row).map_or_else(String::new, |wall| format!("{:?}", wall.name));
+    let name = |row: usize| scene.contact_name(row).map_or_else(String::new, |name| format!("{name:?}"));
     let key = Subject::from(("initial state", "equilibrium"));
     match *failure {
         Failure::Infeasible { row, against } => {
-            let value =
-                format!("without a place: the walls {} and {} cannot be met together", name(row), name(against));
-            Error::invalid(key, value, "walls that leave a common place")
+            let value = format!("without a place: {} and {} cannot be met together", name(row), name(against));
+            Error::invalid(key, value, "walls and holes that leave a common place")
         }
         _ => Error::invalid(key, format!("not found: {failure}"), "a structure whose matrices can be solved"),
     }
