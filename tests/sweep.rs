@@ -127,6 +127,24 @@ fn displacements_between_the_rows_of_a_run_are_exact_extremes() {
     }
 }
 
+/// A random force lasts as long as the row, whose end is not that of the case: it is the force of
+/// the case with that end.
+#[test]
+fn a_row_of_another_duration_has_its_own_random_force() {
+    let tube = |end: f64, from: f64| {
+        let sweep = Sweep::new(CaseFile::embedded("tube-lattice-bars").unwrap()).set("system.modes", 4.0).unwrap();
+        let sweep = sweep.set("time.end", end).unwrap().set("time.statistics_from", from).unwrap();
+        sweep.vary(Axis::list("system.damping.ratio", &[0.01.into(), 0.03.into()]).unwrap())
+    };
+    let rows = |sweep: Sweep| {
+        let plan = sweep.measure(every_wall_measure()).plan().unwrap();
+        plan.rows(1).unwrap().into_iter().map(|row| (row.status, row.measures)).collect::<Vec<_>>()
+    };
+    let longer = rows(tube(0.2, 0.0).over(Stretch::Seconds { settle: 0.1, keep: 0.4 }));
+    assert!(longer.iter().all(|(status, _)| *status == Status::Ok));
+    assert_eq!(longer, rows(tube(0.5, 0.1)));
+}
+
 #[test]
 fn a_quiet_motion_has_the_amplitude_of_its_closed_form() {
     // Below the graze at 4.2107738… Hz the steady motion is F/√((k − mω²)² + (cω)²); 300 periods of

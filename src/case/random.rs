@@ -137,7 +137,7 @@ impl Case {
             return Err(Error::invalid("realisation", 0, "1 or more: the first is the case itself"));
         };
         let mut case = self.clone();
-        for (index, origin) in case.written.origins.iter_mut().enumerate() {
+        for origin in &mut case.written.origins {
             let (Origin::Random { force, .. } | Origin::Second(force)) = origin else { continue };
             let seed = force.seed.saturating_add(more);
             if seed as f64 > MOST_SEED {
@@ -146,16 +146,32 @@ impl Case {
                 return Err(Error::invalid("realisation", number, expected));
             }
             force.seed = seed;
-            let table = force.table(case.scene.duration)?;
-            let reduced = case.truncated.as_mut();
-            let others = reduced.map(|truncated| [&mut truncated.whole.scene, &mut truncated.reduction.scene]);
-            for scene in others.into_iter().flatten().chain([&mut case.scene]) {
-                if let Some(load) = scene.loads.get_mut(index) {
+        }
+        case.make_random(case.scene.duration)?;
+        Ok(case)
+    }
+
+    /// Makes the random forces anew, for a run that ends at `end` (s): only their tables change.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] where a random force has no line at this end or too many rows.
+    pub(crate) fn make_random(&mut self, end: f64) -> Result<()> {
+        let mut tables = Vec::new();
+        for (index, origin) in self.written.origins.iter().enumerate() {
+            if let Origin::Random { force, .. } | Origin::Second(force) = origin {
+                tables.push((index, force.table(end)?));
+            }
+        }
+        let reduced = self.truncated.as_mut();
+        let others = reduced.map(|truncated| [&mut truncated.whole.scene, &mut truncated.reduction.scene]);
+        for scene in others.into_iter().flatten().chain([&mut self.scene]) {
+            for (index, table) in &tables {
+                if let Some(load) = scene.loads.get_mut(*index) {
                     load.kind = LoadKind::Table(table.clone());
                 }
             }
         }
-        Ok(case)
+        Ok(())
     }
 
     /// Changes the end of the run. The lines of a random force are multiples of 1/end, so random
@@ -165,19 +181,7 @@ impl Case {
     /// Those of the reduction to modes, and [`Error::Invalid`] where a random force has no line at
     /// this end or too many rows.
     pub fn change_end(&mut self, end: f64) -> Result<()> {
-        let mut tables = Vec::new();
-        for (index, origin) in self.written.origins.iter().enumerate() {
-            if let Origin::Random { force, .. } | Origin::Second(force) = origin {
-                tables.push((index, force.table(end)?));
-            }
-        }
-        self.change(|scene| {
-            scene.duration = end;
-            for (index, table) in &tables {
-                if let Some(load) = scene.loads.get_mut(*index) {
-                    load.kind = LoadKind::Table(table.clone());
-                }
-            }
-        })
+        self.make_random(end)?;
+        self.change(|scene| scene.duration = end)
     }
 }

@@ -274,6 +274,8 @@ impl Plan {
             }
             Stretch::Seconds { settle, keep } => [settle, settle + keep],
         };
+        // The lines of a random force are multiples of 1/end.
+        case.make_random(end)?;
         case.scene.duration = end;
         case.time.statistics_from = from;
         case.time.sample = case.time.sample.filter(|sample| *sample <= end);
