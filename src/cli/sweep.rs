@@ -119,7 +119,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let document = document(&plan, &finished, &drawn);
     write_summary(&finished.folder, &document)?;
     if manner.shard == Shard::WHOLE && !args.place.no_report {
-        write_report(&finished.folder)?;
+        write_report(&finished.folder, ui)?;
     }
     tell(&finished, &drawn, ui);
     if ui.json() {
@@ -255,9 +255,13 @@ fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
     })
 }
 
-/// Writes the report on the sweep in `folder`.
-fn write_report(folder: &Path) -> Result<()> {
+/// Writes the report on the sweep in `folder`, unless its tables are too large for one.
+fn write_report(folder: &Path, ui: &Ui) -> Result<()> {
     let manifest = results::read(folder).unwrap_or_default();
+    if let Some(reason) = report::too_large(folder, &manifest)? {
+        ui.message(&format!("no {}: {reason}; the tables and the pictures are complete", report::FILE));
+        return Ok(());
+    }
     write_whole(&folder.join(report::FILE), report::page(folder, &manifest)?.as_bytes())
 }
 

@@ -38,6 +38,19 @@ impl Folder<'_> {
         self.path.join(name).is_file()
     }
 
+    /// Rows and columns of the table in the file `name`.
+    pub fn size(&self, name: &str) -> Result<(usize, usize)> {
+        let file = self.path.join(name);
+        let wrong = |error: csv::Error| Error::io(file.display(), error.to_string(), true).caused_by(error);
+        let mut reader = csv::Reader::from_path(&file).map_err(wrong)?;
+        let columns = reader.byte_headers().map_err(wrong)?.len();
+        let (mut rows, mut row) = (0, csv::ByteRecord::new());
+        while reader.read_byte_record(&mut row).map_err(wrong)? {
+            rows += 1;
+        }
+        Ok((rows, columns))
+    }
+
     /// The JSON document in the file `name`.
     pub fn json(&self, name: &str) -> Result<Value> {
         let path = self.path.join(name);

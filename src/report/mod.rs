@@ -36,6 +36,18 @@ use folder::Folder;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
+/// Why the results in `path` get no report beside them, although their command writes one: their
+/// tables are too large for a page. `None` where they are not.
+///
+/// # Errors
+/// [`Error::Io`] where a table cannot be read.
+pub fn too_large(path: &Path, manifest: &Value) -> Result<Option<String>> {
+    match manifest["request"]["command"].as_str() {
+        Some("sweep") => sweep::too_large(&Folder { path, manifest }),
+        _ => Ok(None),
+    }
+}
+
 /// The report on the results in `path`, of which `manifest` says what was asked: an HTML page.
 ///
 /// # Errors

@@ -8,6 +8,10 @@ use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::Path;
 
+/// The tables of the rows and of their instants.
+const TABLE: &str = "sweep.csv";
+const SAMPLES: &str = "samples.csv";
+
 /// Most cells of the tables that a page holds: some tens of megabytes of HTML.
 const MOST_CELLS: usize = 4_000_000;
 
@@ -33,17 +37,26 @@ fn kept(folder: &Path, table: &Cells) -> Vec<usize> {
     rows
 }
 
+/// Why the tables are too large for a page; `None` where they are not.
+pub(super) fn too_large(folder: &Folder<'_>) -> Result<Option<String>> {
+    let mut count = 0;
+    for name in [TABLE, SAMPLES] {
+        if folder.has(name) {
+            let (rows, columns) = folder.size(name)?;
+            count += rows * columns;
+        }
+    }
+    Ok((count > MOST_CELLS).then(|| format!("its tables have {count} cells; a report holds {MOST_CELLS} at most")))
+}
+
 /// What the page of a sweep shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
-    let table = folder.cells("sweep.csv")?;
-    let samples = if folder.has("samples.csv") { Some(folder.cells("samples.csv")?) } else { None };
-    let attractors = if folder.has(ATTRACTORS) { Some(folder.cells(ATTRACTORS)?) } else { None };
-    let cells = |table: &Cells| table.rows.len() * table.header.len();
-    let count = cells(&table) + samples.as_ref().map_or(0, cells);
-    if count > MOST_CELLS {
-        let reason = format!("its tables have {count} cells; a report holds {MOST_CELLS} at most");
+    if let Some(reason) = too_large(folder)? {
         return Err(Error::io(folder.path.display(), reason, true));
     }
+    let table = folder.cells(TABLE)?;
+    let samples = if folder.has(SAMPLES) { Some(folder.cells(SAMPLES)?) } else { None };
+    let attractors = if folder.has(ATTRACTORS) { Some(folder.cells(ATTRACTORS)?) } else { None };
     let request = &folder.manifest["request"];
     let axes: Vec<Value> = request["vary"].as_array().cloned().unwrap_or_default();
     let summary = if folder.has("summary.json") { folder.json("summary.json")? } else { Value::Null };
@@ -64,4 +77,29 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "case": folder.manifest["case_text"],
         "summary": { "status": summary["status"], "first_error": summary["first_error"], results::MANIFEST: request },
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_of_more_cells_than_a_page_holds_are_too_large() {
+        let dir = tempfile::tempdir().unwrap();
+        let manifest = json!({ "request": { "command": "sweep" } });
+        let folder = Folder { path: dir.path(), manifest: &manifest };
+        assert_eq!(too_large(&folder).unwrap(), None, "no tables");
+        let table = |rows: usize| format!("row,a,b,c\n{}", "0,1,2,3\n".repeat(rows));
+        std::fs::write(dir.path().join(TABLE), table(MOST_CELLS / 4 - 1)).unwrap();
+        std::fs::write(dir.path().join(SAMPLES), table(1)).unwrap();
+        assert_eq!(folder.size(TABLE).unwrap(), (MOST_CELLS / 4 - 1, 4));
+        assert_eq!(too_large(&folder).unwrap(), None);
+        std::fs::write(dir.path().join(SAMPLES), table(2)).unwrap();
+        let reason = too_large(&folder).unwrap().unwrap();
+        assert!(reason.contains("4000004 cells"), "{reason}");
+        assert!(contents(&folder).unwrap_err().to_string().contains(&reason));
+        // A row with too few cells is not a table.
+        std::fs::write(dir.path().join(SAMPLES), "row,a\n1\n").unwrap();
+        assert!(too_large(&folder).unwrap_err().to_string().contains(SAMPLES));
+    }
 }
