@@ -152,6 +152,32 @@ def test_a_folder_keeps_rows_of_equal_scenes_only(tmp_path: Path, whole: sg.Tabl
     assert count() == len(POINTS) + 4
 
 
+def test_a_folder_that_has_all_rows_gives_the_table_without_a_run(
+    tmp_path: Path, whole: sg.Table, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for shard in range(3):
+        sg.sweep(cluster.make, POINTS[shard::3], "event", folder=tmp_path)
+    monkeypatch.setattr("signorini._sweep._task", lambda *_: pytest.fail("a run"))
+    assert_same(sg.sweep(cluster.make, POINTS, "event", folder=tmp_path), whole)
+    with ThreadPoolExecutor(1) as executor:
+        assert_same(sg.sweep(cluster.make, POINTS, "event", folder=tmp_path, executor=executor), whole)
+
+
+@pytest.mark.parametrize("chunk", [1, 5])
+def test_points_that_are_all_refused_are_rows_with_their_reasons(chunk: int) -> None:
+    def make(mass: float) -> sg.Scene:
+        return sg.oscillator(mass, 0.2, 100.0, duration=1.0, loads=[sg.Load.harmonic(3.0, 5.0)])
+
+    with ThreadPoolExecutor(1) as executor:
+        for options in ({}, {"executor": executor, "chunk": chunk}):
+            with pytest.warns(RuntimeWarning, match="4 of 5 rows failed"):
+                table = sg.sweep(make, sg.grid(mass=[1.0, -1.0, -2.0, -3.0, 0.0]), "event", **options)  # type: ignore[arg-type]
+            assert [error is None for error in table["error"]] == [True, False, False, False, False]
+            with pytest.warns(RuntimeWarning, match="2 of 2 rows failed"):
+                table = sg.sweep(make, sg.grid(mass=[-1.0, -2.0]), "event", **options)  # type: ignore[arg-type]
+            assert all("mass" in error for error in table["error"])
+
+
 def test_nothing_to_run() -> None:
     assert list(sg.run_many([], "event")) == ["error"]
     assert list(sg.sweep(cluster.make, [], "event")) == ["error"]

@@ -176,13 +176,15 @@ def sweep(
         store.add(indices, rows)
 
     with Progress(len(points), progress, len(points) - len(missing)) as shown:
-        if executor is None:
+        if not missing:
+            pass  # All rows are in the folder.
+        elif executor is None:
             # In pieces, so that what is done can be kept, and shown.
             size = len(missing) if folder is None else _size(make, points, missing, walls, options)
             for piece in _pieces(missing, size):
                 take(piece, _task(make, [points[i] for i in piece], walls, options, shown.tell))
                 shown.step(len(piece))
-        elif missing:
+        else:
             size = chunk or _size(make, points, missing, walls, options)
             _send(executor, make, points, _pieces(missing, size), walls, options, take, shown)
     table: Table = {name: np.array([point[name] for point in points]) for name in names}
@@ -248,6 +250,8 @@ def _task(
             rows.append(row)
         else:
             errors[row] = f"walls are {', '.join(names)}; expected {', '.join(walls)}, as at the first point"
+    if not scenes:
+        return values, errors
     made, failed = _run_many(scenes, *options, tell)
     values[rows] = made
     for row, text in zip(rows, failed, strict=True):
