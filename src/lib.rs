@@ -75,8 +75,8 @@ pub use statistics::{
     SectorStatistics, Spectrum, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics, WearStatistics,
 };
 pub use step::{
-    Balance, Bound, Conserves, Contact, Contract, Elastic, Friction, HoleStep, Law, Path, Promise, PromisedForce,
-    Reached, Rigid, Step, Tolerance, Tolerances, Turning,
+    Balance, Bound, Circle, Conserves, Contact, Contract, Elastic, Friction, HoleStep, Law, Path, Promise,
+    PromisedForce, Reached, Rigid, Step, Tolerance, Tolerances, Turning,
 };
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
 pub use trajectory::{ContactWear, Recorder, Trajectory};

@@ -5,6 +5,7 @@ mod worn;
 pub use worn::ContactWear;
 
 use crate::error::{Error, Result};
+use crate::flow::Series;
 use crate::scene::{Row, Scene};
 use crate::step::{Contact, Path, Step};
 use serde::{Deserialize, Serialize};
@@ -321,6 +322,26 @@ pub struct Recorder {
 }
 
 impl Rubbed {
+    /// Adds the impulses of the holes over a piece of a stretch of exact motion (s), and sets their
+    /// forces to those at its end.
+    #[inline(never)]
+    fn follow(&mut self, series: &Series, [from, to]: [f64; 2]) {
+        for (hole, (sum, force)) in self.holes.iter_mut().zip(&mut self.force).enumerate() {
+            let push = series.hole_impulse(hole, from, to);
+            *sum = [sum[0] + push[0], sum[1] + push[1]];
+            *force = series.hole_force(hole, to);
+        }
+    }
+
+    /// Adds the impulses of the holes at the instant that ends a step of exact motion.
+    #[inline(never)]
+    fn jump(&mut self, step: &Step<'_>) {
+        for (sum, hole) in self.holes.iter_mut().zip(step.holes) {
+            let push = hole.normal.map(|n| -hole.jump * n);
+            *sum = [sum[0] + push[0], sum[1] + push[1]];
+        }
+    }
+
     /// Adds one step on a grid.
     #[inline(never)]
     fn see(&mut self, step: &Step<'_>) {
@@ -407,7 +428,7 @@ impl Recorder {
         if self.trajectory.time.len() as u64 > self.rows {
             return;
         }
-        if !step.friction.is_empty() || !step.holes.is_empty() {
+        if !matches!(step.path, Path::Series(_)) && (!step.friction.is_empty() || !step.holes.is_empty()) {
             known.see(step);
         }
         self.trajectory.contacts.extend_from_slice(step.closed);
@@ -486,6 +507,11 @@ impl Recorder {
             for (wall, column) in self.trajectory.force.iter_mut().enumerate() {
                 column[0] = path.contact_force(wall, 0.0);
             }
+            if let Path::Series(series) = path {
+                for (hole, [y, z]) in self.trajectory.hole_force.iter_mut().enumerate() {
+                    [y[0], z[0]] = series.hole_force(hole, 0.0);
+                }
+            }
         }
         // States are right-continuous: a row at the very end of this arc belongs to the next arc,
         // or is the run's last.
@@ -505,11 +531,18 @@ impl Recorder {
             if !self.worn.is_empty() {
                 self.worn.add(step, [from, due]);
             }
+            if let Path::Series(series) = path {
+                self.rubbed.follow(series, [from, due]);
+            }
             self.push(due, &q, &v, &force);
             (self.partial, self.state) = (force, [q, v]);
             from = due;
         }
         self.wear_exactly(step, from);
+        if let Path::Series(series) = path {
+            self.rubbed.follow(series, [from, step.end]);
+            self.rubbed.jump(step);
+        }
         for (wall, ((sum, &whole), &jump)) in self.pending.iter_mut().zip(step.impulse).zip(step.jump).enumerate() {
             *sum += if from > step.start { path.contact_impulse(wall, from, step.end) + jump } else { whole };
         }
@@ -532,6 +565,9 @@ impl Recorder {
         }
         for (column, &p) in t.impulse.iter_mut().zip(step.impulse) {
             column[0] += p;
+        }
+        for (column, hole) in t.hole_impulse.iter_mut().zip(step.holes) {
+            column.iter_mut().zip(hole.push()).for_each(|(column, push)| column[0] += push);
         }
         for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
             column[0] = work;

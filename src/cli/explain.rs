@@ -76,7 +76,7 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     model.extend(case.notes().iter().map(|note| format!("note: {note}")));
     tell("model", model);
     let mut schemes = vec![format!("{}: {}", choice.method, choice.reason)];
-    if !case.scene.turns_or_rubs() {
+    if case.scene.supports.iter().all(|support| support.friction == 0.0) {
         schemes.push("event: exact, from impact to impact without a step; the reference of `compare`".to_owned());
     }
     tell("scheme", schemes);

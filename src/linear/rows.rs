@@ -45,6 +45,15 @@ impl Rows {
         }
     }
 
+    /// As [`Self::row`], to give its entries other values.
+    #[inline]
+    pub(crate) fn row_mut(&mut self, i: usize) -> &mut [(usize, f64)] {
+        match (self.starts.get(i), self.starts.get(i + 1)) {
+            (Some(&from), Some(&to)) => &mut self.entries[from..to],
+            _ => &mut [],
+        }
+    }
+
     /// gᵢ · x; entries beyond the length of x count as 0.
     #[inline]
     #[must_use]

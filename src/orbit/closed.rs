@@ -85,6 +85,11 @@ struct Linear {
 /// motion is not determined).
 pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
     scene.validate()?;
+    if let Some(hole) = scene.holes().next() {
+        let found = format!("round, at the support {:?}", hole.support.name);
+        let expected = "walls and flats: in a round hole no orbit in closed form is known";
+        return Err(Error::invalid("support", found, expected));
+    }
     let period = forcing_period(scene)?;
     let all = frequencies(scene);
     if all.len() > 1 {

@@ -77,6 +77,8 @@ pub fn shoot(scene: &Scene, settle: u32, progress: &dyn Fn(f64)) -> Result<Shot>
         let expected = format!("at most {MOST_UNKNOWNS}: the matrices of shooting are dense (reduce it to modes)");
         return Err(Error::invalid("system", format!("one of {n} degrees of freedom"), expected));
     }
+    // Refused here rather than after the run.
+    Product::new(scene)?;
     let period = forcing_period(scene)?;
     let shooting = Shooting { scene, period, scales: Scales::new(scene.gap_scale(), period) };
     let (time, state, periods) = shooting.settled(settle, progress)?;

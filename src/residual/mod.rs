@@ -3,6 +3,7 @@
 
 mod arc;
 mod beyond;
+mod circle;
 mod complementarity;
 mod corrected;
 mod energy;
@@ -362,7 +363,8 @@ impl Judge {
         let rigid = self.scene.walls.iter().zip(&self.depth).filter(|(w, _)| w.law.is_rigid());
         let holes = self.supports.as_ref().map_or(&[][..], |supports| &supports.depth);
         let supports = self.supports.as_ref().map_or(0.0, |supports| {
-            supports.rubs.pairs.worst(speed_scale, force_scale).max(over(supports.askew, force_scale))
+            let laws = over(supports.askew, force_scale).max(over(supports.struck, speed_scale));
+            supports.rubs.pairs.worst(speed_scale, force_scale).max(laws)
         });
         Residuals {
             complementarity: walls.max(rebounds).max(law).max(supports),

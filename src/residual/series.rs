@@ -33,6 +33,10 @@ impl Judge {
             *mid = s.damper[i] + s.struck[i];
             self.normal_speed = self.normal_speed.max(mid.abs() * self.scales.root_mass[i]);
         }
+        if self.supports.is_some() {
+            self.strike_holes(step);
+        }
+        let s = &mut self.scratch;
         self.energy.see_series(&self.scene, step, moved, &s.blow, &s.damper, &s.spring);
     }
 
@@ -100,6 +104,10 @@ impl Judge {
                 self.doubts.law.see(error - noise, self.now, Some(index));
             }
         }
+        if self.supports.is_some() {
+            self.follow_holes(step, series);
+        }
+        let (s, system) = (&mut self.scratch, &self.scene.system);
         system.add_damping(-1.0, &s.spring, &mut s.residual);
         system.add_stiffness(-1.0, &s.inertia, &mut s.residual);
     }

@@ -14,6 +14,10 @@ pub(super) struct Supports {
     /// Largest part of a force that is not along the hole's normal, N, and what exceeds rounding.
     pub askew: f64,
     pub doubt: Worst,
+    /// Largest speed by which an impact on a hole in exact motion misses its law, m/s, and what
+    /// exceeds rounding.
+    pub struck: f64,
+    pub struck_doubt: Worst,
     pub rubs: Rubs,
     /// Impulse of each support along y and z, without the normal ones of flats, N s; and the sum of
     /// the magnitudes.
@@ -36,6 +40,8 @@ impl Supports {
             holes,
             askew: 0.0,
             doubt: Worst::default(),
+            struck: 0.0,
+            struck_doubt: Worst::default(),
             rubs: Rubs { pairs: Pairs::default(), doubts: Doubts::default() },
             impulse: vec![[0.0; 2]; scene.supports.len()],
             size: vec![0.0; scene.supports.len()],

@@ -95,9 +95,11 @@ impl Judge {
         let open = energy.residual_j.abs() - self.rounding.energy;
         let ledger = Worst { value: if self.keeps_ledger() { open } else { 0.0 }, time: self.now, wall: None };
         let nothing = Worst::default;
-        let [askew, sliding, beyond] = self.supports.as_ref().map_or([nothing(), nothing(), nothing()], |supports| {
+        let none = [nothing(), nothing(), nothing(), nothing()];
+        let [askew, sliding, beyond, struck] = self.supports.as_ref().map_or(none, |supports| {
             let rubs = &supports.rubs.doubts;
-            [supports.doubt.over(force), rubs.both(speed, force), rubs.pull.over(force)]
+            let (askew, struck) = (supports.doubt.over(force), supports.struck_doubt.over(speed));
+            [askew, rubs.both(speed, force), rubs.pull.over(force), struck]
         });
         let mut findings: Vec<Finding> = [
             (behind, doubts.gaps.outside.over(gap), allowed.walls),
@@ -108,6 +110,7 @@ impl Judge {
             (Refuted::Tension, doubts.rebounds.pull.over(force), allowed.walls),
             (Refuted::WallLaw, doubts.law.over(law), allowed.walls),
             (Refuted::Normal, askew, allowed.walls),
+            (Refuted::Complementarity, struck, allowed.walls),
             (Refuted::Friction, sliding, allowed.walls),
             (Refuted::Friction, beyond, allowed.walls),
             (Refuted::MomentumBalance, doubts.balance.over(balance), allowed.balance),

@@ -23,6 +23,13 @@ impl Checked {
         Ok(Self { scene: Arc::new(scene.clone()), masses: scene.wall_masses().into() })
     }
 
+    /// A scene made of the parts of one that was checked, at a state that may be behind walls and
+    /// holes by rounding.
+    pub fn made(scene: Scene) -> Self {
+        let masses = scene.wall_masses().into();
+        Self { scene: Arc::new(scene), masses }
+    }
+
     /// The same scene with the walls' laws changed by `change`, which must check them; nothing else
     /// may change.
     pub fn with_laws(&self, change: impl FnOnce(&Scene) -> Result<Scene>) -> Result<Self> {

@@ -124,8 +124,8 @@ impl Support {
 }
 
 impl Scene {
-    /// True if a support of the scene is a round hole or has friction: only `moreau-jean` steps
-    /// such scenes.
+    /// True if a support of the scene is a round hole or has friction: `moreau-jean` steps such
+    /// scenes, and `event` those without friction.
     #[must_use]
     pub fn turns_or_rubs(&self) -> bool {
         self.supports.iter().any(|support| support.friction > 0.0 || matches!(support.shape, Shape::Round { .. }))

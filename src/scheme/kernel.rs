@@ -19,7 +19,7 @@ use super::supports::Supports;
 use super::{Integrator, Method, Scheme};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::{Checked, Scene};
+use crate::scene::{Checked, Scene, Shape, Support};
 use crate::step::Step;
 
 /// A motion. That of one degree of freedom on a grid is stored without a pointer, so that its steps
@@ -51,8 +51,24 @@ fn rule<S: Space>(scene: &Scene, Method { scheme, backend }: Method, h: f64) -> 
     })
 }
 
-/// `scheme` on a scene with round holes or friction: only moreau-jean steps it.
-fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Result<Supports> {
+/// `scheme` on a scene with round holes or friction: moreau-jean steps it, and without friction the
+/// exact motion is known.
+fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Result<Box<dyn Motion>> {
+    if scheme == Scheme::Event {
+        if let Some(support) = scene.supports.iter().find(|support| support.friction > 0.0) {
+            let found = format!("event, with friction at the support {:?}", support.name);
+            let expected = "moreau-jean, or no friction: where a contact sticks, slips or turns round in the middle \
+                            of an impact, the exact scheme has no law for it";
+            return Err(Error::invalid("scheme", found, expected));
+        }
+        let elastic = |s: &&Support| matches!(&s.shape, Shape::Round { law, .. } if !law.is_rigid());
+        if let Some(support) = scene.supports.iter().find(elastic) {
+            let found = format!("event, with an elastic ring at the support {:?}", support.name);
+            let expected = "a scheme with a step: the force of a ring has no series of its own";
+            return Err(Error::invalid("scheme", found, expected));
+        }
+        return Ok(Box::new(StructureEvent::new(scene.shared(), h)?));
+    }
     if backend != Backend::Auto {
         let expected = "auto: with round supports or friction a step is no quadratic programme, and sweeps over its \
                         contacts solve it";
@@ -60,11 +76,11 @@ fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Res
     }
     let round = scene.holes().next().is_some();
     let expected = match scheme {
-        Scheme::MoreauJean { theta } => return Supports::new(scene, theta, scheme.contract(), h),
+        Scheme::MoreauJean { theta } => return Ok(Box::new(Supports::new(scene, theta, scheme.contract(), h)?)),
         Scheme::PaoliSchatzman | Scheme::Newmark if round => {
             "moreau-jean: this scheme does not keep the energy of a body in a round hole"
         }
-        _ if round => "moreau-jean, the one scheme for round holes",
+        _ if round => "moreau-jean, or event without friction: the schemes for round holes",
         _ => "moreau-jean, the one scheme for friction",
     };
     Err(Error::invalid("scheme", scheme, expected))
@@ -79,7 +95,7 @@ impl Kernel {
     /// of a step.
     pub fn new(scene: &Checked, method: Method, step: f64) -> Result<Self> {
         if scene.turns_or_rubs() {
-            return Ok(Self::Other(Box::new(supported(scene, method, step)?)));
+            return Ok(Self::Other(supported(scene, method, step)?));
         }
         let line = scene.is_line();
         Ok(match method.scheme {

@@ -148,6 +148,7 @@ fn rigid(displacement: Option<Bound>, velocity: Option<Reached>, law: Law) -> Pr
         rigid: Rigid { force, displacement, velocity },
         elastic: Elastic { force, law },
         round: None,
+        circle: None,
         friction: None,
     }
 }
@@ -159,6 +160,7 @@ fn end_position() -> Promise {
         rigid: Rigid { force, displacement: Some(Bound::End), velocity: None },
         elastic: Elastic { force, law: Law::Depth(1.0) },
         round: None,
+        circle: None,
         friction: None,
     }
 }

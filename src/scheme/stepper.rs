@@ -157,7 +157,7 @@ impl Stepper {
     /// # Errors
     /// [`Error::Invalid`] for a time that is negative, not finite or no multiple of the step of a
     /// scheme on a grid, a state of the wrong length or not finite, or for the exact scheme one
-    /// behind a rigid wall. The stepper is then as it was.
+    /// behind a rigid wall or outside of a round hole. The stepper is then as it was.
     pub fn set_state(&mut self, time: f64, state: &State) -> Result<()> {
         let exact = self.scheme == Scheme::Event;
         let index = self.index_at(time, exact)?;
@@ -177,6 +177,11 @@ impl Stepper {
             let found = format!("{:?} at the rigid wall {:?}", wall.at.dot(&state.q), wall.name);
             let expected = format!("a place before it, which stands at {:?}", wall.position);
             return Err(Error::invalid(("state", "displacement"), found, expected));
+        }
+        if let (true, Some(support)) = (exact, self.scene.supports.iter().find(|s| s.holds_out(&state.q))) {
+            let [y, z] = support.offset(&state.q);
+            let found = format!("{:?} m from the centre of the round support {:?}", y.hypot(z), support.name);
+            return Err(Error::invalid(("state", "displacement"), found, "a place inside of its hole"));
         }
         self.kernel.restart(&self.scene, time, &state.q, &state.v)?;
         let (made, from) = self.before;

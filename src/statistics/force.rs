@@ -106,17 +106,20 @@ impl Forces {
                 }
             }
             if !self.supports.is_empty() && step.end > step.start {
-                let (batch, share) = (self.batch(), (to - from) / (step.end - step.start));
-                self.supports.iter_mut().for_each(|support| support.add(batch, step, share));
+                let batch = self.batch();
+                self.supports.iter_mut().for_each(|support| support.add(batch, step, [from, to]));
             }
             // By rounding, the edge of an interval may coincide with the time itself.
             from = if to > from { to } else { from.next_up() };
         }
-        if step.jump.iter().any(|&p| p != 0.0) && end >= step.end {
+        let jumps = step.jump.iter().any(|&p| p != 0.0) || step.holes.iter().any(|hole| hole.jump != 0.0);
+        if jumps && end >= step.end {
             self.move_to(end);
             for (wall, &p) in step.jump.iter().enumerate() {
                 self.add(wall, p, 0.0);
             }
+            let batch = self.batch();
+            self.supports.iter_mut().for_each(|support| support.jump(batch, step));
         }
     }
 

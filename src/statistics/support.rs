@@ -2,7 +2,7 @@
 
 use super::batch::{BATCHES, Sums};
 use crate::scene::{FlatWall, Scene, Shape, heading};
-use crate::step::{Contact, Step};
+use crate::step::{Contact, Path, Step};
 use serde::{Deserialize, Serialize};
 
 /// Statistics of one support within the window.
@@ -88,9 +88,11 @@ impl SupportTally {
         scene.supports.iter().map(|support| tally(&support.shape)).collect()
     }
 
-    /// Adds the part `share` of what a round hole and friction did in `step`, in `batch`. The
-    /// impulses of flats are those of walls.
-    pub fn add(&mut self, batch: usize, step: &Step<'_>, share: f64) {
+    /// Adds what a round hole and friction did in `step` between two times in it, s, in `batch`: the
+    /// force of exact motion over it, or that share of the step's impulses. The impulses of flats
+    /// are those of walls.
+    pub fn add(&mut self, batch: usize, step: &Step<'_>, [from, to]: [f64; 2]) {
+        let share = (to - from) / (step.end - step.start);
         let mut push = |impulse: [f64; 2]| self.stretch.iter_mut().zip(impulse).for_each(|(sum, p)| *sum += share * p);
         match &self.source {
             Source::Flats(flats) if !step.friction.is_empty() => {
@@ -101,11 +103,24 @@ impl SupportTally {
             }
             Source::Flats(_) => {}
             Source::Round(index) => {
-                if let Some(hole) = step.holes.get(*index) {
+                if let Path::Series(series) = step.path {
+                    let impulse = series.hole_impulse(*index, from, to);
+                    self.stretch.iter_mut().zip(impulse).for_each(|(sum, p)| *sum += p);
+                    self.pushed[batch] += series.hole_push(*index, from, to);
+                } else if let Some(hole) = step.holes.get(*index) {
                     push(hole.push());
                     self.pushed[batch] += share * hole.impulse;
                 }
             }
+        }
+    }
+
+    /// Adds what a round hole gave at the instant of the end of a step of exact motion.
+    pub fn jump(&mut self, batch: usize, step: &Step<'_>) {
+        let Source::Round(index) = self.source else { return };
+        if let Some(hole) = step.holes.get(index) {
+            self.stretch.iter_mut().zip(hole.normal).for_each(|(sum, n)| *sum -= hole.jump * n);
+            self.pushed[batch] += hole.jump;
         }
     }
 

@@ -20,8 +20,26 @@ pub struct Promise {
     pub elastic: Elastic,
     /// At round holes; `None` of a scheme that does not step scenes with such.
     pub round: Option<Turning>,
+    /// At round holes in exact motion; `None` of a scheme on a grid.
+    pub circle: Option<Circle>,
     /// At supports with friction; `None` as above.
     pub friction: Option<Friction>,
+}
+
+/// What holds at round holes, |w| ≤ γ, at every instant of the step's [`Series`]:
+///
+/// the force on the structure is −N n with n = w/|w| and 0 ≤ γ − |w| ⟂ N ≥ 0; while N > 0 the
+/// structure slides round the circle.
+///
+/// At the instant of its end the hole may give the impulse −p n, p ≥ 0, where |w| = γ. Then the
+/// structure does not approach the hole any more, n·ẇ⁺ ≤ 0, and if no other wall or hole gives one
+/// at that instant, Newton's law holds: n·ẇ⁺ = −e n·ẇ⁻. An approach slower than `tail` times the
+/// largest speed at walls and holes may be the last of infinitely many, and end anywhere between
+/// −e n·ẇ⁻ and 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Circle {
+    /// See above.
+    pub tail: f64,
 }
 
 /// What holds at round holes, |w| ≤ γ, where the normal turns while the body slides: Newton's law
@@ -160,6 +178,7 @@ impl Promise {
             rigid: Rigid { force: PromisedForce::Mean, displacement: Some(Bound::Throughout), velocity: None },
             elastic: Elastic { force: PromisedForce::Mean, law: Law::Throughout },
             round: None,
+            circle: Some(Circle { tail: 1e-4 }),
             friction: None,
         }
     }
@@ -171,6 +190,7 @@ impl Promise {
             rigid: Rigid { force: PromisedForce::Mean, displacement: None, velocity: None },
             elastic: Elastic { force: PromisedForce::Mean, law },
             round: None,
+            circle: None,
             friction: None,
         }
     }

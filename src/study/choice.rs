@@ -67,9 +67,10 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     };
     let contacts = run.trajectory.contacts();
     let lasting = |c: &&crate::step::Contact| {
-        scene.walls.get(c.wall).is_some_and(|w| w.law.is_rigid()) && c.end.is_none_or(|end| end > c.start)
+        scene.walls.get(c.wall).is_none_or(|w| w.law.is_rigid()) && c.end.is_none_or(|end| end > c.start)
     };
-    let reason = if scene.walls.is_empty() {
+    let holes = scene.holes().count();
+    let reason = if scene.walls.len() + holes == 0 {
         "no walls: the motion is linear, and its closed form needs no step".into()
     } else if contacts.iter().any(|c| lasting(&c)) {
         let (all, lasting) = (contacts.len(), contacts.iter().filter(lasting).count());
@@ -79,11 +80,9 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         };
         format!("{all} contacts, {lasting} of them lasting: {what}, so no step is needed")
     } else {
-        format!(
-            "{} separate contacts at {} walls: the closed form between them needs no step",
-            contacts.len(),
-            scene.walls.len()
-        )
+        let beside = if holes > 0 { format!(" and {holes} round holes") } else { String::new() };
+        let (all, walls) = (contacts.len(), scene.walls.len());
+        format!("{all} separate contacts at {walls} walls{beside}: the closed form between them needs no step")
     };
     Choice { method: Method::new(Scheme::Event), reason }
 }
@@ -92,7 +91,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
 #[must_use]
 pub fn qp_reason(method: &Method, scene: &Scene) -> String {
     let single = matches!(scene.system, System::Oscillator(_));
-    if scene.turns_or_rubs() {
+    if scene.turns_or_rubs() && method.scheme != Scheme::Event {
         return "round supports and friction are no QP: the contacts are solved one by one in closed form, in sweeps, \
                 and then together"
             .to_owned();

@@ -55,6 +55,11 @@ const ONCE: f64 = 1e-6;
 
 impl StructureVariation {
     pub fn new(scene: &Scene) -> Result<Self> {
+        if let Some(hole) = scene.holes().next() {
+            let found = format!("round, at the support {:?}", hole.support.name);
+            let expected = "walls and flats: the derivative of a motion round a hole is not known";
+            return Err(Error::invalid("support", found, expected));
+        }
         let singular = || Error::invalid(("system", "mass matrix"), "singular", "a positive definite matrix");
         let flow = Propagator::new(scene).ok_or_else(singular)?;
         let (n, rows) = (flow.body.n, flow.body.rows.count());

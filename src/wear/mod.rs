@@ -10,6 +10,7 @@ mod blows;
 mod depth;
 mod rubs;
 mod sectors;
+mod stretch;
 mod work;
 
 pub use archard::{Archard, Bearing, Scar, Worn};

@@ -7,6 +7,7 @@
 //! to the next.
 
 use super::blows::Blow;
+use super::stretch::{Slid, Sliding};
 use super::work::{sliding_distance, work_of_impulse};
 use crate::flow::Series;
 use crate::scene::{PlaneRows, Scene, Shape, heading};
@@ -16,13 +17,10 @@ use crate::step::{Path, Step};
 /// sign changes of the sliding velocity within one would be missed, where it is next to nothing.
 const PARTS: usize = 16;
 
-/// Gauss's rule of four points on [−1, 1]: nodes and weights.
-const GAUSS: [(f64, f64); 4] = [
-    (-0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
-    (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
-    (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
-    (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
-];
+/// Largest angle (rad) by which the normal of a round hole turns in one of the pieces into which a
+/// stretch is divided, each with an angle of its own, and the largest number of pieces.
+const TURN: f64 = 0.04;
+const MOST_PARTS: f64 = 256.0;
 
 /// What is known of the time over which a support gave its impulse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,7 +42,8 @@ pub(crate) struct Rub {
     /// The contact: the index of the wall of a flat, or the number of walls plus that of the hole.
     pub contact: usize,
     pub manner: Manner,
-    /// Where it is, degrees from +y towards +z, from 0 to below 360, and its outward normal n.
+    /// Where it is, degrees from +y towards +z, from 0 to below 360, and its outward normal n, of a
+    /// piece in which it turns its mean.
     pub angle: f64,
     pub normal: [f64; 2],
     /// Magnitude of the normal impulse, and the friction impulse along t, N s.
@@ -140,6 +139,9 @@ impl Rubs {
                     (Path::Series(series), Contact::Flat { wall, .. }) => {
                         along(series, (step, *wall), place, [from, to], &blank, &mut each);
                     }
+                    (Path::Series(series), Contact::Hole { hole, .. }) => {
+                        around(series, (step, *hole), place, [from, to], &blank, &mut each);
+                    }
                     _ => each(&on_grid(step, place, [from, to], &blank)),
                 }
             }
@@ -220,50 +222,96 @@ fn along(
     let moved = series.seen_along([&place.at.y, &place.at.z], [-z, y]);
     let speed = |t: f64| series.rate_of(&moved, t);
     if pushed && to > from {
-        let mut sum = Rub { manner: Manner::Lasting, impulse: 0.0, friction: 0.0, ..*blank };
-        let span = (to - from) / PARTS as f64;
-        let mut piece = |a: f64, b: f64| {
-            let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
-            for (node, weight) in GAUSS {
-                let t = middle + half * node;
-                let force = series.contact_force(wall, t).abs();
-                sum.work += half * weight * force * speed(t).abs();
-            }
-            sum.impulse += series.contact_impulse(wall, a, b).abs();
-            sum.sliding += (series.value_of(&moved, b) - series.value_of(&moved, a)).abs();
+        let sliding = Sliding {
+            force: &|t| series.contact_force(wall, t).abs(),
+            impulse: &|a, b| series.contact_impulse(wall, a, b).abs(),
+            speed: &speed,
+            way: &|a, b| series.value_of(&moved, b) - series.value_of(&moved, a),
         };
-        let mut left = (from, speed(from));
-        for part in 1..=PARTS {
-            let t = if part == PARTS { to } else { from + span * part as f64 };
-            let right = (t, speed(t));
-            if left.1 * right.1 < 0.0 {
-                let root = turn(&speed, left, right);
-                piece(left.0, root);
-                piece(root, right.0);
-            } else {
-                piece(left.0, right.0);
-            }
-            left = right;
-        }
-        each(&sum);
+        let mut sum = Slid::default();
+        parts([from, to], PARTS, |a, b| sliding.add(a, b, &mut sum));
+        each(&lasting(blank, &sum));
     }
-    if jump > 0.0 && to >= step.end {
+    if to >= step.end {
         let left =
             if step.end > step.start { speed(step.end) } else { place.along(blank.normal, step.velocity_before) };
-        let before = left + Blow::along(&place.blows, blank.normal, [step.start, step.end]);
-        let work = work_of_impulse(jump, before, place.along(blank.normal, step.v));
-        each(&Rub { manner: Manner::Instant, impulse: jump, friction: 0.0, work, time: 0.0, ..*blank });
+        knock(step, place, (jump, left), blank, each);
     }
 }
 
-/// The instant between two at which the speed changes its sign, by bisection down to rounding.
-fn turn(speed: &impl Fn(f64) -> f64, mut left: (f64, f64), mut right: (f64, f64)) -> f64 {
-    loop {
-        let middle = 0.5 * (left.0 + right.0);
-        if middle <= left.0 || middle >= right.0 {
-            return middle;
-        }
-        let there = (middle, speed(middle));
-        if there.1 * left.1 > 0.0 { left = there } else { right = there }
+/// The same for a round hole, in pieces over which its normal turns little.
+fn around(
+    series: &Series,
+    (step, hole): (&Step<'_>, usize),
+    place: &Place,
+    [from, to]: [f64; 2],
+    blank: &Rub,
+    each: &mut impl FnMut(&Rub),
+) {
+    let speed = |t: f64| {
+        let ([y, z], [vy, vz]) = series.at_hole(hole, t);
+        (y * vz - z * vy) / y.hypot(z)
+    };
+    let way = |a: f64, b: f64| {
+        let ([y, z], [u, v]) = (series.at_hole(hole, a).0, series.at_hole(hole, b).0);
+        y.hypot(z) * (y * v - z * u).atan2(y * u + z * v)
+    };
+    if series.hole_acts(hole) && to > from {
+        let sliding = Sliding {
+            force: &|t| series.hole_pressure(hole, t),
+            impulse: &|a, b| series.hole_push(hole, a, b),
+            speed: &speed,
+            way: &way,
+        };
+        let mut turn = 0.0;
+        parts([from, to], PARTS, |a, b| {
+            let [y, z] = series.at_hole(hole, a).0;
+            turn += way(a, b).abs() / y.hypot(z);
+        });
+        let count = (PARTS as f64).max((turn / TURN).ceil()).min(MOST_PARTS) as usize;
+        let mut time = to - from;
+        parts([from, to], count, |a, b| {
+            let mut sum = Slid::default();
+            sliding.add(a, b, &mut sum);
+            let ([y, z], _) = series.at_hole(hole, 0.5 * (a + b));
+            // Of so short a piece the impulse as a vector is next to p n; this is what it is of p.
+            let push = series.hole_impulse(hole, a, b);
+            let normal = if sum.impulse > 0.0 { push.map(|push| -push / sum.impulse) } else { blank.normal };
+            let angle = z.atan2(y).to_degrees().rem_euclid(360.0) % 360.0;
+            each(&Rub { time: std::mem::take(&mut time), angle, normal, ..lasting(blank, &sum) });
+        });
+    }
+    if to >= step.end {
+        let jump = step.holes.get(hole).map_or(0.0, |done| done.jump);
+        let left =
+            if step.end > step.start { speed(step.end) } else { place.along(blank.normal, step.velocity_before) };
+        knock(step, place, (jump, left), blank, each);
+    }
+}
+
+/// Calls `each` for `count` equal parts of a piece of time.
+fn parts([from, to]: [f64; 2], count: usize, mut each: impl FnMut(f64, f64)) {
+    let span = (to - from) / count as f64;
+    let mut left = from;
+    for part in 1..=count {
+        let right = if part == count { to } else { from + span * part as f64 };
+        each(left, right);
+        left = right;
+    }
+}
+
+/// A contact that lasted, and what slid.
+fn lasting(blank: &Rub, slid: &Slid) -> Rub {
+    let Slid { work, impulse, way } = *slid;
+    Rub { manner: Manner::Lasting, impulse, friction: 0.0, work, sliding: way, ..*blank }
+}
+
+/// The impulse `jump` (N s) at the end of a step, with the sliding velocity `left` (m/s) before the
+/// loads' impulses there.
+fn knock(step: &Step<'_>, place: &Place, (jump, left): (f64, f64), blank: &Rub, each: &mut impl FnMut(&Rub)) {
+    if jump > 0.0 {
+        let before = left + Blow::along(&place.blows, blank.normal, [step.start, step.end]);
+        let work = work_of_impulse(jump, before, place.along(blank.normal, step.v));
+        each(&Rub { manner: Manner::Instant, impulse: jump, friction: 0.0, work, time: 0.0, ..*blank });
     }
 }

@@ -1,5 +1,6 @@
 //! The structure, its loads and the rows of its walls, prepared for Taylor series.
 
+use super::round::{Round, with_rounds};
 use crate::linear::{Factor, Operator, Rows, Symmetric};
 use crate::scene::{Forcing, Loads, Row, Scene, Structure, distinct};
 use std::cell::{OnceCell, RefCell};
@@ -22,10 +23,14 @@ pub(crate) struct SeriesBody {
     sizes: [Operator; 2],
     /// The rows of the loads, each with the loads that act on it.
     pub(super) loads: Vec<(Row, Forcing)>,
-    /// The distinct rows of the walls.
+    /// The distinct rows of the walls, then one for each round hole, along its normal.
     pub rows: Rows,
-    /// Which of them each wall has, in the scene's order.
+    /// Which of them each wall has, in the scene's order, then each hole.
     pub row_of: Vec<usize>,
+    /// Number of the rows of walls: those that follow turn.
+    pub fixed: usize,
+    /// The round holes, in the scene's order.
+    pub rounds: Vec<Round>,
     /// yᵣ = M⁻¹ gᵣᵀ of each row, once it has been needed.
     columns: Vec<OnceCell<Column>>,
     /// Bounds on the free motion: ω² (1/s²), the rate of its damping (1/s) and the fastest load
@@ -70,8 +75,14 @@ impl SeriesBody {
         let n = mass.size();
         let mut factor = structure.mass_factor().ok()?;
         let places = distinct(scene.walls.iter().map(|wall| &wall.at));
-        let (count, row_of) = (places.rows.len(), places.of);
-        let rows = Rows::new(n, places.rows.iter().map(|row| row.entries()));
+        let (fixed, mut row_of) = (places.rows.len(), places.of);
+        let mut rows = Rows::new(n, places.rows.iter().map(|row| row.entries()));
+        let rounds: Vec<Round> = scene.holes().map(|hole| Round::new(&hole, n, &mut factor)).collect();
+        let count = fixed + rounds.len();
+        if !rounds.is_empty() {
+            rows = with_rounds(n, &rows, &rounds);
+            row_of.extend(fixed..count);
+        }
         let loads = Loads::new(&scene.loads).parts().to_vec();
         let waves = loads.iter().flat_map(|(_, forcing)| &forcing.harmonics);
         let load = waves.map(|wave| wave.omega).fold(0.0, f64::max);
@@ -79,7 +90,7 @@ impl SeriesBody {
         let rub = if damped { largest_ratio(mass, &mut factor, damping) } else { 0.0 };
         let omega = largest_ratio(mass, &mut factor, stiffness).max(scene.system.frequencies()[1].powi(2));
         let absolute = |m: &Symmetric| Symmetric::from_entries(n, m.entries().map(|(i, j, x)| (i, j, x.abs())));
-        let body = Self {
+        let mut body = Self {
             n,
             mass: RefCell::new(factor),
             inertia: Operator::new(mass),
@@ -90,13 +101,39 @@ impl SeriesBody {
             loads,
             rows,
             row_of,
+            fixed,
+            rounds,
             columns: (0..count).map(|_| OnceCell::new()).collect(),
             rates: [MARGIN * omega, MARGIN * rub, load],
         };
         if body.is_small() {
-            (0..count).for_each(|row| _ = body.column(row));
+            (0..fixed).for_each(|row| _ = body.column(row));
+        }
+        for hole in 0..body.rounds.len() {
+            body.turn(hole, [1.0, 0.0]);
         }
         Some(body)
+    }
+
+    /// Turns the row of a hole to the outward normal `normal`.
+    pub fn turn(&mut self, hole: usize, normal: [f64; 2]) {
+        let (row, Some(round)) = (self.fixed + hole, self.rounds.get_mut(hole)) else { return };
+        round.normal = normal;
+        self.rows.row_mut(row).iter_mut().zip(round.row()).for_each(|(entry, turned)| *entry = turned);
+        let (first, values, own) = round.column();
+        let Some(cell) = self.columns.get_mut(row) else { return };
+        if let Some(column) = cell.get_mut() {
+            column.own = own;
+            column.values.iter_mut().zip(values).for_each(|(value, turned)| *value = turned);
+        } else {
+            *cell = OnceCell::from(Column { first, values: values.collect(), own });
+        }
+    }
+
+    /// The hole whose row this is.
+    #[inline]
+    pub fn round(&self, row: usize) -> Option<&Round> {
+        self.rounds.get(row.wrapping_sub(self.fixed))
     }
 
     /// True if all columns are computed at once.
@@ -126,9 +163,12 @@ impl SeriesBody {
         values.iter().zip(&x[*first..]).map(|(y, x)| y * x).sum()
     }
 
-    /// Σ |yᵣ| |x|: the size of the terms of [`Self::answer`].
+    /// Σ |yᵣ| |x|: the size of the terms of [`Self::answer`]; of a hole in any direction.
     #[inline]
     pub fn answer_size(&self, row: usize, x: &[f64]) -> f64 {
+        if let Some(round) = self.round(row) {
+            return round.answer_size(x);
+        }
         let Column { first, values, .. } = self.column(row);
         values.iter().zip(&x[*first..]).map(|(y, x)| (y * x).abs()).sum()
     }
@@ -150,6 +190,14 @@ impl SeriesBody {
         }
         let entry = |k: usize| k.checked_sub(column.first).and_then(|k| column.values.get(k)).copied().unwrap_or(0.0);
         self.rows.row(row).iter().map(|&(k, g)| g * entry(k)).sum()
+    }
+
+    /// Σ |gⱼ| |xⱼ|; of a hole in any direction.
+    pub fn size(&self, row: usize, x: &[f64]) -> f64 {
+        if let Some(round) = self.round(row) {
+            return round.size(x);
+        }
+        self.rows.row(row).iter().map(|&(j, g)| (g * x[j]).abs()).sum()
     }
 
     /// M⁻¹ x in place.

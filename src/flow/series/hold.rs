@@ -26,6 +26,8 @@ pub(crate) struct Hold {
     independent: usize,
     /// S in λ = −S b_I, by rows of as many entries as there are independent rows.
     inverse: Vec<f64>,
+    /// The rows of the last setting, while they are set again.
+    last: Vec<Held>,
     /// Work space: a Cholesky factor by rows without gaps, C, and a vector.
     factor: Vec<f64>,
     relations: Vec<f64>,
@@ -57,6 +59,7 @@ impl Hold {
         Self {
             rows: Vec::with_capacity(rows),
             independent: 0,
+            last: Vec::with_capacity(rows),
             inverse: square(),
             factor: square(),
             relations: square(),
@@ -89,6 +92,16 @@ impl Hold {
         if self.rows.len() > self.independent {
             self.share(body);
         }
+    }
+
+    /// Holds the same rows again, after rows of holes have turned: each at the place (m) that
+    /// `position` makes of its row and its last place.
+    pub fn renew(&mut self, body: &SeriesBody, position: impl Fn(usize, f64) -> f64) {
+        let mut rows = std::mem::take(&mut self.last);
+        rows.clear();
+        rows.extend(self.rows.iter().map(|held| Held { position: position(held.row, held.position), ..*held }));
+        self.set(body, rows.iter().copied(), std::iter::empty());
+        self.last = rows;
     }
 
     /// Appends a row to the Cholesky factor of W, if it is independent of those before.
@@ -197,11 +210,19 @@ impl Hold {
     }
 
     /// Adds to `force` (N, n entries; or a derivative of it) the forces that hold the rows, and
-    /// passes each to `tell`, row by row, once per pass.
-    pub fn balance(&self, body: &SeriesBody, force: &mut [f64], scratch: &mut [f64], mut tell: impl FnMut(usize, f64)) {
+    /// passes each to `tell`, row by row, once per pass. A row has the acceleration `wanted` then:
+    /// 0 at a wall, that of the circle at a hole.
+    pub fn balance(
+        &self,
+        body: &SeriesBody,
+        force: &mut [f64],
+        scratch: &mut [f64],
+        wanted: impl Fn(&Held) -> f64,
+        mut tell: impl FnMut(usize, f64),
+    ) {
         for _ in 0..self.passes {
             for (b, held) in scratch.iter_mut().zip(self.independent()) {
-                *b = body.answer(held.row, force);
+                *b = body.answer(held.row, force) - wanted(held);
             }
             for (i, held) in self.rows.iter().enumerate() {
                 let push = -self.inverse(i).iter().zip(&*scratch).map(|(w, b)| w * b).sum::<f64>();

@@ -12,16 +12,22 @@
 //! are below rounding. There is no discretisation error.
 //!
 //! An elastic wall that touches gives r⁽ᵏ⁾ = −k_a (w − g)⁽ᵏ⁾ − c_a w⁽ᵏ⁺¹⁾. Rigid walls in lasting
-//! contact give the r⁽ᵏ⁾ for which G q⁽ᵏ⁺²⁾ = 0.
+//! contact give the r⁽ᵏ⁾ for which G q⁽ᵏ⁺²⁾ = 0, and round holes round which the structure slides
+//! those that keep it on their circles (`circle.rs`).
 
+mod around;
 mod body;
+mod circle;
 mod hold;
+mod round;
 mod terms;
 mod wave;
 
 use crate::scene::Row;
 pub(crate) use body::SeriesBody;
+use circle::Circle;
 pub(crate) use hold::{Held, Hold};
+pub(crate) use round::Round;
 pub(crate) use terms::{Start, Touching};
 use wave::Wave;
 
@@ -42,8 +48,17 @@ pub struct Series {
     terms: usize,
     /// aₖ one after the other, n entries each.
     motion: Vec<f64>,
-    /// Displacements at the rows of the walls, m: a polynomial in x each.
+    /// Displacements at the rows of the walls, m: a polynomial in x each. The row of a hole sees
+    /// what leaves the gap (γ² − |w|²)/2γ to the wall of its row.
     seen: Vec<f64>,
+    /// Number of walls, of their rows, and of the terms at the rows of holes.
+    walls: usize,
+    fixed: usize,
+    squares: usize,
+    /// One for each round hole.
+    circles: Vec<Circle>,
+    /// Work space: what the circles want of the accelerations at the held rows.
+    wanted: Vec<f64>,
     /// Force polynomials, N: of the touching elastic walls, then of the held rows.
     forces: Vec<f64>,
     /// The acting walls, by increasing index.
@@ -172,10 +187,12 @@ impl Series {
         self.force(touching + held)
     }
 
-    /// The displacement polynomial that row `row` sees, m.
+    /// The displacement polynomial that row `row` sees, m; at a hole the gap to the wall of its row
+    /// is (γ² − |w|²)/2γ, which is γ − |w| near the circle.
     #[inline]
     pub(crate) fn seen(&self, row: usize) -> &[f64] {
-        &self.seen[row * TERMS..row * TERMS + self.terms]
+        let terms = if row < self.fixed { self.terms } else { self.squares };
+        &self.seen[row * TERMS..row * TERMS + terms]
     }
 
     /// The polynomial in x of a weighted sum of what two rows see, m.
@@ -198,6 +215,12 @@ impl Series {
         let x = (t - self.start) / self.unit;
         let rate = (1..self.terms).rev().fold(0.0, |sum, k| sum * x + k as f64 * c[k]);
         rate / self.unit
+    }
+
+    /// Number of terms of the motion.
+    #[inline]
+    pub(crate) fn terms(&self) -> usize {
+        self.terms
     }
 
     /// The unit of x, s.

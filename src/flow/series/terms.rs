@@ -1,5 +1,6 @@
 //! The terms of a series, by recurrence.
 
+use super::circle::Circle;
 use super::wave::Wave;
 use super::{Acting, Hold, Series, SeriesBody, TERMS};
 
@@ -33,6 +34,10 @@ pub(crate) struct Touching {
 /// than twice the motion.
 const RADIANS: f64 = 2.0;
 
+/// The same in a scene with round holes: |w|² has twice the rate of w, and with 2 radians the first
+/// term that the product leaves out would be 4³²/32! = 7e-17 of it; this makes it 7e-21.
+const ROUND_RADIANS: f64 = 1.5;
+
 /// The series ends where a term of the acceleration is below this share of the first.
 const LAST: f64 = 1e-18;
 
@@ -43,6 +48,14 @@ const FEWEST: usize = 8;
 /// If the last term is above this share of the largest, the fastest rate was underestimated and the
 /// stretch is cut.
 const TRUNCATION: f64 = 1e-16;
+
+/// The same for a stretch along a circle. Its series is that of elliptic functions, whose terms
+/// fall like the powers of a number, so that all that is left out adds up to twice this.
+const ROUND_TRUNCATION: f64 = 2e-17;
+
+/// With a larger acceleration over γ, in units of the stretch, a series along a circle is begun
+/// again with a shorter one.
+const MOST_BEND: f64 = 16.0;
 
 impl Series {
     /// A series of length 0, to be filled by [`Series::begin`].
@@ -57,6 +70,11 @@ impl Series {
             terms: 1,
             motion: vec![0.0; n * TERMS],
             seen: vec![0.0; rows * TERMS],
+            walls: walls - body.rounds.len(),
+            fixed: body.fixed,
+            squares: 1,
+            circles: body.rounds.iter().map(|round| Circle::new(round.gap, TERMS)).collect(),
+            wanted: Vec::with_capacity(rows),
             forces: vec![0.0; (walls + rows) * TERMS],
             acting: Vec::with_capacity(2 * walls),
             waves: Vec::with_capacity(waves),
@@ -80,13 +98,17 @@ impl Series {
         carriers: impl Iterator<Item = (usize, usize, f64)>,
         work: &mut [f64],
     ) {
-        let n = self.n;
         self.rate = body.rate(touching.iter().map(|t| (t.row, t.stiffness, t.damping)));
-        let longest = if self.rate > 0.0 { RADIANS / self.rate } else { f64::INFINITY };
+        let slides = hold.rows().iter().any(|held| held.row >= self.fixed);
+        if slides {
+            self.rate = self.rate.max(turning_rate(body, hold, from.v));
+        }
+        let radians = if self.circles.is_empty() { RADIANS } else { ROUND_RADIANS };
+        let longest = if self.rate > 0.0 { radians / self.rate } else { f64::INFINITY };
         self.unit = from.span.min(longest);
         self.start = from.time;
         self.end = if from.span <= longest { from.time + from.span } else { from.time + self.unit };
-        self.terms = terms_for(self.rate * self.unit);
+        self.terms = if slides { TERMS } else { terms_for(self.rate * self.unit) };
         self.acting.clear();
         self.acting.extend(touching.iter().enumerate().map(|(slot, t)| Acting {
             wall: t.wall,
@@ -100,6 +122,37 @@ impl Series {
         };
         self.acting.extend(carriers.map(held));
         self.acting.sort_unstable_by_key(|acting| acting.wall);
+        while let Some(shorter) = self.fill(body, from, touching, hold, work) {
+            self.unit = shorter;
+            self.end = self.start + shorter;
+        }
+        if slides {
+            self.shorten(touching.len()..touching.len() + hold.rows().len());
+        } else {
+            self.check();
+        }
+        for held in hold.rows() {
+            let w = &mut self.seen[held.row * TERMS..(held.row + 1) * TERMS];
+            w.fill(0.0);
+            w[0] = held.position;
+        }
+        if !self.circles.is_empty() {
+            self.square(body, hold);
+        }
+    }
+
+    /// Computes the terms. Returns a shorter unit, with nothing of use done, if the acceleration
+    /// along a circle is so large that the terms would grow without bounds.
+    fn fill(
+        &mut self,
+        body: &mut SeriesBody,
+        from: &Start,
+        touching: &[Touching],
+        hold: &Hold,
+        work: &mut [f64],
+    ) -> Option<f64> {
+        let n = self.n;
+        let slides = hold.rows().iter().any(|held| held.row >= self.fixed);
         self.forces[..(touching.len() + hold.rows().len()) * TERMS].fill(0.0);
         self.motion[..n].copy_from_slice(from.q);
         for (a, v) in self.motion[n..2 * n].iter_mut().zip(from.v) {
@@ -128,21 +181,37 @@ impl Series {
                 self.forces[slot * TERMS + k] = push;
                 body.rows.add_transposed(t.row, push, force);
             }
-            if !hold.rows().is_empty() {
+            let factor = self.unit * self.unit / ((k + 1) * (k + 2)) as f64;
+            if slides {
+                self.wanted.clear();
+                self.wanted.resize(body.rows.count(), 0.0);
+                for (i, held) in hold.rows().iter().enumerate() {
+                    let hole = held.row.wrapping_sub(self.fixed);
+                    let (Some(circle), Some(round)) = (self.circles.get(hole), body.rounds.get(hole)) else { continue };
+                    let slot = (touching.len() + i) * TERMS;
+                    round.push(circle.turned(&self.forces[slot..slot + k]), force);
+                    self.wanted[held.row] = circle.bend(k + 2) / factor;
+                }
+                let (forces, wanted) = (&mut self.forces, &self.wanted);
+                let tell = |i: usize, push: f64| forces[(touching.len() + i) * TERMS + k] += push;
+                hold.balance(body, force, work, |held| wanted[held.row], tell);
+            } else if !hold.rows().is_empty() {
                 let forces = &mut self.forces;
-                hold.balance(body, force, work, |i, push| forces[(touching.len() + i) * TERMS + k] += push);
+                let tell = |i: usize, push: f64| forces[(touching.len() + i) * TERMS + k] += push;
+                hold.balance(body, force, work, |_| 0.0, tell);
             }
             body.solve(force);
-            let factor = self.unit * self.unit / ((k + 1) * (k + 2)) as f64;
             force.iter_mut().for_each(|a| *a *= factor);
             self.look(body, k + 2);
+            if slides && k == 0 {
+                let held = hold.rows().iter().filter_map(|held| self.circles.get(held.row.wrapping_sub(self.fixed)));
+                let bend = held.map(Circle::start).fold(0.0, f64::max);
+                if bend > MOST_BEND && bend.is_finite() {
+                    return Some(self.unit / bend.sqrt());
+                }
+            }
         }
-        for held in hold.rows() {
-            let w = &mut self.seen[held.row * TERMS..held.row * TERMS + self.terms];
-            w.fill(0.0);
-            w[0] = held.position;
-        }
-        self.check();
+        None
     }
 
     /// Computes term k of the displacements at the rows.
@@ -151,6 +220,57 @@ impl Series {
         let term = &self.motion[k * self.n..(k + 1) * self.n];
         for row in 0..body.rows.count() {
             self.seen[row * TERMS + k] = body.rows.dot(row, term);
+        }
+        for (circle, round) in self.circles.iter_mut().zip(&body.rounds) {
+            circle.set(k, if k == 0 { round.offset(term) } else { round.pair(term) });
+        }
+    }
+
+    /// Cuts a stretch along circles, whose series converge on a part of the unit only, to where the
+    /// last terms of motion and forces are below rounding, and makes its length the unit.
+    fn shorten(&mut self, slots: std::ops::Range<usize>) {
+        let (n, top) = (self.n, self.terms - 1);
+        let mut share = 1.0_f64;
+        let mut see = |size: &dyn Fn(usize) -> f64, last: usize| {
+            let largest = (0..4).map(size).fold(0.0, f64::max);
+            let end = size(last).max(size(last - 1));
+            if end > ROUND_TRUNCATION * largest && largest > 0.0 {
+                share = share.min((ROUND_TRUNCATION * largest / end).powf(1.0 / (last - 1) as f64));
+            }
+        };
+        see(&|k| self.motion[k * n..(k + 1) * n].iter().fold(0.0, |a: f64, x| a.max(x.abs())), top);
+        for circle in &self.circles {
+            see(&|k| circle.size(k), top);
+        }
+        for slot in slots {
+            see(&|k| self.forces[slot * TERMS + k].abs(), top - 2);
+        }
+        if share < 1.0 {
+            let mut power = 1.0;
+            for k in 0..self.terms {
+                self.motion[k * n..(k + 1) * n].iter_mut().for_each(|a| *a *= power);
+                self.seen.iter_mut().skip(k).step_by(TERMS).for_each(|c| *c *= power);
+                self.forces.iter_mut().skip(k).step_by(TERMS).for_each(|c| *c *= power);
+                self.circles.iter_mut().for_each(|circle| circle.scale(k, power));
+                power *= share;
+            }
+            self.unit *= share;
+            self.end = self.end.min(self.start + self.unit);
+        }
+        self.rate = self.rate.max(RADIANS / self.unit);
+    }
+
+    /// Computes the gaps to the circles that do not hold.
+    fn square(&mut self, body: &SeriesBody, hold: &Hold) {
+        self.squares = (2 * self.terms - 1).min(TERMS);
+        for (hole, (circle, round)) in self.circles.iter().zip(&body.rounds).enumerate() {
+            let row = self.fixed + hole;
+            if hold.rows().iter().any(|held| held.row == row) {
+                continue;
+            }
+            let seen = &mut self.seen[row * TERMS..(row + 1) * TERMS];
+            circle.square(self.terms, &mut seen[..self.squares]);
+            seen[0] = round.bound() - circle.gap();
         }
     }
 
@@ -165,6 +285,15 @@ impl Series {
             self.end = self.end.min(self.start + share * self.unit);
         }
     }
+}
+
+/// The largest rate |ẇ|/γ (1/s) at which the normals of held holes turn.
+fn turning_rate(body: &SeriesBody, hold: &Hold, v: &[f64]) -> f64 {
+    let rate = |round: &super::Round| {
+        let [y, z] = round.pair(v);
+        y.hypot(z) / round.gap
+    };
+    hold.rows().iter().filter_map(|held| body.round(held.row)).map(rate).fold(0.0, f64::max)
 }
 
 /// The number of terms after which all are below rounding at x = 1, for a motion of `radians`:

@@ -62,6 +62,10 @@ impl Ledger {
                 flows.dashpot -= now - held;
             }
         }
+        for (hole, did) in scene.holes().zip(step.holes).filter(|(_, did)| did.jump != 0.0) {
+            let ([before, after], [y, z]) = ([mid, step.v].map(|v| hole.support.seen(v)), did.normal);
+            flows.impact += 0.5 * did.jump * (y * (before[0] + after[0]) + z * (before[1] + after[1]));
+        }
         let system = &scene.system;
         self.book(0.5 * (system.mass_form(step.v, step.v) + system.stiffness_form(step.q, step.q)) + walls, flows);
     }

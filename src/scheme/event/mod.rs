@@ -133,7 +133,7 @@ impl Event {
             resolution: noise(scene.walls.iter().map(|w| w.position.abs()).fold(0.0, f64::max)),
             sizes: [0.0; 4],
             steps: 0,
-            shown: Shown::new(&[v], walls, 2 * walls + 2),
+            shown: Shown::new(&[v], (walls, 0), 2 * walls + 2),
             velocity_left: v,
         };
         event.reclassify();

@@ -1,9 +1,10 @@
 //! What a step of the exact schemes shows besides the state at its end.
 
 use super::super::space::{Space, zero};
-use crate::step::{Contact, Path, Step};
+use crate::step::{Contact, HoleStep, Path, Step};
 
-/// The last step. Vectors over walls have one entry per wall.
+/// The last step. Vectors over walls have one entry per wall, then one per round hole, where an
+/// impulse or force has the sign of an upper wall's.
 #[derive(Debug, Clone)]
 pub(in crate::scheme) struct Shown<S: Space> {
     pub start: f64,
@@ -16,21 +17,31 @@ pub(in crate::scheme) struct Shown<S: Space> {
     pub impulse: Vec<f64>,
     pub jump: Vec<f64>,
     pub force: Vec<f64>,
+    /// Number of walls.
+    walls: usize,
+    /// What the holes did, and friction of each wall, N s, which is 0; both empty in scenes without
+    /// holes.
+    pub holes: Vec<HoleStep>,
+    pub friction: Vec<f64>,
     /// Contact episodes that the step closed.
     pub closed: Vec<Contact>,
 }
 
 impl<S: Space> Shown<S> {
-    /// Before the first step, at the velocity `v` (m/s). A step that closes more than `contacts`
-    /// episodes allocates.
-    pub fn new(v: &S::Vector, walls: usize, contacts: usize) -> Self {
+    /// Before the first step, at the velocity `v` (m/s), in a scene with so many walls and round
+    /// holes. A step that closes more than `contacts` episodes allocates.
+    pub fn new(v: &S::Vector, (walls, holes): (usize, usize), contacts: usize) -> Self {
+        let all = walls + holes;
         Self {
             start: 0.0,
             before: v.clone(),
             extra: zero::<S>(v.as_ref().len()),
-            impulse: vec![0.0; walls],
-            jump: vec![0.0; walls],
-            force: vec![0.0; walls],
+            impulse: vec![0.0; all],
+            jump: vec![0.0; all],
+            force: vec![0.0; all],
+            walls,
+            holes: vec![HoleStep::default(); holes],
+            friction: vec![0.0; if holes > 0 { walls } else { 0 }],
             closed: Vec::with_capacity(contacts),
         }
     }
@@ -40,6 +51,7 @@ impl<S: Space> Shown<S> {
         self.closed.clear();
         self.impulse.fill(0.0);
         self.jump.fill(0.0);
+        self.holes.fill(HoleStep::default());
         self.start = time;
         self.before.clone_from(v);
     }
@@ -66,11 +78,11 @@ impl<S: Space> Shown<S> {
             v,
             velocity_before: self.before.as_ref(),
             velocity_after: v,
-            impulse: &self.impulse,
-            jump: &self.jump,
-            force: &self.force,
-            friction: &[],
-            holes: &[],
+            impulse: &self.impulse[..self.walls],
+            jump: &self.jump[..self.walls],
+            force: &self.force[..self.walls],
+            friction: &self.friction,
+            holes: &self.holes,
             extra: self.extra.as_ref(),
             closed: &self.closed,
             path,

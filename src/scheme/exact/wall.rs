@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, Subject};
 use crate::flow::Touch;
-use crate::scene::{Scene, Side, Wall, WallLaw};
+use crate::scene::{Hole, Scene, Side, Wall, WallLaw};
 use crate::step::Contact;
 
 /// Where the body is relative to one wall.
@@ -30,10 +30,12 @@ pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<ExactWall>> {
     scene.walls.iter().map(barrier).collect()
 }
 
-/// One wall of a run.
+/// One wall of a run, or a round hole, which is an upper wall along its normal.
 #[derive(Debug, Clone)]
 pub(in crate::scheme) struct ExactWall {
     pub name: String,
+    /// True for a round hole, whose episodes have impulses above 0.
+    round: bool,
     pub side: Side,
     /// The direction away from the wall: +1 at a lower wall, −1 at an upper one.
     pub sign: f64,
@@ -59,6 +61,7 @@ impl ExactWall {
         };
         Some(Self {
             name: wall.name.clone(),
+            round: false,
             side: wall.side,
             sign: wall.side.sign(),
             position: wall.position,
@@ -68,6 +71,31 @@ impl ExactWall {
             changed: f64::NEG_INFINITY,
             open: None,
         })
+    }
+
+    /// A rigid round hole, whose place along its normal is that of the moment.
+    pub fn of_hole(hole: &Hole<'_>) -> Self {
+        Self {
+            name: hole.support.name.clone(),
+            round: true,
+            side: Side::Upper,
+            sign: Side::Upper.sign(),
+            position: hole.gap,
+            stiffness: 0.0,
+            damping: 0.0,
+            phase: Phase::Rigid(hole.restitution),
+            changed: f64::NEG_INFINITY,
+            open: None,
+        }
+    }
+
+    /// The open episode as results show it.
+    pub fn shown(&self) -> Option<Contact> {
+        let mut contact = self.open?;
+        if self.round {
+            contact.impulse = contact.impulse.abs();
+        }
+        Some(contact)
     }
 
     /// Gap at `q`, m.
@@ -154,7 +182,9 @@ impl ExactWall {
     /// Ends the open episode and returns it; `None` if no force has acted, since a touch is no
     /// contact.
     pub fn close(&mut self, end: f64, departure_speed: f64) -> Option<Contact> {
-        let mut contact = self.open.take().filter(|c| c.impulse != 0.0)?;
+        let known = self.shown();
+        self.open = None;
+        let mut contact = known.filter(|c| c.impulse != 0.0)?;
         (contact.end, contact.departure_speed) = (Some(end), Some(departure_speed.max(0.0)));
         Some(contact)
     }

@@ -30,7 +30,12 @@ pub(super) struct ClosedRow {
     /// True if its flight may be the tail of an accumulation of impacts.
     pub candidate: bool,
     pub fate: Fate,
+    /// The force that holds it and its derivatives, N, N/s …, as `rest.rs` finds them, signed.
+    pub force: [f64; LEVELS],
 }
+
+/// Number of derivatives of the acceleration that `rest.rs` examines, including itself.
+pub(super) const LEVELS: usize = 3;
 
 /// 0 for lower walls, 1 for upper ones.
 pub(super) fn side_of(sign: f64) -> usize {

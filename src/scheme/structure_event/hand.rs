@@ -11,10 +11,12 @@ use super::StructureEvent;
 use super::stretch::Stretch;
 use crate::error::Result;
 use crate::qp::Backend;
-use crate::scene::{Load, LoadKind, Scene, State, Table};
+use crate::scene::{Checked, Load, LoadKind, Scene, State, Table};
 use crate::scheme::grid::Grid;
+use crate::scheme::matrices::Matrices;
 use crate::scheme::moreau_jean::MoreauJean;
 use crate::scheme::motion::Motion;
+use crate::scheme::supports::Supports;
 use crate::scheme::{Handed, Scheme};
 
 /// Maximum number of events within a stretch before it is handed over …
@@ -54,15 +56,13 @@ impl StructureEvent {
         let to = self.limit().min(self.time + window);
         let (scene, h) = (self.scene_from_here(to - self.time), (to - self.time) / PARTS as f64);
         let contract = Scheme::MoreauJean { theta: THETA }.contract();
-        let rule = Box::new(MoreauJean::new(&scene, THETA, h, Backend::Auto)?);
-        self.stretch = Some(Box::new(Stretch {
-            grid: Grid::new(&scene, &scene.wall_masses(), rule, contract, h)?,
-            from: self.time,
-            to,
-            h,
-            step: 0,
-            contract,
-        }));
+        let grid: Box<dyn Motion> = if self.body.rounds.is_empty() {
+            let rule = Box::new(MoreauJean::<Matrices>::new(&scene, THETA, h, Backend::Auto)?);
+            Box::new(Grid::new(&scene, &scene.wall_masses(), rule, contract, h)?)
+        } else {
+            Box::new(Supports::new(&Checked::made(scene), THETA, contract, h)?)
+        };
+        self.stretch = Some(Box::new(Stretch { grid, from: self.time, to, h, step: 0, contract }));
         let joins = |last: &&mut Handed| self.time <= last.to + window;
         match self.crowd.stretches.last_mut().filter(joins) {
             Some(last) => (last.to, last.step) = (to, last.step.max(h)),
@@ -96,7 +96,7 @@ impl StructureEvent {
         Scene {
             system: self.scene.system.clone(),
             walls: self.scene.walls.clone(),
-            supports: Vec::new(),
+            supports: self.scene.supports.clone(),
             loads: self.scene.loads.iter().filter_map(shifted).collect(),
             probes: Vec::new(),
             initial: State { q: self.q.clone(), v: self.v.clone() },
@@ -121,8 +121,10 @@ impl StructureEvent {
         let step = s.grid.step(s.step - 1);
         self.q.copy_from_slice(step.q);
         self.v.copy_from_slice(step.v);
-        self.shown.impulse.copy_from_slice(step.impulse);
-        self.shown.force.copy_from_slice(step.force);
+        let walls = step.impulse.len();
+        self.shown.impulse[..walls].copy_from_slice(step.impulse);
+        self.shown.force[..walls].copy_from_slice(step.force);
+        self.shown.holes.copy_from_slice(step.holes);
         let later = |c: &crate::step::Contact| {
             let mut c = *c;
             c.start += s.from;
@@ -154,6 +156,7 @@ impl StructureEvent {
         self.hold.set(&self.body, std::iter::empty(), std::iter::empty());
         self.carriers.clear();
         self.decided = f64::NEG_INFINITY;
+        self.turn();
         self.reclassify();
         // Blows due now are given in the next step of the exact motion.
         Ok(())

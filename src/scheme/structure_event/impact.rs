@@ -46,7 +46,7 @@ impl StructureEvent {
         let pull = self.body.answer_size(row, &self.sizes.instant);
         // Where forces balance, the velocity has the rounding error of their terms over the last
         // stretch.
-        let own = noise(size(&self.body, row, &self.v) + pull * self.series.unit());
+        let own = noise(size(&self.body, row, &self.v) + pull * self.series.unit()) + self.turned_speed(row);
         if self.seats.len() < 2 {
             return own;
         }
@@ -172,8 +172,9 @@ impl StructureEvent {
     /// is found.
     pub(super) fn solve(&mut self) -> Result<bool> {
         let (time, step) = (self.time, self.steps);
-        if self.solver.is_none() {
+        if self.solver.is_none() || self.turned {
             self.make_solver()?;
+            self.turned = false;
         }
         let Some(solver) = &mut self.solver else { return Ok(true) };
         match solver.solve(&Rhs { b: &self.rhs, lo: &self.lo, hi: &self.hi }) {
@@ -200,7 +201,7 @@ impl StructureEvent {
         for seat in 0..self.seats.len() {
             let s = self.seats[seat];
             let (rate, position) = (self.rate_of(seat), self.places[s.row].bound[side_of(s.sign)]);
-            let most = self.body.answer_size(s.row, &self.rhs_size);
+            let most = self.body.answer_size(s.row, &self.rhs_size) + self.bend_size(s.row, 0);
             let resolved = self.resolution(s.row, position);
             let low = self.low(s.row) + TAIL_HEIGHT * self.places[s.row].travel + resolved;
             let wanted = s.push[side_of(s.sign)] > 0.0 && s.restitution > 0.0 && rate > 0.0;
@@ -243,7 +244,7 @@ impl StructureEvent {
         let (c, unit) = (self.series.seen(s.row), self.series.unit());
         let rate = s.sign * c[1] / unit;
         let press = -2.0 * s.sign * c[2] / (unit * unit);
-        let large = self.body.answer_size(s.row, &self.sizes.force[0]);
+        let large = self.lean(s.row) * (self.body.answer_size(s.row, &self.sizes.force[0]) + self.bend_size(s.row, 0));
         if press <= noise(large) || rate <= 0.0 {
             return false;
         }

@@ -2,7 +2,8 @@
 //! elastic walls beginning or ending.
 
 use super::StructureEvent;
-use super::closed_row::{Cause, ClosedRow, Fate, side_of};
+use super::closed_row::{Cause, ClosedRow, Fate, LEVELS, side_of};
+use super::round::PLACINGS;
 use super::rows::SIGNS;
 use crate::error::Result;
 use crate::flow::Held;
@@ -103,6 +104,7 @@ impl StructureEvent {
     fn seat(&mut self, hit: Option<Cause>) {
         self.seats.clear();
         (self.fastest_row, self.fastest_weighed) = (0.0, 0.0);
+        self.turn();
         for row in 0..self.places.len() {
             let place = self.places[row];
             if place.carriers == [0, 0] {
@@ -150,11 +152,25 @@ impl StructureEvent {
                 push: [0.0; 2],
                 candidate: false,
                 fate: Fate::None,
+                force: [0.0; LEVELS],
             });
         }
         if self.seats.is_empty() {
             return;
         }
+        let turns = self.seats.iter().any(|s| self.body.round(s.row).is_some());
+        for _ in 0..if turns { PLACINGS } else { 1 } {
+            self.place_seats();
+            self.turn();
+        }
+        self.derivatives[0].copy_from_slice(&self.q);
+        self.derivatives[1].copy_from_slice(&self.v);
+        self.forces(0);
+        self.sizes.instant.copy_from_slice(&self.rhs_size);
+    }
+
+    /// Puts the structure onto the surfaces of the closed rows.
+    fn place_seats(&mut self) {
         let Self { surface, body, seats, places, q, scratch, .. } = self;
         let held = |s: &ClosedRow| Held { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
         // A row that is just leaving must not be put back: it would never leave.
@@ -164,10 +180,6 @@ impl StructureEvent {
         };
         surface.set(body, std::iter::empty(), seats.iter().filter(|s| !leaves(s)).map(held));
         surface.place(body, q, scratch);
-        self.derivatives[0].copy_from_slice(&self.q);
-        self.derivatives[1].copy_from_slice(&self.v);
-        self.forces(0);
-        self.sizes.instant.copy_from_slice(&self.rhs_size);
     }
 
     /// Ends the rests that a blow disturbs: what the blow does at a wall that carried the structure

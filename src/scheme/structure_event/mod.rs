@@ -11,6 +11,7 @@
 //! | `impact.rs` | impacts, at several walls at once |
 //! | `rest.rs` | which touching walls push where the speed is 0 |
 //! | `closed_row.rs` | a closed row at an instant, and what becomes of it |
+//! | `round.rs` | round holes: rows that turn |
 //! | `hand.rs`, `stretch.rs` | the stretches that are handed to moreau-jean |
 //! | `view.rs` | what the scheme shows after each step |
 
@@ -21,6 +22,7 @@ mod instant;
 mod motion;
 mod rest;
 mod root;
+mod round;
 mod rows;
 mod search;
 mod start;
@@ -54,6 +56,8 @@ use stretch::{Crowd, Stretch};
 /// - Walls that touch at speed 0 balance the forces that press on them: 0 ≤ ẅ ⟂ λ ≥ 0, one
 ///   quadratic programme, and where both vanish the next derivatives decide (`rest.rs`).
 /// - Accumulations of impacts end in lasting contact as for one degree of freedom.
+/// - A round hole is an upper wall along its normal, whose row turns with the motion (`round.rs`):
+///   the structure hits it at a root of (γ² − |w|²)/2γ, and lasting contact is sliding round it.
 #[derive(Debug)]
 pub(super) struct StructureEvent {
     scene: Arc<Scene>,
@@ -65,6 +69,10 @@ pub(super) struct StructureEvent {
     /// Walls of each row.
     walls_of: Vec<Vec<usize>>,
     solver: Option<qp::Solver>,
+    /// Programmes, pivots and fallbacks of solvers that are no longer used, and whether rows of
+    /// holes have turned since the present one was made.
+    spent: [u64; 3],
+    turned: bool,
     series: Series,
     /// Work space for looking ahead.
     flight: Series,
@@ -150,6 +158,10 @@ impl StructureEvent {
             self.advance_stretch(stretch)?;
             return self.clock.check(self.time, &self.barriers);
         }
+        if self.crowd.handed == self.time {
+            // Not before: the last step told where it ended.
+            self.put_back();
+        }
         for _ in 0..CHANGES_AT_ONCE {
             let before = self.time;
             let limit = self.limit();
@@ -177,6 +189,10 @@ impl StructureEvent {
         }
         self.clock.pass(self.time);
         self.shown.add_jumps();
+        if !self.body.rounds.is_empty() {
+            self.turn();
+            self.tell_holes();
+        }
         self.set_forces();
         self.clock.check(self.time, &self.barriers)
     }

@@ -2,8 +2,9 @@
 //! the walls.
 
 use super::StructureEvent;
+use super::round::bend;
 use super::rows::{Sizes, WallRow, size};
-use crate::flow::{SeriesStart, Touching};
+use crate::flow::{Held, SeriesStart, Touching};
 use crate::scheme::exact::Phase;
 
 impl StructureEvent {
@@ -22,11 +23,15 @@ impl StructureEvent {
         if self.decided != self.time {
             self.places.iter_mut().for_each(WallRow::forget);
         }
-        let Self { body, series, barriers, touching, hold, carriers, .. } = self;
+        let Self { body, barriers, touching, .. } = self;
         touching.clear();
         touching.extend(barriers.iter().enumerate().filter(|(_, b)| b.phase == Phase::Touching).map(|(wall, b)| {
             Touching { wall, row: body.row_of[wall], position: b.position, stiffness: b.stiffness, damping: b.damping }
         }));
+        if !body.rounds.is_empty() {
+            self.turn();
+        }
+        let Self { body, series, touching, hold, carriers, .. } = self;
         if !hold.rows().is_empty() {
             hold.place(body, &mut self.q, &mut self.scratch);
             hold.stop(body, &mut self.v, &mut self.scratch);
@@ -116,6 +121,9 @@ impl StructureEvent {
                 let push = self.series.held_force(k)[order] * if order == 0 { 1.0 } else { 1.0 / self.series.unit() };
                 self.body.rows.row(held.row).iter().for_each(|&(i, g)| self.rhs_size[i] += (g * push).abs());
             }
+            if order == 1 {
+                self.add_turned_sizes();
+            }
             self.sizes.force[order].copy_from_slice(&self.rhs_size);
             if order == 0 {
                 self.enlarge(0);
@@ -130,10 +138,11 @@ impl StructureEvent {
             self.derivatives[0].copy_from_slice(&self.q);
             self.derivatives[1].copy_from_slice(&self.v);
             self.forces(0);
-            let Self { hold, body, rhs, scratch, pushes, .. } = self;
+            let Self { hold, body, rhs, scratch, pushes, derivatives, .. } = self;
             pushes.clear();
             pushes.resize(hold.rows().len(), 0.0);
-            hold.balance(body, rhs, scratch, |k, push| pushes[k] += push);
+            let wanted = |held: &Held| body.round(held.row).map_or(0.0, |round| -bend(round, derivatives, 0));
+            hold.balance(body, rhs, scratch, wanted, |k, push| pushes[k] += push);
             for &(wall, k, share) in &self.carriers {
                 let (Some(force), Some(held)) = (self.shown.force.get_mut(wall), self.hold.rows().get(k)) else {
                     continue;

@@ -3,18 +3,16 @@
 //! Over the closed rows of speed 0, 0 ≤ ẅ ⟂ λ ≥ 0: the accelerations minimise ½ (q̈ − M⁻¹F)ᵀ M (q̈
 //! − M⁻¹F) over G q̈ ≥ 0 (Gauss's principle). Rows with λ > 0 are held, rows with ẅ > 0 leave.
 //! Where both vanish to rounding the next derivative decides in the same way, and the rows held so
-//! far are held in it too. A row that no derivative decides is stopped and left free: nothing
+//! far are held in it too. At a round hole ẅ is that of the distance to the circle, which the turning
+//! of the normal changes too (`round.rs`). A row that no derivative decides is stopped and left free: nothing
 //! presses on it, so it is not in contact, and the search for events finds which way it goes.
 
 use super::StructureEvent;
-use super::closed_row::{ClosedRow, Fate, side_of};
+use super::closed_row::{ClosedRow, Fate, LEVELS, side_of};
 use super::rows::{SIGNS, Zeros};
 use crate::error::Result;
 use crate::flow::Held;
 use crate::scheme::exact::noise;
-
-/// Number of derivatives of the acceleration that are examined, including itself.
-const LEVELS: usize = 3;
 
 /// Relative tolerance within which a force that the search found to vanish must be 0; if it is
 /// larger, something else has changed it.
@@ -39,6 +37,7 @@ impl StructureEvent {
                 break;
             }
             self.forces(level);
+            self.turn_forces(level);
             self.decide(level, released)?;
             self.enlarge(level);
         }
@@ -57,11 +56,12 @@ impl StructureEvent {
         self.hi.fill(f64::INFINITY);
         for s in self.seats.iter().filter(resting) {
             let held = s.both || matches!(s.fate, Fate::Held(_));
+            let bound = -self.bend(s.row, level);
             if s.sign > 0.0 || held {
-                self.lo[s.row] = 0.0;
+                self.lo[s.row] = bound;
             }
             if s.sign < 0.0 || held {
-                self.hi[s.row] = 0.0;
+                self.hi[s.row] = bound;
             }
         }
         if !self.solve()? {
@@ -75,12 +75,14 @@ impl StructureEvent {
             self.body.rows.row(row).iter().for_each(|&(i, g)| self.rhs_size[i] += (g * r).abs());
         }
         for at in 0..self.seats.len() {
+            let push = solution.multiplier.get(self.seats[at].row).copied().unwrap_or(0.0);
+            self.seats[at].force[level] = push;
             let s = self.seats[at];
             if s.fate != Fate::Open {
                 continue;
             }
-            let push = s.sign * solution.multiplier.get(s.row).copied().unwrap_or(0.0);
-            let away = s.sign * self.body.rows.dot(s.row, &solution.x);
+            let push = s.sign * push;
+            let away = s.sign * (self.body.rows.dot(s.row, &solution.x) + self.bend(s.row, level));
             self.seats[at] = self.judged(s, level, push * self.body.delassus(s.row, s.row), away, released);
         }
         Ok(())
@@ -89,7 +91,7 @@ impl StructureEvent {
     /// As [`Self::decide`], for a single row.
     fn decide_one(&mut self, level: usize, at: usize, released: Option<usize>) -> Result<()> {
         let s = self.seats[at];
-        let away = s.sign * self.body.answer(s.row, &self.rhs);
+        let away = s.sign * (self.body.answer(s.row, &self.rhs) + self.bend(s.row, level));
         let held = s.both || away < 0.0;
         let judged = self.judged(s, level, -away, away.max(0.0), released);
         let w = self.body.delassus(s.row, s.row);
@@ -101,13 +103,15 @@ impl StructureEvent {
             self.body.rows.row(s.row).iter().for_each(|&(i, g)| self.rhs_size[i] += (g * away / w).abs());
         }
         self.seats[at] = judged;
+        self.seats[at].force[level] = if held { -s.sign * away / w } else { 0.0 };
         Ok(())
     }
 
     /// A closed row after the decision of one level: `push` is its force's share of the
     /// acceleration, `away` the acceleration that remains.
     fn judged(&self, mut s: ClosedRow, level: usize, push: f64, away: f64, released: Option<usize>) -> ClosedRow {
-        let large = self.body.answer_size(s.row, &self.rhs_size);
+        let large = self.body.answer_size(s.row, &self.rhs_size) + self.bend_size(s.row, level);
+        let large = self.lean(s.row) * large;
         let vanished = level == 0 && released == Some(s.row) && push.abs() <= VANISHED * large;
         let little = if vanished { VANISHED * large } else { noise(large) };
         if s.both && push.abs() > little {
@@ -123,7 +127,7 @@ impl StructureEvent {
 
     /// Holds the rows that are to be held, and records what has been decided.
     fn hold_seats(&mut self, released: Option<usize>) {
-        let Self { hold, body, seats, places, carriers, walls_of, barriers, v, scratch, .. } = self;
+        let Self { hold, body, seats, places, v, scratch, .. } = self;
         for place in places.iter_mut() {
             place.held = 0.0;
             place.forget();
@@ -172,6 +176,12 @@ impl StructureEvent {
                 Fate::None => place.gap_zeros[side] = Some(Zeros::Then(1)),
             }
         }
+        self.share_holds();
+    }
+
+    /// Finds the walls that carry the held rows.
+    pub(super) fn share_holds(&mut self) {
+        let Self { hold, places, carriers, walls_of, barriers, .. } = self;
         carriers.clear();
         for (k, held) in hold.rows().iter().enumerate() {
             let side = side_of(held.sign);

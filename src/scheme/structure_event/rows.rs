@@ -1,13 +1,14 @@
 //! The rows of the walls: bounds, which are held, and the rounding errors there.
 
 use crate::flow::{SeriesBody, TERMS};
-use crate::scene::{Scene, Side};
+use crate::scene::{Hole, Scene, Side};
 use crate::scheme::exact::noise;
 
 /// The sign of a wall's force, for lower and upper walls.
 pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
 
-/// A row with rigid walls behind it. Index 0 is the lower side, 1 the upper.
+/// A row with rigid walls behind it, or the row of a round hole along its normal, which is that of
+/// an upper wall. Index 0 is the lower side, 1 the upper.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WallRow {
     /// Position of the nearest rigid wall of each side, m; infinite without one.
@@ -60,6 +61,20 @@ impl WallRow {
         place
     }
 
+    /// The row of a round hole along its normal: an upper wall.
+    pub fn of_hole(hole: &Hole<'_>) -> Self {
+        Self {
+            bound: [f64::NEG_INFINITY, hole.gap],
+            restitution: [0.0, hole.restitution],
+            carriers: [0, 1],
+            strikers: [0, 1],
+            held: 0.0,
+            travel: 0.0,
+            gap_zeros: [None; 2],
+            force_zeros: None,
+        }
+    }
+
     /// Gap of a side at displacement `w`, m; infinite without a wall.
     #[inline]
     pub fn gap(&self, side: usize, w: f64) -> f64 {
@@ -107,9 +122,9 @@ impl Sizes {
     }
 }
 
-/// Σ |gⱼ| |xⱼ|.
+/// Σ |gⱼ| |xⱼ|; of a hole in any direction.
 pub(super) fn size(body: &SeriesBody, row: usize, x: &[f64]) -> f64 {
-    body.rows.row(row).iter().map(|&(j, g)| (g * x[j]).abs()).sum()
+    body.size(row, x)
 }
 
 /// A polynomial whose first root is sought.

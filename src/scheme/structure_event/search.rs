@@ -142,6 +142,9 @@ impl StructureEvent {
         let unit = self.series.unit();
         let answer = |x: &[f64]| self.body.answer_size(row, x);
         let second = noise(answer(&self.sizes.force[0])) * unit * unit / 2.0;
+        if self.body.round(row).is_some() {
+            return self.round_noises(row, [second, noise(answer(&self.sizes.force[1])) * unit * unit * unit / 6.0]);
+        }
         [
             self.resolution(row, position),
             // Where forces balance, the velocity has the rounding error of their terms.
@@ -158,6 +161,9 @@ impl StructureEvent {
 
     /// Σ of the sizes of the terms of a row's displacement after the first, m.
     fn travel(&self, row: usize) -> f64 {
+        if let Some(round) = self.body.round(row) {
+            return self.round_travel(round);
+        }
         (1..self.series.seen(row).len()).map(|k| size(&self.body, row, self.series.term(k))).sum()
     }
 
@@ -169,6 +175,9 @@ impl StructureEvent {
             for (order, out) in out.iter_mut().take(2).enumerate() {
                 *out += noise(w.abs() * self.body.answer_size(held.row, &self.sizes.force[order]));
             }
+        }
+        if !self.body.rounds.is_empty() {
+            self.add_bend_noises(k, &mut out);
         }
         // For the higher ones, the second times powers of the fastest rate.
         let fast = self.series.rate() * unit;

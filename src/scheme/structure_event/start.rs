@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::flow::{Hold, Series, SeriesBody};
 use crate::qp::{self, Backend};
 use crate::scene::{Loads, Scene};
-use crate::scheme::exact::{Clock, Shown, barriers, known_loads};
+use crate::scheme::exact::{Clock, ExactWall, Shown, barriers, known_loads};
 use std::sync::Arc;
 
 /// The programme's signs are tested relative to its own motion, so any positive length will do.
@@ -19,16 +19,20 @@ impl StructureEvent {
     ///
     /// # Errors
     /// [`Error::Invalid`] for a wall of the φ² penalty, which has no linear law, and for a function
-    /// of time as load.
+    /// of time as load. Holes must be rigid.
     pub(in crate::scheme) fn new(scene: &Arc<Scene>, stride: f64) -> Result<Self> {
         known_loads(scene)?;
-        let barriers = barriers(scene)?;
+        let mut barriers = barriers(scene)?;
+        let (walls, holes) = (barriers.len(), scene.holes().count());
+        barriers.extend(scene.holes().map(|hole| ExactWall::of_hole(&hole)));
         let singular = || Error::invalid(("system", "mass matrix"), "singular", "a positive definite matrix");
         let mut body = SeriesBody::new(scene).ok_or_else(singular)?;
-        let (n, rows, walls) = (body.n, body.rows.count(), barriers.len());
+        let (n, rows) = (body.n, body.rows.count());
         let mut walls_of = vec![Vec::new(); rows];
         body.row_of.iter().enumerate().for_each(|(wall, &row)| walls_of[row].push(wall));
-        let places = walls_of.iter().map(|walls| WallRow::new(scene, walls)).collect();
+        let mut places: Vec<WallRow> =
+            walls_of.iter().take(body.fixed).map(|walls| WallRow::new(scene, walls)).collect();
+        places.extend(scene.holes().map(|hole| WallRow::of_hole(&hole)));
         let loads = Loads::new(&scene.loads);
         let (mut v, mut blow) = (scene.initial.v.clone(), vec![0.0; n]);
         if loads.initial_blow(&mut blow) {
@@ -48,23 +52,25 @@ impl StructureEvent {
             flight: Series::new(&body),
             hold: Hold::with_room(rows),
             surface: Hold::with_room(rows),
-            carriers: Vec::with_capacity(walls),
+            carriers: Vec::with_capacity(walls + holes),
             touching: Vec::with_capacity(walls),
             seats: Vec::with_capacity(rows),
             fastest_row: 0.0,
             fastest_weighed: 0.0,
             sizes: Sizes::new(n),
             clock: Clock::new(scene.duration, stride),
-            length: if walls > 0 { scene.gap_scale() } else { 0.0 },
+            length: if walls + holes > 0 { scene.gap_scale() } else { 0.0 },
             time: 0.0,
             q: scene.initial.q.clone(),
-            shown: Shown::new(&v, walls, 3 * walls + 2),
+            shown: Shown::new(&v, (walls, holes), 3 * (walls + holes) + 2),
             v,
             doubt: 1.0,
             decided: f64::NEG_INFINITY,
             blows,
             blow: 0,
             crowd: Crowd::default(),
+            spent: [0; 3],
+            turned: false,
             stretch: None,
             handed: None,
             scene: scene.clone(),
@@ -80,9 +86,10 @@ impl StructureEvent {
             hi: vec![f64::INFINITY; rows],
             body,
         };
-        if rows > 1 && event.body.is_small() {
+        if rows > 1 && holes == 0 && event.body.is_small() {
             event.make_solver()?;
         }
+        event.turn();
         event.reclassify();
         event.set_forces();
         Ok(event)
@@ -91,6 +98,7 @@ impl StructureEvent {
     /// Makes the solver of impacts and of lasting contact at several walls, when it is first
     /// needed: with many walls it is large.
     pub(super) fn make_solver(&mut self) -> Result<()> {
+        self.book_solver();
         let (mass, rows) = (self.scene.system.structure().mass.clone(), &self.body.rows);
         let problem = qp::Problem { a: mass, g: rows.clone(), compliance: vec![0.0; rows.count()] };
         let (time, step) = (self.time, self.steps);
@@ -112,10 +120,11 @@ impl StructureEvent {
         event.clock.restart(time);
         event.crowd = std::mem::take(&mut self.crowd);
         event.crowd.restart(time, event.clock.total().events);
+        event.turn();
         event.reclassify();
         event.shown.closed.clear();
         event.set_forces();
-        event.solver = self.solver.take();
+        (event.solver, event.spent, event.turned) = (self.solver.take(), self.spent, true);
         *self = event;
         Ok(())
     }

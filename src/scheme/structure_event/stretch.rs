@@ -1,14 +1,13 @@
 //! A stretch that moreau-jean steps, and the count of events that decides on it.
 
 use crate::scheme::Handed;
-use crate::scheme::grid::Grid;
-use crate::scheme::matrices::Matrices;
+use crate::scheme::motion::Motion;
 use crate::step::Contract;
 
 /// The current stretch.
 #[derive(Debug)]
 pub(super) struct Stretch {
-    pub grid: Grid<Matrices>,
+    pub grid: Box<dyn Motion>,
     pub from: f64,
     pub to: f64,
     /// Its step, s.

@@ -4,6 +4,7 @@ use super::StructureEvent;
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
+use crate::scheme::exact::ExactWall;
 use crate::scheme::motion::Motion;
 use crate::scheme::{Counters, Handed};
 use crate::step::{Contact, Path, Step};
@@ -34,7 +35,7 @@ impl Motion for StructureEvent {
     }
 
     fn open_contacts(&self) -> Vec<Contact> {
-        self.barriers.iter().filter_map(|b| b.open.as_ref()).copied().collect()
+        self.barriers.iter().filter_map(ExactWall::shown).collect()
     }
 
     fn handed(&self) -> &[Handed] {
@@ -45,12 +46,10 @@ impl Motion for StructureEvent {
         counters.events = self.clock.total().events;
         counters.flow_evaluations = self.clock.total().evaluations;
         counters.handed_steps = self.crowd.steps;
-        if let Some(solver) = &self.solver {
-            let inner = solver.counters();
-            counters.qp_solves = inner.solves - inner.free;
-            counters.pivots = inner.pivots;
-            counters.qp_fallbacks = inner.fallbacks;
-        }
+        let [solves, pivots, fallbacks] = self.solver_work();
+        counters.qp_solves = solves;
+        counters.pivots = pivots;
+        counters.qp_fallbacks = fallbacks;
     }
 
     fn backend(&self) -> Option<Backend> {

@@ -212,7 +212,7 @@ impl Parameter {
 /// [`Error::Invalid`] for such a case.
 pub fn check(case: Question<'_>) -> Result<()> {
     if case.scene.turns_or_rubs() {
-        let expected = "walls without friction: the maps compare schemes, and moreau-jean alone steps such a scene";
+        let expected = "walls without friction: the maps compare schemes, and most of them do not step such a scene";
         return Err(Error::invalid("support", "round or with friction", expected));
     }
     if case.scene.walls.is_empty() {
