@@ -106,6 +106,48 @@ fn infinitely_many_impacts_and_then_sliding_for_ever() {
     }
 }
 
+/// The built-in case `name` without friction, up to `end` (s).
+fn smooth(name: &str, end: f64) -> Case {
+    let text = std::fs::read_to_string(format!("{}/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let kept = |line: &&str| !line.starts_with("friction") && !line.starts_with("statistics_from");
+    let mut case = case(&text.lines().filter(kept).collect::<Vec<_>>().join("\n"));
+    case.change_end(end).unwrap();
+    case
+}
+
+#[test]
+fn a_tube_in_two_holes_has_an_exact_motion_that_moreau_jean_approaches() {
+    // 20 modes in each plane under random forces, with impacts and sliding in both holes.
+    let case = smooth("tube-round-supports", 0.1);
+    let exact = made(&case, Scheme::Event);
+    assert!(exact.counters.handed_steps == 0 && exact.counters.events > 50, "{:?}", exact.counters);
+    for [statistics, row, contact] in works(&case, &exact) {
+        assert!(statistics > 0.0);
+        assert!((row / statistics - 1.0).abs() < 1e-12 && (contact / statistics - 1.0).abs() < 1e-12);
+    }
+    let off = |step: f64| {
+        let mut case = smooth("tube-round-supports", 0.1);
+        case.time.step = step;
+        let run = made(&case, JEAN);
+        let pairs = run.statistics.wear.iter().zip(&exact.statistics.wear);
+        pairs.map(|(one, other)| (one.mean_n / other.mean_n - 1.0).abs()).fold(0.0, f64::max)
+    };
+    // Of order 1 through dozens of impacts, each of which enlarges the errors of those before.
+    let [coarse, fine] = [1e-5, 5e-7].map(off);
+    assert!(fine < 0.3 * coarse && fine < 2e-2, "{coarse:e} {fine:e}");
+}
+
+#[test]
+fn comparisons_in_round_holes_have_the_exact_reference() {
+    let case = smooth("whirl-in-a-hole", 0.5);
+    let methods = [signorini::Method::new(JEAN)];
+    let comparison = signorini::study::compare::compare(&case.scene, &methods, &case.time, &|_| ()).unwrap();
+    assert!(comparison.reference.is_ok() && comparison.refined.is_none());
+    // The start is that of the motion with friction, so the body swings round the hole; order 2.
+    let error = comparison.rows[0].error.unwrap();
+    assert!(error > 1e-9 && error < 1e-3, "{error:e}");
+}
+
 #[test]
 fn friction_stops_a_mass_on_a_flat() {
     let case = Case::embedded("code-aster-sdnd100").unwrap();

@@ -11,6 +11,7 @@ use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
 use crate::run::Run;
+use crate::scene::Shape;
 use crate::scheme::{Method, Scheme};
 use crate::study::choice;
 use crate::study::compare::{Comparison, Row};
@@ -224,10 +225,16 @@ fn largest(columns: &[Vec<f64>]) -> f64 {
     columns.iter().flatten().fold(0.0, |a, x| a.max(x.abs()))
 }
 
-/// Deepest position behind a wall that the scene calls rigid, m.
+/// Deepest position behind a wall or a hole that the scene calls rigid, m.
 fn penetration(case: &Case, run: &Run) -> f64 {
-    let walls = case.scene.walls.iter().zip(&run.residuals.depth_m);
-    walls.filter(|(wall, _)| wall.law.is_rigid()).fold(0.0, |a, (_, depth)| a.max(*depth))
+    let rigid = |shape: &Shape| match shape {
+        Shape::Round { law, .. } => Some(law.is_rigid()),
+        Shape::Flats(_) => None,
+    };
+    let walls = case.scene.walls.iter().map(|wall| wall.law.is_rigid()).zip(&run.residuals.depth_m);
+    let holes = case.scene.supports.iter().filter_map(|support| rigid(&support.shape));
+    let all = walls.chain(holes.zip(&run.residuals.hole_depth_m));
+    all.filter(|(rigid, _)| *rigid).fold(0.0, |most, (_, depth)| most.max(*depth))
 }
 
 /// Largest force of the contacts in the window whose force is finite, N: of one wall, or of all.

@@ -29,7 +29,7 @@ pub fn choose(scene: &Scene) -> Choice {
     let round = scene.supports.iter().any(|support| matches!(support.shape, Shape::Round { .. }));
     let rubs = scene.supports.iter().any(|support| support.friction > 0.0);
     let reason = if round {
-        "of the schemes it alone turns with the normal of a round support: what slides there keeps its speed, and \
+        "of the schemes with a step it alone turns with the normal of a round support: what slides there keeps its speed, and \
          with θ = ½ free motion its energy"
     } else if rubs {
         "of the schemes it alone has friction, and with θ = ½ keeps the energy of free motion exactly"
