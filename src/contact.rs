@@ -46,9 +46,14 @@ impl Floor {
             let inertia = if positions { mass * place } else { 0.0 };
             Self { force: ROUNDING * (loads + (spring + own) * place), inertia: ROUNDING * inertia }
         };
-        // Only velocity-level schemes step scenes with round supports.
-        let hole = |hole: Hole<'_>| Self { force: ROUNDING * (loads + spring * hole.gap), inertia: 0.0 };
-        scene.walls.iter().zip(masses).map(floor).chain(scene.holes().map(hole)).collect()
+        let displaced = contract.promise.hole.is_some();
+        let hole = |(hole, mass): (Hole<'_>, &f64)| {
+            let inertia = if displaced { mass * hole.gap } else { 0.0 };
+            let own = if let WallLaw::Elastic { stiffness, .. } = hole.law { stiffness } else { 0.0 };
+            Self { force: ROUNDING * (loads + (spring + own) * hole.gap), inertia: ROUNDING * inertia }
+        };
+        let holes = scene.holes().zip(masses.iter().skip(scene.walls.len())).map(hole);
+        scene.walls.iter().zip(masses).map(floor).chain(holes).collect()
     }
 
     /// True if an impulse `p` (N s) of a step of `h` (s) is rounding; without a division, since
@@ -117,7 +122,12 @@ impl Episodes {
         let walls = scene.walls.len() + holes().count();
         Self {
             instant: contract.instant,
-            rigid: scene.walls.iter().map(|w| w.law.is_rigid()).chain(holes().map(|_| true)).collect(),
+            rigid: scene
+                .walls
+                .iter()
+                .map(|w| w.law.is_rigid())
+                .chain(holes().map(|hole| hole.law.is_rigid()))
+                .collect(),
             floor: Floor::all(scene, masses, contract),
             mass: masses.to_vec(),
             side: scene.walls.iter().map(|w| w.side).chain(holes().map(|_| Side::Upper)).collect(),

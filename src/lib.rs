@@ -75,7 +75,7 @@ pub use statistics::{
     SectorStatistics, Spectrum, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics, WearStatistics,
 };
 pub use step::{
-    Balance, Bound, Circle, Conserves, Contact, Contract, Elastic, Friction, HoleStep, Law, Path, Promise,
+    Balance, Bound, Circle, Conserves, Contact, Contract, Elastic, Friction, HoleStep, Law, Normal, Path, Promise,
     PromisedForce, Reached, Rigid, Step, Tolerance, Tolerances, Turning,
 };
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};

@@ -11,7 +11,7 @@ pub(crate) use setup::setup;
 
 use crate::residual::Energy;
 use crate::run::{Judging, Recording, Run};
-use crate::scene::{Checked, Scene};
+use crate::scene::{Checked, Scene, WallLaw};
 use crate::scheme::{Counters, Scheme};
 use crate::step::Contact;
 
@@ -162,8 +162,9 @@ fn of_energy(energy: &Energy, arrived: Option<f64>) -> Option<String> {
 fn arrived(scene: &Checked, contacts: &[Contact]) -> f64 {
     let masses = scene.wall_masses();
     let mass = |wall: usize| masses.get(wall).copied().unwrap_or(0.0);
-    // Round supports come after the walls, and all of them are rigid.
-    let rigid = |wall: usize| scene.walls.get(wall).is_none_or(|w| w.law.is_rigid());
+    // Round supports come after the walls.
+    let laws: Vec<_> = scene.walls.iter().map(|wall| wall.law).chain(scene.holes().map(|hole| hole.law)).collect();
+    let rigid = |wall: usize| laws.get(wall).is_some_and(WallLaw::is_rigid);
     let contacts = contacts.iter().filter(|c| rigid(c.wall));
     contacts.map(|c| 0.5 * mass(c.wall) * c.approach_speed * c.approach_speed).sum()
 }

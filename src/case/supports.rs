@@ -7,7 +7,7 @@ use super::value::{Number, Section, Value};
 use super::walls::{MOST_WALLS, NewWall};
 use super::written::{Scarred, Support};
 use crate::error::{Error, Result, Subject};
-use crate::scene::{self, Flat, Flats, PlaneRows, Shape, WallLaw};
+use crate::scene::{self, Flat, Flats, PlaneRows, Shape};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -117,19 +117,15 @@ impl Builder<'_> {
         Ok(walls.into_iter().zip(&flats.flats).map(directed).collect())
     }
 
-    /// A round hole: a radial gap, and rigid.
+    /// A round hole: a radial gap, and a contact law.
     fn hole(&mut self, owner: &Owner, support: &file::Support) -> Result<Shape> {
-        let file::Support { directions, sides, turn, stiffness, damping, .. } = support;
+        let file::Support { directions, sides, turn, .. } = support;
         let flat =
             [("directions", directions.as_ref().map(Spanned::span)), ("sides", sides.as_ref().map(Spanned::span))];
         let flat = flat.into_iter().chain([("turn", turn.as_ref().map(Spanned::span))]);
         if let Some((key, Some(at))) = flat.into_iter().find(|(_, at)| at.is_some()) {
             let title = format!("{} is round and has {key}", owner.name);
             return Err(self.source.error(at, &title, "expected shape = \"flats\" beside it, or gap alone: a radius"));
-        }
-        if let Some(value) = stiffness.as_ref().or(damping.as_ref()) {
-            let help = "expected a rigid hole, by its restitution; elastic supports are made of flats";
-            return Err(self.source.error(value.span(), &format!("{} is round and elastic", owner.name), help));
         }
         if self.static_correction {
             let help = "expected shape = \"flats\", or no static_correction: the compliance that modes leave out \
@@ -145,9 +141,17 @@ impl Builder<'_> {
                 return Err(self.refuse(support.gap.span(), &format!("{}: gap", owner.name), wanted));
             }
         };
-        let restitution = self.optional(owner.subject.clone().part("restitution"), support.restitution.as_ref());
-        self.places.push((owner.subject.clone().part("gap"), support.gap.span()));
-        Ok(Shape::Round { gap, law: WallLaw::Rigid { restitution: restitution.unwrap_or(1.0) } })
+        let law = self.law_of(&owner.name, [&support.restitution, &support.stiffness, &support.damping])?;
+        let keys = [
+            ("gap", Some(support.gap.span())),
+            ("restitution", support.restitution.as_ref().map(Spanned::span)),
+            ("stiffness", support.stiffness.as_ref().map(Spanned::span)),
+            ("damping", support.damping.as_ref().map(Spanned::span)),
+        ];
+        for (key, at) in keys {
+            self.places.extend(at.map(|at| (owner.subject.clone().part(key), at)));
+        }
+        Ok(Shape::Round { gap, law })
     }
 
     /// The place that a support surrounds.

@@ -76,9 +76,11 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     model.extend(case.notes().iter().map(|note| format!("note: {note}")));
     tell("model", model);
     let mut schemes = vec![format!("{}: {}", choice.method, choice.reason)];
-    if case.scene.supports.iter().all(|support| support.friction == 0.0) {
+    let elastic = case.scene.holes().any(|hole| !hole.law.is_rigid());
+    if !elastic && case.scene.supports.iter().all(|support| support.friction == 0.0) {
         schemes.push("event: exact, from impact to impact without a step; the reference of `compare`".to_owned());
     }
+    schemes.extend(choice::at_holes(&case.scene));
     tell("scheme", schemes);
     tell("matrices", choice::path(&case.scene, case.time.step).into_iter().collect());
     tell(
@@ -166,7 +168,9 @@ fn duration(estimate: &Estimate) -> String {
 }
 
 fn solver(case: &Case) -> &'static str {
-    if case.scene.turns_or_rubs() {
+    if case.scene.holes().any(|hole| !hole.law.is_rigid()) {
+        "disks"
+    } else if case.scene.turns_or_rubs() {
         "sweeps"
     } else if matches!(case.scene.system, System::Oscillator(_)) {
         "clamp"
@@ -312,13 +316,15 @@ fn supports(case: &Case) -> Vec<String> {
         };
         let (name, place) = (&support.name, &support.place);
         let Some((Flats { flats, .. }, _)) = &support.flats else {
-            let (gap, e) = match &there.shape {
-                Shape::Round { gap, law } => (*gap, law.restitution().unwrap_or(0.0)),
-                Shape::Flats(_) => (0.0, 0.0),
+            let (gap, law) = match &there.shape {
+                Shape::Round { gap, law: WallLaw::Elastic { stiffness, damping } } => {
+                    (*gap, format!("elastic, {stiffness:?} N/m and {damping:?} N s/m"))
+                }
+                Shape::Round { gap, law } => (*gap, format!("rigid, restitution {}", law.restitution().unwrap_or(0.0))),
+                Shape::Flats(_) => (0.0, String::new()),
             };
             return format!(
-                "support {name:?}, on {place}: a round hole, a gap of {gap} m all round{off}; rigid, restitution {e}, \
-                 {rubs}"
+                "support {name:?}, on {place}: a round hole, a gap of {gap} m all round{off}; {law}, {rubs}"
             );
         };
         let mut gaps: Vec<f64> = flats.iter().map(|flat| flat.gap).collect();

@@ -194,7 +194,7 @@ impl Changes {
 
 fn set_restitution(case: &mut Case, restitution: Option<f64>) -> Result<()> {
     let Some(restitution) = restitution else { return Ok(()) };
-    let holes = case.whole().supports.iter().any(|support| matches!(support.shape, Shape::Round { .. }));
+    let holes = case.whole().holes().any(|hole| hole.law.is_rigid());
     if !holes && !case.whole().walls.iter().any(|wall| wall.law.is_rigid()) {
         return Err(Error::invalid("--restitution", restitution, "a case with a rigid wall; this one has none"));
     }
@@ -208,7 +208,7 @@ fn set_restitution(case: &mut Case, restitution: Option<f64>) -> Result<()> {
             wall.law = WallLaw::Rigid { restitution };
         }
         for support in &mut scene.supports {
-            if let Shape::Round { law, .. } = &mut support.shape {
+            if let Shape::Round { law: law @ WallLaw::Rigid { .. }, .. } = &mut support.shape {
                 *law = WallLaw::Rigid { restitution };
             }
         }

@@ -11,7 +11,7 @@ impl Judge {
         let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = self.contract.balance else { return };
         let Some(mut memory) = self.memory.take() else { return };
         let h = self.h;
-        let closed = self.walls_on_grid(step, false);
+        let closed = self.walls_on_grid(step, false) | (self.supports.is_some() && self.closes_hole(step));
         let Memory { s, force, s_end, force_end, .. } = &mut *memory;
         let scratch = &mut self.scratch;
         force_end.copy_from_slice(&scratch.load_end);
@@ -42,12 +42,16 @@ impl Judge {
                 self.balance_scale = self.balance_scale.max((weight * p).abs() / (h * self.scales.root_mass[i]));
             }
         }
+        if self.supports.is_some() {
+            self.supports_on_grid(step, false);
+        }
+        let scratch = &mut self.scratch;
         // Under this rule the damper feels a blow from the middle of the step on.
         let (from, to) = (step.start, step.end);
         if self.loads.has_blows() && self.loads.blow_moment(from, to, to - 0.5 * h, &mut scratch.felt) {
             divide(&self.scene, self.mass.as_mut(), &mut scratch.felt);
             let drives = |wall: &Wall| wall.law.is_rigid() && wall.side.sign() * wall.at.dot(&scratch.struck) < 0.0;
-            let either = closed && self.scene.walls.iter().any(drives);
+            let either = closed && (self.scene.walls.iter().any(drives) || self.drives_into_hole(step));
             self.take_felt(either, step);
         }
         let (mut worst, mut path) = (0.0_f64, 0.0_f64);

@@ -34,7 +34,7 @@ impl Judge {
         let path = self.terms_of(step, beyond, per_h, n);
         self.walls_on_grid(step, beyond);
         if self.supports.is_some() {
-            self.supports_on_grid(step);
+            self.supports_on_grid(step, beyond);
         }
         self.products_of(per_h, n);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
@@ -167,8 +167,10 @@ impl Judge {
         divide(&self.scene, self.mass.as_mut(), given);
         let by_hole = |(index, _, [push, _]): (usize, _, [[f64; 2]; 2])| {
             let given = self.scene.supports[index].seen(given);
-            push[0] * given[0] + push[1] * given[1] < 0.0
+            let rigid = self.scene.supports[index].hole().is_none_or(|hole| hole.law.is_rigid());
+            rigid && push[0] * given[0] + push[1] * given[1] < 0.0
         };
+        let by_hole = |push| self.contract.promise.hole.is_none() && by_hole(push);
         if answered(&self.scene, self.contract.promise, step.impulse, given) || pushes(&self.scene, step).any(by_hole) {
             // The wall may push only because the damper felt the blow, so both cases are possible:
             // take the one that the displacement fits better.

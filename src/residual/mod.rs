@@ -6,6 +6,7 @@ mod beyond;
 mod circle;
 mod complementarity;
 mod corrected;
+mod disk;
 mod energy;
 mod finding;
 mod friction;
@@ -17,6 +18,7 @@ mod pushes;
 mod quadrature;
 mod recorded;
 mod residuals;
+mod ring;
 mod round;
 mod scales;
 mod series;
@@ -362,6 +364,7 @@ impl Judge {
         let path = over(self.kinematics, self.normal_reach.max(self.scales.gap));
         let rigid = self.scene.walls.iter().zip(&self.depth).filter(|(w, _)| w.law.is_rigid());
         let holes = self.supports.as_ref().map_or(&[][..], |supports| &supports.depth);
+        let rigid_holes = self.scene.holes().zip(holes).filter(|(hole, _)| hole.law.is_rigid()).map(|(_, depth)| depth);
         let supports = self.supports.as_ref().map_or(0.0, |supports| {
             let laws = over(supports.askew, force_scale).max(over(supports.struck, speed_scale));
             supports.rubs.pairs.worst(speed_scale, force_scale).max(laws)
@@ -370,7 +373,7 @@ impl Judge {
             complementarity: walls.max(rebounds).max(law).max(supports),
             depth_m: self.depth.clone(),
             hole_depth_m: holes.to_vec(),
-            penetration_m: rigid.map(|(_, depth)| depth).chain(holes).fold(0.0, |most, depth| most.max(*depth)),
+            penetration_m: rigid.map(|(_, depth)| depth).chain(rigid_holes).fold(0.0, |most, depth| most.max(*depth)),
             tension_n: self.tension,
             force_balance_n: self.balance,
             force_balance: balance.max(path),

@@ -7,13 +7,13 @@ use super::beyond::Worst;
 use super::friction::Rub;
 use super::pushes::{pushes, terms};
 use crate::scene::Support;
-use crate::step::{HoleStep, Step, Turning};
+use crate::step::{Bound, HoleStep, Normal, Step, Turning};
 
 impl Judge {
     /// Checks round holes and friction, and adds their impulses to the momentum balance of the
-    /// step.
+    /// step; `beyond` says that blows add to the displacement of the step's rule.
     #[inline(never)]
-    pub(super) fn supports_on_grid(&mut self, step: &Step<'_>) {
+    pub(super) fn supports_on_grid(&mut self, step: &Step<'_>, beyond: bool) {
         let Some(mut supports) = self.supports.take() else { return };
         let scene = std::sync::Arc::clone(&self.scene);
         for (hole, &(index, gap, e)) in supports.holes.iter().enumerate() {
@@ -23,7 +23,7 @@ impl Judge {
                 *depth = depth.max(y.hypot(z) - gap);
             }
             let seen = Seen { place: scene.walls.len() + hole, support, gap, e, did };
-            let askew = self.hold_hole(step, &seen, &mut supports.doubt);
+            let askew = self.hold_hole(step, &seen, beyond, &mut supports.doubt);
             supports.askew = supports.askew.max(askew);
             let rub = Rub {
                 place: seen.place,
@@ -55,26 +55,44 @@ impl Judge {
     }
 
     /// Checks one hole; returns the part of its force that is not along the normal, N.
-    fn hold_hole(&mut self, step: &Step<'_>, seen: &Seen<'_>, doubt: &mut Worst) -> f64 {
+    fn hold_hole(&mut self, step: &Step<'_>, seen: &Seen<'_>, beyond: bool, doubt: &mut Worst) -> f64 {
         let Seen { place, support, gap, did, .. } = *seen;
         let force = did.impulse.hypot(did.friction) / self.h;
         let pressure = did.impulse / self.h;
         self.force_scale = self.force_scale.max(force);
         self.tension = self.tension.max(-pressure);
-        self.rounding.push(place, force, true);
-        let Some(turning) = self.contract.promise.round else { return 0.0 };
+        let law = support.hole().map(|hole| hole.law).filter(|law| !law.is_rigid());
+        self.rounding.push(place, force, law.is_none());
+        if let Some(law) = law {
+            let end = support.offset(if beyond { &self.scratch.arrived } else { step.q });
+            return self.hold_ring(step, (place, support, gap, law), (did, end), doubt);
+        }
+        if self.contract.promise.hole == Some(Bound::End) {
+            self.hold_disk(step, (place, support, gap), pressure);
+        }
+        let Some(turning) = self.contract.promise.round else {
+            return self.along_end(step, (place, support, gap), did, doubt);
+        };
         let (before, given) = (support.seen(step.velocity_before), support.seen(&self.scratch.struck));
         let (start, after) = (support.offset(&self.q), support.seen(step.velocity_after));
         let rate = [before[0] + given[0], before[1] + given[1]];
-        let ahead = [0, 1].map(|i: usize| start[i] + turning.ahead * self.h * rate[i]);
+        let end = support.offset(step.q);
+        let ahead = [0, 1].map(|i: usize| match turning.normal {
+            Normal::Ahead(part) => start[i] + part * self.h * rate[i],
+            Normal::Middle => start[i] + end[i],
+        });
         let reach = ahead[0].hypot(ahead[1]);
         let speeds = terms(support, step.velocity_before)
             + terms(support, step.velocity_after)
             + terms(support, &self.scratch.struck);
         let centre = support.centre[0].abs() + support.centre[1].abs();
         let size = terms(support, &self.q) + terms(support, step.q) + centre + gap + self.h * speeds;
-        let (way, place_noise) = (reach - gap * (1.0 - turning.touching), self.rounding.of(size));
-        let (reached, edge) = (way >= 0.0, way.abs() <= place_noise);
+        let place_noise = self.rounding.of(size);
+        let far = if turning.normal == Normal::Middle { end[0].hypot(end[1]) } else { reach };
+        let way = far - gap * (1.0 - turning.touching);
+        // Of a bound on the displacement, rounding is as large as the solver's tolerance.
+        let closes = turning.normal == Normal::Middle && did.impulse != 0.0;
+        let (reached, edge) = (way >= 0.0 || closes, way.abs() <= place_noise + turning.touching * gap);
         if !reached && !edge {
             self.law_error = self.law_error.max(force);
             self.doubt_law(place, force, 0.0);

@@ -139,12 +139,14 @@ impl Judge {
 
     /// True where the scheme promises a closed energy ledger on this scene.
     fn keeps_ledger(&self) -> bool {
-        let mut walls = self.scene.walls.iter();
+        let laws: Vec<_> =
+            self.scene.walls.iter().map(|wall| wall.law).chain(self.scene.holes().map(|hole| hole.law)).collect();
+        let mut walls = laws.iter();
         match self.contract.tolerances.conserves {
             _ if self.doubts.handed => false,
             Conserves::Nothing => false,
-            Conserves::RigidWalls => walls.all(|wall| wall.law.is_rigid()),
-            Conserves::UndampedWalls => !walls.any(|wall| wall.law.damping() > 0.0),
+            Conserves::RigidWalls => walls.all(|law| law.is_rigid()),
+            Conserves::UndampedWalls => !walls.any(|law| law.damping() > 0.0),
             Conserves::Everything => true,
         }
     }

@@ -64,6 +64,8 @@ pub struct Hole<'a> {
     pub gap: f64,
     /// The coefficient of restitution e along the normal.
     pub restitution: f64,
+    /// The contact law along the normal.
+    pub law: WallLaw,
 }
 
 impl Support {
@@ -102,7 +104,7 @@ impl Support {
     pub fn hole(&self) -> Option<Hole<'_>> {
         match &self.shape {
             Shape::Round { gap, law } => {
-                Some(Hole { support: self, gap: *gap, restitution: law.restitution().unwrap_or(0.0) })
+                Some(Hole { support: self, gap: *gap, restitution: law.restitution().unwrap_or(0.0), law: *law })
             }
             Shape::Flats(_) => None,
         }
@@ -124,8 +126,8 @@ impl Support {
 }
 
 impl Scene {
-    /// True if a support of the scene is a round hole or has friction: `moreau-jean` steps such
-    /// scenes, and `event` those without friction.
+    /// True if a support of the scene is a round hole or has friction: not every scheme steps such
+    /// scenes.
     #[must_use]
     pub fn turns_or_rubs(&self) -> bool {
         self.supports.iter().any(|support| support.friction > 0.0 || matches!(support.shape, Shape::Round { .. }))
@@ -234,7 +236,13 @@ impl Support {
             WallLaw::Rigid { restitution } => {
                 return Err(Error::invalid(key("restitution"), format!("{restitution:?}"), "from 0 to 1"));
             }
-            _ => return Err(Error::invalid(key("stiffness"), "given", "a rigid hole, by its restitution")),
+            WallLaw::Elastic { stiffness, damping } => {
+                positive(key("stiffness"), *stiffness)?;
+                nonnegative(key("damping"), *damping)?;
+            }
+            WallLaw::Quartic { .. } => {
+                return Err(Error::invalid(key("law"), "that of a penalty", "a rigid or an elastic hole"));
+            }
         }
         let [y, z] = self.seen(start);
         let distance = (y - self.centre[0]).hypot(z - self.centre[1]);

@@ -2,6 +2,7 @@
 //! the exact motion.
 
 use super::central_difference::CentralDifference;
+use super::disks::Disks;
 use super::event::Event;
 use super::generalized_alpha::GeneralizedAlpha;
 use super::grid::Grid;
@@ -19,7 +20,7 @@ use super::supports::Supports;
 use super::{Integrator, Method, Scheme};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::{Checked, Scene, Shape, Support};
+use crate::scene::{Checked, Scene};
 use crate::step::Step;
 
 /// A motion. That of one degree of freedom on a grid is stored without a pointer, so that its steps
@@ -51,7 +52,7 @@ fn rule<S: Space>(scene: &Scene, Method { scheme, backend }: Method, h: f64) -> 
     })
 }
 
-/// `scheme` on a scene with round holes or friction: moreau-jean steps it, and without friction the
+/// `scheme` on a scene with round holes or friction. Only moreau-jean has friction; without it the
 /// exact motion is known.
 fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Result<Box<dyn Motion>> {
     if scheme == Scheme::Event {
@@ -61,10 +62,9 @@ fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Res
                             of an impact, the exact scheme has no law for it";
             return Err(Error::invalid("scheme", found, expected));
         }
-        let elastic = |s: &&Support| matches!(&s.shape, Shape::Round { law, .. } if !law.is_rigid());
-        if let Some(support) = scene.supports.iter().find(elastic) {
-            let found = format!("event, with an elastic ring at the support {:?}", support.name);
-            let expected = "a scheme with a step: the force of a ring has no series of its own";
+        if let Some(ring) = scene.holes().find(|hole| !hole.law.is_rigid()) {
+            let found = format!("event, with the elastic round support {:?}", ring.support.name);
+            let expected = "a scheme with a step: the force of an elastic hole has no series of its own";
             return Err(Error::invalid("scheme", found, expected));
         }
         return Ok(Box::new(StructureEvent::new(scene.shared(), h)?));
@@ -75,12 +75,33 @@ fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Res
         return Err(Error::invalid("QP solver", backend, expected));
     }
     let round = scene.holes().next().is_some();
+    let ring = scene.holes().find(|hole| !hole.law.is_rigid());
+    let rubs = scene.supports.iter().any(|support| support.friction > 0.0);
+    if let Some(ring) = ring {
+        let found = format!("{scheme}, with the elastic round support {:?}", ring.support.name);
+        let expected = match scheme {
+            Scheme::MoreauJean { .. } | Scheme::ImplicitEuler if rubs => {
+                "no friction, or rigid round supports: the normal of an elastic one follows from the step's end"
+            }
+            Scheme::MoreauJean { .. } | Scheme::ImplicitEuler => {
+                return Ok(Box::new(Disks::new(scene, scheme.contract(), h)?));
+            }
+            _ => "moreau-jean or implicit-euler, the schemes for elastic round supports",
+        };
+        return Err(Error::invalid("scheme", found, expected));
+    }
     let expected = match scheme {
         Scheme::MoreauJean { theta } => return Ok(Box::new(Supports::new(scene, theta, scheme.contract(), h)?)),
+        Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. } if !rubs => {
+            return Ok(Box::new(Disks::new(scene, scheme.contract(), h)?));
+        }
+        Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. } => {
+            "moreau-jean, or no friction: a bound on the displacement leaves a contact no velocity at which it could stick"
+        }
         Scheme::PaoliSchatzman | Scheme::Newmark if round => {
             "moreau-jean: this scheme does not keep the energy of a body in a round hole"
         }
-        _ if round => "moreau-jean, or event without friction: the schemes for round holes",
+        _ if round && !rubs => "moreau-jean, event, generalized-alpha or implicit-euler, the schemes for round holes",
         _ => "moreau-jean, the one scheme for friction",
     };
     Err(Error::invalid("scheme", scheme, expected))

@@ -10,6 +10,7 @@
 //! | `programme.rs` | the quadratic programme of a step: walls to rows and back |
 //! | `newton.rs` | walls with force laws: semismooth Newton on their forces |
 //! | `staggered.rs` | shared by schemes whose velocity is half a step behind |
+//! | `supports/`, `disks/` | scenes with round holes and friction |
 //! | `frame.rs` | the state, and the results of a step |
 //! | `motion.rs`, `kernel.rs`, `stepper.rs` | the trait of all motions, the choice of one, and the public type |
 
@@ -17,6 +18,7 @@ mod blows;
 mod body;
 mod central_difference;
 mod counters;
+mod disks;
 mod equilibrium;
 // For tests of the exact scheme alone; a program has Stepper.
 #[doc(hidden)]
@@ -58,7 +60,8 @@ pub use penalty_law::{Integrator, PenaltyLaw};
 pub use stepper::Stepper;
 
 use crate::step::{
-    Balance, Bound, Conserves, Contract, Elastic, Friction, Law, Promise, PromisedForce, Reached, Rigid, Tolerances,
+    Balance, Bound, Conserves, Contract, Elastic, Friction, Law, Normal, Promise, PromisedForce, Reached, Rigid,
+    Tolerances, Turning,
 };
 use serde::{Deserialize, Serialize};
 
@@ -121,6 +124,8 @@ impl Scheme {
             Self::GeneralizedAlpha { rho } => {
                 let mut promise = rigid(Some(Bound::End), Some(Reached::Closed), Law::Depth(1.0));
                 promise.elastic.force = PromisedForce::Trapezoid;
+                promise.hole = Some(Bound::End);
+                promise.round = Some(Turning { normal: Normal::Middle, ..supports::TURNING });
                 (generalized_alpha(rho), promise, 0.5)
             }
             Self::Penalty { integrator, .. } => match integrator {
@@ -149,6 +154,7 @@ fn rigid(displacement: Option<Bound>, velocity: Option<Reached>, law: Law) -> Pr
         elastic: Elastic { force, law },
         round: None,
         circle: None,
+        hole: None,
         friction: None,
     }
 }
@@ -161,6 +167,7 @@ fn end_position() -> Promise {
         elastic: Elastic { force, law: Law::Depth(1.0) },
         round: None,
         circle: None,
+        hole: Some(Bound::End),
         friction: None,
     }
 }

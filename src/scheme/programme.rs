@@ -327,7 +327,7 @@ impl<S: Space> Programme<S> {
     }
 }
 
-fn failure(failure: &Failure, wall: Option<String>, time: f64, step: u64) -> Error {
+pub(super) fn failure(failure: &Failure, wall: Option<String>, time: f64, step: u64) -> Error {
     Error::qp((time, step), wall, *failure)
 }
 

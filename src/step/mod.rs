@@ -6,7 +6,7 @@ mod promise;
 
 pub use contract::{Balance, Conserves, Contract, Tolerance, Tolerances};
 pub use hole::HoleStep;
-pub use promise::{Bound, Circle, Elastic, Friction, Law, Promise, PromisedForce, Reached, Rigid, Turning};
+pub use promise::{Bound, Circle, Elastic, Friction, Law, Normal, Promise, PromisedForce, Reached, Rigid, Turning};
 
 use crate::flow::{Arc, Series};
 use serde::{Deserialize, Serialize};

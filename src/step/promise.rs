@@ -22,6 +22,11 @@ pub struct Promise {
     pub round: Option<Turning>,
     /// At round holes in exact motion; `None` of a scheme on a grid.
     pub circle: Option<Circle>,
+    /// The bound on the displacement at rigid round holes, complementary to the impulse p of the
+    /// step: under [`Bound::End`] 0 ≤ γ − |w⁺| ⟂ p ≥ 0, with w⁺ at the step's end, including the
+    /// displacement that blows add; where there is no impact law [`Promise::round`] beside it, the
+    /// impulse is −p n with n = w⁺/|w⁺|. `None` of a scheme without such a bound.
+    pub hole: Option<Bound>,
     /// At supports with friction; `None` as above.
     pub friction: Option<Friction>,
 }
@@ -46,13 +51,12 @@ pub struct Circle {
 /// of impact for what arrives at the hole, and its reflection for what only the turning of the
 /// normal makes an approach.
 ///
-/// ŵ = w + φ h ẇ is where the body is about to be. A hole with |ŵ| < γ(1 − `touching`) gives no
-/// impulse. Any other gives −p n with n = ŵ/|ŵ| and p ≥ 0. Let a = n·ẇ, a_r its part that arrives
-/// and a_c = a − a_r what turning adds:
+/// A hole in play gives −p n with p ≥ 0; [`Normal`] says which holes are, and n. Any other gives no
+/// impulse. Let a = n·ẇ, a_r its part that arrives and a_c = a − a_r what turning adds:
 ///
 /// a_r = a where |w| < γ(1 − τ), τ = (h|ẇ|/γ)²/8, the height of the arc of a step, but at least
-/// `sagitta` and at most `deepest`: the body comes from inside. Else the body touches, and a_r is w·ẇ/|w|, its approach along the
-/// normal at the step's start, but at least 0 and at most a.
+/// `sagitta` and at most `deepest`: the body comes from inside. Else the body touches, and a_r is
+/// w·ẇ/|w|, its approach along the normal at the step's start, but at least 0 and at most a.
 ///
 /// a > 0: 0 ≤ −(e a_r + a_c) − n·ẇ⁺ ⟂ p ≥ 0;    a ≤ 0: 0 ≤ −a − n·ẇ⁺ ⟂ p ≥ 0.
 ///
@@ -63,14 +67,26 @@ pub struct Circle {
 /// small steps the law is Newton's on a smooth wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turning {
-    /// φ.
-    pub ahead: f64,
+    /// n.
+    pub normal: Normal,
     /// The share of γ within which a hole counts as touched.
     pub touching: f64,
     /// The least τ.
     pub sagitta: f64,
     /// The largest τ.
     pub deepest: f64,
+}
+
+/// The normal of a round hole in a step, and the holes in play.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Normal {
+    /// n = ŵ/|ŵ| with ŵ = w + φ h ẇ, where the body is about to be at this fraction φ of the step;
+    /// in play are the holes with |ŵ| ≥ γ(1 − `touching`).
+    Ahead(f64),
+    /// n along w + w⁺, in the middle of the step; in play are the holes with |w⁺| ≥ γ(1 −
+    /// `touching`), under a bound on the displacement.
+    Middle,
 }
 
 /// Coulomb's law at the supports that have friction.
@@ -179,6 +195,7 @@ impl Promise {
             elastic: Elastic { force: PromisedForce::Mean, law: Law::Throughout },
             round: None,
             circle: Some(Circle { tail: 1e-4 }),
+            hole: None,
             friction: None,
         }
     }
@@ -191,6 +208,7 @@ impl Promise {
             elastic: Elastic { force: PromisedForce::Mean, law },
             round: None,
             circle: None,
+            hole: None,
             friction: None,
         }
     }

@@ -29,8 +29,8 @@ pub fn choose(scene: &Scene) -> Choice {
     let round = scene.supports.iter().any(|support| matches!(support.shape, Shape::Round { .. }));
     let rubs = scene.supports.iter().any(|support| support.friction > 0.0);
     let reason = if round {
-        "of the schemes with a step it alone turns with the normal of a round support: what slides there keeps its speed, and \
-         with θ = ½ free motion its energy"
+        "it turns with the normal of a round support: what slides there keeps its speed, an impact never adds \
+         energy, and with θ = ½ free motion keeps its own"
     } else if rubs {
         "of the schemes it alone has friction, and with θ = ½ keeps the energy of free motion exactly"
     } else if scene.walls.is_empty() {
@@ -87,10 +87,38 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     Choice { method: Method::new(Scheme::Event), reason }
 }
 
+/// The laws of the schemes at round supports; empty for a scene without any.
+#[must_use]
+pub fn at_holes(scene: &Scene) -> Vec<String> {
+    if scene.holes().next().is_none() {
+        return Vec::new();
+    }
+    [
+        "moreau-jean: what arrives at a round support rebounds by its restitution, what only the turning of the \
+         normal adds is reflected",
+        "generalized-alpha, without friction: the same law after each step was put on or into the circle, which \
+         it never passes",
+        "implicit-euler, without friction: within the circle at the end of each step; stops what arrives, whatever \
+         the restitution, and slows what slides",
+        "event, without friction: the exact motion; paoli-schatzman and newmark refuse round supports, where they \
+         would not keep the energy of a body",
+        "elastic round supports: moreau-jean and implicit-euler, without friction",
+    ]
+    .map(str::to_owned)
+    .into()
+}
+
 /// Why `method` on `scene` uses its solver.
 #[must_use]
 pub fn qp_reason(method: &Method, scene: &Scene) -> String {
     let single = matches!(scene.system, System::Oscillator(_));
+    let elastic = scene.holes().any(|hole| !hole.law.is_rigid());
+    let bounds = matches!(method.scheme, Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. });
+    if scene.turns_or_rubs() && (elastic || bounds) {
+        return "a programme with disks: one round support in closed form, several by sweeps and Newton's method on \
+                their multipliers; Clarabel is the fallback"
+            .to_owned();
+    }
     if scene.turns_or_rubs() && method.scheme != Scheme::Event {
         return "round supports and friction are no QP: the contacts are solved one by one in closed form, in sweeps, \
                 and then together"

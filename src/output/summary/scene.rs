@@ -179,6 +179,12 @@ fn support(support: &Support, place: Option<&Place>, walls: &[Wall]) -> Value {
             "friction": friction,
         }),
     };
+    if let (Shape::Round { law: WallLaw::Elastic { stiffness, damping }, .. }, Some(map)) =
+        (&support.shape, out.as_object_mut())
+    {
+        map.insert("stiffness_n_per_m".to_owned(), json!(stiffness));
+        map.insert("damping_n_s_per_m".to_owned(), json!(damping));
+    }
     if let (Some(place), Some(map)) = (place, out.as_object_mut()) {
         map.insert("at".to_owned(), at(place));
     }

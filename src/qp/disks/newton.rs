@@ -11,7 +11,7 @@
 //! N Δμ = |z|²(|z|/γ − 1),   N_st = z_s·B_st z_t.
 
 use super::semidefinite::Semidefinite;
-use super::system::{ACCEPTED, ROUNDED, State, System, form};
+use super::system::{ACCEPTED, State, System, form};
 use super::{DiskBound, dot, norm};
 use crate::qp::NOISE;
 
@@ -62,8 +62,8 @@ impl Newton {
             }
             let held = self.let_go(system) | enter(system);
             if !held {
-                let done = miss.rounding <= ROUNDED || miss.distance >= 0.5 * last || step >= PATIENCE;
-                if done && miss.distance <= ACCEPTED {
+                let stalls = miss.distance >= 0.5 * last || step >= PATIENCE;
+                if miss.is_rounded() || (stalls && miss.distance <= ACCEPTED) {
                     return true;
                 }
                 last = miss.distance;

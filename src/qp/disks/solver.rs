@@ -134,7 +134,7 @@ impl DiskSolver {
                 (0..system.blocks.len()).for_each(|block| system.answer(block));
             }
             system.renew();
-            if system.is_settled() || newton.settle(system) {
+            if system.miss().is_rounded() || newton.settle(system) {
                 return true;
             }
             if !system.r.iter().fold(true, |all, r| all & r.is_finite()) {

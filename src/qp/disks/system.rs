@@ -6,7 +6,7 @@ use crate::linear::{Factor, Rows};
 use crate::qp::{Failure, NOISE};
 
 /// An answer that misses by less than this share of the size of its terms is rounding.
-pub(super) const ROUNDED: f64 = 4.0 * f64::EPSILON;
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 /// An answer that misses by more than this share of the size of bound and free motion is none.
 pub(super) const ACCEPTED: f64 = 1e-11;
@@ -53,8 +53,17 @@ pub(super) struct Miss {
     pub distance: f64,
     /// The same over the size of all its terms, those of the multipliers included: what of it is
     /// rounding. Multipliers that grow without limit, as where bounds have no common point, make
-    /// this small, and the other not.
+    /// this small, and the others not.
     pub rounding: f64,
+    /// The same over the largest size of free motion and bound of all blocks.
+    pub share: f64,
+}
+
+impl Miss {
+    /// True if what is missed is rounding, of multipliers that have not grown without limit.
+    pub fn is_rounded(&self) -> bool {
+        self.rounding <= ROUNDED && self.share <= ACCEPTED
+    }
 }
 
 impl System {
@@ -236,15 +245,9 @@ impl System {
         self.set_push(block, new);
     }
 
-    /// True if the multipliers solve the programme to rounding.
-    pub fn is_settled(&self) -> bool {
-        let miss = self.miss();
-        miss.rounding <= ROUNDED && miss.distance <= ACCEPTED
-    }
-
     /// How far the multipliers are from the solution, with blocks in play as their states say.
     pub fn miss(&self) -> Miss {
-        let mut miss = Miss { distance: 0.0, rounding: 0.0 };
+        let (mut miss, mut largest) = (Miss { distance: 0.0, rounding: 0.0, share: 0.0 }, f64::MIN_POSITIVE);
         for block in 0..self.blocks.len() {
             let beyond = self.beyond(block);
             let off = match self.states[block] {
@@ -254,12 +257,15 @@ impl System {
             };
             let size = self.size(block);
             if !(off.is_finite() && size.is_finite()) {
-                return Miss { distance: f64::INFINITY, rounding: f64::INFINITY };
+                return Miss { distance: f64::INFINITY, rounding: f64::INFINITY, share: f64::INFINITY };
             }
-            miss.distance = miss.distance.max(off / self.least_size(block).max(f64::MIN_POSITIVE));
+            let least = self.least_size(block).max(f64::MIN_POSITIVE);
+            largest = largest.max(least);
+            miss.distance = miss.distance.max(off / least);
             miss.rounding = miss.rounding.max(off / size.max(f64::MIN_POSITIVE));
+            miss.share = miss.share.max(off);
         }
-        miss
+        Miss { share: miss.share / largest, ..miss }
     }
 
     /// The distance of z of a disk from the line of its multiplier.

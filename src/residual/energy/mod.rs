@@ -1,6 +1,7 @@
 //! The energy ledger: E(t) − E(0) = work of the load − damping − losses at the walls + residual.
 
 mod arc;
+mod rings;
 mod series;
 
 pub(super) use arc::{Along, Instant};
@@ -10,6 +11,7 @@ use super::matrices::{Matrices, Part};
 use super::pushes::pushes;
 use crate::scene::{Forcing, Scene, Wall, WallLaw};
 use crate::step::{Balance, Contract, Step};
+use rings::Rings;
 use serde::{Deserialize, Serialize};
 
 /// The energy ledger of a run, J. E is kinetic and strain energy plus what elastic and penalised
@@ -59,6 +61,7 @@ pub(super) struct Ledger {
     started: bool,
     /// The energy that each wall stored after the last step, J.
     held: Vec<f64>,
+    rings: Rings,
     /// Σ of the steps' residuals, and the rounding error of that sum (Kahan), so that 1e7 steps can
     /// be checked to rounding.
     residual: f64,
@@ -92,8 +95,9 @@ impl Ledger {
             stored(wall, w, wall.law_force(w, rate) != 0.0)
         };
         let held: Vec<f64> = scene.walls.iter().map(touching).collect();
-        let energy =
-            0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + held.iter().sum::<f64>();
+        let rings = Rings::new(scene, q);
+        let walls = held.iter().sum::<f64>() + rings.stored();
+        let energy = 0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + walls;
         Self {
             contract,
             gap_scale: scene.gap_scale(),
@@ -102,6 +106,7 @@ impl Ledger {
             flowed: 0.0,
             started: false,
             held,
+            rings,
             residual: 0.0,
             lost: 0.0,
             steepest: Forcing::on(0, &scene.loads).steepest(),
@@ -151,6 +156,8 @@ impl Ledger {
         if !step.friction.is_empty() || !step.holes.is_empty() {
             see_supports(scene, step, &mut flows);
         }
+        let (rings, lost) = self.rings.see(scene, h, (q0, q1), step);
+        flows.dashpot += lost;
         let energy = match staggered {
             Some(b) => self.half_step(matrices, (h, b), q0, after, n),
             None => {
@@ -158,7 +165,7 @@ impl Ledger {
                 0.5 * (matrices.form(Part::Mass, &step.v[..n], room) + matrices.form(Part::Stiffness, to, room))
             }
         };
-        self.book(energy + walls, flows);
+        self.book(energy + walls + rings, flows);
     }
 
     /// Sets the energy at the start of a staggered rule: half a step before the first instant.
@@ -249,6 +256,7 @@ impl Ledger {
             };
             energy += *held;
         }
+        energy += self.rings.displace(scene, step.q);
         let work = energy - self.energy;
         self.book(energy, Flows { work, passed: work.abs(), ..Flows::default() });
     }
@@ -303,7 +311,8 @@ fn see_supports(scene: &Scene, step: &Step<'_>, flows: &mut Flows) {
     for (_, support, [push, rub]) in pushes(scene, step) {
         let (before, after) = (support.seen(step.velocity_before), support.seen(step.velocity_after));
         let work = |force: [f64; 2]| 0.5 * (force[0] * (before[0] + after[0]) + force[1] * (before[1] + after[1]));
-        flows.impact -= work(push);
+        let rigid = support.hole().is_none_or(|hole| hole.law.is_rigid());
+        flows.impact -= if rigid { work(push) } else { 0.0 };
         flows.friction -= work(rub);
     }
 }

@@ -31,7 +31,7 @@ mod seats;
 mod sweeps;
 mod touch;
 
-pub(super) use normal::TURNING;
+pub(super) use normal::{TURNING, meet, split};
 
 use super::Counters;
 use super::body::Body;
@@ -45,7 +45,7 @@ use crate::linear::Factor;
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene, WallLaw};
 use crate::step::{Contact, Contract, HoleStep, Step};
-use normal::{dot, meet};
+use normal::{AHEAD, dot};
 use places::Places;
 use seats::{Seat, seats};
 use sweeps::Sweeps;
@@ -360,7 +360,7 @@ impl Motion for Supports {
         body.theta_momentum(self.theta, frame, b);
         frame.blown = body.strike((frame.start, frame.end), 1.0, b, frame);
         for (ahead, (q, v)) in self.ahead.iter_mut().zip(frame.q.iter().zip(frame.struck())) {
-            *ahead = q + TURNING.ahead * h * v;
+            *ahead = q + AHEAD * h * v;
         }
         self.gather();
         self.settle();

@@ -1,14 +1,18 @@
 //! The normal of a round hole in a step, and the split of the approach along it: the law stands at
 //! [`Turning`], with its reasons.
 
-use crate::step::Turning;
+use crate::step::{Normal, Turning};
 
 /// The numbers of the law.
-pub(in crate::scheme) const TURNING: Turning = Turning { ahead: 0.5, touching: 1e-12, sagitta: 1e-9, deepest: 0.999 };
+pub(in crate::scheme) const TURNING: Turning =
+    Turning { normal: Normal::Ahead(AHEAD), touching: 1e-12, sagitta: 1e-9, deepest: 0.999 };
+
+/// Where in the step moreau-jean takes the normal.
+pub(in crate::scheme) const AHEAD: f64 = 0.5;
 
 /// A hole in play.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Met {
+pub(in crate::scheme) struct Met {
     /// n.
     pub normal: [f64; 2],
     /// The part of n·ẇ that arrives at the hole, or all of it where the body separates, m/s.
@@ -22,24 +26,28 @@ pub(super) struct Met {
 /// The state of a hole of this gap γ (m) and restitution at the displacement `w` (m) from its
 /// centre, with the velocity `rate` (m/s) after the step's blows, in a step of `h` seconds; `None`
 /// if it is out of reach.
-pub(super) fn meet((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], h: f64) -> Option<Met> {
-    let ahead = [0, 1].map(|i: usize| w[i] + TURNING.ahead * h * rate[i]);
+pub(in crate::scheme) fn meet((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], h: f64) -> Option<Met> {
+    let ahead = [0, 1].map(|i: usize| w[i] + AHEAD * h * rate[i]);
     let reach = norm(ahead);
     // A NaN meets nothing; the step then ends with an error.
     if reach.is_nan() || reach < gap * (1.0 - TURNING.touching) {
         return None;
     }
-    let normal = ahead.map(|x| x / reach);
+    Some(split((gap, e), w, rate, ahead.map(|x| x / reach), h))
+}
+
+/// The split of the approach along this normal.
+pub(in crate::scheme) fn split((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], normal: [f64; 2], h: f64) -> Met {
     let a = dot(normal, rate);
     let turn = h * (normal[0] * rate[1] - normal[1] * rate[0]).abs() / gap;
     if a <= 0.0 {
-        return Some(Met { normal, arriving: a, bound: -a, turn });
+        return Met { normal, arriving: a, bound: -a, turn };
     }
     let distance = norm(w);
     // Nearer to the centre the direction of w says nothing.
     let sagitta = TURNING.sagitta.max((h / gap).powi(2) * dot(rate, rate) / 8.0).min(TURNING.deepest);
     let arriving = if distance < gap * (1.0 - sagitta) { a } else { (dot(w, rate) / distance).max(0.0).min(a) };
-    Some(Met { normal, arriving, bound: -(e * arriving + (a - arriving)), turn })
+    Met { normal, arriving, bound: -(e * arriving + (a - arriving)), turn }
 }
 
 pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {

@@ -1,0 +1,93 @@
+//! The walls and holes of a scene as blocks of a programme with disks: the walls first, a row each,
+//! then the holes, two rows each.
+
+use super::super::programme::failure;
+use super::super::stop::Stop;
+use crate::error::{Error, Result};
+use crate::linear::{Rows, Symmetric};
+use crate::qp::{DiskBound, DiskCounters, DiskProblem, DiskSolver, Failure};
+use crate::scene::{Row, Scene, WallLaw};
+
+/// A programme over all walls and holes, and its bounds in a step.
+#[derive(Debug)]
+pub(super) struct Bounds {
+    solver: DiskSolver,
+    bounds: Vec<DiskBound>,
+    walls: usize,
+    names: Vec<String>,
+}
+
+impl Bounds {
+    /// With the matrix `a`, a typical size `scale` of the rows' values, and the compliance of
+    /// elastic walls and holes as a function of stiffness and damping.
+    pub fn new(scene: &Scene, a: Symmetric, scale: f64, compliance: impl Fn(f64, f64) -> f64) -> Result<Self> {
+        let soft = |law: &WallLaw| match *law {
+            WallLaw::Elastic { stiffness, damping } => compliance(stiffness, damping),
+            _ => 0.0,
+        };
+        let walls = scene.walls.len();
+        let mut rows: Vec<&Row> = scene.walls.iter().map(|wall| &wall.at).collect();
+        let mut yields: Vec<f64> = scene.walls.iter().map(|wall| soft(&wall.law)).collect();
+        let mut blocks = vec![1; walls];
+        for hole in scene.holes() {
+            rows.extend([&hole.support.at.y, &hole.support.at.z]);
+            yields.push(soft(&hole.law));
+            blocks.push(2);
+        }
+        let count = blocks.len();
+        let g = Rows::new(a.size(), rows.iter().map(|row| row.entries()));
+        let problem = DiskProblem { a, g, blocks, compliance: yields };
+        let solver = DiskSolver::new(problem, scale).map_err(|fault| failure(&fault, None, 0.0, 0))?;
+        let names = (0..count).map(|index| scene.contact_name(index).unwrap_or_default().to_owned()).collect();
+        Ok(Self { solver, bounds: vec![DiskBound::OPEN; count], walls, names })
+    }
+
+    /// Bounds the row of a wall by `value`, from its side.
+    pub fn bind_wall(&mut self, wall: usize, stop: Stop, value: f64) {
+        let (lo, hi) = if stop.upper { (f64::NEG_INFINITY, value) } else { (value, f64::INFINITY) };
+        self.bounds[wall] = DiskBound::Strip { normal: [1.0, 0.0], lo, hi };
+    }
+
+    /// Leaves a wall without a bound.
+    pub fn open_wall(&mut self, wall: usize) {
+        self.bounds[wall] = DiskBound::OPEN;
+    }
+
+    /// Bounds a hole.
+    pub fn bind_hole(&mut self, hole: usize, bound: DiskBound) {
+        self.bounds[self.walls + hole] = bound;
+    }
+
+    /// Solves for b in a step; the minimiser is [`Bounds::x`] until the next call.
+    pub fn solve(&mut self, b: &[f64], (time, step): (f64, u64)) -> Result<()> {
+        match self.solver.solve(b, &self.bounds) {
+            Ok(_) => Ok(()),
+            Err(Failure::NotFinite { .. }) => Err(Error::NotFinite { time, step, what: "motion" }),
+            Err(fault) => {
+                let place =
+                    if let Failure::Infeasible { row, .. } = fault { self.names.get(row).cloned() } else { None };
+                Err(failure(&fault, place, time, step))
+            }
+        }
+    }
+
+    /// The minimiser of the last programme.
+    pub fn x(&self) -> &[f64] {
+        &self.solver.solution().x
+    }
+
+    /// The multiplier of a wall in the last programme, signed.
+    pub fn of_wall(&self, wall: usize) -> f64 {
+        self.solver.solution().multiplier[wall]
+    }
+
+    /// The multipliers of a hole in the last programme.
+    pub fn of_hole(&self, hole: usize) -> [f64; 2] {
+        let first = self.walls + 2 * hole;
+        [self.solver.solution().multiplier[first], self.solver.solution().multiplier[first + 1]]
+    }
+
+    pub fn counters(&self) -> DiskCounters {
+        self.solver.counters()
+    }
+}

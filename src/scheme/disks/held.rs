@@ -1,0 +1,69 @@
+//! What the schemes in round holes share: the structure with its holes, and the results of a step.
+
+use super::super::body::Body;
+use super::super::frame::Frame;
+use super::super::matrices::Matrices;
+use super::super::supports::TURNING;
+use crate::linear::Rows;
+use crate::qp::DiskBound;
+use crate::scene::WallLaw;
+use crate::step::HoleStep;
+
+/// The entries of the two rows of a hole.
+pub(super) fn pair(rows: &Rows, hole: usize, x: &[f64]) -> [f64; 2] {
+    [rows.dot(2 * hole, x), rows.dot(2 * hole + 1, x)]
+}
+
+/// A hole.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Round {
+    pub centre: [f64; 2],
+    pub gap: f64,
+    pub law: WallLaw,
+}
+
+/// What all rules share: the structure with its holes, and the results of a step.
+#[derive(Debug)]
+pub(super) struct Held {
+    pub body: Body<Matrices>,
+    pub frame: Frame<Matrices>,
+    /// The rows of the holes, two each.
+    pub rows: Rows,
+    pub rounds: Vec<Round>,
+    pub holes: Vec<HoleStep>,
+    /// Friction of each wall, N s: none.
+    pub friction: Vec<f64>,
+}
+
+impl Held {
+    /// The displacement (or velocity) of the place of a hole.
+    pub fn seen(&self, hole: usize, x: &[f64]) -> [f64; 2] {
+        pair(&self.rows, hole, x)
+    }
+
+    /// w of a hole at `q`.
+    pub fn offset(&self, hole: usize, q: &[f64]) -> [f64; 2] {
+        let ([y, z], [cy, cz]) = (self.seen(hole, q), self.rounds[hole].centre);
+        [y - cy, z - cz]
+    }
+
+    /// The disk of a hole at the end of a step, as a bound on P Δ with w⁺ = `ahead` + P Δ; an
+    /// elastic one, which must yield by 1/(k_a + c_a/h), at `now` at the step's start.
+    pub fn disk(&self, hole: usize, now: [f64; 2], ahead: [f64; 2]) -> DiskBound {
+        let Round { gap, law, .. } = self.rounds[hole];
+        let radius = match law {
+            WallLaw::Elastic { stiffness, damping } => {
+                let plate = now[0].hypot(now[1]).max(gap);
+                (stiffness * gap + damping * plate / self.body.h) / (stiffness + damping / self.body.h)
+            }
+            _ => gap,
+        };
+        DiskBound::Disk { centre: ahead.map(|w| -w), radius }
+    }
+
+    /// True if a rigid hole is touched at `q`.
+    pub fn touches(&self, hole: usize, q: &[f64]) -> bool {
+        let [y, z] = self.offset(hole, q);
+        self.rounds[hole].law.is_rigid() && y.hypot(z) >= self.rounds[hole].gap * (1.0 - TURNING.touching)
+    }
+}

@@ -1,0 +1,203 @@
+//! Schemes whose steps bound displacements in round holes: position-level schemes at the end of the
+//! step, moreau-jean in elastic rings at θ.
+//!
+//! A rigid hole is the disk |w⁺| ≤ γ, an elastic one of stiffness k_a and radial damping c_a is a
+//! disk that yields: with r₊ = max(|w|, γ) and k = k_a + c_a/h, the pressure k_a(|w⁺| − γ) +
+//! c_a(|w⁺| − r₊)/h is k(|w⁺| − ρ) for the radius ρ = (k_aγ + c_a r₊/h)/k. So a step is the
+//! programme of the same scheme between planar walls with disks beside the bounds, and
+//! [`DiskSolver`](crate::qp::DiskSolver) answers it. `position.rs` is implicit-euler, `alpha.rs`
+//! generalized-alpha, `velocity.rs` moreau-jean with elastic rings.
+//!
+//! Friction is refused: a bound on the displacement leaves a contact no velocity at which it could
+//! stick, and between the impulse of one step and that of the next it would bounce along the
+//! surface.
+
+mod alpha;
+mod bounds;
+mod held;
+mod position;
+mod velocity;
+
+use super::Counters;
+use super::body::Body;
+use super::frame::Frame;
+use super::matrices::Matrices;
+use super::motion::Motion;
+use crate::contact::{Episodes, Rates};
+use crate::error::Result;
+use crate::linear::Rows;
+use crate::qp::{Backend, DiskCounters};
+use crate::scene::{Checked, Scene};
+use crate::step::{Balance, Contact, Contract, HoleStep, Step};
+use alpha::Alpha;
+use held::{Held, Round, pair};
+use position::Position;
+use velocity::Velocity;
+
+/// The scheme of a motion.
+#[derive(Debug)]
+enum Rule {
+    Position(Box<Position>),
+    Alpha(Box<Alpha>),
+    Velocity(Box<Velocity>),
+}
+
+impl Rule {
+    fn advance(&mut self, step: u64, held: &mut Held) -> Result<()> {
+        match self {
+            Self::Position(rule) => rule.advance(step, held),
+            Self::Alpha(rule) => rule.advance(step, held),
+            Self::Velocity(rule) => rule.advance(step, held),
+        }
+    }
+
+    fn counters(&self) -> DiskCounters {
+        match self {
+            Self::Position(rule) => rule.counters(),
+            Self::Alpha(rule) => rule.counters(),
+            Self::Velocity(rule) => rule.counters(),
+        }
+    }
+}
+
+/// The motion of a scene with round holes by a scheme whose bounds are on displacements.
+#[derive(Debug)]
+pub(super) struct Disks {
+    held: Held,
+    rule: Rule,
+    /// For the contact episodes: impulse and velocities of each wall and hole, and those that push.
+    pushes: Vec<f64>,
+    rates: Vec<Rates>,
+    pushing: Vec<usize>,
+    episodes: Episodes,
+    turned: f64,
+    /// True if the extra force of the last step may not be 0.
+    forced: bool,
+}
+
+impl Disks {
+    /// `scene` in steps of `h` seconds that satisfy `contract`: that of implicit-euler, of
+    /// generalized-alpha, or of moreau-jean.
+    pub fn new(scene: &Checked, contract: Contract, h: f64) -> Result<Self> {
+        let body = Body::<Matrices>::new(scene, h)?;
+        let places = || scene.holes().flat_map(|hole| [&hole.support.at.y, &hole.support.at.z]);
+        let round = |hole: crate::scene::Hole<'_>| Round { centre: hole.support.centre, gap: hole.gap, law: hole.law };
+        let rounds: Vec<Round> = scene.holes().map(round).collect();
+        let rows = Rows::new(body.n, places().map(|row| row.entries()));
+        let contacts = scene.walls.len() + rounds.len();
+        let holes = vec![HoleStep::default(); rounds.len()];
+        let friction = vec![0.0; scene.walls.len()];
+        let mut held = Held { body, frame: Frame::new(scene)?, rows, rounds, holes, friction };
+        held.body.restart(0.0);
+        let still = Rates { before: 0.0, struck: 0.0, after: 0.0 };
+        Ok(Self {
+            rule: match contract.balance {
+                Balance::GeneralizedAlpha { .. } => Rule::Alpha(Box::new(Alpha::new(scene, contract.balance, &held)?)),
+                Balance::Theta(theta) if contract.promise.hole.is_none() => {
+                    Rule::Velocity(Box::new(Velocity::new(scene, theta, &held)?))
+                }
+                _ => Rule::Position(Box::new(Position::new(scene, &held)?)),
+            },
+            held,
+            pushes: vec![0.0; contacts],
+            rates: vec![still; contacts],
+            pushing: Vec::with_capacity(contacts),
+            episodes: Episodes::new(scene, scene.wall_masses(), contract),
+            turned: 0.0,
+            forced: false,
+        })
+    }
+
+    /// Passes the step to the contact episodes, and notes by how much normals turned.
+    fn tell(&mut self) {
+        let Self { held, pushes, rates, pushing, episodes, turned, .. } = self;
+        let Held { body, frame, rows, rounds, holes, .. } = held;
+        for &index in &*pushing {
+            pushes[index] = 0.0;
+        }
+        pushing.clear();
+        for &wall in &frame.pushing {
+            pushing.push(wall);
+            pushes[wall] = frame.impulse[wall];
+            let seen = |v: &Vec<f64>| body.seen(wall, v);
+            rates[wall] =
+                Rates { before: seen(&frame.before), struck: seen(frame.struck()), after: seen(&frame.after) };
+        }
+        for (hole, did) in holes.iter().enumerate().filter(|(_, did)| did.impulse > 0.0) {
+            let index = body.walls.len() + hole;
+            pushing.push(index);
+            pushes[index] = did.impulse;
+            let [y, z] = did.normal;
+            let along = |v: &Vec<f64>| {
+                let [vy, vz] = pair(rows, hole, v);
+                y * vy + z * vz
+            };
+            rates[index] =
+                Rates { before: along(&frame.before), struck: along(frame.struck()), after: along(&frame.after) };
+            let [vy, vz] = pair(rows, hole, &frame.after);
+            *turned = turned.max(body.h * (y * vz - z * vy).abs() / rounds[hole].gap);
+        }
+        if !(pushing.is_empty() && episodes.idle()) {
+            episodes.see(frame.start, body.h, pushes, pushing, |index| rates[index]);
+        }
+    }
+}
+
+impl Motion for Disks {
+    fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
+        if extra.is_some() || self.forced {
+            match extra {
+                Some(extra) => self.held.frame.extra.copy_from_slice(extra),
+                None => self.held.frame.extra.fill(0.0),
+            }
+            self.forced = extra.is_some();
+        }
+        self.held.holes.fill(HoleStep::default());
+        self.held.frame.begin(step, self.held.body.h);
+        self.rule.advance(step, &mut self.held)?;
+        self.held.frame.check(step)?;
+        self.tell();
+        Ok(())
+    }
+
+    fn step(&self, index: u64) -> Step<'_> {
+        let Held { frame, holes, friction, .. } = &self.held;
+        Step { friction, holes, ..frame.step(index, self.episodes.closed()) }
+    }
+
+    fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+        self.held.frame.restart(time, q, v);
+        self.held.body.restart(time);
+        if let Rule::Alpha(rule) = &mut self.rule {
+            rule.restart(&self.held);
+        }
+        self.held.holes.fill(HoleStep::default());
+        self.episodes.forget();
+        self.forced = false;
+        Ok(())
+    }
+
+    fn end(&self) -> f64 {
+        self.held.frame.end
+    }
+
+    fn state(&self) -> (&[f64], &[f64]) {
+        (&self.held.frame.q, &self.held.frame.v)
+    }
+
+    fn open_contacts(&self) -> Vec<Contact> {
+        self.episodes.still_open()
+    }
+
+    fn count(&self, counters: &mut Counters) {
+        let DiskCounters { solves, free, fallbacks, iterations, .. } = self.rule.counters();
+        counters.qp_solves += solves - free;
+        counters.qp_fallbacks += fallbacks;
+        counters.interior_point_iterations += iterations;
+        counters.largest_turn_rad = self.turned;
+    }
+
+    fn backend(&self) -> Option<Backend> {
+        None
+    }
+}

@@ -1,0 +1,99 @@
+//! `implicit-euler` with round holes: as [`super::super::position`] at θ = 1, with disks.
+//!
+//! A rigid hole takes all of the speed at which a body arrives (e = 0). A body that slides moves on
+//! chords, whose ends lie on the circle: each step takes the part of its speed that the turning of
+//! the normal brings along the next one, a rate of h v²/γ².
+
+use super::bounds::Bounds;
+use super::held::Held;
+use crate::error::Result;
+use crate::linear::Symmetric;
+use crate::qp::DiskCounters;
+use crate::scene::{Scene, WallLaw};
+
+#[derive(Debug)]
+pub(super) struct Position {
+    bounds: Bounds,
+    b: Vec<f64>,
+}
+
+impl Position {
+    pub fn new(scene: &Scene, held: &Held) -> Result<Self> {
+        let (h, m) = (held.body.h, &held.body.matrices);
+        let a = Symmetric::sum(&[(1.0 / (h * h), &m.mass), (1.0 / h, &m.damping), (1.0, &m.stiffness)]);
+        let bounds = Bounds::new(scene, a, scene.gap_scale(), |k, c| 1.0 / (k + c / h))?;
+        Ok(Self { bounds, b: vec![0.0; held.body.n] })
+    }
+
+    /// Makes a step.
+    pub fn advance(&mut self, step: u64, held: &mut Held) -> Result<()> {
+        let (h, b) = (held.body.h, &mut self.b);
+        let (body, frame) = (&mut held.body, &mut held.frame);
+        body.load_at(frame.end);
+        body.applied(frame, b);
+        body.mass.add_product(1.0 / h, &frame.v, b);
+        body.stiffness.add_product(-1.0, &frame.q, b);
+        frame.before.clone_from(&frame.v);
+        frame.blown = body.strike((frame.start, frame.end), 1.0 / h, b, frame);
+        let blown = body.find_blows(&[(frame.start, frame.end, frame.start)]);
+        if blown {
+            body.damp_shift(1.0 / h, b);
+        }
+        self.bind(held, blown);
+        self.bounds.solve(&self.b, (held.frame.start, step))?;
+        let frame = &mut held.frame;
+        for ((q, v), delta) in frame.q.iter_mut().zip(&mut frame.v).zip(self.bounds.x()) {
+            *q += delta;
+            *v = delta / h;
+        }
+        if blown {
+            held.body.shift(&mut frame.q);
+        }
+        frame.after.clone_from(&frame.v);
+        for wall in 0..held.body.walls.len() {
+            frame.force[wall] = self.bounds.of_wall(wall);
+        }
+        frame.push_by_force(h);
+        for hole in 0..held.rounds.len() {
+            let [y, z] = self.bounds.of_hole(hole);
+            let force = y.hypot(z);
+            if force > 0.0 {
+                held.holes[hole].normal = [-y / force, -z / force];
+                held.holes[hole].impulse = h * force;
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets the bounds on Δ. Those of rigid walls and holes apply to the displacement with that by
+    /// the blows.
+    fn bind(&mut self, held: &Held, blown: bool) {
+        let (body, q) = (&held.body, &held.frame.q);
+        let shift = body.blows.as_ref().filter(|_| blown).map(|blows| &blows.shift);
+        for (wall, &stop) in body.walls.iter().enumerate() {
+            let w = body.seen(wall, q);
+            let bound = match stop.law {
+                // As in implicit-euler between walls: |r| = k_a s⁺ + c_a(s⁺ − s₊)/h.
+                WallLaw::Elastic { stiffness, damping } => {
+                    let offset = stiffness * (w - stop.g) + damping * (w - stop.plate(w)) / body.h;
+                    -offset / (stiffness + damping / body.h)
+                }
+                _ => stop.g - w - shift.map_or(0.0, |shift| body.seen(wall, shift)),
+            };
+            self.bounds.bind_wall(wall, stop, bound);
+        }
+        for hole in 0..held.rounds.len() {
+            let now = held.offset(hole, q);
+            let given = match shift {
+                Some(shift) if held.rounds[hole].law.is_rigid() => held.seen(hole, shift),
+                _ => [0.0; 2],
+            };
+            let disk = held.disk(hole, now, [now[0] + given[0], now[1] + given[1]]);
+            self.bounds.bind_hole(hole, disk);
+        }
+    }
+
+    pub fn counters(&self) -> DiskCounters {
+        self.bounds.counters()
+    }
+}

@@ -1,0 +1,153 @@
+//! `moreau-jean` with elastic rings: as [`super::super::supports`] without friction, where each ring
+//! is a disk on the displacement at θ that yields.
+//!
+//! With w_θ = (1−θ)w + θw⁺ and r₊ = max(|w|, γ) the pressure of a ring over the step is k_a(|w_θ| −
+//! γ) + c_a(|w_θ| − r₊)/θh, at least 0, towards the centre from w_θ. Rigid holes and walls keep
+//! their bounds on the velocity; all together are one programme.
+
+use super::super::supports::meet;
+use super::bounds::Bounds;
+use super::held::Held;
+use crate::error::Result;
+use crate::qp::{DiskBound, DiskCounters};
+use crate::scene::{Scene, WallLaw};
+
+#[derive(Debug)]
+pub(super) struct Velocity {
+    theta: f64,
+    bounds: Bounds,
+    b: Vec<f64>,
+}
+
+impl Velocity {
+    pub fn new(scene: &Scene, theta: f64, held: &Held) -> Result<Self> {
+        let ht = held.body.h * theta;
+        let compliance = move |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
+        let bounds = Bounds::new(scene, held.body.theta_matrix(theta), scene.gap_scale() / held.body.h, compliance)?;
+        Ok(Self { theta, bounds, b: vec![0.0; held.body.n] })
+    }
+
+    /// Makes a step.
+    pub fn advance(&mut self, step: u64, held: &mut Held) -> Result<()> {
+        let (h, theta) = (held.body.h, self.theta);
+        let (body, frame) = (&mut held.body, &mut held.frame);
+        body.theta_momentum(theta, frame, &mut self.b);
+        frame.blown = body.strike((frame.start, frame.end), 1.0, &mut self.b, frame);
+        self.bind(held);
+        self.solve(step, held)?;
+        let carried = held.body.blows.is_some() && self.carry(step, held)?;
+        let frame = &mut held.frame;
+        for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(self.bounds.x()) {
+            *q += h * (*v + theta * d);
+            *v += d;
+        }
+        frame.after.clone_from(&frame.v);
+        if carried {
+            held.body.shift(&mut held.frame.q);
+        }
+        Ok(())
+    }
+
+    /// Sets the bounds on δ = v⁺ − v.
+    fn bind(&mut self, held: &mut Held) {
+        let (h, ht) = (held.body.h, held.body.h * self.theta);
+        for (wall, &stop) in held.body.walls.iter().enumerate() {
+            let seen = |x: &Vec<f64>| held.body.seen(wall, x);
+            let (w, before, struck) = (seen(&held.frame.q), seen(&held.frame.v), seen(held.frame.struck()));
+            match stop.law {
+                WallLaw::Elastic { stiffness, damping } => {
+                    // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
+                    let (stiff, ahead) = (stiffness + damping / ht, w + ht * before);
+                    let offset = h * (stiffness * (ahead - stop.g) + damping * (ahead - stop.plate(w)) / ht);
+                    self.bounds.bind_wall(wall, stop, -offset / (ht * ht * stiff));
+                }
+                WallLaw::Rigid { restitution } if stop.depth(w + 0.5 * h * struck) >= -held.body.touch => {
+                    let epsilon = if stop.sign * struck <= 0.0 { restitution } else { 1.0 };
+                    self.bounds.bind_wall(wall, stop, -epsilon * struck - before);
+                }
+                _ => self.bounds.open_wall(wall),
+            }
+        }
+        for hole in 0..held.rounds.len() {
+            let (now, rate) = (held.offset(hole, &held.frame.q), held.seen(hole, &held.frame.v));
+            let round = held.rounds[hole];
+            let bound = match round.law {
+                WallLaw::Elastic { stiffness, damping } => {
+                    // In δ: w_θ = w + hθ ẇ + hθ² δ.
+                    let (per, plate) = (1.0 / (ht * self.theta), now[0].hypot(now[1]).max(round.gap));
+                    let radius = (stiffness * round.gap + damping * plate / ht) / (stiffness + damping / ht);
+                    DiskBound::Disk {
+                        centre: [0, 1].map(|i: usize| -(now[i] + ht * rate[i]) * per),
+                        radius: radius * per,
+                    }
+                }
+                _ => {
+                    let struck = held.seen(hole, held.frame.struck());
+                    let e = round.law.restitution().unwrap_or(0.0);
+                    match meet((round.gap, e), now, struck, h) {
+                        None => DiskBound::OPEN,
+                        Some(met) => {
+                            held.holes[hole].normal = met.normal;
+                            let [y, z] = met.normal;
+                            let hi = met.bound - (y * rate[0] + z * rate[1]);
+                            DiskBound::Strip { normal: met.normal, lo: f64::NEG_INFINITY, hi }
+                        }
+                    }
+                }
+            };
+            self.bounds.bind_hole(hole, bound);
+        }
+    }
+
+    /// Solves for δ, and writes the impulses.
+    fn solve(&mut self, step: u64, held: &mut Held) -> Result<()> {
+        let (h, frame) = (held.body.h, &mut held.frame);
+        self.bounds.solve(&self.b, (frame.start, step))?;
+        for wall in 0..held.body.walls.len() {
+            let p = self.bounds.of_wall(wall);
+            if p != 0.0 {
+                (frame.impulse[wall], frame.force[wall]) = (p, p / h);
+                frame.pushing.push(wall);
+            }
+        }
+        for (hole, did) in held.holes.iter_mut().enumerate() {
+            let [y, z] = self.bounds.of_hole(hole);
+            did.impulse = y.hypot(z);
+            if did.impulse > 0.0 {
+                did.normal = [-y / did.impulse, -z / did.impulse];
+            }
+        }
+        Ok(())
+    }
+
+    /// As in moreau-jean: solves again with the displacement that the blows cause in addition to
+    /// the rule's, unless they drive the structure into a rigid wall or hole that pushes. Returns
+    /// whether that displacement must be added.
+    #[inline(never)]
+    fn carry(&mut self, step: u64, held: &mut Held) -> Result<bool> {
+        let (start, end, h) = (held.frame.start, held.frame.end, held.body.h);
+        if !held.body.find_blows(&[(start, end, end - h * self.theta)]) || self.answers(held) {
+            return Ok(false);
+        }
+        if held.body.damped {
+            held.frame.let_go();
+            held.body.damp_shift(1.0, &mut self.b);
+            self.solve(step, held)?;
+        }
+        Ok(true)
+    }
+
+    fn answers(&self, held: &Held) -> bool {
+        let Some(blows) = &held.body.blows else { return false };
+        let driven = |hole: usize| {
+            let ([vy, vz], did) = (held.seen(hole, &blows.given), held.holes[hole]);
+            let pushed = held.rounds[hole].law.is_rigid() && did.impulse > 0.0;
+            pushed && did.normal[0] * vy + did.normal[1] * vz > 0.0
+        };
+        held.body.answers(&held.frame.pushing) || (0..held.rounds.len()).any(driven)
+    }
+
+    pub fn counters(&self) -> DiskCounters {
+        self.bounds.counters()
+    }
+}
