@@ -180,6 +180,9 @@ fn solved(run: &Run) -> String {
         Scheme::Event => format!("{} contact events", counters.events),
         Scheme::Penalty { .. } => format!("{} Newton iterations", counters.newton_iterations),
         // Round supports and friction have no quadratic programme, hence no solver of one.
+        Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. } if run.backend == Backend::Auto => {
+            format!("{} programmes with disks", counters.qp_solves)
+        }
         _ if run.backend == Backend::Auto => format!("{} steps in contact, solved in sweeps", counters.qp_solves),
         _ if counters.qp_fallbacks > 0 => {
             let (all, left) = (counters.qp_solves, counters.qp_fallbacks);

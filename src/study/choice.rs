@@ -94,15 +94,13 @@ pub fn at_holes(scene: &Scene) -> Vec<String> {
         return Vec::new();
     }
     [
-        "moreau-jean: what arrives at a round support rebounds by its restitution, what only the turning of the \
-         normal adds is reflected",
-        "generalized-alpha, without friction: the same law after each step was put on or into the circle, which \
-         it never passes",
-        "implicit-euler, without friction: within the circle at the end of each step; stops what arrives, whatever \
-         the restitution, and slows what slides",
-        "event, without friction: the exact motion; paoli-schatzman and newmark refuse round supports, where they \
-         would not keep the energy of a body",
-        "elastic round supports: moreau-jean and implicit-euler, without friction",
+        "at round supports moreau-jean lets rebound by the restitution what arrives, and reflects what only the \
+         turning of the normal adds",
+        "at round supports without friction generalized-alpha has the same law, after it has put the body within \
+         the circle, which it never passes; implicit-euler puts it there too, stops what arrives, whatever the \
+         restitution, and slows what slides; event is exact",
+        "at elastic round supports, without friction: moreau-jean and implicit-euler",
+        "paoli-schatzman and newmark refuse round supports, where they would not keep the energy of a body",
     ]
     .map(str::to_owned)
     .into()
