@@ -13,7 +13,10 @@ use rubbing::{MOREAU_JEAN, body, energy, hole, isotropic, load, random_scene, ro
 use signorini::linear::Symmetric;
 use signorini::residual::Judge;
 use signorini::variation::Product;
-use signorini::{Load, Options, PlaneRows, Row, Run, Scene, Scheme, State, Step, Stepper, Structure, Wall, run};
+use signorini::{
+    Load, Options, PlaneRows, Refuted, Row, Run, Scene, Scheme, Shape, State, Step, Stepper, Structure, Wall, WallLaw,
+    run,
+};
 
 /// Follows `scene` to its end under a judge, who finds nothing.
 fn follow(scene: &Scene, stride: f64, mut see: impl FnMut(&Step<'_>)) -> Stepper {
@@ -391,6 +394,54 @@ fn random_scenes_keep_every_law() {
         handed += u64::from(!stepper.handed().is_empty());
     }
     assert!(slid > 100 && struck > 100, "{slid} {struck} {handed}");
+}
+
+/// The findings on the motion of `scene` of a judge who is told the scene `told`, and of each step
+/// what `alter` makes of its holes.
+fn accused(scene: &Scene, told: &Scene, alter: impl Fn(&mut signorini::HoleStep)) -> Vec<Refuted> {
+    let mut stepper = Stepper::new(scene, &Scheme::Event, 1.0).unwrap();
+    let state = stepper.state();
+    let mut judge = Judge::new(told, stepper.contract(), 1.0, &state.q, &state.v);
+    while stepper.time() < scene.duration {
+        let mut step = stepper.step().unwrap();
+        let mut holes = step.holes.to_vec();
+        holes.iter_mut().filter(|hole| hole.impulse > 0.0).for_each(&alter);
+        step.holes = &holes;
+        judge.see(&step);
+    }
+    judge.findings().into_iter().map(|finding| finding.refuted).collect()
+}
+
+#[test]
+fn the_judge_of_exact_motion_finds_faults() {
+    let changed = |scene: &Scene, share: f64, e: f64, centre: [f64; 2]| {
+        let mut told = scene.clone();
+        let support = &mut told.supports[0];
+        support.centre = centre;
+        if let Shape::Round { gap, law } = &mut support.shape {
+            *gap *= share;
+            *law = WallLaw::Rigid { restitution: e };
+        }
+        told
+    };
+    let (settling, sliding, still) = (free(0.5), pendulum(1.0), |_: &mut signorini::HoleStep| ());
+    for (scene, e) in [(&settling, 0.5), (&sliding, 0.7)] {
+        assert_eq!(accused(scene, &changed(scene, 1.0, e, [0.0; 2]), still), []);
+        // Faults of 1e-4 and 1e-5, beyond the tolerance of 1e-6.
+        let narrow = accused(scene, &changed(scene, 1.0 - 1e-5, e, [0.0; 2]), still);
+        assert!(narrow.contains(&Refuted::Penetration), "{narrow:?}");
+        let wide = accused(scene, &changed(scene, 1.0 + 1e-5, e, [0.0; 2]), still);
+        assert!(wide.contains(&Refuted::Complementarity), "{wide:?}");
+        let beside = accused(scene, &changed(scene, 1.0, e, [1e-5 * 1.5e-3, 0.0]), still);
+        assert!(beside.contains(&Refuted::Complementarity) || beside.contains(&Refuted::Penetration), "{beside:?}");
+    }
+    let elastic = accused(&settling, &changed(&settling, 1.0, 0.5001, [0.0; 2]), still);
+    assert!(elastic.contains(&Refuted::Complementarity), "{elastic:?}");
+    let askew = accused(&sliding, &sliding, |hole| hole.turned[1] += 1e-4 * hole.impulse);
+    assert!(askew.contains(&Refuted::Normal), "{askew:?}");
+    // Impulses that the change of the energy does not show.
+    let more = accused(&settling, &settling, |hole| (hole.jump, hole.impulse) = (1.001 * hole.jump, hole.impulse));
+    assert!(more.contains(&Refuted::Energy), "{more:?}");
 }
 
 #[test]

@@ -221,6 +221,9 @@ impl Series {
         for row in 0..body.rows.count() {
             self.seen[row * TERMS + k] = body.rows.dot(row, term);
         }
+        if self.circles.is_empty() {
+            return;
+        }
         for (circle, round) in self.circles.iter_mut().zip(&body.rounds) {
             circle.set(k, if k == 0 { round.offset(term) } else { round.pair(term) });
         }
