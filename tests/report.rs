@@ -357,6 +357,23 @@ fn a_structure_in_two_planes_has_both_in_its_shape() {
     }
 }
 
+/// The page of a comparison draws the whole structure as its first method moves it.
+#[test]
+fn a_comparison_of_a_structure_has_its_shape() {
+    let dir = tempfile::tempdir().unwrap();
+    let ask = ["compare", "chain-20", "--schemes", "moreau-jean", "--end", "0.2", "--no-verdict", "--out"];
+    said(dir.path(), &[&ask[..], &["with"]].concat(), 0);
+    said(dir.path(), &[&ask[..], &["without", "--no-report"]].concat(), 0);
+    let page = fs::read_to_string(dir.path().join("with/report.html")).unwrap();
+    let page = data(&page);
+    let drawn: Vec<bool> = page["runs"].as_array().unwrap().iter().map(|run| run["shape"].is_object()).collect();
+    assert_eq!(drawn, [true, false]);
+    assert_eq!(page["runs"][0]["shape"]["stations"].as_array().unwrap().len(), 20);
+    let rows = |folder: &str| fs::read_to_string(dir.path().join(folder).join("moreau-jean/trajectory.csv")).unwrap();
+    assert_eq!(rows("with"), rows("without"));
+    assert!(!dir.path().join("without/moreau-jean/shape.csv").exists());
+}
+
 /// A row of a sweep whose own run was kept is named on the page that is made anew, and no other.
 #[test]
 fn the_page_of_a_sweep_knows_the_runs_kept_of_its_rows() {

@@ -12,7 +12,9 @@ use crate::error::Result;
 use crate::output::asked::{asked, with};
 use crate::output::compare as output;
 use crate::output::results::Results;
+use crate::output::shape::{self, Shape};
 use crate::output::summary;
+use crate::run::{Options, run};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice;
 use crate::study::compare::{Comparison, any_succeeded, compare, default_methods};
@@ -84,7 +86,11 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let rows = output::write(&mut results, &case, &comparison, &verdicts, [span, common])?;
     let notes = noted::of_rows(&comparison).into_iter().chain(case.notes());
     results.tell("remarks", json!(comparison.findings.iter().cloned().chain(notes).collect::<Vec<_>>()));
-    super::run::finish(&mut results, "", !args.request.place.no_report, ui)?;
+    let report = !args.request.place.no_report;
+    if report {
+        draw(&case, &comparison, &mut results)?;
+    }
+    super::run::finish(&mut results, "", report, ui)?;
     if ui.json() {
         ui.document(&document(&case, &comparison, rows, &results))?;
     } else {
@@ -109,6 +115,20 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         ui.message(&format!("refinement: {}", verdicts::line(&comparison, &verdicts)));
     }
     refuted.verdict()
+}
+
+/// Runs the first method that succeeded once more, with the places from which the report draws a
+/// structure; the comparison itself is of the probes of the case alone.
+fn draw(case: &Case, comparison: &Comparison, results: &mut Results) -> Result<()> {
+    let shape = Shape::of(case);
+    let first = comparison.rows.iter().find(|row| row.outcome.is_ok());
+    if let Some(row) = first.filter(|_| !shape.is_empty()) {
+        let mut run = run(&shape.watched(case), &row.method, &Options::new(case.time))?;
+        let moved = shape.take(&mut run);
+        let file = format!("{}/{}", output::folder_of(&row.method.to_string()), shape::FILE);
+        shape.write(&results.place(&file)?, run.trajectory.time(), &moved)?;
+    }
+    Ok(())
 }
 
 /// The rows that the judge has refuted, and the refuted checks of these rows.
