@@ -251,9 +251,9 @@ fn a_case_without_walls_is_refused() {
 }
 
 #[test]
-fn a_case_that_only_one_scheme_steps_is_refused() {
+fn a_case_with_a_round_support_is_refused() {
     let error = Plan::new(question(&Case::embedded("whirl-in-a-hole").unwrap()), &Grid::default()).unwrap_err();
-    assert!(error.is_request() && error.to_string().contains("moreau-jean alone"), "{error}");
+    assert!(error.is_request() && error.to_string().contains("round or with friction"), "{error}");
 }
 
 #[test]

@@ -143,7 +143,7 @@ impl Case {
         if let Some(statistics) = self.statistics {
             statistics.validate(self.scene.duration, &self.time)?;
         }
-        self.penalty.validate(&self.scene.walls)
+        self.penalty.validate(&self.scene)
     }
 }
 

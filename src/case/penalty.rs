@@ -1,7 +1,7 @@
 //! The table `[penalty]`.
 
 use crate::error::{Error, Result, Subject};
-use crate::scene::Wall;
+use crate::scene::Scene;
 use crate::scheme::{Integrator, PenaltyLaw};
 
 /// The springs that replace the rigid walls in penalty runs. Elastic walls stay as they are.
@@ -15,13 +15,13 @@ pub struct PenaltyOptions {
 }
 
 impl PenaltyOptions {
-    /// Checks every law against the walls.
+    /// Checks every law against the walls and holes of `scene`.
     ///
     /// # Errors
     /// [`Error::Invalid`] whose subject is a part of the `penalty law` of that number.
-    pub fn validate(&self, walls: &[Wall]) -> Result<()> {
+    pub fn validate(&self, scene: &Scene) -> Result<()> {
         for (index, law) in self.laws.iter().enumerate() {
-            law.validate(walls).map_err(|error| match error {
+            law.validate(scene).map_err(|error| match error {
                 Error::Invalid { subject, value, expected } => {
                     Error::Invalid { subject: subject.within(Subject::nth("penalty law", index)), value, expected }
                 }

@@ -55,10 +55,14 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
             let chosen = args.request.method(&choice::choose(&case.scene).method.to_string(), &case)?;
             let integrator = case.penalty.integrator.unwrap_or_default();
             let penalty = |&law| Method::new(Scheme::Penalty { law, integrator });
-            if case.scene.walls.is_empty() {
+            let penalties = case.penalty.laws.iter().map(penalty);
+            if case.scene.turns_or_rubs() {
+                // No quadratic programme, which Clarabel could solve too.
+                std::iter::once(chosen).chain(penalties).collect()
+            } else if case.scene.walls.is_empty() {
                 vec![chosen]
             } else {
-                default_methods(chosen, case.penalty.laws.iter().map(penalty))
+                default_methods(chosen, penalties)
             }
         }
     };

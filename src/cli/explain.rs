@@ -94,7 +94,9 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     let times = [(choice.method.to_string(), own), ("event".to_owned(), event)];
     tell("time of a run", times.into_iter().filter_map(|(name, one)| Some(time(name, one?))).collect());
     let mut penalties: Vec<String> = penalties(case)?.iter().map(Penalty::line).collect();
-    let rigid: Vec<f64> = case.scene.walls.iter().filter_map(|w| w.law.restitution()).collect();
+    let holes = case.scene.holes().map(|hole| hole.law);
+    let laws = case.scene.walls.iter().map(|wall| wall.law).chain(holes);
+    let rigid: Vec<f64> = laws.filter_map(|law| law.restitution()).collect();
     if !penalties.is_empty() && rigid.iter().any(|&e| e < 1.0) {
         penalties.push("note: a lossless penalty tends to e = 1, not to the walls' restitution".to_owned());
     }
@@ -376,13 +378,14 @@ fn walls(case: &Case) -> Vec<String> {
     lines
 }
 
-/// Stiffness at the wall of the stiffest wall of the penalised scene, N/m.
+/// Stiffness at its face of the stiffest wall or hole of the penalised scene, N/m.
 fn stiffest(scene: &Scene, law: PenaltyLaw) -> Result<f64> {
     let scene = scene.penalised(law)?;
-    let stiffness = |w: &crate::scene::Wall| match w.law {
+    let stiffness = |law: WallLaw| match law {
         WallLaw::Rigid { .. } => 0.0,
         WallLaw::Elastic { stiffness, .. } => stiffness,
         WallLaw::Quartic { epsilon, span } => span * span / epsilon,
     };
-    Ok(scene.walls.iter().map(stiffness).fold(0.0, f64::max))
+    let laws = scene.walls.iter().map(|wall| wall.law).chain(scene.holes().map(|hole| hole.law));
+    Ok(laws.map(stiffness).fold(0.0, f64::max))
 }

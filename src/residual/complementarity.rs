@@ -126,7 +126,7 @@ pub(super) fn expected_pressure(
 
 /// The mean of |r|(s) over depths from `s0` to `s1`, which is ΔU/Δs: by Simpson's rule, which is
 /// exact for these polynomials.
-fn mean_pressure(law: &WallLaw, s0: f64, s1: f64) -> f64 {
+pub(super) fn mean_pressure(law: &WallLaw, s0: f64, s1: f64) -> f64 {
     let (a, b) = (s0.max(0.0), s1.max(0.0));
     if a == 0.0 && b == 0.0 {
         return 0.0;

@@ -3,6 +3,7 @@
 
 use super::Judge;
 use super::beyond::Worst;
+use super::complementarity::mean_pressure;
 use crate::scene::{Support, WallLaw};
 use crate::step::{HoleStep, Law, Step};
 
@@ -16,19 +17,32 @@ impl Judge {
         (did, end): (&HoleStep, [f64; 2]),
         doubt: &mut Worst,
     ) -> f64 {
-        let (WallLaw::Elastic { stiffness, damping }, Law::Depth(theta)) = (law, self.contract.promise.elastic.law)
-        else {
-            return 0.0;
+        let (start, h) = (support.offset(&self.q), self.h);
+        let (r0, r1, c) = (start[0].hypot(start[1]), end[0].hypot(end[1]), law.damping());
+        // The vector along which the ring pushes, its pressure, and how that changes with depth.
+        let (at, expected, slope) = match (law, self.contract.promise.elastic.law) {
+            (WallLaw::Elastic { stiffness, damping }, Law::Depth(theta)) => {
+                let at = [0, 1].map(|i: usize| (1.0 - theta) * start[i] + theta * end[i]);
+                let distance = at[0].hypot(at[1]);
+                let pressure = stiffness * (distance - gap) + damping * (distance - r0.max(gap)) / (theta * h);
+                (at, pressure, stiffness + damping / (theta * h))
+            }
+            (_, Law::Gradient) => {
+                let at = [0, 1].map(|i: usize| 0.5 * (start[i] + end[i]));
+                let (s0, s1) = (r0 - gap, r1 - gap);
+                let mean = mean_pressure(&law, s0, s1) + c * (s1.max(0.0) - s0.max(0.0)) / h;
+                // Over the way from w to w⁺ the force does the work of the pressure over |w⁺| − |w|.
+                let share = 2.0 * at[0].hypot(at[1]) / (r0 + r1);
+                (at, mean * share, law.tangent(s0.max(s1).max(f64::MIN_POSITIVE)) + 2.0 * c / h)
+            }
+            _ => return 0.0,
         };
-        let start = support.offset(&self.q);
-        let at = [0, 1].map(|i: usize| (1.0 - theta) * start[i] + theta * end[i]);
-        let (distance, plate) = (at[0].hypot(at[1]), start[0].hypot(start[1]).max(gap));
-        let expected = stiffness * (distance - gap) + damping * (distance - plate) / (theta * self.h);
-        let pressure = did.impulse / self.h;
+        let distance = at[0].hypot(at[1]);
+        let pressure = did.impulse / h;
         let error = (pressure - expected.max(0.0)).abs();
         self.law_error = self.law_error.max(error);
         let noise = self.rounding.met(self.way(step, support, gap), self.energy.gap_scale);
-        self.doubt_law(place, error, (stiffness + damping / (theta * self.h)) * noise);
+        self.doubt_law(place, error, slope * noise);
         if pressure == 0.0 {
             return 0.0;
         }

@@ -52,6 +52,9 @@ fn rule<S: Space>(scene: &Scene, Method { scheme, backend }: Method, h: f64) -> 
     })
 }
 
+/// What a scheme without friction expects instead.
+const ONE_FOR_FRICTION: &str = "moreau-jean, the one scheme for friction";
+
 /// `scheme` on a scene with round holes or friction. Only moreau-jean has friction; without it the
 /// exact motion is known.
 fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Result<Box<dyn Motion>> {
@@ -77,6 +80,17 @@ fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Res
     let round = scene.holes().next().is_some();
     let ring = scene.holes().find(|hole| !hole.law.is_rigid());
     let rubs = scene.supports.iter().any(|support| support.friction > 0.0);
+    if let Scheme::Penalty { integrator, .. } = scheme {
+        if rubs {
+            return Err(Error::invalid("scheme", scheme, ONE_FOR_FRICTION));
+        }
+        if integrator == Integrator::DiscreteGradient {
+            return Ok(Box::new(Disks::new(scene, scheme.contract(), h)?));
+        }
+        let expected = "discrete-gradient: of the penalties, only that one keeps energy and angular momentum in a \
+                        round hole";
+        return Err(Error::invalid("integrator", integrator, expected));
+    }
     if let Some(ring) = ring {
         let found = format!("{scheme}, with the elastic round support {:?}", ring.support.name);
         let expected = match scheme {
@@ -86,7 +100,7 @@ fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Res
             Scheme::MoreauJean { .. } | Scheme::ImplicitEuler => {
                 return Ok(Box::new(Disks::new(scene, scheme.contract(), h)?));
             }
-            _ => "moreau-jean or implicit-euler, the schemes for elastic round supports",
+            _ => "moreau-jean, implicit-euler or penalty, the schemes for elastic round supports",
         };
         return Err(Error::invalid("scheme", found, expected));
     }
@@ -101,8 +115,10 @@ fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Res
         Scheme::PaoliSchatzman | Scheme::Newmark if round => {
             "moreau-jean: this scheme does not keep the energy of a body in a round hole"
         }
-        _ if round && !rubs => "moreau-jean, event, generalized-alpha or implicit-euler, the schemes for round holes",
-        _ => "moreau-jean, the one scheme for friction",
+        _ if round && !rubs => {
+            "moreau-jean, event, generalized-alpha, implicit-euler or penalty, the schemes for round holes"
+        }
+        _ => ONE_FOR_FRICTION,
     };
     Err(Error::invalid("scheme", scheme, expected))
 }

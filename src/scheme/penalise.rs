@@ -2,10 +2,11 @@
 
 use super::PenaltyLaw;
 use crate::error::Result;
-use crate::scene::Scene;
+use crate::scene::{Scene, Shape};
 
 impl Scene {
-    /// The scene with every rigid wall replaced by the penalty `law`; elastic walls stay.
+    /// The scene with every rigid wall and round hole replaced by the penalty `law`; elastic ones
+    /// stay.
     ///
     /// # Errors
     /// As [`PenaltyLaw::at`], and for numbers that make no sense.
@@ -14,6 +15,11 @@ impl Scene {
         for (wall, original) in scene.walls.iter_mut().zip(&self.walls) {
             wall.law = law.at(original, &self.walls)?;
             wall.validate()?;
+        }
+        for support in &mut scene.supports {
+            if let Shape::Round { gap, law: own } = &mut support.shape {
+                *own = law.round(*gap, *own);
+            }
         }
         Ok(scene)
     }

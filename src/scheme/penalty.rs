@@ -267,7 +267,7 @@ impl<S: Space> Rule<S> for Penalty<S> {
 /// Mean pressure of a law over a step of `h` seconds from depth `s0` to `s1`, and its derivative
 /// with respect to `s1`, which is ≥ 0.
 #[inline]
-fn mean_pressure(law: &WallLaw, mean: Mean, theta: f64, h: f64, s0: f64, s1: f64) -> (f64, f64) {
+pub(super) fn mean_pressure(law: &WallLaw, mean: Mean, theta: f64, h: f64, s0: f64, s1: f64) -> (f64, f64) {
     if s0 <= 0.0 && s1 <= 0.0 {
         return (0.0, 0.0);
     }

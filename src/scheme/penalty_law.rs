@@ -1,7 +1,7 @@
 //! The springs that replace rigid walls in a penalty run, and the integrators.
 
 use crate::error::{Error, Result};
-use crate::scene::{Side, Wall, WallLaw};
+use crate::scene::{Scene, Side, Wall, WallLaw};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -57,17 +57,28 @@ impl PenaltyLaw {
         }
     }
 
+    /// The law that a round hole of this radial gap (m) and law has in a penalty run: its own unless
+    /// it is rigid. The φ² law spans its diameter.
+    #[must_use]
+    pub fn round(&self, gap: f64, own: WallLaw) -> WallLaw {
+        match *self {
+            _ if !own.is_rigid() => own,
+            Self::Linear { stiffness, damping } => WallLaw::Elastic { stiffness, damping },
+            Self::Quartic { epsilon } => WallLaw::Quartic { epsilon, span: 2.0 * gap },
+        }
+    }
+
     /// True for a spring without damping, which conserves energy.
     #[must_use]
     pub fn is_lossless(&self) -> bool {
         !matches!(*self, Self::Linear { damping, .. } if damping > 0.0)
     }
 
-    /// Checks the numbers, and that there are rigid walls to replace.
+    /// Checks the numbers, and that `scene` has rigid walls or round holes to replace.
     ///
     /// # Errors
     /// [`Error::Invalid`] naming `epsilon`, `stiffness` or `damping`.
-    pub fn validate(&self, walls: &[Wall]) -> Result<()> {
+    pub fn validate(&self, scene: &Scene) -> Result<()> {
         let positive = |key: &'static str, x: f64| {
             if x.is_finite() && x > 0.0 {
                 Ok(())
@@ -85,7 +96,9 @@ impl PenaltyLaw {
                 "stiffness"
             }
         };
-        if !walls.iter().any(|wall| wall.law.is_rigid()) {
+        let walls = &scene.walls;
+        let rigid = walls.iter().any(|wall| wall.law.is_rigid()) || scene.holes().any(|hole| hole.law.is_rigid());
+        if !rigid {
             return Err(Error::invalid(key, self, "a scene with a rigid wall for the penalty to stand in for"));
         }
         walls.iter().try_for_each(|wall| self.at(wall, walls).map(|_| ()))
@@ -186,8 +199,11 @@ mod tests {
         assert_eq!(spans[0], Ok(WallLaw::Quartic { epsilon: 1e-9, span: 0.75 }));
         assert_eq!(spans[1], Ok(walls[1].law));
         assert_eq!(spans[2], Ok(WallLaw::Quartic { epsilon: 1e-9, span: 1.0 }));
-        assert!(law.validate(&walls[..1]).is_err_and(|e| e.to_string().contains("stiffness")));
-        assert!(law.validate(&walls[1..2]).is_err_and(|e| e.to_string().contains("rigid wall")));
-        assert!(PenaltyLaw::Linear { stiffness: 1e8, damping: 0.0 }.validate(&walls[..1]).is_ok());
+        let scene = |wall: &Wall| Scene::oscillator(1.0, 0.0, 1.0).with_wall(wall.clone());
+        assert!(law.validate(&scene(&walls[0])).is_err_and(|e| e.to_string().contains("stiffness")));
+        assert!(law.validate(&scene(&walls[1])).is_err_and(|e| e.to_string().contains("rigid wall")));
+        assert!(PenaltyLaw::Linear { stiffness: 1e8, damping: 0.0 }.validate(&scene(&walls[0])).is_ok());
+        assert_eq!(law.round(0.5, walls[0].law), WallLaw::Quartic { epsilon: 1e-9, span: 1.0 });
+        assert_eq!(law.round(0.5, walls[1].law), walls[1].law);
     }
 }

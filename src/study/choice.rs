@@ -99,7 +99,9 @@ pub fn at_holes(scene: &Scene) -> Vec<String> {
         "at round supports without friction generalized-alpha has the same law, after it has put the body within \
          the circle, which it never passes; implicit-euler puts it there too, stops what arrives, whatever the \
          restitution, and slows what slides; event is exact",
-        "at elastic round supports, without friction: moreau-jean and implicit-euler",
+        "at elastic round supports, without friction: moreau-jean, implicit-euler and penalty",
+        "penalty (discrete-gradient) replaces a rigid round support by a ring that keeps energy and angular \
+         momentum; it tends to restitution 1",
         "paoli-schatzman and newmark refuse round supports, where they would not keep the energy of a body",
     ]
     .map(str::to_owned)
@@ -112,12 +114,13 @@ pub fn qp_reason(method: &Method, scene: &Scene) -> String {
     let single = matches!(scene.system, System::Oscillator(_));
     let elastic = scene.holes().any(|hole| !hole.law.is_rigid());
     let bounds = matches!(method.scheme, Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. });
-    if scene.turns_or_rubs() && (elastic || bounds) {
+    let penalised = matches!(method.scheme, Scheme::Penalty { .. });
+    if scene.turns_or_rubs() && (elastic || bounds) && !penalised {
         return "a programme with disks: one round support in closed form, several by sweeps and Newton's method on \
                 their multipliers; Clarabel is the fallback"
             .to_owned();
     }
-    if scene.turns_or_rubs() && method.scheme != Scheme::Event {
+    if scene.turns_or_rubs() && method.scheme != Scheme::Event && !penalised {
         return "round supports and friction are no QP: the contacts are solved one by one in closed form, in sweeps, \
                 and then together"
             .to_owned();

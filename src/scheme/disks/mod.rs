@@ -6,7 +6,8 @@
 //! c_a(|w⁺| − r₊)/h is k(|w⁺| − ρ) for the radius ρ = (k_aγ + c_a r₊/h)/k. So a step is the
 //! programme of the same scheme between planar walls with disks beside the bounds, and
 //! [`DiskSolver`](crate::qp::DiskSolver) answers it. `position.rs` is implicit-euler, `alpha.rs`
-//! generalized-alpha, `velocity.rs` moreau-jean with elastic rings.
+//! generalized-alpha, `velocity.rs` moreau-jean with elastic rings. In the penalty (`springs.rs`) every
+//! contact is a spring, and there is no programme.
 //!
 //! Friction is refused: a bound on the displacement leaves a contact no velocity at which it could
 //! stick, and between the impulse of one step and that of the next it would bounce along the
@@ -16,6 +17,7 @@ mod alpha;
 mod bounds;
 mod held;
 mod position;
+mod springs;
 mod velocity;
 
 use super::Counters;
@@ -28,10 +30,11 @@ use crate::error::Result;
 use crate::linear::Rows;
 use crate::qp::{Backend, DiskCounters};
 use crate::scene::{Checked, Scene};
-use crate::step::{Balance, Contact, Contract, HoleStep, Step};
+use crate::step::{Balance, Contact, Contract, HoleStep, Law, Step};
 use alpha::Alpha;
 use held::{Held, Round, pair};
 use position::Position;
+use springs::Springs;
 use velocity::Velocity;
 
 /// The scheme of a motion.
@@ -40,6 +43,7 @@ enum Rule {
     Position(Box<Position>),
     Alpha(Box<Alpha>),
     Velocity(Box<Velocity>),
+    Springs(Box<Springs>),
 }
 
 impl Rule {
@@ -48,6 +52,7 @@ impl Rule {
             Self::Position(rule) => rule.advance(step, held),
             Self::Alpha(rule) => rule.advance(step, held),
             Self::Velocity(rule) => rule.advance(step, held),
+            Self::Springs(rule) => rule.advance(step, held),
         }
     }
 
@@ -56,6 +61,7 @@ impl Rule {
             Self::Position(rule) => rule.counters(),
             Self::Alpha(rule) => rule.counters(),
             Self::Velocity(rule) => rule.counters(),
+            Self::Springs(rule) => rule.counters(),
         }
     }
 }
@@ -77,7 +83,7 @@ pub(super) struct Disks {
 
 impl Disks {
     /// `scene` in steps of `h` seconds that satisfy `contract`: that of implicit-euler, of
-    /// generalized-alpha, or of moreau-jean.
+    /// generalized-alpha, of moreau-jean, or of the penalty with the discrete gradient.
     pub fn new(scene: &Checked, contract: Contract, h: f64) -> Result<Self> {
         let body = Body::<Matrices>::new(scene, h)?;
         let places = || scene.holes().flat_map(|hole| [&hole.support.at.y, &hole.support.at.z]);
@@ -93,6 +99,9 @@ impl Disks {
         Ok(Self {
             rule: match contract.balance {
                 Balance::GeneralizedAlpha { .. } => Rule::Alpha(Box::new(Alpha::new(scene, contract.balance, &held)?)),
+                _ if contract.promise.elastic.law == Law::Gradient => {
+                    Rule::Springs(Box::new(Springs::new(scene, &held)?))
+                }
                 Balance::Theta(theta) if contract.promise.hole.is_none() => {
                     Rule::Velocity(Box::new(Velocity::new(scene, theta, &held)?))
                 }
@@ -195,6 +204,9 @@ impl Motion for Disks {
         counters.qp_fallbacks += fallbacks;
         counters.interior_point_iterations += iterations;
         counters.largest_turn_rad = self.turned;
+        if let Rule::Springs(rule) = &self.rule {
+            counters.newton_iterations = rule.iterations();
+        }
     }
 
     fn backend(&self) -> Option<Backend> {

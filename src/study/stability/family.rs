@@ -79,7 +79,7 @@ impl Parameter {
         match family {
             _ if !walls.iter().any(|w| w.law.is_rigid()) => Self::WallStiffness,
             Family::Constrained(_) => Self::Restitution,
-            Family::Penalty(_) if linear_asked || quartic.validate(walls).is_err() => Self::PenaltyStiffness,
+            Family::Penalty(_) if linear_asked || quartic.validate(case.scene).is_err() => Self::PenaltyStiffness,
             Family::Penalty(_) => Self::Epsilon,
         }
     }
