@@ -316,10 +316,8 @@ fn a_turned_scene_has_the_turned_motion() {
     assert!(sums.arrivals > 20, "{sums:?}");
 }
 
-const PENALTY: Scheme = Scheme::Penalty {
-    law: PenaltyLaw::Linear { stiffness: 1e7, damping: 0.0 },
-    integrator: Integrator::Trapezoidal,
-};
+const PENALTY: Scheme =
+    Scheme::Penalty { law: PenaltyLaw::Linear { stiffness: 1e7, damping: 0.0 }, integrator: Integrator::Trapezoidal };
 
 #[test]
 fn other_schemes_refuse_round_holes_and_say_why() {

@@ -31,7 +31,7 @@ use crate::time::MOST_STEPS;
 /// their times, tables by their rows and as zero after the last.
 ///
 /// A step allocates nothing, apart from Clarabel's own single allocation where that solver was
-/// asked for.
+/// asked for, and from the penalty in round holes.
 #[derive(Debug)]
 pub struct Stepper {
     scene: Checked,
