@@ -39,7 +39,7 @@ const MOST_HANDED: usize = 5;
 
 pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) -> Vec<String> {
     let mut notes = Vec::new();
-    let asked: Vec<f64> = scene.walls.iter().filter_map(|w| w.law.restitution()).collect();
+    let asked: Vec<f64> = scene.contact_laws().filter_map(|law| law.restitution()).collect();
     if run.grid.shortened {
         notes.push(format!(
             "the step was shortened to {:e} s so that steps end on the rows and at the end",
@@ -163,7 +163,7 @@ fn arrived(scene: &Checked, contacts: &[Contact]) -> f64 {
     let masses = scene.wall_masses();
     let mass = |wall: usize| masses.get(wall).copied().unwrap_or(0.0);
     // Round supports come after the walls.
-    let laws: Vec<_> = scene.walls.iter().map(|wall| wall.law).chain(scene.holes().map(|hole| hole.law)).collect();
+    let laws: Vec<_> = scene.contact_laws().collect();
     let rigid = |wall: usize| laws.get(wall).is_some_and(WallLaw::is_rigid);
     let contacts = contacts.iter().filter(|c| rigid(c.wall));
     contacts.map(|c| 0.5 * mass(c.wall) * c.approach_speed * c.approach_speed).sum()

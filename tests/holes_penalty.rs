@@ -7,9 +7,10 @@ mod rubbing;
 use random_structures::Draws;
 use rubbing::{body, hole, isotropic, load, random_scene, rotating, turned, with};
 use signorini::residual::Judge;
+use signorini::study::compare::compare;
 use signorini::{
-    Finding, HoleStep, Integrator, Load, Options, PenaltyLaw, Refuted, Row, Scene, Scheme, Shape, Step, Stepper,
-    Support, Wall, WallLaw, heading, run,
+    Finding, HoleStep, Integrator, Load, Method, Options, PenaltyLaw, Refuted, Row, Scene, Scheme, Shape, Step,
+    Stepper, Support, Wall, WallLaw, heading, run,
 };
 
 fn penalty(law: PenaltyLaw) -> Scheme {
@@ -253,4 +254,26 @@ fn a_run_shows_the_forces_of_the_hole() {
         assert!((mean - pushed).abs() < 1e-9, "{force:?} {pushed}");
     }
     assert!(run.statistics.wear[0].upper_figure && run.statistics.wear[0].work_rate_w > 0.0);
+}
+
+/// A comparison compares with the restitution that the hole asks for, and shows what each method
+/// realises there.
+#[test]
+fn a_comparison_names_the_restitution_of_the_hole() {
+    let scene = free();
+    let mut scene = Scene { duration: 0.1, ..scene };
+    scene.supports[0] = Support { centre: [1e-3, 0.5e-3], ..hole("hole", body(), GAP, 0.5, 0.0) };
+    scene.probes.push(signorini::Probe { name: "y".into(), at: Row::dof(0) });
+    let schemes = [Scheme::MoreauJean { theta: 0.5 }, penalty(linear(1e6, 0.0)), Scheme::ImplicitEuler];
+    let time = Options::with_step(1e-4).time;
+    let comparison = compare(&scene, &schemes.map(Method::new), &time, &|_| ()).unwrap();
+    let said = |words: &str| comparison.findings.iter().any(|finding| finding.contains(words));
+    assert!(said("the walls ask for e = 0.5") && said("implicit-euler on positions tends to e = 0"));
+    assert!(!said("every wall has e = 1"), "{:?}", comparison.findings);
+    let median = |row: usize| comparison.rows[row].restitution.map(|restitution| restitution.median);
+    // Of moreau-jean and the exact motion to rounding; a spring without dashpot gives all back but for
+    // what its normal turns during the contact; implicit-euler stays and slides.
+    let [jean, spring, exact] = [0, 1, 3].map(|row| median(row).unwrap());
+    assert!((jean - 0.5).abs() < 1e-9 && (exact - 0.5).abs() < 1e-9, "{jean} {exact}");
+    assert!((spring - 1.0).abs() < 1e-4 && median(2).is_none(), "{spring} {:?}", median(2));
 }

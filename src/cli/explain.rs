@@ -94,9 +94,7 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     let times = [(choice.method.to_string(), own), ("event".to_owned(), event)];
     tell("time of a run", times.into_iter().filter_map(|(name, one)| Some(time(name, one?))).collect());
     let mut penalties: Vec<String> = penalties(case)?.iter().map(Penalty::line).collect();
-    let holes = case.scene.holes().map(|hole| hole.law);
-    let laws = case.scene.walls.iter().map(|wall| wall.law).chain(holes);
-    let rigid: Vec<f64> = laws.filter_map(|law| law.restitution()).collect();
+    let rigid: Vec<f64> = case.scene.contact_laws().filter_map(|law| law.restitution()).collect();
     if !penalties.is_empty() && rigid.iter().any(|&e| e < 1.0) {
         penalties.push("note: a lossless penalty tends to e = 1, not to the walls' restitution".to_owned());
     }
@@ -386,6 +384,5 @@ fn stiffest(scene: &Scene, law: PenaltyLaw) -> Result<f64> {
         WallLaw::Elastic { stiffness, .. } => stiffness,
         WallLaw::Quartic { epsilon, span } => span * span / epsilon,
     };
-    let laws = scene.walls.iter().map(|wall| wall.law).chain(scene.holes().map(|hole| hole.law));
-    Ok(laws.map(stiffness).fold(0.0, f64::max))
+    Ok(scene.contact_laws().map(stiffness).fold(0.0, f64::max))
 }

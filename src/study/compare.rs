@@ -7,7 +7,7 @@ use super::horizon::{Growth, LARGEST_GROWTH, Source};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::run::{Options, Run, run_with_progress};
-use crate::scene::{Scene, System};
+use crate::scene::{Scene, System, WallLaw};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use std::time::Instant;
@@ -27,7 +27,8 @@ pub const FINER: f64 = 8.0;
 /// loads falsify it there.
 const SLOW: f64 = 1e-2;
 
-/// Departure speed over approach speed at the rigid walls of a scene, as a run realised it.
+/// Departure speed over approach speed at the rigid walls and round supports of a scene, as a run
+/// realised it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Restitution {
@@ -46,7 +47,7 @@ pub struct Row {
     pub method: Method,
     /// The run, or why there is none.
     pub outcome: Result<Run>,
-    /// Restitution at the rigid walls; `None` without impacts.
+    /// Restitution at the rigid walls and round supports; `None` without impacts.
     pub restitution: Option<Restitution>,
     /// Largest |Δu| of any probe against the reference over the gap scale, up to the horizon;
     /// `None` without a probe.
@@ -176,10 +177,11 @@ fn against(scene: &Scene, run: &Run, reference: &Run, horizon: f64) -> (Option<f
     (error, error.map(|_| until.unwrap_or(scene.duration)))
 }
 
-/// Restitution at the walls that are rigid in `scene`, also where the method replaced them by
-/// springs.
+/// Restitution at the walls and round supports that are rigid in `scene`, also where the method
+/// replaced them by springs.
 fn restitution(scene: &Scene, run: &Run) -> Option<Restitution> {
-    let rigid = |wall: usize| scene.walls.get(wall).is_some_and(|w| w.law.is_rigid());
+    let laws: Vec<WallLaw> = scene.contact_laws().collect();
+    let rigid = |wall: usize| laws.get(wall).is_some_and(WallLaw::is_rigid);
     let seen = run.trajectory.contacts().iter().filter(|c| rigid(c.wall));
     let fastest = seen.clone().map(|c| c.approach_speed).fold(0.0, f64::max);
     let counted = seen.filter(|c| c.approach_speed > SLOW * fastest);
@@ -208,7 +210,7 @@ fn step_ns(scene: &Scene, method: &Method, time: &TimeOptions) -> Result<f64> {
 
 fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     let mut findings = Vec::new();
-    let asked: Vec<f64> = scene.walls.iter().filter_map(|w| w.law.restitution()).collect();
+    let asked: Vec<f64> = scene.contact_laws().filter_map(|law| law.restitution()).collect();
     let any = |test: fn(&Scheme) -> bool| comparison.rows.iter().any(|r| test(&r.method.scheme));
     if any(|s| matches!(s, Scheme::Penalty { law, .. } if law.is_lossless())) {
         findings.push(if asked.iter().all(|&e| e == 1.0) {

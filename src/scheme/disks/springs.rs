@@ -165,11 +165,11 @@ impl Springs {
             let both = r0 + r1;
             let along = [0, 1].map(|i: usize| (w0[i] + w1[i]) / both);
             let normal = w1.map(|w| if r1 > 0.0 { w / r1 } else { 0.0 });
-            for i in 0..2 {
-                answer.force[first + i] = -pressure * along[i];
-                for j in 0..2 {
+            for (i, along) in along.into_iter().enumerate() {
+                answer.force[first + i] = -pressure * along;
+                for (j, normal) in normal.into_iter().enumerate() {
                     let turned = if i == j { pressure / both } else { 0.0 };
-                    let steeper = (tangent - pressure / both) * along[i] * normal[j];
+                    let steeper = (tangent - pressure / both) * along * normal;
                     answer.slope[(first + i, first + j)] = h * (turned + steeper);
                 }
             }
