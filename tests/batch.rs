@@ -83,9 +83,10 @@ fn by_event(lanes: &[Lane]) -> Vec<Lane> {
 }
 
 /// The root of the variance that noise of one unit, entering the state at every event, has reached
-/// at the end of each of `periods` periods, carried by the exact derivative of the motion.
-/// Displacement counts in `size` (m), velocity in `size` · `rate` (1/s).
-fn amplified(lane: &Lane, periods: u32, size: f64, rate: f64) -> Vec<f64> {
+/// at the end of each of `periods` periods, carried by the exact derivative of the motion, up to the
+/// first period in which it reaches `most`. Displacement counts in `size` (m), velocity in `size` ·
+/// `rate` (1/s).
+fn amplified(lane: &Lane, periods: u32, (size, rate): (f64, f64), most: f64) -> Vec<f64> {
     let scene = lane.scene(f64::from(periods) * lane.period);
     let mut stepper = Stepper::new(&scene, &Scheme::Event, lane.period).unwrap();
     let product = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| {
@@ -107,7 +108,11 @@ fn amplified(lane: &Lane, periods: u32, size: f64, rate: f64) -> Vec<f64> {
         noise = product(product(flow, noise), transposed(flow));
         (noise[0][0], noise[1][1]) = (noise[0][0] + unit[0][0], noise[1][1] + unit[1][1]);
         if step.end >= (roots.len() + 1) as f64 * lane.period * (1.0 - 1e-14) {
-            roots.push((noise[0][0] / unit[0][0] + noise[1][1] / unit[1][1]).sqrt());
+            let root = (noise[0][0] / unit[0][0] + noise[1][1] / unit[1][1]).sqrt();
+            roots.push(root);
+            if root.is_nan() || root >= most {
+                break;
+            }
         }
     }
     roots
@@ -131,13 +136,14 @@ fn comparable(lane: &Lane, known: &Outcome) -> (f64, usize) {
     let gap = known.extent.map(f64::abs).into_iter().fold(lane.scene(1.0).gap_scale(), f64::max);
     let fastest = lane.sines.iter().map(|s| s.multiple).max().unwrap_or(1);
     let own = (lane.body.stiffness / lane.body.mass).sqrt();
-    let noise = amplified(lane, 100, gap, own.max(std::f64::consts::TAU * f64::from(fastest) / lane.period));
+    let rate = own.max(std::f64::consts::TAU * f64::from(fastest) / lane.period);
     // The noise is some units of rounding, 1e-15, of the motion in the lanes, of its steady part in
     // the exact scheme, which takes the motion for the sum of that and a free one. Grown by 1e4 it
     // is a tenth of the tolerance. Beyond, the motion is chaotic, or grazes, and no two ways of
     // computing it agree.
-    let large = (steady(lane) / gap).max(1.0);
-    let last = noise.iter().position(|&n| n.is_nan() || n * large >= 1e4).unwrap_or(100);
+    let most = 1e4 / (steady(lane) / gap).max(1.0);
+    let noise = amplified(lane, 100, (gap, rate), most);
+    let last = noise.iter().position(|&n| n.is_nan() || n >= most).unwrap_or(100);
     (gap, last)
 }
 

@@ -14,8 +14,12 @@ import pytest
 import signorini as sg
 
 PROGRAM = """
+import signal
 import time
 import signorini as sg
+
+# A shell starts what runs in its background with this signal ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 def make(restitution):
     walls = [sg.Wall.upper("upper", 5e-3, restitution=restitution)]
