@@ -1,0 +1,22 @@
+//! Motion in two planes: flats, round holes, friction and wear.
+
+#[path = "../support/draws.rs"]
+mod draws;
+#[path = "../support/random_structures.rs"]
+mod random_structures;
+#[path = "../support/rubbing.rs"]
+mod rubbing;
+
+mod elastic;
+mod event;
+mod friction;
+mod frictionless;
+mod judge;
+mod penalty;
+mod position;
+mod start;
+#[cfg(feature = "cli")]
+mod two_planes;
+mod wear;
+#[cfg(feature = "cli")]
+mod wear_holes;

@@ -1,0 +1,13 @@
+//! The judge, the contacts, and what every run must keep.
+
+#[path = "../support/common/mod.rs"]
+mod common;
+#[path = "../support/random_structures.rs"]
+mod random_structures;
+
+mod complementarity;
+mod contacts;
+mod faults;
+mod findings;
+#[cfg(feature = "case")]
+mod units;

@@ -1,0 +1,9 @@
+//! Variation, periodic orbits, their branches and basins.
+
+#[cfg(feature = "cli")]
+mod basins;
+mod branches;
+mod orbits;
+#[cfg(feature = "cli")]
+mod tool;
+mod variation;

@@ -1,0 +1,199 @@
+//! `signorini orbit` and `signorini continue`: files that read back, exit codes, and what they say of
+//! wrong requests.
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+const CASE: &str = "rigid-walls-sine";
+const SOFT: [&str; 3] = [CASE, "--set", "wall.*.restitution=0.8"];
+
+/// Runs it and expects the exit code; gives stdout and stderr.
+fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap();
+    let (out, err) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {out} {err}");
+    assert!(!err.contains("panicked"), "{args:?}: {err}");
+    (out, err)
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+#[test]
+fn an_orbit_is_written_and_read_back() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let (out, _) = said(path, &[&["orbit"], &SOFT[..], &["--out", "a"]].concat(), 0);
+    assert!(out.contains("symmetric") && out.contains("stable") && out.contains("the same events"), "{out}");
+    let first = json(&path.join("a/orbit.json"));
+    assert_eq!((&first["periods"], &first["symmetric"]), (&Value::from(1), &Value::from(true)));
+    let speed = |orbit: &Value| orbit["events"][0]["speed_m_per_s"].as_f64().unwrap();
+    assert!((speed(&first) - 0.169_410_591_358_373_47).abs() < 1e-12);
+    for file in ["orbit.csv", "phase.svg", "motion.svg", "request.json"] {
+        assert!(path.join("a").join(file).is_file(), "{file}");
+    }
+    let table = fs::read_to_string(path.join("a/orbit.csv")).unwrap();
+    let header = "time_s,phase_cycles,displacement_m,velocity_m_per_s,contact_force_upper_N,contact_force_lower_N";
+    assert!(table.starts_with(header) && table.lines().count() > 2000);
+    // The same orbit from the file, and a neighbouring case from it.
+    said(path, &[&["orbit"], &SOFT[..], &["--from", "a/orbit.json", "--out", "b"]].concat(), 0);
+    assert!((speed(&json(&path.join("b/orbit.json"))) - speed(&first)).abs() < 1e-12);
+    let near = ["--set", "load.1.harmonic.frequency=5.05", "--from", "a/orbit.json", "--out", "c"];
+    said(path, &[&["orbit"], &SOFT[..], &near].concat(), 0);
+    assert!((speed(&json(&path.join("c/orbit.json"))) - speed(&first)).abs() > 1e-4);
+    // The twin, from a start by hand.
+    let twin = ["--signature", "U", "--symmetric", "--start", "0.743,0.033", "--out", "d"];
+    let (out, _) = said(path, &[&["orbit"], &SOFT[..], &twin].concat(), 0);
+    assert!(out.contains("unstable"), "{out}");
+    let listed = said(path, &[&["orbit", "--json", "--list"], &SOFT[..]].concat(), 0).0;
+    let listed: Value = serde_json::from_str(&listed).unwrap();
+    let twins = listed["orbits"].as_array().unwrap().iter().filter(|orbit| orbit["admissible"] == true);
+    assert!(twins.count() >= 2);
+}
+
+#[test]
+fn an_orbit_that_no_body_can_follow_is_written_and_fails() {
+    let dir = tempfile::tempdir().unwrap();
+    let listed = said(dir.path(), &[&["orbit", "--json", "--list"], &SOFT[..]].concat(), 0).0;
+    let listed: Value = serde_json::from_str(&listed).unwrap();
+    let virtually = listed["orbits"].as_array().unwrap().iter().find(|orbit| orbit["admissible"] == false).unwrap();
+    let start = format!("{},{}", virtually["phase_cycles"], virtually["speed_m_per_s"]);
+    let (wall, periods) = (virtually["wall"].as_str().unwrap(), virtually["periods"].to_string());
+    let mut args = [&["orbit"], &SOFT[..], &["--signature", wall, "--start", &start, "--periods", &periods]].concat();
+    if virtually["symmetric"] == true {
+        args.push("--symmetric");
+    }
+    let (_, err) = said(dir.path(), &args, 1);
+    assert!(err.contains("through wall"), "{err}");
+    assert_eq!(json(&dir.path().join("out/rigid-walls-sine/orbit/orbit.json"))["admissible"], false);
+}
+
+#[test]
+fn a_structure_settles_on_an_orbit() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = "title = \"two\"\n[system.chain]\nmasses = [1.0, 0.5]\nsprings = [60.0]\nleft = { stiffness = 80.0 }\nright = { stiffness = 20.0 }\n\
+                [system.damping]\nrayleigh = { mass = 0.3, stiffness = 2e-3 }\n[[wall]]\nname = \"stop\"\nside = \"upper\"\nposition = 5e-3\n\
+                restitution = 0.6\nat = { dof = 0 }\n[[load]]\nharmonic = { amplitude = 2.0, frequency = 1.9 }\nat = { dof = 0 }\n\
+                [[probe]]\nname = \"first\"\nat = { dof = 0 }\n[time]\nend = 1.0\nstep = 1e-4\n";
+    fs::write(dir.path().join("two.toml"), case).unwrap();
+    let (out, _) = said(dir.path(), &["orbit", "two.toml"], 0);
+    assert!(out.contains("of 4 Floquet multipliers") && out.contains("stop"), "{out}");
+    let (out, _) = said(dir.path(), &["orbit", "two.toml", "--list"], 0);
+    assert!(out.contains("not looked at"), "{out}");
+    for (more, words) in [
+        (&["--signature", "S", "--start", "0.1,0.1"][..], "one degree of freedom"),
+        (&["--from", "two.toml"], "one degree of freedom"),
+    ] {
+        let (_, err) = said(dir.path(), &[&["orbit", "two.toml"], more].concat(), 2);
+        assert!(err.contains(words), "{err}");
+    }
+}
+
+#[test]
+fn branches_are_written_and_joined() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let key = ["--key", "load.1.harmonic.frequency"];
+    let sweep =
+        ["--vary", "load.1.harmonic.frequency=4.4:6:9", "--samples", "impacts", "--settle", "100", "--keep", "20"];
+    said(path, &[&["sweep"], &SOFT[..], &sweep, &["--scheme", "event", "--out", "s"]].concat(), 0);
+    let more = ["--range", "4:16", "--switch", "all", "--depth", "1", "--over", "s/sweep.csv", "--out", "b"];
+    let (out, _) = said(path, &[&["continue"], &SOFT[..], &key, &more].concat(), 0);
+    for words in ["fold", "symmetry-breaking", "grazing-out", "14.610019877", "4.570839133", "4.210773813"] {
+        assert!(out.contains(words), "{words}: {out}");
+    }
+    // The points beneath are the impacts of the sweep's rows.
+    let lines = |file: &str| fs::read_to_string(path.join(file)).unwrap().lines().count();
+    assert!(lines("b/beneath.csv") > 100 && lines("b/beneath.csv") == lines("s/samples.csv"));
+    let graph = json(&path.join("b/branches.json"));
+    assert!(graph["branches"].as_array().unwrap().len() >= 3);
+    let leads = |label: &str| {
+        let all = graph["specials"].as_array().unwrap();
+        all.iter().find(|special| special["label"] == label).unwrap()["leads_to"].as_array().unwrap().len()
+    };
+    assert_eq!((leads("fold"), leads("symmetry-breaking"), leads("grazing-out")), (0, 1, 1));
+    let table = fs::read_to_string(path.join("b/branches.csv")).unwrap();
+    let header = table.lines().next().unwrap();
+    assert!(header.starts_with("branch,point,frequency_Hz,period,symmetric,signature,label,stable"), "{header}");
+    // Points are numbered without a gap, and special points stand where they were passed.
+    let mut last = (0, 0);
+    for line in table.lines().skip(1) {
+        let number = |index: usize| line.split(',').nth(index).unwrap().parse::<i32>().unwrap();
+        let now = (number(0), number(1));
+        assert!(now == (last.0, last.1 + 1) || now == (last.0 + 1, 1), "{line}");
+        last = now;
+    }
+    assert_eq!(table.matches("fold").count(), 1);
+    let second =
+        ["--second", "wall.*.restitution", "--second-range", "0.7:0.9", "--locus", "grazing-out", "--out", "l"];
+    let (out, _) =
+        said(path, &[&["continue"], &SOFT[..], &key, &["--range", "4.1:16", "--switch", "no"], &second].concat(), 0);
+    assert!(out.contains("locus 1 of grazing-out"), "{out}");
+    assert!(
+        fs::read_to_string(path.join("l/loci.csv")).unwrap().starts_with("locus,label,point,frequency_Hz,restitution")
+    );
+    let picture = fs::read_to_string(path.join("b/branches.svg")).unwrap();
+    assert!(picture.contains("stroke-dasharray") && picture.contains("symmetry-breaking"));
+}
+
+#[test]
+fn wrong_requests_say_what_would_be_accepted() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    fs::write(path.join("no.json"), "{").unwrap();
+    fs::write(
+        path.join("other.json"),
+        r#"{"periods": 1, "symmetric": false, "forcing_period_s": 0.2, "events": [{"wall": "side"}]}"#,
+    )
+    .unwrap();
+    let wall = r#"{"periods": 1, "symmetric": false, "forcing_period_s": 0.2,
+        "events": [{"wall": "side", "kind": "impact", "phase_cycles": 0.1, "speed_m_per_s": 0.1}]}"#;
+    fs::write(path.join("wall.json"), wall).unwrap();
+    let orbit: [(&[&str], &str); 12] = [
+        (&["--signature", "UL"], "--start"),
+        (&["--start", "0.1,0.2"], "--signature"),
+        (&["--signature", "UL", "--start", "0.1,0.2"], "4: phase and speed of each of 2 events"),
+        (&["--signature", "UX", "--start", "0.1,0.2"], "no wall is named \"UX\""),
+        (&["--signature", "U", "--start", "0.1,x"], "invalid"),
+        (&["--signature", "U", "--start", "0.1,0.1", "--periods", "0"], "1 to 64"),
+        (&["--signature", "U", "--start", "0.1,0.1", "--periods", "2", "--symmetric"], "odd number"),
+        (&["--signature", "upper:enter", "--start", "0.1,0.1"], "which is rigid"),
+        (&["--from", "none.json"], "none.json"),
+        (&["--from", "no.json"], "no JSON"),
+        (&["--from", "other.json"], "entry 1, wall and kind"),
+        (&["--from", "wall.json"], "no wall is named \"side\""),
+    ];
+    for (more, words) in orbit {
+        let (_, err) = said(path, &[&["orbit"], &SOFT[..], more].concat(), 2);
+        assert!(err.contains(words), "{more:?} does not say {words}: {err}");
+    }
+    let frequency = "load.1.harmonic.frequency";
+    let branch: [(&[&str], &str); 12] = [
+        (&["--key", frequency, "--range", "4:6", "--second", "system.oscillator.mass"], "--second-range"),
+        (&["--key", frequency, "--range", "4:6", "--second", frequency, "--second-range", "4:6"], "another key"),
+        (
+            &["--key", frequency, "--range", "4:6", "--second", "system.oscillator.mass", "--second-range", "2:3"],
+            "the case's value of the key, 1.0, in it",
+        ),
+        (&["--key", frequency], "--range"),
+        (&["--key", frequency, "--range", "5"], "A:B"),
+        (&["--key", frequency, "--range", "6:5"], "the first below the second"),
+        (&["--key", frequency, "--range", "nan:5"], "A:B"),
+        (&["--key", frequency, "--range", "6:7"], "the case's value of the key, 5.0, in it"),
+        (&["--key", "load.1.harmonic.frequenzy", "--range", "4:6"], "did you mean"),
+        (&["--key", "title", "--range", "4:6"], "title"),
+        (&["--key", frequency, "--range", "4:6", "--switch", "some"], "some"),
+        (&["--key", frequency, "--range", "4:6", "--over", "none.csv"], "none.csv"),
+    ];
+    for (more, words) in branch {
+        let (_, err) = said(path, &[&["continue"], &SOFT[..], more].concat(), 2);
+        assert!(err.contains(words), "{more:?} does not say {words}: {err}");
+    }
+    // Nothing was written.
+    assert!(!path.join("out").exists() || fs::read_dir(path.join("out/rigid-walls-sine")).unwrap().count() == 0);
+    // A motion that does not repeat itself: the reason, and exit code 1.
+    let (_, err) = said(path, &["orbit", CASE, "--settle", "20"], 1);
+    assert!(err.contains("do not repeat themselves within 32 forcing periods after 20"), "{err}");
+}

@@ -1,0 +1,10 @@
+//! The report, its text and in a browser.
+
+#[cfg(all(feature = "cli", unix))]
+#[path = "../support/chromium.rs"]
+mod chromium;
+
+#[cfg(all(feature = "cli", unix))]
+mod browser;
+#[cfg(feature = "cli")]
+mod text;

@@ -1,0 +1,27 @@
+//! Scenes and the case files that describe them.
+
+#[path = "../support/draws.rs"]
+mod draws;
+#[path = "../support/refused.rs"]
+mod refused;
+
+#[cfg(feature = "cli")]
+mod base_motion;
+#[cfg(feature = "cli")]
+mod case_errors;
+#[cfg(feature = "cli")]
+mod case_errors_planes;
+#[cfg(feature = "cli")]
+mod case_files;
+#[cfg(feature = "cli")]
+mod case_mutations;
+mod error_subjects;
+#[cfg(feature = "cli")]
+mod massless;
+mod modes;
+#[cfg(feature = "cli")]
+mod psd;
+mod serialised;
+mod structures;
+#[cfg(feature = "cli")]
+mod support_files;

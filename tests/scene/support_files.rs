@@ -1,0 +1,174 @@
+//! Supports in case files: what the scene makes of them, and their way through a summary.
+use signorini::case::{Case, CaseFile};
+use signorini::output::summary;
+use signorini::wear::{Bearing, Scar};
+use signorini::{Options, Scheme, Shape, WallLaw, run};
+
+/// An oscillator in two planes with a round support, flats, and [wear].
+const BOTH: &str = r#"[system]
+planes = 2
+[system.oscillator]
+mass = 1.3
+damping = 0.1
+stiffness = 50.0
+[[support]]
+name = "hole"
+shape = "round"
+gap = 2e-3
+centre = [1e-4, -2e-4]
+restitution = 0.4
+friction = 0.3
+width = 0.02
+radius = 0.01
+coefficient = 3e-15
+[[support]]
+name = "bars"
+shape = "flats"
+sides = 4
+turn = 45
+gap = [1e-3, 1e-3, 2e-3, 2e-3]
+restitution = 0.6
+friction = 0.1
+[wear]
+coefficient = 1e-14
+support_coefficient = 2e-14
+service = 3e8
+sectors = 24
+[time]
+end = 1.0
+step = 1e-3
+"#;
+
+fn parsed(text: &str) -> Case {
+    Case::parse(text, "both.toml", "").unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_case_file_makes_the_supports_of_its_scene() {
+    let case = parsed(BOTH);
+    let [hole, bars] = case.scene.supports.as_slice() else { panic!("{:?}", case.scene.supports) };
+    assert_eq!(hole.shape, Shape::Round { gap: 2e-3, law: WallLaw::Rigid { restitution: 0.4 } });
+    assert_eq!((hole.centre, hole.friction, bars.friction), ([1e-4, -2e-4], 0.3, 0.1));
+    let Shape::Flats(flats) = &bars.shape else { panic!("{bars:?}") };
+    assert_eq!(
+        flats.iter().map(|flat| (flat.wall, flat.direction)).collect::<Vec<_>>(),
+        [(0, 45.0), (1, 135.0), (2, 225.0), (3, 315.0)]
+    );
+    assert_eq!(case.scene.walls[0].law, WallLaw::Rigid { restitution: 0.6 });
+    // Each place has its probes: both supports stand at the only mass.
+    let names: Vec<&str> = case.scene.probes.iter().map(|probe| probe.name.as_str()).collect();
+    assert_eq!(names, ["bars-y", "bars-z"]);
+    assert_eq!(case.time.sectors, 24);
+    // The hole has a coefficient of its own, and a scar; the bars have neither.
+    let laws = [case.archard(0).unwrap(), case.archard(1).unwrap()];
+    assert_eq!(laws.map(|law| law.coefficient), [Some(3e-15), Some(1e-14)]);
+    assert_eq!(laws.map(|law| (law.support_coefficient, law.service)), [(Some(2e-14), 3e8); 2]);
+    let scar = Scar { width: 0.02, radius: 0.01, bearing: Bearing::Hole { gap: 2e-3 } };
+    assert_eq!(laws.map(|law| law.scar), [Some(scar), None]);
+}
+
+#[test]
+fn a_hole_alone_gets_probes_and_a_beam_its_radius() {
+    let text = BOTH.replace("[[support]]\nname = \"bars\"", "[[support]]\nname = \"other\"");
+    let start = text.find("[[support]]\nname = \"other\"").unwrap();
+    let end = text.find("[wear]").unwrap();
+    let alone = parsed(&(text[..start].to_owned() + &text[end..]));
+    let names: Vec<&str> = alone.scene.probes.iter().map(|probe| probe.name.as_str()).collect();
+    assert_eq!(names, ["hole-y", "hole-z"]);
+    assert!(alone.scene.walls.is_empty());
+    let beam = "[system.beam]\nlength = 3.0\nyoungs_modulus = 2e11\ndensity = 7850.0\nouter_diameter = 0.02\n\
+                elements = 8\nleft = \"pinned\"\nright = \"pinned\"\n";
+    let from = BOTH.find("[system.oscillator]").unwrap();
+    let to = BOTH.find("[[support]]").unwrap();
+    let tube = (BOTH[..from].to_owned() + beam + &BOTH[to..]).replace("radius = 0.01\n", "");
+    let tube = parsed(&tube.replace("shape = ", "at = { position = 1.0 }\nshape = "));
+    assert_eq!(tube.archard(0).unwrap().scar.map(|scar| scar.radius), Some(0.01));
+}
+
+#[test]
+fn a_summary_holds_the_supports_of_its_case() {
+    // Written from the scene and read again: the same case, also after a change of all restitutions.
+    for text in [BOTH.to_owned(), BOTH.replace("turn = 45", "turn = 30\nwidth = 0.03\nradius = 0.01")] {
+        let case = parsed(&text);
+        let mut changed = case.clone();
+        changed
+            .change(|scene| {
+                scene.walls.iter_mut().for_each(|wall| wall.law = WallLaw::Rigid { restitution: 0.25 });
+                if let Shape::Round { law, .. } = &mut scene.supports[0].shape {
+                    *law = WallLaw::Rigid { restitution: 0.25 };
+                }
+            })
+            .unwrap();
+        for case in [case, changed] {
+            let file = summary::case_file(&case);
+            let again = parsed(&toml::to_string(&file).unwrap());
+            assert_eq!(again.scene, case.scene);
+            assert_eq!((again.time, again.wear), (case.time, case.wear));
+            assert_eq!(
+                (0..2).map(|i| again.archard(i)).collect::<Vec<_>>(),
+                (0..2).map(|i| case.archard(i)).collect::<Vec<_>>()
+            );
+        }
+    }
+}
+
+#[test]
+fn keys_reach_supports_and_wear() {
+    let mut file = CaseFile::from_text(BOTH, "both.toml", "");
+    for (key, value) in [
+        ("support.hole.gap", 3e-3),
+        ("support.hole.friction", 0.0),
+        ("support.bars.friction", 0.0),
+        ("wear.service", 1e7),
+        ("wear.sectors", 6.0),
+    ] {
+        file.set(&key.parse().unwrap(), &value.into()).unwrap();
+    }
+    let case = file.case().unwrap();
+    assert!(matches!(case.scene.supports[0].shape, Shape::Round { gap, .. } if gap == 3e-3));
+    assert!(case.scene.supports.iter().all(|support| support.friction == 0.0));
+    assert_eq!((case.time.sectors, case.wear.service), (6, Some(1e7)));
+    assert_eq!("wear.coefficient".parse::<signorini::case::Key>().unwrap().unit(), Some("per_Pa"));
+}
+
+#[test]
+fn the_files_of_a_run_tell_of_its_supports() {
+    // Flats alone, without friction: every scheme steps them.
+    let start = BOTH.find("[[support]]\nname = \"bars\"").unwrap();
+    let from = BOTH.find("[[support]]").unwrap();
+    let text = (BOTH[..from].to_owned() + &BOTH[start..]).replace("friction = 0.1", "width = 0.03\nradius = 0.01");
+    let text = text.replace("[time]", "[initial]\nvelocity = [0.3, 0.1]\n[time]");
+    let case = parsed(&text);
+    let run = run(&case.scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::new(case.time)).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    signorini::output::supports::write(|name| Ok(folder.path().join(name)), &case, &run).unwrap();
+    let read = |name: &str| -> Vec<Vec<String>> {
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_path(folder.path().join(name)).unwrap();
+        reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()
+    };
+    let supports = read("supports.csv");
+    let cell = |name: &str| {
+        let column = supports[0].iter().position(|header| header == name).unwrap();
+        supports[1][column].clone()
+    };
+    let number = |name: &str| cell(name).parse::<f64>().unwrap();
+    assert_eq!((cell("support").as_str(), cell("work_rate_is").as_str()), ("bars", "upper figure"));
+    let work = number("work_rate_W");
+    assert!(work > 0.0 && number("friction_power_W") == 0.0);
+    // Archard: volume = coefficient x work rate x service.
+    assert!((number("wear_volume_m3") / (1e-14 * work * 3e8) - 1.0).abs() < 1e-14);
+    assert!((number("support_wear_volume_m3") / (2e-14 * work * 3e8) - 1.0).abs() < 1e-14);
+    assert!(number("depth_one_scar_m") > number("depth_all_round_m"));
+    let sectors = read("sectors.csv");
+    assert_eq!(sectors.len(), 25);
+    let sum = |column: usize| sectors[1..].iter().map(|row| row[column].parse::<f64>().unwrap()).sum::<f64>();
+    assert!((sum(4) / work - 1.0).abs() < 1e-12 && (sum(5) - 1.0).abs() < 1e-12);
+    // The table of the terminal labels the work rate.
+    let table = signorini::output::supports::table(&case, &run).unwrap().fit(None).text;
+    assert!(table.contains("upper figure") && table.contains("bars"), "{table}");
+    let remarks = signorini::output::supports::remarks(&case, &run).join("\n");
+    assert!(remarks.contains("upper figure") && remarks.contains("3.000e8 s of service"), "{remarks}");
+    let document = signorini::output::supports::document(&case, &run);
+    assert_eq!(document[0]["upper_figure"], true);
+    assert!((document[0]["worn"]["volume_m3"].as_f64().unwrap() / (1e-14 * work * 3e8) - 1.0).abs() < 1e-12);
+}

@@ -1,0 +1,232 @@
+//! A body that has come to rest stays at rest.
+
+use crate::common::{self, INTEGRATORS, MOREAU_JEAN, schemes, spring};
+use signorini::{Integrator, Load, Options, Scene, Scheme, Stepper, Wall, run};
+
+/// Bounds of a motion over many steps, and the number of contact episodes that ended.
+#[derive(Debug)]
+struct Bounds {
+    least: f64,
+    most: f64,
+    speed: f64,
+    ended: u64,
+    pushed: f64,
+}
+
+fn bounds(scene: &Scene, scheme: &Scheme, h: f64, steps: u32) -> Bounds {
+    let mut stepper = Stepper::new(scene, scheme, h).expect("a sound scene");
+    let mut b = Bounds { least: f64::INFINITY, most: f64::NEG_INFINITY, speed: 0.0, ended: 0, pushed: 0.0 };
+    for _ in 0..steps {
+        let step = stepper.step().expect("a step");
+        b.least = b.least.min(step.q[0]);
+        b.most = b.most.max(step.q[0]);
+        b.speed = b.speed.max(step.v[0].abs());
+        b.ended += step.closed.len() as u64;
+        b.pushed += step.impulse.iter().sum::<f64>();
+    }
+    b
+}
+
+#[test]
+fn a_body_at_rest_on_a_wall_neither_creeps_nor_buzzes_in_a_million_steps() {
+    const STEPS: u32 = 1_000_000;
+    let rigid = [
+        Scheme::ImplicitEuler,
+        Scheme::PaoliSchatzman,
+        MOREAU_JEAN,
+        Scheme::MoreauJean { theta: 1.0 },
+        Scheme::Newmark,
+    ];
+    for e in [0.0, 1e-6, 1.0] {
+        for h in [1e-2, 1e-4] {
+            // A floor at 0, and one at a place that is no short binary number, under a ball with a
+            // spring and a damper.
+            let sprung = Scene::oscillator(0.7, 0.3, 11.0)
+                .with_wall(Wall::lower("floor", 0.1).with_restitution(e))
+                .with_load(Load::constant(-9.81))
+                .with_initial(&[0.1], &[0.0]);
+            for (scene, floor, weight) in [(common::ball(0.0, e), 0.0, 9.81), (sprung, 0.1, 9.81 + 1.1)] {
+                for scheme in rigid {
+                    let b = bounds(&scene, &scheme, h, STEPS);
+                    let what = format!("{scheme}, e = {e}, h = {h}, floor at {floor}: {b:?}");
+                    assert!((b.least - floor).abs() <= 1e-15 && (b.most - floor).abs() <= 1e-15, "{what}");
+                    // One ulp of the position over a step at most.
+                    assert!(b.speed <= 2e-17 / h && b.ended == 0, "{what}");
+                    // Every newton second of the weight is carried (a staggered or position-level
+                    // rule starts within half a step).
+                    let carried = b.pushed / (weight * h * f64::from(STEPS));
+                    assert!((carried - 1.0).abs() <= 1.0 / f64::from(STEPS), "{what}: carried {carried}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_at_rest_in_a_penalty_wall_stays_where_the_wall_carries_it() {
+    let weight = 9.81;
+    for stiffness in [1e4, 1e8] {
+        for integrator in INTEGRATORS {
+            let depth = weight / stiffness;
+            let scene = common::ball(0.0, 1.0).with_initial(&[0.0], &[0.0]);
+            // The spring stands where the rigid floor does: the body may start behind the floor in
+            // the penalised scene only.
+            let scheme = spring(stiffness, integrator);
+            let settled = scene.penalised(match scheme {
+                Scheme::Penalty { law, .. } => law,
+                _ => continue,
+            });
+            let settled = settled.expect("a sound scene").with_initial(&[-depth], &[0.0]);
+            for h in [1e-2, 1e-4] {
+                if integrator == Integrator::CentralDifference && h * h * stiffness > 4.0 {
+                    continue;
+                }
+                let b = bounds(&settled, &scheme, h, 1_000_000);
+                let what = format!("{scheme}, h = {h}: {b:?}");
+                // Rounding of the force, 1e-15 N, accelerates to 1e-15 m/s in a second.
+                assert!((b.least / depth + 1.0).abs() < 1e-9 && (b.most / depth + 1.0).abs() < 1e-9, "{what}");
+                assert!(b.speed < 1e-9 && b.ended == 0, "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_bouncing_ball_comes_to_rest_and_stays() {
+    // Exact rest at √(2h/g)(1 + e)/(1 − e), with h = 0.1 m and e = ½: 0.428 s.
+    for scheme in [Scheme::ImplicitEuler, Scheme::PaoliSchatzman, MOREAU_JEAN, Scheme::MoreauJean { theta: 1.0 }] {
+        for h in [1e-3, 1e-4] {
+            let mut stepper = Stepper::new(&common::ball(0.1, 0.5), &scheme, h).expect("a sound scene");
+            while stepper.time() < 0.5 {
+                stepper.step().expect("a step");
+            }
+            let rest = stepper.state();
+            // Within the height a step of gravity makes, and at no speed beyond it.
+            assert!(rest.q[0].abs() < 10.0 * 9.81 * h * h && rest.v[0].abs() < 10.0 * h, "{scheme}, h = {h}: {rest:?}");
+            let (mut least, mut most, mut episodes) = (f64::INFINITY, f64::NEG_INFINITY, 0);
+            for _ in 0..100_000 {
+                let step = stepper.step().expect("a step");
+                least = least.min(step.q[0]);
+                most = most.max(step.q[0]);
+                episodes += step.closed.len();
+            }
+            println!("{scheme} {h}: {:e} {episodes} open {:?}", most - least, stepper.open_contacts());
+            assert!(
+                most - least < 9.81 * h * h && episodes <= 1,
+                "{scheme}, h = {h}: {least:e} … {most:e}, {episodes}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_wall_touched_at_the_start_with_outward_velocity_is_not_felt() {
+    for scheme in schemes() {
+        for (wall, v) in [(Wall::upper("wall", 0.3), -0.5), (Wall::lower("wall", 0.3), 0.5)] {
+            for wall in [wall.clone().with_restitution(0.5), wall.with_elasticity(1e5, 10.0)] {
+                let free = Scene::oscillator(1.0, 0.1, 2.0).with_initial(&[0.3], &[v]);
+                let held = free.clone().with_wall(wall);
+                let (mut a, mut b) = (
+                    Stepper::new(&free, &scheme, 1e-3).expect("sound"),
+                    Stepper::new(&held, &scheme, 1e-3).expect("sound"),
+                );
+                for i in 0..200 {
+                    let (free, held) = (a.step().expect("a step"), b.step().expect("a step"));
+                    assert_eq!((free.q, free.v), (held.q, held.v), "{scheme}, step {i}");
+                    assert_eq!(held.impulse, [0.0], "{scheme}, step {i}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_that_grazes_a_wall_at_rest_there_goes_its_way() {
+    // Starts at the wall with no velocity, drawn off it by the spring: no force, and none that
+    // pulls.
+    for scheme in schemes() {
+        let scene =
+            Scene::oscillator(1.0, 0.0, 100.0).with_wall(Wall::upper("wall", 0.01)).with_initial(&[0.01], &[0.0]);
+        let b = bounds(&scene, &scheme, 1e-4, 5000);
+        // It comes back after 0.628 s, not in this half second.
+        assert!(b.pushed.abs() < 1e-12 && b.most <= 0.01 && (b.least + 0.01).abs() < 2e-5, "{scheme}: {b:?}");
+    }
+}
+
+#[test]
+fn a_body_struck_at_rest_on_a_wall_rebounds_like_one_that_arrives() {
+    // A blow of −1 N s on 1 kg that a floor with e carries: the wall answers 1 m/s with e m/s, in
+    // every scheme that honours e. Between there are gravity's h g of speed for the schemes on a
+    // grid.
+    let h = 1e-4;
+    for e in [0.0, 0.5, 1.0] {
+        for time in [0.05, 0.05003, 0.05005] {
+            let scene = Scene::oscillator(1.0, 0.0, 0.0)
+                .with_wall(Wall::lower("floor", 0.0).with_restitution(e))
+                .with_load(Load::constant(-9.81))
+                .with_load(Load::impulse(-1.0, time))
+                .with_duration(0.08);
+            for scheme in [Scheme::Event, MOREAU_JEAN, Scheme::MoreauJean { theta: 1.0 }, Scheme::PaoliSchatzman] {
+                let run = run(&scene, &scheme, &Options::with_step(h)).expect("a run");
+                let v = run.trajectory.velocity().last().copied().expect("rows");
+                let expected = if e == 0.0 { 0.0 } else { e - 9.81 * (0.08 - time) };
+                assert!(
+                    (v - expected).abs() < 3.0 * 9.81 * h,
+                    "{scheme}, e = {e}, blow at {time} s: {v} m/s, not {expected}"
+                );
+                // The contract holds in the step of the blow as in any other.
+                assert!(run.residuals.complementarity < 1e-12, "{scheme}: {:?}", run.residuals);
+                let hit = run.trajectory.contacts().iter().map(|c| c.approach_speed).fold(0.0, f64::max);
+                assert!(
+                    scheme == Scheme::Event || e == 0.0 || (hit - 1.0).abs() < 1e-9,
+                    "{scheme}, e = {e}: approach {hit} m/s"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mass_pressed_on_a_stop_rests_under_the_static_force_in_every_scheme() {
+    // 35 N against a spring of 1e4 N/m, the stop at 1 mm: it holds 25 N. Started there, and at 0,
+    // from where it lands.
+    let scene = |start: f64| {
+        Scene::oscillator(1.0, 20.0, 1e4)
+            .with_wall(Wall::upper("stop", 1e-3).with_restitution(0.0))
+            .with_load(Load::constant(35.0))
+            .with_initial(&[start], &[0.0])
+            .with_duration(4.0)
+    };
+    let rigid = [
+        Scheme::ImplicitEuler,
+        Scheme::PaoliSchatzman,
+        MOREAU_JEAN,
+        Scheme::MoreauJean { theta: 1.0 },
+        Scheme::GeneralizedAlpha { rho: 0.8 },
+        Scheme::GeneralizedAlpha { rho: 0.0 },
+    ];
+    for scheme in rigid {
+        for h in [2e-2, 2e-3, 1e-3] {
+            for start in [1e-3, 0.0] {
+                let run = run(&scene(start), &scheme, &Options::with_step(h)).expect("a run");
+                let force = -run.trajectory.contact_force("stop").expect("a wall").last().copied().expect("rows");
+                let depth = run.trajectory.displacement().last().copied().expect("rows") - 1e-3;
+                // Rounding of 35 N, of which moreau-jean's place takes k times its depth.
+                assert!((force + 1e4 * depth - 25.0).abs() < 1e-9, "{scheme}, h = {h}: {force} N at {depth} m");
+                let lands = matches!(scheme, Scheme::MoreauJean { .. }) && start == 0.0;
+                assert!(lands || depth.abs() < 1e-15, "{scheme}, h = {h}: {depth} m");
+                // Where it lands deep behind the stop, a note reports it.
+                let said = run.notes.iter().any(|note| note.contains("behind wall \"stop\""));
+                assert_eq!(said, depth > 1e-5, "{scheme}, h = {h}, {depth} m: {:?}", run.notes);
+                // What the wall gave from the first row to the last is what the force was in all
+                // that time, from rest.
+                if start > 0.0 {
+                    let impulse = -run.trajectory.impulse("stop").expect("a wall");
+                    // The force at t = 0 counts where a scheme knows it; a step of rounding
+                    // otherwise.
+                    assert!((impulse - 100.0).abs() < 1e-9, "{scheme}, h = {h}: {impulse} N s");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! What several runs tell together, and statistics of one.
+
+#[cfg(feature = "cli")]
+mod accuracy;
+mod chart;
+mod episodes;
+mod horizon;
+mod intervals;
+mod realisations;
+mod spectrum;
+#[cfg(feature = "cli")]
+mod stability;
+mod statistics;
+#[cfg(feature = "cli")]
+mod studies_many;
+#[cfg(feature = "cli")]
+mod truncation;

@@ -1,0 +1,412 @@
+//! The tool as a user meets it: commands, files, exit codes.
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Runs the tool in `folder`.
+fn signorini(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Runs it and expects success; gives stdout.
+fn done(folder: &Path, args: &[&str]) -> String {
+    let output = signorini(folder, args);
+    assert_eq!(output.status.code(), Some(0), "{args:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// Runs it and expects the exit code; gives stderr.
+fn refused(folder: &Path, args: &[&str], code: i32) -> String {
+    let output = signorini(folder, args);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {message}");
+    // Before it the tool may say which case it took.
+    assert!(message.lines().any(|line| line.starts_with("error: ")), "{args:?}: {message}");
+    assert!(!message.contains("panicked"), "{args:?}: {message}");
+    assert!(output.stdout.is_empty(), "{args:?} printed data: {}", text(&output.stdout));
+    message
+}
+
+fn csv(path: &Path) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let header = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let rows = reader.records().map(|r| r.unwrap().iter().map(str::to_owned).collect()).collect();
+    (header, rows)
+}
+
+fn json(path: &Path) -> serde_json::Value {
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// The rows of a comparison printed as JSON.
+fn rows(document: &str) -> Vec<serde_json::Value> {
+    let document: serde_json::Value = serde_json::from_str(document).unwrap();
+    document["rows"].as_array().unwrap().clone()
+}
+
+fn assert_svg(path: &Path) {
+    let svg = fs::read_to_string(path).unwrap();
+    roxmltree::Document::parse(&svg).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+}
+
+#[test]
+fn a_run_writes_everything_it_promises() {
+    let dir = tempfile::tempdir().unwrap();
+    done(dir.path(), &["run", "rigid-walls-sine", "--end", "1", "--restitution", "0.8"]);
+    let out = dir.path().join("out/rigid-walls-sine/run");
+    let (header, rows) = csv(&out.join("trajectory.csv"));
+    let expected = "time_s,displacement_m,velocity_m_per_s,contact_force_upper_N,contact_impulse_upper_N_s,contact_force_lower_N,contact_impulse_lower_N_s";
+    assert_eq!(header.join(","), expected);
+    assert_eq!(rows.len(), 1001);
+    assert_eq!(rows[0][0].parse::<f64>().unwrap(), 0.0);
+    assert_eq!(rows[1000][0].parse::<f64>().unwrap(), 1.0);
+    // What is read back is what the library computes, to the last bit.
+    let case = signorini::case::Case::embedded("rigid-walls-sine").unwrap();
+    let mut scene = case.scene.with_duration(1.0);
+    scene.walls = scene.walls.into_iter().map(|wall| wall.with_restitution(0.8)).collect();
+    let options = signorini::Options::new(case.time);
+    let run = signorini::run(&scene, &signorini::Scheme::MoreauJean { theta: 0.5 }, &options).unwrap();
+    let columns = [(1, run.trajectory.displacement()), (2, run.trajectory.velocity())];
+    for (column, computed) in columns {
+        let read: Vec<f64> = rows.iter().map(|row| row[column].parse().unwrap()).collect();
+        assert_eq!(read, computed);
+    }
+    let summary = json(&out.join("summary.json"));
+    for (column, wall, sign) in [(4, "upper", -1.0), (6, "lower", 1.0)] {
+        let impulses: Vec<f64> = rows.iter().map(|r| r[column].parse().unwrap()).collect();
+        assert!(impulses.iter().all(|p| p * sign >= 0.0));
+        // A sum of a thousand terms in another order: rounding.
+        let total = summary["impulse_whole_run_n_s"][wall].as_f64().unwrap();
+        assert!((impulses.iter().sum::<f64>() - total).abs() < 1e-12);
+        assert!(total * sign > 0.1);
+    }
+    let (header, contacts) = csv(&out.join("contacts.csv"));
+    assert_eq!(
+        header.join(","),
+        "wall,start_s,end_s,impulse_N_s,peak_force_N,approach_speed_m_per_s,departure_speed_m_per_s"
+    );
+    for contact in &contacts {
+        assert_eq!(contact[1], contact[2], "an impact is an instant");
+        assert_eq!(contact[4], "", "and its force is not finite");
+        let (approach, departure): (f64, f64) = (contact[5].parse().unwrap(), contact[6].parse().unwrap());
+        // moreau-jean puts e into the velocities themselves.
+        assert!((departure / approach - 0.8).abs() < 1e-12);
+    }
+    assert!(summary["residuals"]["complementarity"].as_f64().unwrap() <= 1e-12);
+    for key in
+        ["scheme", "scheme_reason", "qp_solver", "qp_reason", "steps", "counters", "wall_clock_s", "statistics", "wear"]
+    {
+        assert!(!summary[key].is_null(), "{key}");
+    }
+    for name in ["displacement.svg", "velocity.svg", "phase.svg", "contact-force.svg"] {
+        assert_svg(&out.join(name));
+    }
+}
+
+#[test]
+fn the_exact_scheme_records_the_50_digit_states() {
+    let dir = tempfile::tempdir().unwrap();
+    done(dir.path(), &["run", "independent-code", "--scheme", "event", "--sample", "1", "--out", "here"]);
+    let (_, rows) = csv(&dir.path().join("here/trajectory.csv"));
+    // 50-digit arithmetic, exact between impacts; double precision holds it to rounding up to 2 s.
+    for (row, u) in [(1, -0.004_273_265_748_152_696), (2, 0.004_819_844_401_208_915)] {
+        assert!((rows[row][1].parse::<f64>().unwrap() - u).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn compare_puts_qp_penalty_and_the_exact_motion_side_by_side() {
+    let dir = tempfile::tempdir().unwrap();
+    let table = done(dir.path(), &["compare", "rigid-walls-sine", "--end", "1", "--json"]);
+    let rows = rows(&table);
+    let methods: Vec<_> = rows.iter().map(|r| r["method"].as_str().unwrap()).collect();
+    let expected = [
+        "moreau-jean",
+        "moreau-jean:qp=clarabel",
+        "penalty:epsilon=1e-12",
+        "penalty:epsilon=1e-9",
+        "penalty:epsilon=1e-6",
+        "event",
+    ];
+    assert_eq!(methods, expected);
+    let out = dir.path().join("out/rigid-walls-sine/compare");
+    let (header, lines) = csv(&out.join("compare.csv"));
+    assert_eq!(lines.len(), 6);
+    for column in ["error_over_gap", "horizon_s", "largest_displacement_m", "complementarity_residual", "step_ns"] {
+        assert!(header.iter().any(|h| h == column), "{column}");
+    }
+    let (header, lines) = csv(&out.join("compare-walls.csv"));
+    assert_eq!(header.join(","), "method,wall,impulse_N_s,contacts,peak_force_N");
+    assert_eq!(lines.len(), 12, "a row for each method and wall");
+    for line in &lines {
+        // Upper walls push down.
+        assert!((line[1] == "upper") == (line[2].parse::<f64>().unwrap() < 0.0) && line[3].parse::<u64>().unwrap() > 0);
+    }
+    // The softest penalty is off by the gap itself, the QP by its step.
+    let error = |row: usize| rows[row]["error_over_gap"].as_f64().unwrap();
+    assert!(error(0) < 0.05 && error(4) > 0.5);
+    for method in methods {
+        let folder = out.join(method.replace([':', ',', '='], "-"));
+        assert!(folder.join("trajectory.csv").exists(), "{}", folder.display());
+        assert!(folder.join("contacts.csv").exists());
+    }
+    for name in ["displacement.svg", "velocity.svg", "phase.svg", "contact-force.svg"] {
+        assert_svg(&out.join(name));
+    }
+}
+
+#[test]
+fn methods_are_named_as_the_table_prints_them() {
+    let dir = tempfile::tempdir().unwrap();
+    let list = "moreau-jean:theta=0.75,paoli-schatzman,penalty:epsilon=1e-9,integrator=trapezoidal,implicit-euler,newmark:qp=clarabel";
+    let table = done(dir.path(), &["compare", "rigid-walls-sine", "--end", "0.2", "--schemes", list, "--json"]);
+    let rows = rows(&table);
+    let methods: Vec<_> = rows.iter().map(|r| r["method"].as_str().unwrap().to_owned()).collect();
+    assert_eq!(methods.join(","), format!("{list},event"));
+}
+
+#[test]
+fn a_failed_method_is_a_row_with_its_reason() {
+    let dir = tempfile::tempdir().unwrap();
+    let list = "moreau-jean,penalty:stiffness=1e14,integrator=central-difference";
+    let table = done(dir.path(), &["compare", "rigid-walls-sine", "--end", "1", "--schemes", list, "--json"]);
+    let rows = rows(&table);
+    assert!(rows[0]["failure"].is_null());
+    assert!(rows[1]["failure"].as_str().unwrap().contains("diverged"), "{}", rows[1]);
+}
+
+#[test]
+fn a_run_that_fails_exits_with_1_and_leaves_older_results_alone() {
+    let dir = tempfile::tempdir().unwrap();
+    done(dir.path(), &["run", "rigid-walls-sine", "--end", "0.1", "--out", "o"]);
+    let before = fs::read(dir.path().join("o/trajectory.csv")).unwrap();
+    let scheme = "penalty:stiffness=1e14,integrator=central-difference";
+    let message =
+        refused(dir.path(), &["run", "rigid-walls-sine", "--end", "1", "--scheme", scheme, "--out", "o", "--force"], 1);
+    assert!(message.contains("t = "), "{message}");
+    assert_eq!(fs::read(dir.path().join("o/trajectory.csv")).unwrap(), before);
+    let left: Vec<_> = fs::read_dir(dir.path().join("o")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert_eq!(left.len(), 9, "{left:?}");
+}
+
+#[test]
+fn a_wrong_request_exits_with_2_and_says_what_would_be_accepted() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("taken"), "a file").unwrap();
+    let case = "rigid-walls-sine";
+    let requests: &[(&[&str], &str)] = &[
+        (&["run", "nowhere.toml"], "nowhere.toml"),
+        (&["compare", "nowhere"], "signorini new"),
+        (&["run", case, "--scheme", "runge-kutta"], "moreau-jean"),
+        (&["run", case, "--scheme", "moreau-jean:theta=0.2"], "0.5 to 1"),
+        (&["run", case, "--scheme", "moreau-jean:tetha=0.5"], "theta"),
+        (&["run", case, "--scheme", "event:step=1"], "no settings"),
+        (&["run", case, "--scheme", "penalty:epsilon=nan"], "finite"),
+        (&["run", case, "--theta", "0.6", "--scheme", "paoli-schatzman"], "moreau-jean"),
+        (&["run", case, "--epsilon", "1e-9"], "penalty"),
+        (&["run", case, "--integrator", "trapezoidal"], "penalty"),
+        (&["run", case, "--scheme", "penalty", "--epsilon", "-1"], "above 0"),
+        (&["run", case, "--step", "nan"], "above 0"),
+        (&["run", case, "--step", "0"], "above 0"),
+        (&["run", case, "--step", "-1e-3"], "above 0"),
+        (&["run", case, "--step", "20"], "time.step"),
+        (&["run", case, "--step", "1e-12"], "1e10"),
+        (&["run", case, "--sample", "1e-9"], "1e7"),
+        (&["run", case, "--end", "inf"], "finite"),
+        (&["run", case, "--end", "-1"], "above 0"),
+        (&["run", case, "--restitution", "1.5"], "0 to 1"),
+        (&["run", "linear-sine", "--restitution", "0.5"], "rigid wall"),
+        (&["run", case, "--out", "taken/here"], "taken"),
+        (&["compare", case, "--end", "0.1", "--out", "taken"], "taken"),
+        (&["compare", "bouncing-ball", "--end", "0.1", "--epsilon", "1e-9"], "stiffness"),
+        (&["run", case, "--scheme", "event", "--qp", "clarabel"], "quadratic"),
+        (&["run", case, "--scheme", "event:qp=clarabel"], "quadratic"),
+        (&["run", case, "--scheme", "penalty:epsilon=1e-9", "--epsilon", "1e-6"], "either"),
+        (&["run", case, "--scheme", "moreau-jean:theta=0.6", "--theta", "0.7"], "either"),
+        (&["run", case, "--scheme", "generalized-alpha:rho=1.5"], "0 to 1"),
+        (&["run", case, "--scheme", "generalized-alpha", "--rho", "-0.1"], "0 to 1"),
+        (&["run", case, "--scheme", "generalized-alpha:rho=0.5", "--rho", "0.7"], "either"),
+        (&["run", case, "--rho", "0.6", "--scheme", "moreau-jean"], "generalized-alpha"),
+        (&["compare", case, "--schemes", "moreau-jean,event,moreau-jean"], "twice"),
+        (&["new", "no-such-case"], "rigid-walls-sine"),
+        (&["explain", "nowhere"], "nowhere"),
+    ];
+    for (request, hint) in requests {
+        let message = refused(dir.path(), request, 2);
+        assert!(message.contains(hint), "{request:?} does not mention {hint}: {message}");
+    }
+    assert_eq!(fs::read_to_string(dir.path().join("taken")).unwrap(), "a file");
+}
+
+#[test]
+fn words_that_are_no_command_exit_with_2() {
+    let dir = tempfile::tempdir().unwrap();
+    for args in [
+        &["walk"][..],
+        &["run"],
+        &["run", "a", "b"],
+        &["run", "a", "--step", "fast"],
+        &["run", "a", "--qp", "simplex"],
+        &[],
+    ] {
+        assert_eq!(signorini(dir.path(), args).status.code(), Some(2), "{args:?}");
+    }
+}
+
+#[test]
+fn new_writes_a_case_that_runs_and_never_overwrites() {
+    let dir = tempfile::tempdir().unwrap();
+    assert!(done(dir.path(), &["new"]).contains("bouncing-ball"));
+    done(dir.path(), &["new", "tabulated-pulse"]);
+    done(dir.path(), &["run", "tabulated-pulse.toml"]);
+    assert!(refused(dir.path(), &["new", "tabulated-pulse"], 2).contains("exists"));
+    done(dir.path(), &["new", "bouncing-ball", "--out", "sub/ball.toml"]);
+    done(dir.path(), &["explain", "sub/ball.toml"]);
+}
+
+#[test]
+fn figures_draws_all_figures_of_the_source() {
+    let dir = tempfile::tempdir().unwrap();
+    done(dir.path(), &["figures", "--out", "f"]);
+    let mut numbers: Vec<char> = Vec::new();
+    for entry in fs::read_dir(dir.path().join("f")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.file_name().unwrap() == "request.json" {
+            continue;
+        }
+        assert_svg(&path);
+        numbers.push(path.file_name().unwrap().to_str().unwrap().chars().nth(3).unwrap());
+    }
+    numbers.sort_unstable();
+    numbers.dedup();
+    assert_eq!(numbers, ['2', '3', '4', '5', '6', '7', '8', '9']);
+}
+
+#[test]
+fn help_has_examples_everywhere_and_quiet_is_quiet() {
+    let dir = tempfile::tempdir().unwrap();
+    for command in [
+        &["--help"][..],
+        &["run", "--help"],
+        &["compare", "--help"],
+        &["explain", "--help"],
+        &["figures", "--help"],
+        &["new", "--help"],
+    ] {
+        assert!(done(dir.path(), command).contains("Example"), "{command:?}");
+    }
+    assert!(done(dir.path(), &["--version"]).contains(env!("CARGO_PKG_VERSION")));
+    assert!(done(dir.path(), &["completions", "bash"]).contains("compare"));
+    let output = signorini(dir.path(), &["run", "linear-sine", "--quiet"]);
+    assert!(output.status.success() && output.stderr.is_empty());
+}
+
+/// A tube at two supports, small enough to be refined at once.
+const TUBE: &str = "title = \"A small tube\"\n[system]\nmodes = 2\n[system.beam]\nlength = 1.0\nyoungs_modulus = 2e11\ndensity = 7850.0\n\
+    outer_diameter = 0.02\ninner_diameter = 0.018\nelements = 4\nleft = \"pinned\"\nright = \"pinned\"\n[system.damping]\nratio = 0.05\n\
+    [[wall]]\nname = \"support\"\nat = { position = 0.4 }\nside = \"both\"\ngap = 1e-4\nstiffness = 1e6\n\
+    [[load]]\nat = { position = 0.5 }\nharmonic = { amplitude = 50.0, frequency = 40.0 }\n\
+    [[probe]]\nname = \"middle\"\nat = { position = 0.5 }\n[time]\nend = 0.05\nstep = 2e-5\nsample = 1e-4\n";
+
+#[test]
+fn a_run_of_a_structure_names_its_probes_and_walls_and_tells_its_truncation() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("tube.toml"), TUBE).unwrap();
+    let output = signorini(dir.path(), &["run", "tube.toml", "--out", "o"]);
+    let said = text(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("truncation: with 4 of 8 modes in place of 2 the impulse changes by up to"), "{said}");
+    let (header, rows) = csv(&dir.path().join("o/trajectory.csv"));
+    let expected = "time_s,displacement_middle_m,velocity_middle_m_per_s,contact_force_support_upper_N,contact_impulse_support_upper_N_s,\
+                    contact_force_support_lower_N,contact_impulse_support_lower_N_s";
+    assert_eq!(header.join(","), expected);
+    assert_eq!(rows.len(), 501);
+    let summary = json(&dir.path().join("o/summary.json"));
+    let scene = &summary["scene"];
+    assert_eq!(scene["beam"]["elements"], 4);
+    assert_eq!(
+        (scene["structure"]["degrees_of_freedom"].as_u64(), scene["structure"]["unknowns"].as_u64()),
+        (Some(8), Some(2))
+    );
+    assert_eq!(scene["structure"]["frequencies_hz"].as_array().unwrap().len(), 2);
+    assert_eq!(scene["walls"][0]["at"]["position_m"], 0.4);
+    assert!(
+        scene["walls"][0]["effective_mass_kg"].as_f64() > scene["walls"][0]["effective_mass_of_all_modes_kg"].as_f64()
+    );
+    assert_eq!(summary["qp_solver"], "condensed");
+    assert_eq!(summary["truncation"]["modes"], serde_json::json!([2, 4]));
+    // The impulses of the check are those of the run that it repeats.
+    done(dir.path(), &["run", "tube.toml", "--modes", "4", "--no-verdict", "--out", "more"]);
+    let more = json(&dir.path().join("more/summary.json"));
+    for (index, wall) in ["support-upper", "support-lower"].into_iter().enumerate() {
+        let check = &summary["truncation"]["walls"][index];
+        // The window is the whole run here; its impulse is summed in ten batches, which rounds
+        // elsewhere: some ulps of 1 N s.
+        for (number, run) in [&summary, &more].into_iter().enumerate() {
+            let whole = run["impulse_whole_run_n_s"][wall].as_f64().unwrap();
+            assert!((check["impulse_n_s"][number].as_f64().unwrap() - whole).abs() <= 1e-14);
+        }
+    }
+    assert!(more["truncation"].is_null() && more["refinement"].is_null());
+}
+
+#[test]
+fn accuracy_finds_the_modes_as_well_as_the_step() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("tube.toml"), TUBE).unwrap();
+    let request = ["run", "tube.toml", "--scheme", "moreau-jean", "--accuracy", "0.05", "--out", "o"];
+    let output = signorini(dir.path(), &request);
+    let said = text(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("modes: ") && said.contains("accuracy: asked for 5e-2"), "{said}");
+    let summary = json(&dir.path().join("o/summary.json"));
+    assert_eq!(summary["modes"]["kept"], true);
+    assert_eq!(summary["modes"]["modes"], summary["scene"]["structure"]["modes"]);
+    assert!(summary["accuracy"]["reached"].as_f64().unwrap() <= 0.05);
+}
+
+#[test]
+fn explain_tells_structures() {
+    let dir = tempfile::tempdir().unwrap();
+    let tube = done(dir.path(), &["explain", "tube-loose-supports", "--modes", "30"]);
+    for words in [
+        "120 degrees of freedom, cut to 30 modes",
+        "classical damping",
+        "diagonal",
+        "condensed",
+        "1 m along it",
+        "restitution holds with the mass that 30 of 120 modes have",
+    ] {
+        assert!(tube.contains(words), "{words}: {tube}");
+    }
+    let chain = done(dir.path(), &["explain", "chain-200"]);
+    for words in ["a chain, in full", "C = 1e-5 K", "tridiagonal", "and 388 walls more", "degree of freedom 0"] {
+        assert!(chain.contains(words), "{words}: {chain}");
+    }
+    assert!(done(dir.path(), &["explain", "rigid-walls-sine"]).contains("clamp: one unknown"));
+}
+
+#[test]
+fn wrong_requests_about_structures_exit_with_2() {
+    let dir = tempfile::tempdir().unwrap();
+    let static_tube = TUBE.replace("modes = 2", "modes = 2\nstatic_correction = true").replace("stiffness = 1e6\n", "");
+    fs::write(dir.path().join("static.toml"), static_tube).unwrap();
+    let requests: &[(&[&str], &str)] = &[
+        (&["run", "rigid-walls-sine", "--modes", "1"], "one degree of freedom"),
+        (&["explain", "rigid-walls-sine", "--modes", "1"], "one degree of freedom"),
+        (&["run", "chain-20", "--modes", "0"], "from 1 to 20"),
+        (&["run", "chain-20", "--modes", "21"], "from 1 to 20"),
+        (&["compare", "tube-loose-supports", "--modes", "121"], "from 1 to 120"),
+        (&["run", "static.toml", "--restitution", "0.5"], "cannot rebound"),
+        (&["run", "chain-20", "--qp", "clamp"], "more than one unknown"),
+        (&["run", "chain-200", "--sample", "1e-7", "--step", "1e-7"], "time.sample"),
+    ];
+    for (request, hint) in requests {
+        let message = refused(dir.path(), request, 2);
+        assert!(message.contains(hint), "{request:?} does not mention {hint}: {message}");
+    }
+}

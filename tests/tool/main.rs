@@ -1,0 +1,13 @@
+//! The command-line tool as a user meets it.
+#![cfg(feature = "cli")]
+
+mod commands;
+mod formats;
+mod hazards;
+mod notes;
+mod pictures;
+mod rerun;
+mod seeds;
+mod set_values;
+mod statistics;
+mod sweep;

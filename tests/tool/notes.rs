@@ -1,0 +1,178 @@
+//! Notes on what a user would otherwise notice late, and no notes where there is nothing to say.
+use signorini::case::Embedded;
+use signorini::{Chain, Load, Options, Probe, Row, Scene, Scheme, Table, Wall, WallLaw, run};
+use std::fs;
+use std::process::Command;
+
+const MOREAU: Scheme = Scheme::MoreauJean { theta: 0.5 };
+
+fn notes(scene: &Scene, scheme: &Scheme, step: f64) -> String {
+    run(scene, scheme, &Options::with_step(step)).unwrap().notes.join("\n")
+}
+
+/// 1 kg on 100 N/m (1.6 Hz) before a wall that it reaches.
+fn scene() -> Scene {
+    Scene::oscillator(1.0, 0.1, 100.0).with_wall(Wall::upper("stop", 1e-3)).with_load(Load::constant(1.0))
+}
+
+#[test]
+fn a_scene_in_order_has_no_note() {
+    for scheme in [MOREAU, Scheme::Event] {
+        assert_eq!(notes(&scene(), &scheme, 1e-3), "");
+    }
+}
+
+#[test]
+fn a_table_that_ends_or_begins_inside_the_run_is_said() {
+    let table = |time: &[f64], force: &[f64]| Load::table(Table::new(time.to_vec(), force.to_vec()).unwrap());
+    let short = scene().with_load(table(&[0.0, 0.5], &[1.0, 2.0]));
+    for scheme in [MOREAU, Scheme::Event] {
+        let said = notes(&short, &scheme, 1e-3);
+        assert!(said.contains("table of load 2 ends at 0.5 s") && said.contains("at 1 s"), "{said}");
+    }
+    let late = scene().with_load(table(&[0.25, 2.0], &[1.0, 2.0]));
+    assert!(notes(&late, &MOREAU, 1e-3).contains("table of load 2 begins at 0.25 s"));
+    assert_eq!(notes(&scene().with_load(table(&[0.0, 1.0], &[1.0, 2.0])), &MOREAU, 1e-3), "");
+}
+
+#[test]
+fn a_step_that_passes_over_the_load_is_said() {
+    let buzz = scene().with_load(Load::harmonic(1.0, 400.0, 0.0));
+    let said = notes(&buzz, &MOREAU, 1e-3);
+    assert!(said.contains("a period of load 2 (400 Hz) takes 2.5 steps"), "{said}");
+    assert_eq!(notes(&buzz, &MOREAU, 1e-4), "");
+    assert_eq!(notes(&buzz, &Scheme::Event, 1e-3), "");
+    // 250 rows a step: a sine of 1 kHz in rows of 4 µs is lost, one of 2 Hz is not.
+    let sampled = |hz: f64| {
+        let time: Vec<f64> = (0..=250_000).map(|i| 4e-6 * f64::from(i)).collect();
+        let force = time.iter().map(|t| (std::f64::consts::TAU * hz * t).sin()).collect();
+        scene().with_load(Load::table(Table::new(time, force).unwrap()))
+    };
+    let said = notes(&sampled(1.3e3), &MOREAU, 1e-3);
+    assert!(said.contains("the table of load 2, 250 rows a step") && said.contains("departs by up to"), "{said}");
+    assert_eq!(notes(&sampled(2.0), &MOREAU, 1e-3), "");
+}
+
+#[test]
+fn a_step_that_passes_over_a_mode_is_said() {
+    // ω = 10 rad/s: ten steps are 63 ms.
+    let said = notes(&scene(), &MOREAU, 0.1);
+    assert!(said.contains("the natural frequency, 1.5915e0 Hz, takes 6.3 steps"), "{said}");
+    let chain = Chain { masses: vec![1.0; 8], springs: vec![1e4; 7], grounds: [1e4, 0.0] };
+    let mut scene =
+        Scene::structure(chain.structure().unwrap()).with_load(Load { at: Row::dof(7), ..Load::constant(1.0) });
+    assert!(notes(&scene, &MOREAU, 0.1).contains("a period of the slowest mode"), "{}", notes(&scene, &MOREAU, 0.1));
+    assert_eq!(notes(&scene, &MOREAU, 0.02), "");
+    // Cut to modes, the third carries 2 % of the tip's compliance, the eighth nothing to speak of:
+    // 1/(2i − 1)² of the first.
+    scene.walls.push(Wall { at: Row::dof(7), ..Wall::upper("stop", 1e-5) });
+    let cut = scene.reduced(8, false).unwrap().scene;
+    let said = notes(&cut, &MOREAU, 0.02);
+    assert!(said.contains("the fastest mode that a wall or load moves by 1 % or more"), "{said}");
+    assert_eq!(notes(&cut, &MOREAU, 5e-3), "");
+}
+
+#[test]
+fn a_wall_that_the_step_does_not_resolve_is_said() {
+    let law = WallLaw::Elastic { stiffness: 1e6, damping: 0.0 };
+    let soft = Scene { walls: vec![Wall { law, ..Wall::upper("soft", 1e-3) }], ..scene() };
+    let said = notes(&soft, &MOREAU, 1e-3);
+    assert!(
+        said.contains("does not resolve the wall \"soft\": h² k/m = 1.00e0") && said.contains("3.1 steps"),
+        "{said}"
+    );
+    assert_eq!(notes(&soft, &MOREAU, 1e-4), "");
+    assert_eq!(notes(&soft, &Scheme::Event, 1e-3), "");
+}
+
+#[test]
+fn no_contact_at_all_is_said_with_how_near_it_came() {
+    // The static deflection is 10 mm; without damping the body swings to 20 mm: a gap of 0.1 mm,
+    // typed in mm.
+    let far = Scene::oscillator(1.0, 0.0, 100.0).with_load(Load::constant(1.0)).with_wall(Wall::upper("stop", 0.1));
+    for scheme in [MOREAU, Scheme::Event] {
+        let said = notes(&far, &scheme, 1e-3);
+        assert!(said.contains("no contact at all") && said.contains("8.000e-2 m from the wall \"stop\""), "{said}");
+        assert!(said.contains("20.00 % of the 1.000e-1 m") || said.contains("19.99 %"), "{said}");
+    }
+    // A probe elsewhere sees nothing of the wall.
+    let chain = Chain { masses: vec![1.0; 2], springs: vec![100.0], grounds: [100.0, 0.0] };
+    let mut blind =
+        Scene::structure(chain.structure().unwrap()).with_wall(Wall { at: Row::dof(1), ..Wall::upper("stop", 1.0) });
+    blind.probes = vec![Probe { name: "other".into(), at: Row::dof(0) }];
+    assert!(notes(&blind, &MOREAU, 1e-3).contains("no contact at all"));
+}
+
+#[test]
+fn frequencies_that_no_structure_has_are_said() {
+    let slow = Scene::oscillator(1.0, 0.0, 1e-6);
+    assert!(
+        notes(&slow, &Scheme::Event, 1e-3).contains("1.592e-4 Hz, far from"),
+        "{}",
+        notes(&slow, &Scheme::Event, 1e-3)
+    );
+    let fast = Scene::oscillator(1.0, 0.0, 1e12).with_duration(1e-5);
+    assert!(notes(&fast, &MOREAU, 1e-8).contains("1.592e5 Hz, far from"));
+    assert_eq!(notes(&Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::constant(1.0)), &MOREAU, 1e-3), "");
+}
+
+#[test]
+fn every_command_and_the_summary_show_the_notes() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path();
+    fs::write(dir.join("force.csv"), "time_s,force_N\n0,1\n0.1,1\n").unwrap();
+    let case = "[system.oscillator]\nmass = 1\ndamping = 0\nstiffness = 100\n[[wall]]\nname = \"stop\"\nside = \"upper\"\nposition = 0.1\n\
+                [[load]]\ntable = { file = \"force.csv\" }\n[time]\nend = 0.5\nstep = 1e-3\n";
+    fs::write(dir.join("case.toml"), case).unwrap();
+    let tool = |args: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(dir).output().unwrap();
+        String::from_utf8([output.stdout, output.stderr].concat()).unwrap()
+    };
+    for args in [&["run", "case.toml", "--out", "o"][..], &["compare", "case.toml"], &["explain", "case.toml"]] {
+        let said = tool(args);
+        assert!(said.contains("the table of load 1 ends at 0.1 s"), "{args:?}: {said}");
+        assert!(args[0] == "explain" || said.contains("no contact at all"), "{args:?}: {said}");
+    }
+    let summary = fs::read_to_string(dir.join("o/summary.json")).unwrap();
+    assert!(summary.contains("the table of load 1 ends") && summary.contains("no contact at all"), "{summary}");
+}
+
+#[test]
+fn built_in_cases_ask_for_no_finer_step() {
+    for embedded in Embedded::all() {
+        let case = embedded.case().unwrap();
+        let scene = Scene { duration: case.scene.duration / 50.0, ..case.scene.clone() };
+        let said = notes(&scene, &MOREAU, case.time.step);
+        assert!(!said.contains("resolve") && !said.contains("far from"), "{}: {said}", embedded.name);
+    }
+}
+
+#[test]
+fn explain_says_where_moreau_jean_rests_too_deep_and_what_does_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path();
+    // A spring of 1e4 N/m takes 10 N to the stop at 1 mm.
+    let explained = |force: f64, side: &str| {
+        let case = format!(
+            "[system.oscillator]\nmass = 1\ndamping = 20\nstiffness = 1e4\n[[wall]]\nname = \"stop\"\nside = \"{side}\"\n\
+             position = {}\nrestitution = 0.3\n[[load]]\nconstant = {{ force = {force:?} }}\n[time]\nend = 0.5\nstep = 1e-3\n",
+            if side == "upper" { 1e-3 } else { -1e-3 }
+        );
+        fs::write(dir.join("case.toml"), case).unwrap();
+        let mut tool = Command::new(env!("CARGO_BIN_EXE_signorini"));
+        let output = tool.args(["explain", "case.toml"]).current_dir(dir).output().unwrap();
+        String::from_utf8([output.stdout, output.stderr].concat())
+            .unwrap()
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    for (force, side, rests) in
+        [(35.0, "upper", true), (9.0, "upper", false), (-35.0, "upper", false), (-35.0, "lower", true)]
+    {
+        let said = explained(force, side);
+        let told =
+            said.contains("hold the body on wall \"stop\"") && said.contains("generalized-alpha rest on the face");
+        assert_eq!(told, rests, "{force} N, {side}: {said}");
+    }
+}

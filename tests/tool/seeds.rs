@@ -1,0 +1,176 @@
+//! `run --seeds`: the files, the numbers in them, and what is refused.
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn signorini(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).env_remove("COLUMNS").output().unwrap()
+}
+
+/// Runs it and expects the exit code; gives stdout and stderr.
+fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
+    let output = signorini(folder, args);
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
+    assert!(!err.contains("panicked"), "{args:?}: {err}");
+    (out, err)
+}
+
+/// 1 kg in two planes in a square of bars, with a stop on the side, shaken in both planes.
+const SQUARE: &str = r#"
+[system]
+planes = 2
+
+[system.oscillator]
+mass = 1.0
+damping = 2.0
+stiffness = 400.0
+
+[[support]]
+name = "bars"
+shape = "flats"
+sides = 4
+gap = 2e-3
+restitution = 0.5
+
+[[wall]]
+name = "stop"
+direction = 45
+side = "upper"
+position = 2.2e-3
+stiffness = 1e5
+
+[[load]]
+direction = "both"
+random = { rms = 3.0, from = 1.0, to = 20.0, seed = 7 }
+
+[time]
+end = 3.0
+step = 1e-3
+statistics_from = 0.5
+"#;
+
+fn folder() -> tempfile::TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("square.toml"), SQUARE).unwrap();
+    dir
+}
+
+fn summary(path: &Path) -> Value {
+    serde_json::from_str(&fs::read_to_string(path.join("summary.json")).unwrap()).unwrap()
+}
+
+/// The rows of `realisations.csv`, as cells.
+fn rows(path: &Path) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(path.join("realisations.csv")).unwrap();
+    text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn the_first_is_the_plain_run_and_any_other_can_be_repeated() {
+    let dir = folder();
+    let path = dir.path();
+    let (out, err) = said(path, &["run", "square.toml", "--seeds", "4", "--out", "four"], 0);
+    assert!(out.contains("deviation") && out.contains(" ± "), "{out}");
+    assert!(err.contains("over 4 realisations, by Student's t") && err.contains("half the step changes it"), "{err}");
+    said(path, &["run", "square.toml", "--out", "plain"], 0);
+    for file in ["trajectory.csv", "contacts.csv", "displacement.svg"] {
+        let read = |folder: &str| fs::read(path.join(folder).join(file)).unwrap();
+        assert!(read("four") == read("plain"), "{file} is not that of the plain run");
+    }
+    let plain = summary(&path.join("plain"));
+    assert!(plain.get("realisations").is_none());
+    let four = summary(&path.join("four"));
+    assert_eq!(four["statistics"], plain["statistics"]);
+    assert_eq!(four["case_file"], plain["case_file"]);
+
+    let header = "realisation,place,kind,mean_force_N,mean_force_along_y_N,mean_force_along_z_N,RMS_force_N,\
+                  work_rate_W,friction_power_W,largest_force_N,findings";
+    let rows = rows(&path.join("four"));
+    assert_eq!(rows[0].join(","), header);
+    // Four flats, the stop and the support.
+    assert_eq!(rows.len(), 1 + 4 * 6);
+    let of = |number: &str, kind: &str| {
+        rows.iter().find(|row| row[0] == number && row[2] == kind && !row[1].contains("flat")).unwrap().clone()
+    };
+    let number = |text: &str| text.parse::<f64>().unwrap();
+    // Realisation 3 has the seed 7 + 2.
+    said(path, &["run", "square.toml", "--set", "load.1.random.seed=9", "--no-verdict", "--out", "third"], 0);
+    let third = summary(&path.join("third"));
+    for (run, realisation) in [(&plain, "1"), (&third, "3")] {
+        let (bars, stop) = (of(realisation, "support"), of(realisation, "wall"));
+        let support = &run["statistics"]["supports"][0]["force"];
+        assert_eq!(Some(number(&bars[3])), support["mean_n"].as_f64());
+        assert_eq!(Some(number(&bars[6])), support["rms_n"].as_f64());
+        assert_eq!(bars[9], "", "a rigid support has no largest force");
+        assert_eq!(Some(number(&bars[7])), run["supports"][0]["work_rate_w"].as_f64());
+        assert_eq!(bars[8], "", "a support without friction has no friction power");
+        let wall = &run["statistics"]["walls"][0];
+        assert_eq!(wall["wall"], "stop");
+        assert_eq!(Some(number(&stop[3])), wall["force"]["mean_n"].as_f64());
+        assert_eq!(Some(number(&stop[9])), wall["episode_peak_force_n"]["max"].as_f64());
+        assert_eq!(stop[4], "", "a wall has no components");
+    }
+    // The interval, with t of three degrees of freedom from a table.
+    let values: Vec<f64> = (1..=4).map(|k| number(&of(&k.to_string(), "support")[3])).collect();
+    let mean = values.iter().sum::<f64>() / 4.0;
+    let deviation = (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 3.0).sqrt();
+    let all = four["realisations"]["estimates"].as_array().unwrap();
+    let one = all.iter().find(|one| one["place"] == "bars" && one["measure"] == "mean_force").unwrap();
+    let close = |key: &str, x: f64| assert!((one[key].as_f64().unwrap() / x - 1.0).abs() < 1e-9, "{key}: {one}");
+    close("mean", mean);
+    close("standard_deviation", deviation);
+    close("half_width_95", 3.182_446_305_3 * deviation / 2.0);
+    assert_eq!((&one["unit"], &one["kind"]), (&"N".into(), &"support".into()));
+    assert!(["step", "sampling"].contains(&one["half_step"]["larger"].as_str().unwrap()), "{one}");
+    assert_eq!(four["realisations"]["interval"], "student_of_realisations");
+}
+
+#[test]
+fn one_realisation_says_that_its_interval_is_of_batches() {
+    let dir = folder();
+    let (_, err) = said(dir.path(), &["run", "square.toml", "--seeds", "1", "--no-verdict", "--out", "one"], 0);
+    assert!(err.contains("ten batches of one realisation") && err.contains("--seeds 5 or more"), "{err}");
+    assert!(!err.contains("half the step"), "{err}");
+    let summary = summary(&dir.path().join("one"));
+    assert_eq!(summary["realisations"]["interval"], "ten_batches_of_one_realisation");
+    let estimates = summary["realisations"]["estimates"].as_array().unwrap();
+    let one = estimates.iter().find(|one| one["place"] == "bars" && one["measure"] == "mean_force").unwrap();
+    let own = &summary["statistics"]["supports"][0]["force"];
+    assert_eq!((&one["mean"], &one["half_width_95"]), (&own["mean_n"], &own["mean_half_width_95_n"]));
+    assert!(one["standard_deviation"].is_null() && one["half_step"].is_null() && !one["half_width_95"].is_null());
+}
+
+#[test]
+fn an_accuracy_holds_for_all_realisations() {
+    let dir = folder();
+    let args = ["run", "square.toml", "--end", "0.3", "--accuracy", "1e-2", "--seeds", "2", "--out", "accurate"];
+    let output = signorini(dir.path(), &args);
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert!(matches!(output.status.code(), Some(0 | 1)) && !err.contains("panicked"), "{err}");
+    assert!(err.contains("over 2 realisations") && err.contains("accuracy: asked for"), "{err}");
+    assert_eq!(rows(&dir.path().join("accurate")).len(), 1 + 2 * 6);
+}
+
+#[test]
+fn seeds_that_make_no_sense_are_refused() {
+    let dir = folder();
+    let path = dir.path();
+    for (args, words) in [
+        (&["square.toml", "--seeds", "0"][..], &["--seeds", "1 or more"][..]),
+        (&["square.toml", "--seeds", "-1"], &["--seeds"]),
+        (&["square.toml", "--seeds", "2.5"], &["--seeds"]),
+        (&["rigid-walls-sine", "--seeds", "3"], &["--seeds", "a random load"]),
+        (&["rigid-walls-sine", "--seeds", "3", "--accuracy", "1e-3"], &["--seeds", "a random load"]),
+        (
+            &["square.toml", "--seeds", "3", "--set", "load.1.random.seed=9007199254740992"],
+            &["realisation", "at most 1", "2^53"],
+        ),
+    ] {
+        let (_, err) = said(path, &[&["run"], args].concat(), 2);
+        assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
+    }
+    assert!(!path.join("out").exists(), "a refused request leaves nothing");
+}

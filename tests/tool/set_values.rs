@@ -1,0 +1,111 @@
+//! `--set KEY=VALUE`: a value of the case by its key, on every command that takes a case.
+use signorini::case::{Case, CaseFile, Embedded, Key};
+use std::path::Path;
+use std::process::Command;
+
+/// Runs the tool and expects the exit code; gives stdout and stderr.
+fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap();
+    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
+    assert!(!err.contains("panicked"), "{args:?}: {err}");
+    (out, err)
+}
+
+#[test]
+fn every_command_with_a_case_takes_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let set = ["--set", "wall.upper.position=6e-3", "--set", "time.end=0.2"];
+    let commands: [&[&str]; 5] = [
+        &["run", "rigid-walls-sine", "--no-verdict", "--json"],
+        &["compare", "rigid-walls-sine", "--no-verdict", "--json"],
+        &["chart", "rigid-walls-sine", "--schemes", "event", "--levels", "1", "--json"],
+        &["explain", "rigid-walls-sine", "--json"],
+        &["stability", "rigid-walls-sine", "--set", "load.1.harmonic.amplitude=1.5", "--json"],
+    ];
+    for command in commands {
+        let (out, _) = said(dir.path(), &[command, &set].concat(), 0);
+        let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+        assert!(document.is_object(), "{command:?}");
+        if ["run", "compare", "explain"].contains(&command[0]) {
+            assert!(out.contains("0.006"), "{command:?}: {out}");
+        }
+        let wrong = [command, &["--set", "wall.upper.position=inf"]].concat();
+        let (_, err) = said(dir.path(), &wrong, 2);
+        assert!(err.contains("wall.upper.position = inf:"), "{command:?}: {err}");
+    }
+}
+
+#[test]
+fn a_value_that_is_set_does_what_the_same_value_in_the_file_does() {
+    let embedded = Embedded::named("rigid-walls-sine").unwrap();
+    let changed = embedded.text.replace("frequency = 5.0", "frequency = 4.5").replace("end = 10.0 ", "end = 2.0 ");
+    assert_ne!(changed, embedded.text);
+    let written = Case::parse(&changed, "rigid-walls-sine.toml", "").unwrap();
+    let mut file = CaseFile::embedded("rigid-walls-sine").unwrap();
+    for (key, value) in [("load.1.harmonic.frequency", 4.5), ("time.end", 2.0)] {
+        file.set(&key.parse().unwrap(), &value.into()).unwrap();
+    }
+    assert_eq!(file.case().unwrap(), written);
+}
+
+#[test]
+fn what_a_case_has_at_each_of_its_keys_makes_the_same_case_again() {
+    // Read each number by its key and set it to itself: the case stays as it was, whatever is
+    // written how.
+    let keys = [
+        "system.oscillator.mass",
+        "system.chain.springs",
+        "system.beam.outer_diameter",
+        "system.beam.left",
+        "system.damping.ratio",
+        "wall.*.side",
+        "wall.lower.restitution",
+        "load.1.harmonic.amplitude",
+        "initial.displacement",
+        "time.step",
+        "penalty.epsilon",
+    ];
+    let mut set = 0;
+    for embedded in Embedded::all() {
+        let mut file = CaseFile::embedded(embedded.name).unwrap();
+        let original = file.case().unwrap();
+        for key in keys.map(|key| key.parse::<Key>().unwrap()) {
+            // No wall is named `lower` in some.
+            if let Some(value) = file.get(&key).unwrap() {
+                file.set(&key, &value).unwrap();
+                set += 1;
+            }
+        }
+        assert_eq!(file.case().unwrap(), original, "{}", embedded.name);
+    }
+    assert!(set > 60, "{set}");
+}
+
+#[test]
+fn the_summary_of_a_run_can_be_changed_by_keys_too() {
+    let dir = tempfile::tempdir().unwrap();
+    said(dir.path(), &["run", "tabulated-pulse", "--no-verdict"], 0);
+    let summary = "out/tabulated-pulse/run/summary.json";
+    let (out, _) = said(dir.path(), &["explain", summary, "--set", "system.oscillator.mass=2.5", "--json"], 0);
+    assert!(out.contains("2.5"), "{out}");
+}
+
+#[test]
+fn bad_keys_and_values_are_named_with_what_would_do() {
+    let dir = tempfile::tempdir().unwrap();
+    for (set, words) in [
+        ("wall.uper.position=1", "no wall is named \"uper\"; did you mean upper? there is upper, lower"),
+        ("wall.upper.positon=1", "did you mean wall.upper.position?"),
+        ("load.2.harmonic.phase=1", "no load is named \"2\"; there is 1"),
+        ("wall.upper.position", "KEY=VALUE"),
+        ("wall.upper.position=", "a number, a word"),
+        ("wall.upper.position=far", "takes a number"),
+        ("wall.upper.restitution=2", "expected a number from 0 to 1"),
+        ("penalty.epsilon.7=1e-9", "an entry of that list from 0 to below 3"),
+        ("system.chain.springs=1", "chain"),
+    ] {
+        let (_, err) = said(dir.path(), &["explain", "rigid-walls-sine", "--set", set], 2);
+        assert!(err.contains(words), "{set}: {err}");
+    }
+}
