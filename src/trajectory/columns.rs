@@ -1,0 +1,57 @@
+//! The columns of a recorded motion.
+
+use super::worn::ContactWear;
+use crate::step::Contact;
+use serde::{Deserialize, Serialize};
+
+/// What a [`Trajectory`](super::Trajectory) holds, by the names under which it is written down; as
+/// read it may come from another program.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Columns {
+    pub walls: Vec<String>,
+    pub probes: Vec<String>,
+    pub time: Vec<f64>,
+    pub displacement: Vec<Vec<f64>>,
+    pub velocity: Vec<Vec<f64>>,
+    pub force: Vec<Vec<f64>>,
+    pub impulse: Vec<Vec<f64>>,
+    #[serde(default)]
+    pub holes: Vec<String>,
+    #[serde(default)]
+    pub hole_force: Vec<[Vec<f64>; 2]>,
+    #[serde(default)]
+    pub hole_impulse: Vec<[Vec<f64>; 2]>,
+    #[serde(default)]
+    pub friction: Vec<Vec<f64>>,
+    #[serde(default)]
+    pub supports: Vec<String>,
+    #[serde(default)]
+    pub wear_work: Vec<Vec<f64>>,
+    pub contacts: Vec<Contact>,
+    #[serde(default)]
+    pub contact_wear: Vec<Option<ContactWear>>,
+}
+
+impl Columns {
+    /// True if there is a column for each wall, hole, support and probe, all of one length, and the
+    /// contacts are at walls and holes there are.
+    pub fn fit(&self) -> bool {
+        let rows = self.time.len();
+        let of = |names: &[String], columns: &[Vec<f64>]| {
+            columns.len() == names.len() && columns.iter().all(|column| column.len() == rows)
+        };
+        let pairs = |names: &[String], columns: &[[Vec<f64>; 2]]| {
+            columns.len() == names.len() && columns.iter().flatten().all(|column| column.len() == rows)
+        };
+        of(&self.probes, &self.displacement)
+            && of(&self.probes, &self.velocity)
+            && of(&self.walls, &self.force)
+            && of(&self.walls, &self.impulse)
+            && (self.friction.is_empty() || of(&self.walls, &self.friction))
+            && of(&self.supports, &self.wear_work)
+            && pairs(&self.holes, &self.hole_force)
+            && pairs(&self.holes, &self.hole_impulse)
+            && (self.contact_wear.is_empty() || self.contact_wear.len() == self.contacts.len())
+            && self.contacts.iter().all(|contact| contact.wall < self.walls.len() + self.holes.len())
+    }
+}

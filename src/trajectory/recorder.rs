@@ -1,0 +1,291 @@
+//! From the steps of a run to its rows.
+
+use super::Trajectory;
+use super::columns::Columns;
+use super::rubbed::Rubbed;
+use super::worn::Worn;
+use crate::scene::{Row, Scene};
+use crate::step::{Contact, Path, Step};
+
+/// Builds a [`Trajectory`] from the steps of a run, at the requested rows.
+#[derive(Debug, Clone)]
+pub struct Recorder {
+    columns: Columns,
+    probes: Vec<Row>,
+    end: f64,
+    rows: u64,
+    /// Rows per second, and the time of the next row, s.
+    rate: f64,
+    due: f64,
+    /// Impulse per wall since the last row, N s.
+    pending: Vec<f64>,
+    partial: Vec<f64>,
+    /// Impulse of each round support along y and z and friction of each wall since the last row, N
+    /// s.
+    rubbed: Rubbed,
+    worn: Worn,
+    /// Displacement and velocity at a row, n entries each.
+    state: [Vec<f64>; 2],
+}
+
+impl Recorder {
+    /// A recorder of `rows` equal intervals over the scene's duration, starting from the state `q`
+    /// (m), `v` (m/s).
+    #[must_use]
+    pub fn new(scene: &Scene, rows: u64, q: &[f64], v: &[f64]) -> Self {
+        let capacity = usize::try_from(rows).unwrap_or(0).saturating_add(1).min(1 << 24);
+        let column = || Vec::with_capacity(capacity);
+        let (n, m) = (scene.system.degrees_of_freedom(), scene.walls.len());
+        let columns = |count: usize| (0..count).map(|_| column()).collect::<Vec<_>>();
+        let holes: Vec<String> = scene.holes().map(|hole| hole.support.name.clone()).collect();
+        let rubbed = if scene.turns_or_rubs() { m } else { 0 };
+        let mut recorder = Self {
+            columns: Columns {
+                walls: scene.walls.iter().map(|w| w.name.clone()).collect(),
+                probes: scene.probes.iter().map(|p| p.name.clone()).collect(),
+                time: column(),
+                displacement: columns(scene.probes.len()),
+                velocity: columns(scene.probes.len()),
+                force: columns(m),
+                impulse: columns(m),
+                hole_force: holes.iter().map(|_| [column(), column()]).collect(),
+                hole_impulse: holes.iter().map(|_| [column(), column()]).collect(),
+                friction: columns(rubbed),
+                holes: holes.clone(),
+                supports: scene.supports.iter().map(|support| support.name.clone()).collect(),
+                wear_work: columns(scene.supports.len()),
+                contacts: Vec::new(),
+                contact_wear: Vec::new(),
+            },
+            worn: Worn::new(scene),
+            probes: scene.probes.iter().map(|p| p.at.clone()).collect(),
+            end: scene.duration,
+            rows,
+            rate: rows as f64 / scene.duration,
+            due: 0.0,
+            pending: vec![0.0; m],
+            partial: vec![0.0; m],
+            rubbed: Rubbed {
+                force: vec![[0.0; 2]; holes.len()],
+                holes: vec![[0.0; 2]; holes.len()],
+                friction: vec![0.0; rubbed],
+            },
+            state: [vec![0.0; n], vec![0.0; n]],
+        };
+        let force: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(q), w.at.dot(v))).collect();
+        recorder.push(0.0, q, v, &force);
+        recorder
+    }
+
+    /// Time of row `k`, s; the last is the end itself. The rate is often a whole number (1 ms: 1000
+    /// per second), and dividing by it gives the double nearest to the decimal.
+    fn row_time(&self, k: u64) -> f64 {
+        if k >= self.rows { self.end } else { k as f64 / self.rate }
+    }
+
+    /// Adds one step. Steps must come in order. Steps after the last row are ignored, and so are
+    /// steps of another scene, with another number of walls or degrees of freedom.
+    pub fn see(&mut self, step: &Step<'_>) {
+        let (n, m) = (self.state[0].len(), self.pending.len());
+        let moved = [step.q, step.v, step.velocity_before];
+        let pushed = [step.impulse, step.jump, step.force];
+        if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != m) {
+            return;
+        }
+        let known = &mut self.rubbed;
+        if step.holes.len() != known.holes.len() || step.friction.len() != known.friction.len() {
+            return;
+        }
+        if self.columns.time.len() as u64 > self.rows {
+            return;
+        }
+        if !matches!(step.path, Path::Series(_)) && (!step.friction.is_empty() || !step.holes.is_empty()) {
+            known.see(step);
+        }
+        self.columns.contacts.extend_from_slice(step.closed);
+        match step.path {
+            Path::Grid | Path::OneRestitution => {
+                self.wear(step);
+                for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
+                    *sum += p;
+                }
+                // The grid divides the spacing of the rows, so a row's time and a step's end differ
+                // by rounding only.
+                let due = self.due;
+                if step.end > due - 0.5 * (step.end - step.start) {
+                    self.push(due, step.q, step.v, step.force);
+                }
+            }
+            Path::Exact(_) | Path::Series(_) => self.see_exact(step),
+            Path::Handed { .. } => self.see_handed(step),
+        }
+    }
+
+    /// Adds what slid in a step whose motion is known at its ends only.
+    fn wear(&mut self, step: &Step<'_>) {
+        if !self.worn.is_empty() {
+            // On a grid a contact ends with the first step in which it does not push.
+            let Self { worn, columns, .. } = self;
+            worn.close(step.closed, |wear| columns.contact_wear.push(wear));
+            worn.add(step, [step.start, step.end]);
+        }
+    }
+
+    /// Adds what slid at the end of a step of exact motion, from `from` (s) on, and its contacts.
+    fn wear_exactly(&mut self, step: &Step<'_>, from: f64) {
+        if !self.worn.is_empty() {
+            let Self { worn, columns, .. } = self;
+            worn.add(step, [from, step.end]);
+            worn.close(step.closed, |wear| columns.contact_wear.push(wear));
+        }
+    }
+
+    /// Adds a step whose ends need not fall on rows: between them the displacement is interpolated
+    /// linearly.
+    fn see_handed(&mut self, step: &Step<'_>) {
+        self.wear(step);
+        for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
+            *sum += p;
+        }
+        loop {
+            let row = self.columns.time.len() as u64;
+            let due = self.due;
+            if row > self.rows || due > step.end {
+                break;
+            }
+            let [mut q, mut v] = std::mem::take(&mut self.state);
+            v.copy_from_slice(if due > step.start { step.v } else { step.velocity_before });
+            let back = 0.5 * (step.end - due);
+            for (i, q) in q.iter_mut().enumerate() {
+                *q = step.q[i] - back * (step.velocity_before[i] + step.v[i]);
+            }
+            self.push(due, &q, &v, step.force);
+            self.state = [q, v];
+        }
+    }
+
+    fn see_exact(&mut self, step: &Step<'_>) {
+        let path = step.path;
+        let mut from = step.start;
+        if step.start == 0.0 && step.end == 0.0 {
+            self.wear_exactly(step, step.start);
+            self.restart(step);
+            return;
+        }
+        if step.start == 0.0 {
+            // The force at t = 0 is known only now, from the first arc: the body may rest on a
+            // rigid wall.
+            for (wall, column) in self.columns.force.iter_mut().enumerate() {
+                column[0] = path.contact_force(wall, 0.0);
+            }
+            if let Path::Series(series) = path {
+                for (hole, [y, z]) in self.columns.hole_force.iter_mut().enumerate() {
+                    [y[0], z[0]] = series.hole_force(hole, 0.0);
+                }
+            }
+        }
+        // States are right-continuous: a row at the very end of this arc belongs to the next arc,
+        // or is the run's last.
+        loop {
+            let row = self.columns.time.len() as u64;
+            let due = self.due;
+            if row >= self.rows || due >= step.end {
+                break;
+            }
+            let [mut q, mut v] = std::mem::take(&mut self.state);
+            path.state(due, &mut q, &mut v);
+            let mut force = std::mem::take(&mut self.partial);
+            for (wall, (sum, f)) in self.pending.iter_mut().zip(&mut force).enumerate() {
+                *sum += path.contact_impulse(wall, from, due);
+                *f = path.contact_force(wall, due);
+            }
+            if !self.worn.is_empty() {
+                self.worn.add(step, [from, due]);
+            }
+            if let Path::Series(series) = path {
+                self.rubbed.follow(series, [from, due]);
+            }
+            self.push(due, &q, &v, &force);
+            (self.partial, self.state) = (force, [q, v]);
+            from = due;
+        }
+        self.wear_exactly(step, from);
+        if let Path::Series(series) = path {
+            self.rubbed.follow(series, [from, step.end]);
+            self.rubbed.jump(step);
+        }
+        for (wall, ((sum, &whole), &jump)) in self.pending.iter_mut().zip(step.impulse).zip(step.jump).enumerate() {
+            *sum += if from > step.start { path.contact_impulse(wall, from, step.end) + jump } else { whole };
+        }
+        if step.end >= self.end {
+            self.push(self.end, step.q, step.v, step.force);
+        }
+    }
+
+    /// Adds an impact at t = 0 to the first row.
+    fn restart(&mut self, step: &Step<'_>) {
+        let t = &mut self.columns;
+        for (column, row) in t.displacement.iter_mut().zip(&self.probes) {
+            column[0] = row.dot(step.q);
+        }
+        for (column, row) in t.velocity.iter_mut().zip(&self.probes) {
+            column[0] = row.dot(step.v);
+        }
+        for (column, &f) in t.force.iter_mut().zip(step.force) {
+            column[0] = f;
+        }
+        for (column, &p) in t.impulse.iter_mut().zip(step.impulse) {
+            column[0] += p;
+        }
+        for (column, hole) in t.hole_impulse.iter_mut().zip(step.holes) {
+            column.iter_mut().zip(hole.push()).for_each(|(column, push)| column[0] += push);
+        }
+        for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
+            column[0] = work;
+        }
+    }
+
+    fn push(&mut self, time: f64, q: &[f64], v: &[f64], force: &[f64]) {
+        let t = &mut self.columns;
+        t.time.push(time);
+        for (index, row) in self.probes.iter().enumerate() {
+            t.displacement[index].push(row.dot(q));
+            t.velocity[index].push(row.dot(v));
+        }
+        for (index, sum) in self.pending.iter_mut().enumerate() {
+            t.force[index].push(force.get(index).copied().unwrap_or(0.0));
+            t.impulse[index].push(std::mem::take(sum));
+        }
+        for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
+            column.push(work);
+        }
+        let known = &mut self.rubbed;
+        for (columns, force) in t.hole_force.iter_mut().zip(&known.force) {
+            columns.iter_mut().zip(force).for_each(|(column, force)| column.push(*force));
+        }
+        for (columns, sum) in t.hole_impulse.iter_mut().zip(&mut known.holes) {
+            columns.iter_mut().zip(sum).for_each(|(column, sum)| column.push(std::mem::take(sum)));
+        }
+        for (column, sum) in t.friction.iter_mut().zip(&mut known.friction) {
+            column.push(std::mem::take(sum));
+        }
+        self.due = self.row_time(self.columns.time.len() as u64);
+    }
+
+    /// The trajectory, with the episodes `open` at the end of the run.
+    #[must_use]
+    pub fn finish(self, open: &[Contact]) -> Trajectory {
+        let Self { mut columns, mut worn, .. } = self;
+        columns.contacts.extend_from_slice(open);
+        if worn.is_empty() {
+            columns.contacts.sort_by(|a, b| a.start.total_cmp(&b.start));
+            return Trajectory(columns);
+        }
+        worn.close(open, |wear| columns.contact_wear.push(wear));
+        let contacts = std::mem::take(&mut columns.contacts);
+        let mut both: Vec<_> = contacts.into_iter().zip(std::mem::take(&mut columns.contact_wear)).collect();
+        both.sort_by(|a, b| a.0.start.total_cmp(&b.0.start));
+        (columns.contacts, columns.contact_wear) = both.into_iter().unzip();
+        Trajectory(columns)
+    }
+}

@@ -1,0 +1,50 @@
+//! What round supports and friction do between two rows.
+
+use crate::flow::Series;
+use crate::step::Step;
+
+/// What round supports and friction did since the last row; all empty in scenes without.
+#[derive(Debug, Clone)]
+pub(super) struct Rubbed {
+    /// Impulse of each round support along y and z, and friction of each wall, N s.
+    pub holes: Vec<[f64; 2]>,
+    pub friction: Vec<f64>,
+    /// Force of each round support in the last step, N.
+    pub force: Vec<[f64; 2]>,
+}
+
+impl Rubbed {
+    /// Adds the impulses of the holes over a piece of a stretch of exact motion (s), and sets their
+    /// forces to those at its end.
+    #[inline(never)]
+    pub fn follow(&mut self, series: &Series, [from, to]: [f64; 2]) {
+        for (hole, (sum, force)) in self.holes.iter_mut().zip(&mut self.force).enumerate() {
+            let push = series.hole_impulse(hole, from, to);
+            *sum = [sum[0] + push[0], sum[1] + push[1]];
+            *force = series.hole_force(hole, to);
+        }
+    }
+
+    /// Adds the impulses of the holes at the instant that ends a step of exact motion.
+    #[inline(never)]
+    pub fn jump(&mut self, step: &Step<'_>) {
+        for (sum, hole) in self.holes.iter_mut().zip(step.holes) {
+            let push = hole.normal.map(|n| -hole.jump * n);
+            *sum = [sum[0] + push[0], sum[1] + push[1]];
+        }
+    }
+
+    /// Adds one step on a grid.
+    #[inline(never)]
+    pub fn see(&mut self, step: &Step<'_>) {
+        let h = step.end - step.start;
+        for (sum, f) in self.friction.iter_mut().zip(step.friction) {
+            *sum += f;
+        }
+        for ((sum, force), hole) in self.holes.iter_mut().zip(&mut self.force).zip(step.holes) {
+            let push = hole.push();
+            *sum = [sum[0] + push[0], sum[1] + push[1]];
+            *force = push.map(|push| push / h);
+        }
+    }
+}
