@@ -6,7 +6,7 @@ use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
 use crate::run::Run;
-use crate::statistics::WearStatistics;
+use crate::statistics::{SupportForce, WearStatistics};
 use crate::wear::Worn;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -17,12 +17,22 @@ const MOST_ROWS: usize = 24;
 /// What a work rate without friction is called.
 const UPPER: &str = "upper figure";
 
-/// Each support of a run, and what its work rate wears off.
-fn all<'a>(case: &'a Case, run: &'a Run) -> impl Iterator<Item = (&'a WearStatistics, Option<Worn>)> {
-    let worn = |(index, support): (usize, &'a WearStatistics)| {
-        (support, case.archard(index).map(|law| law.worn(support.work_rate_w)))
-    };
-    run.statistics.wear.iter().enumerate().map(worn)
+/// A support of a run.
+struct Known<'a> {
+    wear: &'a WearStatistics,
+    force: Option<SupportForce>,
+    /// What its work rate wears off.
+    worn: Option<Worn>,
+}
+
+/// The supports of a run; none where only the contacts are known.
+fn all<'a>(case: &'a Case, run: &'a Run) -> impl Iterator<Item = Known<'a>> {
+    let statistics = &run.statistics;
+    statistics.wear.iter().zip(&statistics.supports).enumerate().map(|(index, (wear, support))| Known {
+        wear,
+        force: support.force,
+        worn: case.archard(index).map(|law| law.worn(wear.work_rate_w)),
+    })
 }
 
 /// Writes `supports.csv` and `sectors.csv` where `place` says, if there are supports.
@@ -53,7 +63,7 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
         "depth_all_round_m",
         "support_wear_volume_m3",
     ];
-    let row = |(support, worn): (&WearStatistics, Option<Worn>)| {
+    let row = |Known { wear: support, force, worn }: Known<'_>| {
         let numbers = [
             Some(support.work_rate_w),
             support.work_rate_half_width_95_w,
@@ -61,10 +71,10 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
             Some(support.friction_power_w),
             Some(support.sliding_m),
             support.sliding_speed_m_per_s,
-            Some(support.mean_force_y_n),
-            Some(support.mean_force_z_n),
-            Some(support.mean_n),
-            support.mean_half_width_95_n,
+            force.map(|force| force.mean_vector_n[0]),
+            force.map(|force| force.mean_vector_n[1]),
+            force.map(|force| force.mean_n),
+            force.and_then(|force| force.mean_half_width_95_n),
             Some(support.contact_time_ratio),
             worn.and_then(|worn| worn.volume_m3),
             worn.and_then(|worn| worn.depth_one_scar_m),
@@ -104,10 +114,10 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
     if supports.is_empty() {
         return None;
     }
-    supports.sort_by(|a, b| b.1.0.work_rate_w.total_cmp(&a.1.0.work_rate_w));
+    supports.sort_by(|a, b| b.1.wear.work_rate_w.total_cmp(&a.1.wear.work_rate_w));
     supports.truncate(MOST_ROWS);
     supports.sort_by_key(|entry| entry.0);
-    let wears = supports.iter().any(|(_, (_, worn))| worn.is_some());
+    let wears = supports.iter().any(|(_, support)| support.worn.is_some());
     let mut header = vec![
         "support",
         "work rate (W)",
@@ -121,7 +131,8 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
     if wears {
         header.extend(["worn (mm³)", "one scar (mm)", "all round (mm)", "support worn (mm³)"]);
     }
-    let row = |(support, worn): (&WearStatistics, Option<Worn>)| {
+    let row = |Known { wear: support, force, worn }: Known<'_>| {
+        let mean = |of: fn(&SupportForce) -> f64| force.as_ref().map_or_else(|| "-".to_owned(), |f| figures(of(f)));
         let upper = if support.upper_figure { format!(" {UPPER}") } else { String::new() };
         let mut row = vec![
             support.support.clone(),
@@ -129,9 +140,9 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
             support.impact_share.map_or_else(|| "-".to_owned(), |share| format!("{:.1}", 100.0 * share)),
             figures(support.friction_power_w),
             figures(support.sliding_m),
-            figures(support.mean_n),
-            figures(support.mean_force_y_n),
-            figures(support.mean_force_z_n),
+            mean(|force| force.mean_n),
+            mean(|force| force.mean_vector_n[0]),
+            mean(|force| force.mean_vector_n[1]),
         ];
         if wears {
             let part = |of: fn(&Worn) -> Option<f64>, unit: f64| {
@@ -197,12 +208,12 @@ pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
     remarks
 }
 
-/// The supports in the summary.
+/// The wear of the supports in the summary; their forces are in its statistics.
 #[must_use]
 pub fn document(case: &Case, run: &Run) -> Value {
-    let support = |(support, worn): (&WearStatistics, Option<Worn>)| {
+    let support = |Known { wear, worn, .. }: Known<'_>| {
         // A struct of numbers and texts: this cannot fail.
-        let mut value = serde_json::to_value(support).unwrap_or_default();
+        let mut value = serde_json::to_value(wear).unwrap_or_default();
         if let (Some(map), Some(worn)) = (value.as_object_mut(), worn) {
             map.insert("worn".to_owned(), json!(worn));
         }

@@ -73,11 +73,13 @@ fn facts(summary: &Value) -> Value {
     }
     let supports = summary["supports"].as_array().map_or(&[][..], Vec::as_slice);
     if !supports.is_empty() {
-        let sum = |key: &str| supports.iter().filter_map(|support| number(&support[key])).sum::<f64>();
+        let work: f64 = supports.iter().filter_map(|support| number(&support["work_rate_w"])).sum();
+        let forces = summary["statistics"]["supports"].as_array().map_or(&[][..], Vec::as_slice);
+        let force: f64 = forces.iter().filter_map(|support| number(&support["force"]["mean_n"])).sum();
         let upper = supports.iter().any(|support| support["upper_figure"] == true);
         let unit = if upper { "mW, upper figure" } else { "mW" };
-        facts.push(fact("work rate", short(1e3 * sum("work_rate_w")), unit));
-        facts.push(fact("mean force", short(sum("mean_n")), "N, of all supports"));
+        facts.push(fact("work rate", short(1e3 * work), unit));
+        facts.push(fact("mean force", short(force), "N, of all supports"));
     }
     facts.push(fact("method", summary["scheme"].as_str().unwrap_or_default().to_owned(), ""));
     let length =

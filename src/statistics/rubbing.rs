@@ -1,4 +1,4 @@
-//! Wear statistics of supports: force, work of wear, sliding and friction, step by step.
+//! Wear statistics of supports: work of wear, sliding and friction, step by step.
 
 use super::batch::{BATCHES, batch_of, half_width};
 use crate::contact::IMPACT_STEPS;
@@ -18,18 +18,10 @@ pub struct WearStatistics {
     /// True without friction: then the work rate is an upper figure. A structure that slides
     /// without friction is held back by its own damping alone, and may whirl round in the support.
     pub upper_figure: bool,
-    /// Mean force of the support on the structure along y and z, friction included, N.
-    pub mean_force_y_n: f64,
-    /// See `mean_force_y_n`.
-    pub mean_force_z_n: f64,
-    /// Mean of the normal force over time, Σ|p|/T, N.
-    pub mean_n: f64,
-    /// Half width of its 95 % interval by batch means, N. This and that of the work rate are `None`
-    /// unless the support pushed in each of ten batches.
-    pub mean_half_width_95_n: Option<f64>,
     /// Work rate W/T, W: the work of wear ∫ F_n |v_t| dt over the window, per unit time.
     pub work_rate_w: f64,
-    /// Half width of its 95 % interval by batch means, W.
+    /// Half width of its 95 % interval by batch means, W; `None` unless the support pushed in each of
+    /// ten batches.
     pub work_rate_half_width_95_w: Option<f64>,
     /// The share of the work that impacts did: of a scheme on a grid, the first two steps of each
     /// contact. `None` for an elastic support, where no force is an impulse, and without work.
@@ -67,8 +59,6 @@ pub struct SectorStatistics {
 struct Tally {
     name: String,
     friction: f64,
-    /// Impulse on the structure along y and z, N s.
-    impulse: [f64; 2],
     /// Σ|p|, N s, and the work of wear, J, by batches.
     pushed: [f64; BATCHES],
     work: [f64; BATCHES],
@@ -134,7 +124,6 @@ impl Rubbing {
         let tally = |support: &crate::scene::Support| Tally {
             name: support.name.clone(),
             friction: support.friction,
-            impulse: [0.0; 2],
             pushed: [0.0; BATCHES],
             work: [0.0; BATCHES],
             impacts: 0.0,
@@ -206,10 +195,6 @@ impl Rubbing {
 
 impl Tally {
     fn add(&mut self, rub: &Rub, batch: usize) {
-        let [y, z] = rub.normal;
-        // The structure gets −p n, and friction along t = (−n_z, n_y).
-        self.impulse[0] += -rub.impulse * y - rub.friction * z;
-        self.impulse[1] += -rub.impulse * z + rub.friction * y;
         self.pushed[batch] += rub.impulse;
         self.work[batch] += rub.work;
         self.dissipated += rub.dissipated;
@@ -226,7 +211,6 @@ impl Tally {
         let (work, pushed) = (total(&self.work), total(&self.pushed));
         let batch = length / BATCHES as f64;
         let enough = self.pushed.iter().all(|&p| p > 0.0);
-        let spread = |sums: &[f64; BATCHES]| enough.then(|| half_width(&sums.map(|x| x / batch)));
         let count = self.sectors.len();
         let edge = |k: usize| 360.0 * k as f64 / count as f64;
         let sectors = self.sectors.iter().enumerate().map(|(k, [work, p])| SectorStatistics {
@@ -239,12 +223,8 @@ impl Tally {
             support: self.name.clone(),
             friction: self.friction,
             upper_figure: self.friction == 0.0,
-            mean_force_y_n: self.impulse[0] / length,
-            mean_force_z_n: self.impulse[1] / length,
-            mean_n: pushed / length,
-            mean_half_width_95_n: spread(&self.pushed),
             work_rate_w: work / length,
-            work_rate_half_width_95_w: spread(&self.work),
+            work_rate_half_width_95_w: enough.then(|| half_width(&self.work.map(|x| x / batch))),
             impact_share: (self.rigid && work > 0.0).then(|| (self.impacts / work).min(1.0)),
             sliding_m: self.sliding,
             sliding_speed_m_per_s: (self.time > 0.0).then(|| self.sliding / self.time),

@@ -91,7 +91,7 @@ fn a_billiard_is_followed_to_rounding() {
         "{support:?}"
     );
     let force = run.statistics.supports[0].force.unwrap();
-    assert!(near(support.mean_n, 5.563584470465061609802764 / 0.5, 1e-13) && near(force.mean_n, support.mean_n, 1e-13));
+    assert!(near(force.mean_n, 5.563584470465061609802764 / 0.5, 1e-13));
     assert!(near(force.mean_vector_n[0], -0.05453609456092238252327166 / 0.5, 1e-12));
 }
 
@@ -157,9 +157,9 @@ fn a_pendulum_slides_as_elliptic_functions_say() {
     }
     let support = &run.statistics.wear[0];
     assert!(near(support.sliding_m, 2.0 * 0.006283185307179586476925287, 1e-12));
-    assert!(near(support.mean_n, 0.6997885665844563269792825 / PERIOD, 1e-13));
-    assert!(near(support.mean_force_y_n, -6.0, 1e-13) && near(support.contact_time_ratio, 1.0, 1e-12));
+    assert!(near(support.contact_time_ratio, 1.0, 1e-12));
     let force = run.statistics.supports[0].force.unwrap();
+    assert!(near(force.mean_n, 0.6997885665844563269792825 / PERIOD, 1e-13));
     assert!(near(force.mean_vector_n[0], -6.0, 1e-12) && force.mean_vector_n[1].abs() < 1e-12, "{force:?}");
     let contacts = run.trajectory.contacts();
     assert!(contacts.len() == 1 && near(contacts[0].peak_force.unwrap(), 12.0, 1e-13), "{contacts:?}");

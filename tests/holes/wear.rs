@@ -72,7 +72,7 @@ fn an_oblique_impact_turns_the_sliding_round() {
         assert_eq!((support.sliding_m, support.contact_time_ratio), (0.0, 0.0));
         assert!(support.upper_figure && support.friction_power_w == 0.0);
         // The flat pushes the body against its normal.
-        let [y, z] = [support.mean_force_y_n, support.mean_force_z_n].map(|force| force * 0.06 / impulse);
+        let [y, z] = run.statistics.supports[0].force.unwrap().mean_vector_n.map(|force| force * 0.06 / impulse);
         assert!((y + 0.4_f64.cos()).abs() < 1e-13 && (z + 0.4_f64.sin()).abs() < 1e-13, "{y} {z}");
         adds_up(support);
     }
@@ -89,7 +89,8 @@ fn a_billiard_in_a_square_hole_slides_by_at_every_impact() {
         let run = made(&scene, scheme, 1e-5);
         let support = only(&run);
         assert!((support.work_rate_w / 0.8114557507972737095142388 - 1.0).abs() < tolerance, "{scheme}: {support:?}");
-        assert!((support.mean_n / 12.19647499800806411517645 - 1.0).abs() < 1e-12, "{scheme}: {support:?}");
+        let force = run.statistics.supports[0].force.unwrap();
+        assert!((force.mean_n / 12.19647499800806411517645 - 1.0).abs() < 1e-12, "{scheme}: {force:?}");
         assert!((support.impact_share.unwrap() - 1.0).abs() < 1e-13 && support.sliding_m == 0.0);
         // Each flat in the sector of its normal.
         let busy = support.sectors.iter().filter(|sector| sector.work_rate_w > 0.0);
@@ -117,7 +118,8 @@ fn a_body_pressed_on_a_flat_slides_two_amplitudes_a_swing() {
         let work = support.work_rate_w * scene.duration;
         assert!((work / (force * distance) - 1.0).abs() < tolerance, "{scheme}: {work}");
         assert!((support.sliding_m / distance - 1.0).abs() < tolerance, "{scheme}: {}", support.sliding_m);
-        assert!((support.mean_n / force - 1.0).abs() < 1e-9 && support.mean_force_y_n == 0.0);
+        let mean = run.statistics.supports[0].force.unwrap();
+        assert!((mean.mean_n / force - 1.0).abs() < 1e-9 && mean.mean_vector_n[0] == 0.0);
         assert!((support.contact_time_ratio - 1.0).abs() < 1e-12, "{scheme}: {support:?}");
         let speed = support.sliding_speed_m_per_s.unwrap();
         assert!((speed * scene.duration / distance - 1.0).abs() < tolerance, "{scheme}: {speed}");

@@ -5,7 +5,8 @@
 const RING = [1.06, 0.3];
 
 function supportSection() {
-  const rows = DATA.summary.supports;
+  const { supports, statistics } = DATA.summary;
+  const rows = supports.map((support, i) => ({ ...support, force: statistics.supports[i]?.force }));
   const drawn = DATA.scene.supports
     .map((support, i) => ({ support, worn: rows[i], pair: watching(support.name) }))
     .filter(({ pair, worn }) => pair && worn);
@@ -127,11 +128,11 @@ function supportTable(rows) {
     number("sliding (m)", (row) => row.sliding_m),
     number(
       "mean force (N)",
-      (row) => row.mean_n,
-      (row) => row.mean_half_width_95_n,
+      (row) => row.force?.mean_n,
+      (row) => row.force?.mean_half_width_95_n,
     ),
-    number("along y (N)", (row) => row.mean_force_y_n),
-    number("along z (N)", (row) => row.mean_force_z_n),
+    number("along y (N)", (row) => row.force?.mean_vector_n[0]),
+    number("along z (N)", (row) => row.force?.mean_vector_n[1]),
     rows.some((row) => row.worn) ? number("worn (mm³)", worn("volume_m3", 1e9)) : null,
     rows.some((row) => row.worn) ? number("one scar (mm)", worn("depth_one_scar_m", 1e3)) : null,
     rows.some((row) => row.worn) ? number("all round (mm)", worn("depth_all_round_m", 1e3)) : null,
