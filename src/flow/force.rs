@@ -1,7 +1,7 @@
 //! The load over one arc, as a function of the time since its start.
 
 use super::elementary::sin_cos;
-use crate::scene::Forcing;
+use crate::scene::{Forcing, Harmonic};
 
 /// One sine, A sin(ω τ + θ), with θ its phase at the arc's start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,6 +10,8 @@ pub(super) struct Wave {
     pub amplitude: f64,
     /// ω, rad/s; above 0.
     pub omega: f64,
+    /// Its phase at the time 0, rad.
+    phase: f64,
     /// sin θ and cos θ.
     pub sin: f64,
     /// See `sin`.
@@ -25,35 +27,48 @@ pub(super) struct LocalForce {
     pub slope: f64,
     /// The sines.
     pub waves: Vec<Wave>,
-    /// Bounds on |f″|, |f‴| and |f⁗|, N/s² and so on.
-    pub bounds: [f64; 3],
+    /// Bounds on |f″|, |f‴| … |f⁽⁶⁾|, N/s² and so on.
+    pub bounds: [f64; 5],
+    /// Σ|A|, N, and Σ|A|ω, N/s.
+    sizes: [f64; 2],
+    /// The largest ω, rad/s; 0 without sines.
+    pub fastest: f64,
+    /// The part of f₀ that does not depend on the arc, N.
+    lasting: f64,
 }
 
 impl LocalForce {
-    /// Sets the loads as they are just after `start` + `late`, plus the constant force `extra` (N);
-    /// valid up to the next row of a table. `late` is what rounding has taken from the time
-    /// `start`.
+    /// The loads of `forcing`, to be [set](Self::set) to an instant.
+    pub fn new(forcing: &Forcing) -> Self {
+        let mut force = Self { lasting: forcing.constant, ..Self::default() };
+        for &Harmonic { amplitude, omega, phase } in &forcing.harmonics {
+            if omega == 0.0 || amplitude == 0.0 {
+                force.lasting += amplitude * phase.sin();
+                continue;
+            }
+            force.waves.push(Wave { amplitude, omega, phase, sin: 0.0, cos: 1.0 });
+            let mut size = amplitude.abs();
+            for sum in force.sizes.iter_mut().chain(&mut force.bounds) {
+                *sum += size;
+                size *= omega;
+            }
+            force.fastest = force.fastest.max(omega);
+        }
+        force
+    }
+
+    /// Sets the loads to what they are just after `start` + `late`, plus the constant force `extra`
+    /// (N); valid up to the next row of a table of `forcing`. `late` is what rounding has taken from
+    /// the time `start`.
     pub fn set(&mut self, forcing: &Forcing, [start, late]: [f64; 2], extra: f64) {
-        self.constant = forcing.constant + extra;
-        self.slope = 0.0;
-        self.bounds = [0.0; 3];
+        (self.constant, self.slope) = (self.lasting + extra, 0.0);
         for table in &forcing.tables {
             let (value, slope) = table.piece(start);
             self.constant += value + slope * late;
             self.slope += slope;
         }
-        self.waves.clear();
-        for h in &forcing.harmonics {
-            let (sin, cos) = sin_cos(h.omega * start + h.phase + h.omega * late);
-            if h.omega == 0.0 {
-                self.constant += h.amplitude * sin;
-                continue;
-            }
-            self.waves.push(Wave { amplitude: h.amplitude, omega: h.omega, sin, cos });
-            let second = h.amplitude.abs() * h.omega * h.omega;
-            self.bounds[0] += second;
-            self.bounds[1] += second * h.omega;
-            self.bounds[2] += second * h.omega * h.omega;
+        for w in &mut self.waves {
+            (w.sin, w.cos) = sin_cos(w.omega * start + w.phase + w.omega * late);
         }
     }
 
@@ -71,21 +86,23 @@ impl LocalForce {
         f
     }
 
-    /// f, f′, f″ at the arc's start.
+    /// f, f′ … f⁗ at the arc's start.
     #[inline]
-    pub fn start(&self) -> [f64; 3] {
-        let mut f = [self.constant, self.slope, 0.0];
+    pub fn start(&self) -> [f64; 5] {
+        let mut f = [self.constant, self.slope, 0.0, 0.0, 0.0];
         for w in &self.waves {
-            f[0] += w.amplitude * w.sin;
-            f[1] += w.amplitude * w.omega * w.cos;
-            f[2] -= w.amplitude * w.omega * w.omega * w.sin;
+            let (mut sin, mut cos) = (w.amplitude * w.sin, w.amplitude * w.cos);
+            for f in &mut f {
+                *f += sin;
+                (sin, cos) = (w.omega * cos, -w.omega * sin);
+            }
         }
         f
     }
 
     /// A bound on |f(τ) − f(0)| for τ up to `span` (s), N.
     pub fn variation(&self, span: f64) -> f64 {
-        self.slope.abs() * span + 2.0 * self.waves.iter().map(|w| w.amplitude.abs()).sum::<f64>()
+        self.slope.abs() * span + 2.0 * self.sizes[0]
     }
 
     /// ∫ f over [from, to], N s. For a sine it is A Δ sin(ω mid + θ) sinc(ωΔ/2), which stays
@@ -104,11 +121,11 @@ impl LocalForce {
 
     /// |f₀| + |f₁| `span` + Σ|A|: a bound on |f|, N.
     pub fn size(&self, span: f64) -> f64 {
-        self.constant.abs() + self.slope.abs() * span + self.waves.iter().map(|w| w.amplitude.abs()).sum::<f64>()
+        self.constant.abs() + self.slope.abs() * span + self.sizes[0]
     }
 
-    /// The largest ω, rad/s; 0 without sines.
-    pub fn fastest(&self) -> f64 {
-        self.waves.iter().map(|w| w.omega).fold(0.0, f64::max)
+    /// |f₁| + Σ|A|ω: a bound on |f′|, N/s.
+    pub fn rate_size(&self) -> f64 {
+        self.slope.abs() + self.sizes[1]
     }
 }

@@ -60,7 +60,7 @@ pub(crate) struct Start<'a> {
     pub late: f64,
     /// Displacement, m, and velocity, m/s.
     pub state: [f64; 2],
-    /// The loads.
+    /// The loads, those that the arc was made for.
     pub forcing: &'a Forcing,
     /// A constant force on top, N.
     pub extra: f64,
@@ -71,9 +71,10 @@ pub(crate) struct Start<'a> {
 }
 
 impl Arc {
-    /// An arc of length 0 for `body`, with room for `walls` touching walls and `waves` sines;
+    /// An arc of length 0 for `body` under `forcing`, with room for `walls` touching walls;
     /// [`Arc::begin`] refills it again and again without allocating.
-    pub(crate) fn new(body: Oscillator, walls: usize, waves: usize) -> Self {
+    pub(crate) fn new(body: Oscillator, walls: usize, forcing: &Forcing) -> Self {
+        let force = LocalForce::new(forcing);
         Self {
             start: 0.0,
             late: 0.0,
@@ -81,11 +82,11 @@ impl Arc {
             span: 0.0,
             body,
             inverse: 1.0 / body.mass,
-            force: LocalForce { waves: Vec::with_capacity(waves), ..LocalForce::default() },
             touching: Vec::with_capacity(walls),
             support: None,
             initial: [0.0; 2],
-            response: Response::with_room(waves),
+            response: Response::new([body.mass, body.damping, body.stiffness], &force),
+            force,
         }
     }
 
@@ -203,20 +204,21 @@ impl Arc {
         let damping = self.damping();
         let stiffness = stiffness + self.touching.iter().map(|w| w.stiffness).sum::<f64>();
         let tau = self.span;
-        let free = |state| {
-            let mut response = Response::default();
-            response.set([mass, damping, stiffness], &LocalForce::default(), state, tau, 1.0);
+        let (unloaded, of) = (LocalForce::default(), [mass, damping, stiffness]);
+        let mut response = Response::new(of, &unloaded);
+        let mut free = |state| {
+            response.set(of, &unloaded, state, tau, 1.0);
             response.jet(tau)
         };
         let (from_q, from_v) = (free([1.0, 0.0]), free([0.0, 1.0]));
         [[from_q[0], from_v[0]], [from_q[1], from_v[1]]]
     }
 
-    /// Displacement and four derivatives `tau` after the start.
+    /// Displacement and six derivatives `tau` after the start.
     #[inline]
     pub(crate) fn jet(&self, tau: f64) -> Jet {
         if self.support.is_some() {
-            return [self.initial[0], 0.0, 0.0, 0.0, 0.0];
+            return at_rest(self.initial[0]);
         }
         self.response.jet(tau)
     }
@@ -228,19 +230,23 @@ impl Arc {
     pub(crate) fn start_jet(&self) -> Jet {
         let [q, v] = self.initial;
         if self.support.is_some() {
-            return [q, 0.0, 0.0, 0.0, 0.0];
+            return at_rest(q);
         }
-        let ([mut f, rate, second], inverse) = (self.force.start(), self.inverse);
+        let mut load = self.force.start();
         let (mut c, mut k) = (self.body.damping, self.body.stiffness);
-        f -= k * q;
+        load[0] -= k * q;
         for wall in &self.touching {
-            f -= wall.stiffness * (q - wall.position);
+            load[0] -= wall.stiffness * (q - wall.position);
             c += wall.damping;
             k += wall.stiffness;
         }
-        let a = (f - c * v) * inverse;
-        let jerk = (rate - c * a - k * v) * inverse;
-        [q, v, a, jerk, (second - c * jerk - k * a) * inverse]
+        let mut jet = at_rest(q);
+        jet[1] = v;
+        jet[2] = (load[0] - c * v) * self.inverse;
+        for n in 1..load.len() {
+            jet[n + 2] = (load[n] - c * jet[n + 1] - k * jet[n]) * self.inverse;
+        }
+        jet
     }
 
     /// The size of the steady motions' acceleration, m/s². Near resonance they cancel against the
@@ -256,28 +262,27 @@ impl Arc {
         self.pressing(support, 0.0)[0].abs() <= noise && self.force.variation(self.span) <= noise
     }
 
-    /// Bounds on the magnitudes of the fourth and fifth derivative of q over [τ, τ + `window`],
-    /// given `jet` at τ.
+    /// Bounds on the magnitudes of the derivatives `order` (from 4 to 6) and `order` + 1 of q over
+    /// [τ, τ + `window`], given `jet` at τ.
     ///
     /// Each derivative y of q solves ÿ + 2σẏ + κy = ψ with ψ a derivative of the load, so that
-    /// ẏ(τ+u) = S′(u) ẏ − κ y S(u) + ∫S′ψ′, where |S′| ≤ 1 and |S| ≤ min(u, 1/√κ, 1/2δ) at any
+    /// ẏ(τ+u) = S′(u) ẏ − κ y S(u) + ∫S′ψ, where |S′| ≤ 1 and |S| ≤ min(u, 1/√κ, 1/2δ) at any
     /// damping.
     #[inline]
-    pub(crate) fn bounds(&self, jet: &Jet, window: f64) -> [f64; 2] {
+    pub(crate) fn bounds(&self, jet: &Jet, order: usize, window: f64) -> [f64; 2] {
         let equation = &self.response.equation;
-        let (kappa, rub, inverse) = (equation.kappa, 2.0 * equation.sigma, self.inverse);
+        let (kappa, rub) = (equation.kappa, 2.0 * equation.sigma);
         let reach = kappa * window.min(equation.longest);
-        let load = self.force.bounds.map(|b| b * inverse);
-        let fourth = jet[4].abs() + reach * jet[3].abs() + window * load[1];
-        // The fifth derivative at τ follows from the equation itself.
-        let fifth_now = load[1] + rub * jet[4].abs() + kappa * jet[3].abs();
-        let fifth = fifth_now + reach * jet[4].abs() + window * load[2];
-        [fourth, fifth]
+        let load = [3, 2].map(|below| self.force.bounds[order - below] * self.inverse);
+        let (now, before) = (jet[order].abs(), jet[order - 1].abs());
+        // The next derivative at τ follows from the equation itself.
+        let next = load[0] + rub * now + kappa * before;
+        [now + reach * before + window * load[0], next + reach * now + window * load[1]]
     }
 
     /// The largest ω of the load, rad/s; 0 without sines.
     pub(crate) fn fastest(&self) -> f64 {
-        self.force.fastest()
+        self.force.fastest
     }
 
     /// The largest circular frequency in the motion, rad/s: of the load, or of the body if it
@@ -314,8 +319,14 @@ impl Arc {
         let span = self.span;
         let elastic: f64 = self.touching.iter().map(|a| a.stiffness * (self.initial[0] - a.position).abs()).sum();
         let force = self.force.size(span) + self.body.stiffness * self.initial[0].abs() + elastic;
-        let rate = self.force.slope.abs() + self.force.waves.iter().map(|w| w.amplitude.abs() * w.omega).sum::<f64>();
         let [q, v] = if self.is_rest() { [self.initial[0].abs(), 0.0] } else { self.response.size };
-        [q, v, force, rate]
+        [q, v, force, self.force.rate_size()]
     }
+}
+
+/// The jet of a body that stays at `q` (m).
+fn at_rest(q: f64) -> Jet {
+    let mut jet = Jet::default();
+    jet[0] = q;
+    jet
 }

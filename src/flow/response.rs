@@ -2,21 +2,37 @@
 
 use super::divided::divided_exp;
 use super::elementary::{exp, sin_cos};
-use super::force::LocalForce;
+use super::force::{LocalForce, Wave};
 use super::roots::{Equation, Roots};
 use nalgebra::Complex;
 
-/// Displacement and its first four time derivatives at one instant: m, m/s, … m/s⁴.
-pub(crate) type Jet = [f64; 5];
+/// Displacement and its first six time derivatives at one instant: m, m/s, … m/s⁶.
+pub(crate) type Jet = [f64; 7];
 
 /// A particular solution to one sine, Im(gain · u(τ)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Part {
     omega: f64,
-    /// Steady: u = e^{iωτ} and gain = A e^{iθ}/(m D), D = κ − ω² + 2iσω. From rest: u = τ² exp[λ₁τ,
-    /// λ₂τ, iωτ], gain = A e^{iθ}/m.
+    /// A/m, m/s², and A/(m D), m, with D = κ − ω² + 2iσω.
+    push: f64,
+    transfer: Complex<f64>,
+    /// |D|, 1/s², and |A/(m D)|, m.
+    distance: f64,
+    size: f64,
+    /// Steady: u = e^{iωτ} and gain = A e^{iθ}/(m D). From rest: u = τ² exp[λ₁τ, λ₂τ, iωτ], gain =
+    /// A e^{iθ}/m.
     gain: Complex<f64>,
     steady: bool,
+}
+
+impl Part {
+    fn new(wave: &Wave, equation: &Equation) -> Self {
+        let Equation { sigma, kappa, of: [mass, ..], .. } = *equation;
+        let (omega, push) = (wave.omega, wave.amplitude / mass);
+        let d = Complex::new(kappa - omega * omega, 2.0 * sigma * omega);
+        let (transfer, distance) = (push / d, size_of(d));
+        Self { omega, push, transfer, distance, size: size_of(transfer), gain: transfer, steady: true }
+    }
 }
 
 /// q(τ) from a state at τ = 0: free motion plus one particular solution per piece of the load.
@@ -33,8 +49,10 @@ pub(super) struct Response {
     /// Steady solution p₀ + p₁τ of the constant and ramp, m and m/s; zero where they enter from
     /// rest.
     line: [f64; 2],
-    /// The constant and ramp that contribute by their response from rest, m/s² and m/s³.
+    /// The constant and ramp that contribute by their response from rest, m/s² and m/s³; and
+    /// whether they do.
     rest: [f64; 2],
+    ramped: bool,
     parts: Vec<Part>,
     /// True if a sine contributes by its response from rest.
     resonant: bool,
@@ -57,34 +75,33 @@ const STEADY_SIZE: f64 = 16.0;
 /// this share of it.
 const STEADY_SHARE: f64 = 0.25;
 
-impl Default for Response {
-    fn default() -> Self {
+impl Response {
+    /// The response of mass (kg), damping c (N s/m) and stiffness k (N/m) to `force`, from rest.
+    pub fn new(of: [f64; 3], force: &LocalForce) -> Self {
+        let equation = Equation::new(of);
         Self {
-            equation: Equation::new([1.0, 0.0, 0.0]),
+            equation,
             free: Complex::new(0.0, 0.0),
             line: [0.0; 2],
             rest: [0.0; 2],
-            parts: Vec::new(),
+            ramped: false,
+            parts: force.waves.iter().map(|wave| Part::new(wave, &equation)).collect(),
             resonant: false,
             size: [0.0; 2],
             steady: 0.0,
             extent: [f64::NEG_INFINITY, f64::INFINITY],
         }
     }
-}
 
-impl Response {
-    /// A response with room for `waves` sines.
-    pub fn with_room(waves: usize) -> Self {
-        Self { parts: Vec::with_capacity(waves), ..Self::default() }
-    }
-
-    /// Solves for mass (kg), damping c (N s/m) and stiffness k (N/m) under `force` from the state
-    /// (`q`, `v`). `span` (s) is the length of the arc, `length` (m) a typical displacement of the
-    /// scene.
-    pub fn set(&mut self, [mass, c, k]: [f64; 3], force: &LocalForce, [q, v]: [f64; 2], span: f64, length: f64) {
-        if self.equation.of != [mass, c, k] {
-            self.equation = Equation::new([mass, c, k]);
+    /// Solves for mass (kg), damping c (N s/m) and stiffness k (N/m) under `force`, whose sines are
+    /// those that the response was made for, from the state (`q`, `v`). `span` (s) is the length of
+    /// the arc, `length` (m) a typical displacement of the scene.
+    pub fn set(&mut self, of: [f64; 3], force: &LocalForce, [q, v]: [f64; 2], span: f64, length: f64) {
+        if self.equation.of != of {
+            self.equation = Equation::new(of);
+            for (part, wave) in self.parts.iter_mut().zip(&force.waves) {
+                *part = Part::new(wave, &self.equation);
+            }
         }
         let Equation { sigma, kappa, .. } = self.equation;
         let length = length.max(q.abs());
@@ -92,42 +109,41 @@ impl Response {
         // min(τ², τ/(ω + √κ + σ)); the steady motion is φ/|D|.
         let natural = self.equation.natural + sigma;
         let steady = |amplitude: f64, d: f64, omega: f64| {
-            let reached = span.min(1.0 / (omega + natural)) * span;
-            amplitude <= STEADY_SIZE * length * d || d * reached >= STEADY_SHARE
+            amplitude <= STEADY_SIZE * length * d || d * (span.min(1.0 / (omega + natural)) * span) >= STEADY_SHARE
         };
         let (mut x, mut dx) = (q, v);
         self.size = [q.abs(), v.abs()];
-        let (phi, ramp) = (force.constant / mass, force.slope / mass);
-        if kappa > 0.0 && steady(phi.abs() + ramp.abs() * (span + 2.0 * sigma / kappa), kappa, 0.0) {
-            let p1 = ramp / kappa;
-            self.line = [(phi - 2.0 * sigma * p1) / kappa, p1];
-            self.rest = [0.0; 2];
-            x -= self.line[0];
-            dx -= p1;
-            self.size[0] += self.line[0].abs();
-            self.size[1] += p1.abs();
-        } else {
-            self.line = [0.0; 2];
-            self.rest = [phi, ramp];
-        }
-        self.parts.clear();
-        self.steady = 0.0;
-        for w in &force.waves {
-            let gain = Complex::new(w.cos, w.sin) * (w.amplitude / mass);
-            let d = Complex::new(kappa - w.omega * w.omega, 2.0 * sigma * w.omega);
-            let is_steady = steady(size_of(gain), size_of(d), w.omega);
-            let gain = if is_steady { gain / d } else { gain };
-            if is_steady {
-                x -= gain.im;
-                dx -= w.omega * gain.re;
-                let size = size_of(gain);
-                self.size[0] += size;
-                self.size[1] += size * w.omega;
-                self.steady += size * (w.omega * w.omega + kappa);
+        (self.line, self.rest, self.ramped) = ([0.0; 2], [0.0; 2], false);
+        if force.constant != 0.0 || force.slope != 0.0 {
+            let (phi, ramp) = (force.constant / of[0], force.slope / of[0]);
+            if kappa > 0.0 && steady(phi.abs() + ramp.abs() * (span + 2.0 * sigma / kappa), kappa, 0.0) {
+                let p1 = ramp / kappa;
+                self.line = [(phi - 2.0 * sigma * p1) / kappa, p1];
+                x -= self.line[0];
+                dx -= p1;
+                self.size[0] += self.line[0].abs();
+                self.size[1] += p1.abs();
+            } else {
+                (self.rest, self.ramped) = ([phi, ramp], true);
             }
-            self.parts.push(Part { omega: w.omega, gain, steady: is_steady });
         }
-        self.resonant = self.parts.iter().any(|p| !p.steady);
+        self.steady = 0.0;
+        self.resonant = false;
+        for (part, wave) in self.parts.iter_mut().zip(&force.waves) {
+            let (w, turn) = (part.omega, Complex::new(wave.cos, wave.sin));
+            part.steady = steady(part.push.abs(), part.distance, w);
+            if part.steady {
+                part.gain = part.transfer * turn;
+                x -= part.gain.im;
+                dx -= w * part.gain.re;
+                self.size[0] += part.size;
+                self.size[1] += part.size * w;
+                self.steady += part.size * (w * w + kappa);
+            } else {
+                part.gain = turn * part.push;
+                self.resonant = true;
+            }
+        }
         self.free = match self.equation.roots {
             Roots::Pair { omega, .. } => Complex::new(x, -(dx + sigma * x) / omega),
             Roots::Real { slow, .. } => Complex::new(x, dx - slow * x),
@@ -142,7 +158,7 @@ impl Response {
 
     /// Bounds the motion by the sizes of its terms.
     fn bound_extent(&mut self, span: f64) {
-        if self.resonant || self.rest != [0.0; 2] {
+        if self.resonant || self.ramped {
             self.extent = [f64::NEG_INFINITY, f64::INFINITY];
             return;
         }
@@ -157,74 +173,82 @@ impl Response {
             Roots::Pair { .. } => size_of(self.free),
             Roots::Real { .. } => self.free.re.abs() + self.free.im.abs() * self.equation.longest.min(span),
         };
-        free + self.parts.iter().map(|p| size_of(p.gain)).sum::<f64>()
+        free + self.parts.iter().map(|part| part.size).sum::<f64>()
     }
 
     /// An interval that the motion does not leave at any time, m; `None` where no bound is known.
     pub fn reach_for_ever(&self) -> Option<[f64; 2]> {
-        if self.resonant || self.rest != [0.0; 2] || self.line[1] != 0.0 {
+        if self.resonant || self.ramped || self.line[1] != 0.0 {
             return None;
         }
         let reach = self.swing(f64::INFINITY);
         Some([self.line[0] - reach, self.line[0] + reach])
     }
 
-    /// The displacement and its first four derivatives at `tau` ≥ 0.
+    /// The displacement and its first six derivatives at `tau` ≥ 0.
     #[inline]
     pub fn jet(&self, tau: f64) -> Jet {
-        let (mut x, impulse) = self.free_jet(tau);
+        let mut x = self.free_jet(tau);
         x[0] += self.line[0] + self.line[1] * tau;
         x[1] += self.line[1];
-        if self.rest != [0.0; 2] {
-            self.add_rest(tau, &impulse, &mut x);
+        for part in self.parts.iter().filter(|part| part.steady) {
+            let (g, w) = (part.gain, part.omega);
+            let ((s, c), w2) = (sin_cos(w * tau), w * w);
+            let (im, re) = (g.re * s + g.im * c, w * (g.re * c - g.im * s));
+            x[0] += im;
+            x[1] += re;
+            x[2] -= w2 * im;
+            x[3] -= w2 * re;
+            x[4] += w2 * w2 * im;
+            x[5] += w2 * w2 * re;
+            x[6] -= w2 * w2 * w2 * im;
         }
-        for part in &self.parts {
-            let w = part.omega;
-            if part.steady {
-                let (s, c) = sin_cos(w * tau);
-                let (g, w2) = (part.gain, w * w);
-                let (im, re) = (g.re * s + g.im * c, g.re * c - g.im * s);
-                x[0] += im;
-                x[1] += w * re;
-                x[2] -= w2 * im;
-                x[3] -= w2 * w * re;
-                x[4] += w2 * w2 * im;
-            } else {
-                // u′ = iω u + S, differentiated again and again.
-                let [a, b] = self.nodes(tau);
-                let mut u = divided_exp([a, b, Complex::new(0.0, w * tau)]) * (tau * tau);
-                for (x, s) in x.iter_mut().zip(&impulse) {
-                    *x += (part.gain * u).im;
-                    u = Complex::new(-w * u.im + s, w * u.re);
-                }
-            }
+        if self.resonant || self.ramped {
+            self.add_from_rest(tau, &mut x);
         }
         x
     }
 
-    /// Free motion, and S with its derivatives (not computed where no piece of the load responds
-    /// from rest).
+    /// Free motion.
     #[inline]
-    fn free_jet(&self, tau: f64) -> (Jet, Jet) {
-        let wanted = self.resonant || self.rest != [0.0; 2];
-        let mut impulse = [0.0; 5];
-        match self.equation.roots {
+    fn free_jet(&self, tau: f64) -> Jet {
+        match &self.equation.roots {
             Roots::Pair { omega, powers } => {
-                let Equation { sigma, kappa, .. } = self.equation;
-                let decay = exp(-sigma * tau);
+                let decay = exp(-self.equation.sigma * tau);
                 let (s, c) = sin_cos(omega * tau);
                 let z = self.free * Complex::new(decay * c, decay * s);
                 // Each derivative from z itself: a chain of products would make every one wait.
-                let [v, a, jerk, snap] = powers.map(|power| power.re * z.re - power.im * z.im);
-                let x = [z.re, v, a, jerk, snap];
-                if wanted {
-                    impulse[0] = decay * s / omega;
-                    impulse[1] = decay * c - sigma * impulse[0];
-                    for n in 2..5 {
-                        impulse[n] = -2.0 * sigma * impulse[n - 1] - kappa * impulse[n - 2];
-                    }
+                let mut x = [z.re; 7];
+                for (x, power) in x[1..].iter_mut().zip(powers) {
+                    *x = power.re * z.re - power.im * z.im;
                 }
-                (x, impulse)
+                x
+            }
+            Roots::Real { slow, .. } => {
+                let mut power = self.free.re * (slow * tau).exp();
+                self.impulse(tau).map(|s| {
+                    let x = power + self.free.im * s;
+                    power *= slow;
+                    x
+                })
+            }
+        }
+    }
+
+    /// S and its derivatives.
+    #[inline(never)]
+    fn impulse(&self, tau: f64) -> Jet {
+        let Equation { sigma, kappa, roots, .. } = self.equation;
+        let mut impulse = Jet::default();
+        match roots {
+            Roots::Pair { omega, .. } => {
+                let decay = exp(-sigma * tau);
+                let (s, c) = sin_cos(omega * tau);
+                impulse[0] = decay * s / omega;
+                impulse[1] = decay * c - sigma * impulse[0];
+                for n in 2..impulse.len() {
+                    impulse[n] = -2.0 * sigma * impulse[n - 1] - kappa * impulse[n - 2];
+                }
             }
             Roots::Real { slow, fast } => {
                 let (gap, lasting) = (slow - fast, (slow * tau).exp());
@@ -233,19 +257,13 @@ impl Response {
                 // S = (e^{slow τ} − e^{fast τ})/(slow − fast), and S⁽ⁿ⁺¹⁾ = slow S⁽ⁿ⁾ + fastⁿ
                 // e^{fast τ}.
                 impulse[0] = lasting * if spread == 0.0 { tau } else { -(-spread).exp_m1() / gap };
-                for n in 1..5 {
+                for n in 1..impulse.len() {
                     impulse[n] = slow * impulse[n - 1] + fading;
                     fading *= fast;
                 }
-                let mut power = self.free.re * lasting;
-                let x = impulse.map(|s| {
-                    let x = power + self.free.im * s;
-                    power *= slow;
-                    x
-                });
-                (x, impulse)
             }
         }
+        impulse
     }
 
     /// λ₁τ and λ₂τ.
@@ -259,21 +277,34 @@ impl Response {
         }
     }
 
-    /// Adds the response from rest to the constant and the ramp: ∬S and ∭S are τ² exp[λ₁τ, λ₂τ, 0]
-    /// and τ³ exp[λ₁τ, λ₂τ, 0, 0].
-    fn add_rest(&self, tau: f64, impulse: &Jet, x: &mut Jet) {
+    /// Adds the responses from rest: to the constant and the ramp, whose ∬S and ∭S are τ² exp[λ₁τ,
+    /// λ₂τ, 0] and τ³ exp[λ₁τ, λ₂τ, 0, 0], and to sines.
+    #[inline(never)]
+    fn add_from_rest(&self, tau: f64, x: &mut Jet) {
+        let impulse = self.impulse(tau);
         let [phi, ramp] = self.rest;
         let ([a, b], zero) = (self.nodes(tau), Complex::new(0.0, 0.0));
-        let step = tau * tau * divided_exp([a, b, zero]).re;
-        x[0] += phi * step;
-        for n in 0..4 {
-            x[n + 1] += phi * impulse[n];
+        if self.ramped {
+            let step = tau * tau * divided_exp([a, b, zero]).re;
+            x[0] += phi * step;
+            for n in 0..x.len() - 1 {
+                x[n + 1] += phi * impulse[n];
+            }
+            if ramp != 0.0 {
+                x[0] += ramp * tau.powi(3) * divided_exp([a, b, zero, zero]).re;
+                x[1] += ramp * step;
+                for n in 0..x.len() - 2 {
+                    x[n + 2] += ramp * impulse[n];
+                }
+            }
         }
-        if ramp != 0.0 {
-            x[0] += ramp * tau.powi(3) * divided_exp([a, b, zero, zero]).re;
-            x[1] += ramp * step;
-            for n in 0..3 {
-                x[n + 2] += ramp * impulse[n];
+        for part in self.parts.iter().filter(|part| !part.steady) {
+            // u′ = iω u + S, differentiated again and again.
+            let w = part.omega;
+            let mut u = divided_exp([a, b, Complex::new(0.0, w * tau)]) * (tau * tau);
+            for (x, s) in x.iter_mut().zip(&impulse) {
+                *x += (part.gain * u).im;
+                u = Complex::new(-w * u.im + s, w * u.re);
             }
         }
     }

@@ -9,8 +9,8 @@ pub(super) enum Roots {
     Pair {
         /// Damped circular frequency √(κ − σ²), rad/s; above 0.
         omega: f64,
-        /// λ, λ², λ³, λ⁴ of the root above the real axis, 1/s and so on.
-        powers: [Complex<f64>; 4],
+        /// λ, λ² … λ⁶ of the root above the real axis, 1/s and so on.
+        powers: [Complex<f64>; 6],
     },
     /// λ = −σ ± δ, both real; the slow one is −κ/(σ + δ), free of cancellation at any damping.
     Real {
@@ -46,8 +46,9 @@ impl Equation {
         let mut longest = 1.0 / natural;
         let roots = if excess < 0.0 {
             let root = Complex::new(-sigma, (-excess).sqrt());
-            let square = root * root;
-            Roots::Pair { omega: root.im, powers: [root, square, square * root, square * square] }
+            let (square, cube) = (root * root, root * root * root);
+            let powers = [root, square, cube, square * square, square * cube, cube * cube];
+            Roots::Pair { omega: root.im, powers }
         } else {
             let delta = excess.sqrt();
             longest = longest.min(0.5 / delta);

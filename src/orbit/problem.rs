@@ -179,7 +179,7 @@ impl Problem {
 
     /// An arc to be filled by [`Problem::fly`].
     pub(super) fn arc(&self) -> Arc {
-        Arc::new(self.body, self.stops.len(), self.forcing.harmonics.len())
+        Arc::new(self.body, self.stops.len(), &self.forcing)
     }
 
     /// Lets the body go from `state` (m, m/s) at `start` (s) for `span` (s) against the elastic

@@ -2,6 +2,7 @@
 //! beginning or ending.
 
 use super::Event;
+use super::room::Room;
 use crate::scene::Side;
 use crate::scheme::exact::{Phase, noise};
 
@@ -76,16 +77,21 @@ impl Event {
             self.q = b.position;
         }
         b.settle(index, time, v, &mut self.shown.closed);
+        self.room = Room::between(&self.barriers);
     }
 
     /// Updates the phases after a jump of velocity, which may begin or end the contact at elastic
     /// walls with damping.
     pub(super) fn reclassify(&mut self) {
+        if !self.soft {
+            return;
+        }
         let (q, v, time, resolution) = (self.q, self.v, self.time, self.resolution);
         for (index, b) in self.barriers.iter_mut().enumerate() {
             b.classify(q, v, resolution);
             b.settle(index, time, v, &mut self.shown.closed);
         }
+        self.room = Room::between(&self.barriers);
     }
 
     /// Handles the rigid walls that touch: Newton's law for an approach, otherwise sticking or

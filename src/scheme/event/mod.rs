@@ -1,8 +1,11 @@
 //! The exact scheme of one degree of freedom: closed-form motion between events, which are located
 //! to rounding.
 
+mod flight;
+mod hit;
 mod instant;
 mod motion;
+mod room;
 mod root;
 mod search;
 mod view;
@@ -15,16 +18,19 @@ use crate::error::{Error, Result};
 use crate::flow::Arc;
 use crate::scene::{Forcing, Oscillator, Scene, System};
 use crate::step::{Balance, Conserves, Contract, Promise, Tolerances};
+use room::Room;
 
 /// One degree of freedom between walls, advanced from event to event:
 ///
 /// m q̈ + c q̇ + k q = f(t) + r, 0 ≤ gap ⟂ |r| ≥ 0 and ẇ⁺ = −e ẇ⁻ at a rigid wall, |r| = max(0, k_a
 /// s + c_a ṡ) for s > 0 at an elastic one.
 ///
-/// Between events the motion is an [`Arc`]. The first root of each gap, and of the force of each
-/// wall that touches, is approached from one side by polynomials that are lower bounds of the
-/// function (from bounds by [`Arc`]), so that no root is skipped: neither a grazing contact nor a
-/// wall is missed. Gaps are resolved to rounding; a miss by less than that counts as a touch.
+/// Between events the motion is an [`Arc`]. A flight in front of all walls is followed in leaps, each
+/// shown to be free of contact by the cubic through both of its ends and a bound on its error. Where
+/// that does not tell, the first root of each gap, and of the force of each wall that touches, is
+/// approached from one side by polynomials that are lower bounds of the function. Both use bounds by
+/// [`Arc`], so that no root is skipped: neither a grazing contact nor a wall is missed. Gaps are
+/// resolved to rounding; a miss by less than that counts as a touch.
 ///
 /// - A touch without approach speed, such as the tangential return of an undamped motion, is
 ///   located at the extremum of the gap: it has no speed and no impulse, and is no contact.
@@ -48,6 +54,12 @@ pub struct Event {
     body: Oscillator,
     forcing: Forcing,
     barriers: Vec<ExactWall>,
+    /// True if a wall is elastic.
+    soft: bool,
+    /// The largest distance of a wall from the origin, m.
+    farthest: f64,
+    /// Between the walls, while the body is in front of all of them.
+    room: Option<Room>,
     clock: Clock,
     /// A typical displacement of the scene, m.
     length: f64,
@@ -112,14 +124,19 @@ impl Event {
         let forcing = Forcing::on(0, &scene.loads);
         let q = scene.initial.q.first().copied().unwrap_or(0.0);
         let v = scene.initial.v.first().copied().unwrap_or(0.0) + forcing.initial_impulse() / body.mass;
-        let (walls, waves) = (barriers.len(), forcing.harmonics.len());
+        let walls = barriers.len();
+        let farthest = barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
+        let arc = Arc::new(body, walls, &forcing);
         let mut event = Self {
             body,
             forcing,
+            soft: scene.walls.iter().any(|wall| !wall.law.is_rigid()),
+            farthest,
+            room: Room::between(&barriers),
             barriers,
             clock: Clock::new(scene.duration, stride),
             length: if walls > 0 { scene.gap_scale() } else { 0.0 },
-            arc: Arc::new(body, walls, waves),
+            arc,
             time: 0.0,
             late: 0.0,
             q,
@@ -130,7 +147,7 @@ impl Event {
             released: f64::NEG_INFINITY,
             accumulation: None,
             force_size: [0.0; 2],
-            resolution: noise(scene.walls.iter().map(|w| w.position.abs()).fold(0.0, f64::max)),
+            resolution: noise(farthest),
             sizes: [0.0; 4],
             steps: 0,
             shown: Shown::new(&[v], (walls, 0), 2 * walls + 2),

@@ -35,13 +35,13 @@ impl Event {
             span,
             length: self.length,
         };
-        let touching = self.barriers.iter().enumerate().filter_map(|(index, b)| b.touch(index));
+        let soft = if self.soft { &self.barriers[..] } else { &[] };
+        let touching = soft.iter().enumerate().filter_map(|(index, b)| b.touch(index));
         let support = self.support.and_then(|wall| Some(Support { wall, side: self.barriers.get(wall)?.side }));
         self.arc.begin(&from, touching, support);
         let sizes = self.arc.sizes();
         let [q, _, force, rate] = sizes;
-        let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
-        self.resolution = noise(q + wall);
+        self.resolution = noise(q + self.farthest);
         self.sizes = sizes;
         // The instant itself is known only to an ulp of the time.
         let (mass, fastest) = (self.body.mass, self.arc.fastest());
@@ -63,6 +63,9 @@ impl Event {
 
     /// Adds the impulses of the arc just completed to the step and to the open episodes.
     pub(super) fn gather_impulses(&mut self) {
+        if self.support.is_none() && !self.arc.touches() {
+            return;
+        }
         let (from, to) = (self.arc.start(), self.arc.end());
         for (index, b) in self.barriers.iter_mut().enumerate() {
             // A wall that carries the body without an episode does not push.

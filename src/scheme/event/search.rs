@@ -1,21 +1,12 @@
 //! The search for the next event of an arc.
 
 use super::Event;
+use super::flight::Flown;
+use super::hit::Hit;
 use super::root::{Below, Step};
 use crate::error::Result;
 use crate::flow::{Jet, Support};
 use crate::scheme::exact::{ExactWall, Phase, noise};
-
-/// Where the search ended.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Hit {
-    /// Time since the arc's start, s.
-    pub tau: f64,
-    /// Displacement (m) and velocity (m/s) there, from the left.
-    pub state: [f64; 2],
-    /// The wall of the event; `None` where there is none up to the end.
-    pub wall: Option<usize>,
-}
 
 /// Length of the longest window of a bound, in radians of the fastest oscillation: beyond it the
 /// bounds grow faster than the window.
@@ -30,21 +21,25 @@ impl Event {
         if let Some(support) = self.support {
             return self.search_rest(support, span);
         }
-        if self.nothing_in_reach() {
+        let [low, high] = self.arc.extent();
+        if self.room.is_some_and(|room| room.holds(low, 0.0) && room.holds(high, 0.0)) {
             let [q, v, ..] = self.arc.jet(span);
             return Ok(Hit { tau: span, state: [q, v], wall: None });
         }
-        let mut noise = self.flow_noise();
+        let (mut tau, mut jet) = match self.fly(span)? {
+            Flown::To(hit) => return Ok(hit),
+            Flown::Unclear(tau, jet) => (tau, jet),
+        };
         let fastest = self.arc.fastest_motion();
         let longest = if fastest > 0.0 { WINDOW_RADIANS / fastest } else { f64::INFINITY };
-        let (mut tau, mut jet) = (0.0, self.arc.start_jet());
+        let mut noise = self.flow_noise(tau > 0.0);
         self.note_pressures(&jet);
         let let_go = self.v == 0.0 && self.released == self.time;
         let moves = [self.q, self.v] != [0.0; 2];
         loop {
             self.count_evaluation(tau)?;
             let window = longest.min(span - tau);
-            let bounds = self.arc.bounds(&jet, window);
+            let bounds = self.arc.bounds(&jet, 4, window);
             let (mut step, mut wall, mut is_root, mut touched) = (window, None, false, false);
             for index in 0..self.barriers.len() {
                 for which in 0..2 {
@@ -83,11 +78,7 @@ impl Event {
             let next = if wall.is_none() && step >= span - tau { span } else { next };
             let before = jet;
             if tau == 0.0 {
-                // From here on the closed form gives the acceleration, with the rounding errors of
-                // its own terms.
-                let steady = self.arc.steady_size();
-                noise[2] += crate::scheme::exact::noise(steady);
-                noise[3] += crate::scheme::exact::noise(steady * fastest);
+                noise = self.flow_noise(true);
             }
             jet = self.arc.jet(next);
             if self.arc.touches() {
@@ -107,15 +98,6 @@ impl Event {
     /// True if the wall's phase changed at this instant.
     fn has_changed(&self, index: usize) -> bool {
         self.barriers.get(index).is_some_and(|b| b.changed == self.time)
-    }
-
-    /// True where the bounds of the motion keep it in front of every wall.
-    fn nothing_in_reach(&self) -> bool {
-        let [low, high] = self.arc.extent();
-        self.barriers.iter().all(|b| {
-            let apart = b.sign * ((if b.sign > 0.0 { low } else { high }) - b.position);
-            apart > 0.0 && matches!(b.phase, Phase::Rigid(_) | Phase::Outside)
-        })
     }
 
     /// A wall met exactly at the end of the arc. A function that is not yet below 0 there is found
@@ -144,16 +126,17 @@ impl Event {
         }
     }
 
-    /// Rounding errors of displacement and its first three derivatives on this arc.
-    fn flow_noise(&self) -> [f64; 4] {
-        let [q, v, force, rate] = self.sizes;
-        let wall = self.barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
+    /// Rounding errors of displacement and its first three derivatives on this arc. Away from its
+    /// start, where the `closed` form gives the acceleration, those of its own terms are among them.
+    fn flow_noise(&self, closed: bool) -> [f64; 4] {
+        let [_, v, force, rate] = self.sizes;
         let (mass, rub) = (self.body.mass, self.body.damping / self.body.mass);
         // The instant itself, and the load with it, is known only to an ulp of the time.
         let fastest = self.arc.fastest();
         let a = (force + rate * self.time) / mass + rub * v;
         let jerk = rate * (1.0 + fastest * self.time) / mass + rub * a + self.body.stiffness / mass * v;
-        [noise(q + wall), noise(v), noise(a), noise(jerk)]
+        let steady = if closed { self.arc.steady_size() } else { 0.0 };
+        [self.resolution, noise(v), noise(a) + noise(steady), noise(jerk) + noise(steady * self.arc.fastest_motion())]
     }
 
     /// The search at rest: the first root of the pressing force.
