@@ -6,6 +6,7 @@ use super::csv::{self, digits};
 use super::pictures::{Labelled, Sheet};
 use super::results::Results;
 use super::run::{self, Picture};
+use super::site::Site;
 use super::summary::{Checks, Reasons};
 use super::table::Table;
 use crate::case::Case;
@@ -81,7 +82,7 @@ fn with_findings(mut document: Value, case: &Case, comparison: &Comparison, row:
         "agrees_until_s": row.agrees_until,
         "largest_displacement_m": run.map(|run| largest(run.trajectory.displacements())),
         "penetration_m": run.map(|run| penetration(case, run)),
-        "peak_force_n": run.and_then(|run| peak(run, None)),
+        "peak_force_n": run.and_then(|run| peak(case, run)),
         "seconds_per_step": row.step_ns.map(|ns| 1e-9 * ns),
         "failure": row.outcome.as_ref().err().map(ToString::to_string),
     });
@@ -181,7 +182,7 @@ fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Resul
         line.push(digits(row.agrees_until));
         line.push(digits(Some(largest(run.trajectory.displacements()))));
         line.push(digits(Some(penetration(case, run))));
-        line.push(digits(peak(run, None)));
+        line.push(digits(peak(case, run)));
         line.extend([run.residuals.energy.residual, run.residuals.complementarity].map(|x| digits(Some(x))));
         line.push(digits(row.step_ns));
         line.push(run.findings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "));
@@ -191,34 +192,24 @@ fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Resul
     csv::table(&results.place("compare.csv")?, &header.map(str::to_owned), comparison.rows.iter().map(line))
 }
 
-/// `compare-walls.csv`: one row per method and wall, for any number of walls.
+/// `compare-walls.csv`: one row per method and wall or round support, for any number of them; the
+/// impulse of a round support is Σ|p|.
 fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
     let header = ["method", "wall", "impulse_N_s", "contacts", "peak_force_N"];
     let runs = comparison.rows.iter().filter_map(|row| Some((row.method.to_string(), row.outcome.as_ref().ok()?)));
     let rows = runs.flat_map(|(method, run)| {
-        let counts = counts(case, run);
-        let line = move |(index, wall): (usize, &crate::scene::Wall)| {
+        let line = move |site: Site<'_>| {
             vec![
                 method.clone(),
-                wall.name.clone(),
-                digits(impulse(run, index)),
-                counts.get(index).map_or_else(String::new, ToString::to_string),
-                digits(peak(run, Some(index))),
+                site.name().to_owned(),
+                digits(site.impulse(run)),
+                site.contacts(run).map_or_else(String::new, |count| count.to_string()),
+                digits(site.peak(run)),
             ]
         };
-        case.scene.walls.iter().enumerate().map(line)
+        Site::all(case).map(line)
     });
     csv::table(&results.place("compare-walls.csv")?, &header.map(str::to_owned), rows)
-}
-
-/// Contacts of each wall that began in the window of the statistics.
-fn counts(case: &Case, run: &Run) -> Vec<usize> {
-    run.statistics.walls.iter().map(|wall| wall.contacts).take(case.scene.walls.len()).collect()
-}
-
-/// Impulse of a wall over the window, N s.
-fn impulse(run: &Run, wall: usize) -> Option<f64> {
-    run.statistics.walls.get(wall)?.force.map(|force| force.impulse_n_s)
 }
 
 fn largest(columns: &[Vec<f64>]) -> f64 {
@@ -237,10 +228,9 @@ fn penetration(case: &Case, run: &Run) -> f64 {
     all.filter(|(rigid, _)| *rigid).fold(0.0, |most, (_, depth)| most.max(*depth))
 }
 
-/// Largest force of the contacts in the window whose force is finite, N: of one wall, or of all.
-fn peak(run: &Run, wall: Option<usize>) -> Option<f64> {
-    let here = run.statistics.walls.iter().enumerate().filter(|(index, _)| wall.is_none_or(|wall| *index == wall));
-    here.filter_map(|(_, wall)| wall.episode_peak_force_n.max).reduce(f64::max)
+/// Largest force of all contacts in the window whose force is finite, N.
+fn peak(case: &Case, run: &Run) -> Option<f64> {
+    Site::all(case).filter_map(|site| site.peak(run)).reduce(f64::max)
 }
 
 /// The comparison as a table for the terminal: one column per method, since there are more
@@ -278,24 +268,27 @@ pub fn table(case: &Case, comparison: &Comparison) -> Table {
     quantity("max |u| (mm)", &|_, run| format!("{:.4}", 1e3 * largest(run.trajectory.displacements())));
     quantity("penetration (mm)", &|_, run| short(1e3 * penetration(case, run)));
     quantity("peak force (N)", &|_, run| {
-        let none = || if counts(case, run).iter().all(|&count| count == 0) { dash() } else { "impacts".into() };
-        peak(run, None).map_or_else(none, |f| format!("{f:.2}"))
+        let touched = Site::all(case).any(|site| site.contacts(run).is_some_and(|count| count > 0));
+        peak(case, run).map_or_else(|| if touched { "impacts".into() } else { dash() }, |f| format!("{f:.2}"))
     });
-    let walls = &case.scene.walls;
-    if walls.len() > MOST_WALLS {
+    let all: Vec<Site<'_>> = Site::all(case).collect();
+    if all.len() > MOST_WALLS {
         quantity("Σ|impulse| (N s)", &|_, run| {
-            format!("{:.3}", (0..walls.len()).filter_map(|wall| impulse(run, wall)).map(f64::abs).sum::<f64>())
+            format!("{:.3}", all.iter().filter_map(|site| site.impulse(run)).map(f64::abs).sum::<f64>())
         });
-        quantity("contacts", &|_, run| counts(case, run).iter().sum::<usize>().to_string());
+        let count = |run: &Run| all.iter().filter_map(|site| site.contacts(run)).sum::<usize>();
+        quantity("contacts", &|_, run| count(run).to_string());
     } else {
-        for (index, wall) in walls.iter().enumerate() {
-            quantity(&format!("impulse {} (N s)", wall.name), &|_, run| {
-                impulse(run, index).map_or_else(dash, |p| format!("{p:+.3}"))
-            });
+        for site in &all {
+            let (name, told): (String, fn(f64) -> String) = match site {
+                Site::Wall(_, name) => (format!("impulse {name} (N s)"), |p| format!("{p:+.3}")),
+                Site::Round(_, name) => (format!("Σ|impulse| {name} (N s)"), |p| format!("{p:.3}")),
+            };
+            quantity(&name, &|_, run| site.impulse(run).map_or_else(dash, told));
         }
-        for (index, wall) in walls.iter().enumerate() {
-            quantity(&format!("contacts {}", wall.name), &|_, run| {
-                counts(case, run).get(index).map_or_else(dash, ToString::to_string)
+        for site in &all {
+            quantity(&format!("contacts {}", site.name()), &|_, run| {
+                site.contacts(run).map_or_else(dash, |count| count.to_string())
             });
         }
     }
@@ -308,6 +301,6 @@ pub fn table(case: &Case, comparison: &Comparison) -> Table {
 /// What the reader must be told beside the table.
 #[must_use]
 pub fn remark(case: &Case) -> Option<String> {
-    let count = case.scene.walls.len();
+    let count = Site::all(case).count();
     (count > MOST_WALLS).then(|| format!("impulses and contacts of all {count} walls; compare-walls.csv has each"))
 }

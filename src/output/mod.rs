@@ -52,6 +52,7 @@ pub(crate) mod ring;
 mod rubbed;
 pub mod run;
 pub mod shape;
+mod site;
 mod spectra;
 pub mod stability;
 pub mod summary;

@@ -6,7 +6,7 @@ use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
 use crate::run::Run;
-use crate::statistics::{SupportForce, WearStatistics};
+use crate::statistics::{SupportForce, SupportStatistics, WearStatistics};
 use crate::wear::Worn;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -20,7 +20,7 @@ const UPPER: &str = "upper figure";
 /// A support of a run.
 struct Known<'a> {
     wear: &'a WearStatistics,
-    force: Option<SupportForce>,
+    contact: &'a SupportStatistics,
     /// What its work rate wears off.
     worn: Option<Worn>,
 }
@@ -30,7 +30,7 @@ fn all<'a>(case: &'a Case, run: &'a Run) -> impl Iterator<Item = Known<'a>> {
     let statistics = &run.statistics;
     statistics.wear.iter().zip(&statistics.supports).enumerate().map(|(index, (wear, support))| Known {
         wear,
-        force: support.force,
+        contact: support,
         worn: case.archard(index).map(|law| law.worn(wear.work_rate_w)),
     })
 }
@@ -58,12 +58,15 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
         "mean_normal_force_N",
         "mean_normal_force_half_width_95_N",
         "contact_time_ratio",
+        "contacts",
+        "peak_force_N",
         "wear_volume_m3",
         "depth_one_scar_m",
         "depth_all_round_m",
         "support_wear_volume_m3",
     ];
-    let row = |Known { wear: support, force, worn }: Known<'_>| {
+    let row = |Known { wear: support, contact, worn }: Known<'_>| {
+        let force = contact.force;
         let numbers = [
             Some(support.work_rate_w),
             support.work_rate_half_width_95_w,
@@ -76,6 +79,8 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
             force.map(|force| force.mean_n),
             force.and_then(|force| force.mean_half_width_95_n),
             Some(support.contact_time_ratio),
+            Some(contact.contacts as f64),
+            contact.episode_peak_force_n.max,
             worn.and_then(|worn| worn.volume_m3),
             worn.and_then(|worn| worn.depth_one_scar_m),
             worn.and_then(|worn| worn.depth_all_round_m),
@@ -131,8 +136,9 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
     if wears {
         header.extend(["worn (mm³)", "one scar (mm)", "all round (mm)", "support worn (mm³)"]);
     }
-    let row = |Known { wear: support, force, worn }: Known<'_>| {
-        let mean = |of: fn(&SupportForce) -> f64| force.as_ref().map_or_else(|| "-".to_owned(), |f| figures(of(f)));
+    let row = |Known { wear: support, contact, worn }: Known<'_>| {
+        let mean =
+            |of: fn(&SupportForce) -> f64| contact.force.as_ref().map_or_else(|| "-".to_owned(), |f| figures(of(f)));
         let upper = if support.upper_figure { format!(" {UPPER}") } else { String::new() };
         let mut row = vec![
             support.support.clone(),

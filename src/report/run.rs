@@ -80,6 +80,9 @@ fn facts(summary: &Value) -> Value {
         let unit = if upper { "mW, upper figure" } else { "mW" };
         facts.push(fact("work rate", short(1e3 * work), unit));
         facts.push(fact("mean force", short(force), "N, of all supports"));
+        // That of flats is among those of the walls.
+        let peaks = forces.iter().filter_map(|support| number(&support["episode_peak_force_n"]["max"]));
+        facts.extend(peaks.reduce(f64::max).filter(|_| walls.is_empty()).map(|f| fact("largest force", short(f), "N")));
     }
     facts.push(fact("method", summary["scheme"].as_str().unwrap_or_default().to_owned(), ""));
     let length =

@@ -14,6 +14,7 @@ mod place;
 mod rubbing;
 mod spectrum;
 mod student;
+mod summary;
 mod support;
 
 pub use distribution::Distribution;
@@ -25,33 +26,13 @@ pub use rubbing::{Rubbing, SectorStatistics, WearStatistics};
 pub(crate) use spectrum::FEWEST as FEWEST_VALUES;
 pub use spectrum::Spectrum;
 pub(crate) use student::student_95;
+pub use summary::Summary;
 pub use support::{SupportForce, SupportStatistics};
 
 use crate::scene::{Scene, Wall};
 use crate::step::Contact;
 use batch::{BATCHES, batch_of, half_width, ratio_half_width};
 use serde::{Deserialize, Serialize};
-
-/// Mean and largest of a set of magnitudes, one per episode; both `None` if the set is empty.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Summary {
-    /// Arithmetic mean over the episodes, not over time.
-    pub mean: Option<f64>,
-    /// Largest.
-    pub max: Option<f64>,
-}
-
-impl Summary {
-    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
-        let count = values.clone().count();
-        if count == 0 {
-            return Self::default();
-        }
-        let max = values.clone().fold(0.0, f64::max);
-        Self { mean: Some(values.sum::<f64>() / count as f64), max: Some(max) }
-    }
-}
 
 /// Half widths of the 95 % intervals, by batch means, of the quantities drawn from a wall's
 /// contacts; there are none where fewer than ten contacts began in the window.

@@ -1,6 +1,7 @@
 //! The force of a support over time: that of all its flats together, or of a round hole.
 
 use super::batch::{BATCHES, Sums};
+use super::summary::Summary;
 use crate::scene::{FlatWall, Scene, Shape, heading};
 use crate::step::{Contact, Path, Step};
 use serde::{Deserialize, Serialize};
@@ -13,6 +14,9 @@ pub struct SupportStatistics {
     pub support: String,
     /// Number of contacts that began in the window, of all its flats.
     pub contacts: usize,
+    /// Largest |normal force| of each contact that overlaps the window and whose force is finite, N.
+    #[serde(default)]
+    pub episode_peak_force_n: Summary,
     /// The force over time; `None` where only the contacts are known.
     pub force: Option<SupportForce>,
 }
@@ -165,11 +169,15 @@ impl SupportTally {
 /// The statistics of the supports of `scene`, from the contacts `by_place` and the start `from` (s)
 /// of the window; without the force over time.
 pub(super) fn of_supports(scene: &Scene, by_place: &[Vec<&Contact>], from: f64) -> Vec<SupportStatistics> {
-    let began = |index: &usize| by_place.get(*index).into_iter().flatten().filter(|c| c.start >= from).count();
-    let support = |(name, parts): (&str, Vec<usize>)| SupportStatistics {
-        support: name.to_owned(),
-        contacts: parts.iter().map(began).sum(),
-        force: None,
+    let support = |(name, parts): (&str, Vec<usize>)| {
+        let all = parts.iter().filter_map(|&part| by_place.get(part)).flatten();
+        let reaching = all.clone().filter(|c| c.end.is_none_or(|end| end >= from));
+        SupportStatistics {
+            support: name.to_owned(),
+            contacts: all.filter(|c| c.start >= from).count(),
+            episode_peak_force_n: Summary::of(reaching.filter_map(|c| c.peak_force)),
+            force: None,
+        }
     };
     parts(scene).map(support).collect()
 }

@@ -119,6 +119,22 @@ fn the_exact_scheme_records_the_50_digit_states() {
 }
 
 #[test]
+fn compare_gives_the_force_in_round_supports() {
+    let dir = tempfile::tempdir().unwrap();
+    let table = done(dir.path(), &["compare", "whirl-in-a-hole", "--schemes", "moreau-jean", "--end", "1"]);
+    assert!(table.contains("contacts hole") && table.contains("|impulse| hole (N s)"), "{table}");
+    let (header, lines) = csv(&dir.path().join("out/whirl-in-a-hole/compare/compare-walls.csv"));
+    assert_eq!(header, ["method", "wall", "impulse_N_s", "contacts", "peak_force_N"]);
+    let [line] = lines.as_slice() else { panic!("{lines:?}") };
+    assert_eq!((line[1].as_str(), line[3].as_str()), ("hole", "1"));
+    // The steady force in closed form, for 1 s; the midpoint rule on the circle is 2e-7 off.
+    for column in [2, 4] {
+        let found: f64 = line[column].parse().unwrap();
+        assert!((found / 7.064_267_168_051_028 - 1.0).abs() < 1e-6, "{line:?}");
+    }
+}
+
+#[test]
 fn compare_puts_qp_penalty_and_the_exact_motion_side_by_side() {
     let dir = tempfile::tempdir().unwrap();
     let table = done(dir.path(), &["compare", "rigid-walls-sine", "--end", "1", "--json"]);

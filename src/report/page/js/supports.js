@@ -6,7 +6,7 @@ const RING = [1.06, 0.3];
 
 function supportSection() {
   const { supports, statistics } = DATA.summary;
-  const rows = supports.map((support, i) => ({ ...support, force: statistics.supports[i]?.force }));
+  const rows = supports.map((support, i) => ({ ...support, ...statistics.supports[i] }));
   const drawn = DATA.scene.supports
     .map((support, i) => ({ support, worn: rows[i], pair: watching(support.name) }))
     .filter(({ pair, worn }) => pair && worn);
@@ -133,6 +133,7 @@ function supportTable(rows) {
     ),
     number("along y (N)", (row) => row.force?.mean_vector_n[0]),
     number("along z (N)", (row) => row.force?.mean_vector_n[1]),
+    number("largest force (N)", (row) => row.episode_peak_force_n?.max),
     rows.some((row) => row.worn) ? number("worn (mm³)", worn("volume_m3", 1e9)) : null,
     rows.some((row) => row.worn) ? number("one scar (mm)", worn("depth_one_scar_m", 1e3)) : null,
     rows.some((row) => row.worn) ? number("all round (mm)", worn("depth_all_round_m", 1e3)) : null,

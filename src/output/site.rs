@@ -1,0 +1,56 @@
+//! Where a scene is in contact, and what a run says of it.
+
+use crate::case::Case;
+use crate::run::Run;
+
+/// Where a scene is in contact: its walls, then its round supports.
+#[derive(Clone, Copy)]
+pub(super) enum Site<'a> {
+    /// With its index.
+    Wall(usize, &'a str),
+    /// With the index among all supports.
+    Round(usize, &'a str),
+}
+
+impl<'a> Site<'a> {
+    /// All of a case.
+    pub fn all(case: &'a Case) -> impl Iterator<Item = Self> {
+        let walls = case.scene.walls.iter().enumerate().map(|(index, wall)| Self::Wall(index, &wall.name));
+        let supports = case.scene.supports.iter().enumerate().filter(|(_, support)| support.hole().is_some());
+        walls.chain(supports.map(|(index, support)| Self::Round(index, &support.name)))
+    }
+
+    pub fn name(self) -> &'a str {
+        match self {
+            Self::Wall(_, name) | Self::Round(_, name) => name,
+        }
+    }
+
+    /// Contacts that began in the window of the statistics.
+    pub fn contacts(self, run: &Run) -> Option<usize> {
+        match self {
+            Self::Wall(index, _) => run.statistics.walls.get(index).map(|wall| wall.contacts),
+            Self::Round(index, _) => run.statistics.supports.get(index).map(|support| support.contacts),
+        }
+    }
+
+    /// Impulse of a wall over the window, signed as the force, or Σ|p| of a round support, N s.
+    pub fn impulse(self, run: &Run) -> Option<f64> {
+        let statistics = &run.statistics;
+        match self {
+            Self::Wall(index, _) => statistics.walls.get(index)?.force.map(|force| force.impulse_n_s),
+            Self::Round(index, _) => {
+                let force = statistics.supports.get(index)?.force;
+                force.map(|force| force.mean_n * (statistics.to_s - statistics.from_s))
+            }
+        }
+    }
+
+    /// Largest force of the contacts in the window whose force is finite, N.
+    pub fn peak(self, run: &Run) -> Option<f64> {
+        match self {
+            Self::Wall(index, _) => run.statistics.walls.get(index)?.episode_peak_force_n.max,
+            Self::Round(index, _) => run.statistics.supports.get(index)?.episode_peak_force_n.max,
+        }
+    }
+}
