@@ -2,19 +2,19 @@
 
 use super::request::{Changes, Destination};
 use super::ui::Ui;
-use crate::case::{CaseFile, Key, KeyValue};
+use crate::case::{Case, CaseFile, Key, KeyValue};
 use crate::error::{Error, Result};
-use crate::orbit::branch::{Graph, Label, Locus, Request, Switch, graph, locus};
-use crate::orbit::{Orbit, Problem};
+use crate::orbit::branch::{Graph, Label, Locus, Request, Start, Switch, graph, locus};
+use crate::orbit::{Orbit, Problem, Shot, shoot};
 use crate::output::asked::{asked, with};
 use crate::output::atomic::write_whole;
 use crate::output::branches::{Drawn, ended};
-use crate::output::periodic::read;
+use crate::output::periodic::{read, read_shot};
 use crate::output::table::Table;
 use crate::output::{beneath, json, loci, orbits, summary};
 use crate::scene::Scene;
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -29,7 +29,8 @@ The branch starts from the orbit of --from, or from the one on which the case se
 Writes branches.csv (every orbit), special.csv (folds, period doublings, broken symmetries, grazings, rests), branches.json,
 a picture (stable orbits solid, unstable ones dashed), and report.html, in which a click on an orbit shows it, drawn from
 orbits.csv. With --second also loci.csv and a picture: where the special points of the branches move in the plane of two keys.
-docs/orbits.md has the method and the labels.";
+Of a structure the motion is drawn at the place of the wall that most orbits meet; a change of the walls that an orbit meets
+ends a branch, and the next one begins there. docs/orbits.md has the method and the labels.";
 
 /// Branches of periodic orbits over a key: special points located, other branches found
 #[derive(Debug, clap::Args)]
@@ -108,7 +109,15 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         Ok(file.case()?.scene)
     };
     let second = args.second(&file)?;
-    let problem = Problem::new(case.scene.clone())?;
+    let lines = case.scene.is_line();
+    if let (Some(second), false) = (&args.second, lines) {
+        let expected =
+            "a case of one degree of freedom: the special points of structures are not followed over two keys";
+        return Err(Error::invalid("--second", second, expected));
+    }
+    // What cannot be followed at all is refused before the folder of results is made.
+    let problem = if lines { Some(Problem::new(case.scene.clone())?) } else { None };
+    let from = args.from.as_deref().map(|path| Begin::read(path, &case, problem.as_ref())).transpose()?;
     let request = Request {
         range,
         switch: match args.switch.as_str() {
@@ -138,16 +147,22 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let column = column(&key);
     let points = args.over.as_deref().map(|path| beneath::read(path, &column)).transpose()?.unwrap_or_default();
     let mut results = args.place.results(&case, "continue", asked)?;
-    let start = args.start(&problem, ui)?;
+    let start = match from {
+        Some(from) => from,
+        None => args.settled(&case.scene, problem.as_ref(), ui)?,
+    };
     let found = watched(&scene_at, &start, value, &request, ui)?;
-    let drawn = Drawn { graph: &found, column, label: axis(&key), scene: problem.scene() };
+    let drawn = Drawn { graph: &found, column, label: axis(&key), scene: &case.scene };
     drawn.branches(&results.place("branches.csv")?)?;
     drawn.specials(&results.place("special.csv")?)?;
     let mut document = drawn.document();
     // Another value of the key tells which walls it moves.
     let moved = found.branches.iter().flat_map(|branch| &branch.points).find(|point| point.value != value);
     let other = moved.map(|point| scene_at(point.value)).transpose()?;
-    document["walls"] = orbits::walls(problem.scene(), other.as_ref().unwrap_or(problem.scene()));
+    document["walls"] = orbits::walls(&case.scene, other.as_ref().unwrap_or(&case.scene), drawn.place());
+    if !lines {
+        document["place"] = json!(case.scene.walls.get(drawn.place()).map(|wall| &wall.name));
+    }
     write_whole(&results.place("branches.json")?, json::text(&document).as_bytes())?;
     let title = case.title.as_deref().unwrap_or(&case.name);
     results.draw("branches", &drawn.picture(&format!("{title}: branches of periodic orbits"), &points))?;
@@ -161,7 +176,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     if let Some(second) = &second {
         traced = args.loci(&file, &found, (&key, range), second, ui)?;
         let columns = [self::column(&key), self::column(&second.key)];
-        loci::table(&results.place("loci.csv")?, &traced, &columns, problem.scene())?;
+        loci::table(&results.place("loci.csv")?, &traced, &columns, &case.scene)?;
         let labels = [axis(&key), axis(&second.key)];
         results.draw("loci", &loci::picture(&traced, &labels, &format!("{title}: loci of special points")))?;
     }
@@ -245,28 +260,54 @@ impl Args {
         Ok(traced)
     }
 
-    fn start(&self, problem: &Problem, ui: &Ui) -> Result<Orbit> {
-        if let Some(path) = &self.from {
-            return problem.correct(&read(path, problem.scene())?);
-        }
+    /// The orbit on which the case settles; `problem` is that of one degree of freedom.
+    fn settled(&self, scene: &Scene, problem: Option<&Problem>, ui: &Ui) -> Result<Begin> {
         let bar = ui.progress("settling", 1000);
-        let found = problem.settled_with(self.settle, &|share| bar.share(share));
+        let progress = |share| bar.share(share);
+        let found = match problem {
+            Some(problem) => problem.settled_with(self.settle, &progress).map(Begin::Orbit),
+            None => shoot(scene, self.settle, &progress).map(Begin::Shot),
+        };
         bar.finish();
         found
+    }
+}
+
+/// Where the first branch begins.
+enum Begin {
+    Orbit(Orbit),
+    Shot(Shot),
+}
+
+impl Begin {
+    /// The orbit in a file of `signorini orbit`.
+    fn read(path: &Path, case: &Case, problem: Option<&Problem>) -> Result<Self> {
+        match problem {
+            Some(problem) => problem.correct(&read(path, problem.scene())?).map(Self::Orbit),
+            None => read_shot(path, &case.scene, case.truncated.is_some()).map(Self::Shot),
+        }
+    }
+
+    fn start(&self) -> Start<'_> {
+        match self {
+            Self::Orbit(orbit) => Start::Orbit(orbit),
+            Self::Shot(shot) => Start::Shot(shot),
+        }
     }
 }
 
 /// Follows the branches under a bar, which shows how far the key has come on the last one.
 fn watched(
     family: &dyn Fn(f64) -> Result<Scene>,
-    start: &Orbit,
+    start: &Begin,
     value: f64,
     request: &Request,
     ui: &Ui,
 ) -> Result<Graph> {
     let bar = ui.progress("branches", 1000);
     let [low, high] = request.range;
-    let found = graph(family, start, value, request, &mut |point| bar.share((point.value - low) / (high - low)));
+    let found =
+        graph(family, start.start(), value, request, &mut |point| bar.share((point.value - low) / (high - low)));
     bar.finish();
     found
 }
@@ -345,7 +386,10 @@ fn report(drawn: &Drawn<'_>, ui: &Ui) -> Result<()> {
         let leads: Vec<String> = special.leads_to.iter().map(|branch| (branch + 1).to_string()).collect();
         vec![
             (number + 1).to_string(),
-            special.label.to_string(),
+            match drawn.wall(special) {
+                Some(wall) => format!("{} at {wall}", special.label),
+                None => special.label.to_string(),
+            },
             format!("{:.12}", special.point.value),
             (special.branch + 1).to_string(),
             leads.join(" "),

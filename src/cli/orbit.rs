@@ -8,7 +8,7 @@ use crate::orbit::{Floquet, Kind, Orbit, Problem, Signature, closed_forms, shoot
 use crate::output::asked::{asked, with};
 use crate::output::atomic::write_whole;
 use crate::output::json;
-use crate::output::periodic::{Known, listed, read, shot};
+use crate::output::periodic::{Known, listed, read, read_shot, shot};
 use crate::output::results::Results;
 use crate::output::summary;
 use crate::output::table::Table;
@@ -27,8 +27,8 @@ A signature is a list of walls, one for each impact, by name (upper,lower) or, w
 other events are written upper:rest, upper:release, pad:enter, pad:leave. --start has the phase of each event in cycles of the
 forcing period and its speed in m/s. With --symmetric both mean the first half of an orbit that is its own mirror image.
 Writes orbit.json (which --from and `signorini continue` read), orbit.csv (the motion), contacts.csv, pictures of phase plane
-and time, and report.html, which shows them all. Of a structure the orbit on which its run settles is found by shooting, and
-orbit.json and report.html are written.
+and time, and report.html, which shows them all. Of a structure the orbit on which its run settles, or one near that of
+--from, is found by shooting, and orbit.json and report.html are written.
 docs/orbits.md has the method.";
 
 /// A periodic orbit: from a run that settles, a signature or a file; multipliers, forces, check
@@ -164,19 +164,22 @@ impl Args {
 
 /// The orbit of a structure, by shooting.
 fn structure(args: &Args, case: &Case, request: Map<String, Value>, ui: &Ui) -> Result<()> {
-    let given = args.signature.as_ref().map(|_| "--signature").or(args.from.as_ref().map(|_| "--from"));
-    if let Some(option) = given {
-        let expected =
-            "a case of one degree of freedom; the orbit of a structure is the one on which its run settles (--settle)";
-        return Err(Error::invalid(option, "given", expected));
+    if args.signature.is_some() {
+        let expected = "a case of one degree of freedom; the orbit of a structure is the one on which its run settles \
+                        (--settle), or one near that of a file (--from)";
+        return Err(Error::invalid("--signature", "given", expected));
     }
-    let scene = &case.scene;
+    let (scene, modal) = (&case.scene, case.truncated.is_some());
+    let from = args.from.as_deref().map(|path| read_shot(path, scene, modal)).transpose()?;
     let mut results = args.place.results(case, "orbit", request)?;
     let bar = ui.progress("settling", 1000);
-    let found = shoot(scene, args.settle, &|share| bar.share(share));
+    let found = match from {
+        Some(from) => from.corrected(scene),
+        None => shoot(scene, args.settle, &|share| bar.share(share)),
+    };
     bar.finish();
     let found = found?;
-    let document = shot(&found, scene, &case.name, case.truncated.is_some());
+    let document = shot(&found, scene, &case.name, modal);
     write_whole(&results.place("orbit.json")?, json::text(&document).as_bytes())?;
     args.finish(&mut results, case, ui)?;
     if ui.json() {
@@ -268,7 +271,7 @@ fn multipliers(floquet: &Floquet) -> Vec<String> {
     let verdict = if floquet.is_stable() { "stable" } else { "unstable" };
     let mut lines =
         vec![format!("Floquet multipliers: {} ({verdict}, largest |μ| {largest:.9})", shown(&floquet.multipliers))];
-    lines.extend(floquet.half.map(|half| format!("of the half map: {}", shown(&half))));
+    lines.extend(floquet.half.as_deref().map(|half| format!("of the half map: {}", shown(half))));
     lines
 }
 

@@ -59,7 +59,7 @@ pub(super) fn extremes(arc: &Arc, span: f64, mut see: impl FnMut(f64, f64, f64))
 
 /// A root of `f` between `from` and `to`, where its signs differ, to the last digits: the secant
 /// where it stays inside and converges, else halves (the Illinois method).
-pub(super) fn bisect(f: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
+pub(super) fn bisect(mut f: impl FnMut(f64) -> f64, from: f64, to: f64) -> f64 {
     let (mut a, mut b) = (from, to);
     let (mut fa, mut fb) = (f(a), f(b));
     for _ in 0..STEPS {

@@ -6,7 +6,7 @@ use super::signature::Kind;
 use crate::error::Result;
 use crate::variation::saltation::{IDENTITY, Matrix2, entry, impact, multiply};
 
-/// The Floquet multipliers of an orbit of one degree of freedom.
+/// The Floquet multipliers of an orbit.
 ///
 /// The derivative of the state one period later with respect to the state now is the product of the
 /// propagators Φ of the flights and of the saltation matrices S of the events (Leine & Nijmeijer
@@ -15,15 +15,19 @@ use crate::variation::saltation::{IDENTITY, Matrix2, entry, impact, multiply};
 ///
 /// S = [[−e, 0], [(a⁺ + e a⁻)/q̇, −e]],
 ///
-/// which grows without bound towards a grazing impact. A rest forgets everything: S = 0. The product
-/// of all is e₁² e₂² … exp(−cT/m).
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// which grows without bound towards a grazing impact, for one degree of freedom; [`variation`]
+/// has that of structures. A rest of one degree of freedom forgets everything: S = 0. The product of
+/// all is e₁² e₂² … exp(−cT/m) there.
+///
+/// [`variation`]: crate::variation
+#[derive(Debug, Clone, PartialEq)]
 pub struct Floquet {
-    /// Both multipliers over the period of the orbit, real and imaginary part, the larger first.
-    pub multipliers: [[f64; 2]; 2],
+    /// The multipliers over the period of the orbit, real and imaginary part, the largest first: 2n
+    /// of them for n degrees of freedom.
+    pub multipliers: Vec<[f64; 2]>,
     /// For a symmetric orbit the multipliers of its half map (half an orbit and the mirror), whose
     /// squares `multipliers` are.
-    pub half: Option<[[f64; 2]; 2]>,
+    pub half: Option<Vec<[f64; 2]>>,
     /// Trace of the derivative, that of the half map for a symmetric orbit.
     pub trace: f64,
     /// Its determinant.
@@ -31,21 +35,25 @@ pub struct Floquet {
 }
 
 impl Floquet {
-    /// True if both multipliers lie inside the unit circle: what runs settle on.
+    /// True if all multipliers lie inside the unit circle: what runs settle on.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
     }
 
-    /// Of a derivative of that trace and determinant, over half an orbit or a whole one.
+    /// Of a 2 × 2 derivative of that trace and determinant, over half an orbit or a whole one.
     fn new(trace: f64, determinant: f64, half: bool) -> Self {
-        let own = eigenvalues(trace, determinant);
-        let square = |[re, im]: [f64; 2]| [re * re - im * im, 2.0 * re * im];
-        if half {
-            Self { multipliers: own.map(square), half: Some(own), trace, determinant }
-        } else {
-            Self { multipliers: own, half: None, trace, determinant }
+        Self::of(eigenvalues(trace, determinant).to_vec(), [trace, determinant], half)
+    }
+
+    /// Of a derivative with those eigenvalues, and of that trace and determinant, over half an orbit
+    /// or a whole one.
+    pub(super) fn of(own: Vec<[f64; 2]>, [trace, determinant]: [f64; 2], half: bool) -> Self {
+        if !half {
+            return Self { multipliers: own, half: None, trace, determinant };
         }
+        let square = |[re, im]: &[f64; 2]| [re * re - im * im, 2.0 * re * im];
+        Self { multipliers: own.iter().map(square).collect(), half: Some(own), trace, determinant }
     }
 }
 

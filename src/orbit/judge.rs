@@ -96,7 +96,7 @@ impl Problem {
         scene.duration = end + whole.period();
         let mut stepper = Stepper::new(&scene, &Scheme::Event, 2.0 * end)?;
         stepper.set_state(start, &State { q: vec![state[0]], v: vec![state[1]] })?;
-        let mut watch = Watch::new(self);
+        let mut watch = Watch::new(self.scene(), self.forcing_period());
         let mut walls = vec![WallShare::default(); self.stops().len()];
         let (mut contacts, mut motion) = (Vec::new(), Vec::new());
         let spacing = whole.period() / f64::from(points.max(1));

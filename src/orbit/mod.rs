@@ -11,7 +11,7 @@
 //! [`Problem::correct`] solves the equations from any start, [`Problem::floquet`] gives the
 //! multipliers, [`Problem::admissible`] says whether a body can follow the orbit, and
 //! [`Problem::judge`] lets one do so. [`branch`] follows orbits over a key. Of structures, [`shoot`]
-//! finds the orbit on which a run settles.
+//! finds the orbit on which a run settles, and [`branch`] follows it by a state of it.
 
 mod admissible;
 pub mod branch;
@@ -23,6 +23,8 @@ mod floquet;
 mod forcing;
 mod judge;
 mod newton;
+#[cfg(feature = "cli")]
+mod path;
 mod periodic;
 mod problem;
 mod settled;
@@ -30,6 +32,7 @@ mod shooting;
 mod signature;
 pub(crate) mod strobe;
 mod symmetry;
+mod turn;
 mod watch;
 
 pub use admissible::{Admissible, Nearest};
@@ -38,7 +41,10 @@ pub use floquet::Floquet;
 #[cfg(feature = "cli")]
 pub(crate) use forcing::{forcing_period, frequencies};
 pub use judge::{Instant, Judged, WallShare};
+#[cfg(feature = "cli")]
+pub(crate) use path::path;
 pub use periodic::Orbit;
 pub use problem::Problem;
 pub use shooting::{Shot, shoot};
 pub use signature::{Event, Kind, MOST_EVENTS, MOST_PERIODS, Signature};
+pub use strobe::Strobe;

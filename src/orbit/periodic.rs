@@ -2,7 +2,10 @@
 
 use super::signature::{Event, Signature};
 
-/// A periodic orbit of one degree of freedom, by its events.
+/// Two turns of an orbit within this of each other are one.
+const SAME: f64 = 1e-5;
+
+/// A periodic orbit, by its events: of one degree of freedom they are all that there is to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orbit {
     /// Its events in order, and how they close.
@@ -76,6 +79,56 @@ impl Orbit {
             *phase += if index + first >= count { turn } else { 0.0 } - start;
         }
         orbit
+    }
+
+    /// The half of the orbit, if the other half is its mirror image within `near` cycles, and that
+    /// share of the largest speed. `mirror` is the wall opposite to each wall.
+    pub(super) fn folded(&self, mirror: Option<&[usize]>, near: f64) -> Option<Self> {
+        mirror?;
+        let signature = &self.signature;
+        let count = signature.events.len();
+        if !count.is_multiple_of(2) || signature.periods.is_multiple_of(2) || signature.symmetric {
+            return None;
+        }
+        let half = Self {
+            signature: Signature {
+                events: signature.events.get(..count / 2)?.to_vec(),
+                periods: signature.periods,
+                symmetric: true,
+            },
+            phases: self.phases.get(..count / 2)?.to_vec(),
+            speeds: self.speeds.get(..count / 2)?.to_vec(),
+            forcing_period: self.forcing_period,
+        };
+        half.unfolded(mirror).is(self, near).then_some(half)
+    }
+
+    /// The orbit of which this one is several turns, or both halves, with true for the latter.
+    pub(super) fn part(&self, mirror: Option<&[usize]>) -> Option<(Self, bool)> {
+        let signature = &self.signature;
+        let count = signature.events.len();
+        if count == 0 || signature.symmetric {
+            return None;
+        }
+        for turns in
+            (2..=signature.periods).filter(|&k| signature.periods.is_multiple_of(k) && count.is_multiple_of(k as usize))
+        {
+            let part = count / turns as usize;
+            let once = Self {
+                signature: Signature {
+                    events: signature.events[..part].to_vec(),
+                    periods: signature.periods / turns,
+                    symmetric: false,
+                },
+                phases: self.phases[..part].to_vec(),
+                speeds: self.speeds[..part].to_vec(),
+                forcing_period: self.forcing_period,
+            };
+            if self.rotated(part).near(self, SAME) {
+                return Some((once, false));
+            }
+        }
+        self.folded(mirror, SAME).map(|half| (half, true))
     }
 
     /// True if both are one orbit, whichever event they begin with: all instants within `near`

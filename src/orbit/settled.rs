@@ -1,9 +1,9 @@
 //! From a run that has settled to a periodic orbit.
 
 use super::periodic::Orbit;
-use super::problem::{Problem, StopLaw};
+use super::problem::Problem;
 use super::signature::{Kind, Signature};
-use super::watch::{Passage, Watch};
+use super::watch::{Passage, Watch, gathered};
 use crate::error::{Error, Result};
 use crate::scheme::{Scheme, Stepper};
 
@@ -43,7 +43,7 @@ impl Problem {
         let mut scene = self.scene().clone();
         scene.duration = f64::from(most) * period;
         let mut stepper = Stepper::new(&scene, &Scheme::Event, 16.0 * period)?;
-        let mut watch = Watch::new(self);
+        let mut watch = Watch::new(self.scene(), period);
         let mut look = settle.saturating_add(8);
         while look <= most {
             let until = f64::from(look) * period;
@@ -79,7 +79,7 @@ impl Problem {
     }
 
     fn recovered(&self, (periods, passages): (u32, Vec<Passage>)) -> Result<Orbit> {
-        let mut passages = gathered(passages, self);
+        let mut passages = gathered(passages, self.scene());
         let first = passages.iter().position(|passage| passage.event.kind == Kind::Release).unwrap_or(0);
         passages.rotate_left(first);
         let count = passages.len();
@@ -101,32 +101,10 @@ impl Problem {
             return Ok(orbit.rotated(0));
         }
         let whole = self.correct(&orbit)?;
-        match self.folded(&whole, MIRRORED) {
+        match whole.folded(self.mirror(), MIRRORED) {
             Some(half) => self.correct(&half),
             None => Ok(whole),
         }
-    }
-
-    /// The half of `orbit`, if the other half is its mirror image within `near` cycles, and that
-    /// share of the largest speed.
-    pub(super) fn folded(&self, orbit: &Orbit, near: f64) -> Option<Orbit> {
-        self.mirror()?;
-        let signature = &orbit.signature;
-        let count = signature.events.len();
-        if !count.is_multiple_of(2) || signature.periods.is_multiple_of(2) || signature.symmetric {
-            return None;
-        }
-        let half = Orbit {
-            signature: Signature {
-                events: signature.events.get(..count / 2)?.to_vec(),
-                periods: signature.periods,
-                symmetric: true,
-            },
-            phases: orbit.phases.get(..count / 2)?.to_vec(),
-            speeds: orbit.speeds.get(..count / 2)?.to_vec(),
-            forcing_period: orbit.forcing_period,
-        };
-        half.unfolded(self.mirror()).is(orbit, near).then_some(half)
     }
 }
 
@@ -160,26 +138,4 @@ fn repeated(passages: &[Passage], problem: &Problem) -> Option<(u32, Vec<Passage
         }
     }
     None
-}
-
-/// The passages with each accumulation of impacts as one event.
-fn gathered(passages: Vec<Passage>, problem: &Problem) -> Vec<Passage> {
-    let mut kept: Vec<Passage> = Vec::new();
-    for mut passage in passages {
-        let wall = passage.event.wall;
-        let bounces = matches!(problem.stop(wall).map(|stop| stop.law), Some(StopLaw::Rigid(e)) if e > 0.0);
-        if passage.event.kind == Kind::Rest && bounces {
-            while let Some(before) = kept.last()
-                && before.event.kind == Kind::Impact
-                && before.event.wall == wall
-                && before.speed > passage.speed
-            {
-                passage = *before;
-                kept.pop();
-            }
-            passage.event.kind = Kind::Chatter;
-        }
-        kept.push(passage);
-    }
-    kept
 }

@@ -6,12 +6,15 @@
 //! no obstacle.
 
 use super::forcing::forcing_period;
+use super::periodic::Orbit;
+use super::signature::{MOST_PERIODS, Signature};
 use super::strobe::{Scales, multipliers, newton_step, state, vector};
+use super::turn::{Look, Turn, run};
 use crate::error::{Error, Result};
 use crate::scene::{Scene, State};
 use crate::scheme::{Scheme, Stepper};
 use crate::variation::Product;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 /// Most forcing periods of an orbit.
 const LONGEST: usize = 32;
@@ -38,6 +41,8 @@ pub struct Shot {
     pub periods: u32,
     /// The forcing period, s.
     pub forcing_period: f64,
+    /// The events of one orbit after `time`.
+    pub orbit: Orbit,
     /// An instant of the orbit, s, at which nothing happens …
     pub time: f64,
     /// … and the state then.
@@ -54,6 +59,43 @@ pub struct Shot {
 }
 
 impl Shot {
+    /// The orbit of `scene`, a neighbour of the one that this is an orbit of, from which Newton's
+    /// method gets there.
+    ///
+    /// # Errors
+    /// As [`shoot`]; [`Error::Invalid`] for a state of another number of degrees of freedom, or
+    /// numbers that are none.
+    pub fn corrected(&self, scene: &Scene) -> Result<Self> {
+        let period = posed(scene)?;
+        let n = scene.system.degrees_of_freedom();
+        self.check(n)?;
+        let shooting = Shooting { scene, period, scales: Scales::new(scene.gap_scale(), period) };
+        // The phase of the load stays as it is.
+        shooting.solve(self.time / self.forcing_period * period, self.state.clone(), self.periods)
+    }
+
+    /// Refuses what is no orbit of `n` degrees of freedom.
+    pub(super) fn check(&self, n: usize) -> Result<()> {
+        let State { q, v } = &self.state;
+        if q.len() != n || v.len() != n {
+            let found = format!("a state of {} displacements and {} velocities", q.len(), v.len());
+            return Err(Error::invalid("start", found, format!("{n} of each, one for each degree of freedom")));
+        }
+        if !(1..=MOST_PERIODS).contains(&self.periods) {
+            let found = format!("an orbit of {} forcing periods", self.periods);
+            return Err(Error::invalid("start", found, format!("1 to {MOST_PERIODS} of them")));
+        }
+        let numbers = q.iter().chain(v).chain([&self.time, &self.forcing_period]);
+        match numbers.copied().find(|x| !x.is_finite()) {
+            Some(x) => Err(Error::invalid("start", x, "finite numbers")),
+            None if self.forcing_period > 0.0 && self.time >= 0.0 => Ok(()),
+            None => {
+                let found = format!("time {:?} s, forcing period {:?} s", self.time, self.forcing_period);
+                Err(Error::invalid("start", found, "a time of 0 or more and a period above 0"))
+            }
+        }
+    }
+
     /// True if all multipliers lie inside the unit circle.
     #[must_use]
     pub fn is_stable(&self) -> bool {
@@ -71,32 +113,32 @@ impl Shot {
 /// [`Error::NoOrbit`] where the states do not come back, where Newton's method does not converge, or
 /// where the derivative of the run does not exist; those of a run.
 pub fn shoot(scene: &Scene, settle: u32, progress: &dyn Fn(f64)) -> Result<Shot> {
+    let period = posed(scene)?;
+    let shooting = Shooting { scene, period, scales: Scales::new(scene.gap_scale(), period) };
+    let (time, state, periods) = shooting.settled(settle, progress)?;
+    shooting.solve(time, state, periods)
+}
+
+/// The forcing period of `scene`, s, if its orbits can be found by shooting.
+///
+/// # Errors
+/// [`Error::Invalid`] for a scene of which they cannot.
+pub(super) fn posed(scene: &Scene) -> Result<f64> {
     scene.validate()?;
     let n = scene.system.degrees_of_freedom();
     if n > MOST_UNKNOWNS {
         let expected = format!("at most {MOST_UNKNOWNS}: the matrices of shooting are dense (reduce it to modes)");
         return Err(Error::invalid("system", format!("one of {n} degrees of freedom"), expected));
     }
-    // Refused here rather than after the run.
+    // Refused here rather than after a run.
     Product::new(scene)?;
-    let period = forcing_period(scene)?;
-    let shooting = Shooting { scene, period, scales: Scales::new(scene.gap_scale(), period) };
-    let (time, state, periods) = shooting.settled(settle, progress)?;
-    shooting.solve(time, state, periods)
+    forcing_period(scene)
 }
 
 struct Shooting<'a> {
     scene: &'a Scene,
     period: f64,
     scales: Scales,
-}
-
-/// A run over one orbit.
-struct Turn {
-    end: DVector<f64>,
-    derivative: DMatrix<f64>,
-    contacts: Vec<u64>,
-    impulses: Vec<f64>,
 }
 
 impl Shooting<'_> {
@@ -157,35 +199,14 @@ impl Shooting<'_> {
         (1..=LONGEST).find(|&n| count >= (REPEATS + 1) * n && back(n)).map(|n| n as u32)
     }
 
-    fn turn(&self, time: f64, start: &State, periods: u32) -> Result<Turn> {
-        let end = time + f64::from(periods) * self.period;
-        let mut stepper = self.stepper(end, end)?;
-        stepper.set_state(time, start)?;
-        let mut product = Product::new(self.scene)?;
-        let walls = self.scene.walls.len();
-        let (mut contacts, mut impulses) = (vec![0; walls], vec![0.0; walls]);
-        while stepper.time() < end {
-            let step = stepper.step()?;
-            product.see(&step).map_err(|error| Error::no_orbit(error.to_string()))?;
-            for contact in step.closed {
-                if let Some(count) = contacts.get_mut(contact.wall) {
-                    *count += 1;
-                }
-            }
-            impulses.iter_mut().zip(step.impulse).for_each(|(sum, impulse)| *sum += impulse);
-        }
-        let State { q, v } = stepper.state();
-        let end = vector(&q, &v);
-        Ok(Turn { end, derivative: product.matrix().clone(), contacts, impulses })
-    }
-
     fn solve(&self, time: f64, start: State, periods: u32) -> Result<Shot> {
         // Phases are those of the first periods: nothing is lost to rounding of a late time.
         let time = time - (time / self.period).floor() * self.period;
+        let end = time + f64::from(periods) * self.period;
         let mut x = vector(&start.q, &start.v);
         let mut best: Option<(f64, DVector<f64>, Turn)> = None;
         for _ in 0..ITERATIONS {
-            let turn = self.turn(time, &state(&x), periods)?;
+            let turn = run(self.scene, self.period, [time, end], &x, Look::All)?;
             let gap = &turn.end - &x;
             let miss = self.scales.size(&gap);
             let improved = best.as_ref().is_none_or(|(least, ..)| miss < 0.5 * least);
@@ -206,9 +227,16 @@ impl Shooting<'_> {
                  settled yet"
             )));
         };
+        let orbit = Orbit {
+            signature: Signature { events: turn.passages.iter().map(|p| p.event).collect(), periods, symmetric: false },
+            phases: turn.passages.iter().map(|p| p.phase).collect(),
+            speeds: turn.passages.iter().map(|p| p.speed).collect(),
+            forcing_period: self.period,
+        };
         Ok(Shot {
             periods,
             forcing_period: self.period,
+            orbit,
             time,
             state: state(&x),
             multipliers: multipliers(&turn.derivative).iter().map(|z| [z.re, z.im]).collect(),

@@ -5,6 +5,15 @@ use crate::scene::State;
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::TAU;
 
+/// A state of a periodic orbit of a structure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strobe {
+    /// Cycles of the forcing period from t = 0: an instant at which nothing happens.
+    pub phase: f64,
+    /// The state then.
+    pub state: State,
+}
+
 /// The scales of a state: m and m/s.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Scales {
@@ -18,10 +27,33 @@ impl Scales {
         Self { length, speed: length * TAU / period }
     }
 
+    /// A state or a difference of states without dimension.
+    pub fn scaled(self, x: &DVector<f64>) -> DVector<f64> {
+        let n = x.len() / 2;
+        DVector::from_fn(x.len(), |i, _| x[i] / self.of(i, n))
+    }
+
+    /// And back.
+    pub fn unscaled(self, x: &DVector<f64>) -> DVector<f64> {
+        let n = x.len() / 2;
+        DVector::from_fn(x.len(), |i, _| x[i] * self.of(i, n))
+    }
+
+    /// The derivative of scaled states with respect to scaled states.
+    pub fn similar(self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        let n = matrix.nrows() / 2;
+        DMatrix::from_fn(2 * n, 2 * n, |i, j| matrix[(i, j)] * (self.of(j, n) / self.of(i, n)))
+    }
+
+    /// That of entry `i` of a state of `n` degrees of freedom.
+    pub fn of(self, i: usize, n: usize) -> f64 {
+        if i < n { self.length } else { self.speed }
+    }
+
     /// The largest entry of a difference of states; NaN if one is.
     pub fn size(self, difference: &DVector<f64>) -> f64 {
         let n = difference.len() / 2;
-        let scaled = |(i, x): (usize, &f64)| x.abs() / if i < n { self.length } else { self.speed };
+        let scaled = |(i, x): (usize, &f64)| x.abs() / self.of(i, n);
         difference.iter().enumerate().map(scaled).fold(0.0, |most, x| if x.is_nan() { f64::NAN } else { x.max(most) })
     }
 }

@@ -1,6 +1,6 @@
 //! The mirror symmetry of a scene: q → −q half a forcing period later.
 
-use crate::scene::{LoadKind, Scene};
+use crate::scene::{LoadKind, Row, Scene};
 
 /// A harmonic is an odd multiple of the fundamental to this share.
 const NEAR: f64 = 1e-9;
@@ -9,12 +9,17 @@ const NEAR: f64 = 1e-9;
 /// mirror q → −q half a forcing period (s) later: sines of odd multiples of the fundamental alone,
 /// and every wall with an equal one opposite.
 pub(super) fn mirror(scene: &Scene, period: f64) -> Option<Vec<usize>> {
-    let mut constant = 0.0;
+    // What constants at one place add up to.
+    let mut constants: Vec<(&Row, f64)> = Vec::new();
+    let mut constant = |at, force: f64| match constants.iter_mut().find(|(place, _)| *place == at) {
+        Some((_, sum)) => *sum += force,
+        None => constants.push((at, force)),
+    };
     for load in &scene.loads {
         match load.kind {
-            LoadKind::Constant { force } => constant += force,
+            LoadKind::Constant { force } => constant(&load.at, force),
             LoadKind::Harmonic { amplitude, frequency: 0.0, phase } => {
-                constant += amplitude * phase.sin();
+                constant(&load.at, amplitude * phase.sin());
             }
             LoadKind::Harmonic { frequency, amplitude, .. } => {
                 let order = frequency * period;
@@ -26,7 +31,7 @@ pub(super) fn mirror(scene: &Scene, period: f64) -> Option<Vec<usize>> {
             _ => return None,
         }
     }
-    if constant != 0.0 {
+    if constants.iter().any(|(_, sum)| *sum != 0.0) {
         return None;
     }
     let mut taken = vec![false; scene.walls.len()];

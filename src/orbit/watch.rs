@@ -1,7 +1,7 @@
 //! The events of an exact run.
 
-use super::problem::{Problem, StopLaw};
 use super::signature::{Event, Kind};
+use crate::scene::{Scene, Wall};
 use crate::step::{Path, Step};
 
 /// An event of a run.
@@ -17,47 +17,96 @@ pub(super) struct Passage {
 /// Watches the steps of the exact scheme and writes down what happens.
 #[derive(Debug)]
 pub(super) struct Watch<'a> {
-    problem: &'a Problem,
+    walls: &'a [Wall],
+    /// The forcing period, s, and a typical displacement, m.
+    period: f64,
+    length: f64,
+    /// Rigid walls that carry, and elastic ones that push.
+    resting: Vec<usize>,
     touching: Vec<usize>,
-    resting: Option<usize>,
+    q: Vec<f64>,
+    v: Vec<f64>,
     pub passages: Vec<Passage>,
     /// True once a step has been seen that tells the state the run started in.
     begun: bool,
 }
 
 impl<'a> Watch<'a> {
-    pub fn new(problem: &'a Problem) -> Self {
-        Self { problem, touching: Vec::new(), resting: None, passages: Vec::new(), begun: false }
+    /// For runs of `scene`, whose loads repeat themselves after `period` (s).
+    pub fn new(scene: &'a Scene, period: f64) -> Self {
+        let zero = vec![0.0; scene.system.degrees_of_freedom()];
+        Self {
+            walls: &scene.walls,
+            period,
+            length: scene.gap_scale(),
+            resting: Vec::new(),
+            touching: Vec::new(),
+            q: zero.clone(),
+            v: zero,
+            passages: Vec::new(),
+            begun: false,
+        }
     }
 
     fn note(&mut self, kind: Kind, wall: usize, time: f64, speed: f64) {
-        let phase = time / self.problem.forcing_period();
-        self.passages.push(Passage { event: Event { kind, wall }, phase, speed });
+        self.passages.push(Passage { event: Event { kind, wall }, phase: time / self.period, speed });
+    }
+
+    /// Speed into wall number `wall`, m/s.
+    fn toward(&self, wall: &Wall) -> f64 {
+        -wall.side.sign() * wall.at.dot(&self.v)
     }
 
     pub fn see(&mut self, step: &Step<'_>) {
-        let Path::Exact(arc) = step.path else { return };
-        let start = arc.start();
-        let (q, v) = arc.state(start);
-        let resting = arc.rests_on();
-        if self.begun && resting != self.resting {
-            if let Some(wall) = self.resting {
+        let (start, end) = match step.path {
+            Path::Exact(arc) => (arc.start(), arc.end()),
+            Path::Series(series) => (series.start(), series.end()),
+            _ => return,
+        };
+        let (mut resting, mut touching) = (Vec::new(), Vec::new());
+        match step.path {
+            Path::Exact(arc) => {
+                resting.extend(arc.rests_on());
+                touching.extend(arc.touching());
+            }
+            Path::Series(series) => {
+                series
+                    .acting_walls()
+                    .for_each(|(wall, holds)| if holds { &mut resting } else { &mut touching }.push(wall));
+            }
+            _ => {}
+        }
+        step.path.state(start, &mut self.q, &mut self.v);
+        if self.begun {
+            let before = std::mem::take(&mut self.resting);
+            for &wall in before.iter().filter(|wall| !resting.contains(wall)) {
                 self.note(Kind::Release, wall, start, 0.0);
             }
-            if let Some(wall) = resting {
+            for &wall in resting.iter().filter(|wall| !before.contains(wall)) {
                 self.rest(wall, start);
             }
+            self.pushes(&touching, start);
         }
-        self.resting = resting;
-        for (wall, stop) in self.problem.stops().iter().enumerate() {
-            let (now, before) = (arc.touching().any(|w| w == wall), self.touching.contains(&wall));
-            if now == before || !self.begun {
+        (self.resting, self.touching, self.begun) = (resting, touching, true);
+        step.path.state(end, &mut self.q, &mut self.v);
+        for (wall, place) in self.walls.iter().enumerate() {
+            let struck = step.jump.get(wall).is_some_and(|jump| *jump != 0.0);
+            // A wall that carries passes on what other walls' impacts press onto it.
+            if struck && !self.resting.contains(&wall) {
+                self.note(Kind::Impact, wall, step.end, self.toward(place));
+            }
+        }
+    }
+
+    /// What has changed at the elastic walls, of which `touching` push from `start` (s) on.
+    fn pushes(&mut self, touching: &[usize], start: f64) {
+        for (wall, place) in self.walls.iter().enumerate() {
+            let now = touching.contains(&wall);
+            if place.law.is_rigid() || now == self.touching.contains(&wall) {
                 continue;
             }
-            let StopLaw::Elastic { .. } = stop.law else { continue };
-            let [length, _] = self.problem.scales();
-            let toward = stop.toward * v;
-            let on_face = stop.gap(q).abs() <= 1e-9 * length;
+            let on_face = place.gap(place.at.dot(&self.q)).abs() <= 1e-9 * self.length;
+            let toward = self.toward(place);
             let (kind, speed) = match (now, on_face) {
                 (true, true) => (Kind::Enter, toward),
                 (true, false) => (Kind::Again, -toward),
@@ -65,24 +114,38 @@ impl<'a> Watch<'a> {
             };
             self.note(kind, wall, start, speed);
         }
-        self.touching.clear();
-        self.touching.extend(arc.touching());
-        self.begun = true;
-        let left = arc.state(arc.end()).1;
-        for (wall, _) in step.jump.iter().enumerate().filter(|(_, jump)| **jump != 0.0) {
-            let toward = self.problem.stop(wall).map_or(0.0, |stop| stop.toward * left);
-            self.note(Kind::Impact, wall, step.end, toward);
-        }
     }
 
     /// The body has come to rest on `wall`: with the impact that has just been noted, if one was.
     fn rest(&mut self, wall: usize, time: f64) {
-        let phase = time / self.problem.forcing_period();
-        match self.passages.last_mut() {
-            Some(last) if last.event == (Event { kind: Kind::Impact, wall }) && last.phase == phase => {
-                last.event.kind = Kind::Rest;
-            }
-            _ => self.note(Kind::Rest, wall, time, 0.0),
+        let phase = time / self.period;
+        let impact = Event { kind: Kind::Impact, wall };
+        let last = self.passages.iter_mut().rev().take_while(|p| p.phase == phase).find(|p| p.event == impact);
+        match last {
+            Some(last) => last.event.kind = Kind::Rest,
+            None => self.note(Kind::Rest, wall, time, 0.0),
         }
     }
+}
+
+/// The passages with each accumulation of impacts at a wall of `scene` as one event.
+pub(super) fn gathered(passages: Vec<Passage>, scene: &Scene) -> Vec<Passage> {
+    let mut kept: Vec<Passage> = Vec::new();
+    for mut passage in passages {
+        let wall = passage.event.wall;
+        let bounces = scene.walls.get(wall).and_then(|wall| wall.law.restitution()).is_some_and(|e| e > 0.0);
+        if passage.event.kind == Kind::Rest && bounces {
+            while let Some(before) = kept.last()
+                && before.event.kind == Kind::Impact
+                && before.event.wall == wall
+                && before.speed > passage.speed
+            {
+                passage = *before;
+                kept.pop();
+            }
+            passage.event.kind = Kind::Chatter;
+        }
+        kept.push(passage);
+    }
+    kept
 }

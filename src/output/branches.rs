@@ -22,6 +22,9 @@ pub struct Drawn<'a> {
     pub scene: &'a Scene,
 }
 
+/// Most multipliers of an orbit in the tables.
+const MOST_MULTIPLIERS: usize = 8;
+
 /// A finite number, or an empty cell.
 fn cell(x: f64) -> String {
     digits(x.is_finite().then_some(x))
@@ -41,16 +44,21 @@ impl Drawn<'_> {
             "least_speed_m_per_s",
             "least_gap_m",
             "displacement_max_m",
-            "multiplier_1_re",
-            "multiplier_1_im",
-            "multiplier_2_re",
-            "multiplier_2_im",
         ];
         let mut header: Vec<String> = first.iter().chain(&fixed).map(|&name| name.to_owned()).collect();
+        for number in 1..=self.multipliers() {
+            header.extend(["re", "im"].map(|part| format!("multiplier_{number}_{part}")));
+        }
         for event in 1..=self.events() {
             header.extend([format!("phase_{event}_cycles"), format!("speed_{event}_m_per_s")]);
         }
         header
+    }
+
+    /// How many multipliers have columns: the largest ones of a structure.
+    fn multipliers(&self) -> usize {
+        let first = self.graph.branches.iter().find_map(|branch| branch.points.first());
+        first.map_or(0, |point| point.floquet.multipliers.len()).min(MOST_MULTIPLIERS)
     }
 
     fn events(&self) -> usize {
@@ -75,12 +83,27 @@ impl Drawn<'_> {
             point.admissible.nearest.map_or_else(String::new, |nearest| cell(nearest.gap)),
             cell(point.admissible.largest),
         ]);
-        row.extend(point.floquet.multipliers.iter().flatten().map(|x| cell(*x)));
+        row.extend(point.floquet.multipliers.iter().take(self.multipliers()).flatten().map(|x| cell(*x)));
         for event in 0..self.events() {
             let of = |values: &[f64]| values.get(event).map_or_else(String::new, |x| cell(*x));
             row.extend([of(&orbit.phases), of(&orbit.speeds)]);
         }
         row
+    }
+
+    /// The wall at whose place the motion is drawn: the one that most of the branches meet.
+    #[must_use]
+    pub fn place(&self) -> usize {
+        let events =
+            || self.graph.branches.iter().filter_map(|b| b.points.first()).flat_map(|p| &p.orbit.signature.events);
+        let meets = |wall: usize| events().filter(|event| event.wall == wall).count();
+        (0..self.scene.walls.len()).rev().max_by_key(|&wall| meets(wall)).unwrap_or(0)
+    }
+
+    /// The name of the wall at which a special point happens.
+    #[must_use]
+    pub fn wall(&self, special: &Special) -> Option<&str> {
+        self.scene.walls.get(special.wall?).map(|wall| wall.name.as_str())
     }
 
     /// Every point in the order of `branches.csv`, special points among the others: the numbers of
@@ -136,10 +159,11 @@ impl Drawn<'_> {
                 (special.branch + 1).to_string(),
                 leads,
                 special.reason.clone().unwrap_or_default(),
+                self.wall(special).unwrap_or_default().to_owned(),
             ];
             self.row(first, &special.point, special.label.name())
         });
-        csv::table(path, &self.header(&["special", "branch", "leads_to", "not_followed_because"]), rows)
+        csv::table(path, &self.header(&["special", "branch", "leads_to", "not_followed_because", "wall"]), rows)
     }
 
     /// The graph as a document: branches with their ends, and special points.
@@ -177,6 +201,7 @@ impl Drawn<'_> {
                 "label": special.label.name(),
                 "branch": special.branch + 1,
                 "value": special.point.value,
+                "wall": self.wall(special),
                 "leads_to": special.leads_to.iter().map(|branch| branch + 1).collect::<Vec<_>>(),
                 "not_followed_because": special.reason,
                 "phases_cycles": special.point.orbit.phases,
@@ -265,6 +290,7 @@ fn sign(label: Label) -> (Sign, &'static str) {
         Label::PeriodDoubling => Sign::Diamond,
         Label::SymmetryBreaking => Sign::Ring,
         Label::GrazingIn => Sign::Cross,
+        Label::NeimarkSacker => Sign::Disc,
         Label::GrazingOut => Sign::Plus,
         _ => Sign::Square,
     };

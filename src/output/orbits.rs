@@ -3,8 +3,8 @@
 use super::atomic::WholeFile;
 use super::branches::Drawn;
 use crate::error::{Error, Result};
-use crate::orbit::Problem;
-use crate::orbit::branch::Family;
+use crate::orbit::branch::{Family, Point};
+use crate::orbit::{Problem, path};
 use crate::scene::{Scene, Side, Wall};
 use serde_json::{Value, json};
 use std::io::Write;
@@ -44,25 +44,35 @@ pub fn write(path: &Path, drawn: &Drawn<'_>, family: &Family<'_>) -> Result<()> 
         if label.is_empty() && !number.is_multiple_of(every) {
             continue;
         }
-        let problem = Problem::new(family(point.value)?)?;
-        for at in problem.flights(&point.orbit)? {
-            let phase = at.time / problem.forcing_period();
-            writeln!(file, "{branch},{number},{phase:.6},{:.5e},{:.5e}", at.displacement, at.velocity)
-                .map_err(failed)?;
+        for [phase, displacement, velocity] in motion(family(point.value)?, point, drawn.place())? {
+            writeln!(file, "{branch},{number},{phase:.6},{displacement:.5e},{velocity:.5e}").map_err(failed)?;
         }
     }
     file.finish()
 }
 
+/// Phase (cycles), displacement (m) and velocity (m/s) over one orbit, of a structure at the place of
+/// wall number `place`.
+fn motion(scene: Scene, point: &Point, place: usize) -> Result<Vec<[f64; 3]>> {
+    if let (Some(strobe), Some(wall)) = (&point.strobe, scene.walls.get(place)) {
+        return path(&scene, strobe, point.orbit.signature.periods, &wall.at);
+    }
+    let problem = Problem::new(scene)?;
+    let flights = problem.flights(&point.orbit)?;
+    Ok(flights.iter().map(|at| [at.time / problem.forcing_period(), at.displacement, at.velocity]).collect())
+}
+
 /// Name, side and place (m) of each wall of `scene`; without a place where `other`, the scene at
-/// another value of the key, has the wall elsewhere.
+/// another value of the key, has the wall elsewhere, or where it does not stand at the place of wall
+/// number `place`.
 #[must_use]
-pub fn walls(scene: &Scene, other: &Scene) -> Value {
+pub fn walls(scene: &Scene, other: &Scene, place: usize) -> Value {
+    let at = scene.walls.get(place).map(|wall| &wall.at);
     let wall = |(wall, other): (&Wall, &Wall)| {
         json!({
             "name": wall.name,
             "side": if wall.side == Side::Upper { "upper" } else { "lower" },
-            "position_m": (wall.position == other.position).then_some(wall.position),
+            "position_m": (wall.position == other.position && Some(&wall.at) == at).then_some(wall.position),
             "rigid": wall.law.is_rigid(),
         })
     };

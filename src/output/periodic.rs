@@ -4,7 +4,7 @@ use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
 use crate::error::{Error, Result};
 use crate::orbit::{Admissible, ClosedForm, Event, Floquet, Judged, Kind, Orbit, Problem, Shot, Signature};
-use crate::scene::{Scene, Side};
+use crate::scene::{Scene, Side, State};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -35,21 +35,25 @@ fn pairs(multipliers: &[[f64; 2]]) -> Value {
     Value::Array(multipliers.iter().map(|[re, im]| json!([finite(*re), finite(*im)])).collect())
 }
 
+fn events(orbit: &Orbit, scene: &Scene) -> Value {
+    let name = |wall: usize| scene.walls.get(wall).map_or("", |wall| wall.name.as_str());
+    let events = orbit.signature.events.iter().enumerate().map(|(index, event)| {
+        json!({
+            "wall": name(event.wall),
+            "kind": event.kind.name(),
+            "phase_cycles": orbit.phases.get(index),
+            "speed_m_per_s": orbit.speeds.get(index),
+        })
+    });
+    events.collect()
+}
+
 impl Known<'_> {
     /// The orbit as a document; [`read`] reads it back.
     #[must_use]
     pub fn document(&self, case: &str) -> Value {
         let Self { problem, orbit, floquet, admissible, judged } = self;
         let scene = problem.scene();
-        let name = |wall: usize| scene.walls.get(wall).map_or("", |wall| wall.name.as_str());
-        let events = orbit.signature.events.iter().enumerate().map(|(index, event)| {
-            json!({
-                "wall": name(event.wall),
-                "kind": event.kind.name(),
-                "phase_cycles": orbit.phases.get(index),
-                "speed_m_per_s": orbit.speeds.get(index),
-            })
-        });
         let walls = judged.walls.iter().zip(&scene.walls).map(|(share, wall)| {
             json!({
                 "wall": wall.name,
@@ -69,9 +73,9 @@ impl Known<'_> {
             "periods": orbit.signature.periods,
             "symmetric": orbit.signature.symmetric,
             "signature": orbit.signature.written(scene),
-            "events": events.collect::<Vec<_>>(),
+            "events": events(orbit, scene),
             "multipliers": pairs(&floquet.multipliers),
-            "half_map_multipliers": floquet.half.map(|half| pairs(&half)),
+            "half_map_multipliers": floquet.half.as_deref().map(pairs),
             "stable": floquet.is_stable(),
             "admissible": admissible.holds(),
             "not_admissible_because": admissible.reason(scene),
@@ -150,13 +154,7 @@ impl Known<'_> {
 /// [`Error::Io`] for a file that cannot be read; [`Error::Invalid`] naming the key that is missing
 /// or not what it should be; [`Error::Unknown`] for a wall that the scene does not have.
 pub fn read(path: &Path, scene: &Scene) -> Result<Orbit> {
-    let unreadable = |reason: String| Error::io(path.display(), reason, true);
-    let meta = std::fs::metadata(path).map_err(|error| unreadable(error.to_string()))?;
-    if meta.len() > MOST_BYTES {
-        return Err(unreadable(format!("{} bytes: an orbit has at most {MOST_BYTES}", meta.len())));
-    }
-    let text = std::fs::read_to_string(path).map_err(|error| unreadable(error.to_string()))?;
-    let document: Value = serde_json::from_str(&text).map_err(|error| unreadable(format!("no JSON: {error}")))?;
+    let document = document(path)?;
     let key = |name: &str| format!("{}: {name}", path.display());
     let get = |name: &str| document.get(name).unwrap_or(&Value::Null);
     let wrong = |name: &str, found: &Value, expected: &str| Err(Error::invalid(key(name), found, expected));
@@ -191,6 +189,68 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Orbit> {
     Ok(orbit)
 }
 
+/// The orbit of a structure in a file that [`shot`] has made; `modal` tells that the coordinates of
+/// `scene` are those of modes.
+///
+/// # Errors
+/// [`Error::Io`] for a file that cannot be read; [`Error::Invalid`] naming the key that is missing
+/// or not what it should be.
+pub fn read_shot(path: &Path, scene: &Scene, modal: bool) -> Result<Shot> {
+    let document = document(path)?;
+    let get = |name: &str| document.get(name).unwrap_or(&Value::Null);
+    let wrong = |name: &str, expected: &str| {
+        let found = match get(name) {
+            Value::Null => "missing".to_owned(),
+            value => value.to_string().chars().take(60).collect(),
+        };
+        Err(Error::invalid(format!("{}: {name}", path.display()), found, expected))
+    };
+    let Some(periods) = get("periods").as_u64().and_then(|n| u32::try_from(n).ok()) else {
+        return wrong("periods", "a whole number of forcing periods");
+    };
+    if get("coordinates").as_str() != Some(coordinates(modal)) {
+        return wrong("coordinates", &format!("those of the case: {}", coordinates(modal)));
+    }
+    let (Some(forcing_period), Some(time)) = (get("forcing_period_s").as_f64(), get("time_s").as_f64()) else {
+        let missing = if get("time_s").is_f64() { "forcing_period_s" } else { "time_s" };
+        return wrong(missing, "a number, s: that of the orbit of a structure");
+    };
+    let list = |name: &str| -> Option<Vec<f64>> { get(name).as_array()?.iter().map(Value::as_f64).collect() };
+    let (Some(q), Some(v)) = (list("displacement_m"), list("velocity_m_per_s")) else {
+        let missing = if list("displacement_m").is_some() { "velocity_m_per_s" } else { "displacement_m" };
+        return wrong(missing, "a list of numbers, one for each degree of freedom");
+    };
+    let walls = scene.walls.len();
+    let signature = Signature { events: Vec::new(), periods, symmetric: false };
+    Ok(Shot {
+        periods,
+        forcing_period,
+        orbit: Orbit { signature, phases: Vec::new(), speeds: Vec::new(), forcing_period },
+        time,
+        state: State { q, v },
+        multipliers: Vec::new(),
+        closure: f64::INFINITY,
+        contacts: vec![0; walls],
+        impulses: vec![0.0; walls],
+    })
+}
+
+/// The document in a file of an orbit.
+fn document(path: &Path) -> Result<Value> {
+    let unreadable = |reason: String| Error::io(path.display(), reason, true);
+    let meta = std::fs::metadata(path).map_err(|error| unreadable(error.to_string()))?;
+    if meta.len() > MOST_BYTES {
+        return Err(unreadable(format!("{} bytes: an orbit has at most {MOST_BYTES}", meta.len())));
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| unreadable(error.to_string()))?;
+    serde_json::from_str(&text).map_err(|error| unreadable(format!("no JSON: {error}")))
+}
+
+/// What the coordinates of states are.
+fn coordinates(modal: bool) -> &'static str {
+    if modal { "modal" } else { "degrees of freedom" }
+}
+
 /// A list of closed forms as a document.
 #[must_use]
 pub fn listed(found: &[(ClosedForm, Option<bool>)], scene: &Scene) -> Value {
@@ -209,7 +269,7 @@ pub fn listed(found: &[(ClosedForm, Option<bool>)], scene: &Scene) -> Value {
     json!({ "orbits": found.iter().map(one).collect::<Vec<_>>() })
 }
 
-/// The orbit of a structure as a document; `modal` tells that its coordinates are those of modes.
+/// The orbit of a structure as a document, which [`read_shot`] reads back; `modal` tells that its coordinates are those of modes.
 #[must_use]
 pub fn shot(found: &Shot, scene: &Scene, case: &str, modal: bool) -> Value {
     let walls =
@@ -221,10 +281,12 @@ pub fn shot(found: &Shot, scene: &Scene, case: &str, modal: bool) -> Value {
         "case": case,
         "forcing_period_s": found.forcing_period,
         "periods": found.periods,
-        "coordinates": if modal { "modal" } else { "degrees of freedom" },
+        "coordinates": coordinates(modal),
         "time_s": found.time,
         "displacement_m": found.state.q,
         "velocity_m_per_s": found.state.v,
+        "signature": found.orbit.signature.written(scene),
+        "events": events(&found.orbit, scene),
         "multipliers": pairs(&found.multipliers),
         "stable": found.is_stable(),
         "closure": finite(found.closure),

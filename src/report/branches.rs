@@ -13,7 +13,7 @@ const MOST_POINTS: usize = 20_000;
 const MOST_BENEATH: usize = 100_000;
 
 /// The columns of the branches that the page draws or tells, beside the key.
-const SHOWN: [&str; 15] = [
+const SHOWN: [&str; 11] = [
     "branch",
     "point",
     "period",
@@ -25,10 +25,6 @@ const SHOWN: [&str; 15] = [
     "period_s",
     "least_gap_m",
     "displacement_max_m",
-    "multiplier_1_re",
-    "multiplier_1_im",
-    "multiplier_2_re",
-    "multiplier_2_im",
 ];
 
 /// What the page of branches shows.
@@ -51,6 +47,9 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     }
     let mut shown: Vec<&str> = SHOWN.to_vec();
     shown.push(key);
+    let multipliers: Vec<String> =
+        table.header.iter().filter(|name| name.starts_with("multiplier_")).cloned().collect();
+    shown.extend(multipliers.iter().map(String::as_str));
     for name in shown.iter().filter(|name| !["signature", "label"].contains(name)) {
         table.column(name)?;
     }
@@ -62,6 +61,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "branches": document["branches"],
         "specials": document["specials"],
         "walls": document["walls"],
+        "place": document["place"],
         "points": table.for_page(Some(&shown)),
         "events": events(&table, &document["branches"])?,
     });

@@ -4,6 +4,7 @@
 mod basins;
 mod branches;
 mod orbits;
+mod structures;
 #[cfg(feature = "cli")]
 mod tool;
 mod variation;

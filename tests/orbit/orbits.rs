@@ -50,7 +50,7 @@ fn a_settled_run_leads_to_the_symmetric_orbit() {
     let floquet = problem.floquet(&orbit).unwrap();
     near(floquet.trace, -1.318_546_497_591_139, 1e-11);
     near(floquet.determinant, 0.627_327_150_916_323_4, 1e-13);
-    let half = floquet.half.unwrap()[0];
+    let half = floquet.half.as_ref().unwrap()[0];
     near(half[0], -0.659_273_248_795_569_5, 1e-11);
     near(half[1], 0.438_960_060_072_506_4, 1e-11);
     near(floquet.multipliers[0][0], 0.241_955_282_238_606_5, 1e-10);

@@ -82,13 +82,89 @@ fn a_structure_settles_on_an_orbit() {
     assert!(out.contains("of 4 Floquet multipliers") && out.contains("stop"), "{out}");
     let (out, _) = said(dir.path(), &["orbit", "two.toml", "--list"], 0);
     assert!(out.contains("not looked at"), "{out}");
+    // The orbit is written and read back, also for a neighbouring case.
+    let path = dir.path();
+    let written = path.join("out/two/orbit/orbit.json");
+    let first = json(&written);
+    assert_eq!((&first["signature"], &first["events"][0]["kind"]), (&Value::from("S"), &Value::from("impact")));
+    let from = written.to_str().unwrap();
+    said(path, &["orbit", "two.toml", "--from", from, "--out", "again"], 0);
+    let again = json(&path.join("again/orbit.json"));
+    let speed = |orbit: &Value| orbit["events"][0]["speed_m_per_s"].as_f64().unwrap();
+    assert!((speed(&first) - speed(&again)).abs() < 1e-10);
+    said(path, &["orbit", "two.toml", "--set", "load.1.harmonic.frequency=1.91", "--from", from, "--out", "near"], 0);
+    let near = json(&path.join("near/orbit.json"));
+    assert!((speed(&first) - speed(&near)).abs() > 1e-5 && near["closure"].as_f64().unwrap() < 1e-10);
+    fs::write(path.join("no.json"), "{}").unwrap();
+    fs::write(path.join("modal.json"), r#"{"periods": 1, "coordinates": "modal"}"#).unwrap();
+    let short = r#"{"periods": 1, "coordinates": "degrees of freedom", "forcing_period_s": 0.5, "time_s": 0.1,
+        "displacement_m": [1e-3], "velocity_m_per_s": [0.0]}"#;
+    fs::write(path.join("short.json"), short).unwrap();
     for (more, words) in [
         (&["--signature", "S", "--start", "0.1,0.1"][..], "one degree of freedom"),
-        (&["--from", "two.toml"], "one degree of freedom"),
+        (&["--from", "two.toml"], "no JSON"),
+        (&["--from", "no.json"], "periods"),
+        (&["--from", "modal.json"], "those of the case: degrees of freedom"),
+        (&["--from", "short.json"], "2 of each"),
     ] {
-        let (_, err) = said(dir.path(), &[&["orbit", "two.toml"], more].concat(), 2);
-        assert!(err.contains(words), "{err}");
+        let (_, err) = said(path, &[&["orbit", "two.toml"], more, &["--out", "refused"]].concat(), 2);
+        assert!(err.contains(words), "{more:?}: {err}");
     }
+}
+
+#[test]
+fn branches_of_a_structure_are_written() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let key = ["continue", "two-masses", "--key", "load.1.harmonic.frequency", "--range", "1.75:2.3"];
+    let (out, _) = said(path, &[&key[..], &["--switch", "no", "--out", "b"]].concat(), 0);
+    for words in ["grazing-in at stop", "neimark-sacker", "1.937599199", "period-doubling"] {
+        assert!(out.contains(words), "{words}: {out}");
+    }
+    let graph = json(&path.join("b/branches.json"));
+    assert_eq!((&graph["place"], &graph["walls"][0]["position_m"]), (&Value::from("stop"), &Value::from(5e-3)));
+    let grazes = graph["specials"].as_array().unwrap().iter().filter(|special| special["label"] == "grazing-in");
+    assert!(grazes.clone().count() >= 2 && grazes.clone().all(|special| special["wall"] == "stop"));
+    let table = fs::read_to_string(path.join("b/branches.csv")).unwrap();
+    let header = table.lines().next().unwrap();
+    assert!(header.contains("multiplier_4_im") && !header.contains("multiplier_5"), "{header}");
+    let motion = fs::read_to_string(path.join("b/orbits.csv")).unwrap();
+    assert!(motion.lines().count() > 1000 && motion.lines().skip(1).all(|line| line.split(',').count() == 5));
+    // The motion of each orbit comes back, to the digits that are written.
+    let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>();
+    let rows: Vec<Vec<f64>> = motion.lines().skip(1).map(row).collect();
+    for orbit in rows.chunk_by(|a, b| a[..2] == b[..2]) {
+        let (first, last) = (&orbit[0], &orbit[orbit.len() - 1]);
+        let turn = last[2] - first[2];
+        assert!((turn - turn.round()).abs() < 2e-6 && turn > 0.5, "{first:?} {last:?}");
+        assert!((first[3] - last[3]).abs() < 1e-7, "{first:?} {last:?}");
+    }
+    for file in ["branches.svg", "special.csv", "report.html"] {
+        assert!(path.join("b").join(file).is_file(), "{file}");
+    }
+    // From a file, and the same twice.
+    said(path, &["orbit", "two-masses", "--set", "load.1.harmonic.frequency=2.3", "--out", "o"], 0);
+    let from = ["--set", "load.1.harmonic.frequency=2.3", "--from", "o/orbit.json", "--switch", "no"];
+    let range = ["continue", "two-masses", "--key", "load.1.harmonic.frequency", "--range", "2.2:2.4"];
+    for out in ["c", "d"] {
+        said(path, &[&range[..], &from, &["--out", out]].concat(), 0);
+    }
+    for file in ["branches.csv", "special.csv", "branches.json", "orbits.csv", "branches.svg"] {
+        let [c, d] = ["c", "d"].map(|out| fs::read(path.join(out).join(file)).unwrap());
+        assert!(c == d, "{file}");
+    }
+    // What is refused, by name.
+    for (args, words) in [
+        (&["--second", "wall.stop.restitution", "--second-range", "0.5:0.8"][..], "one degree of freedom"),
+        (&["--from", "b/branches.json"], "periods"),
+    ] {
+        let (_, err) = said(path, &[&key[..], args, &["--out", "e"]].concat(), 2);
+        assert!(err.contains(words), "{args:?}: {err}");
+    }
+    let modal = ["continue", "tube-loose-supports", "--key", "system.damping.ratio", "--range", "0.001:0.1"];
+    let (_, err) = said(path, &modal, 2);
+    assert!(err.contains("a key outside of [system]"), "{err}");
+    assert!(!path.join("e").exists());
 }
 
 #[test]

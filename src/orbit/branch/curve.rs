@@ -1,16 +1,14 @@
 //! A branch of orbits of one signature as a curve: the unknowns of the equations and a key's value.
 
 use super::super::equations::{Equations, Scales, Turn};
-use super::super::newton::{ACCEPTED, SOLVED};
 use super::super::periodic::Orbit;
 use super::super::problem::Problem;
 use super::super::signature::Signature;
+pub(super) use super::arclength::Vector;
+use super::arclength::{self, extended};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector};
-
-/// Most iterations of a correction.
-const ITERATIONS: usize = 12;
 
 /// The step of the difference that gives the column of the key, as a share of its value: it enters
 /// the matrix only, so that the solution does not depend on it.
@@ -22,10 +20,8 @@ const DIFFERENCE: f64 = 1e-6;
 /// [`Error::Invalid`] or [`Error::Case`] for a value that the key does not accept.
 pub type Family<'a> = dyn Fn(f64) -> Result<Scene> + 'a;
 
-/// One point: the unknowns, scaled, and after them the key's value over its scale.
-pub(super) type Vector = DVector<f64>;
-
 /// The curve.
+#[derive(Clone)]
 pub(super) struct Curve<'a> {
     pub family: &'a Family<'a>,
     pub signature: Signature,
@@ -117,51 +113,12 @@ impl Curve<'_> {
 
     /// The unit tangent at a point, on the side of `along`.
     pub fn tangent(&self, linear: &Linear, along: &Vector) -> Result<Vector> {
-        let mut right = DVector::zeros(along.len());
-        right[along.len() - 1] = 1.0;
-        let tangent = bordered(&linear.matrix, along).lu().solve(&right);
-        let tangent = tangent.filter(|t| t.iter().all(|x| x.is_finite())).ok_or_else(singular)?;
-        let norm = tangent.norm();
-        Ok(tangent / norm)
+        arclength::tangent(&linear.matrix, along)
     }
 
     /// The point of the curve in the plane through `guess` across `border`; with its linearised
     /// equations, and how many iterations that took.
     pub fn correct(&self, guess: &Vector, border: &Vector) -> Result<(Vector, Linear, usize)> {
-        let mut y = guess.clone();
-        let mut last = f64::INFINITY;
-        for iteration in 0..ITERATIONS {
-            let linear = self.linear(&y)?;
-            let size = if linear.residual.is_empty() { 0.0 } else { linear.residual.amax() };
-            if !size.is_finite() {
-                return Err(Error::no_orbit("Newton's method left the numbers"));
-            }
-            if last <= SOLVED || (size >= 0.5 * last && size <= ACCEPTED) {
-                return Ok((y, linear, iteration));
-            }
-            let right = extended(&linear.residual, border.dot(&(&y - guess)));
-            let step = bordered(&linear.matrix, border).lu().solve(&right).ok_or_else(singular)?;
-            if !step.iter().all(|x| x.is_finite()) || step.norm() > 2.0 {
-                return Err(Error::no_orbit("Newton's method left the neighbourhood"));
-            }
-            y -= step;
-            last = size;
-        }
-        Err(Error::no_orbit(format!("Newton's method did not converge: the residual is {last:.1e} of the gap")))
+        arclength::correct(guess, border, |y| self.linear(y), |linear| (&linear.residual, &linear.matrix))
     }
-}
-
-/// `matrix` with the row `border` below it.
-fn bordered(matrix: &DMatrix<f64>, border: &Vector) -> DMatrix<f64> {
-    let n = matrix.nrows();
-    DMatrix::from_fn(n + 1, n + 1, |i, j| if i < n { matrix[(i, j)] } else { border[j] })
-}
-
-/// `vector` with one more entry.
-fn extended(vector: &Vector, last: f64) -> Vector {
-    DVector::from_iterator(vector.len() + 1, vector.iter().copied().chain([last]))
-}
-
-fn singular() -> Error {
-    Error::no_orbit("the equations are singular across the branch: two branches cross there")
 }

@@ -1,70 +1,13 @@
 //! What can happen along a branch: test functions, which change sign there.
 
-use super::super::admissible::Admissible;
-use super::super::floquet::Floquet;
-use super::super::periodic::Orbit;
 use super::super::problem::{Problem, StopLaw};
 use super::super::signature::Kind;
 use super::curve::{Curve, Vector};
+use super::label::Label;
+use super::point::Point;
 use crate::error::Result;
 use crate::flow::Support;
 use crate::scene::Side;
-use std::fmt;
-
-/// A special point of a branch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Label {
-    /// The branch turns back in the key: two orbits meet (a multiplier 1).
-    Fold,
-    /// A branch of twice the period begins (a multiplier −1).
-    PeriodDoubling,
-    /// Two orbits that are not symmetric, each the mirror image of the other, branch off a symmetric
-    /// one (a multiplier −1 of the half map, 1 of the whole).
-    SymmetryBreaking,
-    /// An impact of the orbit has become one without speed: beyond, the signature lacks it.
-    GrazingOut,
-    /// The orbit touches a wall anew, without speed: beyond, the signature has one more event.
-    GrazingIn,
-    /// After an impact with e = 0 the body is not pulled off its wall any more: a rest begins.
-    RestBegins,
-    /// A rest has become one without duration.
-    RestEnds,
-    /// A contact with an elastic wall has become one without duration.
-    ContactEnds,
-    /// Two events come together: which is first decides what follows.
-    Corner,
-}
-
-impl Label {
-    /// Its name, as tables write it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fold => "fold",
-            Self::PeriodDoubling => "period-doubling",
-            Self::SymmetryBreaking => "symmetry-breaking",
-            Self::GrazingOut => "grazing-out",
-            Self::GrazingIn => "grazing-in",
-            Self::RestBegins => "rest-begins",
-            Self::RestEnds => "rest-ends",
-            Self::ContactEnds => "contact-ends",
-            Self::Corner => "corner",
-        }
-    }
-
-    /// True where the branch ends: no body follows the orbits beyond.
-    #[must_use]
-    pub fn ends(self) -> bool {
-        !matches!(self, Self::Fold | Self::PeriodDoubling | Self::SymmetryBreaking)
-    }
-}
-
-impl fmt::Display for Label {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// A test function: its label, the event that it belongs to, and its value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,19 +15,6 @@ pub(super) struct Test {
     pub label: Label,
     pub event: usize,
     pub value: f64,
-}
-
-/// An orbit of a branch with all that is known of it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Point {
-    /// The key's value.
-    pub value: f64,
-    /// The orbit.
-    pub orbit: Orbit,
-    /// Its multipliers.
-    pub floquet: Floquet,
-    /// Whether a body can follow it.
-    pub admissible: Admissible,
 }
 
 /// All test functions at `y`, in an order that depends on the signature alone.
@@ -145,5 +75,5 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
 pub(super) fn point(curve: &Curve<'_>, problem: &Problem, y: &Vector) -> Result<Point> {
     let orbit = curve.orbit(problem, y);
     let (floquet, admissible) = (problem.floquet(&orbit)?, problem.admissible(&orbit)?);
-    Ok(Point { value: curve.value(y), orbit, floquet, admissible })
+    Ok(Point { value: curve.value(y), orbit, floquet, admissible, strobe: None })
 }

@@ -1,60 +1,16 @@
 //! One branch, followed by steps of pseudo-arclength (Keller 1977).
 
 use super::super::signature::Kind;
+use super::arclength::{Stride, locate, turns_little};
 use super::curve::{Curve, Linear, Vector};
-use super::events::{Label, Point, Test, point, tests};
-use super::locate::locate;
+use super::events::{Test, point, tests};
+use super::label::Label;
+use super::line::{End, Line, Passed};
+use super::point::Point;
 use crate::error::Result;
-
-/// The first step, the longest and the least, in the scaled unknowns.
-const STEPS: [f64; 3] = [3e-3, 5e-2, 1e-9];
-
-/// How a step grows after one that went well.
-const GROWTH: f64 = 1.3;
-
-/// Most iterations of a step that is kept.
-const ITERATIONS: usize = 8;
-
-/// Least cosine between the tangents at both ends of a step: 14°.
-const TURN: f64 = 0.97;
 
 /// A curve has closed after at least this many points.
 const LEAST_LOOP: usize = 6;
-
-/// Why a branch ends.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum End {
-    /// At the end of the range of the key.
-    Range,
-    /// At a special point beyond which its orbits are none.
-    Special(Label),
-    /// Where it began.
-    Closed,
-    /// After as many points as were asked for.
-    Points,
-    /// Where it could not be continued, with the reason.
-    Stuck(String),
-}
-
-/// A special point that was passed.
-#[derive(Debug, Clone)]
-pub(super) struct Passed {
-    pub label: Label,
-    pub event: usize,
-    pub point: Point,
-    pub y: Vector,
-    /// How many points of the branch lie before it.
-    pub after: usize,
-}
-
-/// A branch in one direction.
-#[derive(Debug)]
-pub(super) struct Line {
-    pub points: Vec<Point>,
-    pub passed: Vec<Passed>,
-    pub end: End,
-}
 
 /// Where a step stands.
 struct Here {
@@ -73,33 +29,33 @@ fn here(curve: &Curve<'_>, y: Vector, linear: &Linear, along: &Vector) -> Result
 
 /// Follows `curve` from `y`, a solution, on the side of `along`, while the key stays in `range`. At
 /// most `most` points, the first being that at `y`; `seen` is told each.
-pub(super) fn follow(
-    curve: &Curve<'_>,
+pub(super) fn follow<'a>(
+    curve: &Curve<'a>,
     y: Vector,
     along: &Vector,
     range: [f64; 2],
     most: usize,
     seen: &mut dyn FnMut(&Point),
-) -> Result<Line> {
+) -> Result<Line<Curve<'a>>> {
     let linear = curve.linear(&y)?;
     let mut now = here(curve, y, &linear, along)?;
     let start = (now.y.clone(), now.tangent.clone());
     let mut line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
-    let mut step = STEPS[0];
+    let mut stride = Stride::new();
     while line.points.len() < most {
+        let step = stride.0;
         let guess = &now.y + &now.tangent * step;
         let tried = curve.correct(&guess, &now.tangent).and_then(|(y, linear, iterations)| {
             let next = here(curve, y, &linear, &now.tangent)?;
             Ok((next, iterations))
         });
         let good = tried.as_ref().is_ok_and(|(next, iterations)| {
-            *iterations <= ITERATIONS && next.tangent.dot(&now.tangent) >= TURN && next.point.value.is_finite()
+            Stride::keeps(*iterations, &now.tangent, &next.tangent) && next.point.value.is_finite()
         });
         let next = match tried {
             Ok((next, _)) if good => next,
             tried => {
-                step *= 0.5;
-                if step < STEPS[2] {
+                if !stride.halve() {
                     let why = tried
                         .err()
                         .map_or_else(|| "the branch turns too sharply".to_owned(), |error| error.to_string());
@@ -114,19 +70,13 @@ pub(super) fn follow(
         for (index, (before, after)) in now.tests.iter().zip(&next.tests).enumerate() {
             // A test that is 0 at the beginning is where the branch has come from.
             if before.value * after.value < 0.0 && before.value.abs() > ZERO {
-                let found = locate(
-                    curve,
-                    &now.y,
-                    &now.tangent,
-                    [0.0, step],
-                    [before.value, after.value],
-                    |curve, y, linear| {
-                        let tangent = curve.tangent(linear, &now.tangent)?;
-                        let point = point(curve, &linear.problem, y)?;
-                        let all = tests(curve, &linear.problem, &point, y, &tangent);
-                        Ok(all.get(index).map_or(f64::NAN, |test| test.value))
-                    },
-                );
+                let found = locate([0.0, step], [before.value, after.value], |s| {
+                    let (y, linear, _) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
+                    let tangent = curve.tangent(&linear, &now.tangent)?;
+                    let point = point(curve, &linear.problem, &y)?;
+                    let all = tests(curve, &linear.problem, &point, &y, &tangent);
+                    Ok((all.get(index).map_or(f64::NAN, |test| test.value), y))
+                });
                 match found {
                     Ok(found) => crossed.push((found.0, before.label, before.event, found.1)),
                     Err(error) => {
@@ -146,8 +96,10 @@ pub(super) fn follow(
                 line.end = End::Range;
                 return Ok(line);
             }
-            let (s, y) =
-                locate(curve, &now.y, &now.tangent, [0.0, step], ends, |curve, y, _| Ok(curve.value(y) - bound))?;
+            let (s, y) = locate([0.0, step], ends, |s| {
+                let (y, ..) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
+                Ok((curve.value(&y) - bound, y))
+            })?;
             limit = s;
             crossed.retain(|(s, ..)| *s <= limit);
             let linear = curve.linear(&y)?;
@@ -160,7 +112,9 @@ pub(super) fn follow(
             let problem = curve.problem(&y)?;
             let point = point(curve, &problem, &y)?;
             let label = problem.halves(&point.orbit).filter(|_| label == Label::Fold).map_or(label, |half| half.1);
-            line.passed.push(Passed { label, event, point: point.clone(), y, after: last });
+            let wall = label.wall(event, &point);
+            let curve = curve.clone();
+            line.passed.push(Passed { label, event, wall, point: point.clone(), curve, y, after: last, beyond: None });
             if label.ends() {
                 line.points.truncate(last);
                 line.points.push(point);
@@ -178,14 +132,14 @@ pub(super) fn follow(
             return Ok(line);
         }
         let apart = (&next.y - &start.0).norm();
-        let closed = line.points.len() >= LEAST_LOOP && apart <= step && next.tangent.dot(&start.1) > TURN;
+        let closed = line.points.len() >= LEAST_LOOP && apart <= step && turns_little(&start.1, &next.tangent);
         line.points.push(next.point.clone());
         if closed {
             line.end = End::Closed;
             return Ok(line);
         }
         now = next;
-        step = (step * GROWTH).min(STEPS[1]);
+        stride.grow(1.0);
     }
     Ok(line)
 }

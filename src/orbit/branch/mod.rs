@@ -17,16 +17,24 @@
 //! bifurcation needs a complex pair of modulus 1, whose product is the determinant e₁²e₂² …
 //! exp(−cT/m) ≤ 1: with one degree of freedom there is none.
 
+mod arclength;
 mod curve;
 mod events;
 mod follow;
 mod graph;
-mod locate;
+mod label;
+mod line;
 mod locus;
+mod net;
+mod point;
+mod request;
+mod shots;
 mod switch;
 
 pub use curve::Family;
-pub use events::{Label, Point};
-pub use follow::End;
-pub use graph::{Branch, Graph, Request, Special, Switch, graph};
+pub use graph::{Start, graph};
+pub use label::Label;
+pub use line::End;
 pub use locus::{Locus, OnLocus, Plane, locus};
+pub use point::Point;
+pub use request::{Branch, Graph, Request, Special, Switch};

@@ -4,9 +4,13 @@ use super::super::equations::CYCLE;
 use super::super::periodic::Orbit;
 use super::super::problem::{Problem, StopLaw};
 use super::super::signature::{Event, Kind, Signature};
+use super::arclength::unit;
 use super::curve::{Curve, Vector};
-use super::events::{Label, point};
-use super::follow::Passed;
+use super::events::point;
+use super::follow::follow;
+use super::label::Label;
+use super::line::{Begin, Followed, Frame, Line, NODE, Passed};
+use super::point::Point;
 use crate::error::{Error, Result};
 use nalgebra::DVector;
 
@@ -17,49 +21,42 @@ const AMPLITUDES: [f64; 5] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
 /// orbit.
 const NEIGHBOURHOOD: f64 = 3.0;
 
-/// Two turns of an orbit within this of each other are one.
-const SAME: f64 = 1e-5;
-
 /// The step to both sides that tells where a new branch has orbits that a body can follow.
 const PROBE: f64 = 1e-4;
-
-/// Where a branch begins, and to which side it goes.
-pub(super) struct Begin<'a> {
-    pub curve: Curve<'a>,
-    pub y: Vector,
-    pub along: Vector,
-    /// True if it goes on to both sides.
-    pub both: bool,
-}
 
 impl Problem {
     /// The orbit of which `orbit` is several turns, or both halves, and the label of the point where
     /// a branch of such orbits begins.
     pub(super) fn halves(&self, orbit: &Orbit) -> Option<(Orbit, Label)> {
-        let signature = &orbit.signature;
-        let count = signature.events.len();
-        if count == 0 || signature.symmetric {
-            return None;
-        }
-        for turns in
-            (2..=signature.periods).filter(|&k| signature.periods.is_multiple_of(k) && count.is_multiple_of(k as usize))
-        {
-            let part = count / turns as usize;
-            let once = Orbit {
-                signature: Signature {
-                    events: signature.events[..part].to_vec(),
-                    periods: signature.periods / turns,
-                    symmetric: false,
-                },
-                phases: orbit.phases[..part].to_vec(),
-                speeds: orbit.speeds[..part].to_vec(),
-                forcing_period: orbit.forcing_period,
-            };
-            if orbit.rotated(part).near(orbit, SAME) {
-                return Some((once, Label::PeriodDoubling));
-            }
-        }
-        self.folded(orbit, SAME).map(|half| (half, Label::SymmetryBreaking))
+        let (part, mirrored) = orbit.part(self.mirror())?;
+        Some((part, if mirrored { Label::SymmetryBreaking } else { Label::PeriodDoubling }))
+    }
+}
+
+impl<'a> Followed for Curve<'a> {
+    fn tangent_at(&self, y: &Vector, along: &Vector) -> Result<Vector> {
+        self.tangent(&self.linear(y)?, along)
+    }
+
+    fn follow(
+        &self,
+        y: Vector,
+        along: &Vector,
+        range: [f64; 2],
+        most: usize,
+        seen: &mut dyn FnMut(&Point),
+    ) -> Result<Line<Self>> {
+        follow(self, y, along, range, most, seen)
+    }
+
+    fn switch(&self, at: &Passed<Self>) -> Result<Begin<Self>> {
+        self.leave(at)
+    }
+
+    fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Frame)> {
+        let problem = self.problem(y)?;
+        let frame = Frame { mirror: problem.mirror().map(<[usize]>::to_vec), speed: problem.scales()[1], near: NODE };
+        Ok((self.orbit(&problem, y), frame))
     }
 }
 
@@ -73,7 +70,7 @@ impl<'a> Curve<'a> {
     ///
     /// # Errors
     /// [`Error::NoOrbit`] where none was found, with the reason.
-    pub fn switch(&self, at: &Passed) -> Result<Begin<'a>> {
+    fn leave(&self, at: &Passed<Self>) -> Result<Begin<Self>> {
         let problem = self.problem(&at.y)?;
         let orbit = &at.point.orbit;
         // A branch of several turns that has come back to one: that one goes on to both sides.
@@ -86,7 +83,9 @@ impl<'a> Curve<'a> {
             Label::GrazingIn => self.touch(&problem, at),
             Label::GrazingOut => self.lift(&problem, at),
             Label::RestEnds | Label::RestBegins => self.rest(&problem, at),
-            Label::Fold => Err(Error::no_orbit("the branch itself goes on beyond a fold")),
+            Label::Fold | Label::BranchPoint | Label::NeimarkSacker => {
+                Err(Error::no_orbit("the branch itself goes on beyond"))
+            }
             Label::ContactEnds | Label::Corner => {
                 Err(Error::no_orbit(format!("what follows a {} is not known: start from a run beyond it", at.label)))
             }
@@ -94,7 +93,7 @@ impl<'a> Curve<'a> {
     }
 
     /// Along the eigenvector of a multiplier −1, by a small amplitude.
-    fn branch_off(&self, problem: &Problem, at: &Passed, whole: &Orbit) -> Result<Begin<'a>> {
+    fn branch_off(&self, problem: &Problem, at: &Passed<Self>, whole: &Orbit) -> Result<Begin<Self>> {
         let curve = self.of(&whole.signature);
         curve.signature.check(problem.scene())?;
         let origin = curve.gather(problem, whole, at.point.value);
@@ -120,7 +119,7 @@ impl<'a> Curve<'a> {
     }
 
     /// Puts an impact of speed 0 where the orbit touches a wall.
-    fn touch(&self, problem: &Problem, at: &Passed) -> Result<Begin<'a>> {
+    fn touch(&self, problem: &Problem, at: &Passed<Self>) -> Result<Begin<Self>> {
         let mut orbit = at.point.orbit.clone();
         let nearest = at.point.admissible.nearest.ok_or_else(|| Error::no_orbit("no wall is touched"))?;
         let index = if orbit.phases.is_empty() { 0 } else { nearest.flight + 1 };
@@ -134,7 +133,7 @@ impl<'a> Curve<'a> {
             insert(index, Kind::Impact, nearest.phase, 0.0);
             let curve = self.of(&orbit.signature);
             let y = curve.gather(problem, &orbit, at.point.value);
-            let along = DVector::from_fn(y.len(), |i, _| if i == 2 * index + 1 { 1.0 } else { 0.0 });
+            let along = unit(y.len(), 2 * index + 1);
             return Ok(Begin { curve, y, along, both: false });
         }
         // A contact that lasts a moment: the equations are singular where it has no duration.
@@ -145,7 +144,7 @@ impl<'a> Curve<'a> {
         insert(index, Kind::Enter, nearest.phase - half, speed);
         let curve = self.of(&orbit.signature);
         let guess = curve.gather(problem, &orbit, at.point.value);
-        let along = DVector::from_fn(guess.len(), |i, _| if i == 2 * index + 1 { 1.0 } else { 0.0 });
+        let along = unit(guess.len(), 2 * index + 1);
         let (y, ..) = curve.correct(&guess, &along)?;
         if (&y - &guess).norm() > CYCLE {
             return Err(Error::no_orbit("no orbit with a short contact was found beside the touching one"));
@@ -154,7 +153,7 @@ impl<'a> Curve<'a> {
     }
 
     /// Leaves out the impact whose speed has become 0.
-    fn lift(&self, problem: &Problem, at: &Passed) -> Result<Begin<'a>> {
+    fn lift(&self, problem: &Problem, at: &Passed<Self>) -> Result<Begin<Self>> {
         let mut orbit = at.point.orbit.clone();
         let kind = orbit.signature.events.get(at.event).map(|event| event.kind);
         let gone = if kind == Some(Kind::Enter) { 2 } else { 1 };
@@ -177,7 +176,7 @@ impl<'a> Curve<'a> {
     }
 
     /// An impact with e = 0 gets a rest of no duration, or a rest of no duration becomes one.
-    fn rest(&self, problem: &Problem, at: &Passed) -> Result<Begin<'a>> {
+    fn rest(&self, problem: &Problem, at: &Passed<Self>) -> Result<Begin<Self>> {
         let mut orbit = at.point.orbit.clone();
         let Some(event) = orbit.signature.events.get_mut(at.event) else {
             return Err(Error::no_orbit("no such event"));
@@ -210,12 +209,12 @@ impl<'a> Curve<'a> {
         problem: &Problem,
         orbit: &Orbit,
         value: f64,
-        sided: Option<&Passed>,
+        sided: Option<&Passed<Self>>,
         both: bool,
-    ) -> Result<Begin<'a>> {
+    ) -> Result<Begin<Self>> {
         let curve = self.of(&orbit.signature);
         let guess = curve.gather(problem, orbit, value);
-        let last = DVector::from_fn(guess.len(), |i, _| if i + 1 == guess.len() { 1.0 } else { 0.0 });
+        let last = unit(guess.len(), guess.len() - 1);
         let (y, linear, _) = curve.correct(&guess, &last)?;
         let tangent = curve.tangent(&linear, &last)?;
         if sided.is_none() {

@@ -5,6 +5,7 @@ const SPECIAL_MARKERS = {
   fold: "triangle",
   "period-doubling": "diamond",
   "symmetry-breaking": "ring",
+  "neimark-sacker": "disc",
   "grazing-in": "cross",
   "grazing-out": "plus",
 };
@@ -56,16 +57,21 @@ function readBranches(data) {
     speedsOf,
     state,
     orbits,
+    multipliers: (i) => multipliersOf(columns, i),
   };
+}
+
+/** The multipliers of row i: those that the table has, the largest ones of a structure. */
+function multipliersOf(columns, i) {
+  const list = [];
+  for (let k = 1; columns[`multiplier_${k}_re`]; k++)
+    list.push([columns[`multiplier_${k}_re`][i], columns[`multiplier_${k}_im`][i]]);
+  return list;
 }
 
 /** What can be drawn over the key: [name, label, values of a row, options]. */
 function branchMeasures(points) {
   const { columns } = points;
-  const multipliers = (i) => [
-    [columns.multiplier_1_re[i], columns.multiplier_1_im[i]],
-    [columns.multiplier_2_re[i], columns.multiplier_2_im[i]],
-  ];
   const cycle = (x) => x - Math.floor(x);
   const phasesOf = (i) => {
     const { events } = points.branchAt(i);
@@ -85,7 +91,7 @@ function branchMeasures(points) {
     {
       name: "multiplier",
       text: "Largest |multiplier|",
-      of: (i) => [largestModulus(multipliers(i))],
+      of: (i) => [largestModulus(points.multipliers(i))],
       log: true,
     },
     { name: "displacement", text: "Largest |displacement| (m)", of: column("displacement_max_m") },

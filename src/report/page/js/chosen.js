@@ -7,8 +7,9 @@ function orbitCommand(points, i) {
   const [from, to] = [points.first[i], points.first[i + 1]];
   const set = `--set ${shellWord(`${data.path}=${points.value[i]}`)}`;
   const out = `--out branch-${columns.branch[i]}-point-${columns.point[i]}`;
-  // A motion that meets no wall has no signature: a run settles on it.
-  if (from === to) return `${data.command} ${set} ${out}`;
+  // A motion that meets no wall has no signature, and those of a structure are not all that there is
+  // to it: a run settles on it.
+  if (from === to || data.place) return `${data.command} ${set} ${out}`;
   const events = points
     .branchAt(i)
     .events.map(({ wall, kind }) => (kind === "impact" ? wall : `${wall}:${kind}`));
@@ -44,14 +45,12 @@ function orbitOf(points, i, drawn) {
     phase: points.phases[first[i] + k],
     speed: points.speeds[first[i] + k],
   }));
-  const multipliers = [1, 2].map((k) => [
-    columns[`multiplier_${k}_re`][i],
-    columns[`multiplier_${k}_im`][i],
-  ]);
+  const multipliers = points.multipliers(i);
   const walls = DATA.continue.walls.map((wall) => ({ ...wall, position: wall.position_m }));
   const periods = columns.period[i];
   const whole = columns.symmetric[i] ? unfolded(events, walls, periods) : events;
-  const orbit = { forcing, periods, walls, events: whole, multipliers, T: [], Q: [], V: [] };
+  const { place } = DATA.continue;
+  const orbit = { forcing, periods, walls, place, events: whole, multipliers, T: [], Q: [], V: [] };
   if (drawn < 0) return orbit;
   const [from, to] = [orbits.first[drawn], orbits.first[drawn + 1] ?? orbits.phase.length];
   const part = (column) => column.subarray(from, to);
@@ -156,7 +155,8 @@ function chosenOrbit(points, choice) {
       ]),
     );
     events.replaceChildren(el("h3", {}, "Events"), eventTable(orbit));
-    command.textContent = orbitCommand(points, i);
+    const left = DATA.continue.place && !columns.stable[i];
+    command.textContent = left ? "# none: runs leave an unstable orbit" : orbitCommand(points, i);
     redraw();
     circle.dirty = true;
     listeners.forEach((told) => told());

@@ -72,6 +72,7 @@ function branchSection() {
         columns([
           ["special", "special"],
           ["what", "label", true],
+          ["at", "wall", true],
           [columnLabel(DATA.continue.key), "value"],
           ["branch", "branch"],
           ["leads to", "leads", true],

@@ -153,7 +153,7 @@ function orbitPlots(shown) {
     const [unit, by] = lengthUnit(largest(orbit.Q));
     const [speed, times] = lengthUnit(largest(orbit.V));
     [length, fast, at] = [by, times, null];
-    portrait.x = over.y = `Displacement (${unit})`;
+    portrait.x = over.y = `Displacement${orbit.place ? ` at ${orbit.place}` : ""} (${unit})`;
     portrait.y = `Velocity (${speed}/s)`;
     [over.unit, portrait.unit] = [unit, `${speed}/s`];
     const closed = (values, by) =>

@@ -1,0 +1,166 @@
+//! Pseudo-arclength (Keller 1977) for any curve: its steps, the tangent, the correction, and points
+//! located between two steps.
+
+use super::super::newton::{ACCEPTED, SOLVED};
+use crate::error::{Error, Result};
+use nalgebra::{DMatrix, DVector};
+
+/// One point: the unknowns, scaled, and after them the key's value over its scale.
+pub(super) type Vector = DVector<f64>;
+
+/// The first step, the longest and the least, in the scaled unknowns.
+const STEPS: [f64; 3] = [3e-3, 5e-2, 1e-9];
+
+/// How a step grows after one that went well.
+const GROWTH: f64 = 1.3;
+
+/// Most iterations of a step that is kept.
+const QUICK: usize = 8;
+
+/// Least cosine between the tangents at both ends of a step: 14°.
+const TURN: f64 = 0.97;
+
+/// Most iterations of a correction.
+const ITERATIONS: usize = 12;
+
+/// Most corrections that locate a point.
+const LOCATED: usize = 60;
+
+/// The length of the steps along a branch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stride(pub f64);
+
+impl Stride {
+    pub fn new() -> Self {
+        Self(STEPS[0])
+    }
+
+    /// After a step that was kept, to a point of that size.
+    pub fn grow(&mut self, size: f64) {
+        self.0 = (self.0 * GROWTH).min(STEPS[1] * size.max(1.0));
+    }
+
+    /// After one that was not; false where no shorter one is tried.
+    pub fn halve(&mut self) -> bool {
+        self.0 *= 0.5;
+        self.0 >= STEPS[2]
+    }
+
+    /// True for a step with these tangents at both ends, corrected in so many iterations, that is
+    /// kept.
+    pub fn keeps(iterations: usize, before: &Vector, after: &Vector) -> bool {
+        iterations <= QUICK && turns_little(before, after)
+    }
+}
+
+/// True where both tangents point to one side.
+pub(super) fn turns_little(before: &Vector, after: &Vector) -> bool {
+    after.dot(before) >= TURN
+}
+
+/// `matrix` with the row `border` below it.
+pub(super) fn bordered(matrix: &DMatrix<f64>, border: &Vector) -> DMatrix<f64> {
+    let n = matrix.nrows();
+    DMatrix::from_fn(n + 1, n + 1, |i, j| if i < n { matrix[(i, j)] } else { border[j] })
+}
+
+/// `vector` with one more entry.
+pub(super) fn extended(vector: &Vector, last: f64) -> Vector {
+    DVector::from_iterator(vector.len() + 1, vector.iter().copied().chain([last]))
+}
+
+/// The unit vector of that number among `n`.
+pub(super) fn unit(n: usize, index: usize) -> Vector {
+    DVector::from_fn(n, |i, _| if i == index { 1.0 } else { 0.0 })
+}
+
+/// The unit tangent where the equations are linearised by `matrix`, n × (n + 1), on the side of
+/// `along`.
+///
+/// # Errors
+/// [`Error::NoOrbit`] where two branches cross.
+pub(super) fn tangent(matrix: &DMatrix<f64>, along: &Vector) -> Result<Vector> {
+    let right = unit(along.len(), along.len() - 1);
+    let tangent = bordered(matrix, along).lu().solve(&right);
+    let tangent = tangent.filter(|t| t.iter().all(|x| x.is_finite())).ok_or_else(singular)?;
+    let norm = tangent.norm();
+    Ok(tangent / norm)
+}
+
+/// The solution in the plane through `guess` across `border`, by Newton's method; with its
+/// linearised equations, and how many iterations that took. `linear` gives residual and derivatives,
+/// n × (n + 1), at a point, and whatever else belongs to them.
+///
+/// # Errors
+/// [`Error::NoOrbit`] where it does not converge; those of `linear`.
+pub(super) fn correct<L>(
+    guess: &Vector,
+    border: &Vector,
+    mut linear: impl FnMut(&Vector) -> Result<L>,
+    parts: impl Fn(&L) -> (&Vector, &DMatrix<f64>),
+) -> Result<(Vector, L, usize)> {
+    let mut y = guess.clone();
+    let mut last = f64::INFINITY;
+    for iteration in 0..ITERATIONS {
+        let here = linear(&y)?;
+        let (residual, matrix) = parts(&here);
+        let size = if residual.is_empty() { 0.0 } else { residual.amax() };
+        if !size.is_finite() {
+            return Err(Error::no_orbit("Newton's method left the numbers"));
+        }
+        if last <= SOLVED || (size >= 0.5 * last && size <= ACCEPTED) {
+            return Ok((y, here, iteration));
+        }
+        let right = extended(residual, border.dot(&(&y - guess)));
+        let step = bordered(matrix, border).lu().solve(&right).ok_or_else(singular)?;
+        if !step.iter().all(|x| x.is_finite()) || step.norm() > 2.0 {
+            return Err(Error::no_orbit("Newton's method left the neighbourhood"));
+        }
+        y -= step;
+        last = size;
+    }
+    Err(Error::no_orbit(format!("Newton's method did not converge: the residual is {last:.1e} of the gap")))
+}
+
+/// The arclength in `span` at which a test function vanishes, whose values at both ends are `ends`,
+/// and what `at` gives there beside its value. By the Illinois method.
+///
+/// # Errors
+/// Those of `at`.
+pub(super) fn locate<T>(
+    span: [f64; 2],
+    ends: [f64; 2],
+    mut at: impl FnMut(f64) -> Result<(f64, T)>,
+) -> Result<(f64, T)> {
+    let [mut a, mut b] = span;
+    let [mut fa, mut fb] = ends;
+    let mut best: Option<(f64, f64, T)> = None;
+    for _ in 0..LOCATED {
+        let secant = b - fb * (b - a) / (fb - fa);
+        let inside = secant.is_finite() && (secant - a) * (secant - b) < 0.0;
+        let c = if inside { secant } else { 0.5 * (a + b) };
+        let (fc, point) = at(c)?;
+        if !fc.is_finite() {
+            return Err(Error::no_orbit("its test function is no number there"));
+        }
+        let better = best.as_ref().is_none_or(|(size, ..)| fc.abs() < *size);
+        let settled = !better && (b - a).abs() <= 1e-13 * span[1].abs();
+        if better {
+            best = Some((fc.abs(), c, point));
+        }
+        if fc == 0.0 || settled || (b - a).abs() <= 1e-15 * span[1].abs() {
+            break;
+        }
+        if fc * fb < 0.0 {
+            (a, fa) = (b, fb);
+        } else {
+            fa *= 0.5;
+        }
+        (b, fb) = (c, fc);
+    }
+    best.map(|(_, s, point)| (s, point)).ok_or_else(|| Error::no_orbit("it was not located"))
+}
+
+fn singular() -> Error {
+    Error::no_orbit("the equations are singular across the branch: two branches cross there")
+}

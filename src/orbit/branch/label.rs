@@ -1,0 +1,78 @@
+//! What happens at the special points of branches.
+
+use super::point::Point;
+use std::fmt;
+
+/// A special point of a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Label {
+    /// The branch turns back in the key: two orbits meet (a multiplier 1).
+    Fold,
+    /// A branch of twice the period begins (a multiplier −1).
+    PeriodDoubling,
+    /// Two orbits that are not symmetric, each the mirror image of the other, branch off a symmetric
+    /// one (a multiplier −1 of the half map, 1 of the whole).
+    SymmetryBreaking,
+    /// Another branch crosses (a multiplier 1): of structures alone.
+    BranchPoint,
+    /// A pair of complex multipliers crosses the unit circle: a quasi-periodic motion begins. Of
+    /// structures alone.
+    NeimarkSacker,
+    /// An impact of the orbit has become one without speed: beyond, the signature lacks it.
+    GrazingOut,
+    /// The orbit touches a wall anew, without speed: beyond, the signature has one more event.
+    GrazingIn,
+    /// After an impact with e = 0 the body is not pulled off its wall any more: a rest begins.
+    RestBegins,
+    /// A rest has become one without duration.
+    RestEnds,
+    /// A contact with an elastic wall has become one without duration.
+    ContactEnds,
+    /// Two events come together: which is first decides what follows.
+    Corner,
+}
+
+impl Label {
+    /// Its name, as tables write it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::PeriodDoubling => "period-doubling",
+            Self::SymmetryBreaking => "symmetry-breaking",
+            Self::BranchPoint => "branch-point",
+            Self::NeimarkSacker => "neimark-sacker",
+            Self::GrazingOut => "grazing-out",
+            Self::GrazingIn => "grazing-in",
+            Self::RestBegins => "rest-begins",
+            Self::RestEnds => "rest-ends",
+            Self::ContactEnds => "contact-ends",
+            Self::Corner => "corner",
+        }
+    }
+
+    /// The wall at which it happens, to event number `event` of `point`.
+    pub(super) fn wall(self, event: usize, point: &Point) -> Option<usize> {
+        match self {
+            Self::Fold | Self::PeriodDoubling | Self::SymmetryBreaking | Self::BranchPoint | Self::NeimarkSacker => {
+                None
+            }
+            Self::GrazingIn => point.admissible.nearest.map(|nearest| nearest.wall),
+            _ => point.orbit.signature.events.get(event).map(|event| event.wall),
+        }
+    }
+
+    /// True where the branch ends: no body follows the orbits beyond.
+    #[must_use]
+    pub fn ends(self) -> bool {
+        use Label::{BranchPoint, Fold, NeimarkSacker, PeriodDoubling, SymmetryBreaking};
+        !matches!(self, Fold | PeriodDoubling | SymmetryBreaking | BranchPoint | NeimarkSacker)
+    }
+}
+
+impl fmt::Display for Label {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -1,0 +1,204 @@
+//! Branches joined at their special points.
+
+use super::super::periodic::Orbit;
+use super::arclength::Vector;
+use super::label::Label;
+use super::line::{Begin, End, Followed, Frame, Line, NODE, Passed};
+use super::point::Point;
+use super::request::{Branch, Graph, Request, Special, Switch};
+use crate::error::Result;
+use std::collections::VecDeque;
+
+/// The graph as far as it is known, and the special points that have not been looked at.
+pub(super) struct Net<'r, C> {
+    graph: Graph,
+    queue: VecDeque<(usize, Passed<C>)>,
+    request: &'r Request,
+    /// For each branch the points of those that it goes on from, and its own.
+    used: Vec<usize>,
+}
+
+impl<'r, C: Followed> Net<'r, C> {
+    pub fn new(request: &'r Request) -> Self {
+        Self { graph: Graph::default(), queue: VecDeque::new(), request, used: Vec::new() }
+    }
+
+    /// All branches that are asked for, the first through `y` along `along`.
+    pub fn from(mut self, curve: C, y: Vector, along: &Vector, seen: &mut dyn FnMut(&Point)) -> Result<Graph> {
+        self.both(&curve, y, along, None, (0, 0), seen)?;
+        while let Some((special, passed)) = self.queue.pop_front() {
+            self.leave(special, passed, seen);
+        }
+        Ok(self.graph)
+    }
+
+    fn add(&mut self, branch: Branch, before: usize) -> usize {
+        self.used.push(before + branch.points.len());
+        self.graph.branches.push(branch);
+        self.graph.branches.len() - 1
+    }
+
+    /// Follows a branch to both sides of `y`, and adds it: after so many switches, and so many
+    /// points of the branches that it goes on from.
+    fn both(
+        &mut self,
+        curve: &C,
+        y: Vector,
+        along: &Vector,
+        from: Option<usize>,
+        (depth, used): (u32, usize),
+        seen: &mut dyn FnMut(&Point),
+    ) -> Result<()> {
+        let range = self.request.range;
+        let points = self.request.points.saturating_sub(used);
+        let tangent = curve.tangent_at(&y, along)?;
+        let ahead = curve.follow(y.clone(), &tangent, range, points, seen)?;
+        let behind = match ahead.end {
+            End::Closed => Line { points: Vec::new(), passed: Vec::new(), end: End::Closed },
+            _ => curve.follow(y, &(-&tangent), range, points, seen)?,
+        };
+        let before = behind.points.len().saturating_sub(1);
+        let mut all: Vec<Point> = behind.points.into_iter().skip(1).rev().collect();
+        all.extend(ahead.points);
+        let number = self.add(Branch { points: all, from, depth, ends: [Some(behind.end), Some(ahead.end)] }, used);
+        for mut passed in behind.passed.into_iter().rev() {
+            passed.after = (before + 1).saturating_sub(passed.after);
+            self.note(number, passed);
+        }
+        for mut passed in ahead.passed {
+            passed.after += before;
+            self.note(number, passed);
+        }
+        Ok(())
+    }
+
+    fn note(&mut self, branch: usize, passed: Passed<C>) {
+        let special = Special {
+            label: passed.label,
+            event: passed.event,
+            wall: passed.wall,
+            branch,
+            after: passed.after,
+            point: passed.point.clone(),
+            leads_to: Vec::new(),
+            reason: None,
+        };
+        self.queue.push_back((self.graph.specials.len(), passed));
+        self.graph.specials.push(special);
+    }
+
+    /// Whether the branch has stable orbits beside the special point.
+    fn stable_beside(&self, special: usize) -> bool {
+        let Some(special) = self.graph.specials.get(special) else { return false };
+        let Some(branch) = self.graph.branches.get(special.branch) else { return false };
+        let beside = special.after.saturating_sub(1)..(special.after + 2).min(branch.points.len());
+        // At the point itself a multiplier may be infinite.
+        branch.points.get(beside).into_iter().flatten().any(|point| point.floquet.is_stable())
+    }
+
+    /// Follows the branch that begins at a special point, unless it is known.
+    fn leave(&mut self, number: usize, passed: Passed<C>, seen: &mut dyn FnMut(&Point)) {
+        let own = self.graph.specials.get(number).map_or(0, |special| special.branch);
+        let depth = self.graph.branches.get(own).map_or(0, |branch| branch.depth);
+        // Beyond a change of its contacts the same curve goes on: that is no switch.
+        let goes_on = passed.beyond.is_some();
+        let wanted = match self.request.switch {
+            Switch::No => false,
+            Switch::Stable => self.stable_beside(number),
+            Switch::All => true,
+        };
+        if !(goes_on || wanted && depth < self.request.depth) || passed.label == Label::Fold {
+            return;
+        }
+        let depth = depth + u32::from(!goes_on);
+        let used = if goes_on { self.used.get(own).copied().unwrap_or(0) } else { 0 };
+        let begin = match passed.beyond {
+            Some(begin) => Ok(*begin),
+            None => passed.curve.switch(&passed),
+        };
+        let outcome = begin.and_then(|begin| self.begin(number, begin, (depth, used), seen));
+        let Some(special) = self.graph.specials.get_mut(number) else { return };
+        match outcome {
+            Ok(branch) => special.leads_to.extend(branch),
+            Err(error) => special.reason = Some(error.to_string()),
+        }
+    }
+
+    /// Follows the branch that begins at special point `number`; gives its number, or that of the
+    /// known branch that it is. None where no points are left for it.
+    fn begin(
+        &mut self,
+        number: usize,
+        begin: Begin<C>,
+        (depth, used): (u32, usize),
+        seen: &mut dyn FnMut(&Point),
+    ) -> Result<Option<usize>> {
+        let Begin { curve, y, along, both } = begin;
+        let (orbit, frame) = curve.orbit_at(&y)?;
+        if let Some(known) = self.known(number, &orbit, &frame) {
+            return Ok(Some(known));
+        }
+        let Request { range, points, .. } = *self.request;
+        if used >= points {
+            return Ok(None);
+        }
+        let next = self.graph.branches.len();
+        if both {
+            self.both(&curve, y, &along, Some(number), (depth, used), seen)?;
+            return Ok(Some(next));
+        }
+        let line = curve.follow(y, &along, range, points - used, seen)?;
+        self.add(Branch { points: line.points, from: Some(number), depth, ends: [None, Some(line.end)] }, used);
+        for passed in line.passed {
+            self.note(next, passed);
+        }
+        Ok(Some(next))
+    }
+
+    /// The branch that has `orbit`'s signature and a special point here already.
+    fn known(&self, number: usize, orbit: &Orbit, frame: &Frame) -> Option<usize> {
+        let mirror = frame.mirror.as_deref();
+        let here = self.graph.specials.get(number)?;
+        let bare = bare(&here.point.orbit, frame);
+        let whole = orbit.unfolded(mirror);
+        let [low, high] = self.request.range;
+        let same = |special: &Special| {
+            (special.point.value - here.point.value).abs() <= NODE * (high - low)
+                && self::bare(&special.point.orbit, frame).is(&bare, frame.near)
+        };
+        let alike = |branch: &Branch| {
+            let Some(first) = branch.points.first() else { return false };
+            let other = first.orbit.unfolded(mirror);
+            let count = whole.signature.events.len();
+            other.signature.periods == whole.signature.periods
+                && other.signature.events.len() == count
+                && (count == 0
+                    || (0..count).any(|shift| {
+                        (0..count).all(|i| other.signature.events[i] == whole.signature.events[(i + shift) % count])
+                    }))
+        };
+        self.graph.branches.iter().enumerate().position(|(index, branch)| {
+            let meets = self
+                .graph
+                .specials
+                .iter()
+                .enumerate()
+                .any(|(other, special)| other != number && special.branch == index && same(special));
+            let begins = branch.from.and_then(|from| self.graph.specials.get(from)).is_some_and(same);
+            index != here.branch && alike(branch) && (meets || begins)
+        })
+    }
+}
+
+/// The whole orbit without its events of speed 0.
+fn bare(orbit: &Orbit, frame: &Frame) -> Orbit {
+    let mirror = frame.mirror.as_deref();
+    let whole = orbit.unfolded(mirror);
+    let least = frame.near * frame.speed;
+    let kept: Vec<usize> = (0..whole.phases.len()).filter(|&i| whole.speeds[i].abs() > least).collect();
+    let mut bare = whole.clone();
+    bare.signature.events = kept.iter().map(|&i| whole.signature.events[i]).collect();
+    bare.phases = kept.iter().map(|&i| whole.phases[i]).collect();
+    bare.speeds = kept.iter().map(|&i| whole.speeds[i]).collect();
+    bare.part(mirror).map_or(bare, |(once, _)| once.unfolded(mirror))
+}

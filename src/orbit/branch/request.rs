@@ -1,0 +1,73 @@
+//! What is asked for, and what is found: branches, and the points that join them.
+
+use super::label::Label;
+use super::line::End;
+use super::point::Point;
+
+/// At which special points the branches that begin there are followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Switch {
+    /// At none.
+    No,
+    /// Where the branch has stable orbits on one side of the point.
+    #[default]
+    Stable,
+    /// At all.
+    All,
+}
+
+/// What is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Request {
+    /// The range of the key; the first value below the second.
+    pub range: [f64; 2],
+    /// Which branches are followed beside the first.
+    pub switch: Switch,
+    /// How many switches lead from the first branch to the last: 0 for the first alone.
+    pub depth: u32,
+    /// Most points of a branch.
+    pub points: usize,
+}
+
+/// A branch of orbits of one signature.
+#[derive(Debug, Clone)]
+pub struct Branch {
+    /// Its points in order along it.
+    pub points: Vec<Point>,
+    /// The special point where it was found, by its number; `None` for the first.
+    pub from: Option<usize>,
+    /// Switches from the first branch to this one.
+    pub depth: u32,
+    /// Why it ends before its first point, and after its last; `None` where it begins at `from`.
+    pub ends: [Option<End>; 2],
+}
+
+/// A special point.
+#[derive(Debug, Clone)]
+pub struct Special {
+    /// What happens there.
+    pub label: Label,
+    /// The event that it happens to, from 0; 0 where it is the whole orbit's.
+    pub event: usize,
+    /// Index of the wall at which it happens; `None` where it is the whole orbit's.
+    pub wall: Option<usize>,
+    /// The branch on which it was found.
+    pub branch: usize,
+    /// The points of that branch before it.
+    pub after: usize,
+    /// The orbit.
+    pub point: Point,
+    /// Other branches through it.
+    pub leads_to: Vec<usize>,
+    /// Why no other branch was followed from here; `None` if one was, or none was asked for.
+    pub reason: Option<String>,
+}
+
+/// Branches and the points that join them.
+#[derive(Debug, Clone, Default)]
+pub struct Graph {
+    /// The branches, in the order in which they were found.
+    pub branches: Vec<Branch>,
+    /// The special points, in the order in which they were found.
+    pub specials: Vec<Special>,
+}

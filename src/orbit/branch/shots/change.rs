@@ -1,0 +1,221 @@
+//! Where the walls that an orbit meets, or their order, change.
+
+use super::Shots;
+use super::graze::Contact;
+use super::here::{Here, events};
+use crate::orbit::branch::arclength::Vector;
+use crate::orbit::branch::label::Label;
+use crate::orbit::branch::line::{Begin, Passed};
+use crate::orbit::branch::point::Point;
+use crate::orbit::signature::{Event, Kind};
+use crate::orbit::watch::Passage;
+
+/// A graze is looked for where its test function, continued as a straight line, vanishes within this
+/// arclength (of points of size 1). Steps are shorter there, but impact speeds and gaps go to 0 as
+/// straight lines do.
+const AHEAD: f64 = 0.1;
+
+/// Most contacts that are tried.
+const MOST_TRIED: usize = 4;
+
+/// A graze lies within this many times the distance at which it was expected.
+const EXPECTED: f64 = 3.0;
+
+/// The step within which a change of another kind is looked for …
+const SHORT: f64 = 5e-3;
+
+/// … and the one at which it is located, as a share of that.
+const LOCATED: f64 = 1e-10;
+
+/// Touches of two points at one wall are one within so many cycles.
+const SAME: f64 = 0.1;
+
+/// A change ahead of a point.
+pub(super) struct Change<'a> {
+    label: Label,
+    event: usize,
+    wall: Option<usize>,
+    pub point: Point,
+    y: Vector,
+    /// How far ahead it lies.
+    pub step: f64,
+    beyond: Option<Begin<Shots<'a>>>,
+}
+
+/// A contact that may begin or vanish ahead.
+struct Candidate {
+    contact: Contact,
+    /// Its events among those of the point, if it is one of them.
+    own: Vec<usize>,
+    /// How far ahead.
+    distance: f64,
+}
+
+impl<'a> Change<'a> {
+    /// The special point after `after` points of the branch.
+    pub fn passed(self, curve: &Shots<'a>, after: usize) -> Passed<Shots<'a>> {
+        let Self { label, event, wall, point, y, beyond, .. } = self;
+        Passed { label, event, wall, point, curve: curve.clone(), y, after, beyond: beyond.map(Box::new) }
+    }
+}
+
+impl<'a> Shots<'a> {
+    /// The change ahead of `now`, which a step could not be kept for: a graze near which the map has
+    /// a square root, or a change through which Newton's method finds a way. `before` is the point
+    /// before, with its distance; `other` the orbit at the end of the step, if it has other events.
+    pub(super) fn change(
+        &self,
+        now: &Here,
+        before: Option<&(Here, f64)>,
+        step: f64,
+        other: Option<&Here>,
+    ) -> Option<Change<'a>> {
+        let mut candidates = self.candidates(now, before, step, other);
+        candidates.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        let found = candidates.into_iter().take(MOST_TRIED).find_map(|candidate| self.grazes(now, step, &candidate));
+        found.or_else(|| self.kink(now, step, other?))
+    }
+
+    /// The contacts that may vanish or begin within a few steps.
+    fn candidates(&self, now: &Here, before: Option<&(Here, f64)>, step: f64, other: Option<&Here>) -> Vec<Candidate> {
+        let passages = &now.passages;
+        let ends = [self.strobe, self.strobe + self.cycles()];
+        let previous = |i: usize| if i == 0 { ends[0] } else { passages[i - 1].phase };
+        let following = |i: usize| passages.get(i).map_or(ends[1], |p| p.phase);
+        let mut found = Vec::new();
+        let last = before.filter(|(before, _)| before.meets_as(now));
+        // Where a quantity that was `a` a step before and is `b` now will vanish.
+        let root = |a: f64, b: f64, s: f64| if a > b { s * b / (a - b) } else { f64::INFINITY };
+        let differs = |wall: usize, more: bool| {
+            let count = |here: &Here| {
+                here.passages.iter().filter(|p| p.event.wall == wall && p.event.kind.is_approach()).count()
+            };
+            other.is_some_and(|other| if more { count(other) > count(now) } else { count(other) < count(now) })
+        };
+        for (i, passage) in passages.iter().enumerate() {
+            let wall = passage.event.wall;
+            let leave =
+                passages.iter().skip(i).position(|p| p.event == Event { kind: Kind::Leave, wall }).map(|k| i + k);
+            let (until, power) = match (passage.event.kind, leave) {
+                (Kind::Impact, _) => (i, 1),
+                // A short contact is as deep as the square of its speed.
+                (Kind::Enter, Some(until)) => (until, 2),
+                _ => continue,
+            };
+            let was = last.and_then(|(before, s)| Some((before.passages.get(i)?.speed, *s)));
+            let mut distance = was.map_or(f64::INFINITY, |(v, s)| root(v.powi(power), passage.speed.powi(power), s));
+            if differs(wall, false) {
+                distance = distance.min(step);
+            }
+            let at = 0.5 * (passage.phase + passages[until].phase);
+            let window = [0.5 * (previous(i) + passage.phase), 0.5 * (passages[until].phase + following(until + 1))];
+            let own = (i..=until).filter(|&k| passages[k].event.wall == wall).collect();
+            found.push(Candidate { contact: Contact { wall, window, at }, own, distance });
+        }
+        for touch in &now.touches {
+            let was = last.and_then(|(before, s)| {
+                let same = before.touches.iter().filter(|t| t.wall == touch.wall);
+                let apart = |phase: f64| (phase - touch.phase).abs();
+                let near = same.min_by(|a, b| apart(a.phase).total_cmp(&apart(b.phase)))?;
+                (apart(near.phase) < SAME).then_some((near.gap, *s))
+            });
+            let mut distance = was.map_or(f64::INFINITY, |(gap, s)| root(gap, touch.gap, s));
+            if differs(touch.wall, true) {
+                distance = distance.min(step);
+            }
+            let i = passages.partition_point(|p| p.phase < touch.phase);
+            let window = [0.5 * (previous(i) + touch.phase), 0.5 * (touch.phase + following(i))];
+            let contact = Contact { wall: touch.wall, window, at: touch.phase };
+            found.push(Candidate { contact, own: Vec::new(), distance });
+        }
+        found.retain(|candidate| candidate.distance <= AHEAD * now.size());
+        found
+    }
+
+    /// The graze at which `candidate` begins or vanishes, if it lies near.
+    fn grazes(&self, now: &Here, step: f64, candidate: &Candidate) -> Option<Change<'a>> {
+        let Candidate { contact, own, distance } = candidate;
+        let graze = self.graze(&(&now.y + &now.tangent * *distance), *contact).ok()?;
+        let apart = &graze.y - &now.y;
+        if apart.norm() > EXPECTED * step.max(*distance) || apart.dot(&now.tangent) < -LOCATED {
+            return None;
+        }
+        // All else must stay as it is.
+        let stays = now.passages.iter().enumerate().filter(|(i, _)| !own.contains(i)).map(|(_, p)| p.event);
+        if !events(&graze.turn.passages).eq(stays) {
+            return None;
+        }
+        let vanished: Vec<Passage> = own.iter().filter_map(|&i| now.passages.get(i)).copied().collect();
+        let point = self.grazing(&graze, &vanished);
+        let (label, event, beyond) = match own.first() {
+            Some(&i) => (Label::GrazingOut, self.number(now, i), self.smooth_beside(&graze, false)),
+            None if graze.rigid => (Label::GrazingIn, 0, self.striking_beside(&graze)),
+            None => (Label::GrazingIn, 0, self.smooth_beside(&graze, true)),
+        };
+        let (wall, y) = (Some(contact.wall), graze.y);
+        Some(Change { label, event, wall, point, y, step: apart.norm(), beyond: beyond.ok() })
+    }
+
+    /// The number of event `i` after the strobe in the branch's signature.
+    fn number(&self, now: &Here, i: usize) -> usize {
+        let count = now.passages.len() * if self.symmetric { 2 } else { 1 };
+        let number = (i + count - self.first % count) % count;
+        number % now.passages.len()
+    }
+
+    /// A change through which the branch goes on: located by halves, between `now` and `other`.
+    fn kink(&self, now: &Here, step: f64, other: &Here) -> Option<Change<'a>> {
+        if step > SHORT * now.size() {
+            return None;
+        }
+        let (mut low, mut high, mut left, mut right) = (0.0, step, None, None);
+        while high - low > LOCATED * step {
+            let middle = 0.5 * (low + high);
+            let (here, _) = self.next(now, middle).ok()?;
+            if here.meets_as(now) {
+                (low, left) = (middle, Some(here));
+            } else {
+                (high, right) = (middle, Some(here));
+            }
+        }
+        let (left, right) = (left.as_ref().unwrap_or(now), right.as_ref().unwrap_or(other));
+        // Two orbits that exist at once are no change of one.
+        if (&left.y - &right.y).norm() > 1e-3 * step {
+            return None;
+        }
+        let (label, event) = difference(now, right);
+        let wall = now.passages.get(event).or(right.passages.get(event)).map(|p| p.event.wall);
+        let event = if event < now.passages.len() { self.number(now, event) } else { 0 };
+        let along = if right.tangent.dot(&now.tangent) < 0.0 { -&right.tangent } else { right.tangent.clone() };
+        let beyond = Begin { curve: self.anew(), y: right.y.clone(), along, both: false };
+        Some(Change {
+            label,
+            event,
+            wall,
+            point: left.point.clone(),
+            y: left.y.clone(),
+            step: high,
+            beyond: Some(beyond),
+        })
+    }
+}
+
+/// What has changed between the events of two orbits, and which event it is, after the strobe.
+fn difference(before: &Here, after: &Here) -> (Label, usize) {
+    let (a, b) = (&before.passages, &after.passages);
+    let event = a.iter().zip(b).take_while(|(a, b)| a.event == b.event).count();
+    let count = |list: &[Passage], kinds: &[Kind]| list.iter().filter(|p| kinds.contains(&p.event.kind)).count();
+    let more = |kinds: &[Kind]| count(b, kinds).cmp(&count(a, kinds));
+    use std::cmp::Ordering::{Equal, Greater, Less};
+    let rests = more(&[Kind::Release]);
+    let meets = more(&[Kind::Impact, Kind::Enter, Kind::Rest, Kind::Chatter]);
+    let label = match (rests, meets, more(&[Kind::Leave, Kind::Again])) {
+        (Greater, ..) => Label::RestBegins,
+        (Less, ..) => Label::RestEnds,
+        (Equal, Greater, _) => Label::GrazingIn,
+        (Equal, Less, _) => Label::GrazingOut,
+        (Equal, Equal, Greater | Less) => Label::ContactEnds,
+        (Equal, Equal, Equal) => Label::Corner,
+    };
+    (label, event)
+}

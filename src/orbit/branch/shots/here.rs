@@ -1,0 +1,146 @@
+//! What is known at a point of the curve: the orbit, its multipliers, and test functions.
+
+use super::{Linear, Shots};
+use crate::error::Result;
+use crate::orbit::admissible::{Admissible, Nearest};
+use crate::orbit::branch::arclength::{Vector, bordered, tangent};
+use crate::orbit::branch::point::Point;
+use crate::orbit::floquet::Floquet;
+use crate::orbit::periodic::Orbit;
+use crate::orbit::signature::{Event, Signature};
+use crate::orbit::strobe::{Strobe, multipliers, state};
+use crate::orbit::turn::{Touch, Turn};
+use crate::orbit::watch::Passage;
+use nalgebra::{Complex, DMatrix};
+
+/// Where a step stands.
+pub(super) struct Here {
+    pub y: Vector,
+    pub tangent: Vector,
+    /// The derivative of the map with the key.
+    pub column: Vector,
+    pub point: Point,
+    /// The events after the strobe, and where the motion turns back before walls.
+    pub passages: Vec<Passage>,
+    pub touches: Vec<Touch>,
+    pub tests: Tests,
+}
+
+/// Test functions: smooth as long as the walls and their order stay.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tests {
+    /// The key's part of the tangent: a fold.
+    pub fold: f64,
+    /// The determinant of the equations with the tangent below them: another branch.
+    pub crossing: f64,
+    /// det(H + 1) times all impact speeds, H the derivative of the map: a multiplier −1.
+    pub flip: f64,
+    /// Multipliers outside the unit circle, and how near the nearest complex pair is to it.
+    pub outside: usize,
+    pub pair: f64,
+}
+
+impl Here {
+    /// True if both orbits meet the same walls in the same order.
+    pub fn meets_as(&self, other: &Self) -> bool {
+        events(&self.passages).eq(events(&other.passages))
+    }
+
+    /// The largest entry of the point, 1 or more: what steps along the branch are compared with.
+    pub fn size(&self) -> f64 {
+        self.y.amax().max(1.0)
+    }
+}
+
+pub(super) fn events(passages: &[Passage]) -> impl Iterator<Item = Event> + '_ {
+    passages.iter().map(|passage| passage.event)
+}
+
+/// The multipliers of the map, the largest first.
+pub(super) fn multipliers_of(linear: &Linear) -> Vec<Complex<f64>> {
+    let n = linear.matrix.nrows();
+    multipliers(&(linear.matrix.columns(0, n) + DMatrix::identity(n, n)))
+}
+
+impl Shots<'_> {
+    /// What is known at the solution `y`, with the tangent on the side of `along`.
+    pub(super) fn here(&self, y: Vector, linear: Linear, along: &Vector) -> Result<Here> {
+        let tangent = tangent(&linear.matrix, along)?;
+        let n = y.len() - 1;
+        let matrix = linear.matrix.columns(0, n).into_owned();
+        let own = multipliers_of(&linear);
+        let speeds = linear.turn.passages.iter().filter(|p| p.event.kind.is_approach() && p.event.kind.is_rigid());
+        let flip = (&matrix + DMatrix::identity(n, n) * 2.0).determinant();
+        let flip = speeds.fold(flip, |product, p| product * p.speed.abs() / self.scales.speed);
+        let distance = |z: &&Complex<f64>| (z.norm() - 1.0).abs();
+        let nearest = own.iter().filter(|z| z.im != 0.0).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let tests = Tests {
+            fold: tangent[n],
+            crossing: bordered(&linear.matrix, &tangent).determinant(),
+            flip,
+            outside: own.iter().filter(|z| z.norm() > 1.0).count(),
+            pair: nearest.map_or(f64::INFINITY, |z| (z.norm() - 1.0).abs()),
+        };
+        let column = linear.matrix.column(n).into_owned();
+        let point = self.point(&y, linear.posed.period, &linear.turn, own);
+        let Turn { passages, touches, .. } = linear.turn;
+        Ok(Here { y, tangent, column, point, passages, touches, tests })
+    }
+
+    /// The orbit whose run over the map is `turn`, and whose map has the multipliers `own`.
+    pub(super) fn point(&self, y: &Vector, period: f64, turn: &Turn, own: Vec<Complex<f64>>) -> Point {
+        let signature =
+            Signature { events: events(&turn.passages).collect(), periods: self.periods, symmetric: self.symmetric };
+        let orbit = Orbit {
+            signature,
+            phases: turn.passages.iter().map(|p| p.phase).collect(),
+            speeds: turn.passages.iter().map(|p| p.speed).collect(),
+            forcing_period: period,
+        };
+        let approaches = turn.passages.iter().filter(|p| p.event.kind.is_approach());
+        let nearest = turn.touches.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
+        let flight = |phase: f64| turn.passages.iter().filter(|p| p.phase <= phase).count();
+        let count = turn.passages.len();
+        let admissible = Admissible {
+            least_speed: approaches.map(|p| p.speed).fold(f64::INFINITY, f64::min),
+            nearest: nearest.map(|touch| Nearest {
+                gap: touch.gap,
+                wall: touch.wall,
+                // The flight after the last event is the one before the first.
+                flight: if count == 0 { 0 } else { (flight(touch.phase) + 2 * count - 1 - self.first % count) % count },
+                phase: touch.phase,
+            }),
+            least_push: f64::INFINITY,
+            largest: turn.largest,
+        };
+        let product = own.iter().fold(Complex::from(1.0), |product, z| product * z).re;
+        let trace = own.iter().map(|z| z.re).sum();
+        let floquet = Floquet::of(own.iter().map(|z| [z.re, z.im]).collect(), [trace, product], self.symmetric);
+        let strobe = Strobe { phase: self.strobe, state: state(&self.state(y)) };
+        Point { value: self.value(y), orbit: self.turned(orbit), floquet, admissible, strobe: Some(strobe) }
+    }
+
+    /// The orbit from the branch's first event on, which comes into the first orbit after t = 0.
+    fn turned(&self, orbit: Orbit) -> Orbit {
+        let mut whole = orbit.unfolded(self.mirror.as_deref());
+        let count = whole.phases.len();
+        if count == 0 {
+            return orbit;
+        }
+        let (first, turn) = (self.first % count, f64::from(self.periods));
+        whole.signature.events.rotate_left(first);
+        whole.speeds.rotate_left(first);
+        whole.phases.rotate_left(first);
+        let from = whole.phases.first().map_or(0.0, |phase| (phase / turn).floor() * turn);
+        for (index, phase) in whole.phases.iter_mut().enumerate() {
+            *phase += if index + first >= count { turn } else { 0.0 } - from;
+        }
+        if orbit.signature.symmetric {
+            whole.signature.symmetric = true;
+            whole.signature.events.truncate(count / 2);
+            whole.phases.truncate(count / 2);
+            whole.speeds.truncate(count / 2);
+        }
+        whole
+    }
+}

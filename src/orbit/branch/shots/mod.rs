@@ -1,0 +1,191 @@
+//! Branches of orbits of structures: the state once an orbit and a key's value as unknowns.
+//!
+//! P takes the state x at the strobe, an instant of the forcing period given in cycles at which
+//! nothing happens, to that one orbit later, by the exact scheme; a branch is the curve of the
+//! solutions of P(x; λ) = x. P is smooth as long as the orbit meets the same walls in the same
+//! order, so that a branch has one signature. Where an impact begins or ends with a graze, P has a
+//! square root (Nordmark 1991, doi:10.1016/0022-460X(91)90592-8): the branch is followed to it from
+//! the one side and leaves it to the other by equations that are regular there (`graze.rs`). A
+//! symmetric orbit is followed by its half map −P½, as with one degree of freedom.
+
+mod change;
+mod follow;
+mod graze;
+mod here;
+mod switch;
+
+use crate::error::{Error, Result};
+use crate::orbit::branch::arclength::{self, Vector, extended, unit};
+use crate::orbit::branch::curve::Family;
+use crate::orbit::forcing::forcing_period;
+use crate::orbit::shooting::{Shot, posed};
+use crate::orbit::strobe::{Scales, vector};
+use crate::orbit::symmetry;
+use crate::orbit::turn::{Look, Turn, run};
+use crate::scene::Scene;
+use nalgebra::DMatrix;
+
+/// The step of the difference that gives the column of the key, as a share of its value …
+const DIFFERENCE: f64 = 1e-6;
+
+/// … and what it is multiplied by where the contacts differ at its ends.
+const FINER: [f64; 3] = [1.0, 1e-2, 1e-4];
+
+/// Two halves of an orbit within this share of the scales of each other are one half and its mirror.
+const MIRRORED: f64 = 1e-7;
+
+/// The curve.
+#[derive(Clone)]
+pub(super) struct Shots<'a> {
+    family: &'a Family<'a>,
+    periods: u32,
+    symmetric: bool,
+    /// What states are divided by; the same along a branch.
+    scales: Scales,
+    /// What the key's value is divided by: the width of its range.
+    width: f64,
+    /// The instant of the states, in cycles from t = 0.
+    strobe: f64,
+    /// Which of the events after the strobe is the first of the branch's signature.
+    first: usize,
+    /// The wall opposite to each wall, where the scene is its own mirror image.
+    mirror: Option<Vec<usize>>,
+}
+
+/// A scene of the family and the period of its loads, s.
+struct Posed {
+    scene: Scene,
+    period: f64,
+}
+
+/// The linearised equations at a point.
+struct Linear {
+    posed: Posed,
+    turn: Turn,
+    residual: Vector,
+    /// 2n × (2n + 1): the derivatives with the scaled state, and with the key.
+    matrix: DMatrix<f64>,
+}
+
+impl<'a> Shots<'a> {
+    /// The curve through `start` at the key's value `value`, and the point there; `beside` is another
+    /// value, which tells whether the key keeps the mirror symmetry.
+    pub fn begin(family: &'a Family<'a>, start: &Shot, value: f64, beside: f64, width: f64) -> Result<(Self, Vector)> {
+        let scene = family(value)?;
+        let period = posed(&scene)?;
+        start.check(scene.system.degrees_of_freedom())?;
+        let scales = Scales::new(scene.gap_scale(), period);
+        let other = family(beside)?;
+        let keeps = forcing_period(&other).is_ok_and(|period| symmetry::mirror(&other, period).is_some());
+        let mirror = symmetry::mirror(&scene, period).filter(|_| keeps);
+        let strobe = start.time / start.forcing_period;
+        let mut curve =
+            Self { family, periods: start.periods, symmetric: false, scales, width, strobe, first: 0, mirror };
+        let x = vector(&start.state.q, &start.state.v);
+        if curve.mirror.is_some() && start.periods % 2 == 1 {
+            let half = Self { symmetric: true, ..curve.clone() };
+            let turn = half.turn(&Posed { scene, period }, &x, Look::Events)?;
+            if scales.size(&(&turn.end + &x)) <= MIRRORED {
+                curve = half;
+            }
+        }
+        let y = extended(&scales.scaled(&x), value / width);
+        let (y, ..) = curve.correct(&y, &unit(y.len(), y.len() - 1), None)?;
+        Ok((curve, y))
+    }
+
+    fn value(&self, y: &Vector) -> f64 {
+        y[y.len() - 1] * self.width
+    }
+
+    /// The state at `y`, m and m/s.
+    fn state(&self, y: &Vector) -> Vector {
+        self.scales.unscaled(&y.rows(0, y.len() - 1).into_owned())
+    }
+
+    /// Cycles of the forcing period in which the map takes the state along.
+    fn cycles(&self) -> f64 {
+        f64::from(self.periods) * if self.symmetric { 0.5 } else { 1.0 }
+    }
+
+    /// −1 where the map ends in the mirror.
+    fn sign(&self) -> f64 {
+        if self.symmetric { -1.0 } else { 1.0 }
+    }
+
+    fn posed(&self, value: f64) -> Result<Posed> {
+        let scene = (self.family)(value)?;
+        let period = forcing_period(&scene)?;
+        if self.symmetric && symmetry::mirror(&scene, period).is_none() {
+            return Err(Error::no_orbit(format!("the scene at {value} is not its own mirror image, as the orbit is")));
+        }
+        Ok(Posed { scene, period })
+    }
+
+    fn turn(&self, posed: &Posed, x: &Vector, look: Look) -> Result<Turn> {
+        let Posed { scene, period } = posed;
+        run(scene, *period, [self.strobe * period, (self.strobe + self.cycles()) * period], x, look)
+    }
+
+    /// Residual and derivatives at `y`; the column of the key is taken from `column` where it is
+    /// known, else put there.
+    fn linear(&self, y: &Vector, column: &mut Option<Vector>) -> Result<Linear> {
+        let (posed, x) = (self.posed(self.value(y))?, self.state(y));
+        let turn = self.turn(&posed, &x, Look::All)?;
+        let (n, sign) = (x.len(), self.sign());
+        let residual = self.scales.scaled(&(&turn.end * sign - &x));
+        let own = self.scales.similar(&turn.derivative) * sign - DMatrix::identity(n, n);
+        let column = match column {
+            Some(known) => known.clone(),
+            None => column.insert(self.column(y, |posed| self.same(&turn, posed, &x))?).clone(),
+        };
+        let matrix = DMatrix::from_fn(n, n + 1, |i, j| if j < n { own[(i, j)] } else { column[i] });
+        Ok(Linear { posed, turn, residual, matrix })
+    }
+
+    /// The scaled end of the run from `x` in another scene, if it meets the same walls as `turn`.
+    fn same(&self, turn: &Turn, posed: &Posed, x: &Vector) -> Result<Option<Vector>> {
+        let other = self.turn(posed, x, Look::Events)?;
+        let same = turn.passages.iter().map(|p| p.event).eq(other.passages.iter().map(|p| p.event));
+        Ok(same.then(|| self.scales.scaled(&other.end) * self.sign()))
+    }
+
+    /// The derivative of `of` with the key over its width at `y`, by differences; `of` gives nothing
+    /// where they would be meaningless.
+    fn column(&self, y: &Vector, of: impl Fn(&Posed) -> Result<Option<Vector>>) -> Result<Vector> {
+        let value = self.value(y);
+        let mut last = None;
+        for finer in FINER {
+            let step = finer * DIFFERENCE * value.abs().max(1e-3 * self.width);
+            let at = |value: f64| self.posed(value).and_then(|posed| of(&posed));
+            // At the end of what the key accepts, from one side.
+            let ends = match (at(value + step), at(value - step)) {
+                (Err(error), Err(_)) => return Err(error),
+                (Ok(above), Ok(below)) => [(above, value + step), (below, value - step)],
+                (Ok(above), Err(_)) => [(above, value + step), (at(value)?, value)],
+                (Err(_), Ok(below)) => [(at(value)?, value), (below, value - step)],
+            };
+            if let [(Some(above), high), (Some(below), low)] = ends {
+                last = Some((above - below) * (self.width / (high - low)));
+                break;
+            }
+        }
+        last.ok_or_else(|| Error::no_orbit("the contacts change within any difference of the key"))
+    }
+
+    /// The point of the curve in the plane through `guess` across `border`; with its linearised
+    /// equations, and how many iterations that took. The column of the key enters the matrix only:
+    /// `column` is one from nearby, where one is known, for the first iteration; that after it has
+    /// one of its own, which serves for the rest.
+    fn correct(&self, guess: &Vector, border: &Vector, mut column: Option<Vector>) -> Result<(Vector, Linear, usize)> {
+        let mut iteration = 0;
+        let linear = |y: &Vector| {
+            if iteration == 1 {
+                column = None;
+            }
+            iteration += 1;
+            self.linear(y, &mut column)
+        };
+        arclength::correct(guess, border, linear, |linear| (&linear.residual, &linear.matrix))
+    }
+}

@@ -1,0 +1,129 @@
+//! From a special point of a branch of a structure's orbits to the branch that begins there.
+
+use super::Shots;
+use super::follow::follow;
+use crate::error::{Error, Result};
+use crate::orbit::branch::arclength::{Vector, bordered, extended, tangent};
+use crate::orbit::branch::label::Label;
+use crate::orbit::branch::line::{Begin, Followed, Frame, Line, Passed};
+use crate::orbit::branch::point::Point;
+use crate::orbit::periodic::Orbit;
+use nalgebra::{DMatrix, DVector};
+
+/// Amplitudes that are tried along the eigenvector, in the scaled unknowns.
+const AMPLITUDES: [f64; 5] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
+
+/// A new branch lies within this many amplitudes of the old one; else Newton has found another
+/// orbit.
+const NEIGHBOURHOOD: f64 = 3.0;
+
+/// Orbits within this are one: where a branch of twice the period meets that of the single one, Newton's
+/// method on the longer map knows it to half of the digits.
+const SAME: f64 = 1e-4;
+
+impl Followed for Shots<'_> {
+    fn tangent_at(&self, y: &Vector, along: &Vector) -> Result<Vector> {
+        tangent(&self.linear(y, &mut None)?.matrix, along)
+    }
+
+    fn follow(
+        &self,
+        y: Vector,
+        along: &Vector,
+        range: [f64; 2],
+        most: usize,
+        seen: &mut dyn FnMut(&Point),
+    ) -> Result<Line<Self>> {
+        follow(self, y, along, range, most, seen)
+    }
+
+    fn switch(&self, at: &Passed<Self>) -> Result<Begin<Self>> {
+        let whole = Self { symmetric: false, ..self.anew() };
+        match at.label {
+            // A branch of several turns that has come back to one: that one goes on to both sides.
+            Label::PeriodDoubling if at.point.orbit.part(None).is_some() => {
+                let part = at.point.orbit.part(None).map_or(self.periods, |(once, _)| once.signature.periods);
+                self.onto(at, Self { periods: part, ..whole })
+            }
+            Label::SymmetryBreaking if !self.symmetric => self.onto(at, Self { symmetric: true, ..whole }),
+            Label::PeriodDoubling => self.aside(at, Self { periods: 2 * self.periods, ..whole }),
+            Label::SymmetryBreaking => self.aside(at, whole),
+            Label::BranchPoint => self.across(at),
+            Label::NeimarkSacker => Err(Error::no_orbit("what begins there is not periodic")),
+            Label::Fold => Err(Error::no_orbit("the branch itself goes on beyond")),
+            _ => Err(Error::no_orbit(format!("no orbit was found beyond the {}", at.label))),
+        }
+    }
+
+    fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Frame)> {
+        let linear = self.linear(y, &mut None)?;
+        let point = self.point(y, linear.posed.period, &linear.turn, super::here::multipliers_of(&linear));
+        Ok((point.orbit, Frame { mirror: self.mirror.clone(), speed: self.scales.speed, near: SAME }))
+    }
+}
+
+impl Shots<'_> {
+    /// The simpler branch `curve` through the same orbit.
+    fn onto(&self, at: &Passed<Self>, curve: Self) -> Result<Begin<Self>> {
+        let n = at.y.len() - 1;
+        let (y, linear, _) = curve.correct(&at.y, &super::unit(n + 1, n), None)?;
+        let along = tangent(&linear.matrix, &super::unit(n + 1, n))?;
+        Ok(Begin { curve, y, along, both: true })
+    }
+
+    /// Along the eigenvector of a multiplier −1, by a small amplitude, on `curve`.
+    fn aside(&self, at: &Passed<Self>, curve: Self) -> Result<Begin<Self>> {
+        let n = at.y.len() - 1;
+        let linear = self.linear(&at.y, &mut None)?;
+        let twisted = linear.matrix.columns(0, n) + DMatrix::identity(n, n) * 2.0;
+        let aside = extended(&null(&twisted)?, 0.0);
+        off(curve, &at.y, &aside)
+    }
+
+    /// Along the second direction in which the equations are singular.
+    fn across(&self, at: &Passed<Self>) -> Result<Begin<Self>> {
+        let n = at.y.len() - 1;
+        let linear = self.linear(&at.y, &mut None)?;
+        // Without the key's part, the branch itself is left out where it goes along the key.
+        let aside = null(&bordered(&linear.matrix, &self.own_tangent(&linear.matrix, n)?))?;
+        off(self.anew(), &at.y, &aside)
+    }
+
+    /// The direction of the branch at a point where another one crosses: of the two in which the
+    /// equations are singular the one that goes along the key the most.
+    fn own_tangent(&self, matrix: &DMatrix<f64>, n: usize) -> Result<Vector> {
+        let square = DMatrix::from_fn(n + 1, n + 1, |i, j| if i < n { matrix[(i, j)] } else { 0.0 });
+        let svd = square.svd(false, true);
+        let v = svd.v_t.ok_or_else(no_eigenvector)?;
+        let mut order: Vec<usize> = (0..=n).collect();
+        order.sort_by(|&a, &b| svd.singular_values[a].total_cmp(&svd.singular_values[b]));
+        let [first, second] = [order.first(), order.get(1)].map(|k| k.map(|&k| v.row(k).transpose()));
+        let (first, second) = first.zip(second).ok_or_else(no_eigenvector)?;
+        let own = &first * first[n] + &second * second[n];
+        if own.norm() > 0.0 { Ok(own.normalize()) } else { Err(no_eigenvector()) }
+    }
+}
+
+/// The branch of `curve` beside `origin` along `aside`, by a small amplitude.
+fn off<'a>(curve: Shots<'a>, origin: &Vector, aside: &Vector) -> Result<Begin<Shots<'a>>> {
+    for amplitude in AMPLITUDES {
+        let Ok((y, ..)) = curve.correct(&(origin + aside * amplitude), aside, None) else { continue };
+        let away = &y - origin;
+        if away.norm() <= NEIGHBOURHOOD * amplitude {
+            let along = &away / away.norm();
+            return Ok(Begin { curve, y, along, both: false });
+        }
+    }
+    Err(Error::no_orbit("no orbit was found beside the old branch"))
+}
+
+/// The unit vector that `matrix` makes least of.
+fn null(matrix: &DMatrix<f64>) -> Result<Vector> {
+    let svd = matrix.clone().svd(false, true);
+    let least = svd.singular_values.imin();
+    svd.v_t.map(|v| DVector::from(v.row(least).transpose())).ok_or_else(no_eigenvector)
+}
+
+fn no_eigenvector() -> Error {
+    Error::no_orbit("no eigenvector")
+}

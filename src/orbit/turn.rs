@@ -1,0 +1,174 @@
+//! Runs of a structure over an orbit or a part of it: where they end, the derivative of the end with
+//! respect to the start, and what happens on the way.
+
+use super::extremes::bisect;
+use super::strobe::{state, vector};
+use super::watch::{Passage, Watch, gathered};
+use crate::error::{Error, Result};
+use crate::flow::Series;
+use crate::scene::{Scene, Wall};
+use crate::scheme::{Scheme, Stepper};
+use crate::step::{Path, Step};
+use crate::variation::Product;
+use nalgebra::{DMatrix, DVector};
+
+/// Instants of a series, which is no longer than two radians of the fastest motion, between which
+/// the velocity at a wall's place is taken to have at most one root.
+const SAMPLES: usize = 8;
+
+/// A motion that turns back before a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Touch {
+    pub wall: usize,
+    /// Cycles of the forcing period since t = 0.
+    pub phase: f64,
+    /// Distance to the wall there, m.
+    pub gap: f64,
+}
+
+/// What is to be watched on the way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Look {
+    /// The events alone.
+    Events,
+    /// Also where the motion turns back before walls.
+    Touches,
+    /// All of it, and the derivative.
+    All,
+}
+
+/// A run.
+#[derive(Debug, Clone)]
+pub(super) struct Turn {
+    pub end: DVector<f64>,
+    /// Of the end with respect to the start; empty unless asked for.
+    pub derivative: DMatrix<f64>,
+    pub passages: Vec<Passage>,
+    pub touches: Vec<Touch>,
+    /// The largest |displacement| at the place of a wall, m; 0 unless asked for.
+    pub largest: f64,
+    /// Contact episodes that end at each wall, and the impulse of each on the structure, N s.
+    pub contacts: Vec<u64>,
+    pub impulses: Vec<f64>,
+}
+
+/// Runs `scene`, whose loads repeat themselves after `period` (s), from the state `start` at the
+/// first time of `span` (s) to the second.
+///
+/// # Errors
+/// Those of a run; [`Error::NoOrbit`] where its derivative does not exist.
+pub(super) fn run(scene: &Scene, period: f64, span: [f64; 2], start: &DVector<f64>, look: Look) -> Result<Turn> {
+    let [from, to] = span;
+    let mut timed = scene.clone();
+    timed.duration = to;
+    let mut stepper = Stepper::new(&timed, &Scheme::Event, to)?;
+    stepper.set_state(from, &state(start))?;
+    let mut product = if look == Look::All { Some(Product::new(scene)?) } else { None };
+    let mut watch = Watch::new(scene, period);
+    let mut turns = Turns::new(scene, period, look != Look::Events);
+    let walls = scene.walls.len();
+    let (mut contacts, mut impulses) = (vec![0; walls], vec![0.0; walls]);
+    while stepper.time() < to {
+        let step = stepper.step()?;
+        if let Some(product) = &mut product {
+            product.see(&step).map_err(|error| Error::no_orbit(error.to_string()))?;
+        }
+        watch.see(&step);
+        turns.see(&step);
+        for contact in step.closed {
+            if let Some(count) = contacts.get_mut(contact.wall) {
+                *count += 1;
+            }
+        }
+        impulses.iter_mut().zip(step.impulse).for_each(|(sum, impulse)| *sum += impulse);
+    }
+    let end = stepper.state();
+    Ok(Turn {
+        end: vector(&end.q, &end.v),
+        derivative: product.map_or_else(|| DMatrix::zeros(0, 0), |product| product.matrix().clone()),
+        passages: gathered(watch.passages, scene),
+        touches: turns.touches,
+        largest: turns.largest,
+        contacts,
+        impulses,
+    })
+}
+
+/// Watches where the motion turns back at the places of walls.
+struct Turns<'a> {
+    walls: &'a [Wall],
+    period: f64,
+    wanted: bool,
+    touches: Vec<Touch>,
+    largest: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    /// For each wall whether it acts, and the speed at its place at the last instant, m/s.
+    acts: Vec<bool>,
+    last: Vec<f64>,
+}
+
+impl<'a> Turns<'a> {
+    fn new(scene: &'a Scene, period: f64, wanted: bool) -> Self {
+        let (n, walls) = (scene.system.degrees_of_freedom(), scene.walls.len());
+        Self {
+            walls: &scene.walls,
+            period,
+            wanted,
+            touches: Vec::new(),
+            largest: 0.0,
+            q: vec![0.0; n],
+            v: vec![0.0; n],
+            acts: vec![false; walls],
+            last: vec![0.0; walls],
+        }
+    }
+
+    fn see(&mut self, step: &Step<'_>) {
+        let Path::Series(series) = step.path else { return };
+        if !self.wanted || series.end() <= series.start() {
+            return;
+        }
+        self.acts.fill(false);
+        series.acting_walls().for_each(|(wall, _)| {
+            if let Some(acts) = self.acts.get_mut(wall) {
+                *acts = true;
+            }
+        });
+        let (start, width) = (series.start(), (series.end() - series.start()) / SAMPLES as f64);
+        let mut before = start;
+        for sample in 0..=SAMPLES {
+            let now = if sample == SAMPLES { series.end() } else { start + width * sample as f64 };
+            series.state(now, &mut self.q, &mut self.v);
+            for (wall, place) in self.walls.iter().enumerate() {
+                let (w, speed) = (place.at.dot(&self.q), place.at.dot(&self.v));
+                self.largest = self.largest.max(w.abs());
+                let last = std::mem::replace(&mut self.last[wall], speed);
+                if sample > 0 && last * speed < 0.0 {
+                    self.turn(series, wall, [before, now]);
+                    series.state(now, &mut self.q, &mut self.v);
+                }
+            }
+            before = now;
+        }
+    }
+
+    /// The motion turns back at the place of `wall` within `span` (s).
+    fn turn(&mut self, series: &Series, wall: usize, [from, to]: [f64; 2]) {
+        let (Some(place), Some(acts)) = (self.walls.get(wall), self.acts.get(wall)) else { return };
+        let (mut q, mut v) = (self.q.clone(), self.v.clone());
+        let mut speed = |t: f64| {
+            series.state(t, &mut q, &mut v);
+            place.at.dot(&v)
+        };
+        let approaches = place.side.sign() * speed(from) < 0.0;
+        let time = bisect(speed, from, to);
+        series.state(time, &mut self.q, &mut self.v);
+        let w = place.at.dot(&self.q);
+        self.largest = self.largest.max(w.abs());
+        let gap = place.gap(w);
+        if approaches && !acts {
+            self.touches.push(Touch { wall, phase: time / self.period, gap });
+        }
+    }
+}
