@@ -320,3 +320,40 @@ fn what_cannot_be_followed_is_refused() {
     let failed = graph(&two, &settled(&two(1.9).unwrap()), 1.9, &request([1.6, 2.4]), &mut |_| ()).unwrap_err();
     assert!(failed.to_string().contains("common period"), "{failed}");
 }
+
+#[test]
+fn a_rest_ends_where_it_does_with_one_degree_of_freedom() {
+    let family = |f: f64| Ok(source_beside(f, 0.0));
+    let start = settled(&source_beside(1.0, 0.0));
+    assert!(start.orbit.signature.rests());
+    let found = follow(&family, &start, 1.0, [0.5, 6.0], (Switch::No, 0));
+    let problem = Problem::new(source(1.0, 0.0)).unwrap();
+    let request = Request { range: [0.5, 6.0], switch: Switch::All, depth: 1, points: 3000 };
+    let start = problem.settled(200).unwrap();
+    let own = graph(&|f| Ok(source(f, 0.0)), &start, 1.0, &request, &mut |_| ()).unwrap();
+    let end = only(&found, 0, Label::RestEnds);
+    near(end.point.value, only(&own, 0, Label::RestEnds).point.value, 1e-10);
+    // Beyond, impacts with e = 0, their fold, and the graze at which they vanish.
+    let beyond = end.leads_to[0];
+    assert_eq!(found.branches[beyond].points[0].orbit.signature.events.len(), 1);
+    near(only(&found, beyond, Label::Fold).point.value, only(&own, 1, Label::Fold).point.value, 1e-10);
+    near(only(&found, beyond, Label::GrazingOut).point.value, 4.210_773_813_134_604, 1e-10);
+}
+
+#[test]
+fn impacts_that_accumulate_are_one_event_of_a_branch() {
+    let family = |f: f64| Ok(source_beside(f, 0.5));
+    let start = settled(&source_beside(1.0, 0.5));
+    assert!(start.orbit.signature.chatters());
+    let found = follow(&family, &start, 1.0, [0.8, 1.3], (Switch::No, 0));
+    assert_eq!(found.branches[0].ends, [Some(End::Range), Some(End::Range)], "{:?}", values(&found));
+    for point in found.branches[0].points.iter().step_by(8) {
+        // Released from rest the body goes the same way as alone.
+        let own = Problem::new(source(point.value, 0.5)).unwrap().settled(50).unwrap();
+        let speed = |speeds: &[f64]| speeds.iter().fold(0.0_f64, |most, v| most.max(*v));
+        near(speed(&point.orbit.speeds), speed(&own.speeds), 1e-8);
+        // Two of four multipliers are those of the other body: all else is forgotten.
+        let half = point.floquet.half.as_ref().unwrap();
+        assert!(half[2][0].hypot(half[2][1]) < 1e-8, "{half:?}");
+    }
+}

@@ -186,8 +186,10 @@ impl<'a> Shots<'a> {
         let (label, event) = difference(now, right);
         let wall = now.passages.get(event).or(right.passages.get(event)).map(|p| p.event.wall);
         let event = if event < now.passages.len() { self.number(now, event) } else { 0 };
-        let along = if right.tangent.dot(&now.tangent) < 0.0 { -&right.tangent } else { right.tangent.clone() };
-        let beyond = Begin { curve: self.anew(), y: right.y.clone(), along, both: false };
+        // The farther end of the step is the better start: differences of the key stay on its side.
+        let from = if other.meets_as(right) { other } else { right };
+        let along = if from.tangent.dot(&now.tangent) < 0.0 { -&from.tangent } else { from.tangent.clone() };
+        let beyond = Begin { curve: self.anew(), y: from.y.clone(), along, both: false };
         Some(Change {
             label,
             event,

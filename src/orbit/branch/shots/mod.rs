@@ -154,23 +154,27 @@ impl<'a> Shots<'a> {
     /// where they would be meaningless.
     fn column(&self, y: &Vector, of: impl Fn(&Posed) -> Result<Option<Vector>>) -> Result<Vector> {
         let value = self.value(y);
-        let mut last = None;
+        let at = |value: f64| self.posed(value).and_then(|posed| of(&posed));
+        let between = |(above, high): (Vector, f64), (below, low): (Vector, f64)| {
+            Ok((above - below) * (self.width / (high - low)))
+        };
         for finer in FINER {
             let step = finer * DIFFERENCE * value.abs().max(1e-3 * self.width);
-            let at = |value: f64| self.posed(value).and_then(|posed| of(&posed));
-            // At the end of what the key accepts, from one side.
-            let ends = match (at(value + step), at(value - step)) {
+            let (high, low) = (value + step, value - step);
+            let ends = match (at(high), at(low)) {
                 (Err(error), Err(_)) => return Err(error),
-                (Ok(above), Ok(below)) => [(above, value + step), (below, value - step)],
-                (Ok(above), Err(_)) => [(above, value + step), (at(value)?, value)],
-                (Err(_), Ok(below)) => [(at(value)?, value), (below, value - step)],
+                // At the end of what the key accepts there is one side only.
+                (above, below) => [above.ok().flatten(), below.ok().flatten()],
             };
-            if let [(Some(above), high), (Some(below), low)] = ends {
-                last = Some((above - below) * (self.width / (high - low)));
-                break;
+            let last = finer == FINER[FINER.len() - 1];
+            match ends {
+                [Some(above), Some(below)] => return between((above, high), (below, low)),
+                [Some(above), None] if last => return between((above, high), (own(at(value)?)?, value)),
+                [None, Some(below)] if last => return between((own(at(value)?)?, value), (below, low)),
+                _ => {}
             }
         }
-        last.ok_or_else(|| Error::no_orbit("the contacts change within any difference of the key"))
+        Err(no_difference())
     }
 
     /// The point of the curve in the plane through `guess` across `border`; with its linearised
@@ -188,4 +192,13 @@ impl<'a> Shots<'a> {
         };
         arclength::correct(guess, border, linear, |linear| (&linear.residual, &linear.matrix))
     }
+}
+
+/// The end of the run itself, which meets the walls that it meets.
+fn own(end: Option<Vector>) -> Result<Vector> {
+    end.ok_or_else(no_difference)
+}
+
+fn no_difference() -> Error {
+    Error::no_orbit("other walls are met within any difference of the key")
 }
