@@ -66,6 +66,31 @@ impl Band {
             }
         }
     }
+
+    /// xᵀA x, for an x of length n.
+    #[inline]
+    pub(super) fn form(&self, x: &[f64]) -> f64 {
+        let along = |(d, values): &(usize, Vec<f64>)| {
+            // `values` has n − d entries.
+            let sum = sum_of_products(values, &x[..values.len()], &x[*d..]);
+            if *d == 0 { sum } else { 2.0 * sum }
+        };
+        self.diagonals.iter().map(along).sum()
+    }
+}
+
+/// Σ aᵢxᵢyᵢ in four independent sums, so that their additions overlap.
+#[inline]
+fn sum_of_products(a: &[f64], x: &[f64], y: &[f64]) -> f64 {
+    let (mut a, mut x, mut y) = (a.chunks_exact(4), x.chunks_exact(4), y.chunks_exact(4));
+    let mut sums = [0.0; 4];
+    for ((a, x), y) in a.by_ref().zip(x.by_ref()).zip(y.by_ref()) {
+        for (k, sum) in sums.iter_mut().enumerate() {
+            *sum += a[k] * x[k] * y[k];
+        }
+    }
+    let rest = a.remainder().iter().zip(x.remainder()).zip(y.remainder());
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest.map(|((a, x), y)| a * x * y).sum::<f64>()
 }
 
 /// [`Band::add_product`] for a tridiagonal matrix of n > 1 rows, in one pass over `out`: the same

@@ -31,4 +31,14 @@ impl Operator {
             Self::Sparse(matrix) => matrix.add_product(scale, x, out),
         }
     }
+
+    /// xᵀA x, for an x of length n; 0 for others.
+    #[inline]
+    pub(crate) fn form(&self, x: &[f64]) -> f64 {
+        match self {
+            Self::Band(band) if x.len() == band.size() => band.form(x),
+            Self::Band(_) => 0.0,
+            Self::Sparse(matrix) => matrix.form(x, x),
+        }
+    }
 }

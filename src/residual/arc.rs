@@ -2,6 +2,7 @@
 
 use super::energy::{Along, Instant, stored};
 use super::quadrature::{nodes, panels};
+use super::sight::Sight;
 use super::{Judge, PLACE_UNITS, most};
 use crate::flow::Arc;
 use crate::step::Step;
@@ -47,10 +48,14 @@ impl Judge {
         let force = self.energy.look(&self.scene, at, along);
         self.rounding.load(0, force);
         self.rounding.state(&[q], &[v], 0.0);
-        for index in 0..self.scene.walls.len() {
-            let (wall, sight) = (&self.scene.walls[index], &self.sights[index]);
+        // In flight, most instants are in front of all walls.
+        let clear = |sight: &Sight| sight.is_clear((sight.of(&[q]), sight.of(&[q])), 0.0);
+        let free = !arc.is_rest() && !arc.touches() && self.sights.iter().all(clear);
+        let walls = if free { 0 } else { self.scene.walls.len() };
+        for index in 0..walls {
+            let wall = &self.scene.walls[index];
             let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid());
-            let (w, wdot) = (sight.of(wall, &[q]), sight.of(wall, &[v]));
+            let (w, wdot) = (wall.at.dot(&[q]), wall.at.dot(&[v]));
             let (gap, r) = (wall.gap(w), arc.force_at(index, t, (q, v)));
             if rigid && r == 0.0 && gap >= 0.0 {
                 continue;

@@ -43,10 +43,12 @@ impl Matrices {
         }
     }
 
-    /// xᵀA x, with `room` for n entries.
+    /// xᵀA x.
     #[inline(always)]
-    pub fn form(&self, part: Part, x: &[f64], room: &mut [f64]) -> f64 {
-        self.product(part, 1.0, x, room);
-        room.iter().zip(x).map(|(y, x)| y * x).sum()
+    pub fn form(&self, part: Part, x: &[f64]) -> f64 {
+        match self {
+            Self::One(numbers) => numbers[part as usize] * x.iter().map(|x| x * x).sum::<f64>(),
+            Self::Many(operators) => operators[part as usize].form(x),
+        }
     }
 }

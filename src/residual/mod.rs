@@ -63,8 +63,8 @@ pub struct Judge {
     /// rotations: computed otherwise, a sine would differ by the rounding of its phase.
     grid_load: Option<GridForcing>,
     matrices: Matrices,
-    /// The walls, in the scene's order, and the indices of the rigid ones that see several degrees
-    /// of freedom.
+    /// The walls by their rows, and the indices of the rigid ones that see several degrees of
+    /// freedom.
     sights: Vec<Sight>,
     wide: Vec<usize>,
     /// Largest weight of a rigid wall that sees this degree of freedom alone, n entries.
@@ -215,7 +215,7 @@ impl Judge {
             loads,
             grid_load,
             matrices: Matrices::new(&scene.system),
-            sights: scene.walls.iter().map(Sight::new).collect(),
+            sights: Sight::all(scene),
             wide: rigid().filter(|(_, wall)| wall.at.entries().len() > 1).map(|(index, _)| index).collect(),
             seen,
             mass,

@@ -1,55 +1,95 @@
-//! A wall's row, prepared for products, and a test whether the wall is out of reach in a step.
+//! The places at which walls see the structure, prepared for products, and a test whether the walls
+//! of one are out of reach in a step.
 
-use crate::scene::Wall;
+use crate::scene::{Row, Scene, Side, distinct};
 
 /// A row is stored with the zeros between its entries if that makes it at most this many times as
 /// long.
 const FILL: usize = 4;
 
-/// One wall.
+/// The walls of one row.
 #[derive(Debug, Clone)]
 pub(super) struct Sight {
-    /// First degree of freedom of the row, and its values from there on, zeros included; empty
-    /// where the row would be too long.
-    first: usize,
-    run: Vec<f64>,
-    /// +1 of a lower wall, −1 of an upper one.
-    sign: f64,
-    position: f64,
-    rigid: bool,
+    row: View,
+    /// The open interval, m, in which no wall is touched; empty if one of them is not rigid.
+    clear: (f64, f64),
+    /// Their indices.
+    pub walls: Vec<usize>,
 }
 
-impl Sight {
-    pub fn new(wall: &Wall) -> Self {
-        let entries = wall.at.entries();
+/// A row.
+#[derive(Debug, Clone)]
+enum View {
+    /// One degree of freedom, and its weight.
+    One(usize, f64),
+    /// From this degree of freedom on, zeros included.
+    Run(usize, Vec<f64>),
+    /// Too long with its zeros.
+    Wide(Row),
+}
+
+impl View {
+    fn new(row: &Row) -> Self {
+        let entries = row.entries();
+        if let &[(i, weight)] = entries {
+            return Self::One(i, weight);
+        }
         let first = entries.iter().map(|entry| entry.0).min().unwrap_or(0);
         let length = entries.iter().map(|entry| entry.0 + 1 - first).max().unwrap_or(0);
-        let mut run = if length <= FILL * entries.len() { vec![0.0; length] } else { Vec::new() };
+        if length > FILL * entries.len() {
+            return Self::Wide(row.clone());
+        }
+        let mut run = vec![0.0; length];
         for &(i, weight) in entries {
             if let Some(sum) = run.get_mut(i - first) {
                 *sum += weight;
             }
         }
-        Self { first, run, sign: wall.side.sign(), position: wall.position, rigid: wall.law.is_rigid() }
+        Self::Run(first, run)
     }
 
     /// The row times `x`.
     #[inline(always)]
-    pub fn of(&self, wall: &Wall, x: &[f64]) -> f64 {
-        match (&self.run[..], x.get(self.first..self.first + self.run.len())) {
-            (&[weight], Some(&[x])) => weight * x,
-            ([], _) | (_, None) => wall.at.dot(x),
-            (run, Some(x)) => dot(run, x),
+    fn of(&self, x: &[f64]) -> f64 {
+        match self {
+            Self::One(i, weight) => x.get(*i).map_or(0.0, |x| weight * x),
+            Self::Run(first, run) => x.get(*first..first + run.len()).map_or(0.0, |x| dot(run, x)),
+            Self::Wide(row) => row.dot(x),
         }
     }
+}
 
-    /// True if the wall is rigid and cannot matter in the step: more than `touch` (m) away from the
-    /// displacements at both ends of the step, and from all that the body can reach from the first
-    /// with speed `rate` in `way` seconds.
+impl Sight {
+    /// All of a scene: each wall is in one of them.
+    pub fn all(scene: &Scene) -> Vec<Self> {
+        let distinct = distinct(scene.walls.iter().map(|wall| &wall.at));
+        let (touch, everywhere) = (scene.touching_distance(), (f64::NEG_INFINITY, f64::INFINITY));
+        let new = |row: &&Row| Self { row: View::new(row), clear: everywhere, walls: Vec::new() };
+        let mut sights: Vec<Self> = distinct.rows.iter().map(new).collect();
+        for (index, (wall, &row)) in scene.walls.iter().zip(&distinct.of).enumerate() {
+            let (low, high) = &mut sights[row].clear;
+            match wall.side {
+                _ if !wall.law.is_rigid() => (*low, *high) = (f64::INFINITY, f64::NEG_INFINITY),
+                Side::Lower => *low = low.max(wall.position + touch),
+                Side::Upper => *high = high.min(wall.position - touch),
+            }
+            sights[row].walls.push(index);
+        }
+        sights
+    }
+
+    /// The row times `x`.
     #[inline(always)]
-    pub fn is_clear(&self, (w0, w1): (f64, f64), rate: f64, way: f64, touch: f64) -> bool {
-        let gap = |w: f64| self.sign * (w - self.position);
-        self.rigid && gap(w0) - way * rate.abs() > touch && gap(w1) > touch
+    pub fn of(&self, x: &[f64]) -> f64 {
+        self.row.of(x)
+    }
+
+    /// True if no wall can matter in the step: the displacements `w0` and `w1` (m) at its ends are
+    /// clear of them, and so is all that the body can reach from the first within `way` (m).
+    #[inline(always)]
+    pub fn is_clear(&self, (w0, w1): (f64, f64), way: f64) -> bool {
+        let (low, high) = self.clear;
+        low < w0 - way && w0 + way < high && low < w1 && w1 < high
     }
 }
 

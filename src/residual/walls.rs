@@ -26,19 +26,21 @@ impl Judge {
     pub(super) fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) -> bool {
         let mut closed = false;
         let blows = self.loads.has_blows();
-        for index in 0..self.scene.walls.len() {
-            let (wall, sight) = (&self.scene.walls[index], &self.sights[index]);
-            if step.impulse[index] == 0.0 && step.force[index] == 0.0 && !beyond {
-                let ends = (sight.of(wall, &self.q), sight.of(wall, step.q));
-                let mut rate = sight.of(wall, step.velocity_before).abs();
+        for place in 0..self.sights.len() {
+            let sight = &self.sights[place];
+            let still = |&wall: &usize| step.impulse[wall] == 0.0 && step.force[wall] == 0.0;
+            if !beyond && sight.walls.iter().all(still) {
+                let mut rate = sight.of(step.velocity_before).abs();
                 if blows {
-                    rate += sight.of(wall, &self.scratch.struck).abs();
+                    rate += sight.of(&self.scratch.struck).abs();
                 }
-                if sight.is_clear(ends, rate, self.h, self.touch) {
+                if sight.is_clear((sight.of(&self.q), sight.of(step.q)), self.h * rate) {
                     continue;
                 }
             }
-            closed |= self.hold(step, beyond, index);
+            for wall in 0..sight.walls.len() {
+                closed |= self.hold(step, beyond, self.sights[place].walls[wall]);
+            }
         }
         closed
     }

@@ -70,10 +70,9 @@ pub(super) struct Ledger {
     steepest: f64,
     /// True if a wall is not rigid.
     springs: bool,
-    /// Three vectors of length n.
+    /// Two vectors of length n.
     shift: Vec<f64>,
     middle: Vec<f64>,
-    room: Vec<f64>,
 }
 
 /// Energy flows of a step, J.
@@ -112,7 +111,6 @@ impl Ledger {
             steepest: Forcing::on(0, &scene.loads).steepest(),
             shift: vec![0.0; q.len()],
             middle: vec![0.0; q.len()],
-            room: vec![0.0; q.len()],
             springs: scene.walls.iter().any(|wall| !wall.law.is_rigid()),
         }
     }
@@ -147,7 +145,7 @@ impl Ledger {
             flows.work += pushed + struck;
             flows.passed += pushed.abs() + struck.abs();
         }
-        flows.damping = matrices.form(Part::Damping, shift, &mut self.room[..n]) * per_h;
+        flows.damping = matrices.form(Part::Damping, shift) * per_h;
         let walls = if self.springs || step.impulse.iter().any(|&p| p != 0.0) {
             self.see_walls(scene, h, (q0, q1), step, staggered.is_some(), &mut flows)
         } else {
@@ -160,10 +158,7 @@ impl Ledger {
         flows.dashpot += lost;
         let energy = match staggered {
             Some(b) => self.half_step(matrices, (h, b), q0, after, n),
-            None => {
-                let room = &mut self.room[..n];
-                0.5 * (matrices.form(Part::Mass, &step.v[..n], room) + matrices.form(Part::Stiffness, to, room))
-            }
+            None => 0.5 * (matrices.form(Part::Mass, &step.v[..n]) + matrices.form(Part::Stiffness, to)),
         };
         self.book(energy + walls + rings, flows);
     }
@@ -243,10 +238,7 @@ impl Ledger {
         let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
         let mut energy = match staggered {
             Some(b) => self.half_step(matrices, (-h, b), step.q, after, step.q.len()),
-            None => {
-                let (strain, kinetic) = (Part::Stiffness, Part::Mass);
-                0.5 * (matrices.form(kinetic, step.v, &mut self.room) + matrices.form(strain, step.q, &mut self.room))
-            }
+            None => 0.5 * (matrices.form(Part::Mass, step.v) + matrices.form(Part::Stiffness, step.q)),
         };
         for (wall, held) in scene.walls.iter().zip(&mut self.held) {
             let (w, touching) = (wall.at.dot(step.q), *held != 0.0);
@@ -267,17 +259,17 @@ impl Ledger {
     #[inline(always)]
     fn half_step(&mut self, matrices: &Matrices, (h, b): (f64, f64), q: &[f64], v: &[f64], n: usize) -> f64 {
         let (q, v) = (&q[..n], &v[..n]);
-        let (shift, middle, room) = (&mut self.shift[..n], &mut self.middle[..n], &mut self.room[..n]);
+        let (shift, middle) = (&mut self.shift[..n], &mut self.middle[..n]);
         for i in 0..n {
             shift[i] = 0.5 * h * v[i];
             middle[i] = q[i] + shift[i];
         }
-        let mut strain = matrices.form(Part::Stiffness, middle, room);
+        let mut strain = matrices.form(Part::Stiffness, middle);
         let beside = 1.0 - 4.0 * b;
         if beside != 0.0 {
-            strain -= beside * matrices.form(Part::Stiffness, shift, room);
+            strain -= beside * matrices.form(Part::Stiffness, shift);
         }
-        0.5 * (matrices.form(Part::Mass, v, room) + strain)
+        0.5 * (matrices.form(Part::Mass, v) + strain)
     }
 
     #[inline(always)]
