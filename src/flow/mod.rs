@@ -159,7 +159,10 @@ impl Arc {
     /// the end.
     #[must_use]
     pub fn state(&self, t: f64) -> (f64, f64) {
-        let [q, v, ..] = self.jet(self.since(t));
+        if self.is_rest() {
+            return (self.initial[0], 0.0);
+        }
+        let [q, v] = self.response.state(self.since(t));
         (q, v)
     }
 

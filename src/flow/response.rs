@@ -188,46 +188,56 @@ impl Response {
     /// The displacement and its first six derivatives at `tau` ≥ 0.
     #[inline]
     pub fn jet(&self, tau: f64) -> Jet {
-        let mut x = self.free_jet(tau);
+        self.motion(tau)
+    }
+
+    /// The displacement and the velocity at `tau` ≥ 0.
+    #[inline]
+    pub fn state(&self, tau: f64) -> [f64; 2] {
+        self.motion(tau)
+    }
+
+    /// The displacement and its first derivatives at `tau`: two values to seven.
+    #[inline(always)]
+    fn motion<const N: usize>(&self, tau: f64) -> [f64; N] {
+        let mut x = self.free_motion(tau);
         x[0] += self.line[0] + self.line[1] * tau;
         x[1] += self.line[1];
         for part in self.parts.iter().filter(|part| part.steady) {
             let (g, w) = (part.gain, part.omega);
-            let ((s, c), w2) = (sin_cos(w * tau), w * w);
-            let (im, re) = (g.re * s + g.im * c, w * (g.re * c - g.im * s));
-            x[0] += im;
-            x[1] += re;
-            x[2] -= w2 * im;
-            x[3] -= w2 * re;
-            x[4] += w2 * w2 * im;
-            x[5] += w2 * w2 * re;
-            x[6] -= w2 * w2 * w2 * im;
+            let (s, c) = sin_cos(w * tau);
+            let (mut even, mut odd) = (g.re * s + g.im * c, w * (g.re * c - g.im * s));
+            for (n, x) in x.iter_mut().enumerate() {
+                let next = if n % 2 == 0 { &mut even } else { &mut odd };
+                *x += *next;
+                *next *= -w * w;
+            }
         }
         if self.resonant || self.ramped {
-            self.add_from_rest(tau, &mut x);
+            x.iter_mut().zip(self.rest_response(tau)).for_each(|(x, y)| *x += y);
         }
         x
     }
 
     /// Free motion.
-    #[inline]
-    fn free_jet(&self, tau: f64) -> Jet {
+    #[inline(always)]
+    fn free_motion<const N: usize>(&self, tau: f64) -> [f64; N] {
         match &self.equation.roots {
             Roots::Pair { omega, powers } => {
                 let decay = exp(-self.equation.sigma * tau);
                 let (s, c) = sin_cos(omega * tau);
                 let z = self.free * Complex::new(decay * c, decay * s);
                 // Each derivative from z itself: a chain of products would make every one wait.
-                let mut x = [z.re; 7];
+                let mut x = [z.re; N];
                 for (x, power) in x[1..].iter_mut().zip(powers) {
                     *x = power.re * z.re - power.im * z.im;
                 }
                 x
             }
             Roots::Real { slow, .. } => {
-                let mut power = self.free.re * (slow * tau).exp();
-                self.impulse(tau).map(|s| {
-                    let x = power + self.free.im * s;
+                let (impulse, mut power) = (self.impulse(tau), self.free.re * (slow * tau).exp());
+                std::array::from_fn(|n| {
+                    let x = power + self.free.im * impulse[n];
                     power *= slow;
                     x
                 })
@@ -277,11 +287,11 @@ impl Response {
         }
     }
 
-    /// Adds the responses from rest: to the constant and the ramp, whose ∬S and ∭S are τ² exp[λ₁τ,
-    /// λ₂τ, 0] and τ³ exp[λ₁τ, λ₂τ, 0, 0], and to sines.
+    /// The responses from rest: to the constant and the ramp, whose ∬S and ∭S are τ² exp[λ₁τ, λ₂τ,
+    /// 0] and τ³ exp[λ₁τ, λ₂τ, 0, 0], and to sines.
     #[inline(never)]
-    fn add_from_rest(&self, tau: f64, x: &mut Jet) {
-        let impulse = self.impulse(tau);
+    fn rest_response(&self, tau: f64) -> Jet {
+        let (impulse, mut x) = (self.impulse(tau), Jet::default());
         let [phi, ramp] = self.rest;
         let ([a, b], zero) = (self.nodes(tau), Complex::new(0.0, 0.0));
         if self.ramped {
@@ -307,6 +317,7 @@ impl Response {
                 u = Complex::new(-w * u.im + s, w * u.re);
             }
         }
+        x
     }
 }
 
