@@ -56,7 +56,7 @@ impl Event {
                 // The series is exact to rounding up to the wall, and saves an evaluation.
                 let Some((left, v)) = series.meet(left, noise) else { break };
                 let (way, hit) = (leap + left, next + left);
-                if way > 0.0 && hit < span && is_clear(&jet, way, [position, v], bound, &room) {
+                if 0.0 < way && way <= window && hit < span && is_clear(&jet, way, [position, v], bound, &room) {
                     return Ok(Flown::To(Hit { tau: hit, state: [position, v], wall }));
                 }
                 break;
