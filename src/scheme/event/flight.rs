@@ -13,6 +13,7 @@ use super::hit::Hit;
 use super::room::Room;
 use crate::error::Result;
 use crate::flow::Jet;
+use crate::scheme::exact;
 
 /// Length of the longest leap, in radians of the fastest oscillation.
 const RADIANS: f64 = 2.0;
@@ -52,10 +53,13 @@ impl Event {
             let (position, wall) = room.ahead(&end);
             let series = Taylor::of(&end, position);
             let left = series.root(window);
-            if self.arc.bounds(&jet, 6, window)[1] * left.powi(7).abs() <= 5040.0 * noise {
-                // The series is exact to rounding up to the wall, and saves an evaluation.
-                let Some((left, v)) = series.meet(left, noise) else { break };
+            let rest = self.arc.bounds(&jet, 6, window)[1] * left.powi(6);
+            if rest * left.abs() <= 5040.0 * noise {
+                // The series is exact to rounding up to the wall; its derivative, the speed, only
+                // where its own rest is that small.
+                let Some((left, rate)) = series.meet(left, noise) else { break };
                 let (way, hit) = (leap + left, next + left);
+                let v = if rest <= 720.0 * exact::noise(self.sizes[1]) { rate } else { self.arc.jet(hit)[1] };
                 if 0.0 < way && way <= window && hit < span && is_clear(&jet, way, [position, v], bound, &room) {
                     return Ok(Flown::To(Hit { tau: hit, state: [position, v], wall }));
                 }
