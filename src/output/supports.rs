@@ -47,6 +47,7 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
         "support",
         "friction",
         "work_rate_is",
+        "contacts",
         "work_rate_W",
         "work_rate_half_width_95_W",
         "impact_share",
@@ -58,7 +59,6 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
         "mean_normal_force_N",
         "mean_normal_force_half_width_95_N",
         "contact_time_ratio",
-        "contacts",
         "peak_force_N",
         "wear_volume_m3",
         "depth_one_scar_m",
@@ -79,14 +79,18 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
             force.map(|force| force.mean_n),
             force.and_then(|force| force.mean_half_width_95_n),
             Some(support.contact_time_ratio),
-            Some(contact.contacts as f64),
             contact.episode_peak_force_n.max,
             worn.and_then(|worn| worn.volume_m3),
             worn.and_then(|worn| worn.depth_one_scar_m),
             worn.and_then(|worn| worn.depth_all_round_m),
             worn.and_then(|worn| worn.support_volume_m3),
         ];
-        let words = [support.support.clone(), digits(Some(support.friction)), kind(support).to_owned()];
+        let words = [
+            support.support.clone(),
+            digits(Some(support.friction)),
+            kind(support).to_owned(),
+            contact.contacts.to_string(),
+        ];
         words.into_iter().chain(numbers.map(digits)).collect()
     };
     csv::table(&place("supports.csv")?, &header.map(str::to_owned), all(case, run).map(row))?;
