@@ -108,9 +108,12 @@ fn every_path_that_the_architecture_names_exists() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap();
     let mut checked = 0;
-    for line in text.lines().filter(|l| l.starts_with("| `src/")) {
+    let mut order = Vec::new();
+    for item in text.split("\n- ").skip(1).filter(|item| item.starts_with("`src/")) {
+        let item = item.split("\n\n").next().unwrap();
+        order.push(room_of(&root.join(item.split('`').nth(1).unwrap())));
         let mut room = PathBuf::new();
-        for name in line.split('`').skip(1).step_by(2) {
+        for name in item.split('`').skip(1).step_by(2) {
             let path = if name.starts_with("src/") {
                 room = root.join(name);
                 room.clone()
@@ -124,4 +127,5 @@ fn every_path_that_the_architecture_names_exists() {
         }
     }
     assert!(checked > 25, "only {checked} names found");
+    assert_eq!(order, ROOMS, "the order of the rooms in ARCHITECTURE.md is that of the layers");
 }
