@@ -1,11 +1,11 @@
 //! Orbits a second, with multipliers, admissibility and special points: Newton's method alone, and
-//! along a branch in the frequency. One thread, the best of several.
+//! along a branch in the frequency, of one degree of freedom and of structures. One thread, the best of several.
 //!
 //! `cargo bench --bench orbit`
 
 use signorini::orbit::branch::{Request, Switch, graph};
-use signorini::orbit::{Problem, closed_forms};
-use signorini::{Load, Scene, Wall};
+use signorini::orbit::{Problem, closed_forms, shoot};
+use signorini::{Chain, Damping, Load, Scene, Wall};
 use std::time::Instant;
 
 const REPEATS: usize = 7;
@@ -15,6 +15,16 @@ fn scene(frequency: f64) -> Scene {
         .with_wall(Wall::upper("upper", 5e-3).with_restitution(0.8))
         .with_wall(Wall::lower("lower", -4.9e-3).with_restitution(0.8))
         .with_load(Load::harmonic(3.0, frequency, 0.0))
+}
+
+/// Masses in a row, of which the first strikes a wall.
+fn chain(masses: usize, frequency: f64) -> Scene {
+    let chain = Chain { masses: vec![1.0; masses], springs: vec![60.0; masses - 1], grounds: [80.0, 20.0] };
+    let damping = Damping::Rayleigh { mass: 0.6, stiffness: 4e-3 };
+    let structure = chain.structure().and_then(|chain| chain.with_damping(&damping)).expect("a chain");
+    Scene::structure(structure)
+        .with_wall(Wall::upper("stop", 5e-3).with_restitution(0.6))
+        .with_load(Load::harmonic(2.0, frequency, 0.0))
 }
 
 /// Seconds of the best of several runs.
@@ -48,4 +58,14 @@ fn main() {
         points = found.branches[0].points.len();
     });
     println!("branch: {points} orbits, {:.0} orbits/s", points as f64 / branch);
+    for masses in [2, 20] {
+        let start = shoot(&chain(masses, 1.9), 400, &|_| ()).expect("an orbit");
+        let request = Request { range: [1.85, 1.95], ..request };
+        let branch = best(|| {
+            let found = graph(&|frequency| Ok(chain(masses, frequency)), &start, 1.9, &request, &mut |_| ());
+            points = found.expect("a branch").branches[0].points.len();
+        });
+        let events = start.orbit.phases.len();
+        println!("{masses} masses, {events} events: {points} orbits, {:.0} orbits/s", points as f64 / branch);
+    }
 }

@@ -298,6 +298,19 @@ fn an_elastic_wall_is_entered_and_left() {
 }
 
 #[test]
+fn a_branch_ends_at_the_last_value_that_the_key_accepts() {
+    let family = |e: f64| {
+        let scene = source_beside(5.0, e);
+        scene.validate().map(|()| scene)
+    };
+    let found = follow(&family, &settled(&source_beside(5.0, 0.8)), 0.8, [0.7, 1.0], (Switch::No, 0));
+    let mut ends =
+        [found.branches[0].points.first(), found.branches[0].points.last()].map(|point| point.unwrap().value);
+    ends.sort_by(f64::total_cmp);
+    assert_eq!((ends, &found.branches[0].ends), ([0.7, 1.0], &[Some(End::Range), Some(End::Range)]));
+}
+
+#[test]
 fn what_cannot_be_followed_is_refused() {
     let family = |f: f64| Ok(two_masses(f));
     let start = settled(&two_masses(1.9));

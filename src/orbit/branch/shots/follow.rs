@@ -3,18 +3,23 @@
 use super::Shots;
 use super::here::{Here, Tests};
 use crate::error::{Error, Result};
-use crate::orbit::branch::arclength::{Stride, Vector, extended, locate, turns_little};
+use crate::orbit::branch::arclength::{Stride, Vector, bordered, extended, locate, turns_little, unit};
 use crate::orbit::branch::label::Label;
 use crate::orbit::branch::line::{End, Line, Passed};
 use crate::orbit::branch::point::Point;
-use crate::orbit::signature::Kind;
-use crate::orbit::turn::{Look, run};
+use crate::orbit::newton::SOLVED;
+use crate::orbit::turn::Look;
 
 /// A curve has closed after at least this many points.
 const LEAST_LOOP: usize = 6;
 
 /// A step leads to the branch itself if it ends within this many of its lengths.
 const NEAR: f64 = 2.0;
+
+/// Most iterations with the derivative of the point before, and how much the residual falls in each at
+/// least.
+const CHORDS: usize = 10;
+const FAST: f64 = 0.3;
 
 /// Multipliers within this of the unit circle are on it to rounding.
 const ON_CIRCLE: f64 = 1e-9;
@@ -46,97 +51,14 @@ pub(super) fn follow<'a>(
     most: usize,
     seen: &mut dyn FnMut(&Point),
 ) -> Result<Line<Shots<'a>>> {
-    let mut curve = curve.clone();
     let linear = curve.linear(&y, &mut None)?;
-    let mut now = curve.here(y, linear, along)?;
-    // Where it began, at the present strobe; nothing where it could not be carried there.
-    let mut start = Some((now.y.clone(), now.tangent.clone()));
+    let now = curve.here(y, linear, along)?;
     let mut line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
-    let mut stride = Stride::new();
-    // The point before, and how far along the branch it lies.
-    let mut before: Option<(Here, f64)> = None;
-    while line.points.len() < most {
-        if let Some(strobe) = curve.better_strobe(&now) {
-            start = start.and_then(|(y, tangent)| curve.carried(&y, &tangent, strobe).ok());
-            (curve, now) = curve.moved(&now, strobe)?;
-            before = None;
-        }
-        let step = stride.0;
-        let tried = curve.next(&now, step);
-        let good = |(next, iterations): &(Here, usize)| {
-            next.meets_as(&now)
-                && Stride::keeps(*iterations, &now.tangent, &next.tangent)
-                && next.point.value.is_finite()
-        };
-        let change = match &tried {
-            Ok(found) if good(found) => None,
-            Ok((next, _)) => curve.change(&now, before.as_ref(), step, Some(next).filter(|next| !next.meets_as(&now))),
-            Err(_) => curve.change(&now, before.as_ref(), step, None),
-        };
-        if let Some(change) = change.filter(|change| (range[0]..=range[1]).contains(&change.point.value)) {
-            let shorter = SHARE * change.step;
-            let near = change.step <= LAST * now.size() || step <= CRAWL * change.step;
-            if near {
-                let end = change.passed(&curve, line.points.len());
-                seen(&end.point);
-                line.points.push(end.point.clone());
-                line.end = End::Special(end.label);
-                line.passed.push(end);
-                return Ok(line);
-            }
-            if stride.0 > shorter {
-                // Nothing else may happen on the way there.
-                stride.0 = shorter;
-                continue;
-            }
-        }
-        let crossed = match &tried {
-            Ok(found) if good(found) => Some(curve.crossed(&now, &found.0.tests, step)?),
-            _ => None,
-        };
-        let (next, crossed) = match (tried, crossed) {
-            (Ok((next, _)), Some((crossed, true))) => (next, crossed),
-            (tried, _) => {
-                if stride.halve() {
-                    continue;
-                }
-                let sharp = || "the branch turns too sharply, or other walls are met beyond".to_owned();
-                line.end = End::Stuck(tried.err().map_or_else(sharp, |error| error.to_string()));
-                return Ok(line);
-            }
-        };
-        let value = next.point.value;
-        if value < range[0] || value > range[1] {
-            let bound = if value < range[0] { range[0] } else { range[1] };
-            let ends = [now.point.value - bound, value - bound];
-            line.end = End::Range;
-            // A start on the bound that goes outwards ends at once.
-            if ends[0] * ends[1] < 0.0 {
-                let (limit, mut last) = locate([0.0, step], ends, |s| {
-                    let (here, _) = curve.next(&now, s)?;
-                    Ok((here.point.value - bound, here.point))
-                })?;
-                last.value = bound;
-                let inside = crossed.into_iter().filter(|(s, ..)| *s <= limit).collect();
-                note(&curve, &mut line, inside)?;
-                line.points.push(last);
-            }
-            return Ok(line);
-        }
-        note(&curve, &mut line, crossed)?;
-        seen(&next.point);
-        let back = line.points.len() >= LEAST_LOOP
-            && start
-                .as_ref()
-                .is_some_and(|(y, tangent)| (&next.y - y).norm() <= step && turns_little(tangent, &next.tangent));
-        line.points.push(next.point.clone());
-        if back {
-            line.end = End::Closed;
-            return Ok(line);
-        }
-        before = Some((std::mem::replace(&mut now, next), step));
-        stride.grow(now.size());
-    }
+    line.end = match curve.clone().go_on(now, range, most, &mut line, seen) {
+        Ok(end) => end,
+        Err(stopped @ Error::Stopped) => return Err(stopped),
+        Err(error) => End::Stuck(error.to_string()),
+    };
     Ok(line)
 }
 
@@ -160,17 +82,181 @@ fn note<'a>(curve: &Shots<'a>, line: &mut Line<Shots<'a>>, mut crossed: Crossed)
 }
 
 impl<'a> Shots<'a> {
+    /// Follows the curve from `now` on; adds to `line`, and gives its end.
+    fn go_on(
+        mut self,
+        mut now: Here,
+        range: [f64; 2],
+        most: usize,
+        line: &mut Line<Self>,
+        seen: &mut dyn FnMut(&Point),
+    ) -> Result<End> {
+        // Where it began, at the present strobe; nothing where it could not be carried there.
+        let mut start = Some((now.y.clone(), now.tangent.clone()));
+        let mut stride = Stride::new();
+        // The point before, and how far along the branch it lies.
+        let mut before: Option<(Here, f64)> = None;
+        while line.points.len() < most {
+            if let Some(strobe) = self.better_strobe(&now) {
+                // Else it stays where it is.
+                if let Ok((moved, there)) = self.moved(&now, strobe) {
+                    start = start.and_then(|(y, tangent)| self.carried(&y, &tangent, strobe).ok());
+                    (self, now, before) = (moved, there, None);
+                }
+            }
+            let step = stride.0;
+            let good = |(next, iterations): &(Here, usize)| {
+                next.meets_as(&now)
+                    && Stride::keeps(*iterations, &now.tangent, &next.tangent)
+                    && next.point.value.is_finite()
+            };
+            // Where the step would leave the range, to its end: beyond, the key may accept nothing.
+            let slope = now.tests.fold * self.width;
+            let ahead = now.point.value + slope * step;
+            if ahead < range[0] || ahead > range[1] {
+                let bound = if ahead < range[0] { range[0] } else { range[1] };
+                let short = (bound - now.point.value) / slope;
+                if short <= 0.0 {
+                    return Ok(End::Range);
+                }
+                if let Ok(found) = self.at_bound(&now, bound, short)
+                    && good(&found)
+                    && let (crossed, true) = self.crossed(&now, &found.0.tests, short)?
+                {
+                    note(&self, line, crossed)?;
+                    seen(&found.0.point);
+                    line.points.push(found.0.point);
+                    return Ok(End::Range);
+                }
+            }
+            let tried = self.next(&now, step);
+            if let Err(stopped @ Error::Stopped) = tried {
+                return Err(stopped);
+            }
+            let change = match &tried {
+                Ok(found) if good(found) => None,
+                Ok((next, _)) => {
+                    self.change(&now, before.as_ref(), step, Some(next).filter(|next| !next.meets_as(&now)))
+                }
+                Err(_) => self.change(&now, before.as_ref(), step, None),
+            };
+            if let Some(change) = change.filter(|change| (range[0]..=range[1]).contains(&change.point.value)) {
+                let shorter = SHARE * change.step;
+                let near = change.step <= LAST * now.size() || step <= CRAWL * change.step;
+                if near {
+                    let end = change.passed(&self, line.points.len());
+                    seen(&end.point);
+                    line.points.push(end.point.clone());
+                    let label = end.label;
+                    line.passed.push(end);
+                    return Ok(End::Special(label));
+                }
+                if stride.0 > shorter {
+                    // Nothing else may happen on the way there.
+                    stride.0 = shorter;
+                    continue;
+                }
+            }
+            let crossed = match &tried {
+                Ok(found) if good(found) => Some(self.crossed(&now, &found.0.tests, step)?),
+                _ => None,
+            };
+            let (next, crossed) = match (tried, crossed) {
+                (Ok((next, _)), Some((crossed, true))) => (next, crossed),
+                (tried, _) => {
+                    if stride.halve() {
+                        continue;
+                    }
+                    let sharp = || Error::no_orbit("the branch turns too sharply, or other walls are met beyond");
+                    return Err(tried.err().unwrap_or_else(sharp));
+                }
+            };
+            let value = next.point.value;
+            if value < range[0] || value > range[1] {
+                let bound = if value < range[0] { range[0] } else { range[1] };
+                let ends = [now.point.value - bound, value - bound];
+                // A start on the bound that goes outwards ends at once.
+                if ends[0] * ends[1] < 0.0 {
+                    let (limit, mut last) = locate([0.0, step], ends, |s| {
+                        let (here, _) = self.next(&now, s)?;
+                        Ok((here.point.value - bound, here.point))
+                    })?;
+                    last.value = bound;
+                    let inside = crossed.into_iter().filter(|(s, ..)| *s <= limit).collect();
+                    note(&self, line, inside)?;
+                    line.points.push(last);
+                }
+                return Ok(End::Range);
+            }
+            note(&self, line, crossed)?;
+            seen(&next.point);
+            let back = line.points.len() >= LEAST_LOOP
+                && start
+                    .as_ref()
+                    .is_some_and(|(y, tangent)| (&next.y - y).norm() <= step && turns_little(tangent, &next.tangent));
+            line.points.push(next.point.clone());
+            if back {
+                return Ok(End::Closed);
+            }
+            before = Some((std::mem::replace(&mut now, next), step));
+            stride.grow(now.size());
+        }
+        Ok(End::Points)
+    }
+
     /// The point a step from `now`, and how many iterations that took.
     ///
     /// # Errors
     /// [`Error::NoOrbit`] where there is none near.
     pub(super) fn next(&self, now: &Here, step: f64) -> Result<(Here, usize)> {
-        let (y, linear, iterations) =
-            self.correct(&(&now.y + &now.tangent * step), &now.tangent, Some(now.column.clone()))?;
+        self.corrected(now, &(&now.y + &now.tangent * step), &now.tangent, step)
+    }
+
+    /// The same at the key's value `bound`, about a step from `now`.
+    fn at_bound(&self, now: &Here, bound: f64, step: f64) -> Result<(Here, usize)> {
+        let mut guess = &now.y + &now.tangent * step;
+        let last = guess.len() - 1;
+        guess[last] = bound / self.width;
+        let (mut there, iterations) = self.corrected(now, &guess, &unit(last + 1, last), step)?;
+        there.point.value = bound;
+        Ok((there, iterations))
+    }
+
+    /// The point in the plane through `guess` across `border`, a step from `now`.
+    fn corrected(&self, now: &Here, guess: &Vector, border: &Vector, step: f64) -> Result<(Here, usize)> {
+        let (y, linear, iterations) = match self.chord(now, guess, border)? {
+            Some(y) => (y.clone(), self.linear(&y, &mut None)?, 0),
+            None => self.correct(guess, border, Some(now.column.clone()))?,
+        };
         if (&y - &now.y).norm() > NEAR * step.abs() {
             return Err(Error::no_orbit("Newton's method left the neighbourhood"));
         }
         Ok((self.here(y, linear, &now.tangent)?, iterations))
+    }
+
+    /// That point by Newton's method with the derivative of `now`: each iteration is one run, where
+    /// those of the derivative are as many as the state has entries. Nothing where it does not
+    /// converge fast.
+    fn chord(&self, now: &Here, guess: &Vector, border: &Vector) -> Result<Option<Vector>> {
+        let solver = bordered(&now.matrix, border).lu();
+        let mut y = guess.clone();
+        let mut last = f64::INFINITY;
+        for _ in 0..CHORDS {
+            let x = self.state(&y);
+            let turn = self.turn(&self.posed(self.value(&y))?, &x, Look::Events)?;
+            let residual = self.scales.scaled(&(&turn.end * self.sign() - &x));
+            let size = residual.amax();
+            if last <= SOLVED {
+                return Ok(Some(y));
+            }
+            if size.is_nan() || size > FAST * last {
+                return Ok(None);
+            }
+            let Some(step) = solver.solve(&extended(&residual, border.dot(&(&y - guess)))) else { return Ok(None) };
+            y -= step;
+            last = size;
+        }
+        Ok(None)
     }
 
     /// What is passed on a step from `now` to a point with the tests `after`; false if it is not
@@ -226,64 +312,4 @@ impl<'a> Shots<'a> {
         }
         Err(Error::no_orbit("other walls are met there"))
     }
-
-    /// The curve with its strobe moved to `strobe` (cycles), and the same point of it.
-    fn moved(&self, now: &Here, strobe: f64) -> Result<(Self, Here)> {
-        let passed = now.passages.iter().filter(|p| p.phase < strobe).count();
-        let count = now.passages.len() * if self.symmetric { 2 } else { 1 };
-        let turn = f64::from(self.periods);
-        let moved = Self {
-            strobe: strobe - (strobe / turn).floor() * turn,
-            first: (self.first + 2 * count - passed) % count.max(1),
-            ..self.clone()
-        };
-        let (y, along) = self.carried(&now.y, &now.tangent, strobe)?;
-        let (y, linear, _) = moved.correct(&y, &along, None)?;
-        let there = moved.here(y, linear, &along)?;
-        Ok((moved, there))
-    }
-
-    /// Where the strobe is to be moved to, in cycles; nothing where it is well placed.
-    fn better_strobe(&self, now: &Here) -> Option<f64> {
-        let (start, turn) = (self.strobe, self.cycles());
-        let close = now.touches.iter().filter(|touch| touch.gap < CLOSE * self.scales.length);
-        let mut phases: Vec<f64> = now.passages.iter().map(|p| p.phase).chain(close.map(|touch| touch.phase)).collect();
-        phases.sort_by(f64::total_cmp);
-        let (first, last) = (*phases.first()?, *phases.last()?);
-        phases.push(first + turn);
-        // A state that a wall holds is known worse.
-        let rests = |phase: f64| {
-            now.passages.iter().any(|p| p.phase == phase && matches!(p.event.kind, Kind::Rest | Kind::Chatter))
-        };
-        let room = |pair: &[f64]| (pair[1] - pair[0]) * if rests(pair[0]) { HELD } else { 1.0 };
-        let longest = phases.windows(2).max_by(|a, b| room(a).total_cmp(&room(b)))?;
-        let left = (first - start).min(start + turn - last);
-        (left < ROOM * (longest[1] - longest[0])).then(|| 0.5 * (longest[0] + longest[1]))
-    }
-
-    /// The point `y` and the unit tangent there with the state carried along to `strobe` (cycles).
-    fn carried(&self, y: &Vector, tangent: &Vector, strobe: f64) -> Result<(Vector, Vector)> {
-        let carried = |y: &Vector| -> Result<Vector> {
-            let posed = self.posed(self.value(y))?;
-            let span = [self.strobe, strobe].map(|phase| phase * posed.period);
-            let turn = run(&posed.scene, posed.period, span, &self.state(y), Look::Events)?;
-            Ok(extended(&self.scales.scaled(&turn.end), y[y.len() - 1]))
-        };
-        let there = carried(y)?;
-        let beside = carried(&(y + tangent * CARRY))?;
-        let along = (beside - &there).normalize();
-        Ok((there, along))
-    }
 }
-
-/// The share of the tangent that is carried along with a point.
-const CARRY: f64 = 1e-6;
-
-/// What a stretch at rest on a wall counts for as a place of the strobe.
-const HELD: f64 = 0.2;
-
-/// A touch within this share of the gap is one that may become an impact.
-const CLOSE: f64 = 0.05;
-
-/// The strobe lies at least this share of the longest flight away from events.
-const ROOM: f64 = 0.15;

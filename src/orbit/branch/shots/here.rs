@@ -17,7 +17,8 @@ use nalgebra::{Complex, DMatrix};
 pub(super) struct Here {
     pub y: Vector,
     pub tangent: Vector,
-    /// The derivative of the map with the key.
+    /// The derivatives of the equations, and the column of the key among them.
+    pub matrix: DMatrix<f64>,
     pub column: Vector,
     pub point: Point,
     /// The events after the strobe, and where the motion turns back before walls.
@@ -67,10 +68,10 @@ impl Shots<'_> {
     pub(super) fn here(&self, y: Vector, linear: Linear, along: &Vector) -> Result<Here> {
         let tangent = tangent(&linear.matrix, along)?;
         let n = y.len() - 1;
-        let matrix = linear.matrix.columns(0, n).into_owned();
+        let square = linear.matrix.columns(0, n).into_owned();
         let own = multipliers_of(&linear);
         let speeds = linear.turn.passages.iter().filter(|p| p.event.kind.is_approach() && p.event.kind.is_rigid());
-        let flip = (&matrix + DMatrix::identity(n, n) * 2.0).determinant();
+        let flip = (&square + DMatrix::identity(n, n) * 2.0).determinant();
         let flip = speeds.fold(flip, |product, p| product * p.speed.abs() / self.scales.speed);
         let distance = |z: &&Complex<f64>| (z.norm() - 1.0).abs();
         let nearest = own.iter().filter(|z| z.im != 0.0).min_by(|a, b| distance(a).total_cmp(&distance(b)));
@@ -83,8 +84,8 @@ impl Shots<'_> {
         };
         let column = linear.matrix.column(n).into_owned();
         let point = self.point(&y, linear.posed.period, &linear.turn, own);
-        let Turn { passages, touches, .. } = linear.turn;
-        Ok(Here { y, tangent, column, point, passages, touches, tests })
+        let Linear { turn: Turn { passages, touches, .. }, matrix, .. } = linear;
+        Ok(Here { y, tangent, matrix, column, point, passages, touches, tests })
     }
 
     /// The orbit whose run over the map is `turn`, and whose map has the multipliers `own`.

@@ -12,6 +12,7 @@ mod change;
 mod follow;
 mod graze;
 mod here;
+mod moved;
 mod switch;
 
 use crate::error::{Error, Result};
