@@ -271,3 +271,23 @@ fn an_extra_force_lifts_a_resting_body() {
     near(event.q()[0], 0.5 * 2.0 * 0.0625, 1e-16);
     assert_eq!(event.closed().len(), 1);
 }
+
+#[test]
+fn the_speed_of_an_impact_is_that_of_the_energy() {
+    // From the middle between the walls at v₀, without damping and load: √(v₀² − kg²) at a wall, at
+    // once and after a quarter of a period. Place and instant are rounded, and the speed with them.
+    let (k, g) = (100.0, 5e-3);
+    for i in 0..1000 {
+        let v0 = 0.052 + 5e-4 * f64::from(i);
+        let scene = Scene::oscillator(1.0, 0.0, k)
+            .with_wall(Wall::upper("upper", g).with_restitution(1.0))
+            .with_wall(Wall::lower("lower", -g).with_restitution(1.0))
+            .with_initial(&[0.0], &[v0]);
+        let mut event = Event::new(&scene, 1.0).unwrap();
+        event.advance(0.0).unwrap();
+        let speed = (v0 * v0 - k * g * g).sqrt();
+        let error = (event.v()[0] + speed).abs();
+        let rounding = f64::EPSILON * (v0 + k * g * g / speed);
+        assert!(event.q() == [g] && error < 4.0 * rounding, "{v0}: {error:e}");
+    }
+}
