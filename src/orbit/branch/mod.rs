@@ -16,6 +16,11 @@
 //! perturbations that come back with the other sign, which is analytic. A Neimark–Sacker
 //! bifurcation needs a complex pair of modulus 1, whose product is the determinant e₁²e₂² …
 //! exp(−cT/m) ≤ 1: with one degree of freedom there is none.
+//!
+//! Orbits of structures are followed by a state of them instead of their events ([`Start::Shot`]).
+//! There complex pairs do cross the unit circle (neimark-sacker), and other branches cross where a
+//! multiplier passes 1 without a fold (branch-point). A change of the walls that are met ends a
+//! branch of them too; the next one goes on from there.
 
 mod arclength;
 mod curve;

@@ -16,8 +16,8 @@ const LEAST_LOOP: usize = 6;
 /// A step leads to the branch itself if it ends within this many of its lengths.
 const NEAR: f64 = 2.0;
 
-/// Most iterations with the derivative of the point before, and how much the residual falls in each at
-/// least.
+/// Most iterations with the derivative of the point before, and how much the residual falls in each
+/// at least.
 const CHORDS: usize = 10;
 const FAST: f64 = 0.3;
 

@@ -17,8 +17,8 @@ const AMPLITUDES: [f64; 5] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
 /// orbit.
 const NEIGHBOURHOOD: f64 = 3.0;
 
-/// Orbits within this are one: where a branch of twice the period meets that of the single one, Newton's
-/// method on the longer map knows it to half of the digits.
+/// Orbits within this are one: where a branch of twice the period meets that of the single one,
+/// Newton's method on the longer map knows it to half of the digits.
 const SAME: f64 = 1e-4;
 
 impl Followed for Shots<'_> {
