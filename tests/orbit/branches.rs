@@ -59,6 +59,26 @@ fn near(found: f64, expected: f64, share: f64) {
 }
 
 #[test]
+fn a_branch_reaches_the_end_of_what_its_key_accepts() {
+    // Beyond e = 1 there is no restitution: a step that leads there ends at e = 1 itself.
+    let family = |e: f64| Ok(source(5.0, e));
+    let found = follow(&family, &settled(source(5.0, 0.8)), 0.8, [0.3, 1.0], (Switch::No, 0));
+    let branch = &found.branches[0];
+    let (first, last) = (branch.points.first().unwrap(), branch.points.last().unwrap());
+    assert_eq!([first.value, last.value], [0.3, 1.0], "{:?} {:?}", branch.ends, values(&found));
+    assert_eq!(branch.ends, [Some(End::Range), Some(End::Range)]);
+    // The product of both multipliers is e⁴ exp(−cT/m): that of the orbit at the ends themselves.
+    for (point, e) in [(first, 0.3f64), (last, 1.0)] {
+        let multipliers = &point.floquet.multipliers;
+        let (a, b) = (multipliers[0], multipliers[1]);
+        let product = [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];
+        let expected = e.powi(4) * (-0.2f64 * 0.2).exp();
+        // A matrix of some roundings, and its eigenvalues.
+        assert!((product[0] / expected - 1.0).abs() < 1e-10 && product[1].abs() < 1e-10, "{product:?}");
+    }
+}
+
+#[test]
 fn fold_symmetry_breaking_and_grazing_of_the_symmetric_orbit() {
     for (restitution, fold, breaking) in
         [(0.8, 14.610_019_877_539_264, 4.570_839_133_780_74), (0.5, 8.742_829_292_083_56, 4.281_187_156_554_336)]

@@ -74,6 +74,23 @@ pub(super) fn unit(n: usize, index: usize) -> Vector {
     DVector::from_fn(n, |i, _| if i == index { 1.0 } else { 0.0 })
 }
 
+/// The end of `range` that `value` lies beyond.
+pub(super) fn beyond(range: [f64; 2], value: f64) -> Option<f64> {
+    let [low, high] = range;
+    if value < low { Some(low) } else { Some(high).filter(|high| value > *high) }
+}
+
+/// `bound`, an end of `range`, over `width`, so that its product with `width` does not leave the
+/// range by rounding: beyond, the key may accept nothing.
+pub(super) fn scaled(bound: f64, width: f64, range: [f64; 2]) -> f64 {
+    let scaled = bound / width;
+    match beyond(range, scaled * width) {
+        Some(low) if low == range[0] => scaled.next_up(),
+        Some(_) => scaled.next_down(),
+        None => scaled,
+    }
+}
+
 /// The unit tangent where the equations are linearised by `matrix`, n × (n + 1), on the side of
 /// `along`.
 ///

@@ -1,7 +1,7 @@
 //! One branch, followed by steps of pseudo-arclength (Keller 1977).
 
 use super::super::signature::Kind;
-use super::arclength::{Stride, locate, turns_little};
+use super::arclength::{Stride, beyond, locate, scaled, turns_little, unit};
 use super::curve::{Curve, Linear, Vector};
 use super::events::{Test, point, tests};
 use super::label::Label;
@@ -43,10 +43,23 @@ pub(super) fn follow<'a>(
     let mut line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
     let mut stride = Stride::new();
     while line.points.len() < most {
-        let step = stride.0;
-        let guess = &now.y + &now.tangent * step;
-        let tried = curve.correct(&guess, &now.tangent).and_then(|(y, linear, iterations)| {
-            let next = here(curve, y, &linear, &now.tangent)?;
+        let last = now.y.len() - 1;
+        // Where the step would leave the range, to its end: beyond, the key may accept nothing.
+        let slope = now.tangent[last] * curve.width;
+        let bound = beyond(range, now.point.value + slope * stride.0);
+        let step = bound.map_or(stride.0, |bound| (bound - now.point.value) / slope);
+        // A start on the bound that goes outwards ends at once.
+        if step <= 0.0 {
+            line.end = End::Range;
+            return Ok(line);
+        }
+        let (mut guess, mut border) = (&now.y + &now.tangent * step, now.tangent.clone());
+        if let Some(bound) = bound {
+            (guess[last], border) = (scaled(bound, curve.width, range), unit(last + 1, last));
+        }
+        let tried = curve.correct(&guess, &border).and_then(|(y, linear, iterations)| {
+            let mut next = here(curve, y, &linear, &now.tangent)?;
+            next.point.value = bound.unwrap_or(next.point.value);
             Ok((next, iterations))
         });
         let good = tried.as_ref().is_ok_and(|(next, iterations)| {
@@ -86,16 +99,13 @@ pub(super) fn follow<'a>(
                 }
             }
         }
-        let outside = |value: f64| value < range[0] || value > range[1];
         let mut limit = f64::INFINITY;
-        if outside(next.point.value) {
-            let bound = if next.point.value < range[0] { range[0] } else { range[1] };
+        if bound.is_some() {
+            limit = step;
+            line.points.push(next.point.clone());
+        } else if let Some(bound) = beyond(range, next.point.value) {
+            // The branch bends out of the range.
             let ends = [now.point.value - bound, next.point.value - bound];
-            // A start on the bound that goes outwards ends at once.
-            if ends[0] * ends[1] >= 0.0 {
-                line.end = End::Range;
-                return Ok(line);
-            }
             let (s, y) = locate([0.0, step], ends, |s| {
                 let (y, ..) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
                 Ok((curve.value(&y) - bound, y))

@@ -3,7 +3,7 @@
 use super::Shots;
 use super::here::{Here, Tests};
 use crate::error::{Error, Result};
-use crate::orbit::branch::arclength::{Stride, Vector, bordered, extended, locate, turns_little, unit};
+use crate::orbit::branch::arclength::{Stride, Vector, beyond, bordered, extended, locate, scaled, turns_little, unit};
 use crate::orbit::branch::label::Label;
 use crate::orbit::branch::line::{End, Line, Passed};
 use crate::orbit::branch::point::Point;
@@ -113,13 +113,12 @@ impl<'a> Shots<'a> {
             // Where the step would leave the range, to its end: beyond, the key may accept nothing.
             let slope = now.tests.fold * self.width;
             let ahead = now.point.value + slope * step;
-            if ahead < range[0] || ahead > range[1] {
-                let bound = if ahead < range[0] { range[0] } else { range[1] };
+            if let Some(bound) = beyond(range, ahead) {
                 let short = (bound - now.point.value) / slope;
                 if short <= 0.0 {
                     return Ok(End::Range);
                 }
-                if let Ok(found) = self.at_bound(&now, bound, short)
+                if let Ok(found) = self.at_bound(&now, bound, range, short)
                     && good(&found)
                     && let (crossed, true) = self.crossed(&now, &found.0.tests, short)?
                 {
@@ -213,10 +212,10 @@ impl<'a> Shots<'a> {
     }
 
     /// The same at the key's value `bound`, about a step from `now`.
-    fn at_bound(&self, now: &Here, bound: f64, step: f64) -> Result<(Here, usize)> {
+    fn at_bound(&self, now: &Here, bound: f64, range: [f64; 2], step: f64) -> Result<(Here, usize)> {
         let mut guess = &now.y + &now.tangent * step;
         let last = guess.len() - 1;
-        guess[last] = bound / self.width;
+        guess[last] = scaled(bound, self.width, range);
         let (mut there, iterations) = self.corrected(now, &guess, &unit(last + 1, last), step)?;
         there.point.value = bound;
         Ok((there, iterations))
