@@ -26,24 +26,45 @@ const ITERATIONS: usize = 12;
 /// Most corrections that locate a point.
 const LOCATED: usize = 60;
 
+/// A step this short hardly advances, and after so many of them in a row a branch is left: it nears a
+/// point at which it becomes singular, such as one where several contacts graze at once.
+const SHORT: f64 = 1e-5;
+const MOST_SHORT: usize = 100;
+
 /// The length of the steps along a branch.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stride(pub f64);
+pub(super) struct Stride {
+    pub length: f64,
+    /// Short steps since the last that was not.
+    short: usize,
+}
 
 impl Stride {
     pub fn new() -> Self {
-        Self(STEPS[0])
+        Self { length: STEPS[0], short: 0 }
     }
 
     /// After a step that was kept, to a point of that size.
-    pub fn grow(&mut self, size: f64) {
-        self.0 = (self.0 * GROWTH).min(STEPS[1] * size.max(1.0));
+    ///
+    /// # Errors
+    /// [`Error::NoOrbit`] where the steps have become too short for too long.
+    pub fn grow(&mut self, size: f64) -> Result<()> {
+        let size = size.max(1.0);
+        self.short = if self.length < SHORT * size { self.short + 1 } else { 0 };
+        if self.short > MOST_SHORT {
+            return Err(Error::no_orbit(format!(
+                "its steps have become so short that it hardly advances ({MOST_SHORT} steps below {SHORT:.0e}): it nears a \
+                 point where several contacts graze at once, or nearly so"
+            )));
+        }
+        self.length = (self.length * GROWTH).min(STEPS[1] * size);
+        Ok(())
     }
 
     /// After one that was not; false where no shorter one is tried.
     pub fn halve(&mut self) -> bool {
-        self.0 *= 0.5;
-        self.0 >= STEPS[2]
+        self.length *= 0.5;
+        self.length >= STEPS[2]
     }
 
     /// True for a step with these tangents at both ends, corrected in so many iterations, that is
@@ -180,4 +201,26 @@ pub(super) fn locate<T>(
 
 fn singular() -> Error {
     Error::no_orbit("the equations are singular across the branch: two branches cross there")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOST_SHORT, SHORT, Stride};
+
+    /// Takes `count` steps of that length, and says whether all went well.
+    fn taken(stride: &mut Stride, count: usize, length: f64) -> bool {
+        (0..count).all(|_| {
+            stride.length = length;
+            stride.grow(1.0).is_ok()
+        })
+    }
+
+    #[test]
+    fn a_branch_that_hardly_advances_is_left() {
+        let mut stride = Stride::new();
+        assert!(taken(&mut stride, 10 * MOST_SHORT, 2.0 * SHORT));
+        // One longer step between, and it goes on.
+        assert!(taken(&mut stride, MOST_SHORT, 0.5 * SHORT) && taken(&mut stride, 1, 2.0 * SHORT));
+        assert!(taken(&mut stride, MOST_SHORT, 0.5 * SHORT) && !taken(&mut stride, 1, 0.5 * SHORT));
+    }
 }

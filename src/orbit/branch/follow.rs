@@ -46,8 +46,8 @@ pub(super) fn follow<'a>(
         let last = now.y.len() - 1;
         // Where the step would leave the range, to its end: beyond, the key may accept nothing.
         let slope = now.tangent[last] * curve.width;
-        let bound = beyond(range, now.point.value + slope * stride.0);
-        let step = bound.map_or(stride.0, |bound| (bound - now.point.value) / slope);
+        let bound = beyond(range, now.point.value + slope * stride.length);
+        let step = bound.map_or(stride.length, |bound| (bound - now.point.value) / slope);
         // A start on the bound that goes outwards ends at once.
         if step <= 0.0 {
             line.end = End::Range;
@@ -149,7 +149,10 @@ pub(super) fn follow<'a>(
             return Ok(line);
         }
         now = next;
-        stride.grow(1.0);
+        if let Err(error) = stride.grow(1.0) {
+            line.end = End::Stuck(error.to_string());
+            return Ok(line);
+        }
     }
     Ok(line)
 }

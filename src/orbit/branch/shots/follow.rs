@@ -104,7 +104,7 @@ impl<'a> Shots<'a> {
                     (self, now, before) = (moved, there, None);
                 }
             }
-            let step = stride.0;
+            let step = stride.length;
             let good = |(next, iterations): &(Here, usize)| {
                 next.meets_as(&now)
                     && Stride::keeps(*iterations, &now.tangent, &next.tangent)
@@ -150,9 +150,9 @@ impl<'a> Shots<'a> {
                     line.passed.push(end);
                     return Ok(End::Special(label));
                 }
-                if stride.0 > shorter {
+                if stride.length > shorter {
                     // Nothing else may happen on the way there.
-                    stride.0 = shorter;
+                    stride.length = shorter;
                     continue;
                 }
             }
@@ -198,7 +198,7 @@ impl<'a> Shots<'a> {
                 return Ok(End::Closed);
             }
             before = Some((std::mem::replace(&mut now, next), step));
-            stride.grow(now.size());
+            stride.grow(now.size())?;
         }
         Ok(End::Points)
     }
