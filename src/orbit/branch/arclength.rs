@@ -31,6 +31,13 @@ const LOCATED: usize = 60;
 const SHORT: f64 = 1e-5;
 const MOST_SHORT: usize = 100;
 
+/// Amplitudes that are tried along the eigenvector, in the scaled unknowns.
+const AMPLITUDES: [f64; 5] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
+
+/// A new branch lies within this many amplitudes of the old one; else Newton has found another
+/// orbit.
+const NEIGHBOURHOOD: f64 = 3.0;
+
 /// The length of the steps along a branch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stride {
@@ -158,6 +165,27 @@ pub(super) fn correct<L>(
         last = size;
     }
     Err(Error::no_orbit(format!("Newton's method did not converge: the residual is {last:.1e} of the gap")))
+}
+
+/// A point of the branch that leaves `origin` along `aside`, by a small amplitude, and the direction
+/// to it; `correct` takes a guess to that branch.
+///
+/// # Errors
+/// [`Error::NoOrbit`] where none was found near.
+pub(super) fn beside(
+    origin: &Vector,
+    aside: &Vector,
+    correct: impl Fn(&Vector) -> Result<Vector>,
+) -> Result<(Vector, Vector)> {
+    for amplitude in AMPLITUDES {
+        let Ok(y) = correct(&(origin + aside * amplitude)) else { continue };
+        let away = &y - origin;
+        if away.norm() <= NEIGHBOURHOOD * amplitude {
+            let along = &away / away.norm();
+            return Ok((y, along));
+        }
+    }
+    Err(Error::no_orbit("no orbit was found beside the old branch"))
 }
 
 /// The arclength in `span` at which a test function vanishes, whose values at both ends are `ends`,

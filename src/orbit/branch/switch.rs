@@ -4,7 +4,7 @@ use super::super::equations::CYCLE;
 use super::super::periodic::Orbit;
 use super::super::problem::{Problem, StopLaw};
 use super::super::signature::{Event, Kind, Signature};
-use super::arclength::unit;
+use super::arclength::{beside, unit};
 use super::curve::{Curve, Vector};
 use super::events::point;
 use super::follow::follow;
@@ -13,13 +13,6 @@ use super::line::{Begin, Followed, Frame, Line, NODE, Passed};
 use super::point::Point;
 use crate::error::{Error, Result};
 use nalgebra::DVector;
-
-/// Amplitudes that are tried along the eigenvector of a multiplier −1, in the scaled unknowns.
-const AMPLITUDES: [f64; 5] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
-
-/// A new branch lies within this many amplitudes of the old one; else Newton has found another
-/// orbit.
-const NEIGHBOURHOOD: f64 = 3.0;
 
 /// The step to both sides that tells where a new branch has orbits that a body can follow.
 const PROBE: f64 = 1e-4;
@@ -107,15 +100,8 @@ impl<'a> Curve<'a> {
             i if i < 2 * n => -share * null[i - n],
             _ => 0.0,
         });
-        for amplitude in AMPLITUDES {
-            let Ok((y, ..)) = curve.correct(&(&origin + &aside * amplitude), &aside) else { continue };
-            let away = &y - &origin;
-            if away.norm() <= NEIGHBOURHOOD * amplitude {
-                let along = &away / away.norm();
-                return Ok(Begin { curve, y, along, both: false });
-            }
-        }
-        Err(Error::no_orbit("no orbit was found beside the old branch"))
+        let (y, along) = beside(&origin, &aside, |guess| Ok(curve.correct(guess, &aside)?.0))?;
+        Ok(Begin { curve, y, along, both: false })
     }
 
     /// Puts an impact of speed 0 where the orbit touches a wall.

@@ -171,8 +171,7 @@ impl<'a> Shots<'a> {
                 }
             };
             let value = next.point.value;
-            if value < range[0] || value > range[1] {
-                let bound = if value < range[0] { range[0] } else { range[1] };
+            if let Some(bound) = beyond(range, value) {
                 let ends = [now.point.value - bound, value - bound];
                 // A start on the bound that goes outwards ends at once.
                 if ends[0] * ends[1] < 0.0 {

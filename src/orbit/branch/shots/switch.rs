@@ -3,19 +3,12 @@
 use super::Shots;
 use super::follow::follow;
 use crate::error::{Error, Result};
-use crate::orbit::branch::arclength::{Vector, bordered, extended, tangent};
+use crate::orbit::branch::arclength::{Vector, beside, bordered, extended, tangent};
 use crate::orbit::branch::label::Label;
 use crate::orbit::branch::line::{Begin, Followed, Frame, Line, Passed};
 use crate::orbit::branch::point::Point;
 use crate::orbit::periodic::Orbit;
 use nalgebra::{DMatrix, DVector};
-
-/// Amplitudes that are tried along the eigenvector, in the scaled unknowns.
-const AMPLITUDES: [f64; 5] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
-
-/// A new branch lies within this many amplitudes of the old one; else Newton has found another
-/// orbit.
-const NEIGHBOURHOOD: f64 = 3.0;
 
 /// Orbits within this are one: where a branch of twice the period meets that of the single one,
 /// Newton's method on the longer map knows it to half of the digits.
@@ -106,15 +99,8 @@ impl Shots<'_> {
 
 /// The branch of `curve` beside `origin` along `aside`, by a small amplitude.
 fn off<'a>(curve: Shots<'a>, origin: &Vector, aside: &Vector) -> Result<Begin<Shots<'a>>> {
-    for amplitude in AMPLITUDES {
-        let Ok((y, ..)) = curve.correct(&(origin + aside * amplitude), aside, None) else { continue };
-        let away = &y - origin;
-        if away.norm() <= NEIGHBOURHOOD * amplitude {
-            let along = &away / away.norm();
-            return Ok(Begin { curve, y, along, both: false });
-        }
-    }
-    Err(Error::no_orbit("no orbit was found beside the old branch"))
+    let (y, along) = beside(origin, aside, |guess| Ok(curve.correct(guess, aside, None)?.0))?;
+    Ok(Begin { curve, y, along, both: false })
 }
 
 /// The unit vector that `matrix` makes least of.
