@@ -1,7 +1,8 @@
 //! The factor of a positive definite matrix.
 
 use super::Symmetric;
-use super::band::{BandFactor, is_band};
+use super::band::is_band;
+use super::band_factor::BandFactor;
 use super::definite::NotDefinite;
 use super::sparse::SparseFactor;
 use std::ops::Range;

@@ -9,6 +9,7 @@
 //! | [`Factor`] | L D Lᵀ of a positive definite matrix: a band's own, or a sparse one with a fill-reducing order |
 
 mod band;
+mod band_factor;
 mod definite;
 mod factor;
 pub(crate) mod fourier;

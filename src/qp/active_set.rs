@@ -12,7 +12,7 @@
 //! decides the signs there.
 
 use super::delassus::Delassus;
-use super::pivoting::Side;
+use super::side::Side;
 use super::sums::dot;
 use super::{Failure, NOISE, ROUNDING, ULPS};
 

@@ -13,7 +13,8 @@
 
 use super::clamp::meet;
 use super::delassus::Delassus;
-use super::pivoting::{Pivoting, Side};
+use super::pivoting::Pivoting;
+use super::side::Side;
 use super::{Failure, NOISE, Problem, Rhs};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus};

@@ -7,7 +7,8 @@ use super::counters::SolverCounters;
 use super::crowd::Crowd;
 use super::delassus::Delassus;
 use super::elimination::Elimination;
-use super::pivoting::{Pivoting, Side, passes};
+use super::pivoting::{Pivoting, passes};
+use super::side::Side;
 use super::{Failure, NOISE, Problem, Rhs, Solution};
 
 /// The programme on its rows, solved by pivoting from the last programme's active set or from the

@@ -16,7 +16,8 @@
 
 use super::active_set::ActiveSet;
 use super::delassus::Delassus;
-use super::pivoting::{Pivoting, Side};
+use super::pivoting::Pivoting;
+use super::side::Side;
 use super::sums::{add, dot};
 use super::{Failure, ROUNDING, Rhs};
 

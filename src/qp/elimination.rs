@@ -14,7 +14,8 @@
 
 use super::clamp::meet;
 use super::delassus::Delassus;
-use super::pivoting::{Pivoting, Side};
+use super::pivoting::Pivoting;
+use super::side::Side;
 use super::{Problem, ROUNDING, Rhs};
 
 /// Maximum number of passes before the programme is left to pivoting. A warm start takes one or

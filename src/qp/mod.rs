@@ -42,12 +42,15 @@ mod clarabel;
 mod condensed;
 mod counters;
 mod crowd;
+mod cycle;
 mod delassus;
 mod disks;
 mod elimination;
+mod envelope;
 mod failure;
 mod pivoting;
 mod relations;
+mod side;
 mod solver;
 mod sums;
 

@@ -14,33 +14,10 @@
 
 use super::block::Block;
 use super::clamp::meet;
+use super::cycle::Cycle;
 use super::delassus::Delassus;
+use super::side::Side;
 use super::{Failure, NOISE, ROUNDING, Rhs, ULPS};
-
-/// Which bound a row stands on. Its force is sign · (a number ≥ 0).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Side {
-    Lower,
-    Upper,
-}
-
-impl Side {
-    pub(super) const fn sign(self) -> f64 {
-        match self {
-            Self::Lower => 1.0,
-            Self::Upper => -1.0,
-        }
-    }
-
-    pub(super) fn bound(self, rhs: &Rhs, row: usize) -> f64 {
-        let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
-        if self == Self::Lower { lo } else { hi }
-    }
-}
-
-/// State of a row that is below its lower bound (entry 1), above its upper one (entry 2), neither
-/// or both.
-const STATES: [Option<Side>; 4] = [None, Some(Side::Lower), Some(Side::Upper), Some(Side::Lower)];
 
 /// Number of passes in which all wrong rows are exchanged although their number has not fallen.
 const PATIENCE: u32 = 10;
@@ -85,37 +62,6 @@ pub(super) fn passes(m: usize) -> usize {
     100 + 10 * m
 }
 
-/// Detects a repeated state by the method of Brent 1980 (doi:10.1007/BF01933190).
-#[derive(Default)]
-struct Circle {
-    saved: u64,
-    age: u64,
-    life: u64,
-    /// Number of repetitions found so far.
-    closed: u32,
-}
-
-impl Circle {
-    /// True if the state, given by wrong rows and rows in play, has the hash of the saved one.
-    fn closes(&mut self, wrong: &[(usize, Option<Side>)], rows: &[usize]) -> bool {
-        let mix = |hash: u64, word: u64| (hash.rotate_left(5) ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        let hash = wrong.iter().fold(1, |hash, &(row, side)| {
-            mix(hash, 4 * row as u64 + side.map_or(0, |side| 1 + u64::from(side == Side::Upper)))
-        });
-        let hash = rows.iter().fold(hash, |hash, &row| mix(hash, row as u64));
-        if self.life > 0 && hash == self.saved {
-            self.closed += 1;
-            (self.life, self.age) = (0, 0);
-            return true;
-        }
-        self.age += 1;
-        if self.age > self.life {
-            (self.saved, self.age, self.life) = (hash, 0, 2 * self.life + 1);
-        }
-        false
-    }
-}
-
 impl Pivoting {
     pub(super) fn new(system: &Delassus) -> Self {
         let m = system.count();
@@ -149,9 +95,7 @@ impl Pivoting {
     pub(super) fn call_violated(&mut self, system: &Delassus, rhs: &Rhs, bounded: &[usize]) {
         self.bounded.drain(..).for_each(|row| self.side[row] = None);
         for &row in bounded {
-            let y = system.y[row];
-            // Looked up rather than branched on: which rows are violated cannot be predicted.
-            self.side[row] = STATES[usize::from(y < rhs.lo[row]) + 2 * usize::from(y > rhs.hi[row])];
+            self.side[row] = Side::violated(system.y[row], rhs.lo[row], rhs.hi[row]);
         }
     }
 
@@ -166,9 +110,8 @@ impl Pivoting {
     }
 
     /// Starts from the states of the rows and ends with the exact r (m entries). `bounded` are the
-    /// rows with a bound, increasing. Signs of gaps are
-    /// tested relative to `scale`, or to the row's free motion where that is larger. Returns the
-    /// number of exchanges.
+    /// rows with a bound, increasing. Signs of gaps are tested relative to `scale`, or to the row's
+    /// free motion where that is larger. Returns the number of exchanges.
     pub(super) fn solve(
         &mut self,
         system: &Delassus,
@@ -196,7 +139,7 @@ impl Pivoting {
         let (mut least, mut patience, mut pivots, mut joins) = (usize::MAX, PATIENCE, 0, 0);
         // Rounding of forces passed on between rows is allowed for only where pivoting fails
         // without that: it would accept active sets of needlessly large forces.
-        let (mut tolerance, mut ulps, mut circle) = (ROUNDING, 0.0, Circle::default());
+        let (mut tolerance, mut ulps, mut cycle) = (ROUNDING, 0.0, Cycle::default());
         for _ in 0..passes {
             self.block.set(system, &self.next);
             self.look(system, rhs, bounded, (scale, tolerance, ulps), r);
@@ -219,8 +162,8 @@ impl Pivoting {
             } else if patience > 0 {
                 patience -= 1;
             } else {
-                if circle.closes(&self.wrong, self.block.rows()) {
-                    if circle.closed > LOOSENINGS {
+                if cycle.closes(&self.wrong, self.block.rows()) {
+                    if cycle.closed > LOOSENINGS {
                         break;
                     }
                     (tolerance, ulps) = (tolerance * LOOSER, ULPS);
