@@ -7,6 +7,7 @@
 //! | `rule.rs`, `grid.rs` | the trait of a scheme on a grid, and the type that drives it |
 //! | `space.rs`, `line.rs`, `matrices.rs` | its arithmetic: numbers, or vectors and matrices |
 //! | `body.rs`, `blows.rs`, `start.rs` | the structure, its walls and loads, and the forces at the start |
+//! | `chung_hulbert.rs` | the generalized-α rule of smooth forces, between walls and in round holes |
 //! | `programme.rs` | the quadratic programme of a step: walls to rows and back |
 //! | `newton.rs` | walls with force laws: semismooth Newton on their forces |
 //! | `staggered.rs` | shared by schemes whose velocity is half a step behind |
@@ -17,6 +18,7 @@
 mod blows;
 mod body;
 mod central_difference;
+mod chung_hulbert;
 mod counters;
 mod disks;
 mod equilibrium;

@@ -6,43 +6,26 @@
 //! middle of w and w⁺: what arrives rebounds by e, what only the turning of the normal adds is
 //! reflected. With n at w⁺ a body that slides would lose speed as in implicit-euler.
 
-use super::super::space::indefinite;
-use super::super::start::StartForce;
+use super::super::chung_hulbert::ChungHulbert;
+use super::super::matrices::Matrices;
 use super::super::supports::split;
 use super::bounds::Bounds;
 use super::held::Held;
-use crate::error::{Error, Result};
-use crate::linear::{Factor, Symmetric};
+use crate::error::Result;
 use crate::qp::{DiskBound, DiskCounters};
 use crate::scene::{Scene, WallLaw};
 use crate::step::Balance;
 
 #[derive(Debug)]
 pub(super) struct Alpha {
-    /// α_m, α_f, β, γ.
-    alpha: [f64; 4],
-    /// h(1−γ/2β), s, as in the scheme between walls; 0 without damping.
-    unfelt: f64,
+    rule: ChungHulbert<Matrices>,
     /// True if a rigid wall or hole is closed at the step's start.
     closed: bool,
-    /// a, m/s², and F at the step's start, N.
-    a: Vec<f64>,
-    force: Vec<f64>,
     /// Force of each elastic wall at the step's start, N.
     held: Vec<f64>,
     /// All walls and holes, in Δ, m; the rigid ones in v⁺ − v_c, m/s.
     place: Bounds,
     rate: Bounds,
-    mass: Factor,
-    /// T.
-    drag: Factor,
-    /// α_f F − α_m M a, over 1 − α_f; and b, N.
-    past: Vec<f64>,
-    b: Vec<f64>,
-    /// q̂ and v̂, and the velocity change by the extra force, m/s.
-    q: Vec<f64>,
-    v: Vec<f64>,
-    given: Vec<f64>,
     zero: Vec<f64>,
     /// w of each hole at the step's start, m.
     start: Vec<[f64; 2]>,
@@ -50,43 +33,25 @@ pub(super) struct Alpha {
 
 impl Alpha {
     pub fn new(scene: &Scene, balance: Balance, held: &Held) -> Result<Self> {
-        let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = balance else {
-            return Err(Error::invalid("scheme", "another balance", "generalized-alpha"));
-        };
-        let (h, m) = (held.body.h, &held.body.matrices);
-        let (mu, scale) = ((1.0 - alpha_m) / (1.0 - alpha_f), h * h * beta);
-        let matrix = Symmetric::sum(&[(mu / scale, &m.mass), (gamma / (h * beta), &m.damping), (1.0, &m.stiffness)]);
-        let drag = Symmetric::sum(&[(mu, &m.mass), (h * gamma, &m.damping)]);
-        let (zero, gap) = (vec![0.0; held.body.n], scene.gap_scale());
-        let mut rule = Self {
-            alpha: [alpha_m, alpha_f, beta, gamma],
-            unfelt: if held.body.damped { h * (1.0 - gamma / (2.0 * beta)) } else { 0.0 },
+        let (body, gap) = (&held.body, scene.gap_scale());
+        let rule = ChungHulbert::new(body, balance)?;
+        let h = body.h;
+        let mut alpha = Self {
             closed: false,
-            a: zero.clone(),
-            force: zero.clone(),
             held: vec![0.0; scene.walls.len()],
-            place: Bounds::new(scene, matrix, gap, |k, c| 1.0 / (k + c / h))?,
-            rate: Bounds::new(scene, drag.clone(), gap / h, |_, _| 0.0)?,
-            mass: m.mass_factor().map_err(indefinite)?,
-            drag: Factor::new(&drag).map_err(indefinite)?,
-            past: zero.clone(),
-            b: zero.clone(),
-            q: zero.clone(),
-            v: zero.clone(),
-            given: zero.clone(),
-            zero,
+            place: Bounds::new(scene, rule.matrix(body), gap, |k, c| 1.0 / (k + c / h))?,
+            rate: Bounds::new(scene, rule.velocity_matrix(body), gap / h, |_, _| 0.0)?,
+            zero: vec![0.0; body.n],
             start: vec![[0.0; 2]; held.rounds.len()],
+            rule,
         };
-        rule.restart(held);
-        Ok(rule)
+        alpha.restart(held);
+        Ok(alpha)
     }
 
     /// Starts from the state of `held`.
     pub fn restart(&mut self, held: &Held) {
-        let StartForce { total, wall } = StartForce::smooth(&held.body, &held.frame.q, &held.frame.v);
-        self.a.clone_from(&total);
-        self.mass.solve(&mut self.a);
-        (self.force, self.held) = (total, wall);
+        self.held = self.rule.restart(&held.body, &held.frame.q, &held.frame.v);
         let q = &held.frame.q;
         let stands = |wall: usize| {
             let stop = held.body.walls[wall];
@@ -102,86 +67,35 @@ impl Alpha {
         for (hole, start) in self.start.iter_mut().enumerate() {
             *start = held.offset(hole, &held.frame.q);
         }
-        self.predict(held);
+        self.rule.predict(&mut held.body, &mut held.frame);
         let met = self.displace(step, held)?;
         self.press(held);
         let answered = held.frame.blown && held.body.damped && self.answers(held);
         if answered {
-            self.damp_blows(-1.0, held);
+            self.rule.damp_blows(-1.0, &mut held.body, &held.frame);
         }
         if met || answered {
-            self.free_velocity(held);
+            self.rule.free_velocity(&held.body, &mut held.frame, |b| held.body.push(1.0, &self.held, b));
         }
         let pushed = self.correct_velocity(step, held)?;
-        let Self { alpha: [alpha_m, alpha_f, ..], force, past, a, mass, .. } = self;
-        let (body, frame) = (&held.body, &mut held.frame);
-        force.clone_from(&body.load);
-        body.damping.add_product(-1.0, &frame.v, force);
-        body.stiffness.add_product(-1.0, &frame.q, force);
-        body.push(1.0, &self.held, force);
-        if met || pushed || answered {
-            let mu = (1.0 - *alpha_m) / (1.0 - *alpha_f);
-            (0..body.n).for_each(|i| a[i] = (past[i] + force[i]) / mu);
-            mass.solve(a);
-        }
-        frame.after.clone_from(&frame.v);
+        let changed = met || pushed || answered;
+        self.rule.renew(&held.body, &held.frame, changed, |force| held.body.push(1.0, &self.held, force));
+        held.frame.after.clone_from(&held.frame.v);
         Ok(())
-    }
-
-    /// Computes q̂, v̂, f⁺ and `past`, the terms of the last step.
-    fn predict(&mut self, held: &mut Held) {
-        let Self { alpha: [alpha_m, alpha_f, beta, gamma], a, force, past, given, q, v, .. } = self;
-        let (body, frame) = (&mut held.body, &mut held.frame);
-        let (h, alpha_m, alpha_f) = (body.h, *alpha_m, *alpha_f);
-        let (first, second) = (h * h * (0.5 - *beta), h * (1.0 - *gamma));
-        for i in 0..body.n {
-            q[i] = frame.q[i] + h * frame.v[i] + first * a[i];
-            v[i] = frame.v[i] + second * a[i];
-            past[i] = alpha_f / (1.0 - alpha_f) * force[i];
-            given[i] = h * frame.extra[i];
-        }
-        body.mass.add_product(-alpha_m / (1.0 - alpha_f), a, past);
-        body.load_at(frame.end);
-        if given.iter().any(|&p| p != 0.0) {
-            self.mass.solve(given);
-            for i in 0..body.n {
-                q[i] += 0.5 * h * given[i];
-                v[i] += given[i];
-            }
-        }
-        frame.blown = body.find_blows(&[(frame.start, frame.end, frame.end)]);
-        if let (true, Some(blows)) = (frame.blown, &body.blows) {
-            for i in 0..body.n {
-                q[i] += blows.shift[i];
-                v[i] += blows.given[i];
-                frame.struck[i] = frame.v[i] + blows.given[i];
-            }
-            if body.damped {
-                self.damp_blows(1.0, held);
-            }
-        }
     }
 
     /// q⁺, v⁺ without the impulses of rigid walls and holes unless one was met, a⁺ likewise, and the
     /// forces of elastic walls. Returns whether a rigid wall or hole was met.
     fn displace(&mut self, step: u64, held: &mut Held) -> Result<bool> {
-        let met = if self.unfelt == 0.0 {
+        let met = if self.rule.unfelt == 0.0 {
             self.put(step, held, 0.0)?
         } else if self.closed {
             // A hole that holds the body is met, whichever way a heavy damper would throw it.
-            self.put(step, held, self.unfelt)? || self.put(step, held, 0.0)?
+            self.put(step, held, self.rule.unfelt)? || self.put(step, held, 0.0)?
         } else {
-            self.put(step, held, 0.0)? && (self.put(step, held, self.unfelt)? || self.put(step, held, 0.0)?)
+            self.put(step, held, 0.0)? && (self.put(step, held, self.rule.unfelt)? || self.put(step, held, 0.0)?)
         };
-        let Self { alpha: [.., beta, gamma], place, a, q, v, .. } = self;
-        let (h, frame) = (held.body.h, &mut held.frame);
-        for (i, delta) in place.x().iter().enumerate() {
-            frame.q[i] = q[i] + delta;
-            if !met {
-                a[i] = delta / (h * h * *beta);
-                frame.v[i] = v[i] + h * *gamma * a[i];
-            }
-        }
+        self.rule.displace(self.place.x(), met, held.body.h, &mut held.frame);
         Ok(met)
     }
 
@@ -189,18 +103,10 @@ impl Alpha {
     /// a rigid wall or hole pushes.
     fn put(&mut self, step: u64, held: &Held, unfelt: f64) -> Result<bool> {
         let (body, frame) = (&held.body, &held.frame);
-        let Self { place, past, b, q, v, .. } = self;
-        for i in 0..body.n {
-            b[i] = past[i] + body.load[i];
-        }
-        body.damping.add_product(-1.0, v, b);
-        if unfelt != 0.0 {
-            body.damping.add_product(unfelt, &self.a, b);
-            body.damping.add_product(unfelt / body.h, &self.given, b);
-        }
-        body.stiffness.add_product(-1.0, q, b);
+        self.rule.ask(body, unfelt);
+        let Self { place, rule, .. } = self;
         for (wall, &stop) in body.walls.iter().enumerate() {
-            let ahead = body.seen(wall, q);
+            let ahead = body.seen(wall, &rule.q);
             let bound = match stop.law {
                 WallLaw::Elastic { stiffness, damping } => {
                     // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
@@ -213,9 +119,9 @@ impl Alpha {
             place.bind_wall(wall, stop, bound);
         }
         for hole in 0..held.rounds.len() {
-            place.bind_hole(hole, held.disk(hole, self.start[hole], held.offset(hole, q)));
+            place.bind_hole(hole, held.disk(hole, self.start[hole], held.offset(hole, &rule.q)));
         }
-        place.solve(b, (frame.start, step))?;
+        place.solve(&rule.b, (frame.start, step))?;
         let walls = body.walls.iter().enumerate().any(|(wall, stop)| stop.law.is_rigid() && place.of_wall(wall) != 0.0);
         Ok(walls || (0..held.rounds.len()).any(|hole| place.of_hole(hole) != [0.0; 2]))
     }
@@ -232,35 +138,6 @@ impl Alpha {
                 (frame.impulse[wall], frame.force[wall]) = (impulse, force);
                 frame.pushing.push(wall);
             }
-        }
-    }
-
-    /// v_c = v̂ + hγa⁺ at q⁺, with T a⁺ = past + f⁺ − K q⁺ + Gᵀr − C v̂.
-    fn free_velocity(&mut self, held: &mut Held) {
-        let Self { alpha: [.., gamma], past, b, v, drag, .. } = self;
-        let (body, frame) = (&held.body, &mut held.frame);
-        for i in 0..body.n {
-            b[i] = past[i] + body.load[i];
-        }
-        body.damping.add_product(-1.0, v, b);
-        body.stiffness.add_product(-1.0, &frame.q, b);
-        body.push(1.0, &self.held, b);
-        drag.solve(b);
-        for i in 0..body.n {
-            frame.v[i] = v[i] + body.h * *gamma * b[i];
-        }
-    }
-
-    /// Adds −`share` M⁻¹C d to v̂, with d the displacement that the blows cause in addition to half
-    /// a step of the velocity that they give.
-    fn damp_blows(&mut self, share: f64, held: &mut Held) {
-        let Self { b, v, mass, .. } = self;
-        let (body, frame) = (&mut held.body, &held.frame);
-        if body.find_blows(&[(frame.start, frame.end, frame.end - 0.5 * body.h)]) {
-            b.fill(0.0);
-            body.damp_shift(share, b);
-            mass.solve(b);
-            (0..body.n).for_each(|i| v[i] += b[i]);
         }
     }
 
@@ -327,8 +204,7 @@ impl Alpha {
         if !self.closed {
             return Ok(false);
         }
-        let [alpha_m, alpha_f, ..] = self.alpha;
-        let mu = (1.0 - alpha_m) / (1.0 - alpha_f);
+        let mu = self.rule.mu();
         self.rate.solve(&self.zero, (held.frame.start, step))?;
         held.frame.v.iter_mut().zip(self.rate.x()).for_each(|(v, d)| *v += d);
         for wall in 0..held.body.walls.len() {
