@@ -8,7 +8,7 @@
 //! | `space.rs`, `line.rs`, `matrices.rs` | its arithmetic: numbers, or vectors and matrices |
 //! | `body.rs`, `blows.rs`, `start.rs` | the structure, its walls and loads, and the forces at the start |
 //! | `chung_hulbert.rs` | the generalized-α rule of smooth forces, between walls and in round holes |
-//! | `programme.rs` | the quadratic programme of a step: walls to rows and back |
+//! | `programme.rs`, `wall_rows.rs` | the quadratic programme of a step: walls to rows and back |
 //! | `newton.rs` | walls with force laws: semismooth Newton on their forces |
 //! | `staggered.rs` | shared by schemes whose velocity is half a step behind |
 //! | `supports/`, `disks/` | scenes with round holes and friction |
@@ -52,6 +52,7 @@ mod stepper;
 mod stop;
 mod structure_event;
 mod supports;
+mod wall_rows;
 
 pub use counters::Counters;
 pub use equilibrium::equilibrium;

@@ -1,40 +1,25 @@
-//! The quadratic programme of a step over all walls: walls to rows, multipliers to forces.
+//! The quadratic programme of a step over all walls: bounds of walls to rows, multipliers to
+//! forces.
 //!
 //! minimise ½ xᵀA x − bᵀx over lᵢ ≤ gᵢ·x ≤ uᵢ, elastic rows yielding with a compliance.
 //!
-//! Rigid walls at one place (one row g) share a row of the programme: the tightest bound of each
-//! side counts, and walls that stand at that bound share its force equally. An elastic wall has a
-//! row of its own.
+//! Of the walls that share a row ([`WallRows`]) the tightest bound of each side counts, and walls
+//! that stand at that bound share its force equally.
 
 use super::Counters;
 use super::space::{Solve, Space};
-use super::stop::Stop;
+use super::wall_rows::{Seat, WallRows};
 use crate::error::{Error, Result};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{self, Backend, Failure};
-use crate::scene::{Row, Scene, Side, Wall, WallLaw, distinct};
-
-/// A wall of a row of the programme. Several walls can have the same row; each of them has its own
-/// number ("seat") in [`Programme`].
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Seat {
-    /// Index of the wall in the scene.
-    pub wall: usize,
-    pub stop: Stop,
-}
+use crate::scene::{Scene, Wall, WallLaw};
 
 /// The programme, its bounds, and the solver that answers it.
 #[derive(Debug)]
 pub(super) struct Programme<S: Space> {
     solver: S::Solver,
     rows: S::Rows,
-    /// The walls in the order of their rows, and the number of the first wall of each row.
-    seats: Vec<Seat>,
-    starts: Vec<usize>,
-    row_of: Vec<usize>,
-    /// The open interval of g·q, m, in which a row's rigid walls are not touched; empty for the row
-    /// of an elastic wall, which must be checked in every step.
-    clear: Vec<(f64, f64)>,
+    walls: WallRows,
     /// Bounds of each row in the step, and the rows that have one.
     lo: Vec<f64>,
     hi: Vec<f64>,
@@ -71,56 +56,22 @@ impl<S: Space> Programme<S> {
         compliance: impl Fn(f64, f64) -> f64,
         backend: Backend,
     ) -> Result<Self> {
-        let mut places: Vec<Vec<usize>> = Vec::new();
-        let distinct = distinct(scene.walls.iter().map(|wall| &wall.at));
-        // The place of the rigid walls of each distinct row.
-        let mut shared: Vec<Option<usize>> = vec![None; distinct.rows.len()];
-        for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| wanted(&wall.law)) {
-            match &mut shared[distinct.of[index]] {
-                Some(place) if wall.law.is_rigid() => places[*place].push(index),
-                place => {
-                    if wall.law.is_rigid() {
-                        *place = Some(places.len());
-                    }
-                    places.push(vec![index]);
-                }
-            }
-        }
-        let walls = |place: &[usize]| place.iter().filter_map(|&w| scene.walls.get(w)).collect::<Vec<_>>();
-        let at: Vec<&Row> = places.iter().filter_map(|place| walls(place).first().map(|wall| &wall.at)).collect();
-        let (n, g) = (a.size(), Rows::new(a.size(), at.iter().map(|row| row.entries())));
-        let soft = |place: &Vec<usize>| match walls(place).first().map(|wall| wall.law) {
-            Some(WallLaw::Elastic { stiffness, damping }) => compliance(stiffness, damping),
+        let walls = WallRows::new(scene, wanted);
+        let (n, m) = (a.size(), walls.count());
+        let first: Vec<&Wall> =
+            (0..m).filter_map(|row| walls.first(row).and_then(|wall| scene.walls.get(wall))).collect();
+        let soft = |wall: &&Wall| match wall.law {
+            WallLaw::Elastic { stiffness, damping } => compliance(stiffness, damping),
             _ => 0.0,
         };
-        let problem = qp::Problem { a, g, compliance: places.iter().map(soft).collect() };
+        let g = Rows::new(n, first.iter().map(|wall| wall.at.entries()));
+        let problem = qp::Problem { a, g, compliance: first.iter().map(soft).collect() };
         let solver = S::Solver::new(problem, backend, scale).map_err(|f| failure(&f, None, 0.0, 0))?;
-        let (mut seats, mut starts, m) = (Vec::new(), vec![0], places.len());
-        for place in &places {
-            seats.extend(place.iter().filter_map(|&w| Some(Seat { wall: w, stop: Stop::new(scene.walls.get(w)?) })));
-            starts.push(seats.len());
-        }
-        let mut row_of = vec![0; scene.walls.len()];
-        for (row, place) in places.iter().enumerate() {
-            place.iter().for_each(|&wall| row_of[wall] = row);
-        }
-        let touch = scene.touching_distance();
-        let interval = |place: &Vec<usize>| {
-            let ends = |(lo, hi): (f64, f64), w: &&Wall| match (w.law.is_rigid(), w.side) {
-                (false, _) => (f64::INFINITY, f64::NEG_INFINITY),
-                (true, Side::Upper) => (lo, hi.min(w.position - 2.0 * touch)),
-                (true, Side::Lower) => (lo.max(w.position + 2.0 * touch), hi),
-            };
-            walls(place).iter().fold((f64::NEG_INFINITY, f64::INFINITY), ends)
-        };
         Ok(Self {
             solver,
-            rows: S::rows(n, at.into_iter()),
-            clear: places.iter().map(interval).collect(),
-            bound: vec![0.0; seats.len()],
-            seats,
-            starts,
-            row_of,
+            rows: S::rows(n, first.into_iter().map(|wall| &wall.at)),
+            bound: vec![0.0; walls.count_walls()],
+            walls,
             lo: vec![f64::NEG_INFINITY; m],
             hi: vec![f64::INFINITY; m],
             bounded: Vec::with_capacity(m),
@@ -143,7 +94,7 @@ impl<S: Space> Programme<S> {
     /// touching distance, and none of them is elastic.
     #[inline]
     pub fn is_clear(&self, row: usize, w: f64) -> bool {
-        let (lo, hi) = self.clear[row];
+        let (lo, hi) = self.walls.clear[row];
         lo < w && w < hi
     }
 
@@ -151,7 +102,8 @@ impl<S: Space> Programme<S> {
     /// `None` if it is true for all.
     #[inline]
     pub fn first_near(&self, q: &S::Vector) -> Option<usize> {
-        self.clear
+        self.walls
+            .clear
             .iter()
             .enumerate()
             .find(|&(row, &(lo, hi))| {
@@ -164,25 +116,25 @@ impl<S: Space> Programme<S> {
     /// The row of a wall.
     #[inline]
     pub fn row_of(&self, wall: usize) -> usize {
-        self.row_of[wall]
+        self.walls.of(wall)
     }
 
     /// False for the row of an elastic wall.
     #[inline]
     pub fn is_rigid(&self, row: usize) -> bool {
-        self.seats[self.starts[row]].stop.law.is_rigid()
+        self.walls.seat(self.walls.seats(row).start).stop.law.is_rigid()
     }
 
     /// Numbers of the walls of a row.
     #[inline]
     pub fn seats(&self, row: usize) -> std::ops::Range<usize> {
-        self.starts[row]..self.starts[row + 1]
+        self.walls.seats(row)
     }
 
     /// The wall of that number.
     #[inline]
     pub fn seat(&self, seat: usize) -> Seat {
-        self.seats[seat]
+        self.walls.seat(seat)
     }
 
     /// Removes the bounds of the last step.
@@ -209,10 +161,10 @@ impl<S: Space> Programme<S> {
         // are removed.
         if self.lo[row] == f64::NEG_INFINITY && self.hi[row] == f64::INFINITY {
             self.bounded.push(row);
-            self.bound[self.starts[row]..self.starts[row + 1]].fill(f64::NAN);
+            self.bound[self.walls.seats(row)].fill(f64::NAN);
         }
         self.bound[seat] = value;
-        if self.seats[seat].stop.upper {
+        if self.walls.seat(seat).stop.upper {
             self.hi[row] = self.hi[row].min(value);
         } else {
             self.lo[row] = self.lo[row].max(value);
@@ -271,20 +223,22 @@ impl<S: Space> Programme<S> {
             if r == 0.0 {
                 continue;
             }
-            let range = self.starts[row]..self.starts[row + 1];
-            if let [seat] = self.seats[range.clone()] {
-                force[seat.wall] = r;
-                pushing.push(seat.wall);
+            let range = self.walls.seats(row);
+            if range.len() == 1 {
+                let wall = self.walls.seat(range.start).wall;
+                force[wall] = r;
+                pushing.push(wall);
                 continue;
             }
             // The walls whose bound is the active one.
             let held = if r < 0.0 { self.hi[row] } else { self.lo[row] };
             let near = ONE_PLACE * held.abs();
-            let carries =
-                |seat: &usize| self.seats[*seat].stop.upper == (r < 0.0) && (self.bound[*seat] - held).abs() <= near;
+            let carries = |seat: &usize| {
+                self.walls.seat(*seat).stop.upper == (r < 0.0) && (self.bound[*seat] - held).abs() <= near
+            };
             let carriers = range.clone().filter(carries).count();
             for seat in range.filter(carries) {
-                let wall = self.seats[seat].wall;
+                let wall = self.walls.seat(seat).wall;
                 force[wall] = r / carriers as f64;
                 pushing.push(wall);
             }
@@ -294,11 +248,10 @@ impl<S: Space> Programme<S> {
 
     #[cold]
     fn refusal(&self, fault: &Failure, time: f64, step: u64) -> Error {
-        let name = |row: usize| {
-            let seat = self.starts.get(row).and_then(|&first| self.seats.get(first))?;
-            self.names.get(seat.wall).cloned()
+        let wall = match *fault {
+            Failure::Infeasible { row, .. } => self.walls.first(row).and_then(|wall| self.names.get(wall).cloned()),
+            _ => None,
         };
-        let wall = if let Failure::Infeasible { row, .. } = *fault { name(row) } else { None };
         match fault {
             // The matrices were checked at the beginning, so it is the motion that became infinite
             // or NaN.

@@ -12,9 +12,10 @@
 
 use super::body::Body;
 use super::frame::Frame;
-use super::programme::{Programme, Seat};
+use super::programme::Programme;
 use super::space::{Space, zero};
 use super::start::StartForce;
+use super::wall_rows::Seat;
 use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::qp::Backend;
