@@ -74,6 +74,14 @@ impl<S: Space> Frame<S> {
         self.let_go();
     }
 
+    /// Sets the extra force, N, of the step; none is zero.
+    pub fn force(&mut self, extra: Option<&[f64]>) {
+        match extra {
+            Some(extra) => self.extra.as_mut().copy_from_slice(extra),
+            None => self.extra.as_mut().fill(0.0),
+        }
+    }
+
     /// Begins step number `step` of `h` seconds: sets its times, and the forces of all walls to
     /// zero.
     #[inline]

@@ -53,10 +53,7 @@ impl<S: Space> Grid<S> {
     fn force(&mut self, extra: Option<&[f64]>) {
         // A staggered rule has half of the last step's extra force in the frame.
         self.forced = extra.is_some() || self.frame.extra.as_ref().iter().any(|&force| force != 0.0);
-        match extra {
-            Some(extra) => self.frame.extra.as_mut().copy_from_slice(extra),
-            None => self.frame.extra.as_mut().fill(0.0),
-        }
+        self.frame.force(extra);
     }
 
     /// Passes the last step to the contact episodes. Not inlined: most steps touch no wall.

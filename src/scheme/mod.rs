@@ -11,7 +11,7 @@
 //! | `programme.rs`, `wall_rows.rs` | the quadratic programme of a step: walls to rows and back |
 //! | `newton.rs` | walls with force laws: semismooth Newton on their forces |
 //! | `staggered.rs` | shared by schemes whose velocity is half a step behind |
-//! | `supports/`, `disks/` | scenes with round holes and friction |
+//! | `supports/`, `disks/`, `pushes.rs` | scenes with round holes and friction, and their contact episodes |
 //! | `frame.rs` | the state, and the results of a step |
 //! | `motion.rs`, `kernel.rs`, `stepper.rs` | the trait of all motions, the choice of one, and the public type |
 
@@ -44,6 +44,7 @@ mod penalty;
 mod penalty_law;
 mod position;
 mod programme;
+mod pushes;
 mod rule;
 mod space;
 mod staggered;

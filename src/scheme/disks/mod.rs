@@ -25,7 +25,8 @@ use super::body::Body;
 use super::frame::Frame;
 use super::matrices::Matrices;
 use super::motion::Motion;
-use crate::contact::{Episodes, Rates};
+use super::pushes::Pushes;
+use crate::contact::Rates;
 use crate::error::Result;
 use crate::linear::Rows;
 use crate::qp::{Backend, DiskCounters};
@@ -71,11 +72,7 @@ impl Rule {
 pub(super) struct Disks {
     held: Held,
     rule: Rule,
-    /// For the contact episodes: impulse and velocities of each wall and hole, and those that push.
-    pushes: Vec<f64>,
-    rates: Vec<Rates>,
-    pushing: Vec<usize>,
-    episodes: Episodes,
+    pushes: Pushes,
     turned: f64,
     /// True if the extra force of the last step may not be 0.
     forced: bool,
@@ -90,12 +87,10 @@ impl Disks {
         let round = |hole: crate::scene::Hole<'_>| Round { centre: hole.support.centre, gap: hole.gap, law: hole.law };
         let rounds: Vec<Round> = scene.holes().map(round).collect();
         let rows = Rows::new(body.n, places().map(|row| row.entries()));
-        let contacts = scene.walls.len() + rounds.len();
         let holes = vec![HoleStep::default(); rounds.len()];
         let friction = vec![0.0; scene.walls.len()];
         let mut held = Held { body, frame: Frame::new(scene)?, rows, rounds, holes, friction };
         held.body.restart(0.0);
-        let still = Rates { before: 0.0, struck: 0.0, after: 0.0 };
         Ok(Self {
             rule: match contract.balance {
                 Balance::GeneralizedAlpha { .. } => Rule::Alpha(Box::new(Alpha::new(scene, contract.balance, &held)?)),
@@ -108,10 +103,7 @@ impl Disks {
                 _ => Rule::Position(Box::new(Position::new(scene, &held)?)),
             },
             held,
-            pushes: vec![0.0; contacts],
-            rates: vec![still; contacts],
-            pushing: Vec::with_capacity(contacts),
-            episodes: Episodes::new(scene, scene.wall_masses(), contract),
+            pushes: Pushes::new(scene, contract),
             turned: 0.0,
             forced: false,
         })
@@ -119,46 +111,35 @@ impl Disks {
 
     /// Passes the step to the contact episodes, and notes by how much normals turned.
     fn tell(&mut self) {
-        let Self { held, pushes, rates, pushing, episodes, turned, .. } = self;
+        let Self { held, pushes, turned, .. } = self;
         let Held { body, frame, rows, rounds, holes, .. } = held;
-        for &index in &*pushing {
-            pushes[index] = 0.0;
-        }
-        pushing.clear();
+        let walls = body.walls.len();
+        pushes.clear();
         for &wall in &frame.pushing {
-            pushing.push(wall);
-            pushes[wall] = frame.impulse[wall];
-            let seen = |v: &Vec<f64>| body.seen(wall, v);
-            rates[wall] =
-                Rates { before: seen(&frame.before), struck: seen(frame.struck()), after: seen(&frame.after) };
+            pushes.push(wall, frame.impulse[wall]);
         }
         for (hole, did) in holes.iter().enumerate().filter(|(_, did)| did.impulse > 0.0) {
-            let index = body.walls.len() + hole;
-            pushing.push(index);
-            pushes[index] = did.impulse;
-            let [y, z] = did.normal;
-            let along = |v: &Vec<f64>| {
-                let [vy, vz] = pair(rows, hole, v);
-                y * vy + z * vz
-            };
-            rates[index] =
-                Rates { before: along(&frame.before), struck: along(frame.struck()), after: along(&frame.after) };
-            let [vy, vz] = pair(rows, hole, &frame.after);
+            pushes.push(walls + hole, did.impulse);
+            let ([y, z], [vy, vz]) = (did.normal, pair(rows, hole, &frame.after));
             *turned = turned.max(body.h * (y * vz - z * vy).abs() / rounds[hole].gap);
         }
-        if !(pushing.is_empty() && episodes.idle()) {
-            episodes.see(frame.start, body.h, pushes, pushing, |index| rates[index]);
-        }
+        pushes.tell(frame.start, body.h, |index, _| {
+            let seen = |v: &Vec<f64>| match index.checked_sub(walls) {
+                None => body.seen(index, v),
+                Some(hole) => {
+                    let ([y, z], [vy, vz]) = (holes[hole].normal, pair(rows, hole, v));
+                    y * vy + z * vz
+                }
+            };
+            Rates { before: seen(&frame.before), struck: seen(frame.struck()), after: seen(&frame.after) }
+        });
     }
 }
 
 impl Motion for Disks {
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
         if extra.is_some() || self.forced {
-            match extra {
-                Some(extra) => self.held.frame.extra.copy_from_slice(extra),
-                None => self.held.frame.extra.fill(0.0),
-            }
+            self.held.frame.force(extra);
             self.forced = extra.is_some();
         }
         self.held.holes.fill(HoleStep::default());
@@ -171,7 +152,7 @@ impl Motion for Disks {
 
     fn step(&self, index: u64) -> Step<'_> {
         let Held { frame, holes, friction, .. } = &self.held;
-        Step { friction, holes, ..frame.step(index, self.episodes.closed()) }
+        Step { friction, holes, ..frame.step(index, self.pushes.closed()) }
     }
 
     fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
@@ -181,7 +162,7 @@ impl Motion for Disks {
             rule.restart(&self.held);
         }
         self.held.holes.fill(HoleStep::default());
-        self.episodes.forget();
+        self.pushes.forget();
         self.forced = false;
         Ok(())
     }
@@ -195,7 +176,7 @@ impl Motion for Disks {
     }
 
     fn open_contacts(&self) -> Vec<Contact> {
-        self.episodes.still_open()
+        self.pushes.still_open()
     }
 
     fn count(&self, counters: &mut Counters) {

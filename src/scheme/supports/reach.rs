@@ -1,0 +1,113 @@
+//! The walls and holes that a step reaches, each with its bound.
+//!
+//! Rigid ones are in play if q + ½h v reaches them, with v after the step's blows. The bound on n·ẇ⁺
+//! is −ε ẇ at a flat, whose normal stays, and that of [`Turning`](crate::step::Turning) at a hole,
+//! whose normal turns. Elastic walls are always in play and yield as in moreau-jean.
+
+use super::super::body::Body;
+use super::super::frame::Frame;
+use super::super::matrices::Matrices;
+use super::normal::{AHEAD, Met, TURNING, dot, meet};
+use super::places::Places;
+use super::points::ContactPoint;
+use super::touch::Touch;
+use crate::scene::{Hole, Scene, WallLaw};
+
+/// A hole.
+#[derive(Debug, Clone, Copy)]
+struct Round {
+    centre: [f64; 2],
+    gap: f64,
+    restitution: f64,
+    /// Below this distance from the centre, squared, it is out of reach.
+    clear: f64,
+}
+
+/// All walls and holes, and what the step reaches.
+#[derive(Debug)]
+pub(super) struct Reach {
+    theta: f64,
+    /// Of the walls, then of the holes.
+    pub points: Vec<ContactPoint>,
+    rounds: Vec<Round>,
+    /// q + ½h v.
+    ahead: Vec<f64>,
+}
+
+impl Reach {
+    pub fn new(scene: &Scene, theta: f64, points: Vec<ContactPoint>) -> Self {
+        let round = |hole: Hole<'_>| Round {
+            centre: hole.support.centre,
+            gap: hole.gap,
+            restitution: hole.restitution,
+            clear: (hole.gap * (1.0 - 2.0 * TURNING.touching)).powi(2),
+        };
+        Self { theta, points, rounds: scene.holes().map(round).collect(), ahead: vec![0.0; scene.initial.q.len()] }
+    }
+
+    /// Number of holes.
+    pub fn holes(&self) -> usize {
+        self.rounds.len()
+    }
+
+    /// Sets how far the step of `h` seconds reaches.
+    pub fn look(&mut self, frame: &Frame<Matrices>, h: f64) {
+        for (ahead, (q, v)) in self.ahead.iter_mut().zip(frame.q.iter().zip(frame.struck())) {
+            *ahead = q + AHEAD * h * v;
+        }
+    }
+
+    /// A wall, if it is in play; `warm` is its impulse in the last step.
+    pub fn wall(
+        &self,
+        wall: usize,
+        (body, frame): (&Body<Matrices>, &Frame<Matrices>),
+        places: &Places,
+        warm: [f64; 2],
+    ) -> Option<Touch> {
+        let (stop, point, ht) = (body.walls[wall], self.points[wall], body.h * self.theta);
+        let (bound, compliance) = match stop.law {
+            WallLaw::Elastic { stiffness, damping } => {
+                // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
+                let stiff = stiffness + damping / ht;
+                let (w, before) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
+                let ahead = w + ht * before;
+                let offset = body.h * (stiffness * (ahead - stop.g) + damping * (ahead - stop.plate(w)) / ht);
+                let compliance = 1.0 / (ht * ht * stiff);
+                (-stop.sign * (before - offset * compliance), compliance)
+            }
+            WallLaw::Rigid { restitution } if stop.depth(body.seen(wall, &self.ahead)) >= -body.touch => {
+                let struck = body.seen(wall, frame.struck());
+                let epsilon = if stop.sign * struck <= 0.0 { restitution } else { 1.0 };
+                (stop.sign * epsilon * struck, 0.0)
+            }
+            _ => return None,
+        };
+        let (contact, law) = ((wall, point.rows), (point.friction, compliance));
+        Some(Touch::new(places, contact, (point.normal, bound), law, warm))
+    }
+
+    /// A hole, if it is in play, with its contact at number `index`; `warm` is its impulse in the
+    /// last step.
+    pub fn hole(
+        &self,
+        (hole, index): (usize, usize),
+        (frame, h): (&Frame<Matrices>, f64),
+        places: &Places,
+        warm: [f64; 2],
+    ) -> Option<(Touch, Met)> {
+        let (round, point) = (self.rounds[hole], self.points[index]);
+        let from = |q: &Vec<f64>| {
+            let [y, z] = places.pair(point.rows, q);
+            [y - round.centre[0], z - round.centre[1]]
+        };
+        let ahead = from(&self.ahead);
+        if dot(ahead, ahead) < round.clear {
+            return None;
+        }
+        let rate = places.pair(point.rows, frame.struck());
+        let met = meet((round.gap, round.restitution), from(&frame.q), rate, h)?;
+        let (contact, law) = ((index, point.rows), (point.friction, 0.0));
+        Some((Touch::new(places, contact, (met.normal, met.bound), law, warm), met))
+    }
+}
