@@ -1,11 +1,10 @@
 //! Sweep files: the values that vary and the measures, as TOML.
 
-use super::axis::{Axis, Values};
-use super::follow::Follow;
 use super::measure::Measure;
 use super::picture::{Kind, Picture};
-use super::random::{Normal, Random};
+use super::random::Random;
 use super::request::{JUDGED, Kernel, MOST_SAMPLES, Stretch, Sweep};
+use super::vary::Vary;
 use crate::case::{CaseFile, Embedded, KeyValue};
 use crate::error::{Error, Result};
 use serde::Deserialize;
@@ -27,31 +26,6 @@ struct File {
     run: RunTable,
     measure: Option<MeasureTable>,
     figure: Option<FigureTable>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Vary {
-    key: Option<String>,
-    keys: Option<Vec<String>>,
-    factors: Option<Vec<f64>>,
-    name: Option<String>,
-    values: Option<Vec<toml::Value>>,
-    from: Option<f64>,
-    to: Option<f64>,
-    points: Option<u64>,
-    scale: Option<String>,
-    normal: Option<NormalTable>,
-    follow: Option<String>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct NormalTable {
-    mean: f64,
-    deviation: f64,
-    least: Option<f64>,
-    most: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -145,7 +119,7 @@ impl Sweep {
         }
         let mut sweep = Self::new(case);
         for vary in file.vary {
-            sweep = sweep.vary(axis(vary)?);
+            sweep = sweep.vary(vary.axis()?);
         }
         if let Some(RandomTable { kind, points, seed }) = file.random {
             sweep = sweep.drawn(Random { design: kind.parse()?, points, seed });
@@ -182,50 +156,6 @@ fn case_file(name: &str, folder: &Path) -> Result<CaseFile> {
     }
 }
 
-fn axis(vary: Vary) -> Result<Axis> {
-    let keys = match (vary.key, vary.keys) {
-        (Some(key), None) => vec![key],
-        (None, Some(keys)) if !keys.is_empty() => keys,
-        _ => {
-            return Err(Error::invalid(
-                "[[vary]]",
-                "no key, or both key and keys",
-                "key = \"…\", or keys = [\"…\", \"…\"] that are tied",
-            ));
-        }
-    };
-    let label = format!("[[vary]] {}", vary.name.as_ref().unwrap_or(&keys[0]));
-    let refuse =
-        |what: &str, found: &str, expected: &str| Err(Error::invalid(format!("{label}: {what}"), found, expected));
-    let log = match vary.scale.as_deref() {
-        None | Some("linear") => false,
-        Some("log") => true,
-        Some(other) => return refuse("scale", &format!("{other:?}"), "\"linear\" or \"log\""),
-    };
-    let values = match (vary.values, vary.from, vary.to, vary.points, vary.normal) {
-        (Some(values), None, None, None, None) => Values::List(values.into_iter().map(KeyValue::from_toml).collect()),
-        (None, Some(from), Some(to), Some(points), None) if log => Values::Log { from, to, points },
-        (None, Some(from), Some(to), Some(points), None) => Values::Linear { from, to, points },
-        (None, Some(from), Some(to), None, None) => Values::Range { from, to, log },
-        (None, None, None, None, Some(NormalTable { mean, deviation, least, most })) => {
-            Values::Normal(Normal { mean, deviation, least, most })
-        }
-        _ => {
-            let expected =
-                "values = [..]; or from, to and points; with [random] from and to, or normal = { mean, deviation }";
-            return refuse("values", "none, or several kinds of them", expected);
-        }
-    };
-    let factors = vary.factors.unwrap_or_else(|| vec![1.0; keys.len()]);
-    if factors.len() != keys.len() {
-        return refuse("factors", &format!("{} for {} keys", factors.len(), keys.len()), "one factor a key");
-    }
-    let targets =
-        keys.iter().zip(factors).map(|(key, factor)| Ok((key.parse()?, factor))).collect::<Result<Vec<_>>>()?;
-    let follow = vary.follow.map_or(Ok(Follow::No), |word| word.parse())?;
-    Ok(Axis { targets, name: vary.name, values, follow })
-}
-
 fn stretch(settle: Option<Length>, keep: Option<Length>) -> Result<Stretch> {
     let refuse = |found: &str| {
         let expected = "settle and keep, both as { periods = N } or both as { seconds = T }";
@@ -249,6 +179,8 @@ fn picture(table: FigureTable) -> Result<Picture> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::axis::Axis;
+    use super::super::follow::Follow;
     use super::*;
 
     const FILE: &str = r#"

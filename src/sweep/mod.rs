@@ -61,6 +61,7 @@ mod shard;
 mod strobe;
 mod table;
 mod target;
+mod vary;
 mod watch;
 
 pub use axis::{Axis, Values};

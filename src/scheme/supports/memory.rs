@@ -33,8 +33,8 @@ impl Memory {
         self.warm.fill([0.0; 2]);
     }
 
-    /// Keeps what the next step needs of the contacts in play, and counts; `turns` are the angles by
-    /// which the normals of holes turned, rad.
+    /// Keeps what the next step needs of the contacts in play, and counts; `turns` are the angles
+    /// by which the normals of holes turned, rad.
     pub fn keep(&mut self, touches: &[Touch], turns: &[f64]) {
         let mut frozen = false;
         for touch in touches.iter().filter(|touch| touch.impulse[0] > 0.0) {

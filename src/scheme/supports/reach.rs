@@ -1,8 +1,8 @@
 //! The walls and holes that a step reaches, each with its bound.
 //!
-//! Rigid ones are in play if q + ½h v reaches them, with v after the step's blows. The bound on n·ẇ⁺
-//! is −ε ẇ at a flat, whose normal stays, and that of [`Turning`](crate::step::Turning) at a hole,
-//! whose normal turns. Elastic walls are always in play and yield as in moreau-jean.
+//! Rigid ones are in play if q + ½h v reaches them, with v after the step's blows. The bound on
+//! n·ẇ⁺ is −ε ẇ at a flat, whose normal stays, and that of [`Turning`](crate::step::Turning) at a
+//! hole, whose normal turns. Elastic walls are always in play and yield as in moreau-jean.
 
 use super::super::body::Body;
 use super::super::frame::Frame;
