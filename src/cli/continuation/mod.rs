@@ -1,20 +1,25 @@
 //! `signorini continue`: branches of periodic orbits over a key.
 
+mod begin;
+mod loci;
+mod varied;
+
 use super::request::{Changes, Destination};
 use super::ui::Ui;
-use crate::case::{Case, CaseFile, Key, KeyValue};
+use crate::case::{CaseFile, KeyValue};
 use crate::error::{Error, Result};
-use crate::orbit::branch::{Graph, Label, Locus, Request, Start, Switch, graph, locus};
-use crate::orbit::{Orbit, Problem, Shot, shoot};
+use crate::orbit::Problem;
+use crate::orbit::branch::{Graph, Request, Switch, graph};
 use crate::output::asked::{asked, with};
 use crate::output::atomic::write_whole;
 use crate::output::branches::{Drawn, ended};
-use crate::output::periodic::{read, read_shot};
 use crate::output::table::Table;
-use crate::output::{beneath, json, loci, orbits, summary};
+use crate::output::{self, beneath, json, orbits, summary};
 use crate::scene::Scene;
+use begin::Begin;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use varied::Varied;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -81,31 +86,19 @@ pub struct Args {
     place: Destination,
 }
 
-/// The second key of a request, its value in the case and its range.
-struct Second {
-    key: Key,
-    value: f64,
-    range: [f64; 2],
-}
-
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let file = args.changes.case_file(&args.case, ui)?;
     let case = file.case()?;
-    let key: Key = args.key.parse()?;
-    let value = start_value(&file, &key)?;
-    let range = range(&args.range)?;
-    if !(range[0]..=range[1]).contains(&value) {
-        let expected = format!("a range with the case's value of the key, {value:?}, in it");
-        return Err(Error::invalid("--range", &args.range, expected));
-    }
+    let varied = Varied::new(&file, &args.key, ("--range", &args.range))?;
+    let Varied { key, value, range } = &varied;
     if case.truncated.is_some() && key.to_string().starts_with("system.") {
         let expected =
             "a key outside of [system], or a case without modes: the modes of one value are not those of another";
-        return Err(Error::invalid("--key", &key, expected));
+        return Err(Error::invalid("--key", key, expected));
     }
     let scene_at = |value: f64| -> Result<Scene> {
         let mut file = file.clone();
-        file.set(&key, &KeyValue::from(value))?;
+        file.set(key, &KeyValue::from(value))?;
         Ok(file.case()?.scene)
     };
     let second = args.second(&file)?;
@@ -119,7 +112,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let problem = if lines { Some(Problem::new(case.scene.clone())?) } else { None };
     let from = args.from.as_deref().map(|path| Begin::read(path, &case, problem.as_ref())).transpose()?;
     let request = Request {
-        range,
+        range: *range,
         switch: match args.switch.as_str() {
             "no" => Switch::No,
             "all" => Switch::All,
@@ -144,20 +137,20 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
             "locus": args.locus,
         }),
     );
-    let column = column(&key);
+    let column = varied.column();
     let points = args.over.as_deref().map(|path| beneath::read(path, &column)).transpose()?.unwrap_or_default();
     let mut results = args.place.results(&case, "continue", asked)?;
     let start = match from {
         Some(from) => from,
-        None => args.settled(&case.scene, problem.as_ref(), ui)?,
+        None => Begin::settled(&case.scene, problem.as_ref(), args.settle, ui)?,
     };
-    let found = watched(&scene_at, &start, value, &request, ui)?;
-    let drawn = Drawn { graph: &found, column, label: axis(&key), scene: &case.scene };
+    let found = watched(&scene_at, &start, *value, &request, ui)?;
+    let drawn = Drawn { graph: &found, column, label: varied.label(), scene: &case.scene };
     drawn.branches(&results.place("branches.csv")?)?;
     drawn.specials(&results.place("special.csv")?)?;
     let mut document = drawn.document();
     // Another value of the key tells which walls it moves.
-    let moved = found.branches.iter().flat_map(|branch| &branch.points).find(|point| point.value != value);
+    let moved = found.branches.iter().flat_map(|branch| &branch.points).find(|point| point.value != *value);
     let other = moved.map(|point| scene_at(point.value)).transpose()?;
     document["walls"] = orbits::walls(&case.scene, other.as_ref().unwrap_or(&case.scene), drawn.place());
     if !lines {
@@ -174,11 +167,12 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     }
     let mut traced = Vec::new();
     if let Some(second) = &second {
-        traced = args.loci(&file, &found, (&key, range), second, ui)?;
-        let columns = [self::column(&key), self::column(&second.key)];
-        loci::table(&results.place("loci.csv")?, &traced, &columns, &case.scene)?;
-        let labels = [axis(&key), axis(&second.key)];
-        results.draw("loci", &loci::picture(&traced, &labels, &format!("{title}: loci of special points")))?;
+        let varied = [&varied, second];
+        traced = loci::follow(&file, &found, varied, (&args.locus, args.points as usize), ui)?;
+        let columns = varied.map(Varied::column);
+        output::loci::table(&results.place("loci.csv")?, &traced, &columns, &case.scene)?;
+        let labels = varied.map(Varied::label);
+        results.draw("loci", &output::loci::picture(&traced, &labels, &format!("{title}: loci of special points")))?;
     }
     results.tell("orbit_command", json!(args.changes.command_line("orbit", &args.case)));
     results.tell("case_file", summary::case_file(&case));
@@ -208,91 +202,12 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 
 impl Args {
     /// The second key, if one is asked for.
-    fn second(&self, file: &CaseFile) -> Result<Option<Second>> {
+    fn second(&self, file: &CaseFile) -> Result<Option<Varied>> {
         let (Some(key), Some(text)) = (&self.second, &self.second_range) else { return Ok(None) };
         if *key == self.key {
             return Err(Error::invalid("--second", key, "another key than --key"));
         }
-        let key: Key = key.parse()?;
-        let (value, range) = (start_value(file, &key)?, range(text)?);
-        if !(range[0]..=range[1]).contains(&value) {
-            let expected = format!("a range with the case's value of the key, {value:?}, in it");
-            return Err(Error::invalid("--second-range", text, expected));
-        }
-        Ok(Some(Second { key, value, range }))
-    }
-
-    /// The loci of the special points that are asked for; of those that cannot be followed the
-    /// reason is said.
-    fn loci(
-        &self,
-        file: &CaseFile,
-        found: &Graph,
-        (key, range): (&Key, [f64; 2]),
-        second: &Second,
-        ui: &Ui,
-    ) -> Result<Vec<Locus>> {
-        let plane = |[first, other]: [f64; 2]| -> Result<Scene> {
-            let mut file = file.clone();
-            file.set(key, &KeyValue::from(first))?;
-            file.set(&second.key, &KeyValue::from(other))?;
-            Ok(file.case()?.scene)
-        };
-        let has_locus = |label: Label| {
-            let named = ["fold", "period-doubling", "symmetry-breaking", "grazing-in", "grazing-out"];
-            named.contains(&label.name())
-                && (self.locus.is_empty() || self.locus.iter().any(|name| name == label.name()))
-        };
-        let wanted: Vec<_> = found.specials.iter().filter(|special| has_locus(special.label)).collect();
-        let bar = ui.progress("loci", wanted.len() as u64);
-        let mut traced = Vec::new();
-        for (index, special) in wanted.iter().enumerate() {
-            bar.set(index as u64);
-            match locus(&plane, special, second.value, [range, second.range], self.points as usize) {
-                Ok(locus) => traced.push(locus),
-                Err(error) => {
-                    let text = format!("the {} at {} was not followed: {error}", special.label, special.point.value);
-                    ui.beside(&bar, &text);
-                }
-            }
-        }
-        bar.finish();
-        Ok(traced)
-    }
-
-    /// The orbit on which the case settles; `problem` is that of one degree of freedom.
-    fn settled(&self, scene: &Scene, problem: Option<&Problem>, ui: &Ui) -> Result<Begin> {
-        let bar = ui.progress("settling", 1000);
-        let progress = |share| bar.share(share);
-        let found = match problem {
-            Some(problem) => problem.settled_with(self.settle, &progress).map(Begin::Orbit),
-            None => shoot(scene, self.settle, &progress).map(Begin::Shot),
-        };
-        bar.finish();
-        found
-    }
-}
-
-/// Where the first branch begins.
-enum Begin {
-    Orbit(Orbit),
-    Shot(Shot),
-}
-
-impl Begin {
-    /// The orbit in a file of `signorini orbit`.
-    fn read(path: &Path, case: &Case, problem: Option<&Problem>) -> Result<Self> {
-        match problem {
-            Some(problem) => problem.correct(&read(path, problem.scene())?).map(Self::Orbit),
-            None => read_shot(path, &case.scene, case.truncated.is_some()).map(Self::Shot),
-        }
-    }
-
-    fn start(&self) -> Start<'_> {
-        match self {
-            Self::Orbit(orbit) => Start::Orbit(orbit),
-            Self::Shot(shot) => Start::Shot(shot),
-        }
+        Varied::new(file, key, ("--second-range", text)).map(Some)
     }
 }
 
@@ -310,44 +225,6 @@ fn watched(
         graph(family, start.start(), value, request, &mut |point| bar.share((point.value - low) / (high - low)));
     bar.finish();
     found
-}
-
-/// The case's value of the key.
-fn start_value(file: &CaseFile, key: &Key) -> Result<f64> {
-    let found = file.get(key)?;
-    let text = found.as_ref().map(ToString::to_string);
-    match text.as_deref().map(str::parse::<f64>) {
-        Some(Ok(value)) => Ok(value),
-        Some(Err(_)) => {
-            Err(Error::invalid("--key", format!("{key} = {}", text.unwrap_or_default()), "the key of a number"))
-        }
-        None => Err(Error::invalid(
-            "--key",
-            format!("{key}, which the case leaves out or has several values of"),
-            format!("a key with one value in the case; --set '{key}=…' gives it one"),
-        )),
-    }
-}
-
-fn range(text: &str) -> Result<[f64; 2]> {
-    let wrong = || Error::invalid("--range", format_args!("{text:?}"), "A:B, two numbers, the first below the second");
-    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(wrong);
-    let (low, high) = (number(low)?, number(high)?);
-    if low < high { Ok([low, high]) } else { Err(wrong()) }
-}
-
-/// The column of a key: its last word and its unit, as in a sweep.
-fn column(key: &Key) -> String {
-    let text = key.to_string();
-    let word = text.rsplit('.').next().unwrap_or_default();
-    key.unit().map_or_else(|| word.to_owned(), |unit| format!("{word}_{unit}"))
-}
-
-/// The key as the label of an axis.
-fn axis(key: &Key) -> String {
-    let unit = key.unit().map_or("–".to_owned(), |unit| unit.replace("_per_", "/").replace('_', " "));
-    format!("{key} ({unit})")
 }
 
 fn report(drawn: &Drawn<'_>, ui: &Ui) -> Result<()> {

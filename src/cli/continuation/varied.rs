@@ -1,0 +1,62 @@
+//! A key whose value changes along the branches.
+
+use crate::case::{CaseFile, Key};
+use crate::error::{Error, Result};
+
+/// The key, its value in the case and its range.
+pub(super) struct Varied {
+    pub key: Key,
+    pub value: f64,
+    pub range: [f64; 2],
+}
+
+impl Varied {
+    /// The key of that name, with the option that gives its range.
+    pub(super) fn new(file: &CaseFile, key: &str, (option, text): (&'static str, &str)) -> Result<Self> {
+        let key: Key = key.parse()?;
+        let (value, range) = (start_value(file, &key)?, range(text)?);
+        if !(range[0]..=range[1]).contains(&value) {
+            let expected = format!("a range with the case's value of the key, {value:?}, in it");
+            return Err(Error::invalid(option, text, expected));
+        }
+        Ok(Self { key, value, range })
+    }
+
+    /// Its column: its last word and its unit, as in a sweep.
+    pub(super) fn column(&self) -> String {
+        let text = self.key.to_string();
+        let word = text.rsplit('.').next().unwrap_or_default();
+        self.key.unit().map_or_else(|| word.to_owned(), |unit| format!("{word}_{unit}"))
+    }
+
+    /// The key as the label of an axis.
+    pub(super) fn label(&self) -> String {
+        let unit = self.key.unit().map_or("–".to_owned(), |unit| unit.replace("_per_", "/").replace('_', " "));
+        format!("{} ({unit})", self.key)
+    }
+}
+
+/// The case's value of the key.
+fn start_value(file: &CaseFile, key: &Key) -> Result<f64> {
+    let found = file.get(key)?;
+    let text = found.as_ref().map(ToString::to_string);
+    match text.as_deref().map(str::parse::<f64>) {
+        Some(Ok(value)) => Ok(value),
+        Some(Err(_)) => {
+            Err(Error::invalid("--key", format!("{key} = {}", text.unwrap_or_default()), "the key of a number"))
+        }
+        None => Err(Error::invalid(
+            "--key",
+            format!("{key}, which the case leaves out or has several values of"),
+            format!("a key with one value in the case; --set '{key}=…' gives it one"),
+        )),
+    }
+}
+
+fn range(text: &str) -> Result<[f64; 2]> {
+    let wrong = || Error::invalid("--range", format_args!("{text:?}"), "A:B, two numbers, the first below the second");
+    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(wrong);
+    let (low, high) = (number(low)?, number(high)?);
+    if low < high { Ok([low, high]) } else { Err(wrong()) }
+}

@@ -1,0 +1,149 @@
+//! The model of a case in words: structure, supports, walls and loads.
+
+use crate::case::{Case, Model, Origin, Support};
+use crate::scene::{self, Density, Flats, LoadKind, Shape, WallLaw};
+use crate::study::choice;
+use crate::study::truncation::Start;
+
+/// Most walls that are listed one by one.
+pub(super) const MOST_WALLS: usize = 12;
+
+/// The structure as the file describes it, and its reduction; nothing for an oscillator.
+pub(super) fn what(case: &Case) -> Vec<String> {
+    let what = match &case.model {
+        Model::Oscillator if !case.planes.is_two() => return Vec::new(),
+        Model::Oscillator => "an oscillator".to_owned(),
+        Model::Chain(_) => "a chain".to_owned(),
+        Model::Bar(bar) => format!("a bar of {} m, {} elements", bar.length, bar.elements),
+        Model::Beam(beam) => format!(
+            "a tube of {} m, {} elements, EI = {:.4} N m² and {:.4} kg/m",
+            beam.length,
+            beam.elements,
+            beam.bending_stiffness(),
+            beam.mass_per_metre()
+        ),
+        Model::Matrices(_) => "a structure by its matrices".to_owned(),
+        Model::Modal(_) => "a structure by its modes".to_owned(),
+    };
+    let what = if case.planes.is_two() { format!("{what}, in two planes") } else { what };
+    let mut lines = Vec::new();
+    if let Some(truncated) = &case.truncated {
+        let next = truncated.reduction.next_omega.map_or("nothing is left out".to_owned(), |omega| {
+            format!("the next, left out, has {:.6} Hz", omega / std::f64::consts::TAU)
+        });
+        let n = truncated.reduction.degrees_of_freedom;
+        let each = if case.planes.modes() > 1 { " in each plane" } else { "" };
+        let modes = truncated.reduction.modes.count() / case.planes.modes();
+        lines.push(format!("{what}: {n} degrees of freedom, cut to {modes} modes{each}; {next}"));
+    } else {
+        lines.push(format!("{what}, in full"));
+    }
+    lines
+}
+
+/// Random loads, motions of the base, and the start, in words.
+pub(super) fn excitations(case: &Case) -> Vec<String> {
+    let seconds = |both: bool| if both { " along y, and an independent one along z" } else { "" };
+    let line = |(index, origin): (usize, &Origin)| match origin {
+        Origin::Random { force, file, both } => {
+            let density = match (&force.density, file) {
+                (_, Some(file)) => format!("of the density in {file}"),
+                (Density::Flat { rms, from, to }, _) => format!("{rms} N RMS from {from} to {to} Hz"),
+                (Density::Points(points), _) => format!("of a density of {} points", points.len()),
+            };
+            let rows = match case.scene.loads.get(index).map(|load| &load.kind) {
+                Some(LoadKind::Table(table)) => table.time().len(),
+                _ => 0,
+            };
+            Some(format!(
+                "load {}: random{}, {density}, seed {}: a table of {rows} rows, the same for every step and scheme",
+                index + 1,
+                seconds(*both),
+                force.seed
+            ))
+        }
+        Origin::Base { file, .. } => Some(format!(
+            "load {}: the base moves as {file} says; displacements are relative to it, and walls move along",
+            index + 1
+        )),
+        Origin::Stated | Origin::Table { .. } | Origin::Second(_) => None,
+    };
+    let mut lines: Vec<String> = case.written.origins.iter().enumerate().filter_map(line).collect();
+    if case.written.start == Start::Equilibrium {
+        lines.push("start: at rest in static equilibrium under the constant loads".to_owned());
+    }
+    lines
+}
+
+/// Each support, and what its flats are to the schemes.
+pub(super) fn supports(case: &Case) -> Vec<String> {
+    let line = |(support, there): (&Support, &scene::Support)| {
+        let off = match there.centre {
+            [0.0, 0.0] => String::new(),
+            [y, z] => format!(", its centre at ({y}, {z}) m"),
+        };
+        let rubs = match there.friction {
+            0.0 => "without friction, so that its work rate is an upper figure".to_owned(),
+            friction => format!("friction {friction}"),
+        };
+        let (name, place) = (&support.name, &support.place);
+        let Some((Flats { flats, .. }, _)) = &support.flats else {
+            let (gap, law) = match &there.shape {
+                Shape::Round { gap, law: WallLaw::Elastic { stiffness, damping } } => {
+                    (*gap, format!("elastic, {stiffness:?} N/m and {damping:?} N s/m"))
+                }
+                Shape::Round { gap, law } => (*gap, format!("rigid, restitution {}", law.restitution().unwrap_or(0.0))),
+                Shape::Flats(_) => (0.0, String::new()),
+            };
+            return format!(
+                "support {name:?}, on {place}: a round hole, a gap of {gap} m all round{off}; {law}, {rubs}"
+            );
+        };
+        let mut gaps: Vec<f64> = flats.iter().map(|flat| flat.gap).collect();
+        gaps.sort_by(f64::total_cmp);
+        let gap = match (gaps.first(), gaps.last()) {
+            (Some(least), Some(most)) if least < most => format!("gaps of {least} to {most} m"),
+            (Some(gap), _) => format!("a gap of {gap} m"),
+            _ => String::new(),
+        };
+        let directions: Vec<String> =
+            flats.iter().take(MOST_WALLS).map(|flat| format!("{}°", flat.direction)).collect();
+        let more = if flats.len() > MOST_WALLS { ", .." } else { "" };
+        format!(
+            "support {name:?}, on {place}: {} flats towards {}{more}, {gap}{off}; each flat is a wall along its \
+             normal, {rubs}",
+            flats.len(),
+            directions.join(", ")
+        )
+    };
+    let mut lines: Vec<String> =
+        case.written.supports.iter().zip(&case.scene.supports).take(MOST_WALLS).map(line).collect();
+    if let Some(service) = case.wear.service {
+        lines.push(format!("wear: volume = coefficient x work rate x {service:e} s"));
+    }
+    lines
+}
+
+/// Each wall, its location, and the share of the structure's compliance there that a truncation
+/// keeps.
+pub(super) fn walls(case: &Case) -> Vec<String> {
+    let mut lines = choice::walls(&case.scene);
+    for (index, line) in lines.iter_mut().enumerate() {
+        if let Some(place) = case.places.get(index).filter(|_| case.has_places()) {
+            line.push_str(&format!(", on {place}"));
+        }
+        if let Some(left) = case.truncated.as_ref().and_then(|t| t.reduction.walls.get(index)) {
+            line.push_str(&format!(
+                " (all modes: {:.4e} kg; kept of the static compliance: {:.2} %)",
+                left.mass,
+                100.0 * left.share()
+            ));
+        }
+    }
+    let all = lines.len();
+    if all > MOST_WALLS {
+        lines.truncate(MOST_WALLS);
+        lines.push(format!("and {} walls more", all - MOST_WALLS));
+    }
+    lines
+}
