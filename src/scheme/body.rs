@@ -1,9 +1,9 @@
 //! The structure, its loads and its walls, as every scheme on a grid uses them.
 
 use super::blows::Blows;
+use super::face::Face;
 use super::frame::Frame;
 use super::space::{Space, zero};
-use super::stop::Stop;
 use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::scene::{Scene, SharedStructure};
@@ -17,8 +17,8 @@ pub(super) struct Body<S: Space> {
     pub mass: S::Operator,
     pub damping: S::Operator,
     pub stiffness: S::Operator,
-    /// The walls, and the row of each.
-    pub walls: Vec<Stop>,
+    /// The faces of the walls, and the row of each wall.
+    pub walls: Vec<Face>,
     pub rows: S::Rows,
     /// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
     pub touch: f64,
@@ -47,7 +47,7 @@ impl<S: Space> Body<S> {
             mass: S::operator(&matrices.mass),
             damping: S::operator(&matrices.damping),
             stiffness: S::operator(&matrices.stiffness),
-            walls: scene.walls.iter().map(Stop::new).collect(),
+            walls: scene.walls.iter().enumerate().map(|(index, wall)| Face::new(index, wall)).collect(),
             rows: S::rows(n, scene.walls.iter().map(|wall| &wall.at)),
             touch: scene.touching_distance(),
             damped: matrices.damping.diagonal_entries().iter().any(|&c| c != 0.0),
@@ -176,9 +176,9 @@ impl<S: Space> Body<S> {
 
     /// True if this wall is rigid and the blows found drive the structure into it.
     pub fn drives(&self, wall: usize) -> bool {
-        let stop = self.walls[wall];
-        let into = |blows: &Blows<S>| stop.sign * S::dot(&self.rows, wall, &blows.given) < 0.0;
-        stop.law.is_rigid() && self.blows.as_deref().is_some_and(into)
+        let face = self.walls[wall];
+        let into = |blows: &Blows<S>| face.sign * S::dot(&self.rows, wall, &blows.given) < 0.0;
+        face.law.is_rigid() && self.blows.as_deref().is_some_and(into)
     }
 
     /// Adds −`scale` C d to `b`: the dampers' momentum over the displacement d that the blows found

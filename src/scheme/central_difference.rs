@@ -59,20 +59,20 @@ impl<S: Space> CentralDifference<S> {
                 dashpots.free[wall] = body.seen(wall, v) + body.seen(wall, change);
             }
             let law = |wall: usize, after: f64| {
-                let (stop, depth) = (body.walls[wall], depth(wall));
-                let rate = -stop.sign * 0.5 * (body.seen(wall, v) + after);
-                let pressure = stop.law.pressure(depth, 0.0) + stop.law.damping() * rate;
+                let (face, depth) = (body.walls[wall], depth(wall));
+                let rate = -face.sign * 0.5 * (body.seen(wall, v) + after);
+                let pressure = face.law.pressure(depth, 0.0) + face.law.damping() * rate;
                 // A wall that would pull has no force.
                 let holds = depth > 0.0 && pressure > 0.0;
-                let (force, slope) = if holds { (stop.sign * pressure, 0.5 * stop.law.damping()) } else { (0.0, 0.0) };
+                let (force, slope) = if holds { (face.sign * pressure, 0.5 * face.law.damping()) } else { (0.0, 0.0) };
                 Answer { force, slope, noise: 0.0 }
             };
             let solved = dashpots.solve(law);
             solved.map_err(|residual| Error::Newton { time: frame.start, step, residual })?;
             frame.force.copy_from_slice(&dashpots.force);
         } else {
-            for (wall, stop) in body.walls.iter().enumerate() {
-                frame.force[wall] = stop.sign * stop.law.pressure(depth(wall), 0.0);
+            for (wall, face) in body.walls.iter().enumerate() {
+                frame.force[wall] = face.sign * face.law.pressure(depth(wall), 0.0);
             }
         }
         frame.push_by_force(body.h);

@@ -36,12 +36,11 @@
 use super::Counters;
 use super::body::Body;
 use super::chung_hulbert::ChungHulbert;
+use super::face::Face;
 use super::frame::Frame;
 use super::programme::Programme;
 use super::rule::Rule;
 use super::space::{Space, zero};
-use super::stop::Stop;
-use super::wall_rows::Seat;
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
@@ -132,8 +131,8 @@ impl<S: Space> GeneralizedAlpha<S> {
         place.free();
         for row in 0..place.count_rows() {
             let ahead = place.seen(row, &rule.q);
-            for seat in place.seats(row) {
-                let wall = place.seat(seat).stop;
+            for number in place.walls(row) {
+                let wall = place.wall(number);
                 let bound = match wall.law {
                     WallLaw::Elastic { stiffness, damping } => {
                         // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
@@ -143,7 +142,7 @@ impl<S: Space> GeneralizedAlpha<S> {
                     }
                     _ => wall.g - ahead,
                 };
-                place.bind(row, seat, bound);
+                place.bind(row, number, bound);
             }
         }
         place.solve(&rule.b, (frame.start, step), &mut self.multiplier, &mut self.pushing)?;
@@ -194,17 +193,17 @@ impl<S: Space> GeneralizedAlpha<S> {
             if rate.is_clear(row, w) && self.pushing.is_empty() {
                 continue;
             }
-            for seat in rate.seats(row) {
-                let Seat { wall: index, stop: wall } = rate.seat(seat);
+            for number in rate.walls(row) {
+                let wall = rate.wall(number);
                 // A wall with a multiplier is closed too: q⁺ is at it to the rounding error of q.
-                if self.multiplier[index] == 0.0 && wall.depth(w) < -self.body.touch {
+                if self.multiplier[wall.index] == 0.0 && wall.depth(w) < -self.body.touch {
                     continue;
                 }
                 self.closed = true;
                 let struck = rate.seen(row, frame.struck());
                 let epsilon = if wall.sign * struck <= 0.0 { wall.law.restitution().unwrap_or(0.0) } else { 1.0 };
                 let bound = -epsilon * struck - rate.seen(row, &frame.v);
-                rate.bind(row, seat, bound);
+                rate.bind(row, number, bound);
                 approaches |= wall.sign * bound > 0.0;
             }
         }
@@ -271,6 +270,6 @@ impl<S: Space> Rule<S> for GeneralizedAlpha<S> {
 
 /// True if a rigid wall is closed at `q` (m).
 fn closed<S: Space>(body: &Body<S>, q: &S::Vector) -> bool {
-    let rests = |(wall, stop): (usize, &Stop)| stop.law.is_rigid() && stop.depth(body.seen(wall, q)) >= -body.touch;
+    let rests = |(wall, face): (usize, &Face)| face.law.is_rigid() && face.depth(body.seen(wall, q)) >= -body.touch;
     body.walls.iter().enumerate().any(rests)
 }

@@ -6,7 +6,7 @@
 //! | `event/`, `structure_event/`, `exact/` | the exact scheme, of one degree of freedom and of several, and what both share |
 //! | `rule.rs`, `grid.rs` | the trait of a scheme on a grid, and the type that drives it |
 //! | `space.rs`, `line.rs`, `matrices.rs` | its arithmetic: numbers, or vectors and matrices |
-//! | `body.rs`, `blows.rs`, `start.rs` | the structure, its walls and loads, and the forces at the start |
+//! | `body.rs`, `face.rs`, `blows.rs`, `start.rs` | the structure, its walls and loads, and the forces at the start |
 //! | `chung_hulbert.rs` | the generalized-α rule of smooth forces, between walls and in round holes |
 //! | `programme.rs`, `wall_rows.rs` | the quadratic programme of a step: walls to rows and back |
 //! | `newton.rs` | walls with force laws: semismooth Newton on their forces |
@@ -26,6 +26,7 @@ mod equilibrium;
 #[doc(hidden)]
 pub mod event;
 mod exact;
+mod face;
 mod frame;
 mod generalized_alpha;
 mod grid;
@@ -50,7 +51,6 @@ mod space;
 mod staggered;
 mod start;
 mod stepper;
-mod stop;
 mod structure_event;
 mod supports;
 mod wall_rows;

@@ -79,8 +79,8 @@ impl<S: Space> MoreauJean<S> {
         let (h, ht) = (body.h, body.h * theta);
         let (w, before) = (programme.seen(row, &frame.q), programme.seen(row, &frame.v));
         let struck = programme.seen(row, frame.struck());
-        for seat in programme.seats(row) {
-            let wall = programme.seat(seat).stop;
+        for number in programme.walls(row) {
+            let wall = programme.wall(number);
             let bound = match wall.law {
                 WallLaw::Elastic { stiffness, damping } => {
                     // p = −h[k_a(w_θ − g) + c_a(w_θ − plate)/θh] with w_θ = w + hθẇ + hθ²δ.
@@ -95,7 +95,7 @@ impl<S: Space> MoreauJean<S> {
                 }
                 _ => continue,
             };
-            programme.bind(row, seat, bound);
+            programme.bind(row, number, bound);
         }
     }
 

@@ -57,7 +57,7 @@ impl<S: Space> PaoliSchatzman<S> {
         let compliance = |k: f64, c: f64| 1.0 / (0.25 * k + 0.5 * c / h);
         let programme = Programme::<S>::new(scene, a, scene.gap_scale(), compliance, backend)?;
         let differ = |row: usize| {
-            let mut rigid = programme.seats(row).filter_map(|seat| programme.seat(seat).stop.law.restitution());
+            let mut rigid = programme.walls(row).filter_map(|number| programme.wall(number).law.restitution());
             rigid.next().is_some_and(|first| rigid.any(|e| e != first))
         };
         let unequal = (0..programme.count_rows()).map(differ).collect();
@@ -93,8 +93,8 @@ impl<S: Space> PaoliSchatzman<S> {
             let (w, before) = (self.programme.seen(row, &frame.q), self.programme.seen(row, &frame.before));
             let struck = if frame.blown { self.programme.seen(row, &frame.struck) } else { before };
             let shared = if self.unequal[row] { self.shared_restitution(row, w - h * struck) } else { None };
-            for seat in self.programme.seats(row) {
-                let wall = self.programme.seat(seat).stop;
+            for number in self.programme.walls(row) {
+                let wall = self.programme.wall(number);
                 let bound = match wall.law {
                     WallLaw::Elastic { stiffness, damping } => {
                         // |r| = k_a s̄ + c_a(s⁺ − s⁻₊)/2h, written in Δ.
@@ -107,7 +107,7 @@ impl<S: Space> PaoliSchatzman<S> {
                         (1.0 + e) * (wall.g - w) + e * h * struck
                     }
                 };
-                self.programme.bind(row, seat, bound);
+                self.programme.bind(row, number, bound);
             }
         }
     }
@@ -116,8 +116,8 @@ impl<S: Space> PaoliSchatzman<S> {
     /// and an upper one would cross, `back` being w⁻.
     fn shared_restitution(&self, row: usize, back: f64) -> Option<f64> {
         let (mut lo, mut hi, mut least) = (f64::NEG_INFINITY, f64::INFINITY, 1.0_f64);
-        for seat in self.programme.seats(row) {
-            let wall = self.programme.seat(seat).stop;
+        for number in self.programme.walls(row) {
+            let wall = self.programme.wall(number);
             let Some(e) = wall.law.restitution() else { continue };
             let bound = (1.0 + e) * wall.g - e * back;
             (lo, hi) = if wall.upper { (lo, hi.min(bound)) } else { (lo.max(bound), hi) };

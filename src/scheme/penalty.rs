@@ -89,11 +89,11 @@ impl<S: Space> Penalty<S> {
     /// The force of a wall in a step in which the mean velocity of its row is `rate`.
     #[inline]
     fn answer(&self, wall: usize, rate: f64) -> Answer {
-        let (stop, h) = (self.body.walls[wall], self.body.h);
-        let s0 = stop.depth(self.place[wall]);
-        let s1 = s0 - stop.sign * h * rate;
-        let (pressure, tangent) = mean_pressure(&stop.law, self.mean, self.theta, h, s0, s1);
-        Answer { force: stop.sign * pressure, slope: h * tangent, noise: s0.abs() / h }
+        let (face, h) = (self.body.walls[wall], self.body.h);
+        let s0 = face.depth(self.place[wall]);
+        let s1 = s0 - face.sign * h * rate;
+        let (pressure, tangent) = mean_pressure(&face.law, self.mean, self.theta, h, s0, s1);
+        Answer { force: face.sign * pressure, slope: h * tangent, noise: s0.abs() / h }
     }
 
     /// v_θ of one degree of freedom in a step that may meet a wall, whose impulses it writes: the
@@ -229,11 +229,11 @@ impl<S: Space> Rule<S> for Penalty<S> {
         delta.clone_from(b);
         S::solve(factor, delta);
         let mut inside = false;
-        for (wall, stop) in body.walls.iter().enumerate() {
+        for (wall, face) in body.walls.iter().enumerate() {
             let (w, rate) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
             let free = rate + theta * body.seen(wall, delta);
             (place[wall], self.walls.free[wall]) = (w, free);
-            inside |= stop.depth(w) > 0.0 || stop.depth(w + h * free) > 0.0;
+            inside |= face.depth(w) > 0.0 || face.depth(w + h * free) > 0.0;
         }
         if inside && self.body.n == 1 {
             let mean = self.meet_alone(frame, step)?;

@@ -68,8 +68,8 @@ impl<S: Space> Position<S> {
                 Some(blows) if blown => programme.seen(row, &blows.shift),
                 _ => 0.0,
             };
-            for seat in programme.seats(row) {
-                let wall = programme.seat(seat).stop;
+            for number in programme.walls(row) {
+                let wall = programme.wall(number);
                 let bound = match wall.law {
                     // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
                     WallLaw::Elastic { stiffness, damping } => {
@@ -78,7 +78,7 @@ impl<S: Space> Position<S> {
                     }
                     _ => wall.g - w - shift,
                 };
-                programme.bind(row, seat, bound);
+                programme.bind(row, number, bound);
             }
         }
     }

@@ -7,8 +7,9 @@
 //! that stand at that bound share its force equally.
 
 use super::Counters;
+use super::face::Face;
 use super::space::{Solve, Space};
-use super::wall_rows::{Seat, WallRows};
+use super::wall_rows::WallRows;
 use crate::error::{Error, Result};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{self, Backend, Failure};
@@ -19,7 +20,7 @@ use crate::scene::{Scene, Wall, WallLaw};
 pub(super) struct Programme<S: Space> {
     solver: S::Solver,
     rows: S::Rows,
-    walls: WallRows,
+    layout: WallRows,
     /// Bounds of each row in the step, and the rows that have one.
     lo: Vec<f64>,
     hi: Vec<f64>,
@@ -56,10 +57,10 @@ impl<S: Space> Programme<S> {
         compliance: impl Fn(f64, f64) -> f64,
         backend: Backend,
     ) -> Result<Self> {
-        let walls = WallRows::new(scene, wanted);
-        let (n, m) = (a.size(), walls.count());
+        let layout = WallRows::new(scene, wanted);
+        let (n, m) = (a.size(), layout.count());
         let first: Vec<&Wall> =
-            (0..m).filter_map(|row| walls.first(row).and_then(|wall| scene.walls.get(wall))).collect();
+            (0..m).filter_map(|row| layout.first(row).and_then(|wall| scene.walls.get(wall))).collect();
         let soft = |wall: &&Wall| match wall.law {
             WallLaw::Elastic { stiffness, damping } => compliance(stiffness, damping),
             _ => 0.0,
@@ -70,8 +71,8 @@ impl<S: Space> Programme<S> {
         Ok(Self {
             solver,
             rows: S::rows(n, first.into_iter().map(|wall| &wall.at)),
-            bound: vec![0.0; walls.count_walls()],
-            walls,
+            bound: vec![0.0; layout.count_walls()],
+            layout,
             lo: vec![f64::NEG_INFINITY; m],
             hi: vec![f64::INFINITY; m],
             bounded: Vec::with_capacity(m),
@@ -94,7 +95,7 @@ impl<S: Space> Programme<S> {
     /// touching distance, and none of them is elastic.
     #[inline]
     pub fn is_clear(&self, row: usize, w: f64) -> bool {
-        let (lo, hi) = self.walls.clear[row];
+        let (lo, hi) = self.layout.clear[row];
         lo < w && w < hi
     }
 
@@ -102,7 +103,7 @@ impl<S: Space> Programme<S> {
     /// `None` if it is true for all.
     #[inline]
     pub fn first_near(&self, q: &S::Vector) -> Option<usize> {
-        self.walls
+        self.layout
             .clear
             .iter()
             .enumerate()
@@ -116,25 +117,25 @@ impl<S: Space> Programme<S> {
     /// The row of a wall.
     #[inline]
     pub fn row_of(&self, wall: usize) -> usize {
-        self.walls.of(wall)
+        self.layout.of(wall)
     }
 
     /// False for the row of an elastic wall.
     #[inline]
     pub fn is_rigid(&self, row: usize) -> bool {
-        self.walls.seat(self.walls.seats(row).start).stop.law.is_rigid()
+        self.layout.wall(self.layout.walls(row).start).law.is_rigid()
     }
 
     /// Numbers of the walls of a row.
     #[inline]
-    pub fn seats(&self, row: usize) -> std::ops::Range<usize> {
-        self.walls.seats(row)
+    pub fn walls(&self, row: usize) -> std::ops::Range<usize> {
+        self.layout.walls(row)
     }
 
     /// The wall of that number.
     #[inline]
-    pub fn seat(&self, seat: usize) -> Seat {
-        self.walls.seat(seat)
+    pub fn wall(&self, number: usize) -> Face {
+        self.layout.wall(number)
     }
 
     /// Removes the bounds of the last step.
@@ -153,18 +154,18 @@ impl<S: Space> Programme<S> {
         }
     }
 
-    /// Adds the bound of the wall number `seat` to row `row`: g·x ≤ `value` for an upper wall, ≥
+    /// Adds the bound of the wall number `number` to row `row`: g·x ≤ `value` for an upper wall, ≥
     /// for a lower one. The tightest bound of a row counts.
     #[inline]
-    pub fn bind(&mut self, row: usize, seat: usize, value: f64) {
+    pub fn bind(&mut self, row: usize, number: usize, value: f64) {
         // The first bound of the row in this step: the bounds that its walls had in earlier steps
         // are removed.
         if self.lo[row] == f64::NEG_INFINITY && self.hi[row] == f64::INFINITY {
             self.bounded.push(row);
-            self.bound[self.walls.seats(row)].fill(f64::NAN);
+            self.bound[self.layout.walls(row)].fill(f64::NAN);
         }
-        self.bound[seat] = value;
-        if self.walls.seat(seat).stop.upper {
+        self.bound[number] = value;
+        if self.layout.wall(number).upper {
             self.hi[row] = self.hi[row].min(value);
         } else {
             self.lo[row] = self.lo[row].max(value);
@@ -223,9 +224,9 @@ impl<S: Space> Programme<S> {
             if r == 0.0 {
                 continue;
             }
-            let range = self.walls.seats(row);
+            let range = self.layout.walls(row);
             if range.len() == 1 {
-                let wall = self.walls.seat(range.start).wall;
+                let wall = self.layout.wall(range.start).index;
                 force[wall] = r;
                 pushing.push(wall);
                 continue;
@@ -233,12 +234,12 @@ impl<S: Space> Programme<S> {
             // The walls whose bound is the active one.
             let held = if r < 0.0 { self.hi[row] } else { self.lo[row] };
             let near = ONE_PLACE * held.abs();
-            let carries = |seat: &usize| {
-                self.walls.seat(*seat).stop.upper == (r < 0.0) && (self.bound[*seat] - held).abs() <= near
+            let carries = |number: &usize| {
+                self.layout.wall(*number).upper == (r < 0.0) && (self.bound[*number] - held).abs() <= near
             };
             let carriers = range.clone().filter(carries).count();
-            for seat in range.filter(carries) {
-                let wall = self.walls.seat(seat).wall;
+            for number in range.filter(carries) {
+                let wall = self.layout.wall(number).index;
                 force[wall] = r / carriers as f64;
                 pushing.push(wall);
             }
@@ -249,7 +250,7 @@ impl<S: Space> Programme<S> {
     #[cold]
     fn refusal(&self, fault: &Failure, time: f64, step: u64) -> Error {
         let wall = match *fault {
-            Failure::Infeasible { row, .. } => self.walls.first(row).and_then(|wall| self.names.get(wall).cloned()),
+            Failure::Infeasible { row, .. } => self.layout.first(row).and_then(|wall| self.names.get(wall).cloned()),
             _ => None,
         };
         match fault {
@@ -299,7 +300,7 @@ mod tests {
         // Minimise ½x² − 3x for x ≤ 1: the bound pulls with −2.
         let mut solve = |bound: &[usize]| {
             programme.free();
-            bound.iter().for_each(|&seat| programme.bind(0, seat, 1.0));
+            bound.iter().for_each(|&number| programme.bind(0, number, 1.0));
             let mut force = [0.0; 2];
             programme.solve(&[3.0], (0.0, 0), &mut force, &mut Vec::new()).expect("solved");
             force

@@ -15,7 +15,6 @@ use super::frame::Frame;
 use super::programme::Programme;
 use super::space::{Space, zero};
 use super::start::StartForce;
-use super::wall_rows::Seat;
 use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::qp::Backend;
@@ -127,20 +126,20 @@ impl<S: Space> Staggered<S> {
             if programme.is_clear(row, w) {
                 continue;
             }
-            for seat in programme.seats(row) {
-                let Seat { wall: index, stop: wall } = programme.seat(seat);
+            for number in programme.walls(row) {
+                let wall = programme.wall(number);
                 let depth = wall.depth(w);
                 if depth < -body.touch {
                     continue;
                 }
                 if wall.law.is_rigid() {
-                    programme.bind(row, seat, 0.0);
-                } else if h * h * wall.law.tangent(depth) > masses[index] {
+                    programme.bind(row, number, 0.0);
+                } else if h * h * wall.law.tangent(depth) > masses[wall.index] {
                     programme.hold(row);
                 } else {
                     let rate = programme.seen(row, v_half);
                     let force = wall.sign * wall.law.pressure(depth, -wall.sign * rate);
-                    S::add_transposed(&body.rows, index, 0.5 * h * force, b);
+                    S::add_transposed(&body.rows, wall.index, 0.5 * h * force, b);
                 }
             }
         }

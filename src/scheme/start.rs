@@ -34,8 +34,8 @@ impl<S: Space> StartForce<S> {
         S::add_product(&body.damping, -1.0, v, &mut total);
         S::add_product(&body.stiffness, -1.0, q, &mut total);
         let mut wall = vec![0.0; body.walls.len()];
-        for (index, (stop, r)) in body.walls.iter().zip(&mut wall).enumerate() {
-            *r = stop.sign * stop.law.pressure(stop.depth(body.seen(index, q)), -stop.sign * body.seen(index, v));
+        for (index, (face, r)) in body.walls.iter().zip(&mut wall).enumerate() {
+            *r = face.sign * face.law.pressure(face.depth(body.seen(index, q)), -face.sign * body.seen(index, v));
         }
         body.push(1.0, &wall, &mut total);
         Self { total, wall }
@@ -49,8 +49,8 @@ impl<S: Space> StartForce<S> {
             let speed = |i: usize| v.as_ref().get(i).copied().unwrap_or(0.0);
             let terms: f64 = row.iter().map(|&(i, weight)| (weight * speed(i)).abs()).sum();
             let still = body.seen(index, v).abs() <= REST_UNITS * f64::EPSILON * terms;
-            let stop = body.walls[index];
-            stop.law.is_rigid() && stop.depth(body.seen(index, q)) >= -body.touch && still
+            let face = body.walls[index];
+            face.law.is_rigid() && face.depth(body.seen(index, q)) >= -body.touch && still
         };
         let resting: Vec<usize> = (0..body.walls.len()).filter(|&index| rests(index)).collect();
         if !resting.is_empty() {
@@ -59,9 +59,9 @@ impl<S: Space> StartForce<S> {
             let mut programme: Programme<S> =
                 Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, Backend::Auto)?;
             for row in 0..programme.count_rows() {
-                for seat in programme.seats(row) {
-                    if resting.contains(&programme.seat(seat).wall) {
-                        programme.bind(row, seat, 0.0);
+                for number in programme.walls(row) {
+                    if resting.contains(&programme.wall(number).index) {
+                        programme.bind(row, number, 0.0);
                     }
                 }
             }

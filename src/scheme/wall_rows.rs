@@ -3,23 +3,14 @@
 //! Rigid walls at one place (one row g) share a row of the programme; an elastic wall has a row of
 //! its own.
 
-use super::stop::Stop;
+use super::face::Face;
 use crate::scene::{Scene, Side, Wall, WallLaw, distinct};
 
-/// A wall of a row of the programme. Several walls can have the same row; each of them has its own
-/// number ("seat") in [`WallRows`].
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Seat {
-    /// Index of the wall in the scene.
-    pub wall: usize,
-    pub stop: Stop,
-}
-
-/// Which walls have which row.
+/// Which walls have which row. A wall has a number here, in the order of the rows.
 #[derive(Debug)]
 pub(super) struct WallRows {
     /// The walls in the order of their rows, and the number of the first wall of each row.
-    seats: Vec<Seat>,
+    faces: Vec<Face>,
     starts: Vec<usize>,
     /// The row of each wall of the scene.
     row_of: Vec<usize>,
@@ -46,10 +37,10 @@ impl WallRows {
                 }
             }
         }
-        let (mut seats, mut starts, mut row_of) = (Vec::new(), vec![0], vec![0; scene.walls.len()]);
+        let (mut faces, mut starts, mut row_of) = (Vec::new(), vec![0], vec![0; scene.walls.len()]);
         for (row, place) in places.iter().enumerate() {
-            seats.extend(place.iter().filter_map(|&w| Some(Seat { wall: w, stop: Stop::new(scene.walls.get(w)?) })));
-            starts.push(seats.len());
+            faces.extend(place.iter().filter_map(|&wall| Some(Face::new(wall, scene.walls.get(wall)?))));
+            starts.push(faces.len());
             place.iter().for_each(|&wall| row_of[wall] = row);
         }
         let touch = scene.touching_distance();
@@ -61,7 +52,7 @@ impl WallRows {
             };
             place.iter().filter_map(|&w| scene.walls.get(w)).fold((f64::NEG_INFINITY, f64::INFINITY), ends)
         };
-        Self { clear: places.iter().map(interval).collect(), seats, starts, row_of }
+        Self { clear: places.iter().map(interval).collect(), faces, starts, row_of }
     }
 
     /// Number of rows.
@@ -72,12 +63,12 @@ impl WallRows {
 
     /// Number of walls.
     pub fn count_walls(&self) -> usize {
-        self.seats.len()
+        self.faces.len()
     }
 
     /// Index of the first wall of a row.
     pub fn first(&self, row: usize) -> Option<usize> {
-        self.starts.get(row).and_then(|&first| self.seats.get(first)).map(|seat| seat.wall)
+        self.starts.get(row).and_then(|&first| self.faces.get(first)).map(|face| face.index)
     }
 
     /// The row of a wall.
@@ -88,13 +79,13 @@ impl WallRows {
 
     /// Numbers of the walls of a row.
     #[inline]
-    pub fn seats(&self, row: usize) -> std::ops::Range<usize> {
+    pub fn walls(&self, row: usize) -> std::ops::Range<usize> {
         self.starts[row]..self.starts[row + 1]
     }
 
     /// The wall of that number.
     #[inline]
-    pub fn seat(&self, seat: usize) -> Seat {
-        self.seats[seat]
+    pub fn wall(&self, number: usize) -> Face {
+        self.faces[number]
     }
 }

@@ -54,8 +54,8 @@ impl Alpha {
         self.held = self.rule.restart(&held.body, &held.frame.q, &held.frame.v);
         let q = &held.frame.q;
         let stands = |wall: usize| {
-            let stop = held.body.walls[wall];
-            stop.law.is_rigid() && stop.depth(held.body.seen(wall, q)) >= -held.body.touch
+            let face = held.body.walls[wall];
+            face.law.is_rigid() && face.depth(held.body.seen(wall, q)) >= -held.body.touch
         };
         self.closed =
             (0..held.body.walls.len()).any(stands) || (0..held.rounds.len()).any(|hole| held.touches(hole, q));
@@ -105,24 +105,24 @@ impl Alpha {
         let (body, frame) = (&held.body, &held.frame);
         self.rule.ask(body, unfelt);
         let Self { place, rule, .. } = self;
-        for (wall, &stop) in body.walls.iter().enumerate() {
+        for (wall, &face) in body.walls.iter().enumerate() {
             let ahead = body.seen(wall, &rule.q);
-            let bound = match stop.law {
+            let bound = match face.law {
                 WallLaw::Elastic { stiffness, damping } => {
                     // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
-                    let plate = stop.plate(body.seen(wall, &frame.q));
-                    let offset = stiffness * (ahead - stop.g) + damping * (ahead - plate) / body.h;
+                    let plate = face.plate(body.seen(wall, &frame.q));
+                    let offset = stiffness * (ahead - face.g) + damping * (ahead - plate) / body.h;
                     -offset / (stiffness + damping / body.h)
                 }
-                _ => stop.g - ahead,
+                _ => face.g - ahead,
             };
-            place.bind_wall(wall, stop, bound);
+            place.bind_wall(wall, face, bound);
         }
         for hole in 0..held.rounds.len() {
             place.bind_hole(hole, held.disk(hole, self.start[hole], held.offset(hole, &rule.q)));
         }
         place.solve(&rule.b, (frame.start, step))?;
-        let walls = body.walls.iter().enumerate().any(|(wall, stop)| stop.law.is_rigid() && place.of_wall(wall) != 0.0);
+        let walls = body.walls.iter().enumerate().any(|(wall, face)| face.law.is_rigid() && place.of_wall(wall) != 0.0);
         Ok(walls || (0..held.rounds.len()).any(|hole| place.of_hole(hole) != [0.0; 2]))
     }
 
@@ -130,7 +130,7 @@ impl Alpha {
     /// either end of the step.
     fn press(&mut self, held: &mut Held) {
         let (body, frame) = (&held.body, &mut held.frame);
-        for (wall, _) in body.walls.iter().enumerate().filter(|(_, stop)| !stop.law.is_rigid()) {
+        for (wall, _) in body.walls.iter().enumerate().filter(|(_, face)| !face.law.is_rigid()) {
             let force = self.place.of_wall(wall);
             let impulse = 0.5 * body.h * (self.held[wall] + force);
             self.held[wall] = force;
@@ -143,10 +143,10 @@ impl Alpha {
 
     /// True if a rigid wall is closed at q⁺.
     fn closes_wall(&self, held: &Held, wall: usize) -> bool {
-        let stop = held.body.walls[wall];
+        let face = held.body.walls[wall];
         // A wall with a multiplier is closed too: q⁺ is at it to the rounding error of q.
         let presses = self.place.of_wall(wall) != 0.0;
-        stop.law.is_rigid() && (presses || stop.depth(held.body.seen(wall, &held.frame.q)) >= -held.body.touch)
+        face.law.is_rigid() && (presses || face.depth(held.body.seen(wall, &held.frame.q)) >= -held.body.touch)
     }
 
     /// True if a rigid hole is closed at q⁺.
@@ -178,10 +178,10 @@ impl Alpha {
                 continue;
             }
             self.closed = true;
-            let (stop, body) = (held.body.walls[wall], &held.body);
+            let (face, body) = (held.body.walls[wall], &held.body);
             let struck = body.seen(wall, held.frame.struck());
-            let epsilon = if stop.sign * struck <= 0.0 { stop.law.restitution().unwrap_or(0.0) } else { 1.0 };
-            self.rate.bind_wall(wall, stop, -epsilon * struck - body.seen(wall, &held.frame.v));
+            let epsilon = if face.sign * struck <= 0.0 { face.law.restitution().unwrap_or(0.0) } else { 1.0 };
+            self.rate.bind_wall(wall, face, -epsilon * struck - body.seen(wall, &held.frame.v));
         }
         for hole in 0..held.rounds.len() {
             if !self.closes_hole(held, hole) {

@@ -1,8 +1,8 @@
 //! The walls and holes of a scene as blocks of a programme with disks: the walls first, a row each,
 //! then the holes, two rows each.
 
+use super::super::face::Face;
 use super::super::programme::failure;
-use super::super::stop::Stop;
 use crate::error::{Error, Result};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{DiskBound, DiskCounters, DiskProblem, DiskSolver, Failure};
@@ -43,8 +43,8 @@ impl Bounds {
     }
 
     /// Bounds the row of a wall by `value`, from its side.
-    pub fn bind_wall(&mut self, wall: usize, stop: Stop, value: f64) {
-        let (lo, hi) = if stop.upper { (f64::NEG_INFINITY, value) } else { (value, f64::INFINITY) };
+    pub fn bind_wall(&mut self, wall: usize, face: Face, value: f64) {
+        let (lo, hi) = if face.upper { (f64::NEG_INFINITY, value) } else { (value, f64::INFINITY) };
         self.bounds[wall] = DiskBound::Strip { normal: [1.0, 0.0], lo, hi };
     }
 

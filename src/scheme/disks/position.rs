@@ -70,17 +70,17 @@ impl Position {
     fn bind(&mut self, held: &Held, blown: bool) {
         let (body, q) = (&held.body, &held.frame.q);
         let shift = body.blows.as_ref().filter(|_| blown).map(|blows| &blows.shift);
-        for (wall, &stop) in body.walls.iter().enumerate() {
+        for (wall, &face) in body.walls.iter().enumerate() {
             let w = body.seen(wall, q);
-            let bound = match stop.law {
+            let bound = match face.law {
                 // As in implicit-euler between walls: |r| = k_a s⁺ + c_a(s⁺ − s₊)/h.
                 WallLaw::Elastic { stiffness, damping } => {
-                    let offset = stiffness * (w - stop.g) + damping * (w - stop.plate(w)) / body.h;
+                    let offset = stiffness * (w - face.g) + damping * (w - face.plate(w)) / body.h;
                     -offset / (stiffness + damping / body.h)
                 }
-                _ => stop.g - w - shift.map_or(0.0, |shift| body.seen(wall, shift)),
+                _ => face.g - w - shift.map_or(0.0, |shift| body.seen(wall, shift)),
             };
-            self.bounds.bind_wall(wall, stop, bound);
+            self.bounds.bind_wall(wall, face, bound);
         }
         for hole in 0..held.rounds.len() {
             let now = held.offset(hole, q);

@@ -131,8 +131,8 @@ impl Springs {
     fn reaches(&self, held: &Held, y: &DVector<f64>) -> bool {
         let h = held.body.h;
         let wall = |wall: usize| {
-            let (stop, w) = (held.body.walls[wall], held.body.seen(wall, &held.frame.q));
-            stop.depth(w) > 0.0 || stop.depth(w + h * y[wall]) > 0.0
+            let (face, w) = (held.body.walls[wall], held.body.seen(wall, &held.frame.q));
+            face.depth(w) > 0.0 || face.depth(w + h * y[wall]) > 0.0
         };
         let hole = |hole: usize| {
             let (start, end) = ends(held, hole, y);
@@ -145,11 +145,11 @@ impl Springs {
     fn answer(&self, held: &Held, y: &DVector<f64>) -> Answer {
         let (m, h) = (self.rows.count(), held.body.h);
         let mut answer = Answer { force: DVector::zeros(m), slope: DMatrix::zeros(m, m) };
-        for (wall, stop) in held.body.walls.iter().enumerate() {
-            let s0 = stop.depth(held.body.seen(wall, &held.frame.q));
-            let s1 = s0 - stop.sign * h * y[wall];
-            let (pressure, tangent) = mean_pressure(&stop.law, Mean::DiscreteGradient, THETA, h, s0, s1);
-            answer.force[wall] = stop.sign * pressure;
+        for (wall, face) in held.body.walls.iter().enumerate() {
+            let s0 = face.depth(held.body.seen(wall, &held.frame.q));
+            let s1 = s0 - face.sign * h * y[wall];
+            let (pressure, tangent) = mean_pressure(&face.law, Mean::DiscreteGradient, THETA, h, s0, s1);
+            answer.force[wall] = face.sign * pressure;
             answer.slope[(wall, wall)] = h * tangent;
         }
         for (hole, round) in held.rounds.iter().enumerate() {

@@ -51,19 +51,19 @@ impl Velocity {
     /// Sets the bounds on δ = v⁺ − v.
     fn bind(&mut self, held: &mut Held) {
         let (h, ht) = (held.body.h, held.body.h * self.theta);
-        for (wall, &stop) in held.body.walls.iter().enumerate() {
+        for (wall, &face) in held.body.walls.iter().enumerate() {
             let seen = |x: &Vec<f64>| held.body.seen(wall, x);
             let (w, before, struck) = (seen(&held.frame.q), seen(&held.frame.v), seen(held.frame.struck()));
-            match stop.law {
+            match face.law {
                 WallLaw::Elastic { stiffness, damping } => {
                     // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
                     let (stiff, ahead) = (stiffness + damping / ht, w + ht * before);
-                    let offset = h * (stiffness * (ahead - stop.g) + damping * (ahead - stop.plate(w)) / ht);
-                    self.bounds.bind_wall(wall, stop, -offset / (ht * ht * stiff));
+                    let offset = h * (stiffness * (ahead - face.g) + damping * (ahead - face.plate(w)) / ht);
+                    self.bounds.bind_wall(wall, face, -offset / (ht * ht * stiff));
                 }
-                WallLaw::Rigid { restitution } if stop.depth(w + 0.5 * h * struck) >= -held.body.touch => {
-                    let epsilon = if stop.sign * struck <= 0.0 { restitution } else { 1.0 };
-                    self.bounds.bind_wall(wall, stop, -epsilon * struck - before);
+                WallLaw::Rigid { restitution } if face.depth(w + 0.5 * h * struck) >= -held.body.touch => {
+                    let epsilon = if face.sign * struck <= 0.0 { restitution } else { 1.0 };
+                    self.bounds.bind_wall(wall, face, -epsilon * struck - before);
                 }
                 _ => self.bounds.open_wall(wall),
             }

@@ -65,21 +65,21 @@ impl Reach {
         places: &Places,
         warm: [f64; 2],
     ) -> Option<Touch> {
-        let (stop, point, ht) = (body.walls[wall], self.points[wall], body.h * self.theta);
-        let (bound, compliance) = match stop.law {
+        let (face, point, ht) = (body.walls[wall], self.points[wall], body.h * self.theta);
+        let (bound, compliance) = match face.law {
             WallLaw::Elastic { stiffness, damping } => {
                 // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
                 let stiff = stiffness + damping / ht;
                 let (w, before) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
                 let ahead = w + ht * before;
-                let offset = body.h * (stiffness * (ahead - stop.g) + damping * (ahead - stop.plate(w)) / ht);
+                let offset = body.h * (stiffness * (ahead - face.g) + damping * (ahead - face.plate(w)) / ht);
                 let compliance = 1.0 / (ht * ht * stiff);
-                (-stop.sign * (before - offset * compliance), compliance)
+                (-face.sign * (before - offset * compliance), compliance)
             }
-            WallLaw::Rigid { restitution } if stop.depth(body.seen(wall, &self.ahead)) >= -body.touch => {
+            WallLaw::Rigid { restitution } if face.depth(body.seen(wall, &self.ahead)) >= -body.touch => {
                 let struck = body.seen(wall, frame.struck());
-                let epsilon = if stop.sign * struck <= 0.0 { restitution } else { 1.0 };
-                (stop.sign * epsilon * struck, 0.0)
+                let epsilon = if face.sign * struck <= 0.0 { restitution } else { 1.0 };
+                (face.sign * epsilon * struck, 0.0)
             }
             _ => return None,
         };

@@ -1,20 +1,23 @@
-//! The numbers of a wall that the schemes on a grid need.
+//! The face of a wall: where and how it acts on the schemes on a grid.
 
 use crate::scene::{Side, Wall, WallLaw};
 
-/// The numbers of a wall, without its name and row.
+/// The face of a wall: the wall without its name and row.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stop {
+pub(super) struct Face {
+    /// Index of the wall in the scene.
+    pub index: usize,
     pub upper: bool,
     /// +1 lower, −1 upper: the sign of its force.
     pub sign: f64,
+    /// The position, m.
     pub g: f64,
     pub law: WallLaw,
 }
 
-impl Stop {
-    pub fn new(wall: &Wall) -> Self {
-        Self { upper: wall.side == Side::Upper, sign: wall.side.sign(), g: wall.position, law: wall.law }
+impl Face {
+    pub fn new(index: usize, wall: &Wall) -> Self {
+        Self { index, upper: wall.side == Side::Upper, sign: wall.side.sign(), g: wall.position, law: wall.law }
     }
 
     /// Depth behind the wall, m.
