@@ -77,11 +77,11 @@ impl Problem {
         }
         let touching = self.touching(signature);
         for (index, event) in signature.events.iter().enumerate() {
-            let Some(stop) = self.stop(event.wall) else { continue };
+            let Some(boundary) = self.boundary(event.wall) else { continue };
             if event.kind != Kind::Release {
                 found.least_speed = found.least_speed.min(orbit.speeds[index]);
             }
-            let from = stop.after(event.kind, orbit.speeds[index]);
+            let from = boundary.after(event.kind, orbit.speeds[index]);
             found.largest = found.largest.max(from.state[0].abs());
             let until = match orbit.phases.get(index + 1) {
                 Some(phase) => *phase,
@@ -108,12 +108,12 @@ impl Problem {
     fn near(&self, arc: &Arc, flight: usize, phase: f64, found: &mut Admissible) {
         extremes(arc, arc.end() - arc.start(), |tau, q, acceleration| {
             found.largest = found.largest.max(q.abs());
-            for (wall, stop) in self.stops().iter().enumerate() {
+            for (wall, boundary) in self.boundaries().iter().enumerate() {
                 // A wall is approached where the motion turns back from its side.
-                if arc.touching().any(|touching| touching == wall) || acceleration * stop.toward > 0.0 {
+                if arc.touching().any(|touching| touching == wall) || acceleration * boundary.toward > 0.0 {
                     continue;
                 }
-                let gap = stop.gap(q);
+                let gap = boundary.gap(q);
                 if found.nearest.is_none_or(|nearest| gap < nearest.gap) {
                     let phase = phase + tau / self.forcing_period();
                     found.nearest = Some(Nearest { gap, wall, flight, phase });
@@ -126,7 +126,7 @@ impl Problem {
     fn pushes(&self, arc: &Arc, wall: usize, span: f64) -> f64 {
         const SAMPLES: u32 = 64;
         let at = |i: u32| arc.start() + span * f64::from(i) / f64::from(SAMPLES);
-        let push = |t: f64| -self.stop(wall).map_or(0.0, |stop| stop.toward) * arc.contact_force(wall, t);
+        let push = |t: f64| -self.boundary(wall).map_or(0.0, |boundary| boundary.toward) * arc.contact_force(wall, t);
         (0..SAMPLES).map(at).map(push).fold(f64::INFINITY, f64::min)
     }
 }

@@ -109,13 +109,15 @@ impl<'a> Equations<'a> {
             let last = i + 1 == events.len();
             let j = if last { 0 } else { i + 1 };
             let next = events[j];
-            let (Some(stop), Some(target)) = (problem.stop(event.wall), problem.stop(next.wall)) else { continue };
+            let (Some(boundary), Some(target)) = (problem.boundary(event.wall), problem.boundary(next.wall)) else {
+                continue;
+            };
             let shift = if last { self.signature.cycles() } else { 0.0 };
             let mirrored = last && self.signature.symmetric;
             let sign = if mirrored { -1.0 } else { 1.0 };
             let start = unknowns[2 * i] * CYCLE * period;
             let span = (unknowns[2 * j] * CYCLE + shift) * period - start;
-            let from = stop.after(event.kind, unknowns[2 * i + 1] * speed);
+            let from = boundary.after(event.kind, unknowns[2 * i + 1] * speed);
             let to = target.before(next.kind, unknowns[2 * j + 1] * speed);
             let touching = self.touching.get(i).map_or(&[][..], Vec::as_slice);
             let (r0, r1) = (2 * i, 2 * i + 1);
@@ -124,7 +126,7 @@ impl<'a> Equations<'a> {
             // The derivatives of both rows: with the phase and number of i, and of j.
             let (own, other);
             if let Some(wall) = carrier {
-                let side = if stop.toward > 0.0 { crate::scene::Side::Upper } else { crate::scene::Side::Lower };
+                let side = if boundary.toward > 0.0 { crate::scene::Side::Upper } else { crate::scene::Side::Lower };
                 let [reaction, rate, ..] = arc.pressing(Support { wall, side }, span);
                 residual[r0] = reaction / force;
                 residual[r1] = unknowns[2 * j + 1];

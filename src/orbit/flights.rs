@@ -35,7 +35,7 @@ impl Problem {
         }
         let touching = self.touching(&whole.signature);
         for (index, event) in whole.signature.events.iter().enumerate() {
-            let (Some(stop), Some(phase)) = (self.stop(event.wall), whole.phases.get(index)) else { continue };
+            let (Some(boundary), Some(phase)) = (self.boundary(event.wall), whole.phases.get(index)) else { continue };
             if event.kind == Kind::Chatter {
                 continue;
             }
@@ -44,7 +44,7 @@ impl Problem {
                 None => whole.phases[0] + whole.signature.cycles(),
             };
             let (start, span) = (phase * self.forcing_period(), (until - phase) * self.forcing_period());
-            let from = stop.after(event.kind, whole.speeds[index]).state;
+            let from = boundary.after(event.kind, whole.speeds[index]).state;
             let support = (event.kind == Kind::Rest).then_some(event.wall);
             self.fly(&mut arc, from, [start, span], &touching[index], support);
             self.along(&arc, span, &mut motion);
@@ -58,7 +58,7 @@ impl Problem {
         for index in 0..=count {
             let time = arc.start() + span * f64::from(index) / f64::from(count);
             let (displacement, velocity) = arc.state(time);
-            let forces = (0..self.stops().len()).map(|wall| arc.contact_force(wall, time)).collect();
+            let forces = (0..self.boundaries().len()).map(|wall| arc.contact_force(wall, time)).collect();
             motion.push(Instant { time, displacement, velocity, forces });
         }
     }

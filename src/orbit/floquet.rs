@@ -1,7 +1,8 @@
 //! Floquet multipliers: how a small change of an orbit has grown one period later.
 
+use super::boundary::BoundaryLaw;
 use super::periodic::Orbit;
-use super::problem::{Problem, StopLaw};
+use super::problem::Problem;
 use super::signature::Kind;
 use crate::error::Result;
 use crate::variation::saltation::{IDENTITY, Matrix2, entry, impact, multiply};
@@ -93,8 +94,8 @@ impl Problem {
         // The accelerations at both ends of each flight, and its propagator.
         let mut flights = Vec::with_capacity(count);
         for (index, event) in signature.events.iter().enumerate() {
-            let Some(stop) = self.stop(event.wall) else { continue };
-            let from = stop.after(event.kind, orbit.speeds[index]);
+            let Some(boundary) = self.boundary(event.wall) else { continue };
+            let from = boundary.after(event.kind, orbit.speeds[index]);
             let until = match orbit.phases.get(index + 1) {
                 Some(phase) => *phase,
                 None => orbit.phases[0] + signature.cycles(),
@@ -107,14 +108,18 @@ impl Problem {
         let mut whole = IDENTITY;
         let mut determinant = 1.0;
         for (index, event) in signature.events.iter().enumerate() {
-            let (Some(stop), Some((after, _, phi))) = (self.stop(event.wall), flights.get(index)) else { continue };
+            let (Some(boundary), Some((after, _, phi))) = (self.boundary(event.wall), flights.get(index)) else {
+                continue;
+            };
             let before = match index {
                 0 => flights.last().map_or(0.0, |flight| sign * flight.1),
                 _ => flights[index - 1].1,
             };
-            let saltation = match (event.kind, stop.law) {
-                (Kind::Impact, StopLaw::Rigid(e)) => impact(e, stop.toward * orbit.speeds[index], [before, *after]),
-                (Kind::Enter, StopLaw::Elastic { damping, .. }) => entry(damping, self.body().mass),
+            let saltation = match (event.kind, boundary.law) {
+                (Kind::Impact, BoundaryLaw::Rigid(e)) => {
+                    impact(e, boundary.toward * orbit.speeds[index], [before, *after])
+                }
+                (Kind::Enter, BoundaryLaw::Elastic { damping, .. }) => entry(damping, self.body().mass),
                 _ => IDENTITY,
             };
             let size = |m: &Matrix2| m[0][0] * m[1][1] - m[0][1] * m[1][0];

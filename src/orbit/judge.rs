@@ -1,7 +1,8 @@
 //! The free exact run over one orbit: does it come back, through the same events?
 
+use super::boundary::BoundaryLaw;
 use super::periodic::Orbit;
-use super::problem::{Problem, StopLaw};
+use super::problem::Problem;
 use super::signature::Kind;
 use super::watch::Watch;
 use crate::error::{Error, Result};
@@ -78,7 +79,7 @@ impl Problem {
     pub fn judge(&self, orbit: &Orbit, points: u32) -> Result<Judged> {
         self.check(orbit)?;
         if !self.admissible(orbit)?.holds() {
-            let walls = vec![WallShare::default(); self.stops().len()];
+            let walls = vec![WallShare::default(); self.boundaries().len()];
             return Ok(Judged {
                 closure: f64::INFINITY,
                 tolerance: CLOSES,
@@ -97,7 +98,7 @@ impl Problem {
         let mut stepper = Stepper::new(&scene, &Scheme::Event, 2.0 * end)?;
         stepper.set_state(start, &State { q: vec![state[0]], v: vec![state[1]] })?;
         let mut watch = Watch::new(self.scene(), self.forcing_period());
-        let mut walls = vec![WallShare::default(); self.stops().len()];
+        let mut walls = vec![WallShare::default(); self.boundaries().len()];
         let (mut contacts, mut motion) = (Vec::new(), Vec::new());
         let spacing = whole.period() / f64::from(points.max(1));
         let mut closure = f64::INFINITY;
@@ -157,7 +158,8 @@ impl Problem {
             events.rotate_left(first);
         }
         // Impacts that accumulate are one event of the orbit.
-        let rigid_rest = |wall: usize| matches!(self.stop(wall).map(|s| s.law), Some(StopLaw::Rigid(e)) if e > 0.0);
+        let rigid_rest =
+            |wall: usize| matches!(self.boundary(wall).map(|s| s.law), Some(BoundaryLaw::Rigid(e)) if e > 0.0);
         let mut index = 0;
         for passage in seen {
             let Some(expected) = events.get(index) else { return false };
@@ -182,13 +184,13 @@ impl Problem {
         let turn = whole.signature.cycles();
         let mut best: Option<(f64, f64, [f64; 2])> = None;
         for (index, event) in whole.signature.events.iter().enumerate() {
-            let (Some(stop), Some(phase)) = (self.stop(event.wall), whole.phases.get(index)) else { continue };
+            let (Some(boundary), Some(phase)) = (self.boundary(event.wall), whole.phases.get(index)) else { continue };
             let until = whole.phases.get(index + 1).copied().unwrap_or_else(|| whole.phases[0] + turn);
             let span = (until - phase) * period;
             let free =
                 touching.get(index).is_none_or(Vec::is_empty) && !matches!(event.kind, Kind::Rest | Kind::Chatter);
             if free && best.is_none_or(|(_, longest, _)| span > longest) {
-                best = Some((phase * period, span, stop.after(event.kind, whole.speeds[index]).state));
+                best = Some((phase * period, span, boundary.after(event.kind, whole.speeds[index]).state));
             }
         }
         let (start, span, state) = best.ok_or_else(|| Error::no_orbit("the orbit has no stretch of free flight"))?;

@@ -14,6 +14,7 @@
 //! finds the orbit on which a run settles, and [`branch`] follows it by a state of it.
 
 mod admissible;
+mod boundary;
 pub mod branch;
 mod closed;
 mod equations;

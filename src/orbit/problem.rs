@@ -1,5 +1,6 @@
 //! What periodic orbits are looked for in: a body of one degree of freedom, its walls and loads.
 
+use super::boundary::{Boundary, BoundaryLaw};
 use super::forcing::forcing_period;
 use super::signature::{Kind, Signature};
 use super::symmetry::mirror;
@@ -32,69 +33,10 @@ pub struct Problem {
     scene: Scene,
     body: Oscillator,
     forcing: Forcing,
-    stops: Vec<Stop>,
+    boundaries: Vec<Boundary>,
     period: f64,
     length: f64,
     mirror: Option<Vec<usize>>,
-}
-
-/// A wall, as an orbit meets it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stop {
-    /// g, m.
-    pub position: f64,
-    /// The direction into the wall: +1 for an upper wall, −1 for a lower one.
-    pub toward: f64,
-    pub law: StopLaw,
-}
-
-/// Its law.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum StopLaw {
-    /// With restitution e.
-    Rigid(f64),
-    /// k_a, N/m, and c_a, N s/m.
-    Elastic { stiffness: f64, damping: f64 },
-}
-
-/// A state q (m), q̇ (m/s) that depends on the number v of an event, and its derivative with v.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct OnWall {
-    pub state: [f64; 2],
-    pub rate: [f64; 2],
-}
-
-impl Stop {
-    /// The state just before an event of number `v` (m/s).
-    pub fn before(&self, kind: Kind, v: f64) -> OnWall {
-        let on_face = |d: f64| OnWall { state: [self.position, d * v], rate: [0.0, d] };
-        match (kind, self.law) {
-            (Kind::Leave | Kind::Again, StopLaw::Elastic { stiffness, damping }) => {
-                // k_a s + c_a ṡ = 0 at the speed v out of the wall.
-                let depth = self.toward * damping / stiffness;
-                OnWall { state: [self.position + depth * v, -self.toward * v], rate: [depth, -self.toward] }
-            }
-            _ => on_face(self.toward),
-        }
-    }
-
-    /// The state just after it.
-    pub fn after(&self, kind: Kind, v: f64) -> OnWall {
-        let scaled = |factor: f64| {
-            let d = self.toward * factor;
-            OnWall { state: [self.position, d * v], rate: [0.0, d] }
-        };
-        match (kind, self.law) {
-            (Kind::Impact | Kind::Chatter, StopLaw::Rigid(e)) => scaled(-e),
-            (Kind::Rest | Kind::Release, _) => scaled(0.0),
-            _ => self.before(kind, v),
-        }
-    }
-
-    /// Distance of `q` (m) to the wall, m; below 0 behind its face.
-    pub fn gap(&self, q: f64) -> f64 {
-        self.toward * (self.position - q)
-    }
 }
 
 impl Problem {
@@ -120,22 +62,22 @@ impl Problem {
         if scene.walls.is_empty() {
             return Err(Error::invalid("wall", "none", "a wall: without one all motions settle on the same"));
         }
-        let stop = |wall: &crate::scene::Wall| {
+        let boundary = |wall: &crate::scene::Wall| {
             let law = match wall.law {
-                WallLaw::Rigid { restitution } => StopLaw::Rigid(restitution),
-                WallLaw::Elastic { stiffness, damping } => StopLaw::Elastic { stiffness, damping },
+                WallLaw::Rigid { restitution } => BoundaryLaw::Rigid(restitution),
+                WallLaw::Elastic { stiffness, damping } => BoundaryLaw::Elastic { stiffness, damping },
                 WallLaw::Quartic { .. } => {
                     let key = Subject::wall(&wall.name).part("law");
                     return Err(Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall"));
                 }
             };
-            Ok(Stop { position: wall.position, toward: -wall.side.sign(), law })
+            Ok(Boundary { position: wall.position, toward: -wall.side.sign(), law })
         };
-        let stops = scene.walls.iter().map(stop).collect::<Result<Vec<_>>>()?;
+        let boundaries = scene.walls.iter().map(boundary).collect::<Result<Vec<_>>>()?;
         let period = forcing_period(&scene)?;
         let forcing = Forcing::on(0, &scene.loads);
         let (length, mirror) = (scene.gap_scale(), mirror(&scene, period));
-        Ok(Self { scene, body, forcing, stops, period, length, mirror })
+        Ok(Self { scene, body, forcing, boundaries, period, length, mirror })
     }
 
     /// The scene.
@@ -160,12 +102,12 @@ impl Problem {
         self.body
     }
 
-    pub(super) fn stop(&self, wall: usize) -> Option<&Stop> {
-        self.stops.get(wall)
+    pub(super) fn boundary(&self, wall: usize) -> Option<&Boundary> {
+        self.boundaries.get(wall)
     }
 
-    pub(super) fn stops(&self) -> &[Stop] {
-        &self.stops
+    pub(super) fn boundaries(&self) -> &[Boundary] {
+        &self.boundaries
     }
 
     pub(super) fn mirror(&self) -> Option<&[usize]> {
@@ -179,7 +121,7 @@ impl Problem {
 
     /// An arc to be filled by [`Problem::fly`].
     pub(super) fn arc(&self) -> Arc {
-        Arc::new(self.body, self.stops.len(), &self.forcing)
+        Arc::new(self.body, self.boundaries.len(), &self.forcing)
     }
 
     /// Lets the body go from `state` (m, m/s) at `start` (s) for `span` (s) against the elastic
@@ -194,11 +136,11 @@ impl Problem {
     ) {
         let from =
             Start { time: start, late: 0.0, state, forcing: &self.forcing, extra: 0.0, span, length: self.length };
-        let touch = |&wall: &usize| match self.stops.get(wall)?.law {
-            StopLaw::Elastic { stiffness, damping } => {
-                Some(Touch { wall, position: self.stops.get(wall)?.position, stiffness, damping })
+        let touch = |&wall: &usize| match self.boundaries.get(wall)?.law {
+            BoundaryLaw::Elastic { stiffness, damping } => {
+                Some(Touch { wall, position: self.boundaries.get(wall)?.position, stiffness, damping })
             }
-            StopLaw::Rigid(_) => None,
+            BoundaryLaw::Rigid(_) => None,
         };
         let support = support.and_then(|wall| Some(Support { wall, side: self.scene.walls.get(wall)?.side }));
         arc.begin(&from, touching.iter().filter_map(touch), support);

@@ -1,5 +1,5 @@
-//! The orbit of a place that moves in two planes, between the flats around it or in its hole, with
-//! the work of wear by sectors.
+//! The orbit of a station that moves in two planes, between the flats around it or in its hole,
+//! with the work of wear by sectors.
 
 use super::figure::{Curve, Figure, Panel};
 use super::labelled::Labelled;
@@ -17,8 +17,8 @@ const ROOM: f64 = 0.08;
 /// A wall whose row differs from a combination of the two by more than this share is elsewhere.
 const ELSEWHERE: f64 = 1e-9;
 
-/// A place whose displacements along y and z are both recorded.
-struct Place {
+/// A station along the structure: its displacements along y and z are both recorded.
+struct Station {
     name: String,
     /// Indices of its probes.
     probes: [usize; 2],
@@ -26,43 +26,43 @@ struct Place {
     rings: Vec<Ring>,
 }
 
-/// A wall seen from the place: the motion stays where a y + b z ≤ c.
+/// A wall seen from the station: the motion stays where a y + b z ≤ c.
 struct Flat {
     a: f64,
     b: f64,
     c: f64,
 }
 
-/// The figure of all places that have a probe NAME-y and a probe NAME-z, those with the most walls
-/// first; `None` where there is none. `title` makes the title with what is left out.
+/// The figure of all stations that have a probe NAME-y and a probe NAME-z, those with the most
+/// walls first; `None` where there is none. `title` makes the title with what is left out.
 pub(super) fn orbits(
     title: &dyn Fn(Vec<String>) -> String,
     scene: &Scene,
     runs: &[Labelled<'_>],
     span: Span,
 ) -> Option<String> {
-    let mut places = places(scene);
-    places.sort_by_key(|place| std::cmp::Reverse((place.rings.len(), place.flats.len())));
-    let count = places.len();
-    places.truncate(MOST);
+    let mut stations = stations(scene);
+    stations.sort_by_key(|station| std::cmp::Reverse((station.rings.len(), station.flats.len())));
+    let count = stations.len();
+    stations.truncate(MOST);
     // Frames one below the other have one horizontal axis: the same ranges for all.
     let mut half = 0.0_f64;
-    let views: Vec<(Place, [f64; 2])> = places
+    let views: Vec<(Station, [f64; 2])> = stations
         .into_iter()
-        .filter_map(|place| {
-            let (centre, size) = view(&place, runs, span)?;
+        .filter_map(|station| {
+            let (centre, size) = view(&station, runs, span)?;
             half = half.max(size);
-            Some((place, centre))
+            Some((station, centre))
         })
         .collect();
     views.first()?;
     let whole = (1.0 + ROOM) * half;
-    // The horizontal range holds every place.
+    // The horizontal range holds every station.
     let across = views.iter().map(|(_, centre)| centre[0]);
     let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
     let (middle, whole) = (0.5 * (low + high), whole + 0.5 * (high - low));
     let left_out = (views.len() < count).then(|| format!("{} of {count} places", views.len()));
-    let rings = views.iter().flat_map(|(place, _)| &place.rings).filter_map(|ring| ring.largest(runs));
+    let rings = views.iter().flat_map(|(station, _)| &station.rings).filter_map(|ring| ring.largest(runs));
     let ring = rings.map(|(_, upper)| upper).reduce(|a, b| a || b).map(|upper| {
         let upper = if upper { ", without friction an upper figure" } else { "" };
         format!("ring: work rate by sector{upper}")
@@ -70,18 +70,18 @@ pub(super) fn orbits(
     let remarks = left_out.into_iter().chain(ring).collect();
     let mut figure = Figure::new(title(remarks), "Displacement along y (mm)").square();
     figure = figure.range(MM * (middle - whole), MM * (middle + whole));
-    for (place, centre) in views {
-        let mut panel = Panel::new("Displacement along z (mm)").heading(heading(&place, runs));
+    for (station, centre) in views {
+        let mut panel = Panel::new("Displacement along z (mm)").heading(heading(&station, runs));
         panel = panel.range(MM * (centre[1] - whole), MM * (centre[1] + whole));
         for labelled in runs {
-            let points = points(&place, &labelled.run.trajectory, span).map(|[y, z]| (MM * y, MM * z));
+            let points = points(&station, &labelled.run.trajectory, span).map(|[y, z]| (MM * y, MM * z));
             let curve = Curve::new(labelled.label, points).look(labelled.look);
             panel = panel.curve(if labelled.reference { curve.backdrop() } else { curve });
         }
-        for edge in edges(&place.flats, [middle, centre[1]], whole) {
+        for edge in edges(&station.flats, [middle, centre[1]], whole) {
             panel = panel.outline(edge.map(|[y, z]| (MM * y, MM * z)));
         }
-        for ring in &place.rings {
+        for ring in &station.rings {
             panel = ring.circle().into_iter().fold(panel, |panel, circle| panel.outline(in_mm(circle)));
             panel = ring.areas(runs).into_iter().fold(panel, |panel, area| panel.area(in_mm(area)));
         }
@@ -94,18 +94,18 @@ fn in_mm(points: Vec<[f64; 2]>) -> impl Iterator<Item = (f64, f64)> {
     points.into_iter().map(|[y, z]| (MM * y, MM * z))
 }
 
-/// The name of the place, and the work rate that the highest part of its ring stands for.
-fn heading(place: &Place, runs: &[Labelled<'_>]) -> String {
-    match place.rings.iter().find_map(|ring| ring.largest(runs)) {
-        Some((most, _)) => format!("{}: up to {most:.2e} W a sector", place.name),
-        None => place.name.clone(),
+/// The name of the station, and the work rate that the highest part of its ring stands for.
+fn heading(station: &Station, runs: &[Labelled<'_>]) -> String {
+    match station.rings.iter().find_map(|ring| ring.largest(runs)) {
+        Some((most, _)) => format!("{}: up to {most:.2e} W a sector", station.name),
+        None => station.name.clone(),
     }
 }
 
-/// Every place with a probe along y and one along z.
-fn places(scene: &Scene) -> Vec<Place> {
+/// Every station with a probe along y and one along z.
+fn stations(scene: &Scene) -> Vec<Station> {
     let along = |name: &str| scene.probes.iter().position(|probe| probe.name == name);
-    let place = |(index, probe): (usize, &crate::scene::Probe)| {
+    let station = |(index, probe): (usize, &crate::scene::Probe)| {
         let name = probe.name.strip_suffix("-y")?;
         let other = along(&format!("{name}-z"))?;
         let rows = [&probe.at, &scene.probes.get(other)?.at];
@@ -115,12 +115,12 @@ fn places(scene: &Scene) -> Vec<Place> {
             Some(Flat { a: sign * a, b: sign * b, c: sign * wall.position })
         });
         let rings = Ring::around(scene, [probe, scene.probes.get(other)?]);
-        Some(Place { name: name.to_owned(), probes: [index, other], flats: flats.collect(), rings })
+        Some(Station { name: name.to_owned(), probes: [index, other], flats: flats.collect(), rings })
     };
-    scene.probes.iter().enumerate().filter_map(place).collect()
+    scene.probes.iter().enumerate().filter_map(station).collect()
 }
 
-/// The weights with which `row` is a sum of the two rows of a place, which share no degree of
+/// The weights with which `row` is a sum of the two rows of a station, which share no degree of
 /// freedom; `None` for a row elsewhere.
 fn seen(row: &Row, rows: [&Row; 2]) -> Option<[f64; 2]> {
     let size =
@@ -137,22 +137,22 @@ fn seen(row: &Row, rows: [&Row; 2]) -> Option<[f64; 2]> {
     (left <= ELSEWHERE * whole && weights.iter().all(|weight| weight.is_finite())).then_some(weights)
 }
 
-fn points<'a>(place: &Place, motion: &'a Trajectory, span: Span) -> impl Iterator<Item = [f64; 2]> + 'a {
-    let [y, z] = place.probes.map(|probe| motion.displacements().get(probe).into_iter().flatten());
+fn points<'a>(station: &Station, motion: &'a Trajectory, span: Span) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let [y, z] = station.probes.map(|probe| motion.displacements().get(probe).into_iter().flatten());
     let rows = motion.time().iter().zip(y.zip(z));
     rows.filter(move |(t, _)| span.holds(**t)).map(|(_, (&y, &z))| [y, z])
 }
 
 /// The middle of the motion and of the nearest points of the flats, and half the side of the square
 /// that holds them, m.
-fn view(place: &Place, runs: &[Labelled<'_>], span: Span) -> Option<([f64; 2], f64)> {
+fn view(station: &Station, runs: &[Labelled<'_>], span: Span) -> Option<([f64; 2], f64)> {
     let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
     let mut include = |point: [f64; 2]| {
         for (end, x) in ends.iter_mut().zip(point).filter(|(_, x)| x.is_finite()) {
             *end = [end[0].min(x), end[1].max(x)];
         }
     };
-    runs.iter().flat_map(|run| points(place, &run.run.trajectory, span)).for_each(&mut include);
+    runs.iter().flat_map(|run| points(station, &run.run.trajectory, span)).for_each(&mut include);
     let moved = ends;
     let mut include = |point: [f64; 2]| {
         for (end, x) in ends.iter_mut().zip(point).filter(|(_, x)| x.is_finite()) {
@@ -160,11 +160,11 @@ fn view(place: &Place, runs: &[Labelled<'_>], span: Span) -> Option<([f64; 2], f
         }
     };
     let middle = moved.map(|[low, high]| 0.5 * (low + high));
-    for Flat { a, b, c } in &place.flats {
+    for Flat { a, b, c } in &station.flats {
         let beyond = (c - a * middle[0] - b * middle[1]) / (a * a + b * b);
         include([middle[0] + beyond * a, middle[1] + beyond * b]);
     }
-    place.rings.iter().filter_map(|ring| ring.reach(runs)).flatten().for_each(&mut include);
+    station.rings.iter().filter_map(|ring| ring.reach(runs)).flatten().for_each(&mut include);
     let half = ends.iter().map(|[low, high]| 0.5 * (high - low)).fold(0.0, f64::max);
     (half > 0.0 && half.is_finite()).then(|| (ends.map(|[low, high]| 0.5 * (low + high)), half))
 }
@@ -216,16 +216,16 @@ mod tests {
             Probe { name: "s-z".to_owned(), at: support.at.z.clone() },
             Probe { name: "else-y".to_owned(), at: Row::dof(2) },
         ];
-        let [place] = <[Place; 1]>::try_from(places(&scene)).ok().unwrap();
-        assert_eq!((place.probes, place.flats.len()), ([0, 1], 4));
-        for edge in edges(&place.flats, [2e-3, 0.0], 2e-3) {
+        let [station] = <[Station; 1]>::try_from(stations(&scene)).ok().unwrap();
+        assert_eq!((station.probes, station.flats.len()), ([0, 1], 4));
+        for edge in edges(&station.flats, [2e-3, 0.0], 2e-3) {
             for [y, z] in edge {
                 // A corner is √2 gaps from the centre, to some roundings.
                 assert!(((y - 2e-3).hypot(z) / 1e-3 - 2.0_f64.sqrt()).abs() < 1e-12, "{y} {z}");
             }
         }
         // One flat alone is a line through the frame.
-        let [one] = <[_; 1]>::try_from(edges(&place.flats[..1], [2e-3, 0.0], 2e-3)).unwrap();
+        let [one] = <[_; 1]>::try_from(edges(&station.flats[..1], [2e-3, 0.0], 2e-3)).unwrap();
         assert!((one[0][0] - one[1][0]).hypot(one[0][1] - one[1][1]) > 1.5e-2);
     }
 }

@@ -23,9 +23,9 @@ const SYNC: Duration = Duration::from_secs(10);
 /// Maximum length of a block, bytes: an upper limit for damaged lengths.
 const MOST_BYTES: u64 = 1 << 32;
 
-/// Offset and length of a block's body; length 0 for a row that is not done.
+/// The extent of a block's body in the file; length 0 for a row that is not done.
 #[derive(Debug, Clone, Copy, Default)]
-struct Place {
+struct Extent {
     offset: u64,
     length: u32,
 }
@@ -36,7 +36,7 @@ pub(super) struct Journal {
     path: PathBuf,
     file: BufWriter<File>,
     /// Of each row of this journal, in their order.
-    places: Vec<Place>,
+    extents: Vec<Extent>,
     done: u64,
     end: u64,
     flushed: Instant,
@@ -85,11 +85,11 @@ impl Block {
 
 impl Journal {
     /// Opens the journal in `folder` for `rows` rows, and reads it, or with `anew` empties it.
-    /// `place` gives the position of a row in this journal from its number.
+    /// `position` gives the position of a row in this journal from its number.
     ///
     /// # Errors
     /// [`Error::Io`] if it cannot be opened, or another process has locked it.
-    pub fn open(folder: &Path, rows: u64, anew: bool, place: impl Fn(u64) -> Option<usize>) -> Result<Self> {
+    pub fn open(folder: &Path, rows: u64, anew: bool, position: impl Fn(u64) -> Option<usize>) -> Result<Self> {
         let path = folder.join(JOURNAL);
         let failed = |error: &std::io::Error| failure(&path, error, true);
         let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
@@ -106,7 +106,7 @@ impl Journal {
         if anew {
             file.set_len(0).map_err(|error| failed(&error))?;
         }
-        let mut places = vec![Place::default(); usize::try_from(rows).unwrap_or(usize::MAX)];
+        let mut extents = vec![Extent::default(); usize::try_from(rows).unwrap_or(usize::MAX)];
         let (mut done, mut end) = (0, 0);
         let mut reader = BufReader::new(&file);
         while let Some((row, length)) = header(&mut reader) {
@@ -116,14 +116,14 @@ impl Journal {
             if read.is_err() || body.len() as u64 != length.body || crc32(&[&row.to_le_bytes(), &body]) != length.crc {
                 break;
             }
-            let Some(slot) = place(row).and_then(|index| places.get_mut(index)) else { break };
+            let Some(slot) = position(row).and_then(|index| extents.get_mut(index)) else { break };
             done += u64::from(slot.length == 0);
-            *slot = Place { offset, length: length.body as u32 };
+            *slot = Extent { offset, length: length.body as u32 };
             end = offset + length.body;
         }
         file.set_len(end).and_then(|()| file.seek(SeekFrom::Start(end))).map_err(|error| failed(&error))?;
         let now = Instant::now();
-        Ok(Self { path, file: BufWriter::with_capacity(1 << 16, file), places, done, end, flushed: now, synced: now })
+        Ok(Self { path, file: BufWriter::with_capacity(1 << 16, file), extents, done, end, flushed: now, synced: now })
     }
 
     /// Number of rows done.
@@ -132,23 +132,23 @@ impl Journal {
     }
 
     /// True if the row at that position is done.
-    pub fn has(&self, place: usize) -> bool {
-        self.places.get(place).is_some_and(|place| place.length > 0)
+    pub fn has(&self, position: usize) -> bool {
+        self.extents.get(position).is_some_and(|extent| extent.length > 0)
     }
 
     /// Adds a row.
     ///
     /// # Errors
     /// [`Error::Io`] if writing fails; it says that no finished row is lost, and how to continue.
-    pub fn add(&mut self, row: u64, place: usize, block: &Block) -> Result<()> {
+    pub fn add(&mut self, row: u64, position: usize, block: &Block) -> Result<()> {
         let body = block.bytes();
         let header = format!("@{row} {} {:08x}\n", body.len(), crc32(&[&row.to_le_bytes(), &body]));
         let written = self.file.write_all(header.as_bytes()).and_then(|()| self.file.write_all(&body));
         written.and_then(|()| self.flush_now_and_then()).map_err(|error| interrupted(&self.path, &error))?;
         let offset = self.end + header.len() as u64;
-        if let Some(slot) = self.places.get_mut(place) {
+        if let Some(slot) = self.extents.get_mut(position) {
             self.done += u64::from(slot.length == 0);
-            *slot = Place { offset, length: body.len() as u32 };
+            *slot = Extent { offset, length: body.len() as u32 };
         }
         self.end = offset + body.len() as u64;
         Ok(())
@@ -179,8 +179,8 @@ impl Journal {
     ///
     /// # Errors
     /// [`Error::Io`] where it cannot be read.
-    pub fn read(&mut self, place: usize) -> Result<Option<Block>> {
-        let Some(&at) = self.places.get(place).filter(|at| at.length > 0) else { return Ok(None) };
+    pub fn read(&mut self, position: usize) -> Result<Option<Block>> {
+        let Some(&at) = self.extents.get(position).filter(|at| at.length > 0) else { return Ok(None) };
         let mut bytes = vec![0; at.length as usize];
         // The buffer is written at the end of the file, and so is what follows.
         let flushed = self.file.flush();

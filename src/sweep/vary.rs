@@ -38,7 +38,8 @@ impl Vary {
     /// The axis that it describes.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a key that no case has, and values or factors that do not go together.
+    /// [`Error::Invalid`] for a key that no case has, and values or factors that do not go
+    /// together.
     pub(super) fn axis(self) -> Result<Axis> {
         let keys = match (self.key, self.keys) {
             (Some(key), None) => vec![key],

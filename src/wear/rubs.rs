@@ -61,12 +61,12 @@ pub(crate) struct Rub {
 #[derive(Debug, Clone)]
 pub(crate) struct Rubs {
     walls: usize,
-    places: Vec<Place>,
+    sections: Vec<Section>,
 }
 
-/// A support.
+/// The cross-section at a support.
 #[derive(Debug, Clone)]
-struct Place {
+struct Section {
     at: PlaneRows,
     contacts: Vec<Contact>,
     blows: Vec<Blow>,
@@ -83,7 +83,7 @@ impl Rubs {
     /// The contacts of `scene` as the scheme sees it.
     pub fn new(scene: &Scene) -> Self {
         let mut holes = 0;
-        let place = |(support, blows): (&crate::scene::Support, Vec<Blow>)| {
+        let section = |(support, blows): (&crate::scene::Support, Vec<Blow>)| {
             let contacts = match &support.shape {
                 Shape::Flats(flats) => flats
                     .iter()
@@ -99,28 +99,28 @@ impl Rubs {
                     vec![Contact::Hole { hole: holes - 1, rigid: law.is_rigid() }]
                 }
             };
-            Place { at: support.at.clone(), contacts, blows }
+            Section { at: support.at.clone(), contacts, blows }
         };
-        let places = scene.supports.iter().zip(Blow::all(scene)).map(place).collect();
-        Self { walls: scene.walls.len(), places }
+        let sections = scene.supports.iter().zip(Blow::all(scene)).map(section).collect();
+        Self { walls: scene.walls.len(), sections }
     }
 
     /// True for a scene without supports.
     pub fn is_empty(&self) -> bool {
-        self.places.is_empty()
+        self.sections.is_empty()
     }
 
     /// Number of contacts; a [`Rub::contact`] is below it.
     pub fn contacts(&self) -> usize {
-        let holes = self.places.iter().flat_map(|place| &place.contacts);
+        let holes = self.sections.iter().flat_map(|section| &section.contacts);
         self.walls + holes.filter(|contact| matches!(contact, Contact::Hole { .. })).count()
     }
 
     /// Calls `each` with what slid in `step` between two times in it, s; impulses at the instant of
     /// its end are in it where `to` reaches the end.
     pub fn see(&self, step: &Step<'_>, [from, to]: [f64; 2], mut each: impl FnMut(&Rub)) {
-        for (support, place) in self.places.iter().enumerate() {
-            for contact in &place.contacts {
+        for (support, section) in self.sections.iter().enumerate() {
+            for contact in &section.contacts {
                 let Some((index, push)) = contact.push(step, self.walls) else { continue };
                 let blank = Rub {
                     support,
@@ -137,12 +137,12 @@ impl Rubs {
                 };
                 match (&step.path, contact) {
                     (Path::Series(series), Contact::Flat { wall, .. }) => {
-                        along(series, (step, *wall), place, [from, to], &blank, &mut each);
+                        along(series, (step, *wall), section, [from, to], &blank, &mut each);
                     }
                     (Path::Series(series), Contact::Hole { hole, .. }) => {
-                        around(series, (step, *hole), place, [from, to], &blank, &mut each);
+                        around(series, (step, *hole), section, [from, to], &blank, &mut each);
                     }
-                    _ => each(&on_grid(step, place, [from, to], &blank)),
+                    _ => each(&on_grid(step, section, [from, to], &blank)),
                 }
             }
         }
@@ -182,7 +182,7 @@ impl Contact {
     }
 }
 
-impl Place {
+impl Section {
     /// The sliding velocity of the velocities `v` along t of the normal `normal`, m/s.
     fn along(&self, [y, z]: [f64; 2], v: &[f64]) -> f64 {
         y * self.at.z.dot(v) - z * self.at.y.dot(v)
@@ -190,11 +190,11 @@ impl Place {
 }
 
 /// A piece of a step on a grid: its share of the step's impulse.
-fn on_grid(step: &Step<'_>, place: &Place, [from, to]: [f64; 2], blank: &Rub) -> Rub {
+fn on_grid(step: &Step<'_>, section: &Section, [from, to]: [f64; 2], blank: &Rub) -> Rub {
     let length = step.end - step.start;
     let share = if length > 0.0 { ((to - from) / length).clamp(0.0, 1.0) } else { 1.0 };
-    let [before, after] = [step.velocity_before, step.velocity_after].map(|v| place.along(blank.normal, v));
-    let before = before + Blow::along(&place.blows, blank.normal, [step.start, step.end]);
+    let [before, after] = [step.velocity_before, step.velocity_after].map(|v| section.along(blank.normal, v));
+    let before = before + Blow::along(&section.blows, blank.normal, [step.start, step.end]);
     let (impulse, friction) = (share * blank.impulse, share * blank.friction);
     Rub {
         impulse,
@@ -210,7 +210,7 @@ fn on_grid(step: &Step<'_>, place: &Place, [from, to]: [f64; 2], blank: &Rub) ->
 fn along(
     series: &Series,
     (step, wall): (&Step<'_>, usize),
-    place: &Place,
+    section: &Section,
     [from, to]: [f64; 2],
     blank: &Rub,
     each: &mut impl FnMut(&Rub),
@@ -219,7 +219,7 @@ fn along(
     // What the wall gave beside the jump; rounding of the sum is not a contact.
     let pushed = series.acting_walls().any(|(acting, _)| acting == wall);
     let [y, z] = blank.normal;
-    let moved = series.seen_along([&place.at.y, &place.at.z], [-z, y]);
+    let moved = series.seen_along([&section.at.y, &section.at.z], [-z, y]);
     let speed = |t: f64| series.rate_of(&moved, t);
     if pushed && to > from {
         let sliding = Sliding {
@@ -234,8 +234,8 @@ fn along(
     }
     if to >= step.end {
         let left =
-            if step.end > step.start { speed(step.end) } else { place.along(blank.normal, step.velocity_before) };
-        knock(step, place, (jump, left), blank, each);
+            if step.end > step.start { speed(step.end) } else { section.along(blank.normal, step.velocity_before) };
+        knock(step, section, (jump, left), blank, each);
     }
 }
 
@@ -243,7 +243,7 @@ fn along(
 fn around(
     series: &Series,
     (step, hole): (&Step<'_>, usize),
-    place: &Place,
+    section: &Section,
     [from, to]: [f64; 2],
     blank: &Rub,
     each: &mut impl FnMut(&Rub),
@@ -284,8 +284,8 @@ fn around(
     if to >= step.end {
         let jump = step.holes.get(hole).map_or(0.0, |done| done.jump);
         let left =
-            if step.end > step.start { speed(step.end) } else { place.along(blank.normal, step.velocity_before) };
-        knock(step, place, (jump, left), blank, each);
+            if step.end > step.start { speed(step.end) } else { section.along(blank.normal, step.velocity_before) };
+        knock(step, section, (jump, left), blank, each);
     }
 }
 
@@ -308,10 +308,10 @@ fn lasting(blank: &Rub, slid: &Slid) -> Rub {
 
 /// The impulse `jump` (N s) at the end of a step, with the sliding velocity `left` (m/s) before the
 /// loads' impulses there.
-fn knock(step: &Step<'_>, place: &Place, (jump, left): (f64, f64), blank: &Rub, each: &mut impl FnMut(&Rub)) {
+fn knock(step: &Step<'_>, section: &Section, (jump, left): (f64, f64), blank: &Rub, each: &mut impl FnMut(&Rub)) {
     if jump > 0.0 {
-        let before = left + Blow::along(&place.blows, blank.normal, [step.start, step.end]);
-        let work = work_of_impulse(jump, before, place.along(blank.normal, step.v));
+        let before = left + Blow::along(&section.blows, blank.normal, [step.start, step.end]);
+        let work = work_of_impulse(jump, before, section.along(blank.normal, step.v));
         each(&Rub { manner: Manner::Instant, impulse: jump, friction: 0.0, work, time: 0.0, ..*blank });
     }
 }

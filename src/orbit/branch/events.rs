@@ -1,6 +1,7 @@
 //! What can happen along a branch: test functions, which change sign there.
 
-use super::super::problem::{Problem, StopLaw};
+use super::super::boundary::BoundaryLaw;
+use super::super::problem::Problem;
 use super::super::signature::Kind;
 use super::curve::{Curve, Vector};
 use super::label::Label;
@@ -32,7 +33,7 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
     let gap = point.admissible.nearest.map_or(1.0, |nearest| nearest.gap / length);
     found.push(Test { label: Label::GrazingIn, event: 0, value: gap });
     for (index, event) in signature.events.iter().enumerate() {
-        let Some(stop) = problem.stop(event.wall) else { continue };
+        let Some(boundary) = problem.boundary(event.wall) else { continue };
         let speed = orbit.speeds[index] / curve.scales.speed;
         let start = orbit.phases[index] * problem.forcing_period();
         let next = match orbit.phases.get(index + 1) {
@@ -41,23 +42,23 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
         };
         let lasts = next - orbit.phases[index];
         let mut add = |label, value| found.push(Test { label, event: index, value });
-        match (event.kind, stop.law) {
+        match (event.kind, boundary.law) {
             (Kind::Impact | Kind::Rest | Kind::Enter, _) => add(Label::GrazingOut, speed),
             (Kind::Leave | Kind::Again, _) => add(Label::ContactEnds, speed),
             _ => {}
         }
-        let state = stop.after(event.kind, orbit.speeds[index]).state;
+        let state = boundary.after(event.kind, orbit.speeds[index]).state;
         let mut arc = problem.arc();
-        match (event.kind, stop.law) {
+        match (event.kind, boundary.law) {
             (Kind::Rest, _) => {
                 problem.fly(&mut arc, state, [start, 0.0], &[], Some(event.wall));
-                let side = if stop.toward > 0.0 { Side::Upper } else { Side::Lower };
+                let side = if boundary.toward > 0.0 { Side::Upper } else { Side::Lower };
                 let [reaction, ..] = arc.pressing(Support { wall: event.wall, side }, 0.0);
                 add(Label::RestEnds, reaction / force);
             }
-            (Kind::Impact, StopLaw::Rigid(0.0)) => {
+            (Kind::Impact, BoundaryLaw::Rigid(0.0)) => {
                 problem.fly(&mut arc, state, [start, 0.0], &[], None);
-                add(Label::RestBegins, -stop.toward * arc.start_jet()[2]);
+                add(Label::RestBegins, -boundary.toward * arc.start_jet()[2]);
             }
             _ => {}
         }

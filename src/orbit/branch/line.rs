@@ -58,7 +58,7 @@ pub(super) struct Begin<C> {
 /// What orbits at one place are compared by: the mirror of the scene (the wall opposite to each
 /// wall), a typical speed (m/s), and how near.
 #[derive(Debug)]
-pub(super) struct Frame {
+pub(super) struct Metric {
     pub mirror: Option<Vec<usize>>,
     pub speed: f64,
     /// Orbits within this, in cycles and as a share of the largest speed, are one.
@@ -92,5 +92,5 @@ pub(super) trait Followed: Sized {
     fn switch(&self, at: &Passed<Self>) -> Result<Begin<Self>>;
 
     /// The orbit at `y`, and what it is compared by.
-    fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Frame)>;
+    fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)>;
 }

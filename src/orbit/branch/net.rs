@@ -3,7 +3,7 @@
 use super::super::periodic::Orbit;
 use super::arclength::Vector;
 use super::label::Label;
-use super::line::{Begin, End, Followed, Frame, Line, NODE, Passed};
+use super::line::{Begin, End, Followed, Line, Metric, NODE, Passed};
 use super::point::Point;
 use super::request::{Branch, Graph, Request, Special, Switch};
 use crate::error::Result;
@@ -134,8 +134,8 @@ impl<'r, C: Followed> Net<'r, C> {
         seen: &mut dyn FnMut(&Point),
     ) -> Result<Option<usize>> {
         let Begin { curve, y, along, both } = begin;
-        let (orbit, frame) = curve.orbit_at(&y)?;
-        if let Some(known) = self.known(number, &orbit, &frame) {
+        let (orbit, metric) = curve.orbit_at(&y)?;
+        if let Some(known) = self.known(number, &orbit, &metric) {
             return Ok(Some(known));
         }
         let Request { range, points, .. } = *self.request;
@@ -156,15 +156,15 @@ impl<'r, C: Followed> Net<'r, C> {
     }
 
     /// The branch that has `orbit`'s signature and a special point here already.
-    fn known(&self, number: usize, orbit: &Orbit, frame: &Frame) -> Option<usize> {
-        let mirror = frame.mirror.as_deref();
+    fn known(&self, number: usize, orbit: &Orbit, metric: &Metric) -> Option<usize> {
+        let mirror = metric.mirror.as_deref();
         let here = self.graph.specials.get(number)?;
-        let bare = bare(&here.point.orbit, frame);
+        let bare = bare(&here.point.orbit, metric);
         let whole = orbit.unfolded(mirror);
         let [low, high] = self.request.range;
         let same = |special: &Special| {
             (special.point.value - here.point.value).abs() <= NODE * (high - low)
-                && self::bare(&special.point.orbit, frame).is(&bare, frame.near)
+                && self::bare(&special.point.orbit, metric).is(&bare, metric.near)
         };
         let alike = |branch: &Branch| {
             let Some(first) = branch.points.first() else { return false };
@@ -191,10 +191,10 @@ impl<'r, C: Followed> Net<'r, C> {
 }
 
 /// The whole orbit without its events of speed 0.
-fn bare(orbit: &Orbit, frame: &Frame) -> Orbit {
-    let mirror = frame.mirror.as_deref();
+fn bare(orbit: &Orbit, metric: &Metric) -> Orbit {
+    let mirror = metric.mirror.as_deref();
     let whole = orbit.unfolded(mirror);
-    let least = frame.near * frame.speed;
+    let least = metric.near * metric.speed;
     let kept: Vec<usize> = (0..whole.phases.len()).filter(|&i| whole.speeds[i].abs() > least).collect();
     let mut bare = whole.clone();
     bare.signature.events = kept.iter().map(|&i| whole.signature.events[i]).collect();

@@ -1,15 +1,16 @@
 //! From a special point to the branch that begins there.
 
+use super::super::boundary::BoundaryLaw;
 use super::super::equations::CYCLE;
 use super::super::periodic::Orbit;
-use super::super::problem::{Problem, StopLaw};
+use super::super::problem::Problem;
 use super::super::signature::{Event, Kind, Signature};
 use super::arclength::{beside, unit};
 use super::curve::{Curve, Vector};
 use super::events::point;
 use super::follow::follow;
 use super::label::Label;
-use super::line::{Begin, Followed, Frame, Line, NODE, Passed};
+use super::line::{Begin, Followed, Line, Metric, NODE, Passed};
 use super::point::Point;
 use crate::error::{Error, Result};
 use nalgebra::DVector;
@@ -46,10 +47,10 @@ impl<'a> Followed for Curve<'a> {
         self.leave(at)
     }
 
-    fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Frame)> {
+    fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)> {
         let problem = self.problem(y)?;
-        let frame = Frame { mirror: problem.mirror().map(<[usize]>::to_vec), speed: problem.scales()[1], near: NODE };
-        Ok((self.orbit(&problem, y), frame))
+        let metric = Metric { mirror: problem.mirror().map(<[usize]>::to_vec), speed: problem.scales()[1], near: NODE };
+        Ok((self.orbit(&problem, y), metric))
     }
 }
 
@@ -109,13 +110,13 @@ impl<'a> Curve<'a> {
         let mut orbit = at.point.orbit.clone();
         let nearest = at.point.admissible.nearest.ok_or_else(|| Error::no_orbit("no wall is touched"))?;
         let index = if orbit.phases.is_empty() { 0 } else { nearest.flight + 1 };
-        let stop = problem.stop(nearest.wall).ok_or_else(|| Error::no_orbit("no wall is touched"))?;
+        let boundary = problem.boundary(nearest.wall).ok_or_else(|| Error::no_orbit("no wall is touched"))?;
         let mut insert = |index: usize, kind: Kind, phase: f64, speed: f64| {
             orbit.signature.events.insert(index, Event { kind, wall: nearest.wall });
             orbit.phases.insert(index, phase);
             orbit.speeds.insert(index, speed);
         };
-        if let StopLaw::Rigid(_) = stop.law {
+        if let BoundaryLaw::Rigid(_) = boundary.law {
             insert(index, Kind::Impact, nearest.phase, 0.0);
             let curve = self.of(&orbit.signature);
             let y = curve.gather(problem, &orbit, at.point.value);
@@ -168,7 +169,7 @@ impl<'a> Curve<'a> {
             return Err(Error::no_orbit("no such event"));
         };
         let wall = event.wall;
-        if !matches!(problem.stop(wall).map(|stop| stop.law), Some(StopLaw::Rigid(0.0))) {
+        if !matches!(problem.boundary(wall).map(|boundary| boundary.law), Some(BoundaryLaw::Rigid(0.0))) {
             return Err(Error::no_orbit("impacts accumulate there: start from a run beyond it"));
         }
         if at.label == Label::RestBegins {

@@ -5,7 +5,7 @@ use super::follow::follow;
 use crate::error::{Error, Result};
 use crate::orbit::branch::arclength::{Vector, beside, bordered, extended, tangent};
 use crate::orbit::branch::label::Label;
-use crate::orbit::branch::line::{Begin, Followed, Frame, Line, Passed};
+use crate::orbit::branch::line::{Begin, Followed, Line, Metric, Passed};
 use crate::orbit::branch::point::Point;
 use crate::orbit::periodic::Orbit;
 use nalgebra::{DMatrix, DVector};
@@ -48,10 +48,10 @@ impl Followed for Shots<'_> {
         }
     }
 
-    fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Frame)> {
+    fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)> {
         let linear = self.linear(y, &mut None)?;
         let point = self.point(y, linear.posed.period, &linear.turn, super::here::multipliers_of(&linear));
-        Ok((point.orbit, Frame { mirror: self.mirror.clone(), speed: self.scales.speed, near: SAME }))
+        Ok((point.orbit, Metric { mirror: self.mirror.clone(), speed: self.scales.speed, near: SAME }))
     }
 }
 

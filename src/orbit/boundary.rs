@@ -1,0 +1,63 @@
+//! The boundary at which an orbit meets a wall, and its states just before and after an event
+//! there.
+
+use super::signature::Kind;
+
+/// A wall, as an orbit meets it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Boundary {
+    /// g, m.
+    pub position: f64,
+    /// The direction into the wall: +1 for an upper wall, −1 for a lower one.
+    pub toward: f64,
+    pub law: BoundaryLaw,
+}
+
+/// The law of a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum BoundaryLaw {
+    /// With restitution e.
+    Rigid(f64),
+    /// k_a, N/m, and c_a, N s/m.
+    Elastic { stiffness: f64, damping: f64 },
+}
+
+/// A state q (m), q̇ (m/s) that depends on the number v of an event, and its derivative with v.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct OnWall {
+    pub state: [f64; 2],
+    pub rate: [f64; 2],
+}
+
+impl Boundary {
+    /// The state just before an event of number `v` (m/s).
+    pub fn before(&self, kind: Kind, v: f64) -> OnWall {
+        let on_face = |d: f64| OnWall { state: [self.position, d * v], rate: [0.0, d] };
+        match (kind, self.law) {
+            (Kind::Leave | Kind::Again, BoundaryLaw::Elastic { stiffness, damping }) => {
+                // k_a s + c_a ṡ = 0 at the speed v out of the wall.
+                let depth = self.toward * damping / stiffness;
+                OnWall { state: [self.position + depth * v, -self.toward * v], rate: [depth, -self.toward] }
+            }
+            _ => on_face(self.toward),
+        }
+    }
+
+    /// The state just after it.
+    pub fn after(&self, kind: Kind, v: f64) -> OnWall {
+        let scaled = |factor: f64| {
+            let d = self.toward * factor;
+            OnWall { state: [self.position, d * v], rate: [0.0, d] }
+        };
+        match (kind, self.law) {
+            (Kind::Impact | Kind::Chatter, BoundaryLaw::Rigid(e)) => scaled(-e),
+            (Kind::Rest | Kind::Release, _) => scaled(0.0),
+            _ => self.before(kind, v),
+        }
+    }
+
+    /// Distance of `q` (m) to the wall, m; below 0 behind its face.
+    pub fn gap(&self, q: f64) -> f64 {
+        self.toward * (self.position - q)
+    }
+}
