@@ -3,9 +3,9 @@
 
 use crate::random_structures::Draws;
 use crate::rubbing::{body, hole, isotropic, load, random_scene, rotating, turned, with};
-use signorini::residual::Judge;
+use crate::steps::{follow, judged};
 use signorini::{
-    Finding, HoleStep, Load, Refuted, Row, Scene, Scheme, Shape, Step, Stepper, Support, Wall, WallLaw, heading,
+    Finding, HoleStep, Load, Refuted, Row, Scene, Scheme, Shape, Stepper, Support, Wall, WallLaw, heading,
 };
 
 const JEAN: Scheme = Scheme::MoreauJean { theta: 0.5 };
@@ -17,34 +17,6 @@ fn ring(mut support: Support, stiffness: f64, damping: f64) -> Support {
         *law = WallLaw::Elastic { stiffness, damping };
     }
     support
-}
-
-fn follow(scene: &Scene, scheme: &Scheme, h: f64, steps: u64, mut see: impl FnMut(&Step<'_>)) -> Stepper {
-    let mut stepper = Stepper::new(scene, scheme, h).unwrap_or_else(|error| panic!("{error}"));
-    for _ in 0..steps {
-        see(&stepper.step().unwrap_or_else(|error| panic!("{error}")));
-    }
-    stepper
-}
-
-/// What a judge finds in steps that were passed through `alter` before.
-fn judged(
-    scene: &Scene,
-    scheme: &Scheme,
-    (h, steps): (f64, u64),
-    mut alter: impl FnMut(&Step<'_>, &mut Vec<HoleStep>),
-) -> Vec<Finding> {
-    let mut stepper = Stepper::new(scene, scheme, h).unwrap_or_else(|error| panic!("{error}"));
-    let state = stepper.state();
-    let mut judge = Judge::new(scene, stepper.contract(), h, &state.q, &state.v);
-    for _ in 0..steps {
-        let mut step = stepper.step().unwrap_or_else(|error| panic!("{error}"));
-        let mut holes = step.holes.to_vec();
-        alter(&step, &mut holes);
-        step.holes = &holes;
-        judge.see(&step);
-    }
-    judge.findings()
 }
 
 /// The body of 100 kg and 1e4 N/m in a ring of 1e6 N/m with a gap of 20 mm (SDND101 of code_aster,
@@ -195,7 +167,7 @@ fn faultless_runs_are_not_accused() {
         let mut pushed = 0;
         for seed in 0..60 {
             let scene = random_rings(seed);
-            let findings = judged(&scene, &scheme, ([1e-4, 1e-3][seed as usize % 2], 300), |_, holes| {
+            let findings = judged(&scene, &scheme, ([1e-4, 1e-3][seed as usize % 2], 300), |_, holes, _| {
                 pushed += holes.iter().filter(|hole| hole.impulse > 0.0).count();
             });
             assert_eq!(findings, [], "{scheme:?}, seed {seed}");
@@ -210,7 +182,7 @@ fn faults_of_a_ring_are_found() {
     let scene = rotating(with(isotropic(1.0, 0.2, 100.0), ring), 3.0, 5.0);
     for scheme in BOTH {
         let with_fault = |fault: &dyn Fn(&mut HoleStep)| {
-            judged(&scene, &scheme, (1e-3, 1500), |step, holes| {
+            judged(&scene, &scheme, (1e-3, 1500), |step, holes, _| {
                 if step.index == 1400 {
                     assert!(holes[0].impulse > 0.0);
                     fault(&mut holes[0]);

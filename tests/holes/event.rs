@@ -5,6 +5,7 @@
 )]
 
 use crate::draws;
+use crate::pendulum::{IMPULSE, PERIOD, WORK, pendulum};
 use crate::random_structures::Draws;
 use crate::rubbing::{
     MOREAU_JEAN, body, energy, hole, isotropic, load, random_scene, rotating, turned, with, with_flats,
@@ -120,46 +121,34 @@ fn infinitely_many_impacts_end_in_sliding() {
     assert!(near(sectors, support.work_rate_w, 1e-13));
 }
 
-const PERIOD: f64 = 0.09536044058204921612609037;
-
-/// `disk-pendulum`: a mass slides under a constant force, from rest at 60°.
-fn pendulum(periods: f64) -> Scene {
-    let (gap, angle) = (1.5e-3_f64, 60.0_f64.to_radians());
-    with(isotropic(0.8, 0.0, 0.0), hole("hole", body(), gap, 0.7, 0.0))
-        .with_load(load(Load::constant(6.0), Row::dof(0)))
-        .with_initial(&[gap * angle.cos(), gap * angle.sin()], &[0.0, 0.0])
-        .with_duration(periods * PERIOD)
-}
-
 #[test]
 fn a_pendulum_slides_as_elliptic_functions_say() {
     // 1e-14 of the gap after a period of 12 stretches, and roundings that add up after 100.
     for (periods, most) in [(1.0, 1e-14), (100.0, 1e-13)] {
-        let scene = pendulum(periods);
+        let scene = pendulum().with_duration(periods * PERIOD);
         let stepper = follow(&scene, 1.0, |_| {});
         let state = stepper.state();
         let off = |k: usize| ((state.q[k] - scene.initial.q[k]) / 1.5e-3).abs();
         assert!(off(0) < most && off(1) < most, "{periods}: {:e} {:e}", off(0), off(1));
         assert!(stepper.counters().steps as f64 <= 14.0 * periods, "{:?}", stepper.counters());
     }
-    let mut scene = pendulum(1.0);
-    scene.duration = 0.05;
+    let scene = pendulum().with_duration(0.05);
     let stepper = follow(&scene, 1.0, |_| {});
     let state = stepper.state();
     assert!((state.q[0] - 0.0007650669652438113098606166).abs() < 1e-14 * 1.5e-3);
     assert!((state.q[1] - -0.001290221895137663836570581).abs() < 1e-14 * 1.5e-3);
     // 37 rows a period: rows end inside stretches, and the speed turns inside of one.
-    let run = made(&pendulum(2.0), 74.0);
+    let run = made(&pendulum().with_duration(2.0 * PERIOD), 74.0);
     let force = &run.trajectory.hole_forces()[0];
     assert!(near(force[0][0].hypot(force[1][0]), 3.0, 1e-13));
     for work in works(&run, 2.0 * PERIOD) {
-        assert!(near(work, 2.0 * 0.05583163176564185498893038, 1e-13), "{work}");
+        assert!(near(work, 2.0 * WORK, 1e-13), "{work}");
     }
     let support = &run.statistics.wear[0];
     assert!(near(support.sliding_m, 2.0 * 0.006283185307179586476925287, 1e-12));
     assert!(near(support.contact_time_ratio, 1.0, 1e-12));
     let force = run.statistics.supports[0].force.unwrap();
-    assert!(near(force.mean_n, 0.6997885665844563269792825 / PERIOD, 1e-13));
+    assert!(near(force.mean_n, IMPULSE / PERIOD, 1e-13));
     assert!(near(force.mean_vector_n[0], -6.0, 1e-12) && force.mean_vector_n[1].abs() < 1e-12, "{force:?}");
     let contacts = run.trajectory.contacts();
     assert!(contacts.len() == 1 && near(contacts[0].peak_force.unwrap(), 12.0, 1e-13), "{contacts:?}");
@@ -349,8 +338,7 @@ fn moreau_jean_converges_to_it() {
         q.iter().zip(&exact.q).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
     };
     // Sliding: order 2. A pendulum over a part of its period.
-    let mut scene = pendulum(1.0);
-    scene.duration = 0.04;
+    let scene = pendulum().with_duration(0.04);
     let exact = follow(&scene, 1.0, |_| {}).state();
     let [coarse, fine] = [1000, 4000].map(|steps| off(&scene, &exact, steps));
     let order = (coarse / fine).log2() / 2.0;
@@ -423,7 +411,7 @@ fn the_judge_of_exact_motion_finds_faults() {
         }
         told
     };
-    let (settling, sliding, still) = (free(0.5), pendulum(1.0), |_: &mut signorini::HoleStep| ());
+    let (settling, sliding, still) = (free(0.5), pendulum().with_duration(PERIOD), |_: &mut signorini::HoleStep| ());
     for (scene, e) in [(&settling, 0.5), (&sliding, 0.7)] {
         assert_eq!(accused(scene, &changed(scene, 1.0, e, [0.0; 2]), still), []);
         // Faults of 1e-4 and 1e-5, beyond the tolerance of 1e-6.

@@ -1,6 +1,7 @@
 //! Round holes without friction: closed forms with 25 digits, the motion between planar walls, and
 //! what holds of every scene.
 
+use crate::pendulum::{IMPULSE, PERIOD, WORK, pendulum};
 use crate::random_structures::Draws;
 use crate::rubbing::{
     MOREAU_JEAN, Sums, body, energy, follow, hole, isotropic, load, random_scene, rotating, turned, with, with_flats,
@@ -48,13 +49,7 @@ fn a_body_pressed_round_a_hole_slides_with_the_exact_force() {
 
 #[test]
 fn a_pendulum_in_a_hole_is_followed_with_order_two() {
-    const PERIOD: f64 = 0.095_360_440_582_049_22;
-    const WORK: f64 = 0.055_831_631_725_641_85;
-    const IMPULSE: f64 = 0.699_788_566_584_456_3;
-    let (gap, angle) = (1.5e-3_f64, 60.0_f64.to_radians());
-    let scene = with(isotropic(0.8, 0.0, 0.0), hole("hole", body(), gap, 0.7, 0.0))
-        .with_load(load(Load::constant(6.0), Row::dof(0)))
-        .with_initial(&[gap * angle.cos(), gap * angle.sin()], &[0.0, 0.0]);
+    let scene = pendulum();
     let error = |steps: u64| {
         let mut sums = Sums::default();
         follow(&scene, PERIOD / steps as f64, steps, |step| sums.see(&scene, step));

@@ -13,8 +13,10 @@ mod friction;
 mod frictionless;
 mod judge;
 mod penalty;
+mod pendulum;
 mod position;
 mod start;
+mod steps;
 #[cfg(feature = "cli")]
 mod two_planes;
 mod wear;

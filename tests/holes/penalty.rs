@@ -3,11 +3,12 @@
 
 use crate::random_structures::Draws;
 use crate::rubbing::{body, hole, isotropic, load, random_scene, rotating, turned, with};
+use crate::steps::follow;
 use signorini::residual::Judge;
 use signorini::study::compare::compare;
 use signorini::{
-    Finding, HoleStep, Integrator, Load, Method, Options, PenaltyLaw, Refuted, Row, Scene, Scheme, Shape, Step,
-    Stepper, Support, Wall, WallLaw, heading, run,
+    Finding, HoleStep, Integrator, Load, Method, Options, PenaltyLaw, Refuted, Row, Scene, Scheme, Shape, Stepper,
+    Support, Wall, WallLaw, heading, run,
 };
 
 fn penalty(law: PenaltyLaw) -> Scheme {
@@ -23,13 +24,6 @@ const GAP: f64 = 5e-3;
 /// Both laws, as stiff as each other at the circle of [`GAP`]: (2γ)²/ε = k.
 fn both(stiffness: f64) -> [PenaltyLaw; 2] {
     [linear(stiffness, 0.0), PenaltyLaw::Quartic { epsilon: 4.0 * GAP * GAP / stiffness }]
-}
-
-fn follow(scene: &Scene, scheme: &Scheme, h: f64, steps: u64, mut see: impl FnMut(&Step<'_>)) {
-    let mut stepper = Stepper::new(scene, scheme, h).unwrap_or_else(|error| panic!("{error}"));
-    for _ in 0..steps {
-        see(&stepper.step().unwrap_or_else(|error| panic!("{error}")));
-    }
 }
 
 /// A free body of 1 kg in a hole that is off by a fifth of its gap.

@@ -2,43 +2,15 @@
 //! walls, what holds of every scene, and the judge.
 
 use crate::draws::{cases, seed};
+use crate::pendulum::{GAP, IMPULSE, PERIOD, WORK, pendulum};
 use crate::random_structures::Draws;
 use crate::rubbing::{Sums, body, hole, isotropic, load, random_scene, rotating, turned, with, with_flats};
-use signorini::residual::Judge;
-use signorini::{Finding, HoleStep, Load, Refuted, Row, Scene, Scheme, Step, Stepper, Wall, equilibrium, heading};
+use crate::steps::{follow, judged};
+use signorini::{Finding, HoleStep, Load, Refuted, Row, Scene, Scheme, Stepper, Wall, equilibrium, heading};
 
 const EULER: Scheme = Scheme::ImplicitEuler;
 const ALPHA: Scheme = Scheme::GeneralizedAlpha { rho: 0.8 };
 const BOTH: [Scheme; 2] = [EULER, ALPHA];
-
-/// `steps` steps of `h` seconds, each shown to `see`.
-fn follow(scene: &Scene, scheme: &Scheme, h: f64, steps: u64, mut see: impl FnMut(&Step<'_>)) -> Stepper {
-    let mut stepper = Stepper::new(scene, scheme, h).unwrap_or_else(|error| panic!("{error}"));
-    for _ in 0..steps {
-        see(&stepper.step().unwrap_or_else(|error| panic!("{error}")));
-    }
-    stepper
-}
-
-/// What a judge finds in `steps` steps of `h` seconds, each passed through `alter` before.
-fn judged(
-    scene: &Scene,
-    scheme: &Scheme,
-    (h, steps): (f64, u64),
-    mut alter: impl FnMut(&Step<'_>, &mut Vec<HoleStep>, &mut Vec<f64>),
-) -> Vec<Finding> {
-    let mut stepper = Stepper::new(scene, scheme, h).unwrap_or_else(|error| panic!("{error}"));
-    let state = stepper.state();
-    let mut judge = Judge::new(scene, stepper.contract(), h, &state.q, &state.v);
-    for _ in 0..steps {
-        let mut step = stepper.step().unwrap_or_else(|error| panic!("{error}"));
-        let (mut holes, mut q) = (step.holes.to_vec(), step.q.to_vec());
-        alter(&step, &mut holes, &mut q);
-        (step.holes, step.q) = (&holes, &q);
-        judge.see(&step);
-    }
-    judge.findings()
-}
 
 #[test]
 fn motion_on_a_diameter_is_that_between_two_walls() {
@@ -265,18 +237,11 @@ fn friction_is_refused_with_the_reason() {
 
 #[test]
 fn generalized_alpha_keeps_its_speed_round_a_hole() {
-    // disk-pendulum: a mass slides under a constant force, from rest at 60 degrees.
-    const PERIOD: f64 = 0.095_360_440_582_049_22;
-    const WORK: f64 = 0.055_831_631_725_641_85;
-    const IMPULSE: f64 = 0.699_788_566_584_456_3;
-    let (gap, angle) = (1.5e-3_f64, 60.0_f64.to_radians());
-    let scene = with(isotropic(0.8, 0.0, 0.0), hole("hole", body(), gap, 0.7, 0.0))
-        .with_load(load(Load::constant(6.0), Row::dof(0)))
-        .with_initial(&[gap * angle.cos(), gap * angle.sin()], &[0.0, 0.0]);
+    let scene = pendulum();
     let error = |steps: u64| {
         let mut sums = Sums::default();
         follow(&scene, &ALPHA, PERIOD / steps as f64, steps, |step| {
-            assert!(step.q[0].hypot(step.q[1]) <= gap * (1.0 + 1e-13), "{}", step.end);
+            assert!(step.q[0].hypot(step.q[1]) <= GAP * (1.0 + 1e-13), "{}", step.end);
             sums.see(&scene, step);
         });
         [sums.work / WORK - 1.0, sums.impulse / IMPULSE - 1.0]
