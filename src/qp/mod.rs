@@ -114,14 +114,7 @@ impl Problem {
         shape("unknowns", 1, n.min(1))?;
         shape("columns of G", n, self.g.columns())?;
         shape("compliances", self.g.count(), self.compliance.len())?;
-        if let Some((row, ..)) = self.a.not_finite() {
-            return Err(Failure::NotFinite { what: "A, row", index: row });
-        }
-        let sound = |i: &usize| self.g.row(*i).iter().all(|entry| entry.1.is_finite());
-        if let Some(row) = (0..self.g.count()).find(|i| !sound(i)) {
-            return Err(Failure::NotFinite { what: "G, row", index: row });
-        }
-        finite("compliance", &self.compliance, |v| v.is_finite() && v >= 0.0)
+        check_entries(&self.a, &self.g, &self.compliance)
     }
 }
 
@@ -151,6 +144,18 @@ impl Rhs<'_> {
         }
         Ok(())
     }
+}
+
+/// Checks that every entry of a programme is finite, and no compliance negative.
+fn check_entries(a: &Symmetric, g: &Rows, compliance: &[f64]) -> Result<(), Failure> {
+    if let Some((row, ..)) = a.not_finite() {
+        return Err(Failure::NotFinite { what: "A, row", index: row });
+    }
+    let sound = |i: &usize| g.row(*i).iter().all(|entry| entry.1.is_finite());
+    if let Some(row) = (0..g.count()).find(|i| !sound(i)) {
+        return Err(Failure::NotFinite { what: "G, row", index: row });
+    }
+    finite("compliance", compliance, |v| v.is_finite() && v >= 0.0)
 }
 
 fn shape(what: &'static str, expected: usize, found: usize) -> Result<(), Failure> {

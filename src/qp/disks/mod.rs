@@ -31,7 +31,7 @@ mod system;
 
 pub use solver::{DiskCounters, DiskSolver};
 
-use super::{Failure, finite, shape};
+use super::{Failure, check_entries, finite, shape};
 use crate::linear::{Rows, Symmetric};
 
 /// What stays the same over all programmes with disks.
@@ -85,14 +85,7 @@ impl DiskProblem {
         if let Some(&rows) = self.blocks.iter().find(|rows| !(1..=2).contains(*rows)) {
             return Err(Failure::Shape { what: "rows of a block", expected: 2, found: rows });
         }
-        if let Some((row, ..)) = self.a.not_finite() {
-            return Err(Failure::NotFinite { what: "A, row", index: row });
-        }
-        let sound = |i: &usize| self.g.row(*i).iter().all(|entry| entry.1.is_finite());
-        if let Some(row) = (0..self.g.count()).find(|i| !sound(i)) {
-            return Err(Failure::NotFinite { what: "G, row", index: row });
-        }
-        finite("compliance", &self.compliance, |v| v.is_finite() && v >= 0.0)
+        check_entries(&self.a, &self.g, &self.compliance)
     }
 }
 
