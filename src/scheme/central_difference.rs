@@ -93,7 +93,7 @@ impl<S: Space> Rule<S> for CentralDifference<S> {
         body.applied(frame, b);
         S::add_product(&body.stiffness, -1.0, &frame.q, b);
         S::add_product(&body.damping, -1.0, &staggered.v, b);
-        body.strike_about(step, 1.0 / h, b, frame);
+        frame.blown = body.strike_about(step, 1.0 / h, b, frame);
         if body.find_blows(&[counted_blows(step, h)]) {
             body.damp_shift(1.0 / h, b);
         }

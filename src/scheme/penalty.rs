@@ -219,7 +219,7 @@ impl<S: Space> Rule<S> for Penalty<S> {
         let (h, theta) = (body.h, *theta);
         frame.begin(step, h);
         body.theta_momentum(theta, frame, b);
-        body.strike((frame.start, frame.end), 1.0, b, frame);
+        frame.blown = body.strike((frame.start, frame.end), 1.0, b, frame);
         // No wall is rigid here: the structure always makes the displacement that the blows cause,
         // and the damper acts over it.
         let blown = body.find_blows(&[(frame.start, frame.end, frame.end - h * theta)]);

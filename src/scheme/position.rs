@@ -142,7 +142,7 @@ impl<S: Space> Rule<S> for Position<S> {
         }
         S::add_product(&body.stiffness, -1.0, &frame.q, b);
         frame.before.clone_from(&frame.v);
-        body.strike((frame.start, frame.end), 1.0 / ht, b, frame);
+        frame.blown = body.strike((frame.start, frame.end), 1.0 / ht, b, frame);
         // The damper also acts over the displacement that the blows cause.
         let blown = body.find_blows(&[(frame.start, frame.end, frame.end - ht)]);
         if blown {

@@ -5,6 +5,7 @@ mod common;
 #[path = "../support/random_structures.rs"]
 mod random_structures;
 
+mod blows;
 mod complementarity;
 mod contacts;
 mod faults;
