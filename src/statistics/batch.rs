@@ -11,7 +11,7 @@
 pub(super) const BATCHES: usize = 10;
 
 /// Student's t for 95 %, two-sided, with nine degrees of freedom.
-const STUDENT: f64 = 2.262_157_162_740_992;
+const STUDENT: f64 = 2.262_157_162_798_205;
 
 /// The batch of a window of `length` (s) in which the time `after` (s) its start lies.
 pub(super) fn batch_of(after: f64, length: f64) -> usize {
