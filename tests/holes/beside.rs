@@ -1,0 +1,106 @@
+//! Walls beside a round hole that nothing reaches: a scheme that steps round holes makes the steps
+//! that it makes without the hole, where other code computes them.
+
+use crate::random_structures::at;
+use crate::rubbing::{body, hole, isotropic, load, with};
+use signorini::{
+    Integrator, Load, PenaltyLaw, Row, Scene, Scheme, Shape, State, Step, Stepper, Support, Wall, WallLaw,
+};
+
+/// Gap of the hole, m: far more than the structure moves.
+const FAR: f64 = 1.0;
+
+fn rigid() -> Support {
+    hole("far", body(), FAR, 0.5, 0.0)
+}
+
+fn ring() -> Support {
+    let law = WallLaw::Elastic { stiffness: 1e4, damping: 10.0 };
+    Support { shape: Shape::Round { gap: FAR, law }, ..rigid() }
+}
+
+/// The schemes, and the hole with which each of them is stepped by code of its own.
+fn schemes() -> [(Scheme, Support); 6] {
+    let law = PenaltyLaw::Linear { stiffness: 3e4, damping: 20.0 };
+    [
+        (Scheme::MoreauJean { theta: 0.5 }, rigid()),
+        (Scheme::MoreauJean { theta: 0.5 }, ring()),
+        (Scheme::MoreauJean { theta: 0.8 }, ring()),
+        (Scheme::ImplicitEuler, rigid()),
+        (Scheme::GeneralizedAlpha { rho: 0.8 }, rigid()),
+        (Scheme::Penalty { law, integrator: Integrator::DiscreteGradient }, rigid()),
+    ]
+}
+
+/// A body that both planes throw against rigid and elastic walls on several rows, under loads and
+/// blows, one of them half way between two steps.
+fn scene(damping: f64) -> Scene {
+    let oblique = || Row::new(vec![(0, 0.6), (1, 0.8)]);
+    isotropic(1.2, damping, 300.0)
+        .with_wall(at(Wall::upper("rigid", 0.9e-3).with_restitution(0.6), Row::dof(0)))
+        .with_wall(at(Wall::lower("spring", -0.7e-3).with_elasticity(2e4, 15.0), Row::dof(0)))
+        .with_wall(at(Wall::upper("pad", 1e-3).with_elasticity(5e3, 40.0), oblique()))
+        .with_wall(at(Wall::lower("floor", -0.6e-3).with_restitution(0.3), Row::dof(1)))
+        .with_load(load(Load::harmonic(9.0, 9.0, 0.4), oblique()))
+        .with_load(load(Load::constant(-2.0), Row::dof(1)))
+        .with_load(load(Load::impulse(0.2, 0.050_05), Row::dof(0)))
+        .with_load(load(Load::impulse(-0.3, 0.120_07), oblique()))
+        .with_initial(&[0.5e-3, -0.2e-3], &[0.3, -0.1])
+}
+
+/// Fails unless both steps are the same up to `small` m, m/s and N s.
+fn same(one: &Step<'_>, other: &Step<'_>, what: &str, small: [f64; 3]) {
+    let near = |a: &[f64], b: &[f64], small: f64, of: &str| {
+        let fits = a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= small);
+        assert!(fits, "{what}, {of} at {} s: {a:?}, {b:?}", one.end);
+    };
+    let [place, speed, push] = small;
+    near(one.q, other.q, place, "q");
+    near(one.v, other.v, speed, "v");
+    near(one.velocity_before, other.velocity_before, speed, "the velocity before");
+    near(one.velocity_after, other.velocity_after, speed, "the velocity after");
+    near(one.impulse, other.impulse, push, "impulses");
+    let h = one.end - one.start;
+    near(one.force, other.force, push / h, "forces");
+    assert!(one.holes.iter().all(|hole| hole.impulse == 0.0), "{what}: {:?}", one.holes);
+    let ended = |step: &Step<'_>| step.closed.iter().map(|c| (c.wall, c.end.is_some())).collect::<Vec<_>>();
+    assert_eq!(ended(one), ended(other), "{what}, contacts that end at {} s", one.end);
+    for (a, b) in one.closed.iter().zip(other.closed) {
+        near(&[a.approach_speed], &[b.approach_speed], speed, "an approach");
+        near(&[a.impulse], &[b.impulse], 1e3 * push, "the impulse of an episode");
+    }
+}
+
+#[test]
+fn a_hole_out_of_reach_changes_no_step() {
+    let h = 1e-4;
+    for (scheme, far) in schemes() {
+        for damping in [0.0, 3.0] {
+            let (scene, what) = (scene(damping), format!("{scheme}, damping {damping}, {far:?}"));
+            let mut beside = Stepper::new(&with(scene.clone(), far.clone()), &scheme, h).expect("with the hole");
+            let mut alone = Stepper::new(&scene, &scheme, h).expect("without it");
+            let mut pushed = [0_u32; 4];
+            for number in 0..3000_u32 {
+                // An extra force for a while, every other step; and once both start anew in the walls.
+                let extra = [0.7, -1.1].map(|f| if number % 2 == 1 { f } else { 0.0 });
+                let given = (800..1000).contains(&number).then_some(extra);
+                if number == 2000 {
+                    let state = State { q: vec![-0.8e-3, -0.6e-3], v: vec![-0.2, 0.1] };
+                    let time = h * 1500.0;
+                    beside.set_state(time, &state).expect("a state");
+                    alone.set_state(time, &state).expect("a state");
+                }
+                let (one, other) = match given {
+                    Some(extra) => (beside.step_with(&extra), alone.step_with(&extra)),
+                    None => (beside.step(), alone.step()),
+                };
+                let (one, other) = (one.expect("a step"), other.expect("a step"));
+                // Rounding of the two solvers, 1e-10 of the gaps of 1 mm; over h in velocities and
+                // impulses.
+                same(&one, &other, &what, [1e-13, 1e-9, 1e-9]);
+                one.impulse.iter().zip(&mut pushed).for_each(|(p, sum)| *sum += u32::from(*p != 0.0));
+            }
+            assert!(pushed.iter().all(|&count| count > 3), "{what}: {pushed:?}");
+        }
+    }
+}
