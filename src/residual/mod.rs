@@ -21,6 +21,7 @@ mod residuals;
 mod ring;
 mod round;
 mod scales;
+mod scratch;
 mod series;
 mod sight;
 mod sums;
@@ -43,6 +44,7 @@ use matrices::Matrices;
 use memory::Memory;
 use most::most;
 use scales::Scales;
+use scratch::Scratch;
 use sight::Sight;
 use std::sync::Arc;
 use sums::Sums;
@@ -63,8 +65,8 @@ pub struct Judge {
     /// rotations: computed otherwise, a sine would differ by the rounding of its phase.
     grid_load: Option<GridForcing>,
     matrices: Matrices,
-    /// The walls by their rows, and the indices of the rigid ones that see several degrees of
-    /// freedom.
+    /// The walls by their rows, and the indices of the rows with rigid walls that reach several
+    /// degrees of freedom.
     sights: Vec<Sight>,
     wide: Vec<usize>,
     /// Largest weight of a rigid wall that sees this degree of freedom alone, n entries.
@@ -128,30 +130,6 @@ struct Residue {
     handed: bool,
 }
 
-/// Vectors of length n that a step needs.
-#[derive(Debug, Clone)]
-struct Scratch {
-    load_end: Vec<f64>,
-    load: Vec<f64>,
-    blow: Vec<f64>,
-    /// Change of velocity by the blows, m/s.
-    struck: Vec<f64>,
-    /// The displacement that the blows of a step add to that of its rule, m, zero in steps without
-    /// a blow; and the displacement at the step's end without it.
-    beyond: Vec<f64>,
-    arrived: Vec<f64>,
-    /// The displacement by blows whose velocity the damper feels in the step's balance, m.
-    felt: Vec<f64>,
-    mean_q: Vec<f64>,
-    mean_v: Vec<f64>,
-    /// Change of velocity, m/s.
-    gained: Vec<f64>,
-    residual: Vec<f64>,
-    inertia: Vec<f64>,
-    damper: Vec<f64>,
-    spring: Vec<f64>,
-}
-
 impl Judge {
     /// A judge of a run on `scene` (the scene as the scheme sees it) under `contract` with steps of
     /// `h` seconds, started from the state `q` (m), `v` (m/s), one value of each per degree of
@@ -183,26 +161,10 @@ impl Judge {
         let fit = |x: &[f64]| x.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect::<Vec<f64>>();
         let (q, v) = (fit(q), fit(v));
         let held: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(&q), w.at.dot(&v))).collect();
-        let scratch = Scratch {
-            load_end: zero(),
-            load: zero(),
-            blow: zero(),
-            struck: zero(),
-            beyond: zero(),
-            arrived: zero(),
-            felt: zero(),
-            mean_q: zero(),
-            mean_v: zero(),
-            gained: zero(),
-            residual: zero(),
-            inertia: zero(),
-            damper: zero(),
-            spring: zero(),
-        };
         let grid_load = scene.is_line().then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
-        let rigid = || scene.walls.iter().enumerate().filter(|(_, wall)| wall.law.is_rigid());
+        let sights = Sight::all(scene);
         let mut seen = zero();
-        for (_, wall) in rigid() {
+        for wall in scene.walls.iter().filter(|wall| wall.law.is_rigid()) {
             if let &[(i, weight)] = wall.at.entries()
                 && let Some(seen) = seen.get_mut(i)
             {
@@ -215,8 +177,8 @@ impl Judge {
             loads,
             grid_load,
             matrices: Matrices::new(&scene.system),
-            sights: Sight::all(scene),
-            wide: rigid().filter(|(_, wall)| wall.at.entries().len() > 1).map(|(index, _)| index).collect(),
+            wide: (0..sights.len()).filter(|&index| sights[index].is_wide(scene)).collect(),
+            sights,
             seen,
             mass,
             energy: energy::Ledger::new(scene, contract, &q, &v),
@@ -228,7 +190,7 @@ impl Judge {
             touch: scene.touching_distance(),
             q,
             load,
-            scratch,
+            scratch: Scratch::new(n),
             pairs: Pairs::default(),
             rebounds: Pairs::default(),
             law_error: 0.0,
@@ -323,10 +285,8 @@ impl Judge {
     /// Makes the state at the end of a step that at the start of the next.
     #[inline(always)]
     fn go_on(&mut self, step: &Step<'_>, n: usize) {
-        for &index in &self.wide {
-            let Some(wall) = self.scene.walls.get(index) else { continue };
-            let terms = wall.at.entries().iter().map(|&(i, weight)| (weight * step.velocity_after[i]).abs());
-            self.speed_scale = self.speed_scale.max(terms.sum());
+        for sight in self.wide.iter().filter_map(|&index| self.sights.get(index)) {
+            self.speed_scale = self.speed_scale.max(sight.size(step.velocity_after));
         }
         let (old, q, after) = (&mut self.q[..n], &step.q[..n], &step.velocity_after[..n]);
         let (seen, root_mass) = (&self.seen[..n], &self.scales.root_mass[..n]);

@@ -53,8 +53,21 @@ impl View {
     fn of(&self, x: &[f64]) -> f64 {
         match self {
             Self::One(i, weight) => x.get(*i).map_or(0.0, |x| weight * x),
-            Self::Run(first, run) => x.get(*first..first + run.len()).map_or(0.0, |x| dot(run, x)),
+            Self::Run(first, run) => x.get(*first..first + run.len()).map_or(0.0, |x| sum(run, x, |term| term)),
             Self::Wide(row) => row.dot(x),
+        }
+    }
+
+    /// The sum of the sizes of the terms of the row times `x`.
+    #[inline(always)]
+    fn size(&self, x: &[f64]) -> f64 {
+        match self {
+            Self::One(i, weight) => x.get(*i).map_or(0.0, |x| (weight * x).abs()),
+            Self::Run(first, run) => x.get(*first..first + run.len()).map_or(0.0, |x| sum(run, x, f64::abs)),
+            Self::Wide(row) => {
+                let terms = row.entries().iter().filter_map(|&(i, weight)| x.get(i).map(|x| (weight * x).abs()));
+                terms.sum()
+            }
         }
     }
 }
@@ -84,6 +97,18 @@ impl Sight {
         self.row.of(x)
     }
 
+    /// The sum of the sizes of the terms of the row times `x`.
+    #[inline(always)]
+    pub fn size(&self, x: &[f64]) -> f64 {
+        self.row.size(x)
+    }
+
+    /// True if the row reaches several degrees of freedom and one of its walls is rigid.
+    pub fn is_wide(&self, scene: &Scene) -> bool {
+        let rigid = |&wall: &usize| scene.walls.get(wall).is_some_and(|wall| wall.law.is_rigid());
+        !matches!(self.row, View::One(..)) && self.walls.iter().any(rigid)
+    }
+
     /// True if no wall can matter in the step: the displacements `w0` and `w1` (m) at its ends are
     /// clear of them, and so is all that the body can reach from the first within `way` (m).
     #[inline(always)]
@@ -93,16 +118,17 @@ impl Sight {
     }
 }
 
-/// a · b in four independent sums, so that their additions overlap.
-#[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// The sum of `of` the products of a and b, in four independent sums, so that their additions
+/// overlap.
+#[inline(always)]
+fn sum(a: &[f64], b: &[f64], of: impl Fn(f64) -> f64) -> f64 {
     let (mut a, mut b) = (a.chunks_exact(4), b.chunks_exact(4));
     let mut sums = [0.0; 4];
     for (a, b) in a.by_ref().zip(b.by_ref()) {
         for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += a * b;
+            *sum += of(a * b);
         }
     }
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
+    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| of(a * b)).sum();
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
