@@ -33,6 +33,14 @@ pub(super) struct Columns {
 }
 
 impl Columns {
+    /// Writes the zeros that the columns of the walls lack up to the last row.
+    pub fn fill(&mut self) {
+        let rows = self.time.len();
+        for column in self.force.iter_mut().chain(&mut self.impulse).chain(&mut self.friction) {
+            column.resize(rows, 0.0);
+        }
+    }
+
     /// True if there is a column for each wall, hole, support and probe, all of one length, and the
     /// contacts are at walls and holes there are.
     pub fn fit(&self) -> bool {

@@ -74,6 +74,7 @@ impl Recorder {
         };
         let force: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(q), w.at.dot(v))).collect();
         recorder.push(0.0, q, v, &force);
+        recorder.columns.fill();
         recorder
     }
 
@@ -252,9 +253,19 @@ impl Recorder {
             t.displacement[index].push(row.dot(q));
             t.velocity[index].push(row.dot(v));
         }
-        for (index, sum) in self.pending.iter_mut().enumerate() {
-            t.force[index].push(force.get(index).copied().unwrap_or(0.0));
-            t.impulse[index].push(std::mem::take(sum));
+        // A wall is touched in few rows: its zeros are written when its next force comes.
+        let row = t.time.len() - 1;
+        let late = |column: &mut Vec<f64>, value: f64| {
+            if value != 0.0 {
+                column.resize(row, 0.0);
+                column.push(value);
+            }
+        };
+        for ((column, impulses), (&force, sum)) in
+            t.force.iter_mut().zip(&mut t.impulse).zip(force.iter().zip(&mut self.pending))
+        {
+            late(column, force);
+            late(impulses, std::mem::take(sum));
         }
         for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
             column.push(work);
@@ -267,7 +278,7 @@ impl Recorder {
             columns.iter_mut().zip(sum).for_each(|(column, sum)| column.push(std::mem::take(sum)));
         }
         for (column, sum) in t.friction.iter_mut().zip(&mut known.friction) {
-            column.push(std::mem::take(sum));
+            late(column, std::mem::take(sum));
         }
         self.due = self.row_time(self.columns.time.len() as u64);
     }
@@ -276,6 +287,7 @@ impl Recorder {
     #[must_use]
     pub fn finish(self, open: &[Contact]) -> Trajectory {
         let Self { mut columns, mut worn, .. } = self;
+        columns.fill();
         columns.contacts.extend_from_slice(open);
         if worn.is_empty() {
             columns.contacts.sort_by(|a, b| a.start.total_cmp(&b.start));
