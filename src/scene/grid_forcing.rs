@@ -83,13 +83,15 @@ impl GridForcing {
     #[inline(never)]
     fn set(&mut self, t: f64) {
         let index = (t / self.h).round() as u64;
-        let turns = if t == index as f64 * self.h { index % RESTART } else { 0 };
+        let on_grid = t == index as f64 * self.h;
+        let turns = if on_grid { index % RESTART } else { 0 };
         let from = if turns > 0 { (index - turns) as f64 * self.h } else { t };
         for phasor in &mut self.phasors {
             phasor.set(from);
             (0..turns).for_each(|_| phasor.turn());
         }
-        self.next = index + 1;
+        // From a time between two instants there is no rotation to one.
+        self.next = if on_grid { index + 1 } else { 0 };
     }
 }
 
@@ -124,6 +126,7 @@ mod tests {
             assert_eq!((again.at(78.0 * h), again.at(79.0 * h)), (grid.at(78.0 * h), grid.at(79.0 * h)));
             let between = 7.3 * h;
             assert_eq!(grid.at(between), forcing.force(between));
+            assert_eq!(grid.at(8.0 * h), GridForcing::new(forcing.clone(), h).at(8.0 * h));
         }
     }
 }
