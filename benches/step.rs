@@ -136,6 +136,19 @@ fn stepped(stepper: &mut Stepper, steps: u64) -> Outcome {
     Outcome { q, v, sum, impulse }
 }
 
+/// The same from contact to contact, without the displacements in between.
+fn glided(stepper: &mut Stepper, steps: u64) -> Outcome {
+    let (mut q, mut v, mut impulse, mut made) = (0.0, 0.0, 0.0, 0);
+    while made < steps {
+        let step = stepper.glide(steps - made).expect("steps");
+        (q, v, made) = (step.q[0], step.v[0], step.index + 1);
+        for p in step.impulse {
+            impulse += p.abs();
+        }
+    }
+    Outcome { q, v, sum: 0.0, impulse }
+}
+
 /// The e = 1 motion between two impacts, by hand: Re(Z e^{λτ}) from the impact on, and the steady
 /// Im(S e^{i(ωt + φ)}).
 struct Flight {
@@ -302,8 +315,17 @@ fn main() {
         });
         hand.check(&ours, source);
         turned.check(&ours, source);
+        let [rotation_alone, many] = race(ROUNDS, || {
+            let (s, h) = (black_box(source), black_box(H));
+            let alone = time(1, |_| turned = bare_moreau_jean(s, black_box(0.5), h, steps, by_rotation(s, h)));
+            let mut stepper = stepper(&scene, Backend::Clamp);
+            let many = time(1, |_| ours = glided(&mut stepper, steps));
+            [alone, many].map(|ns| ns / steps as f64)
+        });
+        turned.check(&Outcome { sum: turned.sum, ..ours }, source);
         row(&format!("a step of moreau-jean, e = {e}: libm's sine by hand"), [sine, library]);
         row(&format!("a step of moreau-jean, e = {e}: rotation by hand"), [rotation, library]);
+        row("the same, from contact to contact in a call", [rotation_alone, many]);
     }
 
     let (source, end) = (Source::new(1.0), 10.0);

@@ -97,21 +97,34 @@ impl<S: Space> Body<S> {
     /// of itself in 1e7 steps that conserve it to 1e-15 in this form.
     #[inline(always)]
     pub fn theta_momentum(&mut self, theta: f64, frame: &mut Frame<S>, b: &mut S::Vector) {
+        self.momentum_to(frame.end, theta, (&frame.q, &frame.v, &frame.extra), b);
+        frame.before.clone_from(&frame.v);
+    }
+
+    /// The same for a step that ends at `end` (s), from the state `q`, `v` under the extra force
+    /// `extra`.
+    #[inline(always)]
+    pub fn momentum_to(
+        &mut self,
+        end: f64,
+        theta: f64,
+        (q, v, extra): (&S::Vector, &S::Vector, &S::Vector),
+        b: &mut S::Vector,
+    ) {
         let (h, ht) = (self.h, self.h * theta);
         // Before the state is read, so that no number must be kept in memory during the call of a
         // sine.
-        self.load_at(frame.end);
-        let loads = self.load_before.as_ref().iter().zip(self.load.as_ref()).zip(frame.extra.as_ref());
+        self.load_at(end);
+        let loads = self.load_before.as_ref().iter().zip(self.load.as_ref()).zip(extra.as_ref());
         for (b, ((start, end), extra)) in b.as_mut().iter_mut().zip(loads) {
             *b = (1.0 - theta) * start + theta * end + extra;
         }
-        for ((mean, q), v) in self.mean.as_mut().iter_mut().zip(frame.q.as_ref()).zip(frame.v.as_ref()) {
+        for ((mean, q), v) in self.mean.as_mut().iter_mut().zip(q.as_ref()).zip(v.as_ref()) {
             *mean = q + ht * v;
         }
-        S::add_product(&self.damping, -1.0, &frame.v, b);
+        S::add_product(&self.damping, -1.0, v, b);
         S::add_product(&self.stiffness, -1.0, &self.mean, b);
         b.as_mut().iter_mut().for_each(|b| *b *= h);
-        frame.before.clone_from(&frame.v);
     }
 
     /// The displacement of a wall's row, g·q, m; of a velocity its rate.

@@ -48,6 +48,18 @@ impl<S: Space> Grid<S> {
         Ok(())
     }
 
+    /// As [`Motion::glide`].
+    pub fn glide(&mut self, step: u64, until: u64) -> Result<u64> {
+        if self.forced || !self.frame.pushing.is_empty() || !self.episodes.idle() {
+            return Ok(step);
+        }
+        let reached = self.rule.glide(step, until, &mut self.frame)?;
+        if reached > step {
+            self.frame.check(reached - 1)?;
+        }
+        Ok(reached)
+    }
+
     /// Sets the extra force of the step. Not inlined: most runs have none.
     #[inline(never)]
     fn force(&mut self, extra: Option<&[f64]>) {
@@ -78,6 +90,10 @@ impl<S: Space> Grid<S> {
 impl<S: Space> Motion for Grid<S> {
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
         self.advance(step, extra)
+    }
+
+    fn glide(&mut self, step: u64, until: u64) -> Result<u64> {
+        self.glide(step, until)
     }
 
     fn step(&self, index: u64) -> Step<'_> {

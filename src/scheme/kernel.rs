@@ -152,6 +152,14 @@ impl Kernel {
         }
     }
 
+    /// As [`Motion::glide`].
+    pub fn glide(&mut self, step: u64, until: u64) -> Result<u64> {
+        match self {
+            Self::Line(grid) => grid.glide(step, until),
+            Self::Other(motion) => motion.glide(step, until),
+        }
+    }
+
     /// As [`Motion::step`]. Inlined, so that the compiler leaves out the fields that a caller does
     /// not read.
     #[inline(always)]

@@ -26,13 +26,14 @@
 
 use super::Counters;
 use super::body::Body;
-use super::frame::Frame;
+use super::frame::{Frame, all_finite};
 use super::programme::Programme;
 use super::rule::Rule;
 use super::space::{Space, zero};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
+use std::mem::take;
 
 #[derive(Debug)]
 pub(super) struct MoreauJean<S: Space> {
@@ -143,6 +144,23 @@ impl<S: Space> MoreauJean<S> {
     }
 }
 
+/// Writes q + ½hv to `ahead`.
+#[inline(always)]
+fn look_ahead<S: Space>(h: f64, q: &S::Vector, v: &S::Vector, ahead: &mut S::Vector) {
+    for (ahead, (q, v)) in ahead.as_mut().iter_mut().zip(q.as_ref().iter().zip(v.as_ref())) {
+        *ahead = q + 0.5 * h * v;
+    }
+}
+
+/// Adds δ, and the displacement that follows from it, to the state.
+#[inline(always)]
+fn go<S: Space>((h, theta): (f64, f64), delta: &S::Vector, q: &mut S::Vector, v: &mut S::Vector) {
+    for ((q, v), d) in q.as_mut().iter_mut().zip(v.as_mut()).zip(delta.as_ref()) {
+        *q += h * (*v + theta * d);
+        *v += d;
+    }
+}
+
 impl<S: Space> Rule<S> for MoreauJean<S> {
     fn restart(&mut self, _: &Scene, time: f64, _: &Frame<S>) -> Result<()> {
         self.body.restart(time);
@@ -154,26 +172,19 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
 
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, theta, b, .. } = self;
-        let (h, theta) = (body.h, *theta);
+        let h = body.h;
         frame.begin(step, h);
-        body.theta_momentum(theta, frame, b);
+        body.theta_momentum(*theta, frame, b);
         // Blows come first: the impact law applies to the velocity after them.
         frame.blown = body.strike((frame.start, frame.end), 1.0, b, frame);
-        let states = frame.q.as_ref().iter().zip(frame.struck().as_ref());
-        for (ahead, (q, v)) in self.ahead.as_mut().iter_mut().zip(states) {
-            *ahead = q + 0.5 * h * v;
-        }
+        look_ahead::<S>(h, &frame.q, frame.struck(), &mut self.ahead);
         self.programme.free();
         match self.programme.first_near(&self.ahead) {
             None => self.programme.release(&self.b, (frame.start, step))?,
             Some(row) => self.meet(row, step, frame)?,
         }
         let carried = self.body.blows.is_some() && self.carry(step, frame)?;
-        let delta = self.programme.x().as_ref();
-        for ((q, v), d) in frame.q.as_mut().iter_mut().zip(frame.v.as_mut()).zip(delta) {
-            *q += h * (*v + theta * d);
-            *v += d;
-        }
+        go::<S>((h, self.theta), self.programme.x(), &mut frame.q, &mut frame.v);
         frame.after.clone_from(&frame.v);
         if carried {
             self.body.shift(&mut frame.q);
@@ -182,6 +193,35 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
             self.watch(frame);
         }
         Ok(())
+    }
+
+    fn glide(&mut self, step: u64, until: u64, frame: &mut Frame<S>) -> Result<u64> {
+        if self.body.blows.is_some() || !self.pushed.is_empty() {
+            return Ok(step);
+        }
+        self.programme.free();
+        let Self { body, theta, programme, b, ahead, .. } = self;
+        let (h, mut next, mut done, mut finite) = (body.h, step, Ok(()), true);
+        // As variables of their own, numbers stay in registers.
+        let (mut q, mut v, mut before) = (take(&mut frame.q), take(&mut frame.v), take(&mut frame.before));
+        while next < until && done.is_ok() && finite {
+            look_ahead::<S>(h, &q, &v, ahead);
+            if programme.first_near(ahead).is_some() {
+                break;
+            }
+            body.momentum_to((next + 1) as f64 * h, *theta, (&q, &v, &frame.extra), b);
+            done = programme.release(b, (next as f64 * h, next));
+            before.clone_from(&v);
+            go::<S>((h, *theta), programme.x(), &mut q, &mut v);
+            finite = all_finite(q.as_ref()) && all_finite(v.as_ref());
+            next += 1;
+        }
+        (frame.q, frame.v, frame.before) = (q, v, before);
+        if next > step {
+            (frame.start, frame.end, frame.blown) = ((next - 1) as f64 * h, next as f64 * h, false);
+            frame.after.clone_from(&frame.v);
+        }
+        done.map(|()| next)
     }
 
     fn count(&self, counters: &mut Counters) {

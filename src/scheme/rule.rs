@@ -19,6 +19,13 @@ pub(super) trait Rule<S: Space>: Debug + Send {
     /// the frame. The caller has set the frame's extra force.
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()>;
 
+    /// Makes the steps from number `step` on that touch no wall, up to number `until`, as
+    /// [`Rule::advance`] makes them one by one but with the state kept in registers; returns the
+    /// number of the first step that is not made. A rule without such a loop makes none.
+    fn glide(&mut self, step: u64, _until: u64, _frame: &mut Frame<S>) -> Result<u64> {
+        Ok(step)
+    }
+
     /// Adds the work that the rule has done.
     fn count(&self, counters: &mut Counters);
 

@@ -12,7 +12,7 @@ use std::ops::IndexMut;
 /// [`Matrices`](super::matrices::Matrices).
 pub(super) trait Space: Debug + Sized + 'static {
     /// n numbers.
-    type Vector: Debug + Clone + Send + AsRef<[f64]> + AsMut<[f64]> + IndexMut<usize, Output = f64>;
+    type Vector: Debug + Clone + Default + Send + AsRef<[f64]> + AsMut<[f64]> + IndexMut<usize, Output = f64>;
     /// A symmetric matrix, stored for products with vectors.
     type Operator: Debug + Send;
     /// A positive definite matrix, factored.

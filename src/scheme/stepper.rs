@@ -10,6 +10,9 @@ use crate::scheme::Counters;
 use crate::step::{Contact, Contract, Step};
 use crate::time::MOST_STEPS;
 
+/// Maximum number of steps in one loop without contact.
+const GLIDE: u64 = 1 << 12;
+
 /// Advances a scene step by step.
 ///
 /// ```
@@ -118,6 +121,51 @@ impl Stepper {
         self.kernel.advance(index, extra)?;
         self.index += 1;
         Ok(self.kernel.step(index))
+    }
+
+    /// Advances by up to `most` steps, at least by one, and stops after the first in which a wall
+    /// pushes or a contact episode ends. Returns the last of these steps, whose
+    /// [`index`](Step::index) tells how many there were.
+    ///
+    /// For a program that looks at contacts alone. `moreau-jean` makes the steps between two
+    /// contacts in one loop, with the same result to the last bit; other schemes make them one by
+    /// one.
+    ///
+    /// ```
+    /// use signorini::{Scene, Scheme, Stepper, Wall};
+    ///
+    /// let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop", 0.1)).with_initial(&[0.0], &[1.0]);
+    /// let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3)?;
+    /// let impact = stepper.glide(1000)?;
+    /// assert!((impact.end - 0.1).abs() <= 1e-3);
+    /// assert_eq!(impact.impulse, [-2.0]); // N s, of 1 kg at 1 m/s
+    /// # Ok::<(), signorini::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Stepper::step`].
+    pub fn glide(&mut self, most: u64) -> Result<Step<'_>> {
+        let end = self.index.saturating_add(most.max(1));
+        loop {
+            self.asking.pass(self.index)?;
+            // The interrupt is asked between two loops.
+            let until = end.min(self.index.saturating_add(GLIDE));
+            self.index = self.kernel.glide(self.index, until)?;
+            if self.index == end {
+                break;
+            }
+            if self.index < until {
+                self.kernel.advance(self.index, None)?;
+                self.index += 1;
+                let step = self.kernel.step(self.index - 1);
+                let pushed = |p: &f64| *p != 0.0;
+                let met = step.impulse.iter().any(pushed) || step.holes.iter().any(|hole| hole.impulse != 0.0);
+                if met || !step.closed.is_empty() || self.index == end {
+                    break;
+                }
+            }
+        }
+        Ok(self.kernel.step(self.index - 1))
     }
 
     /// Sets the state at `time` (s), later or earlier than now: a co-simulation can repeat a step,

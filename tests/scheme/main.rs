@@ -18,6 +18,7 @@ mod extremes;
 mod forces;
 mod function_load;
 mod generalized_alpha;
+mod glide;
 mod impact_map;
 mod many;
 mod many_convergence;
