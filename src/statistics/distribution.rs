@@ -91,6 +91,23 @@ mod tests {
     }
 
     #[test]
+    fn quantiles_lie_straight_between_neighbours() {
+        // The places 1, 1.8 and 1.98 of three values.
+        let one = Distribution::of(vec![7.0, 1.0, 2.0]).unwrap();
+        assert!(one.quantiles.iter().zip([2.0, 6.0, 6.9]).all(|(x, y)| (x - y).abs() < 1e-14), "{one:?}");
+    }
+
+    #[test]
+    fn a_largest_value_just_below_a_threshold_does_not_reach_it() {
+        // Its logarithm rounds to that of the threshold, or not.
+        for j in -40..40 {
+            let (edge, below) = (10_f64.powf(f64::from(j) / 5.0), 10_f64.powf(f64::from(j - 1) / 5.0));
+            let one = Distribution::of(vec![edge.next_down()]).unwrap();
+            assert_eq!((one.thresholds[19], one.exceedances[19]), (below, 1), "{j}");
+        }
+    }
+
+    #[test]
     fn a_largest_value_on_a_threshold_reaches_it() {
         for j in -40..40 {
             let max = 10_f64.powf(f64::from(j) / 5.0);

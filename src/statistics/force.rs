@@ -134,7 +134,7 @@ impl Forces {
     }
 
     fn batch(&self) -> usize {
-        ((self.at * BATCHES as u64 / self.bins) as usize).min(BATCHES - 1)
+        (self.at * BATCHES as u64 / self.bins) as usize
     }
 
     fn add(&mut self, wall: usize, p: f64, square: f64) {

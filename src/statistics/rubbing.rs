@@ -3,7 +3,7 @@
 use super::batch::{BATCHES, batch_of, half_width};
 use crate::contact::IMPACT_STEPS;
 use crate::scene::Scene;
-use crate::step::Step;
+use crate::step::{Path, Step};
 use crate::wear::{Manner, Rub, Rubs, sector_of};
 use serde::{Deserialize, Serialize};
 
@@ -111,8 +111,8 @@ pub struct Rubbing {
     supports: Vec<Tally>,
     /// One for each contact.
     episodes: Vec<Episode>,
-    /// The last step in which each support was in contact.
-    touched: Vec<Option<u64>>,
+    /// The last step in which each support was in contact, and where its last part began, s.
+    touched: Vec<Option<(u64, f64)>>,
 }
 
 impl Rubbing {
@@ -157,13 +157,32 @@ impl Rubbing {
         let end = self.from + self.length;
         // Rounding of the last step's end is no time after the window.
         let window = [step.start.max(self.from), if step.end > end { end } else { step.end }];
+        if !matches!(step.path, Path::Series(_)) {
+            return self.add_part(step, window);
+        }
+        // Exact motion may last over many batches.
+        let mut from = window[0];
+        loop {
+            let edge = self.from + (batch_of(from - self.from, self.length) + 1) as f64 * self.length / BATCHES as f64;
+            let to = if edge > from && edge < window[1] { edge } else { window[1] };
+            self.add_part(step, [from, to]);
+            if to >= window[1] {
+                return;
+            }
+            from = to;
+        }
+    }
+
+    /// Adds the part of a step between two times in it, s, which lies in one batch.
+    fn add_part(&mut self, step: &Step<'_>, window: [f64; 2]) {
         let (from, length) = (self.from, self.length);
         let Self { rubs, supports, episodes, touched, .. } = self;
         rubs.see(step, window, |rub| {
             let Some(tally) = supports.get_mut(rub.support) else { return };
             let middle = if rub.manner == Manner::Instant { step.end } else { 0.5 * (window[0] + window[1]) };
             tally.add(rub, batch_of(middle - from, length));
-            let first = touched.get_mut(rub.support).is_some_and(|last| last.replace(step.index) != Some(step.index));
+            let part = Some((step.index, window[0]));
+            let first = touched.get_mut(rub.support).is_some_and(|last| std::mem::replace(last, part) != part);
             match rub.manner {
                 Manner::Instant => tally.impacts += rub.work,
                 Manner::Lasting => {

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "cli")]
 mod accuracy;
+mod batches;
 mod chart;
 mod episodes;
 mod horizon;
