@@ -115,9 +115,6 @@ fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Res
         Scheme::PaoliSchatzman | Scheme::Newmark if round => {
             "moreau-jean: this scheme does not keep the energy of a body in a round hole"
         }
-        _ if round && !rubs => {
-            "moreau-jean, event, generalized-alpha, implicit-euler or penalty, the schemes for round holes"
-        }
         _ => ONE_FOR_FRICTION,
     };
     Err(Error::invalid("scheme", scheme, expected))

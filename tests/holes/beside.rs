@@ -4,7 +4,8 @@
 use crate::random_structures::at;
 use crate::rubbing::{body, hole, isotropic, load, with};
 use signorini::{
-    Integrator, Load, PenaltyLaw, Row, Scene, Scheme, Shape, State, Step, Stepper, Support, Wall, WallLaw,
+    Contact, Integrator, Load, PenaltyLaw, Row, Scene, Scheme, Shape, State, Step, Stepper, Support, Wall, WallLaw,
+    heading,
 };
 
 /// Gap of the hole, m: far more than the structure moves.
@@ -101,6 +102,81 @@ fn a_hole_out_of_reach_changes_no_step() {
                 one.impulse.iter().zip(&mut pushed).for_each(|(p, sum)| *sum += u32::from(*p != 0.0));
             }
             assert!(pushed.iter().all(|&count| count > 3), "{what}: {pushed:?}");
+        }
+    }
+}
+
+#[test]
+fn along_a_diameter_the_contacts_are_those_of_two_walls() {
+    let (h, gap, degrees) = (1e-4, 1e-3, 35.0);
+    let [c, s] = heading(degrees);
+    let along = Row::new(vec![(0, c), (1, s)]);
+    for (scheme, support) in schemes() {
+        let Shape::Round { law, .. } = support.shape else { panic!("{support:?}") };
+        for damping in [0.0, 4.0] {
+            let what = format!("{scheme}, damping {damping}, {law:?}");
+            let wall = |wall: Wall| Wall { law, ..wall };
+            let mut line = Scene::oscillator(1.2, damping, 300.0)
+                .with_wall(wall(Wall::upper("upper", gap)))
+                .with_wall(wall(Wall::lower("lower", -gap)))
+                .with_initial(&[0.2e-3], &[0.1]);
+            let shape = Shape::Round { gap, law };
+            let mut round = with(isotropic(1.2, damping, 300.0), Support { shape, ..support.clone() })
+                .with_initial(&[0.2e-3 * c, 0.2e-3 * s], &[0.1 * c, 0.1 * s]);
+            // Pressed onto one side, with blows into it and off it, and one onto the other side;
+            // within steps and at their ends.
+            let blows = [(0.04, 0.100_03), (0.05, 0.150_08), (-0.08, 0.200_05), (-0.4, 0.25), (0.1, 0.300_02)];
+            let blows = blows.map(|(impulse, time)| Load::impulse(impulse, time));
+            for one in [Load::constant(5.0), Load::harmonic(2.0, 3.0, 0.1)].into_iter().chain(blows) {
+                line = line.with_load(one.clone());
+                round = round.with_load(load(one, along.clone()));
+            }
+            let mut planar = Stepper::new(&line, &scheme, h).expect("between walls");
+            let mut turning = Stepper::new(&round, &scheme, h).expect("in the hole");
+            let (mut pushes, mut ended) = (0, 0);
+            for number in 0..5000_u32 {
+                if number == 4000 {
+                    let (q, v) = (gap, 0.05);
+                    planar.set_state(0.2, &State { q: vec![q], v: vec![v] }).expect("a state");
+                    let state = State { q: vec![q * c, q * s], v: vec![v * c, v * s] };
+                    turning.set_state(0.2, &state).expect("a state");
+                }
+                let extra = f64::from(u8::from((1200..1300).contains(&number) && number % 2 == 0));
+                let (one, other) = if (1000..1400).contains(&number) {
+                    (turning.step_with(&[extra * c, extra * s]), planar.step_with(&[extra]))
+                } else {
+                    (turning.step(), planar.step())
+                };
+                let (one, other) = (one.expect("a step"), other.expect("a step"));
+                let near = |a: f64, b: f64, small: f64, of: &str| {
+                    assert!((a - b).abs() < small, "{what}, {of} at {} s: {a}, {b}", one.end);
+                };
+                near(c * one.q[0] + s * one.q[1], other.q[0], 1e-13, "w");
+                near(c * one.v[0] + s * one.v[1], other.v[0], 1e-9, "its velocity");
+                let p = (other.impulse[0] + other.impulse[1]).abs();
+                near(one.holes[0].impulse, p, 1e-9, "impulses");
+                pushes += u32::from(p > 0.0);
+                assert_eq!(
+                    one.closed.len(),
+                    other.closed.len(),
+                    "{what}, {} s: {:?}, {:?}",
+                    one.end,
+                    one.closed,
+                    other.closed
+                );
+                for (a, b) in one.closed.iter().zip(other.closed) {
+                    assert_eq!((a.wall, a.end.is_some()), (0, b.end.is_some()), "{what}: {a:?}, {b:?}");
+                    near(a.start, b.start, 1e-12, "the start of a contact");
+                    near(a.end.unwrap_or(0.0), b.end.unwrap_or(0.0), 1e-12, "its end");
+                    near(a.impulse, b.impulse.abs(), 1e-7, "the impulse of a contact");
+                    near(a.approach_speed, b.approach_speed, 1e-9, "the approach");
+                    let left = |contact: &Contact| contact.departure_speed.unwrap_or(f64::NAN);
+                    near(left(a), left(b), 1e-9, "the departure");
+                    near(a.peak_force.unwrap_or(0.0), b.peak_force.unwrap_or(0.0), 1e-5, "the peak");
+                    ended += 1;
+                }
+            }
+            assert!(pushes > 500 && ended > 4, "{what}: {pushes}, {ended}");
         }
     }
 }

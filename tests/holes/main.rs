@@ -16,10 +16,12 @@ mod judge;
 mod penalty;
 mod pendulum;
 mod position;
+mod recorded;
 mod start;
 mod steps;
 #[cfg(feature = "cli")]
 mod two_planes;
+mod vanishing;
 mod wear;
 #[cfg(feature = "cli")]
 mod wear_holes;
