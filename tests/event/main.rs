@@ -21,3 +21,4 @@ mod random;
 mod returns;
 mod settling;
 mod source;
+mod vanishing;

@@ -336,3 +336,35 @@ fn what_makes_no_sense_is_refused() {
     let crossed = DiskBound::Strip { normal: [1.0, 0.0], lo: 1.0, hi: 0.0 };
     assert!(matches!(solver.solve(&[1.0, 1.0], &[crossed]), Err(Failure::Infeasible { .. })));
 }
+
+#[test]
+fn a_disk_of_one_row_is_an_interval() {
+    // ½·4x² − bx with |3x − 1| ≤ 2 is −1/3 ≤ x ≤ 1; the force on the row is (4x − b)/3. Alone, and
+    // with a row that yields by 0.1 a unit of force: then 3x − 3 = −0.1 r beyond the bound.
+    for (b, x, r) in [(20.0, 1.0, -16.0 / 3.0), (-10.0, -1.0 / 3.0, 26.0 / 9.0), (2.0, 0.5, 0.0)] {
+        let disk = || DiskBound::Disk { centre: [1.0, 0.0], radius: 2.0 };
+        let one = |blocks: usize, compliance: f64| Case {
+            a: vec![4.0; blocks],
+            g: (0..blocks).map(|i| (0..blocks).map(|j| if i == j { 3.0 } else { 0.0 }).collect()).collect(),
+            blocks: vec![1; blocks],
+            compliance: vec![compliance; blocks],
+            b: vec![b; blocks],
+            bounds: vec![disk(); blocks],
+        };
+        for blocks in [1, 3] {
+            let case = one(blocks, 0.0);
+            let found = DiskSolver::new(case.problem(), 1.0).unwrap().solve(&case.b, &case.bounds).unwrap().clone();
+            for (x_found, r_found) in found.x.iter().zip(&found.multiplier) {
+                // A quotient of numbers up to 10.
+                assert!((x_found - x).abs() < 1e-14 && (r_found - r).abs() < 1e-13, "{b}, {blocks}: {found:?}");
+            }
+            let case = one(blocks, 0.1);
+            let found = DiskSolver::new(case.problem(), 1.0).unwrap().solve(&case.b, &case.bounds).unwrap().clone();
+            for (x, r) in found.x.iter().zip(&found.multiplier) {
+                let beyond = (3.0 * x - 1.0).abs() - 2.0;
+                assert!((4.0 * x - b - 3.0 * r).abs() < 1e-12, "{b}, {blocks}: {found:?}");
+                assert!((0.1 * r.abs() - beyond.max(0.0)).abs() < 1e-13, "{b}, {blocks}: {found:?}");
+            }
+        }
+    }
+}

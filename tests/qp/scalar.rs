@@ -1,6 +1,7 @@
 //! The scalar programme against closed forms.
 
-use signorini::qp::{Failure, ScalarRow, clamp};
+use signorini::linear::{Rows, Symmetric};
+use signorini::qp::{Backend, Failure, Problem, Rhs, ScalarRow, Solver, clamp};
 
 const INF: f64 = f64::INFINITY;
 
@@ -245,4 +246,18 @@ fn a_wall_that_nothing_can_be_before_and_a_pad_without_stiffness_are_named() {
     assert_eq!(bad(rigid(INF, INF)), Err(Failure::NotFinite { what: "lower bound", index: 1 }));
     assert_eq!(bad(rigid(-INF, -INF)), Err(Failure::NotFinite { what: "upper bound", index: 1 }));
     assert_eq!(bad(elastic(-INF, 0.0, INF)), Err(Failure::NotFinite { what: "compliance", index: 1 }));
+}
+
+#[test]
+fn a_row_that_x_does_not_move_is_pushed_by_its_own_spring() {
+    // 0·x = 0 lies 0.3 below, above or within the bounds of a row that yields by 0.2 m/N.
+    for (lo, hi, force) in [(0.3, INF, 1.5), (-INF, -0.3, -1.5), (-0.3, 0.3, 0.0), (0.0, 0.0, 0.0)] {
+        let rows: [&[(usize, f64)]; 2] = [&[(0, 1.0)], &[(0, 0.0)]];
+        let problem = Problem { a: Symmetric::diagonal(&[2.0]), g: Rows::new(1, rows), compliance: vec![0.0, 0.2] };
+        let mut solver = Solver::new(problem, Backend::Clamp, 1.0).expect("one unknown");
+        let found = solver.solve(&Rhs { b: &[6.0], lo: &[-INF, lo], hi: &[1.0, hi] }).expect("feasible");
+        // The other row holds x = 1 against 3 with 2·1 − 6 = −4.
+        assert_eq!((found.x[0], found.multiplier[0]), (1.0, -4.0));
+        assert!((found.multiplier[1] - force).abs() < 1e-15, "{lo} {hi}: {found:?}");
+    }
 }

@@ -1,7 +1,8 @@
 //! A body that has come to rest stays at rest.
 
 use crate::common::{self, INTEGRATORS, MOREAU_JEAN, schemes, spring};
-use signorini::{Integrator, Load, Options, Scene, Scheme, Stepper, Wall, run};
+use signorini::linear::Symmetric;
+use signorini::{Integrator, Load, Options, Row, Scene, Scheme, Stepper, Structure, Wall, equilibrium, run};
 
 /// Bounds of a motion over many steps, and the number of contact episodes that ended.
 #[derive(Debug)]
@@ -227,6 +228,34 @@ fn a_mass_pressed_on_a_stop_rests_under_the_static_force_in_every_scheme() {
                     assert!((impulse - 100.0).abs() < 1e-9, "{scheme}, h = {h}: {impulse} N s");
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn two_bodies_without_a_ground_stand_against_a_wall_with_the_spring_between_them() {
+    // 7 N press the first of two bodies, 20 N/m apart, towards a wall of the second, or a pad of it.
+    for (wall, place, side) in [
+        (Wall::upper("stop", 0.5), 0.5, 1.0),
+        (Wall::lower("stop", -0.5), -0.5, -1.0),
+        (Wall::upper("pad", 0.5).with_elasticity(10.0, 0.0), 1.2, 1.0),
+    ] {
+        for (m, scale) in [(1.0, 1.0), (300.0, 1e-3)] {
+            let k = Symmetric::from_entries(2, [(0, 0, 20.0), (1, 0, -20.0), (1, 1, 20.0)]);
+            let structure =
+                Structure { mass: Symmetric::diagonal(&[m, 2.0 * m]), damping: Symmetric::zeros(2), stiffness: k };
+            let mut scene = Scene::structure(structure)
+                .with_wall(Wall { at: Row::dof(1), position: scale * wall.position, ..wall.clone() })
+                .with_load(Load { at: Row::dof(0), ..Load::constant(scale * side * 7.0) });
+            scene = scene.with_initial(&[0.0; 2], &[0.0; 2]);
+            let q = equilibrium(&scene).expect("a rest");
+            let expected = [scale * (place + side * 0.35), scale * place];
+            // Without a ground each programme moves the bodies by a part of what is left: they end
+            // when it is 1e-13, at rates of 1e-4 and less of the slowest motion.
+            assert!(
+                q.iter().zip(expected).all(|(q, e)| (q - e).abs() < 1e-7 * scale),
+                "{wall:?}, {m} kg: {q:?}, not {expected:?}"
+            );
         }
     }
 }

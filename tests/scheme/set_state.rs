@@ -136,6 +136,42 @@ fn a_blow_just_before_is_not_given_twice() {
 }
 
 #[test]
+fn the_exact_scheme_gives_the_blows_after_a_restart_and_not_those_at_it() {
+    // 2 kg at 0.3 m/s, with blows of 1 N s at 0 and at 0.5 s: 0.8 m/s, then 1.3 m/s.
+    for structure in [false, true] {
+        let mut scene = Scene::oscillator(2.0, 0.0, 0.0)
+            .with_wall(Wall::upper("far", 90.0))
+            .with_load(Load::impulse(1.0, 0.0))
+            .with_load(Load::impulse(1.0, 0.5))
+            .with_initial(&[0.0], &[0.3]);
+        if structure {
+            let free = Chain { masses: vec![2.0], springs: vec![], grounds: [0.0, 0.0] };
+            scene.system = Scene::structure(free.structure().expect("a mass")).system;
+        }
+        let mut stepper = Stepper::new(&scene, &Scheme::Event, 0.25).expect("a scene");
+        let mut reach = |from: Option<(f64, f64)>| {
+            if let Some((time, v)) = from {
+                stepper.set_state(time, &State { q: vec![0.0], v: vec![v] }).expect("a state");
+            }
+            while stepper.time() < 1.0 {
+                stepper.step().expect("a step");
+            }
+            stepper.state().q[0]
+        };
+        for (from, expected) in [
+            (None, 0.5 * 0.8 + 0.5 * 1.3),
+            // Before the second blow, at it with the velocity after it, and after it.
+            (Some((0.25, 0.8)), 0.25 * 0.8 + 0.5 * 1.3),
+            (Some((0.5, 1.3)), 0.5 * 1.3),
+            (Some((0.75, 1.3)), 0.25 * 1.3),
+        ] {
+            let found = reach(from);
+            assert!((found - expected).abs() < 1e-14, "structure: {structure}, from {from:?}: {found}, not {expected}");
+        }
+    }
+}
+
+#[test]
 fn states_that_make_no_sense_are_refused_and_change_nothing() {
     let mut stepper = Stepper::new(&source(0.8, 0.8), &MOREAU_JEAN, H).expect("a scene");
     go(&mut stepper, 10);

@@ -406,3 +406,24 @@ fn one_wall_of_another_restitution_is_enough_for_bounds_to_cross() {
     assert!(matches!(step.path, Path::Grid), "{:?}", step.path);
     assert!((0.09..=0.1).contains(&step.q[0]), "{}", step.q[0]);
 }
+
+#[test]
+fn an_extra_force_acts_in_its_step_alone() {
+    // 3 N over one step of 0.01 s on a free body of 2 kg: 0.015 m/s from then on.
+    let scene = Scene::oscillator(2.0, 0.0, 0.0).with_wall(Wall::upper("far", 9.0));
+    let penalties = INTEGRATORS.map(|integrator| spring(1e3, integrator));
+    for scheme in CONSTRAINED.into_iter().chain([GENERALIZED_ALPHA, Scheme::Event]).chain(penalties) {
+        let (mut plain, mut told) = (stepper(&scene, &scheme, 0.01), stepper(&scene, &scheme, 0.01));
+        for number in 0..6 {
+            let force = if number == 1 { 3.0 } else { 0.0 };
+            let one = if force == 0.0 { plain.step() } else { plain.step_with(&[force]) };
+            let one = one.expect("a step").q[0];
+            let other = told.step_with(&[force]).expect("a step").q[0];
+            assert_eq!(one, other, "{scheme}, step {number}: a step without a force is one with a force of 0");
+        }
+        close(plain.state().v[0], 0.015, 16.0, 0.015, &scheme.to_string());
+        // The middle of the step with the force at 0.015 s, the end at 0.06 s.
+        let place = plain.state().q[0];
+        assert!((place - 0.015 * 0.045).abs() < 0.015 * 0.005 * (1.0 + 1e-9), "{scheme}: {place}");
+    }
+}

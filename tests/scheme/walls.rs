@@ -1,6 +1,6 @@
 //! The laws of the walls, against closed forms and one another.
 
-use signorini::{Wall, WallLaw};
+use signorini::{Scene, Wall, WallLaw};
 
 /// Laws with the energy (J), the pressure (N) and the tangent (N/m) at a depth of 2 m, computed by
 /// hand.
@@ -68,5 +68,17 @@ fn a_wall_pushes_out_by_spring_and_dashpot_and_never_pulls() {
         }
         assert_eq!(wall.law_force(sign * 2.5, sign), 0.0);
         assert_eq!((wall.gap(sign * 2.5), wall.gap(sign * 3.5)), (0.5, -0.5));
+    }
+}
+
+#[test]
+fn names_are_letters_digits_hyphens_and_underscores() {
+    let check = |name: &str| Scene::oscillator(1.0, 0.0, 1.0).with_wall(Wall::upper(name, 1.0)).validate();
+    for name in ["a", "Z9", "upper-left", "_", "a_b-1"] {
+        check(name).unwrap_or_else(|error| panic!("{name:?}: {error}"));
+    }
+    for name in ["", " ", "a b", "a.b", "ü", "a,", "\n"] {
+        let error = check(name).expect_err(name).to_string();
+        assert!(error.contains("letters, digits, - and _"), "{name:?}: {error}");
     }
 }
