@@ -22,6 +22,7 @@ impl Side {
         STATES[usize::from(y < lo) + 2 * usize::from(y > hi)]
     }
 
+    #[inline]
     pub(super) const fn sign(self) -> f64 {
         match self {
             Self::Lower => 1.0,
@@ -30,6 +31,7 @@ impl Side {
     }
 
     /// The bound of a row on this side.
+    #[inline]
     pub(super) fn bound(self, rhs: &Rhs, row: usize) -> f64 {
         let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
         if self == Self::Lower { lo } else { hi }

@@ -102,6 +102,7 @@ impl<S: Space> ChungHulbert<S> {
     }
 
     /// Computes q̂, v̂, f⁺ and `past`, the terms of the last step.
+    #[inline]
     pub fn predict(&mut self, body: &mut Body<S>, frame: &mut Frame<S>) {
         let Self { alpha: [alpha_m, alpha_f, beta, gamma], a, force, past, given, q, v, .. } = self;
         let (h, alpha_m, alpha_f) = (body.h, *alpha_m, *alpha_f);
@@ -147,6 +148,7 @@ impl<S: Space> ChungHulbert<S> {
     }
 
     /// Computes b, the damper not feeling a and the extra force over `unfelt` (s).
+    #[inline]
     pub fn ask(&mut self, body: &Body<S>, unfelt: f64) {
         let Self { past, b, q, v, .. } = self;
         for i in 0..body.n {
@@ -161,6 +163,7 @@ impl<S: Space> ChungHulbert<S> {
     }
 
     /// q⁺ from Δ, and unless a rigid wall was `met` also a⁺ and v⁺.
+    #[inline]
     pub fn displace(&mut self, delta: &[f64], met: bool, h: f64, frame: &mut Frame<S>) {
         let Self { alpha: [.., beta, gamma], a, q, v, .. } = self;
         for (i, delta) in delta.iter().enumerate() {
@@ -189,6 +192,7 @@ impl<S: Space> ChungHulbert<S> {
 
     /// F⁺, and a⁺ again if the walls have changed the state; `push` adds the forces of the elastic
     /// ones.
+    #[inline]
     pub fn renew(&mut self, body: &Body<S>, frame: &Frame<S>, changed: bool, push: impl FnOnce(&mut S::Vector)) {
         let Self { alpha: [alpha_m, alpha_f, ..], force, past, a, mass, .. } = self;
         force.clone_from(&body.load);

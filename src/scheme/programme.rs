@@ -155,8 +155,9 @@ impl<S: Space> Programme<S> {
     }
 
     /// Adds the bound of the wall number `number` to row `row`: g·x ≤ `value` for an upper wall, ≥
-    /// for a lower one. The tightest bound of a row counts.
-    #[inline]
+    /// for a lower one. The tightest bound of a row counts. Always inlined: the row of an elastic
+    /// wall is bound in every step.
+    #[inline(always)]
     pub fn bind(&mut self, row: usize, number: usize, value: f64) {
         // The first bound of the row in this step: the bounds that its walls had in earlier steps
         // are removed.
