@@ -10,5 +10,6 @@ mod complementarity;
 mod contacts;
 mod faults;
 mod findings;
+mod ledger;
 #[cfg(feature = "case")]
 mod units;
