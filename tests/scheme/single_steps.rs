@@ -427,3 +427,15 @@ fn an_extra_force_acts_in_its_step_alone() {
         assert!((place - 0.015 * 0.045).abs() < 0.015 * 0.005 * (1.0 + 1e-9), "{scheme}: {place}");
     }
 }
+
+#[test]
+fn an_extra_force_that_is_no_number_is_named() {
+    let scene = random_structures::chain(2, 100.0, 0.0).with_wall(Wall::upper("far", 9.0));
+    let mut stepper = stepper(&scene, &MOREAU_JEAN, 0.01);
+    for (force, named) in [(vec![1.5, f64::NAN], "NaN"), (vec![f64::INFINITY, 2.5], "inf"), (vec![1.0], "1 values")] {
+        let error = stepper.step_with(&force).expect_err("no force").to_string();
+        assert!(error.contains(named), "{force:?}: {error}");
+    }
+    // The stepper is as it was.
+    assert_eq!((stepper.time(), stepper.step().expect("a step").q), (0.0, &[0.0, 0.0][..]));
+}
