@@ -11,5 +11,6 @@ mod contacts;
 mod faults;
 mod findings;
 mod ledger;
+mod structures;
 #[cfg(feature = "case")]
 mod units;
