@@ -7,6 +7,7 @@ mod random_structures;
 #[path = "../support/rubbing.rs"]
 mod rubbing;
 
+mod accounts;
 mod beside;
 mod elastic;
 mod event;

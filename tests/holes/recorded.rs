@@ -94,3 +94,33 @@ fn an_impact_at_the_start_is_in_the_first_row() {
     let (_, v) = run.trajectory.probe("p0").expect("a probe");
     assert!((v[0] + 0.2 * c).abs() < 1e-12, "{v:?}");
 }
+
+#[cfg(feature = "case")]
+#[test]
+fn what_is_read_has_a_column_of_full_length_for_each_hole() {
+    use serde_json::{Value, from_value, to_value};
+    let whole = to_value(recorded(&in_a_hole(), 1e-3)).expect("a trajectory");
+    let with = |path: &str, value: Value| {
+        let mut whole = whole.clone();
+        *whole.pointer_mut(path).unwrap_or_else(|| panic!("no {path}")) = value;
+        from_value::<Trajectory>(whole).map(|_| ()).map_err(|error| error.to_string())
+    };
+    // One wall and one hole: contacts are at 0 and 1.
+    assert_eq!(with("/contacts/0/wall", 1.into()), Ok(()));
+    assert_eq!(with("/contact_wear", Value::Array(Vec::new())), Ok(()));
+    let short = || Value::from(vec![0.0]);
+    for (path, value) in [
+        ("/contacts/0/wall", 2.into()),
+        ("/contact_wear", Value::Array(vec![Value::Null])),
+        ("/holes", Value::Array(Vec::new())),
+        ("/hole_force", Value::Array(Vec::new())),
+        ("/hole_force/0/1", short()),
+        ("/hole_impulse/0/0", short()),
+        ("/friction/0", short()),
+        ("/wear_work/0", short()),
+        ("/supports", Value::Array(Vec::new())),
+    ] {
+        let error = with(path, value).expect_err(path);
+        assert!(error.contains("a column for each wall"), "{path}: {error}");
+    }
+}

@@ -185,11 +185,15 @@ fn faults_of_exact_motion_are_found_by_kind_and_size() {
         assert!((law.residual - 0.01).abs() < 2e-4 && law.wall.as_deref() == Some("pad"), "{law:?}");
     }
     // Loads of 3 N that the judge takes for 3.03 N: 0.03 N on the average of a stretch, of 3.03 N.
-    let free =
-        |load: f64| Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("far", 9.0)).with_load(Load::constant(load));
-    let (findings, _) = judge((&free(3.0), &free(3.03)), &Scheme::Event, (0.05, 10, 0.0), |_, _| {});
-    let balance = of_kind(&findings, Refuted::MomentumBalance);
-    assert!((balance.residual - 0.03 / 3.03).abs() < 1e-9, "{balance:?}");
+    for mass in [1.0, 4.0] {
+        let free = |load: f64| {
+            Scene::oscillator(mass, 0.0, 0.0).with_wall(Wall::upper("far", 9.0)).with_load(Load::constant(load))
+        };
+        let (findings, seen) = judge((&free(3.0), &free(3.03)), &Scheme::Event, (0.05, 10, 0.0), |_, _| {});
+        let balance = of_kind(&findings, Refuted::MomentumBalance);
+        assert!((balance.residual - 0.03 / 3.03).abs() < 1e-9, "{balance:?}");
+        assert!((seen.force_balance_n - 0.03).abs() < 1e-9, "{seen:?}");
+    }
 }
 
 #[test]
