@@ -148,7 +148,7 @@ fn along_a_diameter_the_contacts_are_those_of_two_walls() {
                 Judge::new(stepper.scene(), stepper.contract(), h, &state.q, &state.v)
             };
             let (mut judge_of_line, mut judge_of_hole) = (judge(&planar), judge(&turning));
-            let (mut pushes, mut ended) = (0, 0);
+            let (mut pushes, mut ended) = (0_u64, 0);
             for number in 0..5000_u32 {
                 if number == 4000 {
                     let (q, v) = (gap, 0.05);
@@ -175,7 +175,7 @@ fn along_a_diameter_the_contacts_are_those_of_two_walls() {
                 near(c * one.v[0] + s * one.v[1], other.v[0], 1e-9, "its velocity");
                 let p = (other.impulse[0] + other.impulse[1]).abs();
                 near(one.holes[0].impulse, p, 1e-9, "impulses");
-                pushes += u32::from(p > 0.0);
+                pushes += u64::from(p > 0.0);
                 assert_eq!(
                     one.closed.len(),
                     other.closed.len(),
@@ -197,6 +197,11 @@ fn along_a_diameter_the_contacts_are_those_of_two_walls() {
                 }
             }
             assert!(pushes > 500 && ended > 4, "{what}: {pushes}, {ended}");
+            // Steps without contact are no programmes.
+            let counters = turning.counters();
+            let work =
+                if matches!(scheme, Scheme::Penalty { .. }) { counters.newton_iterations } else { counters.qp_solves };
+            assert!((pushes..=3 * pushes).contains(&work), "{what}: {pushes} pushes, {counters:?}");
             // The ledgers agree entry by entry, and so does how deep the body came.
             let (one, other) = (judge_of_hole.residuals(), judge_of_line.residuals());
             assert_eq!((judge_of_hole.findings(), judge_of_line.findings()), (vec![], vec![]), "{what}");

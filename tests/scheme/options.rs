@@ -2,8 +2,10 @@
 //! is absent.
 
 use crate::common::source;
+use signorini::qp::Backend;
 use signorini::{
-    Chain, Load, Options, Probe, Recorded, Row, Run, Scene, Scheme, TimeOptions, Trajectory, Unjudged, Wall, run,
+    Chain, Load, Method, Options, Probe, Recorded, Row, Run, Scene, Scheme, TimeOptions, Trajectory, Unjudged, Wall,
+    run,
 };
 
 fn structure() -> Scene {
@@ -65,4 +67,16 @@ fn a_run_without_rows_may_have_more_steps_than_rows_are_allowed() {
     assert!(run(&scene, &scheme, &options).is_err());
     let bare = run(&scene, &scheme, &options.unjudged().unrecorded()).expect("a run");
     assert!(bare.grid.steps > 10_000_000, "{:?}", bare.grid);
+}
+
+#[test]
+fn a_solver_is_named_beside_schemes_that_have_programmes_only() {
+    let method: Method = "moreau-jean:theta=0.75,qp=clarabel".parse().expect("a scheme and a solver");
+    assert_eq!(method, Method { scheme: Scheme::MoreauJean { theta: 0.75 }, backend: Backend::Clarabel });
+    let method: Method = " moreau-jean:qp=clarabel ".parse().expect("a solver alone");
+    assert_eq!(method, Method { scheme: Scheme::MoreauJean { theta: 0.5 }, backend: Backend::Clarabel });
+    let error = "event:qp=clarabel".parse::<Method>().expect_err("no programmes").to_string();
+    assert!(error.contains("a scheme that solves quadratic programmes"), "{error}");
+    // The solver that is taken anyway may be named everywhere.
+    assert_eq!("event:qp=auto".parse::<Method>().expect("the default").scheme, Scheme::Event);
 }

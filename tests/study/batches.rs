@@ -3,7 +3,7 @@
 use signorini::linear::Symmetric;
 use signorini::{
     Contact, Flat, Flats, Forces, Load, Options, PlaneRows, Row, Scene, Scheme, Statistics, Stepper, Structure, Table,
-    Wall, WallLaw, run,
+    Wall, WallLaw, heading, run,
 };
 
 fn lasting(start: f64, end: Option<f64>, impulse: f64, peak: f64, approach: f64, departure: Option<f64>) -> Contact {
@@ -135,11 +135,13 @@ fn steps_of_another_scene_and_impacts_after_the_end_are_no_part_of_the_force() {
     }
 }
 
-fn on(load: Load, dof: usize) -> Load {
-    Load { at: Row::dof(dof), ..load }
+/// The load along the normal of a flat in this direction, or along its tangent.
+fn along(load: Load, degrees: f64, tangent: bool) -> Load {
+    let [c, s] = heading(degrees + if tangent { 90.0 } else { 0.0 });
+    Load { at: Row::new(vec![(0, c), (1, s)]), ..load }
 }
 
-/// A free body that slides at 0.3 m/s in z along a flat at its face.
+/// A free body that slides at 0.3 m/s along a flat at its face, 90° from its normal.
 fn on_a_flat(mass: f64, direction: f64, friction: f64) -> Scene {
     let diagonal = |x: f64| Symmetric::diagonal(&[x; 2]);
     let flats = Flats {
@@ -150,7 +152,8 @@ fn on_a_flat(mass: f64, direction: f64, friction: f64) -> Scene {
         law: WallLaw::Rigid { restitution: 0.0 },
     };
     let structure = Structure { mass: diagonal(mass), damping: diagonal(0.0), stiffness: diagonal(0.0) };
-    let mut scene = Scene::structure(structure).with_initial(&[0.0, 0.0], &[0.0, 0.3]);
+    let [c, s] = heading(direction);
+    let mut scene = Scene::structure(structure).with_initial(&[0.0, 0.0], &[-0.3 * s, 0.3 * c]);
     scene.walls.extend(flats.walls().expect("a flat"));
     scene.supports.push(flats.support(0, friction));
     scene
@@ -160,16 +163,15 @@ fn on_a_flat(mass: f64, direction: f64, friction: f64) -> Scene {
 fn sliding_under_a_force_that_grows_wears_with_the_half_width_of_a_straight_line() {
     // 2 kg slide along a flat at 0.3 m/s, pressed by (1 + 2t) N, while a load carries the friction
     // of 0.25: from 1 s to 6 s, batch k has a mean force of 3.5 + k N.
-    for (direction, sector) in [(0.0, 0), (180.0, 6)] {
+    for (direction, sector) in [(0.0, 0), (20.0, 0), (140.0, 4), (200.0, 6)] {
         for (scheme, friction) in
             [(Scheme::MoreauJean { theta: 0.5 }, 0.25), (Scheme::MoreauJean { theta: 0.5 }, 0.0), (Scheme::Event, 0.0)]
         {
-            let sign = if direction == 0.0 { 1.0 } else { -1.0 };
             let line =
                 |share: f64| Load::table(Table::new(vec![0.0, 6.0], vec![share, 13.0 * share]).expect("a table"));
             let scene = on_a_flat(2.0, direction, friction)
-                .with_load(on(line(sign), 0))
-                .with_load(on(line(friction), 1))
+                .with_load(along(line(1.0), direction, false))
+                .with_load(along(line(friction), direction, true))
                 .with_duration(6.0);
             let mut options = Options::with_step(1e-3);
             options.time.statistics_from = 1.0;
@@ -191,11 +193,14 @@ fn sliding_under_a_force_that_grows_wears_with_the_half_width_of_a_straight_line
             near(wear.sectors[sector].impulse_share, 1.0, "the sector");
             let force = made.statistics.supports[0].force.expect("a window");
             near(force.mean_n, 8.0, "normal force");
-            near(force.mean_vector_n[0], -sign * 8.0, "along the normal");
-            near(force.mean_vector_n[1], -friction * 8.0, "along the flat");
-            let [y, z] = force.mean_vector_half_width_95_n.expect("all batches");
-            near(y, half_width(means), "half width along the normal");
-            near(z, friction * half_width(means), "half width along the flat");
+            // The flat pushes along −n, and friction along −t: both in proportion to the force.
+            let [c, s] = heading(direction);
+            let unit = [-c + friction * s, -s - friction * c];
+            let half = force.mean_vector_half_width_95_n.expect("all batches");
+            for axis in [0, 1] {
+                near(force.mean_vector_n[axis], unit[axis] * 8.0, "the vector");
+                near(half[axis], unit[axis].abs() * half_width(means), "its half width");
+            }
         }
     }
 }
@@ -208,7 +213,7 @@ fn two_steps_of_contact_are_an_impact_that_slides_nowhere_and_three_last() {
         let until = f64::from(pushed) * h;
         let table = Table::new(vec![0.0, until, until + 1e-6, 1.0], vec![2.0, 2.0, -2.0, -2.0]);
         let load = Load::table(table.expect("a table"));
-        let scene = on_a_flat(1.0, 0.0, 0.0).with_load(on(load, 0)).with_duration(0.2);
+        let scene = on_a_flat(1.0, 0.0, 0.0).with_load(along(load, 0.0, false)).with_duration(0.2);
         let made = run(&scene, &jean, &Options::with_step(h)).expect("a run");
         let wear = &made.statistics.wear[0];
         let lasts = pushed > 2;
