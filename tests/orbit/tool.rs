@@ -246,13 +246,18 @@ fn wrong_requests_say_what_would_be_accepted() {
         assert!(err.contains(words), "{more:?} does not say {words}: {err}");
     }
     let frequency = "load.1.harmonic.frequency";
-    let branch: [(&[&str], &str); 12] = [
+    let branch: [(&[&str], &str); 14] = [
         (&["--key", frequency, "--range", "4:6", "--second", "system.oscillator.mass"], "--second-range"),
         (&["--key", frequency, "--range", "4:6", "--second", frequency, "--second-range", "4:6"], "another key"),
         (
             &["--key", frequency, "--range", "4:6", "--second", "system.oscillator.mass", "--second-range", "2:3"],
             "the case's value of the key, 1.0, in it",
         ),
+        (
+            &["--key", frequency, "--range", "4:6", "--second", "system.oscillator.mass", "--second-range", "3:2"],
+            "--second-range is \"3:2\"",
+        ),
+        (&["--key", frequency, "--range", "4:6", "--second", "title", "--second-range", "2:3"], "--second is title"),
         (&["--key", frequency], "--range"),
         (&["--key", frequency, "--range", "5"], "A:B"),
         (&["--key", frequency, "--range", "6:5"], "the first below the second"),

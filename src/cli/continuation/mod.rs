@@ -89,7 +89,7 @@ pub struct Args {
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let file = args.changes.case_file(&args.case, ui)?;
     let case = file.case()?;
-    let varied = Varied::new(&file, &args.key, ("--range", &args.range))?;
+    let varied = Varied::new(&file, ("--key", &args.key), ("--range", &args.range))?;
     let Varied { key, value, range } = &varied;
     if case.truncated.is_some() && key.to_string().starts_with("system.") {
         let expected =
@@ -207,7 +207,7 @@ impl Args {
         if *key == self.key {
             return Err(Error::invalid("--second", key, "another key than --key"));
         }
-        Varied::new(file, key, ("--second-range", text)).map(Some)
+        Varied::new(file, ("--second", key), ("--second-range", text)).map(Some)
     }
 }
 

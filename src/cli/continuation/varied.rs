@@ -11,10 +11,14 @@ pub(super) struct Varied {
 }
 
 impl Varied {
-    /// The key of that name, with the option that gives its range.
-    pub(super) fn new(file: &CaseFile, key: &str, (option, text): (&'static str, &str)) -> Result<Self> {
+    /// The key of that name and its range, each with the option that gives it.
+    pub(super) fn new(
+        file: &CaseFile,
+        (by, key): (&'static str, &str),
+        (option, text): (&'static str, &str),
+    ) -> Result<Self> {
         let key: Key = key.parse()?;
-        let (value, range) = (start_value(file, &key)?, range(text)?);
+        let (value, range) = (start_value(file, by, &key)?, range(option, text)?);
         if !(range[0]..=range[1]).contains(&value) {
             let expected = format!("a range with the case's value of the key, {value:?}, in it");
             return Err(Error::invalid(option, text, expected));
@@ -36,25 +40,23 @@ impl Varied {
     }
 }
 
-/// The case's value of the key.
-fn start_value(file: &CaseFile, key: &Key) -> Result<f64> {
+/// The case's value of the key that the option `by` gives.
+fn start_value(file: &CaseFile, by: &'static str, key: &Key) -> Result<f64> {
     let found = file.get(key)?;
     let text = found.as_ref().map(ToString::to_string);
     match text.as_deref().map(str::parse::<f64>) {
         Some(Ok(value)) => Ok(value),
-        Some(Err(_)) => {
-            Err(Error::invalid("--key", format!("{key} = {}", text.unwrap_or_default()), "the key of a number"))
-        }
+        Some(Err(_)) => Err(Error::invalid(by, format!("{key} = {}", text.unwrap_or_default()), "the key of a number")),
         None => Err(Error::invalid(
-            "--key",
+            by,
             format!("{key}, which the case leaves out or has several values of"),
             format!("a key with one value in the case; --set '{key}=…' gives it one"),
         )),
     }
 }
 
-fn range(text: &str) -> Result<[f64; 2]> {
-    let wrong = || Error::invalid("--range", format_args!("{text:?}"), "A:B, two numbers, the first below the second");
+fn range(option: &'static str, text: &str) -> Result<[f64; 2]> {
+    let wrong = || Error::invalid(option, format_args!("{text:?}"), "A:B, two numbers, the first below the second");
     let (low, high) = text.split_once(':').ok_or_else(wrong)?;
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(wrong);
     let (low, high) = (number(low)?, number(high)?);
