@@ -85,3 +85,43 @@ fn a_force_beside_the_normal_is_measured_by_its_share() {
         assert!((finding.residual / 1e-4 - 1.0).abs() < 0.01, "{finding:?}");
     }
 }
+
+#[test]
+fn recorded_sums_that_are_not_those_of_the_steps_are_found() {
+    let scene = sliding(40.0, 0.02);
+    for (scheme, h) in [
+        (Scheme::MoreauJean { theta: 0.5 }, 1e-4),
+        (Scheme::ImplicitEuler, 1e-4),
+        (Scheme::GeneralizedAlpha { rho: 0.8 }, 1e-4),
+        (Scheme::Event, 1.0),
+    ] {
+        let heard = |told: &dyn Fn([f64; 2]) -> Vec<[f64; 2]>| {
+            let mut stepper = Stepper::new(&scene, &scheme, h).expect("a scene");
+            let state = stepper.state();
+            let mut judge = Judge::new(&scene, stepper.contract(), h, &state.q, &state.v);
+            let mut sum = [0.0; 2];
+            while stepper.time() < scene.duration - 0.5 * h.min(1e-4) {
+                let step = stepper.step().expect("a step");
+                judge.see(&step);
+                let push = step.holes[1].push();
+                sum = [sum[0] + push[0], sum[1] + push[1]];
+            }
+            assert!(sum[0].hypot(sum[1]) > 0.05, "{scheme}: {sum:?}");
+            judge.hear_holes(&told(sum));
+            judge.findings()
+        };
+        assert_eq!(heard(&|sum| vec![[0.0; 2], sum]), [], "{scheme}");
+        // One part in ten thousand of either component, or what a hole out of reach did not give.
+        for wrong in [|[y, z]: [f64; 2]| [1.0001 * y, z], |[y, z]: [f64; 2]| [y, z - 1e-4 * y]] {
+            let findings = heard(&|sum| vec![[0.0; 2], wrong(sum)]);
+            let [finding] = &findings[..] else { panic!("{scheme}: {findings:?}") };
+            let named = (finding.refuted, finding.wall.as_deref());
+            assert_eq!(named, (Refuted::Impulses, Some("hole")), "{scheme}: {finding:?}");
+            // Of |p|, whose components are of one size there.
+            assert!((2e-5..1.5e-4).contains(&finding.residual), "{scheme}: {finding:?}");
+        }
+        assert_ne!(heard(&|sum| vec![[1e-3, 0.0], sum]), [], "{scheme}");
+        // A list for other holes says nothing of these.
+        assert_eq!(heard(&|_| vec![[9.0; 2]]), [], "{scheme}");
+    }
+}
