@@ -194,3 +194,23 @@ fn states_that_make_no_sense_are_refused_and_change_nothing() {
     let refused = exact.set_state(0.5, &state(&[6e-3], &[0.0])).expect_err("behind a wall").to_string();
     assert!(refused.contains("upper"), "{refused}");
 }
+
+#[test]
+fn a_contact_that_has_not_ended_is_dropped() {
+    // Pressed onto a wall for three steps, and set to the same state: of that contact nothing is
+    // told any more, and the one that the next steps tell began with the first of them.
+    let scene = Scene::oscillator(1.0, 0.0, 100.0)
+        .with_wall(Wall::upper("stop", 0.0).with_restitution(0.0))
+        .with_load(Load::constant(3.0));
+    for scheme in [MOREAU_JEAN, Scheme::ImplicitEuler, Scheme::PaoliSchatzman] {
+        let mut stepper = Stepper::new(&scene, &scheme, H).expect("a scene");
+        go(&mut stepper, 3);
+        assert_eq!(stepper.open_contacts().len(), 1, "{scheme}");
+        let (time, state) = (stepper.time(), stepper.state());
+        stepper.set_state(time, &state).expect("a state");
+        assert_eq!(stepper.open_contacts(), [], "{scheme}");
+        go(&mut stepper, 2);
+        let open = stepper.open_contacts();
+        assert!(open.len() == 1 && open[0].start >= time - 1e-12, "{scheme}: {open:?}");
+    }
+}
