@@ -137,7 +137,7 @@ impl Stepper {
     /// let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop", 0.1)).with_initial(&[0.0], &[1.0]);
     /// let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3)?;
     /// let impact = stepper.glide(1000)?;
-    /// assert!((impact.end - 0.1).abs() <= 1e-3);
+    /// assert!((impact.end - 0.1).abs() < 2e-3); // a step of 1 ms about 0.1 s
     /// assert_eq!(impact.impulse, [-2.0]); // N s, of 1 kg at 1 m/s
     /// # Ok::<(), signorini::Error>(())
     /// ```
