@@ -1,9 +1,9 @@
 //! The energy ledger of a run, entry by entry, against closed forms.
 
 use crate::common::{CONSTRAINED, INTEGRATORS, MOREAU_JEAN, spring};
-use signorini::linear::Symmetric;
+use crate::rubbing::{body, isotropic, with_flats};
 use signorini::residual::Energy;
-use signorini::{Flat, Flats, Integrator, Load, Options, PlaneRows, Row, Scene, Scheme, Structure, Wall, WallLaw, run};
+use signorini::{Integrator, Load, Options, Row, Scene, Scheme, Wall, run};
 
 /// E at the start, at the end and the largest; work of loads, damping, impacts, dashpots, friction; and
 /// what was exchanged, J.
@@ -137,22 +137,12 @@ fn friction_takes_its_force_times_the_way() {
     // 2 kg pressed by 3 N onto a flat, sliding at ±0.3 m/s with friction 0.25: 0.15 m/s after 0.4 s.
     for direction in [0.0, 180.0] {
         for s in [1.0, -1.0] {
-            let flats = Flats {
-                name: "bar".to_owned(),
-                at: PlaneRows { y: Row::dof(0), z: Row::dof(1) },
-                flats: vec![Flat { direction, gap: 0.0 }],
-                centre: [0.0, 0.0],
-                law: WallLaw::Rigid { restitution: 0.0 },
-            };
-            let diagonal = |x: f64| Symmetric::diagonal(&[x; 2]);
-            let structure = Structure { mass: diagonal(2.0), damping: diagonal(0.0), stiffness: diagonal(0.0) };
             let push = if direction == 0.0 { 3.0 } else { -3.0 };
-            let mut scene = Scene::structure(structure)
+            let scene = isotropic(2.0, 0.0, 0.0)
                 .with_load(Load { at: Row::dof(0), ..Load::constant(push) })
                 .with_initial(&[0.0, 0.0], &[0.0, s * 0.3])
                 .with_duration(0.4);
-            scene.walls.extend(flats.walls().expect("a flat"));
-            scene.supports.push(flats.support(0, 0.25));
+            let scene = with_flats(scene, "bar", body(), &[(direction, 0.0)], 0.0, 0.25);
             let lost = 0.75 * 0.09;
             let expected = [0.09, 0.0225, 0.09, 0.0, 0.0, 0.0, 0.0, lost, 0.09 + lost];
             check("friction", &scene, &MOREAU_JEAN, expected, 1e-3);

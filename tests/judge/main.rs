@@ -4,6 +4,8 @@
 mod common;
 #[path = "../support/random_structures.rs"]
 mod random_structures;
+#[path = "../support/rubbing.rs"]
+mod rubbing;
 
 mod blows;
 mod complementarity;

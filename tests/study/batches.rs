@@ -1,22 +1,8 @@
 //! Half widths, the edges of the window and of its batches, and what slides, against closed forms.
 
-use signorini::linear::Symmetric;
-use signorini::{
-    Contact, Flat, Flats, Forces, Load, Options, PlaneRows, Row, Scene, Scheme, Statistics, Stepper, Structure, Table,
-    Wall, WallLaw, heading, run,
-};
-
-fn lasting(start: f64, end: Option<f64>, impulse: f64, peak: f64, approach: f64, departure: Option<f64>) -> Contact {
-    Contact {
-        wall: 1,
-        start,
-        end,
-        impulse,
-        peak_force: Some(peak),
-        approach_speed: approach,
-        departure_speed: departure,
-    }
-}
+use crate::rubbing::{body, isotropic, with_flats};
+use crate::statistics::lasting;
+use signorini::{Forces, Load, Options, Row, Scene, Scheme, Statistics, Stepper, Table, Wall, heading, run};
 
 /// Half width of the 95 % interval of the mean of ten numbers, by its definition.
 fn half_width(x: [f64; 10]) -> f64 {
@@ -143,20 +129,9 @@ fn along(load: Load, degrees: f64, tangent: bool) -> Load {
 
 /// A free body that slides at 0.3 m/s along a flat at its face, 90° from its normal.
 fn on_a_flat(mass: f64, direction: f64, friction: f64) -> Scene {
-    let diagonal = |x: f64| Symmetric::diagonal(&[x; 2]);
-    let flats = Flats {
-        name: "bar".to_owned(),
-        at: PlaneRows { y: Row::dof(0), z: Row::dof(1) },
-        flats: vec![Flat { direction, gap: 0.0 }],
-        centre: [0.0, 0.0],
-        law: WallLaw::Rigid { restitution: 0.0 },
-    };
-    let structure = Structure { mass: diagonal(mass), damping: diagonal(0.0), stiffness: diagonal(0.0) };
     let [c, s] = heading(direction);
-    let mut scene = Scene::structure(structure).with_initial(&[0.0, 0.0], &[-0.3 * s, 0.3 * c]);
-    scene.walls.extend(flats.walls().expect("a flat"));
-    scene.supports.push(flats.support(0, friction));
-    scene
+    let scene = isotropic(mass, 0.0, 0.0).with_initial(&[0.0, 0.0], &[-0.3 * s, 0.3 * c]);
+    with_flats(scene, "bar", body(), &[(direction, 0.0)], 0.0, friction)
 }
 
 #[test]

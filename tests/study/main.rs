@@ -1,5 +1,10 @@
 //! What several runs tell together, and statistics of one.
 
+#[path = "../support/random_structures.rs"]
+mod random_structures;
+#[path = "../support/rubbing.rs"]
+mod rubbing;
+
 #[cfg(feature = "cli")]
 mod accuracy;
 mod batches;

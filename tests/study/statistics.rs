@@ -22,7 +22,15 @@ fn impact(start: f64, impulse: f64, approach: f64, departure: f64) -> Contact {
     }
 }
 
-fn lasting(start: f64, end: Option<f64>, impulse: f64, peak: f64, approach: f64, departure: Option<f64>) -> Contact {
+/// A contact of the second wall over time, from `start` on.
+pub fn lasting(
+    start: f64,
+    end: Option<f64>,
+    impulse: f64,
+    peak: f64,
+    approach: f64,
+    departure: Option<f64>,
+) -> Contact {
     Contact {
         wall: 1,
         start,
