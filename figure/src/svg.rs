@@ -222,13 +222,17 @@ impl Canvas {
         self.number(y);
     }
 
-    /// Writes a length with at most one decimal, as short as possible.
+    /// Writes a length with at most one decimal, as short as possible. Whole tenths are written as
+    /// integers, since a figure has thousands of lengths and the digits of a float take far longer.
     fn number(&mut self, value: f64) {
-        let tenths = (value.clamp(-1e5, 1e5) * 10.0).round();
-        if tenths % 10.0 == 0.0 {
-            let _ = write!(self.out, "{:.0}", tenths / 10.0 + 0.0);
-        } else {
-            let _ = write!(self.out, "{:.1}", tenths / 10.0);
+        let tenths = (value.clamp(-1e5, 1e5) * 10.0).round() as i32;
+        if tenths < 0 {
+            self.out.push('-');
+        }
+        let (whole, tenth) = (tenths.unsigned_abs() / 10, tenths.unsigned_abs() % 10);
+        let _ = write!(self.out, "{whole}");
+        if tenth != 0 {
+            let _ = write!(self.out, ".{tenth}");
         }
     }
 }

@@ -30,11 +30,11 @@ impl Judge {
                 along.end_panel();
             }
         }
-        let open = self.energy.see_arc(&self.scene, step, arc, &self.scratch.blow, &along);
+        let open = self.energy.see_arc(&self.scene, step, arc, &self.blows.impulse, &along);
         if !lasts {
             return;
         }
-        let weight = self.scales.root_mass.first().copied().unwrap_or(1.0);
+        let weight = self.weights.root_mass.first().copied().unwrap_or(1.0);
         let balance = open / (step.end - step.start);
         self.balance = self.balance.max(balance);
         self.normal_balance = self.balance / weight;
@@ -46,8 +46,8 @@ impl Judge {
     fn look(&mut self, arc: &Arc, at: Instant, along: &mut Along) {
         let Instant { t, q, v, .. } = at;
         let force = self.energy.look(&self.scene, at, along);
-        self.rounding.load(0, force);
-        self.rounding.state(&[q], &[v], 0.0);
+        self.rounding.load(force * self.weights.per_root_mass.first().copied().unwrap_or(1.0));
+        self.rounding.state(&[q], &[v], 0.0, &self.weights);
         // In flight, most instants are in front of all walls.
         let clear = |sight: &Sight| sight.is_clear((sight.of(&[q]), sight.of(&[q])), 0.0);
         let free = !arc.is_rest() && !arc.touches() && self.sights.iter().all(clear);
@@ -66,7 +66,7 @@ impl Judge {
             self.tension = most(self.tension, -pressure);
             self.depth[index] = most(self.depth[index], -gap);
             self.rounding.push(index, pressure, rigid);
-            let size = self.reach.max(w.abs()) + wall.position.abs() + wdot.abs() * t;
+            let size = self.extent.reach.max(w.abs()) + wall.position.abs() + wdot.abs() * t;
             if rigid {
                 self.pairs.add(gap, pressure);
                 self.doubt_gap(index, gap, size, pressure);

@@ -1,7 +1,8 @@
 //! Residuals minus their rounding error, with the place where each was worst.
 
 use super::most::most;
-use crate::scene::Scene;
+use super::moves::Moves;
+use super::weights::Weights;
 
 /// Rounding error of a sum in a step, in units in the last place, times √n for sums over n degrees
 /// of freedom (tests of extreme scenes allow every scheme of one degree of freedom 32).
@@ -75,10 +76,6 @@ impl Doubts {
 pub(super) struct Rounding {
     /// UNITS · ε · √n.
     unit: f64,
-    /// √Mᵢᵢ, √Kᵢᵢ and √Cᵢᵢ.
-    root: Vec<[f64; 3]>,
-    /// 1/√Mᵢᵢ.
-    per_root: Vec<f64>,
     /// Largest √(Kᵢᵢ/Mᵢᵢ) and √(Cᵢᵢ/Mᵢᵢ).
     rates: [f64; 2],
     /// √m, with m the mass that each wall feels.
@@ -96,19 +93,16 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    pub fn new(scene: &Scene, masses: &[f64]) -> Self {
-        let structure = scene.system.structure();
-        let diagonals = [&structure.mass, &structure.stiffness, &structure.damping].map(|m| m.diagonal_entries());
-        let n = diagonals[0].len();
-        let root = |i: usize| [0, 1, 2].map(|j: usize| diagonals[j].get(i).map_or(0.0, |x: &f64| x.abs().sqrt()));
-        let root: Vec<[f64; 3]> = (0..n).map(root).collect();
-        let largest = |j: usize| root.iter().map(|r| if r[j] > 0.0 { r[j] / r[0] } else { 0.0 }).fold(0.0, f64::max);
+    pub fn new(weights: &Weights, masses: &[f64]) -> Self {
+        let rate = |[mass, spring, dashpot]: [f64; 3], one: bool| {
+            let root = if one { spring } else { dashpot };
+            if root > 0.0 { root / mass } else { 0.0 }
+        };
+        let largest = |one: bool| weights.roots.iter().map(|&roots| rate(roots, one)).fold(0.0, f64::max);
         Self {
-            unit: UNITS * f64::EPSILON * (n.max(1) as f64).sqrt(),
-            rates: [largest(1), largest(2)],
+            unit: UNITS * f64::EPSILON * (weights.roots.len().max(1) as f64).sqrt(),
+            rates: [largest(true), largest(false)],
             wall: masses.iter().map(|mass| mass.sqrt()).collect(),
-            per_root: root.iter().map(|r| 1.0 / r[0]).collect(),
-            root,
             speed: 0.0,
             reach: 0.0,
             strain: 0.0,
@@ -121,8 +115,8 @@ impl Rounding {
 
     /// Notes the sizes of a state: displacement (m) and velocity (m/s), and a time (s) over which
     /// that velocity moves it.
-    pub fn state(&mut self, q: &[f64], v: &[f64], span: f64) {
-        for ((q, v), [mass, spring, dashpot]) in q.iter().zip(v).zip(&self.root) {
+    pub fn state(&mut self, q: &[f64], v: &[f64], span: f64, weights: &Weights) {
+        for ((q, v), [mass, spring, dashpot]) in q.iter().zip(v).zip(&weights.roots) {
             let (q, v) = (q.abs() + span * v.abs(), v.abs());
             self.speed = self.speed.max(v * mass);
             self.reach = self.reach.max(q * mass);
@@ -131,29 +125,24 @@ impl Rounding {
         }
     }
 
-    /// As [`Self::state`], with two velocities of n degrees of freedom, in one pass.
+    /// As [`Self::state`] for what a step on a grid of `h` seconds (and 1/h) did, and notes the
+    /// sizes of its mean load `mean` (N), its load at the end, the extra force and its blows.
     #[inline(always)]
-    pub fn step(&mut self, (q, before, after): (&[f64], &[f64], &[f64]), span: f64, n: usize) {
-        let (q, before, after, root) = (&q[..n], &before[..n], &after[..n], &self.root[..n]);
+    pub fn step(&mut self, moves: &Moves<'_>, mean: &[f64], weights: &Weights, (h, per_h): (f64, f64), n: usize) {
+        let (q, before, after, roots) = (&moves.shown[..n], &moves.before[..n], &moves.after[..n], &weights.roots[..n]);
         let [mut speed, mut reach, mut strain, mut rub] = [self.speed, self.reach, self.strain, self.rub];
         for i in 0..n {
-            let [mass, spring, dashpot] = root[i];
+            let [mass, spring, dashpot] = roots[i];
             let v = most(before[i].abs(), after[i].abs());
-            let q = q[i].abs() + span * v;
+            let q = q[i].abs() + h * v;
             speed = most(speed, v * mass);
             reach = most(reach, q * mass);
             strain = most(strain, q * spring);
             rub = most(rub, v * dashpot);
         }
         (self.speed, self.reach, self.strain, self.rub) = (speed, reach, strain, rub);
-    }
-
-    /// Notes the sizes of the loads of a step on a grid: its mean, its load at the end and the
-    /// extra force, N, and its blows, N s.
-    #[inline(always)]
-    pub fn loads_of(&mut self, (mean, end, extra, blow): (&[f64], &[f64], &[f64], &[f64]), per_h: f64, n: usize) {
-        let (mean, end, extra, blow) = (&mean[..n], &end[..n], &extra[..n], &blow[..n]);
-        let (per_root, mut load) = (&self.per_root[..n], self.load);
+        let (end, extra, blow) = (&moves.load_end[..n], &moves.extra[..n], &moves.blow[..n]);
+        let (mean, per_root, mut load) = (&mean[..n], &weights.per_root_mass[..n], self.load);
         for i in 0..n {
             let force = most(most(mean[i].abs(), blow[i].abs() * per_h), extra[i].abs() + end[i].abs());
             load = most(load, force * per_root[i]);
@@ -161,9 +150,9 @@ impl Rounding {
         self.load = load;
     }
 
-    /// Notes the size of a load on a degree of freedom, N.
-    pub fn load(&mut self, i: usize, force: f64) {
-        self.load = self.load.max(force.abs() * self.per_root.get(i).copied().unwrap_or(1.0));
+    /// Notes the size of a load, N/√kg.
+    pub fn load(&mut self, force: f64) {
+        self.load = self.load.max(force.abs());
     }
 
     /// Notes the size of a wall's force, N.
@@ -205,9 +194,11 @@ impl Rounding {
         self.unit * self.reach
     }
 
-    /// Adds the rounding error of one step to that of the energy ledger.
-    pub fn book(&mut self) {
-        let bodies = self.root.len() as f64;
-        self.energy += self.unit * (bodies * (self.speed.powi(2) + self.strain.powi(2)) + self.load * self.reach);
+    /// Adds the rounding error of as many `steps` of `bodies` degrees of freedom to that of the
+    /// energy ledger.
+    #[inline(always)]
+    pub fn book(&mut self, bodies: f64, steps: f64) {
+        let flows = bodies * (self.speed.powi(2) + self.strain.powi(2)) + self.load * self.reach;
+        self.energy += steps * (self.unit * flows);
     }
 }

@@ -94,7 +94,7 @@ impl Judge {
                 *sum = [sum[0] + push[0], sum[1] + push[1]];
                 *size += did.impulse;
             }
-            self.speed_scale = self.speed_scale.max(terms(support, step.v)).max(terms(support, &self.scratch.spring));
+            self.extent.speed = self.extent.speed.max(terms(support, step.v)).max(terms(support, &self.scratch.spring));
             self.tension = self.tension.max(-did.jump);
             let (Some(law), true) = (self.contract.promise.circle, did.jump != 0.0) else { continue };
             let speeds = terms(support, step.v) + terms(support, &self.scratch.spring);
@@ -109,7 +109,7 @@ impl Judge {
             let (before, after) = (along(support.seen(&self.scratch.spring)), along(support.seen(step.v)));
             let unit = self.span.max(SHORTEST * self.scene.duration);
             let noise = self.rounding.met(speeds, self.energy.gap_scale / unit) + noise / gap * speeds;
-            let slow = before <= law.tail * self.speed_scale;
+            let slow = before <= law.tail * self.extent.speed;
             let mut missed = after.max(0.0);
             if alone && !(slow && after <= noise && after >= -e * before) {
                 missed = missed.max((after + e * before).abs());

@@ -1,6 +1,7 @@
 //! Checks of a step that predicts and then corrects: [`Balance::GeneralizedAlpha`].
 
 use super::memory::{Memory, smooth};
+use super::moves::Moves;
 use super::{Judge, divide};
 use crate::scene::Wall;
 use crate::step::{Balance, Step};
@@ -14,7 +15,7 @@ impl Judge {
         let closed = self.walls_on_grid(step, false) | (self.supports.is_some() && self.closes_hole(step));
         let Memory { s, force, s_end, force_end, .. } = &mut *memory;
         let scratch = &mut self.scratch;
-        force_end.copy_from_slice(&scratch.load_end);
+        force_end.copy_from_slice(&self.load_end);
         smooth(&self.scene, step.q, step.v, step.force, force_end);
         // The displacement that the blows cause within the step, times M/h, N s.
         self.loads.blow_moment(step.start, step.end, step.end, &mut scratch.mean_v);
@@ -22,16 +23,16 @@ impl Judge {
         for i in 0..s.len() {
             s_end[i] = ((1.0 - alpha_f) * force_end[i] + alpha_f * force[i] - alpha_m * s[i]) / (1.0 - alpha_m);
             let pushed = h * step.extra[i];
-            scratch.load[i] = 0.5 * (self.load[i] + scratch.load_end[i]) + step.extra[i];
+            scratch.load[i] = 0.5 * (self.load[i] + self.load_end[i]) + step.extra[i];
             // What M(v₊ − v₋) and M(q⁺ − q − hv₋)/h should be, N s, with the opposite sign; what
             // they are is added below.
-            scratch.residual[i] = -h * ((1.0 - gamma) * s[i] + gamma * s_end[i]) - pushed - scratch.blow[i];
+            scratch.residual[i] = -h * ((1.0 - gamma) * s[i] + gamma * s_end[i]) - pushed - self.blows.impulse[i];
             scratch.inertia[i] = -h * ((0.5 - beta) * s[i] + beta * s_end[i]) - 0.5 * pushed - scratch.mean_v[i] / h;
             scratch.mean_v[i] = after[i] - before[i];
             scratch.mean_q[i] = step.q[i] - self.q[i] - h * before[i];
-            let given = pushed.abs().max(scratch.blow[i].abs());
+            let given = pushed.abs().max(self.blows.impulse[i].abs());
             let terms = s_end[i].abs().max(force_end[i].abs()).max(given / h);
-            self.balance_scale = self.balance_scale.max(terms / self.scales.root_mass[i]);
+            self.balance_scale = self.balance_scale.max(terms / self.weights.root_mass[i]);
         }
         let system = &self.scene.system;
         system.add_mass(1.0, &scratch.mean_v, &mut scratch.residual);
@@ -39,23 +40,22 @@ impl Judge {
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse).filter(|(wall, _)| wall.law.is_rigid()) {
             for &(i, weight) in wall.at.entries() {
                 scratch.residual[i] -= weight * p;
-                self.balance_scale = self.balance_scale.max((weight * p).abs() / (h * self.scales.root_mass[i]));
+                self.balance_scale = self.balance_scale.max((weight * p).abs() / (h * self.weights.root_mass[i]));
             }
         }
         if self.supports.is_some() {
             self.supports_on_grid(step, false);
         }
-        let scratch = &mut self.scratch;
         // Under this rule the damper feels a blow from the middle of the step on.
         let (from, to) = (step.start, step.end);
-        if self.loads.has_blows() && self.loads.blow_moment(from, to, to - 0.5 * h, &mut scratch.felt) {
-            divide(&self.scene, self.mass.as_mut(), &mut scratch.felt);
-            let drives = |wall: &Wall| wall.law.is_rigid() && wall.side.sign() * wall.at.dot(&scratch.struck) < 0.0;
+        if self.loads.has_blows() && self.loads.blow_moment(from, to, to - 0.5 * h, &mut self.blows.felt) {
+            divide(&self.scene, self.mass.as_mut(), &mut self.blows.felt);
+            let drives = |wall: &Wall| wall.law.is_rigid() && wall.side.sign() * wall.at.dot(&self.blows.struck) < 0.0;
             let either = closed && (self.scene.walls.iter().any(drives) || self.drives_into_hole(step));
             self.take_felt(either, step);
         }
         let (mut worst, mut path) = (0.0_f64, 0.0_f64);
-        for (i, weight) in self.scales.root_mass.iter().enumerate() {
+        for (i, weight) in self.weights.root_mass.iter().enumerate() {
             let residual = self.scratch.residual[i].abs();
             self.balance = self.balance.max(residual / h);
             worst = worst.max(residual / (h * weight));
@@ -64,17 +64,18 @@ impl Judge {
             if !closed {
                 path = path.max(h * self.scratch.inertia[i].abs() / weight);
             }
-            self.rounding.load(i, s_end[i].abs().max(force_end[i].abs()));
+            self.rounding.load(s_end[i].abs().max(force_end[i].abs()) / weight);
             self.scratch.spring[i] = force_end[i] + step.extra[i];
         }
         self.normal_balance = self.normal_balance.max(worst);
         self.kinematics = self.kinematics.max(path);
-        self.rounding.state(step.q, step.v, h);
+        self.rounding.state(step.q, step.v, h, &self.weights);
         std::mem::swap(s, s_end);
         std::mem::swap(force, force_end);
         self.memory = Some(memory);
-        let (ends, loads, n) = ((&self.q[..], step.q), (&self.scratch.load[..], &self.scratch.blow[..]), self.q.len());
-        self.energy.see_grid(&self.scene, &self.matrices, (h, 1.0 / h), ends, step, loads, n);
+        let moves = Moves::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
+        let (hs, n) = ((h, 1.0 / h), self.q.len());
+        self.energy.see_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
         self.doubt_balance(worst);
         self.doubt_path(path);
     }

@@ -53,7 +53,7 @@ impl Judge {
     /// True if the velocity that the blows give drives the structure into a hole that is touched.
     pub(super) fn drives_into_hole(&self, step: &Step<'_>) -> bool {
         self.scene.holes().any(|hole| {
-            let ([y, z], [vy, vz]) = (hole.support.offset(step.q), hole.support.seen(&self.scratch.struck));
+            let ([y, z], [vy, vz]) = (hole.support.offset(step.q), hole.support.seen(&self.blows.struck));
             y * vy + z * vz > 0.0
         })
     }

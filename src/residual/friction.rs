@@ -33,7 +33,7 @@ impl Judge {
         let most = rub.friction * p.max(0.0);
         let speeds = terms(support, step.velocity_before)
             + terms(support, step.velocity_after)
-            + terms(support, &self.scratch.struck);
+            + terms(support, &self.blows.struck);
         let noise = self.rounding.met(speeds, self.energy.gap_scale / self.span);
         let force = self.rounding.wall_force(rub.place, self.span, self.clock);
         for (slack, missing) in [(0.0, most - f.abs()), (rate.abs(), most + f * rate.signum())] {

@@ -27,14 +27,14 @@ impl Matrices {
         }
     }
 
-    /// Writes `scale` times the product with `x` to `out`, n entries each.
+    /// Writes `scale` times the product with `x` to `out`, n entries each; of one degree of freedom,
+    /// any number of products with the entries of `x`.
     #[inline(always)]
     pub fn product(&self, part: Part, scale: f64, x: &[f64], out: &mut [f64]) {
         match self {
             Self::One(numbers) => {
-                if let (Some(out), Some(x)) = (out.first_mut(), x.first()) {
-                    *out = scale * numbers[part as usize] * x;
-                }
+                let number = scale * numbers[part as usize];
+                out.iter_mut().zip(x).for_each(|(out, x)| *out = number * x);
             }
             Self::Many(operators) => {
                 out.fill(0.0);

@@ -3,17 +3,21 @@
 
 mod arc;
 mod beyond;
+mod blows;
+mod calm;
 mod circle;
 mod complementarity;
 mod corrected;
 mod disk;
 mod energy;
+mod extent;
 mod finding;
 mod friction;
 mod grid;
 mod matrices;
 mod memory;
 mod most;
+mod moves;
 mod pushes;
 mod quadrature;
 mod recorded;
@@ -28,6 +32,7 @@ mod sums;
 mod supports;
 mod verdict;
 mod walls;
+mod weights;
 mod whole;
 
 pub use energy::Energy;
@@ -39,7 +44,10 @@ use crate::linear::Factor;
 use crate::scene::{Forcing, GridForcing, Loads, Scene, System};
 use crate::step::{Balance, Contract, Path, Step};
 use beyond::{Doubts, Rounding, Worst};
+use blows::Blows;
+use calm::Room;
 use complementarity::Pairs;
+use extent::Extent;
 use matrices::Matrices;
 use memory::Memory;
 use most::most;
@@ -49,6 +57,7 @@ use sight::Sight;
 use std::sync::Arc;
 use sums::Sums;
 use supports::Supports;
+use weights::Weights;
 
 /// Rounding error of the position of a body along exact motion, in units in the last place of its
 /// terms and of the time.
@@ -69,13 +78,16 @@ pub struct Judge {
     /// degrees of freedom.
     sights: Vec<Sight>,
     wide: Vec<usize>,
-    /// Largest weight of a rigid wall that sees this degree of freedom alone, n entries.
-    seen: Vec<f64>,
+    weights: Weights,
     mass: Option<Factor>,
     q: Vec<f64>,
-    /// Load at the end of the last step, N.
+    /// Load at the end of the last step and of the current one, N.
     load: Vec<f64>,
+    load_end: Vec<f64>,
+    blows: Blows,
     scratch: Scratch,
+    /// Work space for several steps at once; `None` where each is to be seen alone.
+    room: Option<Box<Room>>,
     /// Pairs of gap (m) and pressure (N), and of speed of rebound (m/s) and pressure (N).
     pairs: Pairs,
     rebounds: Pairs,
@@ -88,11 +100,8 @@ pub struct Judge {
     normal_balance: f64,
     balance_scale: f64,
     kinematics: f64,
-    /// Largest |q|, m, and its value in the metric of the mass, m √kg.
-    reach: f64,
-    normal_reach: f64,
+    extent: Extent,
     force_scale: f64,
-    speed_scale: f64,
     /// Largest velocity in the metric of the mass along exact motion, √J.
     normal_speed: f64,
     scales: Scales,
@@ -163,14 +172,7 @@ impl Judge {
         let held: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(&q), w.at.dot(&v))).collect();
         let grid_load = scene.is_line().then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
         let sights = Sight::all(scene);
-        let mut seen = zero();
-        for wall in scene.walls.iter().filter(|wall| wall.law.is_rigid()) {
-            if let &[(i, weight)] = wall.at.entries()
-                && let Some(seen) = seen.get_mut(i)
-            {
-                *seen = seen.max(weight.abs());
-            }
-        }
+        let weights = Weights::new(scene);
         Self {
             contract,
             h,
@@ -179,7 +181,6 @@ impl Judge {
             matrices: Matrices::new(&scene.system),
             wide: (0..sights.len()).filter(|&index| sights[index].is_wide(scene)).collect(),
             sights,
-            seen,
             mass,
             energy: energy::Ledger::new(scene, contract, &q, &v),
             scales: Scales::new(scene, masses),
@@ -190,7 +191,10 @@ impl Judge {
             touch: scene.touching_distance(),
             q,
             load,
+            load_end: zero(),
+            blows: Blows::new(n),
             scratch: Scratch::new(n),
+            room: Room::new(scene, contract, &weights),
             pairs: Pairs::default(),
             rebounds: Pairs::default(),
             law_error: 0.0,
@@ -200,15 +204,14 @@ impl Judge {
             normal_balance: 0.0,
             balance_scale: 0.0,
             kinematics: 0.0,
-            reach: 0.0,
-            normal_reach: 0.0,
+            extent: Extent::default(),
             force_scale: 0.0,
-            speed_scale: 0.0,
             normal_speed: 0.0,
             now: 0.0,
             span: h,
             clock: 1.0,
-            rounding: Rounding::new(scene, masses),
+            rounding: Rounding::new(&weights, masses),
+            weights,
             doubts: Residue::default(),
             scene: Arc::clone(scene),
         }
@@ -235,7 +238,7 @@ impl Judge {
         if !fits {
             return;
         }
-        match (&mut self.grid_load, step.path, &mut self.scratch.load_end[..]) {
+        match (&mut self.grid_load, step.path, &mut self.load_end[..]) {
             (Some(forcing), Path::Grid | Path::OneRestitution, [load]) => *load = forcing.at(step.end),
             (_, _, load) => {
                 load.fill(0.0);
@@ -245,12 +248,12 @@ impl Judge {
         // Without blows these vectors stay zero.
         if self.loads.has_blows() {
             let struck = match self.contract.balance {
-                Balance::Staggered(_) => self.loads.blow_about(step.index, self.h, &mut self.scratch.blow),
-                _ => self.loads.blow(step.start, step.end, &mut self.scratch.blow),
+                Balance::Staggered(_) => self.loads.blow_about(step.index, self.h, &mut self.blows.impulse),
+                _ => self.loads.blow(step.start, step.end, &mut self.blows.impulse),
             };
-            self.scratch.struck.copy_from_slice(&self.scratch.blow);
+            self.blows.struck.copy_from_slice(&self.blows.impulse);
             if struck {
-                divide(&self.scene, self.mass.as_mut(), &mut self.scratch.struck);
+                divide(&self.scene, self.mass.as_mut(), &mut self.blows.struck);
             }
         }
         match step.path {
@@ -266,7 +269,7 @@ impl Judge {
                 (self.contract, self.h) = own;
             }
         }
-        std::mem::swap(&mut self.load, &mut self.scratch.load_end);
+        std::mem::swap(&mut self.load, &mut self.load_end);
     }
 
     /// Checks a step by `see`, with its sizes noted before, and its momentum summed and the depths
@@ -286,61 +289,15 @@ impl Judge {
     #[inline(always)]
     fn go_on(&mut self, step: &Step<'_>, n: usize) {
         for sight in self.wide.iter().filter_map(|&index| self.sights.get(index)) {
-            self.speed_scale = self.speed_scale.max(sight.size(step.velocity_after));
+            self.extent.speed = self.extent.speed.max(sight.size(step.velocity_after));
         }
-        let (old, q, after) = (&mut self.q[..n], &step.q[..n], &step.velocity_after[..n]);
-        let (seen, root_mass) = (&self.seen[..n], &self.scales.root_mass[..n]);
-        let [mut speed, mut reach, mut normal] = [self.speed_scale, self.reach, self.normal_reach];
-        for i in 0..n {
-            speed = most(speed, (seen[i] * after[i]).abs());
-            reach = most(reach, q[i].abs());
-            normal = most(normal, q[i].abs() * root_mass[i]);
-            old[i] = q[i];
-        }
-        (self.speed_scale, self.reach, self.normal_reach) = (speed, reach, normal);
+        self.extent.see(step.q, step.velocity_after, &self.weights, n);
+        self.q[..n].copy_from_slice(&step.q[..n]);
     }
 
     /// The scale of speeds of rebound, m/s.
     fn rebound_scale(&self) -> f64 {
-        self.speed_scale.max(self.energy.gap_scale / self.scene.duration)
-    }
-
-    /// The residuals of the steps so far.
-    #[must_use]
-    pub fn residuals(&self) -> Residuals {
-        let speed_scale = self.rebound_scale();
-        let force_scale = self.contact_scale();
-        let rigid = self.contract.promise.rigid;
-        let speeds_only = rigid.displacement.is_none() && rigid.velocity.is_some();
-        let gap_scale = if speeds_only { speed_scale } else { self.energy.gap_scale };
-        let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
-        // Where no wall ever pushed, the force error of an elastic wall is measured by its force
-        // over the gap scale.
-        let law = over(self.law_error, if force_scale > 0.0 { force_scale } else { self.scales.wall });
-        let walls = self.pairs.worst(self.energy.gap_scale, force_scale);
-        let rebounds = self.rebounds.worst(speed_scale, force_scale);
-        let force = self.scales.normal_force(self.force_scale).max(self.scales.spring);
-        let balance = over(self.normal_balance, self.balance_scale.max(force));
-        let path = over(self.kinematics, self.normal_reach.max(self.scales.gap));
-        let rigid = self.scene.walls.iter().zip(&self.depth).filter(|(w, _)| w.law.is_rigid());
-        let holes = self.supports.as_ref().map_or(&[][..], |supports| &supports.depth);
-        let rigid_holes = self.scene.holes().zip(holes).filter(|(hole, _)| hole.law.is_rigid()).map(|(_, depth)| depth);
-        let supports = self.supports.as_ref().map_or(0.0, |supports| {
-            let laws = over(supports.askew, force_scale).max(over(supports.struck, speed_scale));
-            supports.rubs.pairs.worst(speed_scale, force_scale).max(laws)
-        });
-        Residuals {
-            complementarity: walls.max(rebounds).max(law).max(supports),
-            depth_m: self.depth.clone(),
-            hole_depth_m: holes.to_vec(),
-            penetration_m: rigid.map(|(_, depth)| depth).chain(rigid_holes).fold(0.0, |most, depth| most.max(*depth)),
-            tension_n: self.tension,
-            force_balance_n: self.balance,
-            force_balance: balance.max(path),
-            energy: self.energy.report(),
-            gap_scale,
-            force_scale_n: self.force_scale,
-        }
+        self.extent.speed.max(self.energy.gap_scale / self.scene.duration)
     }
 }
 

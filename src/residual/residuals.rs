@@ -1,6 +1,6 @@
 //! The residuals of a run.
 
-use super::Energy;
+use super::{Energy, Judge};
 #[cfg(doc)]
 use crate::step::Promise;
 use serde::{Deserialize, Serialize};
@@ -47,4 +47,44 @@ pub struct Residuals {
     /// measured by that share of it. Where no wall ever pushed, the error of an elastic wall is
     /// measured by the force of the stiffest one over the gap scale.
     pub force_scale_n: f64,
+}
+
+impl Judge {
+    /// The residuals of the steps so far.
+    #[must_use]
+    pub fn residuals(&self) -> Residuals {
+        let speed_scale = self.rebound_scale();
+        let force_scale = self.contact_scale();
+        let rigid = self.contract.promise.rigid;
+        let speeds_only = rigid.displacement.is_none() && rigid.velocity.is_some();
+        let gap_scale = if speeds_only { speed_scale } else { self.energy.gap_scale };
+        let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
+        // Where no wall ever pushed, the force error of an elastic wall is measured by its force
+        // over the gap scale.
+        let law = over(self.law_error, if force_scale > 0.0 { force_scale } else { self.scales.wall });
+        let walls = self.pairs.worst(self.energy.gap_scale, force_scale);
+        let rebounds = self.rebounds.worst(speed_scale, force_scale);
+        let force = self.scales.normal_force(self.force_scale).max(self.scales.spring);
+        let balance = over(self.normal_balance, self.balance_scale.max(force));
+        let path = over(self.kinematics, self.extent.normal_reach.max(self.scales.gap));
+        let rigid = self.scene.walls.iter().zip(&self.depth).filter(|(w, _)| w.law.is_rigid());
+        let holes = self.supports.as_ref().map_or(&[][..], |supports| &supports.depth);
+        let rigid_holes = self.scene.holes().zip(holes).filter(|(hole, _)| hole.law.is_rigid()).map(|(_, depth)| depth);
+        let supports = self.supports.as_ref().map_or(0.0, |supports| {
+            let laws = over(supports.askew, force_scale).max(over(supports.struck, speed_scale));
+            supports.rubs.pairs.worst(speed_scale, force_scale).max(laws)
+        });
+        Residuals {
+            complementarity: walls.max(rebounds).max(law).max(supports),
+            depth_m: self.depth.clone(),
+            hole_depth_m: holes.to_vec(),
+            penetration_m: rigid.map(|(_, depth)| depth).chain(rigid_holes).fold(0.0, |most, depth| most.max(*depth)),
+            tension_n: self.tension,
+            force_balance_n: self.balance,
+            force_balance: balance.max(path),
+            energy: self.energy.report(),
+            gap_scale,
+            force_scale_n: self.force_scale,
+        }
+    }
 }

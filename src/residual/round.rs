@@ -35,7 +35,7 @@ impl Judge {
         }
         self.rub_flats(step, &mut supports.rubs);
         for support in &scene.supports {
-            self.speed_scale = self.speed_scale.max(terms(support, step.velocity_after));
+            self.extent.speed = self.extent.speed.max(terms(support, step.velocity_after));
         }
         for (index, support, [push, rub]) in pushes(&scene, step) {
             let force = [push[0] + rub[0], push[1] + rub[1]];
@@ -64,7 +64,7 @@ impl Judge {
         let law = support.hole().map(|hole| hole.law).filter(|law| !law.is_rigid());
         self.rounding.push(place, force, law.is_none());
         if let Some(law) = law {
-            let end = support.offset(if beyond { &self.scratch.arrived } else { step.q });
+            let end = support.offset(if beyond { &self.blows.arrived } else { step.q });
             return self.hold_ring(step, (place, support, gap, law), (did, end), doubt);
         }
         if self.contract.promise.hole == Some(Bound::End) {
@@ -73,7 +73,7 @@ impl Judge {
         let Some(turning) = self.contract.promise.round else {
             return self.along_end(step, (place, support, gap), did, doubt);
         };
-        let (before, given) = (support.seen(step.velocity_before), support.seen(&self.scratch.struck));
+        let (before, given) = (support.seen(step.velocity_before), support.seen(&self.blows.struck));
         let (start, after) = (support.offset(&self.q), support.seen(step.velocity_after));
         let rate = [before[0] + given[0], before[1] + given[1]];
         let end = support.offset(step.q);
@@ -84,7 +84,7 @@ impl Judge {
         let reach = ahead[0].hypot(ahead[1]);
         let speeds = terms(support, step.velocity_before)
             + terms(support, step.velocity_after)
-            + terms(support, &self.scratch.struck);
+            + terms(support, &self.blows.struck);
         let centre = support.centre[0].abs() + support.centre[1].abs();
         let size = terms(support, &self.q) + terms(support, step.q) + centre + gap + self.h * speeds;
         let place_noise = self.rounding.of(size);

@@ -8,10 +8,6 @@ use crate::scene::Scene;
 
 #[derive(Debug)]
 pub(super) struct Scales {
-    /// √Mᵢᵢ, n entries.
-    pub root_mass: Vec<f64>,
-    /// 1/√Mᵢᵢ.
-    pub per_root_mass: Vec<f64>,
     /// √m, with m the smallest mass that a wall feels; without walls that of the heaviest degree of
     /// freedom.
     root_wall_mass: f64,
@@ -35,15 +31,7 @@ impl Scales {
         let fastest = stiffness.iter().zip(&root_mass).map(|(k, m)| k / (m * m)).fold(0.0, f64::max);
         // The tangent stiffness at the face; 0 for a rigid wall.
         let stiffest = scene.walls.iter().map(|wall| wall.law.tangent(f64::MIN_POSITIVE)).fold(0.0, f64::max);
-        let per_root_mass: Vec<f64> = root_mass.iter().map(|root| 1.0 / root).collect();
-        Self {
-            root_mass,
-            per_root_mass,
-            root_wall_mass,
-            gap,
-            spring: fastest * gap,
-            wall: stiffest * scene.gap_scale(),
-        }
+        Self { root_wall_mass, gap, spring: fastest * gap, wall: stiffest * scene.gap_scale() }
     }
 
     /// The inverse of [`normal_force`](Self::normal_force), N.

@@ -30,14 +30,14 @@ impl Judge {
         }
         let s = &mut self.scratch;
         for (i, mid) in s.spring.iter_mut().enumerate() {
-            *mid = s.damper[i] + s.struck[i];
-            self.normal_speed = self.normal_speed.max(mid.abs() * self.scales.root_mass[i]);
+            *mid = s.damper[i] + self.blows.struck[i];
+            self.normal_speed = self.normal_speed.max(mid.abs() * self.weights.root_mass[i]);
         }
         if self.supports.is_some() {
             self.strike_holes(step);
         }
         let s = &mut self.scratch;
-        self.energy.see_series(&self.scene, step, moved, &s.blow, &s.damper, &s.spring);
+        self.energy.see_series(&self.scene, step, moved, &self.blows.impulse, &s.damper, &s.spring);
     }
 
     /// Integrates over the stretch, and checks the walls' laws at the nodes. Leaves ∫ of the net
@@ -61,11 +61,11 @@ impl Judge {
                 // ∫q and ∫q̇, which are multiplied by K and C once at the end.
                 s.inertia[i] += weight * s.mean_q[i];
                 s.spring[i] += weight * s.mean_v[i];
-                let weight = self.scales.root_mass[i];
+                let weight = self.weights.root_mass[i];
                 self.balance_scale = self.balance_scale.max(s.load[i].abs() / weight);
                 self.normal_speed = self.normal_speed.max(s.mean_v[i].abs() * weight);
             }
-            self.rounding.state(&s.mean_q, &s.mean_v, 0.0);
+            self.rounding.state(&s.mean_q, &s.mean_v, 0.0, &self.weights);
             let force = |wall: usize| series.contact_force(wall, t);
             moved.largest = moved.largest.max(Ledger::energy_at(&self.scene, &s.mean_q, &s.mean_v, force));
             for (index, wall) in self.scene.walls.iter().enumerate() {
@@ -138,7 +138,7 @@ impl Judge {
         // Over so short a stretch the rounding error of the momentum would count as a force, too.
         let rounding = MOMENTUM_UNITS * f64::EPSILON * self.normal_speed;
         let (mut worst, mut doubtful) = (0.0_f64, 0.0_f64);
-        for (i, weight) in self.scales.root_mass.iter().enumerate() {
+        for (i, weight) in self.weights.root_mass.iter().enumerate() {
             let (open, stopped) = (s.inertia[i] - s.residual[i], s.mean_q[i]);
             let beyond = |open: f64| (open.abs() - rounding * weight).max(0.0);
             let force = (beyond(open) / span).max(beyond(stopped) / radian);

@@ -11,7 +11,7 @@ const FILL: usize = 4;
 #[derive(Debug, Clone)]
 pub(super) struct Sight {
     row: View,
-    /// The open interval, m, in which no wall is touched; empty if one of them is not rigid.
+    /// The open interval, m, in which no wall is touched.
     clear: (f64, f64),
     /// Their indices.
     pub walls: Vec<usize>,
@@ -82,7 +82,6 @@ impl Sight {
         for (index, (wall, &row)) in scene.walls.iter().zip(&distinct.of).enumerate() {
             let (low, high) = &mut sights[row].clear;
             match wall.side {
-                _ if !wall.law.is_rigid() => (*low, *high) = (f64::INFINITY, f64::NEG_INFINITY),
                 Side::Lower => *low = low.max(wall.position + touch),
                 Side::Upper => *high = high.min(wall.position - touch),
             }

@@ -1,6 +1,8 @@
 //! Sums over steps, for the check of a whole run's momentum.
 
 use super::most::most;
+use super::moves::Moves;
+use super::scratch::Scratch;
 use crate::scene::Scene;
 
 /// Load and own force of the structure on one degree of freedom: their values in the last step, N,
@@ -13,6 +15,20 @@ pub(super) struct Forces {
     pub changes: f64,
     pub largest: f64,
     pub exchanged: f64,
+}
+
+impl Forces {
+    /// Adds a step's load, own force and damper force, N; the changes of the first two from the
+    /// last step are summed, except in the `first` step of a run.
+    #[inline(always)]
+    pub fn add(&mut self, first: bool, h: f64, [load, own, damper]: [f64; 3]) {
+        if !first {
+            self.changes += (load - self.load).abs() + (own - self.own).abs();
+        }
+        (self.load, self.own) = (load, own);
+        self.largest = most(self.largest, load.abs() + own.abs() + damper.abs());
+        self.exchanged += h * (load + own + damper).abs();
+    }
 }
 
 /// Sums over the steps of a run on a grid; vectors have one entry per degree of freedom or per
@@ -66,16 +82,40 @@ impl Sums {
         }
     }
 
-    /// Adds a step's load, own force and damper force on degree of freedom `i`, N; the changes of
-    /// the first two from the last step are summed, except in the `first` step of a run.
+    /// Adds the forces of a step of `h` seconds (and 1/h): its mean load and what the structure's
+    /// springs and dampers give, N s, in `means`. `to` is the degree of freedom of an entry.
     #[inline(always)]
-    pub fn add(&mut self, i: usize, first: bool, h: f64, [load, own, damper]: [f64; 3]) {
-        let Some(force) = self.forces.get_mut(i) else { return };
-        if !first {
-            force.changes += (load - force.load).abs() + (own - force.own).abs();
+    pub fn add(
+        &mut self,
+        moves: &Moves<'_>,
+        means: &Scratch,
+        (h, per_h): (f64, f64),
+        first: bool,
+        n: usize,
+        to: impl Fn(usize) -> usize,
+    ) {
+        let (mean, spring, damper) = (&means.load[..n], &means.spring[..n], &means.damper[..n]);
+        for i in 0..n {
+            // The mean force, without dampers, whose impulse follows exactly from the displacement
+            // between start and end.
+            if let Some(force) = self.forces.get_mut(to(i)) {
+                force.add(first, h, [mean[i], -spring[i] * per_h, -damper[i] * per_h]);
+            }
         }
-        (force.load, force.own) = (load, own);
-        force.largest = most(force.largest, load.abs() + own.abs() + damper.abs());
-        force.exchanged += h * (load + own + damper).abs();
+        self.add_ends(moves, h, n, to);
+    }
+
+    /// Adds the state at the ends of a step and its loads.
+    #[inline(always)]
+    pub fn add_ends(&mut self, moves: &Moves<'_>, h: f64, n: usize, to: impl Fn(usize) -> usize) {
+        let (q0, q1, extra) = (&moves.from[..n], &moves.shown[..n], &moves.extra[..n]);
+        let (load_start, load_end) = (&moves.load_start[..n], &moves.load_end[..n]);
+        let half = 0.5 * h;
+        for i in 0..n {
+            if let (Some(place), Some(load)) = (self.place.get_mut(to(i)), self.load.get_mut(to(i))) {
+                *place += half * (q0[i] + q1[i]);
+                *load += half * (load_start[i] + load_end[i]) + h * extra[i];
+            }
+        }
     }
 }

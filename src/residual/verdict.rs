@@ -21,11 +21,12 @@ impl Judge {
             Path::Grid | Path::OneRestitution | Path::Handed { .. } => (self.h, 1.0),
         };
         let way = if matches!(step.path, Path::Exact(_) | Path::Series(_)) { 0.0 } else { self.span };
-        self.rounding.step((step.q, step.velocity_before, step.velocity_after), way, step.q.len());
-        for (i, (extra, load)) in step.extra.iter().zip(&self.scratch.load_end).enumerate() {
-            self.rounding.load(i, extra.abs() + load.abs());
+        self.rounding.state(step.q, step.velocity_before, way, &self.weights);
+        self.rounding.state(step.q, step.velocity_after, way, &self.weights);
+        for ((extra, load), per_root) in step.extra.iter().zip(&self.load_end).zip(&self.weights.per_root_mass) {
+            self.rounding.load((extra.abs() + load.abs()) * per_root);
         }
-        self.rounding.book();
+        self.rounding.book(self.q.len() as f64, 1.0);
     }
 
     /// Adds a gap (or the slack of a bound) whose terms are of this `size`, m, minus its rounding
@@ -43,7 +44,7 @@ impl Judge {
         if slack < 0.0 || pressure != 0.0 {
             let Some(wall) = self.scene.walls.get(index) else { return };
             let speeds = |v: &[f64]| wall.at.entries().iter().map(|&(i, g)| (g * v[i]).abs()).sum::<f64>();
-            let size = speeds(step.velocity_before) + speeds(step.velocity_after) + speeds(&self.scratch.struck);
+            let size = speeds(step.velocity_before) + speeds(step.velocity_after) + speeds(&self.blows.struck);
             let noise = self.rounding.met(size, self.energy.gap_scale / self.span);
             let force = self.rounding.wall_force(index, self.span, self.clock);
             self.doubts.rebounds.add((slack, noise), (pressure, force), self.now, index);
@@ -115,7 +116,7 @@ impl Judge {
             (Refuted::Friction, beyond, allowed.walls),
             (Refuted::MomentumBalance, doubts.balance.over(balance), allowed.balance),
             (Refuted::Impulses, self.open_momentum(), allowed.impulses),
-            (Refuted::Kinematics, doubts.path.over(self.normal_reach.max(self.scales.gap)), allowed.balance),
+            (Refuted::Kinematics, doubts.path.over(self.extent.normal_reach.max(self.scales.gap)), allowed.balance),
             (Refuted::Energy, ledger.over(energy.exchanged_j), allowed.energy),
         ]
         .into_iter()

@@ -28,11 +28,11 @@ impl Judge {
         let blows = self.loads.has_blows();
         for place in 0..self.sights.len() {
             let sight = &self.sights[place];
-            let still = |&wall: &usize| step.impulse[wall] == 0.0 && step.force[wall] == 0.0;
+            let still = |&wall: &usize| step.impulse[wall] == 0.0 && step.force[wall] == 0.0 && self.held[wall] == 0.0;
             if !beyond && sight.walls.iter().all(still) {
                 let mut rate = sight.of(step.velocity_before).abs();
                 if blows {
-                    rate += sight.of(&self.scratch.struck).abs();
+                    rate += sight.of(&self.blows.struck).abs();
                 }
                 if sight.is_clear((sight.of(&self.q), sight.of(step.q)), self.h * rate) {
                     continue;
@@ -66,14 +66,14 @@ impl Judge {
         // A bound on the displacement at the end includes what the blows add to it; everything else
         // is without that.
         let bound_there = is_rigid && promise.rigid.displacement == Some(Bound::End);
-        let end = if bound_there || !beyond { step.q } else { &self.scratch.arrived };
+        let end = if bound_there || !beyond { step.q } else { &self.blows.arrived };
         let before = wall.at.dot(step.velocity_before);
         let seen = Seen {
             index,
             pressure,
             w: (wall.at.dot(&self.q), wall.at.dot(end)),
             before,
-            struck: if is_rigid { before + wall.at.dot(&self.scratch.struck) } else { before },
+            struck: if is_rigid { before + wall.at.dot(&self.blows.struck) } else { before },
             after: wall.at.dot(step.velocity_after),
         };
         let (shown, depth) = (wall.at.dot(step.q), &mut self.depth[index]);

@@ -12,6 +12,7 @@
 
 use super::Judge;
 use super::beyond::Worst;
+use super::moves::Moves;
 use super::sums::Forces;
 use crate::step::{Balance, Path, Step};
 
@@ -72,31 +73,21 @@ impl Judge {
         if !sums.whole {
             return;
         }
-        let (h, s) = (self.h, &self.scratch);
-        let (half, first) = (0.5 * h, sums.steps == 1);
-        let (q0, q1, after, extra) = (&self.q[..n], &step.q[..n], &step.velocity_after[..n], &step.extra[..n]);
-        let (load_start, load_end, mean) = (&self.load[..n], &s.load_end[..n], &s.load[..n]);
-        let (spring, damper) = (&s.spring[..n], &s.damper[..n]);
+        let (h, first) = (self.h, sums.steps == 1);
+        let moves = Moves::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
         if matches!(self.contract.balance, Balance::GeneralizedAlpha { .. }) {
             // For generalized-α, the force at the end of the step, which includes dampers and the
             // walls that are springs.
             for i in 0..n {
-                sums.rate[i] += half * (sums.last[i] + after[i]);
-                sums.add(i, first, h, [load_end[i], spring[i] - load_end[i], 0.0]);
+                let load = self.load_end[i];
+                sums.rate[i] += 0.5 * h * (sums.last[i] + step.velocity_after[i]);
+                sums.forces[i].add(first, h, [load, self.scratch.spring[i] - load, 0.0]);
             }
+            sums.add_ends(&moves, h, n, |i| i);
         } else {
-            // For all others the mean force, without dampers, whose impulse follows exactly from
-            // the displacement between start and end.
-            for i in 0..n {
-                sums.add(i, first, h, [mean[i], -spring[i] * per_h, -damper[i] * per_h]);
-            }
+            sums.add(&moves, &self.scratch, (h, per_h), first, n, |i| i);
         }
-        let (place, load) = (&mut sums.place[..n], &mut sums.load[..n]);
-        for i in 0..n {
-            place[i] += half * (q0[i] + q1[i]);
-            load[i] += half * (load_start[i] + load_end[i]) + h * extra[i];
-        }
-        sums.last[..n].copy_from_slice(after);
+        sums.last[..n].copy_from_slice(&step.velocity_after[..n]);
     }
 
     /// The largest residual of the run's momentum, minus what a step's rule may miss and minus
@@ -178,7 +169,7 @@ impl Judge {
             }
         }
         let rounding = sums.steps as f64 * self.h * self.rounding.force(self.h, 1.0);
-        let roots = &self.scales.root_mass;
+        let roots = &self.weights.root_mass;
         let largest = exchanged.iter().zip(roots).map(|(x, root)| x / root).fold(0.0, f64::max);
         for i in 0..n {
             let missed = STEPS * self.h * (sums.forces[i].changes + ends[i]);

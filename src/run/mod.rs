@@ -9,6 +9,7 @@ pub use options::{Judged, Judging, Options, Recorded, Recording, Unjudged, Unrec
 use crate::error::Result;
 use crate::scene::{Checked, Scene};
 use crate::scheme::{Method, Scheme, Stepper};
+use crate::step::Calm;
 use std::time::Instant;
 
 /// Maximum number of steps between two reports of progress.
@@ -71,20 +72,40 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let mut judge = J::begin(&stepper, grid.step, &start);
     let mut recorder = R::begin(&stepper, grid.rows, &start, &options.time);
     let (mut count, mut report) = (0, 1);
+    // Steps of one degree of freedom between two contacts are looked at together.
+    let together = J::gains_by_calm(&judge).unwrap_or(!R::ROWLESS);
+    let line = scene.is_line() && !scene.turns_or_rubs() && !exact;
+    let mut calm = (line && together).then(|| Calm::new(scene.walls.len()));
     loop {
-        let step = stepper.step()?;
-        J::see(&mut judge, &step);
-        R::see(&mut recorder, &step);
-        let time = step.end;
-        count += 1;
-        if count == report {
-            report += (count / PROGRESS_SHARE).clamp(1, PROGRESS_STRIDE);
+        let made = calm.as_mut().map_or(Ok(0), |calm| stepper.glide_into(calm, grid.steps - count))?;
+        let mut alone = None;
+        if made == 0 {
+            let step = stepper.step()?;
+            alone = calm.as_mut().is_none_or(|calm| !calm.take(&step)).then_some(step);
+        }
+        if let Some(calm) = calm.as_mut().filter(|calm| alone.is_some() || calm.is_full()) {
+            J::see_calm(&mut judge, calm);
+            R::see_calm(&mut recorder, calm);
+            calm.clear();
+        }
+        if let Some(step) = alone {
+            J::see(&mut judge, &step);
+            R::see(&mut recorder, &step);
+        }
+        count += made.max(1);
+        let time = stepper.time();
+        if count >= report {
+            report = count + (count / PROGRESS_SHARE).clamp(1, PROGRESS_STRIDE);
             progress(time);
         }
-        let ended = if exact { time >= scene.duration } else { count == grid.steps };
+        let ended = if exact { time >= scene.duration } else { count >= grid.steps };
         if ended {
             break;
         }
+    }
+    if let Some(calm) = &calm {
+        J::see_calm(&mut judge, calm);
+        R::see_calm(&mut recorder, calm);
     }
     let from = options.time.statistics_from;
     let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), (scene, scene.wall_masses()), from);

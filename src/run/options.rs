@@ -6,7 +6,7 @@ use crate::residual::{Finding, Judge, Residuals};
 use crate::scene::{Scene, State};
 use crate::scheme::Stepper;
 use crate::statistics::{Forces, Rubbing, Statistics};
-use crate::step::{Contact, Step};
+use crate::step::{Calm, Contact, Step};
 use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
 use std::fmt::Debug;
@@ -121,6 +121,11 @@ pub trait Judging: sealed::Sealed + Debug + Copy {
     fn begin(stepper: &Stepper, step: f64, start: &State) -> Self::Judge;
     #[doc(hidden)]
     fn see(judge: &mut Self::Judge, step: &Step<'_>);
+    /// Whether it gains by seeing many steps at once; `None` if it does not look at them.
+    #[doc(hidden)]
+    fn gains_by_calm(judge: &Self::Judge) -> Option<bool>;
+    #[doc(hidden)]
+    fn see_calm(judge: &mut Self::Judge, calm: &Calm);
     #[doc(hidden)]
     fn verdict(judge: Self::Judge, recorded: Option<&Trajectory>) -> (Self::Verdict, Self::Findings);
     #[doc(hidden)]
@@ -149,6 +154,14 @@ impl Judging for Judged {
 
     fn see(judge: &mut Judge, step: &Step<'_>) {
         judge.see(step);
+    }
+
+    fn gains_by_calm(judge: &Judge) -> Option<bool> {
+        Some(judge.gains_by_calm())
+    }
+
+    fn see_calm(judge: &mut Judge, calm: &Calm) {
+        judge.see_calm(calm);
     }
 
     fn verdict(mut judge: Judge, recorded: Option<&Trajectory>) -> (Residuals, Vec<Finding>) {
@@ -180,6 +193,12 @@ impl Judging for Unjudged {
 
     fn see((): &mut (), _: &Step<'_>) {}
 
+    fn gains_by_calm((): &()) -> Option<bool> {
+        None
+    }
+
+    fn see_calm((): &mut (), _: &Calm) {}
+
     fn verdict((): (), _: Option<&Trajectory>) -> ((), ()) {
         ((), ())
     }
@@ -207,6 +226,8 @@ pub trait Recording: sealed::Sealed + Debug + Copy {
     fn begin(stepper: &Stepper, rows: u64, start: &State, time: &TimeOptions) -> Self::Recorder;
     #[doc(hidden)]
     fn see(recorder: &mut Self::Recorder, step: &Step<'_>);
+    #[doc(hidden)]
+    fn see_calm(recorder: &mut Self::Recorder, calm: &Calm);
     #[doc(hidden)]
     fn finish(
         recorder: Self::Recorder,
@@ -244,6 +265,11 @@ impl Recording for Recorded {
         rubbing.see(step);
     }
 
+    fn see_calm((recorder, _, _): &mut Self::Recorder, calm: &Calm) {
+        // Without an impulse there is nothing to sum up.
+        recorder.see_calm(calm);
+    }
+
     fn finish(
         (recorder, forces, rubbing): Self::Recorder,
         open: &[Contact],
@@ -270,6 +296,8 @@ impl Recording for Unrecorded {
     fn begin(_: &Stepper, _: u64, _: &State, _: &TimeOptions) {}
 
     fn see((): &mut (), _: &Step<'_>) {}
+
+    fn see_calm((): &mut (), _: &Calm) {}
 
     fn finish((): (), _: &[Contact], _: (&Scene, &[f64]), _: f64) -> ((), ()) {
         ((), ())

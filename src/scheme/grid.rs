@@ -10,7 +10,7 @@ use crate::contact::{Episodes, Rates};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
-use crate::step::{Contact, Contract, Step};
+use crate::step::{Calm, Contact, Contract, Step};
 
 /// One scheme on one scene, with its state.
 #[derive(Debug)]
@@ -49,11 +49,11 @@ impl<S: Space> Grid<S> {
     }
 
     /// As [`Motion::glide`].
-    pub fn glide(&mut self, step: u64, until: u64) -> Result<u64> {
+    pub fn glide(&mut self, step: u64, until: u64, calm: Option<&mut Calm>) -> Result<u64> {
         if self.forced || !self.frame.pushing.is_empty() || !self.episodes.idle() {
             return Ok(step);
         }
-        let reached = self.rule.glide(step, until, &mut self.frame)?;
+        let reached = self.rule.glide(step, until, &mut self.frame, calm)?;
         if reached > step {
             self.frame.check(reached - 1)?;
         }
@@ -92,8 +92,8 @@ impl<S: Space> Motion for Grid<S> {
         self.advance(step, extra)
     }
 
-    fn glide(&mut self, step: u64, until: u64) -> Result<u64> {
-        self.glide(step, until)
+    fn glide(&mut self, step: u64, until: u64, calm: Option<&mut Calm>) -> Result<u64> {
+        self.glide(step, until, calm)
     }
 
     fn step(&self, index: u64) -> Step<'_> {

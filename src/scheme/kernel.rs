@@ -21,7 +21,7 @@ use super::{Integrator, Method, Scheme};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene};
-use crate::step::Step;
+use crate::step::{Calm, Step};
 
 /// A motion. That of one degree of freedom on a grid is stored without a pointer, so that its steps
 /// can be inlined into a caller's loop.
@@ -150,10 +150,10 @@ impl Kernel {
     }
 
     /// As [`Motion::glide`].
-    pub fn glide(&mut self, step: u64, until: u64) -> Result<u64> {
+    pub fn glide(&mut self, step: u64, until: u64, calm: Option<&mut Calm>) -> Result<u64> {
         match self {
-            Self::Line(grid) => grid.glide(step, until),
-            Self::Other(motion) => motion.glide(step, until),
+            Self::Line(grid) => grid.glide(step, until, calm),
+            Self::Other(motion) => motion.glide(step, until, calm),
         }
     }
 

@@ -33,6 +33,7 @@ use super::space::{Space, zero};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
+use crate::step::Calm;
 use std::mem::take;
 
 #[derive(Debug)]
@@ -195,7 +196,7 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
         Ok(())
     }
 
-    fn glide(&mut self, step: u64, until: u64, frame: &mut Frame<S>) -> Result<u64> {
+    fn glide(&mut self, step: u64, until: u64, frame: &mut Frame<S>, mut calm: Option<&mut Calm>) -> Result<u64> {
         if self.body.blows.is_some() || !self.pushed.is_empty() {
             return Ok(step);
         }
@@ -215,6 +216,9 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
             go::<S>((h, *theta), programme.x(), &mut q, &mut v);
             finite = all_finite(q.as_ref()) && all_finite(v.as_ref());
             next += 1;
+            if let Some(calm) = &mut calm {
+                calm.add(next as f64 * h, (q.as_ref(), v.as_ref()), (before.as_ref(), v.as_ref()));
+            }
         }
         (frame.q, frame.v, frame.before) = (q, v, before);
         if next > step {

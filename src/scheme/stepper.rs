@@ -7,7 +7,7 @@ use crate::interrupt::Asking;
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene, State, Wall, WallLaw};
 use crate::scheme::Counters;
-use crate::step::{Contact, Contract, Step};
+use crate::step::{Calm, Contact, Contract, Step};
 use crate::time::MOST_STEPS;
 
 /// Maximum number of steps in one loop without contact.
@@ -150,7 +150,7 @@ impl Stepper {
             self.asking.pass(self.index)?;
             // The interrupt is asked between two loops.
             let until = end.min(self.index.saturating_add(GLIDE));
-            self.index = self.kernel.glide(self.index, until)?;
+            self.index = self.kernel.glide(self.index, until, None)?;
             if self.index == end {
                 break;
             }
@@ -166,6 +166,16 @@ impl Stepper {
             }
         }
         Ok(self.kernel.step(self.index - 1))
+    }
+
+    /// Makes steps in which no wall pushes, at most as many as `calm` has room for and no more than
+    /// `most`, and adds them to it. Returns how many.
+    pub(crate) fn glide_into(&mut self, calm: &mut Calm, most: u64) -> Result<u64> {
+        self.asking.pass(self.index)?;
+        let from = self.index;
+        let until = from.saturating_add(most.min(calm.begin(from, self.kernel.motion().end())));
+        self.index = self.kernel.glide(from, until, Some(calm))?;
+        Ok(self.index - from)
     }
 
     /// Sets the state at `time` (s), later or earlier than now: a co-simulation can repeat a step,

@@ -1,9 +1,11 @@
 //! One time step as data: what a scheme passes to the recorder and the judge.
 
+mod calm;
 mod contract;
 mod hole;
 mod promise;
 
+pub(crate) use calm::Calm;
 pub use contract::{Balance, Conserves, Contract, Tolerance, Tolerances};
 pub use hole::HoleStep;
 pub use promise::{Bound, Circle, Elastic, Friction, Law, Normal, Promise, PromisedForce, Reached, Rigid, Turning};

@@ -5,7 +5,7 @@ use super::columns::Columns;
 use super::rubbed::Rubbed;
 use super::worn::Worn;
 use crate::scene::{Row, Scene};
-use crate::step::{Contact, Path, Step};
+use crate::step::{Calm, Contact, Path, Step};
 
 /// Builds a [`Trajectory`] from the steps of a run, at the requested rows.
 #[derive(Debug, Clone)]
@@ -119,6 +119,33 @@ impl Recorder {
             }
             Path::Exact(_) | Path::Series(_) => self.see_exact(step),
             Path::Handed { .. } => self.see_handed(step),
+        }
+    }
+
+    /// Adds steps in which no wall pushes and no contact ends, as [`Recorder::see`] adds each of
+    /// them.
+    pub(crate) fn see_calm(&mut self, calm: &Calm) {
+        let mut from = 0;
+        // Impulses since the last row belong to the next one.
+        while from < calm.len() && (!self.worn.is_empty() || self.pending.iter().any(|&sum| sum != 0.0)) {
+            self.see(&calm.step(from));
+            from += 1;
+        }
+        let mut rows = [0; Calm::most()];
+        let mut count = 0;
+        for k in from..calm.len() {
+            let (start, end) = (calm.start(k), calm.end()[k]);
+            if self.columns.time.len() as u64 <= self.rows && end > self.due - 0.5 * (end - start) {
+                self.columns.time.push(self.due);
+                self.due = self.row_time(self.columns.time.len() as u64);
+                (rows[count], count) = (k, count + 1);
+            }
+        }
+        let Columns { displacement, velocity, .. } = &mut self.columns;
+        for (columns, values) in [(displacement, calm.q()), (velocity, calm.v())] {
+            for (column, probe) in columns.iter_mut().zip(&self.probes) {
+                column.extend(rows[..count].iter().map(|&k| probe.dot(&values[k..=k])));
+            }
         }
     }
 

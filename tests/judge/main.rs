@@ -14,5 +14,6 @@ mod faults;
 mod findings;
 mod ledger;
 mod structures;
+mod together;
 #[cfg(feature = "case")]
 mod units;

@@ -8,9 +8,11 @@ pub(super) use arc::{Along, Instant};
 pub(super) use series::Moved;
 
 use super::matrices::{Matrices, Part};
+use super::most::most;
+use super::moves::Moves;
 use super::pushes::pushes;
 use crate::scene::{Forcing, Scene, Wall, WallLaw};
-use crate::step::{Balance, Contract, Step};
+use crate::step::{Balance, Calm, Contract, Step};
 use rings::Rings;
 use serde::{Deserialize, Serialize};
 
@@ -70,7 +72,7 @@ pub(super) struct Ledger {
     steepest: f64,
     /// True if a wall is not rigid.
     springs: bool,
-    /// Two vectors of length n.
+    /// Two vectors of length n at least.
     shift: Vec<f64>,
     middle: Vec<f64>,
 }
@@ -109,14 +111,14 @@ impl Ledger {
             residual: 0.0,
             lost: 0.0,
             steepest: Forcing::on(0, &scene.loads).steepest(),
-            shift: vec![0.0; q.len()],
+            shift: vec![0.0; q.len().max(Calm::most())],
             middle: vec![0.0; q.len()],
             springs: scene.walls.iter().any(|wall| !wall.law.is_rigid()),
         }
     }
 
-    /// Adds one step of `h` seconds (and 1/h) on a grid from `q0` to `q1`, with the mean load (N)
-    /// and the blows (N s) that acted; n degrees of freedom.
+    /// Adds one step of `h` seconds (and 1/h) on a grid under the mean load `load` (N); n degrees of
+    /// freedom.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn see_grid(
@@ -124,30 +126,19 @@ impl Ledger {
         scene: &Scene,
         matrices: &Matrices,
         (h, per_h): (f64, f64),
-        (q0, q1): (&[f64], &[f64]),
+        moves: &Moves<'_>,
         step: &Step<'_>,
-        (load, blow): (&[f64], &[f64]),
+        load: &[f64],
         n: usize,
     ) {
-        let (before, after) = (&step.velocity_before[..n], &step.velocity_after[..n]);
-        let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
-        if let (Some(b), false) = (staggered, self.started) {
-            self.start(scene, matrices, (h, b), q0, before);
+        if let (Some(b), false) = (self.staggered(), self.started) {
+            self.start(scene, matrices, (h, b), moves.from, moves.before);
         }
         self.started = true;
-        let mut flows = Flows::default();
-        let (from, to, load, blow) = (&q0[..n], &q1[..n], &load[..n], &blow[..n]);
-        let shift = &mut self.shift[..n];
-        for i in 0..n {
-            let mean = 0.5 * (before[i] + after[i]);
-            shift[i] = if staggered.is_some() { h * mean } else { to[i] - from[i] };
-            let (pushed, struck) = (load[i] * shift[i], blow[i] * mean);
-            flows.work += pushed + struck;
-            flows.passed += pushed.abs() + struck.abs();
-        }
-        flows.damping = matrices.form(Part::Damping, shift) * per_h;
+        let mut flows = self.flows(matrices, (h, per_h), moves, load, n);
+        let (q0, q1) = (moves.from, moves.to);
         let walls = if self.springs || step.impulse.iter().any(|&p| p != 0.0) {
-            self.see_walls(scene, h, (q0, q1), step, staggered.is_some(), &mut flows)
+            self.see_walls(scene, h, (q0, q1), step, self.staggered().is_some(), &mut flows)
         } else {
             0.0
         };
@@ -156,11 +147,68 @@ impl Ledger {
         }
         let (rings, lost) = self.rings.see(scene, h, (q0, q1), step);
         flows.dashpot += lost;
-        let energy = match staggered {
-            Some(b) => self.half_step(matrices, (h, b), q0, after, n),
-            None => 0.5 * (matrices.form(Part::Mass, &step.v[..n]) + matrices.form(Part::Stiffness, to)),
+        let energy = match self.staggered() {
+            Some(b) => self.half_step(matrices, (h, b), q0, moves.after, n),
+            None => 0.5 * (matrices.form(Part::Mass, &moves.v[..n]) + matrices.form(Part::Stiffness, &q1[..n])),
         };
         self.book(energy + walls + rings, flows);
+    }
+
+    /// Adds n steps of one degree of freedom in which no wall touches it, after the first step.
+    pub fn see_calm(&mut self, matrices: &Matrices, (h, per_h): (f64, f64), moves: &Moves<'_>, load: &[f64], n: usize) {
+        let flows = self.flows(matrices, (h, per_h), moves, load, n);
+        let (q0, q1, after, v) = (&moves.from[..n], &moves.to[..n], &moves.after[..n], &moves.v[..n]);
+        let (mut energy, mut largest) = (self.energy, self.report.largest_j);
+        let [m, k] = [Part::Mass, Part::Stiffness].map(|part| matrices.form(part, &[1.0]));
+        let staggered = self.staggered();
+        for i in 0..n {
+            energy = match staggered {
+                Some(b) => {
+                    let half = 0.5 * h * after[i];
+                    let middle = q0[i] + half;
+                    0.5 * (m * after[i] * after[i] + k * (middle * middle - (1.0 - 4.0 * b) * half * half))
+                }
+                None => 0.5 * (m * v[i] * v[i] + k * q1[i] * q1[i]),
+            };
+            largest = most(largest, energy);
+        }
+        self.report.largest_j = largest;
+        self.book(energy, flows);
+    }
+
+    /// True if a wall stored energy after the last step.
+    pub fn walls_store(&self) -> bool {
+        self.held.iter().any(|&energy| energy != 0.0)
+    }
+
+    /// Balance of a staggered rule: the weight b of its displacements.
+    fn staggered(&self) -> Option<f64> {
+        if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None }
+    }
+
+    /// Work of the loads and dissipation by the structure's damping.
+    #[inline(always)]
+    fn flows(
+        &mut self,
+        matrices: &Matrices,
+        (h, per_h): (f64, f64),
+        moves: &Moves<'_>,
+        load: &[f64],
+        n: usize,
+    ) -> Flows {
+        let (from, to, load, blow) = (&moves.from[..n], &moves.to[..n], &load[..n], &moves.blow[..n]);
+        let (before, after, shift) = (&moves.before[..n], &moves.after[..n], &mut self.shift[..n]);
+        let staggered = matches!(self.contract.balance, Balance::Staggered(_));
+        let mut flows = Flows::default();
+        for i in 0..n {
+            let mean = 0.5 * (before[i] + after[i]);
+            shift[i] = if staggered { h * mean } else { to[i] - from[i] };
+            let (pushed, struck) = (load[i] * shift[i], blow[i] * mean);
+            flows.work += pushed + struck;
+            flows.passed += pushed.abs() + struck.abs();
+        }
+        flows.damping = matrices.form(Part::Damping, shift) * per_h;
+        flows
     }
 
     /// Sets the energy at the start of a staggered rule: half a step before the first instant.

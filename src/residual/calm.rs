@@ -1,0 +1,198 @@
+//! Checks of many steps of one degree of freedom at once.
+//!
+//! Of a step in which no wall is in reach only the balances remain to be checked. The passes that
+//! do so over the degrees of freedom of one step do so here over the steps of one degree of
+//! freedom.
+
+use super::Judge;
+use super::moves::Moves;
+use super::scratch::Scratch;
+use super::weights::Weights;
+use crate::scene::{Loads, Scene};
+use crate::step::{Balance, Calm, Contract};
+use std::ops::Range;
+
+/// Work space for as many steps as a [`Calm`] holds.
+#[derive(Debug)]
+pub(super) struct Room {
+    weights: Weights,
+    scratch: Scratch,
+    /// Displacements (m) and loads (N) at the start of the first step and at the end of each.
+    q: Vec<f64>,
+    load: Vec<f64>,
+    zeros: Vec<f64>,
+}
+
+impl Room {
+    /// `None` where each step is to be seen by itself.
+    pub fn new(scene: &Scene, contract: Contract, weights: &Weights) -> Option<Box<Self>> {
+        let free = scene.is_line() && scene.supports.is_empty() && !Loads::new(&scene.loads).has_blows();
+        let one_step = matches!(contract.balance, Balance::Theta(_) | Balance::Staggered(_));
+        if !free || !one_step {
+            return None;
+        }
+        let most = Calm::most();
+        Some(Box::new(Self {
+            weights: weights.repeated(most),
+            scratch: Scratch::new(most),
+            q: vec![0.0; most + 1],
+            load: vec![0.0; most + 1],
+            zeros: vec![0.0; most],
+        }))
+    }
+}
+
+impl Judge {
+    /// True if [`Judge::see_calm`] is faster than [`Judge::see`] step by step.
+    pub(crate) fn gains_by_calm(&self) -> bool {
+        self.room.is_some()
+    }
+
+    /// Checks the steps of `calm`, which follow the last one seen, as [`Judge::see`] checks each of
+    /// them.
+    pub(crate) fn see_calm(&mut self, calm: &Calm) {
+        let Some(mut room) = self.room.take() else {
+            return (0..calm.len()).for_each(|k| self.see(&calm.step(k)));
+        };
+        let mut k = 0;
+        while k < calm.len() {
+            let clear = k + self.clear(calm, k);
+            self.see_clear(&mut room, calm, k..clear);
+            k = clear;
+            if k < calm.len() {
+                self.see(&calm.step(k));
+                k += 1;
+            }
+        }
+        self.room = Some(room);
+    }
+
+    /// The number of steps from step `from` on in which no wall is in reach. The first step of a
+    /// run, with which its sums begin, counts as one in which a wall is, and so does one before
+    /// which a wall still pushed.
+    fn clear(&self, calm: &Calm, from: usize) -> usize {
+        if self.sums.steps == 0 || self.energy.walls_store() || self.held.iter().any(|&force| force != 0.0) {
+            return 0;
+        }
+        let (before, _) = calm.velocities();
+        let mut w0 = self.q.first().copied().unwrap_or(0.0);
+        let in_reach = |(&w1, rate): (&f64, &f64)| {
+            let ends = (std::mem::replace(&mut w0, w1), w1);
+            // All walls have the one row that is the degree of freedom itself.
+            !self.sights.iter().all(|sight| sight.is_clear(ends, self.h * rate.abs()))
+        };
+        let left = calm.len() - from;
+        calm.q()[from..].iter().zip(&before[from..]).position(in_reach).unwrap_or(left)
+    }
+
+    /// Checks steps in which no wall is in reach.
+    fn see_clear(&mut self, room: &mut Room, calm: &Calm, steps: Range<usize>) {
+        let n = steps.len();
+        let (&mut [ref mut q], &mut [ref mut load], Some(forcing)) =
+            (&mut self.q[..], &mut self.load[..], &mut self.grid_load)
+        else {
+            return;
+        };
+        if n == 0 {
+            return;
+        }
+        let Room { weights, scratch, q: places, load: loads, zeros } = room;
+        let (h, per_h) = (self.h, 1.0 / self.h);
+        places[0] = *q;
+        places[1..=n].copy_from_slice(&calm.q()[steps.clone()]);
+        loads[0] = *load;
+        for (load, &end) in loads[1..=n].iter_mut().zip(&calm.end()[steps.clone()]) {
+            *load = forcing.at(end);
+        }
+        let (before, after) = calm.velocities();
+        let moves = Moves {
+            from: &places[..n],
+            to: &places[1..=n],
+            shown: &places[1..=n],
+            before: &before[steps.clone()],
+            after: &after[steps.clone()],
+            v: &calm.v()[steps.clone()],
+            load_start: &loads[..n],
+            load_end: &loads[1..=n],
+            extra: &zeros[..n],
+            blow: &zeros[..n],
+        };
+        (self.span, self.clock) = (h, 1.0);
+        let path = scratch.means(self.contract.balance, h, &moves, weights, n);
+        self.rounding.step(&moves, &scratch.load, weights, (h, per_h), n);
+        self.balance_scale = scratch.products(&self.matrices, (h, per_h), zeros, weights, n, self.balance_scale);
+        let (balance, worst) = scratch.open(per_h, weights, n, self.balance);
+        if worst > self.rounding.force(h, 1.0) || path > self.rounding.path() {
+            // One of the steps will be accused: see them one by one to find out when.
+            return steps.for_each(|k| self.see(&calm.step(k)));
+        }
+        self.rounding.book(1.0, n as f64);
+        self.balance = balance;
+        self.normal_balance = self.normal_balance.max(worst);
+        self.kinematics = self.kinematics.max(path);
+        self.energy.see_calm(&self.matrices, (h, per_h), &moves, &scratch.load, n);
+        if self.sums.whole {
+            self.sums.add(&moves, scratch, (h, per_h), false, n, |_| 0);
+            self.sums.last.fill(moves.after[n - 1]);
+        }
+        self.sums.steps += n as u64;
+        self.extent.see(&places[1..=n], moves.after, weights, n);
+        (*q, *load, self.now) = (places[n], loads[n], calm.end()[steps.end - 1]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::residual::Refuted;
+    use crate::scene::{Load, Wall};
+    use crate::scheme::{Scheme, Stepper};
+
+    /// The first findings of 300 steps without contact, seen together and one by one, with number
+    /// `wrong` changed by `lie`: of end, displacement, velocity and the velocities in the balance.
+    fn accused(wrong: usize, lie: impl Fn(&mut [f64; 5])) -> [Option<(Refuted, f64)>; 2] {
+        let scene = Scene::oscillator(1.0, 0.2, 100.0)
+            .with_wall(Wall::upper("far", 1.0))
+            .with_load(Load::harmonic(3.0, 5.0, 0.0))
+            .with_initial(&[1e-3], &[0.1]);
+        let h = 1e-3;
+        let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, h).expect("a scene");
+        let judge = || Judge::new(&scene, stepper.contract(), h, &[1e-3], &[0.1]);
+        let (mut together, mut alone, mut calm) = (judge(), judge(), Calm::new(1));
+        for k in 0..300 {
+            let step = stepper.step().expect("a step");
+            let mut told = [step.end, step.q[0], step.v[0], step.velocity_before[0], step.velocity_after[0]];
+            if k == wrong {
+                lie(&mut told);
+            }
+            let [end, q, v, before, after] = told;
+            assert!(calm.begin(step.index, step.start) > 0);
+            calm.add(end, (&[q], &[v]), (&[before], &[after]));
+            if calm.is_full() || k == 299 {
+                together.see_calm(&calm);
+                (0..calm.len()).for_each(|k| alone.see(&calm.step(k)));
+                calm.clear();
+            }
+        }
+        assert!(together.gains_by_calm() && together.sums.steps == 300);
+        [together, alone].map(|judge| judge.findings().first().map(|found| (found.refuted, found.time_s)))
+    }
+
+    #[test]
+    fn a_wrong_step_among_many_is_accused_with_its_time() {
+        assert_eq!(accused(301, |_| {}), [None, None]);
+        for wrong in [1, 77, 128, 200, 299] {
+            let time = (wrong + 1) as f64 * 1e-3;
+            // A velocity that no force explains, and a displacement that no velocity does.
+            let [together, alone] = accused(wrong, |told| told[4] += 1e-3);
+            assert_eq!((together, alone.map(|found| found.1)), (alone, Some(time)));
+            let [together, alone] = accused(wrong, |told| told[1] += 1e-6);
+            assert_eq!(together, alone);
+            assert!(alone.is_some_and(|found| (found.1 - time).abs() < 1.5e-3), "{alone:?} near {time}");
+            // A displacement behind the wall, which did not push.
+            let [together, alone] = accused(wrong, |told| told[1] = 2.0);
+            assert_eq!(together, alone);
+            assert!(alone.is_some());
+        }
+    }
+}
