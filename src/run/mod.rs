@@ -127,3 +127,59 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     run.notes = crate::notes::notes(scene, &run);
     Ok(run)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::residual::{Judge, Refuted};
+    use crate::scene::{Load, Scene, Wall};
+    use crate::scheme::{Scheme, Stepper};
+    use crate::step::Calm;
+
+    /// The first findings of 300 steps without contact, seen together and one by one, with number
+    /// `wrong` changed by `lie`: of end, displacement, velocity and the velocities in the balance.
+    fn accused(wrong: usize, lie: impl Fn(&mut [f64; 5])) -> [Option<(Refuted, f64)>; 2] {
+        let scene = Scene::oscillator(1.0, 0.2, 100.0)
+            .with_wall(Wall::upper("far", 1.0))
+            .with_load(Load::harmonic(3.0, 5.0, 0.0))
+            .with_initial(&[1e-3], &[0.1]);
+        let h = 1e-3;
+        let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, h).expect("a scene");
+        let judge = || Judge::new(&scene, stepper.contract(), h, &[1e-3], &[0.1]);
+        let (mut together, mut alone, mut calm) = (judge(), judge(), Calm::new(1));
+        for k in 0..300 {
+            let step = stepper.step().expect("a step");
+            let mut told = [step.end, step.q[0], step.v[0], step.velocity_before[0], step.velocity_after[0]];
+            if k == wrong {
+                lie(&mut told);
+            }
+            let [end, q, v, before, after] = told;
+            assert!(calm.begin(step.index, step.start) > 0);
+            calm.add(end, (&[q], &[v]), (&[before], &[after]));
+            if calm.is_full() || k == 299 {
+                together.see_calm(&calm);
+                (0..calm.len()).for_each(|k| alone.see(&calm.step(k)));
+                calm.clear();
+            }
+        }
+        assert!(together.gains_by_calm());
+        [together, alone].map(|judge| judge.findings().first().map(|found| (found.refuted, found.time_s)))
+    }
+
+    #[test]
+    fn a_wrong_step_among_many_is_accused_with_its_time() {
+        assert_eq!(accused(301, |_| {}), [None, None]);
+        for wrong in [1, 77, 128, 200, 299] {
+            let time = (wrong + 1) as f64 * 1e-3;
+            // A velocity that no force explains, and a displacement that no velocity does.
+            let [together, alone] = accused(wrong, |told| told[4] += 1e-3);
+            assert_eq!((together, alone.map(|found| found.1)), (alone, Some(time)));
+            let [together, alone] = accused(wrong, |told| told[1] += 1e-6);
+            assert_eq!(together, alone);
+            assert!(alone.is_some_and(|found| (found.1 - time).abs() < 1.5e-3), "{alone:?} near {time}");
+            // A displacement behind the wall, which did not push.
+            let [together, alone] = accused(wrong, |told| told[1] = 2.0);
+            assert_eq!(together, alone);
+            assert!(alone.is_some());
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Work space of the judge for many steps of one degree of freedom.
+
+use super::scratch::Scratch;
+use super::weights::Weights;
+use crate::scene::{Loads, Scene};
+use crate::step::{Balance, Calm, Contract};
+
+/// Work space for as many steps as a [`Calm`] holds.
+#[derive(Debug)]
+pub(super) struct Room {
+    pub weights: Weights,
+    pub scratch: Scratch,
+    /// Displacements (m) and loads (N) at the start of the first step and at the end of each.
+    pub q: Vec<f64>,
+    pub load: Vec<f64>,
+    pub zeros: Vec<f64>,
+}
+
+impl Room {
+    /// `None` where each step is to be seen by itself.
+    pub fn new(scene: &Scene, contract: Contract, weights: &Weights) -> Option<Box<Self>> {
+        let free = scene.is_line() && scene.supports.is_empty() && !Loads::new(&scene.loads).has_blows();
+        let one_step = matches!(contract.balance, Balance::Theta(_) | Balance::Staggered(_));
+        if !free || !one_step {
+            return None;
+        }
+        let most = Calm::most();
+        Some(Box::new(Self {
+            weights: weights.repeated(most),
+            scratch: Scratch::new(most),
+            q: vec![0.0; most + 1],
+            load: vec![0.0; most + 1],
+            zeros: vec![0.0; most],
+        }))
+    }
+}
