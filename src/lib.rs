@@ -28,6 +28,7 @@ pub mod case;
 #[doc(hidden)]
 pub mod cli;
 mod contact;
+mod elementary;
 mod error;
 pub mod flow;
 mod hash;

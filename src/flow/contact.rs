@@ -53,6 +53,10 @@ impl Arc {
     /// where K and C include the touching walls; since k_a ≤ K, no rounding error is amplified.
     #[must_use]
     pub fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
+        let touch = self.touching.iter().find(|a| a.wall == wall);
+        if touch.is_none() && self.support.is_none_or(|support| support.wall != wall) {
+            return 0.0;
+        }
         let (span, load) = (self.since(to) - self.since(from), self.load_impulse(from, to));
         if let Some(support) = self.support {
             let others = self.elastic_at_rest();
@@ -61,7 +65,7 @@ impl Arc {
                 return support.side.sign() * (support.side.sign() * push).max(0.0);
             }
         }
-        let Some(touch) = self.touching.iter().find(|a| a.wall == wall) else { return 0.0 };
+        let Some(touch) = touch else { return 0.0 };
         if self.support.is_some() {
             return -touch.stiffness * (self.initial[0] - touch.position) * span;
         }

@@ -1,6 +1,6 @@
 //! The load over one arc, as a function of the time since its start.
 
-use super::elementary::sin_cos;
+use crate::elementary::sin_cos;
 use crate::scene::{Forcing, Harmonic};
 
 /// One sine, A sin(ω τ + θ), with θ its phase at the arc's start.

@@ -3,7 +3,6 @@
 
 mod contact;
 mod divided;
-mod elementary;
 mod force;
 mod propagator;
 mod response;
@@ -164,6 +163,18 @@ impl Arc {
         }
         let [q, v] = self.response.state(self.since(t));
         (q, v)
+    }
+
+    /// As [`Arc::state`], at several times at once, which costs half as much for each.
+    pub(crate) fn states(&self, times: &[f64], q: &mut [f64], v: &mut [f64]) {
+        if self.is_rest() {
+            q.fill(self.initial[0]);
+            return v.fill(0.0);
+        }
+        for (tau, &t) in q.iter_mut().zip(times) {
+            *tau = self.since(t);
+        }
+        self.response.states(q, v);
     }
 
     /// Acceleration (m/s²) at `t`.

@@ -1,6 +1,6 @@
 //! Checks of the exact motion of one degree of freedom.
 
-use super::energy::{Along, Instant, stored};
+use super::energy::{Along, Instants, stored};
 use super::quadrature::{nodes, panels};
 use super::sight::Sight;
 use super::{Judge, PLACE_UNITS, most};
@@ -19,15 +19,12 @@ impl Judge {
         if lasts {
             let (rate, fastest) = (arc.damping() / arc.mass(), arc.fastest_motion());
             for panel in panels(step.start, step.end, rate, fastest) {
-                // Tables jump at their ends, where an arc ends: a load read just inside is that of
-                // the arc.
-                for (t, weight) in nodes(panel) {
-                    let (q, v) = arc.state(t);
-                    let mut load = [step.extra.first().copied().unwrap_or(0.0)];
-                    self.loads.add_force(t, 1.0, &mut load);
-                    self.look(arc, Instant { t, weight, q, v, load: load[0] }, &mut along);
-                }
-                along.end_panel();
+                let mut at = Instants::of(nodes(panel));
+                arc.states(&at.t[..at.count], &mut at.q[..at.count], &mut at.v[..at.count]);
+                self.load_at(&mut at, step.extra.first().copied().unwrap_or(0.0));
+                self.look(arc, &mut at, &mut along);
+                let largest = along.end_panel(&at);
+                self.energy.reach(largest);
             }
         }
         let open = self.energy.see_arc(&self.scene, step, arc, &self.blows.impulse, &along);
@@ -42,17 +39,40 @@ impl Judge {
         self.doubt_balance(balance / weight);
     }
 
-    /// Adds up what acts at an instant of an arc, and checks the force laws of the walls there.
-    fn look(&mut self, arc: &Arc, at: Instant, along: &mut Along) {
-        let Instant { t, q, v, .. } = at;
+    /// Computes the loads at instants inside an arc. Tables jump at their ends, where an arc ends: a
+    /// load read just inside is that of the arc.
+    fn load_at(&self, at: &mut Instants, extra: f64) {
+        let (times, loads) = (&at.t[..at.count], &mut at.load[..at.count]);
+        match &self.grid_load {
+            Some(forcing) => forcing.forces(times, loads),
+            None => loads.iter_mut().zip(times).for_each(|(load, &t)| {
+                *load = 0.0;
+                self.loads.add_force(t, 1.0, std::slice::from_mut(load));
+            }),
+        }
+        loads.iter_mut().for_each(|load| *load += extra);
+    }
+
+    /// Adds up what acts at the instants of a panel, and checks the force laws of the walls there.
+    fn look(&mut self, arc: &Arc, at: &mut Instants, along: &mut Along) {
         let force = self.energy.look(&self.scene, at, along);
         self.rounding.load(force * self.weights.per_root_mass.first().copied().unwrap_or(1.0));
-        self.rounding.state(&[q], &[v], 0.0, &self.weights);
+        let (mut low, mut high, mut fastest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+        for (&q, v) in at.q[..at.count].iter().zip(&at.v) {
+            (low, high, fastest) = (-most(-low, -q), most(high, q), most(fastest, v.abs()));
+        }
+        self.rounding.state(&[most(-low, high)], &[fastest], 0.0, &self.weights);
         // In flight, most instants are in front of all walls.
-        let clear = |sight: &Sight| sight.is_clear((sight.of(&[q]), sight.of(&[q])), 0.0);
-        let free = !arc.is_rest() && !arc.touches() && self.sights.iter().all(clear);
-        let walls = if free { 0 } else { self.scene.walls.len() };
-        for index in 0..walls {
+        let clear = |sight: &Sight| sight.is_clear((sight.of(&[low]), sight.of(&[high])), 0.0);
+        if arc.is_rest() || arc.touches() || !self.sights.iter().all(clear) {
+            (0..at.count).for_each(|k| self.look_at_walls(arc, k, at, along));
+        }
+    }
+
+    /// Checks the walls at instant `k`.
+    fn look_at_walls(&mut self, arc: &Arc, k: usize, at: &mut Instants, along: &mut Along) {
+        let (t, q, v) = (at.t[k], at.q[k], at.v[k]);
+        for index in 0..self.scene.walls.len() {
             let wall = &self.scene.walls[index];
             let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid());
             let (w, wdot) = (wall.at.dot(&[q]), wall.at.dot(&[v]));
@@ -60,7 +80,10 @@ impl Judge {
             if rigid && r == 0.0 && gap >= 0.0 {
                 continue;
             }
-            along.add_wall(at, r, stored(wall, w, r != 0.0), wall.law.damping() > 0.0);
+            at.add_wall(k, r, stored(wall, w, r != 0.0));
+            if wall.law.damping() > 0.0 {
+                along.add_damped(-at.weight[k] * r * v);
+            }
             let pressure = sign * r;
             self.force_scale = most(self.force_scale, pressure.abs());
             self.tension = most(self.tension, -pressure);
@@ -81,6 +104,5 @@ impl Judge {
                 self.doubt_law(index, error, 0.0);
             }
         }
-        self.energy.reach(along.end_instant(at.weight));
     }
 }

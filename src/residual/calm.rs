@@ -100,8 +100,7 @@ impl Judge {
         self.kinematics = self.kinematics.max(path);
         self.energy.see_calm(&self.matrices, (h, per_h), &moves, &scratch.load, n);
         if self.sums.whole {
-            self.sums.add(&moves, scratch, (h, per_h), false, n, |_| 0);
-            self.sums.last.fill(moves.after[n - 1]);
+            self.sums.add_all(&moves, scratch, (h, per_h), n);
         }
         self.sums.steps += n as u64;
         self.extent.see(&places[1..=n], moves.after, weights, n);

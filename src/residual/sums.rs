@@ -82,40 +82,51 @@ impl Sums {
         }
     }
 
-    /// Adds the forces of a step of `h` seconds (and 1/h): its mean load and what the structure's
-    /// springs and dampers give, N s, in `means`. `to` is the degree of freedom of an entry.
+    /// Adds a step of `h` seconds (and 1/h), whose mean forces are in `means`.
     #[inline(always)]
-    pub fn add(
-        &mut self,
-        moves: &Moves<'_>,
-        means: &Scratch,
-        (h, per_h): (f64, f64),
-        first: bool,
-        n: usize,
-        to: impl Fn(usize) -> usize,
-    ) {
+    pub fn add(&mut self, moves: &Moves<'_>, means: &Scratch, (h, per_h): (f64, f64), first: bool, n: usize) {
         let (mean, spring, damper) = (&means.load[..n], &means.spring[..n], &means.damper[..n]);
-        for i in 0..n {
-            // The mean force, without dampers, whose impulse follows exactly from the displacement
-            // between start and end.
-            if let Some(force) = self.forces.get_mut(to(i)) {
-                force.add(first, h, [mean[i], -spring[i] * per_h, -damper[i] * per_h]);
-            }
+        for (i, force) in self.forces[..n].iter_mut().enumerate() {
+            force.add(first, h, own([mean[i], spring[i], damper[i]], per_h));
         }
-        self.add_ends(moves, h, n, to);
+        self.add_ends(moves, h, n);
     }
 
     /// Adds the state at the ends of a step and its loads.
     #[inline(always)]
-    pub fn add_ends(&mut self, moves: &Moves<'_>, h: f64, n: usize, to: impl Fn(usize) -> usize) {
+    pub fn add_ends(&mut self, moves: &Moves<'_>, h: f64, n: usize) {
+        let (place, load) = (&mut self.place[..n], &mut self.load[..n]);
         let (q0, q1, extra) = (&moves.from[..n], &moves.shown[..n], &moves.extra[..n]);
         let (load_start, load_end) = (&moves.load_start[..n], &moves.load_end[..n]);
-        let half = 0.5 * h;
         for i in 0..n {
-            if let (Some(place), Some(load)) = (self.place.get_mut(to(i)), self.load.get_mut(to(i))) {
-                *place += half * (q0[i] + q1[i]);
-                *load += half * (load_start[i] + load_end[i]) + h * extra[i];
-            }
+            place[i] += 0.5 * h * (q0[i] + q1[i]);
+            load[i] += 0.5 * h * (load_start[i] + load_end[i]) + h * extra[i];
         }
     }
+
+    /// Adds n steps of one degree of freedom without extra force, after the first.
+    #[inline(always)]
+    pub fn add_all(&mut self, moves: &Moves<'_>, means: &Scratch, (h, per_h): (f64, f64), n: usize) {
+        let ([force], [place], [load]) = (&mut self.forces[..], &mut self.place[..], &mut self.load[..]) else {
+            return;
+        };
+        let (mean, spring, damper) = (&means.load[..n], &means.spring[..n], &means.damper[..n]);
+        let mut sum = *force;
+        for i in 0..n {
+            sum.add(false, h, own([mean[i], spring[i], damper[i]], per_h));
+        }
+        *force = sum;
+        let ends = |start: &[f64], end: &[f64]| 0.5 * h * start.iter().zip(end).map(|(a, b)| a + b).sum::<f64>();
+        *place += ends(&moves.from[..n], &moves.shown[..n]);
+        *load += ends(&moves.load_start[..n], &moves.load_end[..n]);
+        self.last.fill(moves.after[n - 1]);
+    }
+}
+
+/// The mean load of a step, N, and the mean forces of the structure's springs and dampers, which
+/// are given with the opposite sign times the step: N s. The mean force is summed without dampers,
+/// whose impulse follows exactly from the displacement between start and end.
+#[inline(always)]
+fn own([load, spring, damper]: [f64; 3], per_h: f64) -> [f64; 3] {
+    [load, -spring * per_h, -damper * per_h]
 }

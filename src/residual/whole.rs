@@ -83,9 +83,9 @@ impl Judge {
                 sums.rate[i] += 0.5 * h * (sums.last[i] + step.velocity_after[i]);
                 sums.forces[i].add(first, h, [load, self.scratch.spring[i] - load, 0.0]);
             }
-            sums.add_ends(&moves, h, n, |i| i);
+            sums.add_ends(&moves, h, n);
         } else {
-            sums.add(&moves, &self.scratch, (h, per_h), first, n, |i| i);
+            sums.add(&moves, &self.scratch, (h, per_h), first, n);
         }
         sums.last[..n].copy_from_slice(&step.velocity_after[..n]);
     }

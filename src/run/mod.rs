@@ -76,24 +76,30 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let together = J::gains_by_calm(&judge).unwrap_or(!R::ROWLESS);
     let line = scene.is_line() && !scene.turns_or_rubs() && !exact;
     let mut calm = (line && together).then(|| Calm::new(scene.walls.len()));
+    let show = |calm: &mut Calm, judge: &mut J::Judge, recorder: &mut R::Recorder| {
+        J::see_calm(judge, calm);
+        R::see_calm(recorder, calm);
+        calm.clear();
+    };
     loop {
         let made = calm.as_mut().map_or(Ok(0), |calm| stepper.glide_into(calm, grid.steps - count))?;
-        let mut alone = None;
-        if made == 0 {
+        let time = if made == 0 {
             let step = stepper.step()?;
-            alone = calm.as_mut().is_none_or(|calm| !calm.take(&step)).then_some(step);
-        }
-        if let Some(calm) = calm.as_mut().filter(|calm| alone.is_some() || calm.is_full()) {
-            J::see_calm(&mut judge, calm);
-            R::see_calm(&mut recorder, calm);
-            calm.clear();
-        }
-        if let Some(step) = alone {
-            J::see(&mut judge, &step);
-            R::see(&mut recorder, &step);
+            if !calm.as_mut().is_some_and(|calm| calm.take(&step)) {
+                if let Some(calm) = &mut calm {
+                    show(calm, &mut judge, &mut recorder);
+                }
+                J::see(&mut judge, &step);
+                R::see(&mut recorder, &step);
+            }
+            step.end
+        } else {
+            stepper.time()
+        };
+        if let Some(calm) = calm.as_mut().filter(|calm| calm.is_full()) {
+            show(calm, &mut judge, &mut recorder);
         }
         count += made.max(1);
-        let time = stepper.time();
         if count >= report {
             report = count + (count / PROGRESS_SHARE).clamp(1, PROGRESS_STRIDE);
             progress(time);
@@ -103,9 +109,8 @@ pub fn run_with_progress<J: Judging, R: Recording>(
             break;
         }
     }
-    if let Some(calm) = &calm {
-        J::see_calm(&mut judge, calm);
-        R::see_calm(&mut recorder, calm);
+    if let Some(calm) = &mut calm {
+        show(calm, &mut judge, &mut recorder);
     }
     let from = options.time.statistics_from;
     let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), (scene, scene.wall_masses()), from);

@@ -2,6 +2,7 @@
 
 use super::function::TimeFunction;
 use super::load::{Load, LoadKind, Table};
+use crate::elementary::sines;
 use std::f64::consts::TAU;
 
 /// One sine of a [`Forcing`]: amplitude · sin(ω t + phase).
@@ -30,6 +31,9 @@ pub struct Forcing {
     /// The blows (impulsive loads; time s, impulse N s), in order of time.
     pub impulses: Vec<(f64, f64)>,
 }
+
+/// Maximum number of times in one loop.
+const TOGETHER: usize = 16;
 
 impl Forcing {
     /// The loads that act on degree of freedom `dof`, weighted by their rows.
@@ -68,6 +72,21 @@ impl Forcing {
             f += h.amplitude * (h.omega * t + h.phase).sin();
         }
         if self.tables.is_empty() && self.functions.is_empty() { f } else { f + self.irregular(t) }
+    }
+
+    /// Writes the forces at several `times`, N, as [`Forcing::force`] gives them to rounding.
+    pub(crate) fn forces(&self, times: &[f64], out: &mut [f64]) {
+        for (force, &t) in out.iter_mut().zip(times) {
+            let others = !(self.tables.is_empty() && self.functions.is_empty());
+            *force = self.constant + if others { self.irregular(t) } else { 0.0 };
+        }
+        let (mut sin, mut cos) = ([0.0; TOGETHER], [0.0; TOGETHER]);
+        for h in &self.harmonics {
+            for (times, out) in times.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
+                sines((h.omega, h.phase), times, &mut sin, &mut cos);
+                out.iter_mut().zip(&sin).for_each(|(force, sin)| *force += h.amplitude * sin);
+            }
+        }
     }
 
     /// Force of tables and functions at `t`, N.

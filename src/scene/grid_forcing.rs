@@ -62,6 +62,11 @@ impl GridForcing {
         }
     }
 
+    /// Writes the forces at several `times` (s), N, wherever these lie.
+    pub fn forces(&self, times: &[f64], out: &mut [f64]) {
+        self.forcing.forces(times, out);
+    }
+
     /// Force at `t` (s), N. At the instant after the last one asked for, the sines turn on.
     #[inline]
     pub fn at(&mut self, t: f64) -> f64 {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The rooms from the ground up: each may import those before it.
 const ROOMS: &[&str] = &[
+    "elementary",
     "error",
     "hash",
     "interrupt",

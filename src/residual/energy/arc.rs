@@ -1,6 +1,7 @@
 //! The energy ledger of the exact motion of one degree of freedom: powers integrated along an arc,
 //! and the jump at its end.
 
+use super::super::most::most;
 use super::{Flows, Ledger, stored};
 use crate::flow::Arc;
 use crate::scene::{Scene, System};
@@ -14,15 +15,39 @@ const MOMENTUM_UNITS: f64 = 2.0;
 /// of the load's.
 const CLOCK_UNITS: f64 = 2.0;
 
-/// An instant of an arc: displacement (m), velocity (m/s), load (N), and its weight in integrals
-/// over the arc, s.
-#[derive(Debug, Clone, Copy)]
-pub(in super::super) struct Instant {
-    pub t: f64,
-    pub weight: f64,
-    pub q: f64,
-    pub v: f64,
-    pub load: f64,
+/// Maximum number of instants of a panel.
+const MOST: usize = 16;
+
+/// The instants of a panel of an arc: times (s), weights in integrals over the arc (s),
+/// displacements (m), velocities (m/s) and loads (N); then net force (N) and energy (J).
+#[derive(Debug, Default)]
+pub(in super::super) struct Instants {
+    pub count: usize,
+    pub t: [f64; MOST],
+    pub weight: [f64; MOST],
+    pub q: [f64; MOST],
+    pub v: [f64; MOST],
+    pub load: [f64; MOST],
+    force: [f64; MOST],
+    energy: [f64; MOST],
+}
+
+impl Instants {
+    /// Those of a panel, with their times and weights.
+    pub fn of(nodes: impl Iterator<Item = (f64, f64)>) -> Self {
+        let mut instants = Self::default();
+        for (t, weight) in nodes.take(MOST) {
+            let at = instants.count;
+            (instants.t[at], instants.weight[at], instants.count) = (t, weight, at + 1);
+        }
+        instants
+    }
+
+    /// Adds a wall that pushes with `r` (N) and stores `stored` (J) at instant `k`.
+    pub fn add_wall(&mut self, k: usize, r: f64, stored: f64) {
+        self.force[k] += r;
+        self.energy[k] += stored;
+    }
 }
 
 /// Integrals along an arc.
@@ -35,52 +60,48 @@ pub(in super::super) struct Along {
     pub largest_force: f64,
     /// The same of the current panel, which is summed separately to reduce rounding.
     part: Flows,
-    part_net: f64,
-    /// Net force (N) and energy (J) at the current instant.
-    forces: f64,
-    energy: f64,
 }
 
 impl Along {
-    /// Adds a wall that pushes with `r` (N) and stores `stored` (J) at an instant.
-    pub fn add_wall(&mut self, at: Instant, r: f64, stored: f64, damped: bool) {
-        self.forces += r;
-        self.energy += stored;
-        if damped {
-            self.part.dashpot -= at.weight * r * at.v;
-        }
+    /// Adds the work done on a damped wall, J.
+    pub fn add_damped(&mut self, work: f64) {
+        self.part.dashpot += work;
     }
 
-    /// Ends an instant; returns the energy there, J.
-    pub fn end_instant(&mut self, weight: f64) -> f64 {
-        self.part_net += weight * self.forces;
-        self.energy
-    }
-
-    /// Ends a panel.
-    pub fn end_panel(&mut self) {
+    /// Ends a panel, with the forces and energies at its instants. Returns the largest energy, J.
+    pub fn end_panel(&mut self, at: &Instants) -> f64 {
+        let (weight, force) = (&at.weight[..at.count], &at.force[..at.count]);
+        self.net += weight.iter().zip(force).map(|(weight, force)| weight * force).sum::<f64>();
         let part = std::mem::take(&mut self.part);
         self.flows.work += part.work;
         self.flows.passed += part.passed;
         self.flows.damping += part.damping;
         self.flows.dashpot += part.dashpot;
-        self.net += std::mem::take(&mut self.part_net);
+        at.energy[..at.count].iter().fold(0.0, |largest, &energy| most(largest, energy))
     }
 }
 
 impl Ledger {
-    /// Starts an instant with the body and its load; returns the largest of their forces so far, N.
-    pub fn look(&self, scene: &Scene, at: Instant, along: &mut Along) -> f64 {
+    /// Starts a panel with the body and its load; returns the largest of their forces so far, N.
+    pub fn look(&self, scene: &Scene, at: &mut Instants, along: &mut Along) -> f64 {
         let [m, c, k] = numbers(scene);
-        let Instant { weight, q, v, load, .. } = at;
-        let (spring, rub) = (k * q, c * v);
-        along.forces = load - rub - spring;
-        along.energy = 0.5 * (m * v * v + k * q * q);
-        along.part.work += weight * load * v;
-        along.part.passed += weight * (load * v).abs();
-        along.part.damping += weight * c * v * v;
-        along.largest_force = along.largest_force.max(load.abs()).max(rub.abs());
-        along.largest_force
+        let n = at.count;
+        let (weight, q, v, load) = (&at.weight[..n], &at.q[..n], &at.v[..n], &at.load[..n]);
+        let (force, energy) = (&mut at.force[..n], &mut at.energy[..n]);
+        let Flows { mut work, mut passed, mut damping, .. } = along.part;
+        let mut largest = along.largest_force;
+        for i in 0..n {
+            let (rub, power) = (c * v[i], load[i] * v[i]);
+            force[i] = load[i] - rub - k * q[i];
+            energy[i] = 0.5 * (m * v[i] * v[i] + k * q[i] * q[i]);
+            work += weight[i] * power;
+            passed += weight[i] * power.abs();
+            damping += weight[i] * rub * v[i];
+            largest = most(largest, most(load[i].abs(), rub.abs()));
+        }
+        along.part = Flows { work, passed, damping, ..along.part };
+        along.largest_force = largest;
+        largest
     }
 
     /// Updates the largest energy of the run, J.

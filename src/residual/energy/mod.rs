@@ -4,7 +4,7 @@ mod arc;
 mod rings;
 mod series;
 
-pub(super) use arc::{Along, Instant};
+pub(super) use arc::{Along, Instants};
 pub(super) use series::Moved;
 
 use super::matrices::{Matrices, Part};

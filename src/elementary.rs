@@ -34,11 +34,27 @@ const COSINE: [f64; 6] = [
 
 /// sin x and cos x.
 #[inline]
-pub(super) fn sin_cos(x: f64) -> (f64, f64) {
+pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     // NaN is in no range.
-    if !(-FAR..FAR).contains(&x) {
-        return x.sin_cos();
+    if (-FAR..FAR).contains(&x) { near(x) } else { x.sin_cos() }
+}
+
+/// Writes the sines and cosines of ωt + φ at several times t, as [`sin_cos`] gives them.
+#[inline]
+pub(crate) fn sines((omega, phase): (f64, f64), times: &[f64], sin: &mut [f64], cos: &mut [f64]) {
+    let far = |&t: &f64| !(-FAR..FAR).contains(&(omega * t + phase));
+    let each = times.iter().zip(sin).zip(cos);
+    if times.iter().any(far) {
+        each.for_each(|((&t, sin), cos)| (*sin, *cos) = sin_cos(omega * t + phase));
+    } else {
+        // Without a branch, so that the compiler computes two at a time.
+        each.for_each(|((&t, sin), cos)| (*sin, *cos) = near(omega * t + phase));
     }
+}
+
+/// sin x and cos x of a number that is not far.
+#[inline(always)]
+fn near(x: f64) -> (f64, f64) {
     let rounded = x * std::f64::consts::FRAC_2_PI + ROUNDING;
     let quarters = rounded - ROUNDING;
     // x less the quarter turns, as the sum y + tail.
@@ -60,7 +76,9 @@ pub(super) fn sin_cos(x: f64) -> (f64, f64) {
     let near = 1.0 - half;
     let cos = near + (((1.0 - near) - half) + (z * high - y * tail));
     let bits = rounded.to_bits();
-    let (first, second) = if bits & 1 == 0 { (sin, cos) } else { (cos, sin) };
+    // An odd number of quarter turns exchanges the two.
+    let swapped = (sin.to_bits() ^ cos.to_bits()) & (bits & 1).wrapping_neg();
+    let [first, second] = [sin, cos].map(|x| f64::from_bits(x.to_bits() ^ swapped));
     // Quarter turns 2 and 3 change the sign of the sine, 1 and 2 that of the cosine.
     let sign = |x: f64, odd: u64| f64::from_bits(x.to_bits() ^ ((odd & 2) << 62));
     (sign(first, bits), sign(second, bits + 1))
@@ -71,10 +89,23 @@ const NEAR: f64 = 0.125;
 
 /// eˣ; short for small |x|, as in a flight of a lightly damped body.
 #[inline]
-pub(super) fn exp(x: f64) -> f64 {
-    if !(-NEAR..=NEAR).contains(&x) {
-        return x.exp();
+pub(crate) fn exp(x: f64) -> f64 {
+    if (-NEAR..=NEAR).contains(&x) { short(x) } else { x.exp() }
+}
+
+/// Writes e^{rate·t} for several times t, as [`exp`] gives it.
+#[inline]
+pub(crate) fn exps(rate: f64, times: &[f64], out: &mut [f64]) {
+    let each = out.iter_mut().zip(times);
+    if times.iter().all(|&t| (-NEAR..=NEAR).contains(&(rate * t))) {
+        each.for_each(|(out, &t)| *out = short(rate * t));
+    } else {
+        each.for_each(|(out, &t)| *out = exp(rate * t));
     }
+}
+
+#[inline(always)]
+fn short(x: f64) -> f64 {
     let z = x * x;
     let w = z * z;
     let low = 0.5 + x * (1.0 / 6.0);
@@ -102,8 +133,30 @@ mod tests {
         // two.
         for x in samples(9.9e5).chain(samples(7.0)).chain([0.0, 1e-300, 0.5, 1.0]) {
             let ((s, c), (sin, cos)) = (sin_cos(x), x.sin_cos());
-            let near = |a: f64, b: f64| a.to_bits().abs_diff(b.to_bits()) <= 1;
-            assert!(near(s, sin) && near(c, cos), "{x:e}: {s:e} {sin:e}, {c:e} {cos:e}");
+            let close = |a: f64, b: f64| a.to_bits().abs_diff(b.to_bits()) <= 1;
+            assert!(close(s, sin) && close(c, cos), "{x:e}: {s:e} {sin:e}, {c:e} {cos:e}");
+        }
+    }
+
+    #[test]
+    fn several_sines_are_those_of_each() {
+        for (omega, phase) in [(1.0, 0.0), (-31.4, 1.0), (1e7, 0.3)] {
+            let times: Vec<f64> = samples(3.0).take(77).collect();
+            let (mut sin, mut cos) = ([0.0; 77], [0.0; 77]);
+            sines((omega, phase), &times, &mut sin, &mut cos);
+            for (k, &t) in times.iter().enumerate() {
+                assert_eq!((sin[k], cos[k]), sin_cos(omega * t + phase), "{omega} {t:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn several_exponentials_are_those_of_each() {
+        for rate in [-0.04, 0.0, -7.0] {
+            let times: Vec<f64> = samples(3.0).take(77).collect();
+            let mut out = [0.0; 77];
+            exps(rate, &times, &mut out);
+            times.iter().zip(out).for_each(|(t, out)| assert_eq!(out, exp(rate * t), "{rate} {t:e}"));
         }
     }
 
@@ -114,8 +167,8 @@ mod tests {
         for n in (1..600_000u32).step_by(7) {
             let x = f64::from(n) * std::f64::consts::FRAC_PI_2;
             let ((s, c), (sin, cos)) = (sin_cos(x), x.sin_cos());
-            let near = |a: f64, b: f64| (a - b).abs() <= 4e-16 * b.abs().max(1e-14);
-            assert!(near(s, sin) && near(c, cos), "{x:e}: {s:e} {sin:e}, {c:e} {cos:e}");
+            let close = |a: f64, b: f64| (a - b).abs() <= 4e-16 * b.abs().max(1e-14);
+            assert!(close(s, sin) && close(c, cos), "{x:e}: {s:e} {sin:e}, {c:e} {cos:e}");
         }
     }
 
