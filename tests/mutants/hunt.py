@@ -77,10 +77,15 @@ def build():
             if "bin" not in target["kind"] and name not in NOT_RUN:
                 programs[name] = message["executable"]
         elif message["reason"] == "compiler-message" and message["message"]["level"] == "error":
-            wrong += [
-                (span["file_name"], span["line_start"]) for span in message["message"]["spans"]
-            ]
+            wrong += [place(span) for span in message["message"]["spans"]]
     return programs, wrong
+
+
+def place(span):
+    """File and line of what the compiler shows: for a macro, of the place that calls it."""
+    while span["expansion"] is not None:
+        span = span["expansion"]["span"]
+    return span["file_name"], span["line_start"]
 
 
 def sow(paths):
