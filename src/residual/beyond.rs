@@ -194,11 +194,14 @@ impl Rounding {
         self.unit * self.reach
     }
 
-    /// Adds the rounding error of as many `steps` of `bodies` degrees of freedom to that of the
-    /// energy ledger.
+    /// Adds the rounding error of as many `steps` of `span` seconds and of `bodies` degrees of
+    /// freedom to that of the energy ledger. A velocity has the rounding error of the momentum that
+    /// the load gives in a step, even of a body that a wall holds at rest.
     #[inline(always)]
-    pub fn book(&mut self, bodies: f64, steps: f64) {
-        let flows = bodies * (self.speed.powi(2) + self.strain.powi(2)) + self.load * self.reach;
+    pub fn book(&mut self, bodies: f64, steps: f64, span: f64) {
+        let given = self.load * span;
+        let states = self.speed.powi(2) + self.strain.powi(2) + given.powi(2);
+        let flows = bodies * states + self.load * self.reach;
         self.energy += steps * (self.unit * flows);
     }
 }

@@ -94,7 +94,7 @@ impl Judge {
             // One of the steps will be accused: see them one by one to find out when.
             return steps.for_each(|k| self.see(&calm.step(k)));
         }
-        self.rounding.book(1.0, n as f64);
+        self.rounding.book(1.0, n as f64, h);
         self.balance = balance;
         self.normal_balance = self.normal_balance.max(worst);
         self.kinematics = self.kinematics.max(path);

@@ -34,7 +34,7 @@ impl Judge {
         let moves = moves!(self, step, beyond);
         let path = self.scratch.means(self.contract.balance, h, &moves, &self.weights, n);
         self.rounding.step(&moves, &self.scratch.load, &self.weights, (h, per_h), n);
-        self.rounding.book(n as f64, 1.0);
+        self.rounding.book(n as f64, 1.0, h);
         self.walls_on_grid(step, beyond);
         if self.supports.is_some() {
             self.supports_on_grid(step, beyond);

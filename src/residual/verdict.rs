@@ -26,7 +26,7 @@ impl Judge {
         for ((extra, load), per_root) in step.extra.iter().zip(&self.load_end).zip(&self.weights.per_root_mass) {
             self.rounding.load((extra.abs() + load.abs()) * per_root);
         }
-        self.rounding.book(self.q.len() as f64, 1.0);
+        self.rounding.book(self.q.len() as f64, 1.0, self.span);
     }
 
     /// Adds a gap (or the slack of a bound) whose terms are of this `size`, m, minus its rounding
