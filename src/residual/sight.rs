@@ -131,3 +131,76 @@ fn sum(a: &[f64], b: &[f64], of: impl Fn(f64) -> f64) -> f64 {
     let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| of(a * b)).sum();
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::Symmetric;
+    use crate::scene::{Structure, Wall};
+
+    /// Rows of every kind: one degree of freedom, some beside each other, and two far apart.
+    fn rows() -> Vec<Row> {
+        let row = |entries: &[(usize, f64)]| Row::new(entries.to_vec());
+        let beside: Vec<(usize, f64)> = (1..8).map(|i| (i, 0.5 - 0.25 * i as f64)).collect();
+        vec![
+            row(&[(2, -0.5)]),
+            row(&[(3, 2.0), (5, -1.0)]),
+            row(&beside),
+            row(&[(0, 1.0), (9, -2.0)]),
+            row(&[(9, 1.0), (8, 0.25)]),
+        ]
+    }
+
+    fn walls(rows: &[Row]) -> Scene {
+        let one = |x: f64| Symmetric::diagonal(&[x; 10]);
+        let mut scene = Scene::oscillator(1.0, 0.0, 1.0).with_initial(&[0.0; 10], &[0.0; 10]);
+        scene.system = Structure { mass: one(1.0), damping: one(0.0), stiffness: one(1.0) }.into();
+        for (k, row) in rows.iter().enumerate() {
+            for mut wall in [Wall::upper(&format!("u{k}"), 2.0 + k as f64), Wall::lower(&format!("l{k}"), -1.0)] {
+                wall.at = row.clone();
+                scene = scene.with_wall(wall);
+            }
+        }
+        scene
+    }
+
+    #[test]
+    fn rows_are_products_with_the_structure_whatever_their_form() {
+        let rows = rows();
+        let sights = Sight::all(&walls(&rows));
+        assert_eq!(
+            sights.iter().map(|sight| sight.walls.clone()).collect::<Vec<_>>(),
+            [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9]]
+        );
+        let forms: Vec<bool> = sights.iter().map(|sight| matches!(sight.row, View::Wide(_))).collect();
+        assert_eq!(forms, [false, false, false, true, false]);
+        // Multiples of 1/16 of a few units: no product is rounded.
+        let x: Vec<f64> = (0..10).map(|i| 1.25 - 0.75 * f64::from(i * i % 7)).collect();
+        for (sight, row) in sights.iter().zip(&rows) {
+            let terms: Vec<f64> = row.entries().iter().map(|&(i, weight)| weight * x[i]).collect();
+            assert_eq!(sight.of(&x), terms.iter().sum::<f64>(), "{row:?}");
+            assert_eq!(sight.size(&x), terms.iter().map(|term| term.abs()).sum::<f64>(), "{row:?}");
+        }
+        let scene = walls(&rows);
+        let wide: Vec<bool> = sights.iter().map(|sight| sight.is_wide(&scene)).collect();
+        assert_eq!(wide, [false, true, true, true, true]);
+        let mut soft = scene.clone();
+        soft.walls.iter_mut().for_each(|wall| *wall = wall.clone().with_elasticity(1.0, 0.0));
+        assert!(!sights.iter().any(|sight| sight.is_wide(&soft)));
+    }
+
+    #[test]
+    fn a_step_is_clear_of_its_walls_if_both_ends_and_the_way_from_the_first_are() {
+        let scene = walls(&[Row::dof(0)]);
+        let (sights, touch) = (Sight::all(&scene), scene.touching_distance());
+        let clear = |w0: f64, w1: f64, way: f64| sights[0].is_clear((w0, w1), way);
+        // The walls stand at −1 and 2 m.
+        assert!(clear(0.0, 0.0, 0.0) && clear(-0.5, 1.5, 0.25) && clear(1.5, -0.5, 0.25));
+        assert!(!clear(0.0, 2.5, 0.0) && !clear(0.0, -1.5, 0.0));
+        assert!(!clear(1.5, 0.0, 1.0) && !clear(-0.5, 0.0, 1.0));
+        // Within the touching distance a wall is in reach.
+        for (edge, inward) in [(2.0, -1.0), (-1.0, 1.0)] {
+            assert!(clear(0.0, edge + 2.0 * inward * touch, 0.0) && !clear(0.0, edge + 0.5 * inward * touch, 0.0));
+        }
+    }
+}
