@@ -44,3 +44,32 @@ impl Scales {
         force / self.root_wall_mass
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::Symmetric;
+    use crate::scene::{Structure, Wall};
+
+    #[test]
+    fn scales_are_those_of_the_lightest_wall_and_the_stiffest_spring() {
+        // ω² = 9 and 2 1/s², and walls 0.5 m apart from their middle.
+        let diagonal = |x: [f64; 2]| Symmetric::diagonal(&x);
+        let mut scene = Scene::oscillator(1.0, 0.0, 1.0)
+            .with_initial(&[0.0; 2], &[0.0; 2])
+            .with_wall(Wall::upper("upper", 0.5))
+            .with_wall(Wall::lower("lower", -0.5));
+        let (mass, damping, stiffness) = (diagonal([4.0, 16.0]), diagonal([0.0; 2]), diagonal([36.0, 32.0]));
+        scene.system = Structure { mass, damping, stiffness }.into();
+        let scales = Scales::new(&scene, &[25.0, 9.0]);
+        assert_eq!((scales.gap, scales.spring, scales.wall), (1.5, 13.5, 0.0));
+        assert_eq!((scales.wall_force(12.0), scales.normal_force(12.0)), (36.0, 4.0));
+        // Walls that feel no mass, and none: the heaviest degree of freedom.
+        for masses in [&[f64::INFINITY; 2][..], &[]] {
+            assert_eq!(Scales::new(&scene, masses).gap, 2.0);
+        }
+        scene.walls[0] = Wall::upper("upper", 0.5).with_elasticity(8.0, 0.0);
+        scene.walls[1] = Wall::lower("lower", -0.5).with_elasticity(6.0, 1.0);
+        assert_eq!(Scales::new(&scene, &[25.0, 9.0]).wall, 4.0);
+    }
+}
