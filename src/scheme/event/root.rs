@@ -244,22 +244,4 @@ fn first_root([c0, c1, c2, c3]: [f64; 4], b: f64, w: f64, enough: f64) -> (f64, 
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_window_far_longer_than_the_way_to_the_root_does_not_shorten_the_step() {
-        // The start of a transient of 20 µs; its root is 0.26 µs away.
-        let below = Below {
-            c: [8e-12, -3.1e-5, -102.0, 5.08e6],
-            fourth: -2.53e11,
-            bound: 2.54e11,
-            noise: [1.8e-19, 1.8e-18, 1.3e-11, 6.6e-7],
-            passes_touch: false,
-        };
-        for window in [1e-6, 1e-3, 0.15, 1e3] {
-            let (Step::Root(s) | Step::Touch(s) | Step::Free(s)) = below.step(window) else { panic!("{window}") };
-            assert!(s > 1e-7 && s < 3e-7, "{window}: {s:e}");
-        }
-    }
-}
+mod tests;
