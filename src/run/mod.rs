@@ -1,6 +1,7 @@
 //! The loop: a stepper, the judge and the recorder, from the start of a scene to its end.
 
 mod finished;
+mod observers;
 mod options;
 
 pub use finished::Run;
@@ -9,7 +10,7 @@ pub use options::{Judged, Judging, Options, Recorded, Recording, Unjudged, Unrec
 use crate::error::Result;
 use crate::scene::{Checked, Scene};
 use crate::scheme::{Method, Scheme, Stepper};
-use crate::step::Calm;
+use observers::Observers;
 use std::time::Instant;
 
 /// Maximum number of steps between two reports of progress.
@@ -69,37 +70,13 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let started = Instant::now();
     let mut stepper = Stepper::by(scene, method, grid.step)?;
     let start = stepper.state();
-    let mut judge = J::begin(&stepper, grid.step, &start);
-    let mut recorder = R::begin(&stepper, grid.rows, &start, &options.time);
+    let judge = J::begin(&stepper, grid.step, &start);
+    let recorder = R::begin(&stepper, grid.rows, &start, &options.time);
+    let mut observers = Observers::<J, R>::new(judge, recorder, &stepper);
     let (mut count, mut report) = (0, 1);
-    // Steps of one degree of freedom between two contacts are looked at together.
-    let together = J::gains_by_calm(&judge).unwrap_or(!R::ROWLESS);
-    let line = scene.is_line() && !scene.turns_or_rubs() && !exact;
-    let mut calm = (line && together).then(|| Calm::new(scene.walls.len()));
-    let show = |calm: &mut Calm, judge: &mut J::Judge, recorder: &mut R::Recorder| {
-        J::see_calm(judge, calm);
-        R::see_calm(recorder, calm);
-        calm.clear();
-    };
     loop {
-        let made = calm.as_mut().map_or(Ok(0), |calm| stepper.glide_into(calm, grid.steps - count))?;
-        let time = if made == 0 {
-            let step = stepper.step()?;
-            if !calm.as_mut().is_some_and(|calm| calm.take(&step)) {
-                if let Some(calm) = &mut calm {
-                    show(calm, &mut judge, &mut recorder);
-                }
-                J::see(&mut judge, &step);
-                R::see(&mut recorder, &step);
-            }
-            step.end
-        } else {
-            stepper.time()
-        };
-        if let Some(calm) = calm.as_mut().filter(|calm| calm.is_full()) {
-            show(calm, &mut judge, &mut recorder);
-        }
-        count += made.max(1);
+        let (made, time) = observers.follow(&mut stepper, grid.steps - count.min(grid.steps))?;
+        count += made;
         if count >= report {
             report = count + (count / PROGRESS_SHARE).clamp(1, PROGRESS_STRIDE);
             progress(time);
@@ -109,9 +86,8 @@ pub fn run_with_progress<J: Judging, R: Recording>(
             break;
         }
     }
-    if let Some(calm) = &mut calm {
-        show(calm, &mut judge, &mut recorder);
-    }
+    observers.catch_up();
+    let Observers { judge, recorder, .. } = observers;
     let from = options.time.statistics_from;
     let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), (scene, scene.wall_masses()), from);
     let (residuals, findings) = J::verdict(judge, R::trajectory(&trajectory));

@@ -266,6 +266,11 @@ impl Stepper {
         Ok(steps.round() as u64)
     }
 
+    /// True for a scheme on a grid on one degree of freedom that no hole or friction holds.
+    pub(crate) fn is_line(&self) -> bool {
+        matches!(self.kernel, Kernel::Line(_))
+    }
+
     /// Time reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {

@@ -1,0 +1,61 @@
+//! What looks at the steps of a run: judge and recorder.
+
+use super::{Judging, Recording};
+use crate::error::Result;
+use crate::scheme::Stepper;
+use crate::step::Calm;
+
+/// The judge and the recorder of a run. Steps of one degree of freedom between two contacts are
+/// shown to them many at once, if they gain by that.
+pub(super) struct Observers<J: Judging, R: Recording> {
+    pub judge: J::Judge,
+    pub recorder: R::Recorder,
+    /// Steps that they have not seen yet; `None` where each is shown at once.
+    calm: Option<Calm>,
+}
+
+impl<J: Judging, R: Recording> Observers<J, R> {
+    /// Those of a run by `stepper`.
+    pub fn new(judge: J::Judge, recorder: R::Recorder, stepper: &Stepper) -> Self {
+        let together = J::gains_by_calm(&judge).unwrap_or(!R::ROWLESS);
+        let calm = (together && stepper.is_line()).then(|| Calm::new(stepper.scene().walls.len()));
+        Self { judge, recorder, calm }
+    }
+
+    /// Makes the next step, or several between two contacts but at most `most`; returns how many,
+    /// and the time reached, s.
+    #[inline(always)]
+    pub fn follow(&mut self, stepper: &mut Stepper, most: u64) -> Result<(u64, f64)> {
+        let Some(calm) = &mut self.calm else {
+            let step = stepper.step()?;
+            J::see(&mut self.judge, &step);
+            R::see(&mut self.recorder, &step);
+            return Ok((1, step.end));
+        };
+        let made = stepper.glide_into(calm, most)?;
+        if made > 0 {
+            if calm.is_full() {
+                self.catch_up();
+            }
+            return Ok((made, stepper.time()));
+        }
+        let step = stepper.step()?;
+        if !calm.take(&step) {
+            self.catch_up();
+            J::see(&mut self.judge, &step);
+            R::see(&mut self.recorder, &step);
+        } else if calm.is_full() {
+            self.catch_up();
+        }
+        Ok((1, step.end))
+    }
+
+    /// Shows the steps that have not been seen yet.
+    pub fn catch_up(&mut self) {
+        if let Some(calm) = self.calm.as_mut().filter(|calm| calm.len() > 0) {
+            J::see_calm(&mut self.judge, calm);
+            R::see_calm(&mut self.recorder, calm);
+            calm.clear();
+        }
+    }
+}
