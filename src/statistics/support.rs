@@ -99,13 +99,12 @@ impl SupportTally {
         let share = (to - from) / (step.end - step.start);
         let mut push = |impulse: [f64; 2]| self.stretch.iter_mut().zip(impulse).for_each(|(sum, p)| *sum += share * p);
         match &self.source {
-            Source::Flats(flats) if !step.friction.is_empty() => {
+            Source::Flats(flats) => {
                 for (wall, _, tangent) in flats {
                     let friction = step.friction.get(*wall).copied().unwrap_or(0.0);
                     push(tangent.map(|t| t * friction));
                 }
             }
-            Source::Flats(_) => {}
             Source::Round(index) => {
                 if let Path::Series(series) = step.path {
                     let impulse = series.hole_impulse(*index, from, to);

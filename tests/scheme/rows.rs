@@ -27,6 +27,8 @@ fn each_row_is_the_state_after_the_steps_before_it_whatever_their_number() {
                     // The run may have taken a step that differs in its last place.
                     assert!((shown - stepper.state().q[0]).abs() < 1e-9, "{what}, row {row}");
                     let found = run.trajectory.contact_impulses()[0][row];
+                    let force = run.trajectory.contact_force("upper").expect("a wall")[row];
+                    assert_eq!(run.trajectory.contact_forces()[0][row], force);
                     assert!((found - impulse).abs() < 1e-7, "{what}, row {row}: {found} N s, not {impulse}");
                     pushed += impulse.abs();
                 }

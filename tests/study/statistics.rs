@@ -1,5 +1,6 @@
 //! Contact statistics against sums done by hand.
 
+use crate::rubbing::{body, isotropic, with_flats};
 use signorini::{Contact, Scene, Statistics, Wall};
 
 fn scene() -> Scene {
@@ -92,6 +93,23 @@ fn forces_and_times_of_lasting_contacts_are_those_of_the_window() {
     // 1.
     close(Some(wall.impact_power_w), 13.0 / 8.0);
     close(Some(wall.arrived_less_departed_power_w), 3.0 / 8.0);
+}
+
+#[test]
+fn a_support_has_the_forces_of_all_its_flats_within_the_window() {
+    let scene = with_flats(isotropic(1.0, 0.0, 1.0), "hole", body(), &[(0.0, 1e-3), (90.0, 1e-3)], 0.5, 0.0);
+    // Two before the window, of which one ends with its start; one that begins there; one open.
+    let contacts = [
+        lasting(0.5, Some(1.0), 1.0, 50.0, 1.0, Some(1.0)),
+        Contact { wall: 0, ..lasting(1.5, Some(2.0), 2.0, 20.0, 1.0, Some(1.0)) },
+        lasting(2.0, Some(5.0), 3.0, 30.0, 2.0, Some(1.0)),
+        Contact { wall: 0, ..lasting(9.0, None, 4.0, 40.0, 3.0, None) },
+    ];
+    let statistics = Statistics::new(&scene.with_duration(10.0), &contacts, 2.0);
+    let [hole] = &statistics.supports[..] else { panic!("{statistics:?}") };
+    assert_eq!((hole.support.as_str(), hole.contacts), ("hole", 2));
+    close(hole.episode_peak_force_n.mean, 30.0);
+    close(hole.episode_peak_force_n.max, 40.0);
 }
 
 #[test]
