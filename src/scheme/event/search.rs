@@ -274,3 +274,6 @@ fn highest((mut low, mut high): (f64, f64), jet: impl Fn(f64) -> [f64; 3]) -> f6
     }
     best
 }
+
+#[cfg(test)]
+mod tests;
