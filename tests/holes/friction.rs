@@ -268,3 +268,35 @@ fn ten_thousand_random_scenes_keep_every_law_to_rounding() {
     let [unsettled, all] = random_runs(0..10_000);
     println!("{unsettled} of {all} steps that met something did not settle");
 }
+
+#[test]
+fn a_body_that_crosses_its_gap_in_less_than_a_step_is_counted_as_frozen_between_opposite_sides() {
+    // 10 m/s across 10 mm in steps of 10 ms, without loss: each side is reached from the other
+    // before the body has moved.
+    let free = || isotropic(1.0, 0.0, 0.0).with_initial(&[0.0; 2], &[10.0, 0.0]);
+    let flats = with_flats(free(), "flats", body(), &[(0.0, 5e-3), (180.0, 5e-3)], 1.0, 0.2);
+    let round = with(free(), hole("hole", body(), 5e-3, 1.0, 0.2));
+    for (scene, what) in [(flats, "flats"), (round, "hole")] {
+        let mut stepper = Stepper::new(&scene, &MOREAU_JEAN, 1e-2).expect("a scene");
+        let (mut last, mut turns) = (0.0, 0);
+        for k in 0..100 {
+            let step = stepper.step().expect("a step");
+            // The push along y, by flats or by the hole.
+            let push = step.impulse.iter().chain(step.holes.iter().map(|hole| &hole.impulse)).sum::<f64>().abs();
+            let side = push * step.velocity_after[0].signum();
+            turns += u64::from(side * last < 0.0);
+            last = side;
+            if k == 49 {
+                // The state that is set again has no step before it.
+                let (time, state) = (stepper.time(), stepper.state());
+                stepper.set_state(time, &state).expect("a state");
+                last = 0.0;
+            }
+        }
+        assert!(turns > 90, "{what}: {turns} turns");
+        assert_eq!(stepper.counters().frozen_steps, turns, "{what}");
+        // A step that resolves the crossing.
+        let resolved = run(&scene.with_duration(0.1), &MOREAU_JEAN, &Options::with_step(1e-5)).expect("a run");
+        assert_eq!(resolved.counters.frozen_steps, 0, "{what}");
+    }
+}

@@ -187,3 +187,48 @@ pub(super) fn renew(places: &Places, touches: &[Touch], free: &[f64], y: &mut [f
         places.add(touch.rows, touch.push(touch.impulse), y);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hash::{mix, unit};
+
+    /// Random numbers from −1 to 1.
+    fn number(seed: u64, index: usize) -> f64 {
+        2.0 * unit(mix(seed, 0, index as u64)) - 1.0
+    }
+
+    /// Solves A x = b, both given row by row with b last.
+    fn solved(m: usize, matrix: &[f64]) -> Vec<f64> {
+        let mut linear = Linear { unknowns: vec![(0, false); m], matrix: matrix.to_vec(), ..Linear::default() };
+        linear.eliminate();
+        (0..m).map(|k| linear.matrix[k * (m + 1) + m]).collect()
+    }
+
+    #[test]
+    fn elimination_solves_systems_of_full_rank_and_dependent_ones_that_agree() {
+        for seed in 0..60 {
+            let m = 1 + seed as usize % 7;
+            // Products of m × rank matrices have that rank; b = A x agrees with every dependence.
+            for rank in 1..=m {
+                let factor = |i: usize, j: usize, side: usize| number(seed, (i * m + j) * 2 + side);
+                let entry = |i: usize, j: usize| -> f64 { (0..rank).map(|k| factor(i, k, 0) * factor(j, k, 1)).sum() };
+                let x: Vec<f64> = (0..m).map(|j| number(seed + 1000, j)).collect();
+                let row = |i: usize| (0..m).map(move |j| entry(i, j));
+                let b: Vec<f64> = (0..m).map(|i| row(i).zip(&x).map(|(a, x)| a * x).sum()).collect();
+                let matrix: Vec<f64> = (0..m).flat_map(|i| row(i).chain([b[i]])).collect();
+                let found = solved(m, &matrix);
+                for i in 0..m {
+                    let got: f64 = row(i).zip(&found).map(|(a, x)| a * x).sum();
+                    // Pivots down to the limit of dependence, 1e-11, leave five digits.
+                    assert!((got - b[i]).abs() < 1e-5, "seed {seed}, {m} rows, rank {rank}: {got} for {}", b[i]);
+                }
+                // What depends on others stays unchanged.
+                let unchanged = found.iter().filter(|x| **x == 0.0).count();
+                assert_eq!(unchanged, m - rank, "seed {seed}, {m} rows, rank {rank}: {found:?}");
+            }
+        }
+        assert_eq!(solved(2, &[0.0, 2.0, 6.0, 4.0, 0.0, 2.0]), [0.5, 3.0]);
+        assert_eq!(solved(2, &[1e-12, 0.0, 1.0, 0.0, 1.0, 2.0]), [0.0, 2.0]);
+    }
+}
