@@ -173,3 +173,18 @@ fn the_ledger_closes_to_rounding_from_a_start_within_a_spring() {
         }
     }
 }
+
+#[test]
+fn a_staggered_scheme_keeps_the_energy_of_half_steps_from_the_first_on() {
+    // A coarse step: 0.4 rad, and half a radian.
+    let free = Scene::oscillator(1.0, 0.0, 100.0).with_initial(&[0.02], &[0.3]).with_duration(4.0);
+    for scheme in [Scheme::PaoliSchatzman, spring(200.0, Integrator::CentralDifference)] {
+        for h in [0.04, 0.05] {
+            let made = run(&free, &scheme, &Options::with_step(h)).expect("a run");
+            let e = made.residuals.energy;
+            // Rounding of a hundred steps.
+            assert!(e.residual < 1e-14 && (e.final_j / e.initial_j - 1.0).abs() < 1e-14, "{scheme}, h = {h}: {e:?}");
+            assert_eq!(made.findings, [], "{scheme}, h = {h}");
+        }
+    }
+}
