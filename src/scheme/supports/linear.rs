@@ -218,10 +218,10 @@ mod tests {
                 let b: Vec<f64> = (0..m).map(|i| row(i).zip(&x).map(|(a, x)| a * x).sum()).collect();
                 let matrix: Vec<f64> = (0..m).flat_map(|i| row(i).chain([b[i]])).collect();
                 let found = solved(m, &matrix);
-                for i in 0..m {
+                for (i, b) in b.iter().enumerate() {
                     let got: f64 = row(i).zip(&found).map(|(a, x)| a * x).sum();
                     // Pivots down to the limit of dependence, 1e-11, leave five digits.
-                    assert!((got - b[i]).abs() < 1e-5, "seed {seed}, {m} rows, rank {rank}: {got} for {}", b[i]);
+                    assert!((got - b).abs() < 1e-5, "seed {seed}, {m} rows, rank {rank}: {got} for {b}");
                 }
                 // What depends on others stays unchanged.
                 let unchanged = found.iter().filter(|x| **x == 0.0).count();
