@@ -1,9 +1,11 @@
 //! The general solution of q̈ + 2σ q̇ + κ q = φ(τ).
 
+mod states;
+
 use super::divided::divided_exp;
 use super::force::{LocalForce, Wave};
 use super::roots::{Equation, Roots};
-use crate::elementary::{exp, exps, sin_cos, sines};
+use crate::elementary::{exp, sin_cos};
 use nalgebra::Complex;
 
 /// Displacement and its first six time derivatives at one instant: m, m/s, … m/s⁶.
@@ -74,9 +76,6 @@ const STEADY_SIZE: f64 = 16.0;
 /// A steady solution is also accepted where the arc is so long that the response from rest reaches
 /// this share of it.
 const STEADY_SHARE: f64 = 0.25;
-
-/// Maximum number of times in one loop.
-const TOGETHER: usize = 16;
 
 impl Response {
     /// The response of mass (kg), damping c (N s/m) and stiffness k (N/m) to `force`, from rest.
@@ -198,43 +197,6 @@ impl Response {
     #[inline]
     pub fn state(&self, tau: f64) -> [f64; 2] {
         self.motion(tau)
-    }
-
-    /// Displacements and velocities at the times in `q`, which they replace: as [`Response::state`],
-    /// to the last bit, but with the sines of all times in one loop.
-    pub fn states(&self, q: &mut [f64], v: &mut [f64]) {
-        let Roots::Pair { omega, powers } = &self.equation.roots else {
-            return self.one_by_one(q, v);
-        };
-        if self.resonant || self.ramped || q.len() > TOGETHER {
-            return self.one_by_one(q, v);
-        }
-        let n = q.len().min(v.len());
-        let [mut tau, mut decay, mut sin, mut cos] = [[0.0; TOGETHER]; 4];
-        let (tau, decay, sin, cos) = (&mut tau[..n], &mut decay[..n], &mut sin[..n], &mut cos[..n]);
-        tau.copy_from_slice(&q[..n]);
-        exps(-self.equation.sigma, tau, decay);
-        sines((*omega, 0.0), tau, sin, cos);
-        let power = powers[0];
-        for i in 0..n {
-            let z = self.free * Complex::new(decay[i] * cos[i], decay[i] * sin[i]);
-            q[i] = z.re + (self.line[0] + self.line[1] * tau[i]);
-            v[i] = (power.re * z.re - power.im * z.im) + self.line[1];
-        }
-        for part in &self.parts {
-            let (g, w) = (part.gain, part.omega);
-            sines((w, 0.0), tau, sin, cos);
-            for i in 0..n {
-                q[i] += g.re * sin[i] + g.im * cos[i];
-                v[i] += w * (g.re * cos[i] - g.im * sin[i]);
-            }
-        }
-    }
-
-    fn one_by_one(&self, q: &mut [f64], v: &mut [f64]) {
-        for (q, v) in q.iter_mut().zip(v) {
-            [*q, *v] = self.state(*q);
-        }
     }
 
     /// The displacement and its first derivatives at `tau`: two values to seven.
