@@ -39,6 +39,9 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     if (-FAR..FAR).contains(&x) { near(x) } else { x.sin_cos() }
 }
 
+/// Number of times for which users of the loops below have room.
+pub(crate) const TOGETHER: usize = 16;
+
 /// Writes the sines and cosines of ωt + φ at several times t, as [`sin_cos`] gives them.
 #[inline]
 pub(crate) fn sines((omega, phase): (f64, f64), times: &[f64], sin: &mut [f64], cos: &mut [f64]) {

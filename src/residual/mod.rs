@@ -174,7 +174,7 @@ impl Judge {
         let held: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(&q), w.at.dot(&v))).collect();
         let grid_load = scene.is_line().then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
         let sights = Sight::all(scene);
-        let weights = Weights::new(scene);
+        let (weights, blows) = (Weights::new(scene), loads.has_blows());
         Self {
             contract,
             h,
@@ -196,7 +196,7 @@ impl Judge {
             load_end: zero(),
             blows: Blows::new(n),
             scratch: Scratch::new(n),
-            room: Room::new(scene, contract, &weights),
+            room: Room::new(scene, contract, &weights, blows),
             pairs: Pairs::default(),
             rebounds: Pairs::default(),
             law_error: 0.0,

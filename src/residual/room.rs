@@ -2,7 +2,7 @@
 
 use super::scratch::Scratch;
 use super::weights::Weights;
-use crate::scene::{Loads, Scene};
+use crate::scene::Scene;
 use crate::step::{Balance, Calm, Contract};
 
 /// Work space for as many steps as a [`Calm`] holds.
@@ -17,9 +17,9 @@ pub(super) struct Room {
 }
 
 impl Room {
-    /// `None` where each step is to be seen by itself.
-    pub fn new(scene: &Scene, contract: Contract, weights: &Weights) -> Option<Box<Self>> {
-        let free = scene.is_line() && scene.supports.is_empty() && !Loads::new(&scene.loads).has_blows();
+    /// `None` where each step is to be seen by itself, as in a scene with `blows`.
+    pub fn new(scene: &Scene, contract: Contract, weights: &Weights, blows: bool) -> Option<Box<Self>> {
+        let free = scene.is_line() && scene.supports.is_empty() && !blows;
         let one_step = matches!(contract.balance, Balance::Theta(_) | Balance::Staggered(_));
         if !free || !one_step {
             return None;

@@ -2,7 +2,7 @@
 
 use super::function::TimeFunction;
 use super::load::{Load, LoadKind, Table};
-use crate::elementary::sines;
+use crate::elementary::{TOGETHER, sines};
 use std::f64::consts::TAU;
 
 /// One sine of a [`Forcing`]: amplitude · sin(ω t + phase).
@@ -31,9 +31,6 @@ pub struct Forcing {
     /// The blows (impulsive loads; time s, impulse N s), in order of time.
     pub impulses: Vec<(f64, f64)>,
 }
-
-/// Maximum number of times in one loop.
-const TOGETHER: usize = 16;
 
 impl Forcing {
     /// The loads that act on degree of freedom `dof`, weighted by their rows.

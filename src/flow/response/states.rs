@@ -1,11 +1,8 @@
 //! Displacement and velocity at several times at once.
 
 use super::{Response, Roots};
-use crate::elementary::{exps, sines};
+use crate::elementary::{TOGETHER, exps, sines};
 use nalgebra::Complex;
-
-/// Maximum number of times in one loop.
-const TOGETHER: usize = 16;
 
 impl Response {
     /// Displacements and velocities at the times in `q`, which they replace: as [`Response::state`],

@@ -113,10 +113,7 @@ impl Ledger {
         }
         let (rings, lost) = self.rings.see(scene, h, (q0, q1), step);
         flows.dashpot += lost;
-        let energy = match self.staggered() {
-            Some(b) => self.half_step(matrices, (h, b), q0, moves.after, n),
-            None => 0.5 * (matrices.form(Part::Mass, &moves.v[..n]) + matrices.form(Part::Stiffness, &q1[..n])),
-        };
+        let energy = self.after(matrices, h, (q0, q1), (moves.after, moves.v), n);
         self.book(energy + walls + rings, flows);
     }
 
@@ -125,21 +122,30 @@ impl Ledger {
         let flows = self.flows(matrices, (h, per_h), moves, load, n);
         let (q0, q1, after, v) = (&moves.from[..n], &moves.to[..n], &moves.after[..n], &moves.v[..n]);
         let (mut energy, mut largest) = (self.energy, self.report.largest_j);
-        let [m, k] = [Part::Mass, Part::Stiffness].map(|part| matrices.form(part, &[1.0]));
-        let staggered = self.staggered();
         for i in 0..n {
-            energy = match staggered {
-                Some(b) => {
-                    let half = 0.5 * h * after[i];
-                    let middle = q0[i] + half;
-                    0.5 * (m * after[i] * after[i] + k * (middle * middle - (1.0 - 4.0 * b) * half * half))
-                }
-                None => 0.5 * (m * v[i] * v[i] + k * q1[i] * q1[i]),
-            };
+            energy = self.after(matrices, h, (&q0[i..=i], &q1[i..=i]), (&after[i..=i], &v[i..=i]), 1);
             largest = most(largest, energy);
         }
         self.report.largest_j = largest;
         self.book(energy, flows);
+    }
+
+    /// Energy of the structure after a step from `q0` to `q1`, with the velocity `after` in its
+    /// balance and `v` shown; under a staggered rule that of half a step from `q0`, back where `h` is
+    /// negative.
+    #[inline(always)]
+    fn after(
+        &mut self,
+        matrices: &Matrices,
+        h: f64,
+        (q0, q1): (&[f64], &[f64]),
+        (after, v): (&[f64], &[f64]),
+        n: usize,
+    ) -> f64 {
+        match self.staggered() {
+            Some(b) => self.half_step(matrices, (h, b), q0, after, n),
+            None => 0.5 * (matrices.form(Part::Mass, &v[..n]) + matrices.form(Part::Stiffness, &q1[..n])),
+        }
     }
 
     /// True if a wall stored energy after the last step.
@@ -249,11 +255,8 @@ impl Ledger {
     /// work of the forces that depend on the displacement over the displacement that the blows add.
     pub fn displace(&mut self, scene: &Scene, matrices: &Matrices, h: f64, step: &Step<'_>) {
         let after = step.velocity_after;
-        let staggered = if let Balance::Staggered(b) = self.contract.balance { Some(b) } else { None };
-        let mut energy = match staggered {
-            Some(b) => self.half_step(matrices, (-h, b), step.q, after, step.q.len()),
-            None => 0.5 * (matrices.form(Part::Mass, step.v) + matrices.form(Part::Stiffness, step.q)),
-        };
+        let staggered = self.staggered();
+        let mut energy = self.after(matrices, -h, (step.q, step.q), (after, step.v), step.q.len());
         for (wall, held) in scene.walls.iter().zip(&mut self.held) {
             let (w, touching) = (wall.at.dot(step.q), *held != 0.0);
             *held = match staggered {
