@@ -6,9 +6,11 @@
     python3 tests/mutants/hunt.py trace                         # each test once, alone
     python3 tests/mutants/hunt.py hunt --seconds 15             # at most so long for each mutant
     python3 tests/mutants/hunt.py list src/qp/clamp.rs          # those that live
+    python3 tests/mutants/hunt.py name 17 18 --why "..."        # these two are harmless
 
-Everything lies in target/mutants/. `hunt` can be stopped and started again, and again with more
-seconds; each test runs once on a mutant, the most likely ones first.
+Everything but the list of harmless mutants lies in target/mutants/. `hunt` can be stopped and
+started again, and again with more seconds; each test runs once on a mutant, the most likely ones
+first.
 """
 
 import argparse
@@ -22,6 +24,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import harmless
 from plant import plant
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -159,6 +162,7 @@ class Hunt:
         self.mutants = {
             mutant["id"]: mutant for mutant in json.loads((COPY / "mutants.json").read_text())
         }
+        self.names, self.reasons = harmless.names(self.mutants.values()), harmless.load()
         self.tests = {test["number"]: test for test in lines(TESTS) if test["passed"]}
         self.able = collections.defaultdict(list)
         for number in self.tests:
@@ -178,6 +182,9 @@ class Hunt:
         self.dead[mutant] = test
         self.killers[entry["file"]][test] += 1
         self.killers[entry["file"], entry["function"]][test] += 1
+
+    def is_harmless(self, mutant):
+        return self.names[mutant] in self.reasons
 
     def ordered(self, mutant):
         """The tests that may kill the mutant: short ones first, and those that killed its
@@ -245,29 +252,40 @@ class Hunt:
 
     def go(self, workers):
         alive = [
-            mutant for mutant in self.mutants if mutant not in self.dead and self.ordered(mutant)
+            mutant
+            for mutant in self.mutants
+            if mutant not in self.dead and not self.is_harmless(mutant) and self.ordered(mutant)
         ]
         print(f"{len(alive)} of {len(self.mutants)} mutants to hunt", flush=True)
         with ThreadPoolExecutor(workers) as pool:
             for done, _ in enumerate(pool.map(self.one, alive), 1):
                 if done % 100 == 0:
                     print(f"{done} hunted, {len(self.dead)} dead", flush=True)
+        named = sum(self.is_harmless(mutant) for mutant in self.mutants)
+        beyond = sum(not self.able[mutant] for mutant in self.mutants)
         print(
-            f"{len(self.mutants)} mutants, {len(self.dead)} dead, "
-            f"{sum(not self.able[mutant] for mutant in self.mutants)} out of reach"
+            f"{len(self.mutants)} mutants, {len(self.dead)} dead, {named} named harmless, "
+            f"{beyond} out of reach of all tests"
         )
 
     def show(self, paths):
         for number, mutant in self.mutants.items():
-            if number not in self.dead and any(
-                mutant["file"].startswith(path) for path in paths or [""]
-            ):
+            asked = any(mutant["file"].startswith(path) for path in paths or [""])
+            if asked and number not in self.dead and not self.is_harmless(number):
                 able = f"{len(self.able[number])} tests" if self.able[number] else "out of reach"
                 place = f"{mutant['file']}:{mutant['line']}:{mutant['column']}"
                 print(
                     f"{number} {place} {mutant['change']} ({able}) in {mutant['function']}: "
                     f"{mutant['source']}"
                 )
+        planted = {mutant["file"] for mutant in self.mutants.values()}
+        known = set(self.names.values())
+        for file, text in self.reasons:
+            if file in planted and (file, text) not in known:
+                print(f"harmless.toml names a mutant that is no more: {file}: {text}")
+
+    def name(self, mutants, why):
+        harmless.save(self.reasons | {self.names[mutant]: why for mutant in mutants})
 
 
 def main():
@@ -281,6 +299,9 @@ def main():
     hunt.add_argument("--seconds", type=float, default=15.0, help="time of tests for each mutant")
     hunt.add_argument("--workers", type=int, default=os.cpu_count())
     commands.add_parser("list").add_argument("paths", nargs="*", help="files and folders of src")
+    name = commands.add_parser("name")
+    name.add_argument("mutants", nargs="+", type=int, help="their numbers in `list`")
+    name.add_argument("--why", required=True, help="why no result can change")
     asked = parser.parse_args()
     match asked.command:
         case "plant":
@@ -291,6 +312,8 @@ def main():
             Hunt(asked.seconds).go(asked.workers)
         case "list":
             Hunt(0.0).show(asked.paths)
+        case "name":
+            Hunt(0.0).name(asked.mutants, asked.why)
 
 
 if __name__ == "__main__":

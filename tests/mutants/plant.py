@@ -270,6 +270,12 @@ class File:
         return sides[0] + middle + sides[1] + self.bytes[right.end_byte : node.end_byte].decode()
 
 
+def is_source(path):
+    """Whether a file is Rust and no test: those of `tests.rs` and of folders `tests` are compiled
+    for tests only."""
+    return path.endswith(".rs") and "tests" not in Path(path).with_suffix("").parts
+
+
 def plant(root, copy, paths, skip=frozenset()):
     """Copies the repository at `root` to `copy`, with all mutants of the files below `paths`. Those
     in `skip` (file, line, column, kind), which do not compile, are left out."""
@@ -280,7 +286,7 @@ def plant(root, copy, paths, skip=frozenset()):
         ["git", "ls-files", *paths], cwd=root, capture_output=True, check=True, text=True
     )
     mutants = []
-    for path in (path for path in listed.stdout.split() if path.endswith(".rs")):
+    for path in (path for path in listed.stdout.split() if is_source(path)):
         (copy / path).write_text(File(copy, path, mutants, skip).rewritten())
     chosen = (
         (Path(__file__).parent / "chosen.rs")
