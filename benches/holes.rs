@@ -1,5 +1,5 @@
-//! Cost of a step of moreau-jean of a tube in two round holes with friction: 20 modes in each of two
-//! planes, the library beside a loop written by hand for this one scene (diagonal matrices, two
+//! Cost of a step of moreau-jean of a tube in two round holes with friction: 20 modes in each of
+//! two planes, the library beside a loop written by hand for this one scene (diagonal matrices, two
 //! 2 × 2 contacts answered in turn until nothing moves). The sides are measured alternately. Prints
 //! a table, checks that both found the same motion while that is predictable, and asserts nothing
 //! about time.

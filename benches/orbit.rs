@@ -1,5 +1,6 @@
 //! Orbits a second, with multipliers, admissibility and special points: Newton's method alone, and
-//! along a branch in the frequency, of one degree of freedom and of structures. One thread, the best of several.
+//! along a branch in the frequency, of one degree of freedom and of structures. One thread, the
+//! best of several.
 //!
 //! `cargo bench --bench orbit`
 

@@ -5,9 +5,10 @@
 //! [`Scene`] says what is simulated, [`Scheme`] how time advances, [`Stepper`] does it a step at a
 //! time, [`run()`] from start to end under the eyes of [`residual::Judge`], and [`Trajectory`] is
 //! what was recorded. [`qp`] is the convex programme of a step, [`flow`] the exact motion between
-//! events, [`variation`] its derivative with respect to the start, [`wear`] what sliding at supports
-//! wears off. Case files come with the feature `case`, output and the tool itself with `cli`, which is
-//! the default and has `case` in it; the format of a case file is documented in [`case`].
+//! events, [`variation`] its derivative with respect to the start, [`wear`] what sliding at
+//! supports wears off. Case files come with the feature `case`, output and the tool itself with
+//! `cli`, which is the default and has `case` in it; the format of a case file is documented in
+//! [`case`].
 //!
 //! # Examples
 //!

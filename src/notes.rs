@@ -30,8 +30,8 @@ const ROUNDING: f64 = 1e-9;
 /// the start and the loads ever supplied gets a note in any case.
 const SHARE_OF_LARGEST: f64 = 0.1;
 
-/// The normal of a round hole may turn by this angle in a step, rad: the midpoint rule on the circle
-/// then has an error of some per cent.
+/// The normal of a round hole may turn by this angle in a step, rad: the midpoint rule on the
+/// circle then has an error of some per cent.
 const LARGE_TURN: f64 = 0.2;
 
 /// Maximum number of handed-over stretches with a note each.

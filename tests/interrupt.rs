@@ -42,7 +42,8 @@ fn long_runs_stop() {
     let options = Options::with_step(1e-4).with_sample(1e3);
     stops("moreau-jean", || run(&long, &MOREAU_JEAN, &options));
     stops("event", || run(&long, &Scheme::Event, &options));
-    // Nothing is touched: a single step of the exact scheme, which searches for a contact all the way.
+    // Nothing is touched: a single step of the exact scheme, which searches for a contact all the
+    // way.
     let mut far = long.clone();
     far.walls.iter_mut().for_each(|wall| wall.position *= 0.7e1);
     far.initial.v[0] = 0.3;

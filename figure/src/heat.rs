@@ -68,8 +68,8 @@ impl HeatMap {
     }
 
     /// Fills the cells with classes, row by row from the first `y`; up to six classes, listed from
-    /// harmless to worst (drawn from light to dark), and a seventh for the rest (drawn in green). An index beyond the list, or a missing cell,
-    /// is drawn as no value.
+    /// harmless to worst (drawn from light to dark), and a seventh for the rest (drawn in green).
+    /// An index beyond the list, or a missing cell, is drawn as no value.
     #[must_use]
     pub fn classes(mut self, classes: Vec<Class>, cells: Vec<usize>) -> Self {
         self.cells = Cells::Classes(classes, cells);

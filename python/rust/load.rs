@@ -90,8 +90,8 @@ impl Load {
     }
 
     /// The force (N) that ``force(time)`` returns, of the time in s alone: for the stepping
-    /// schemes, which ask it at the ends of their steps. The exact scheme refuses it, and it cannot be
-    /// pickled. An exception that it raises ends the run and is passed on.
+    /// schemes, which ask it at the ends of their steps. The exact scheme refuses it, and it cannot
+    /// be pickled. An exception that it raises ends the run and is passed on.
     ///
     /// Examples
     /// --------

@@ -171,8 +171,8 @@ impl Run {
         Ok((view(slf, y), view(slf, z)))
     }
 
-    /// Impulse of a round support on the body along y and z since the row before, friction included,
-    /// N s; each of shape (rows,).
+    /// Impulse of a round support on the body along y and z since the row before, friction
+    /// included, N s; each of shape (rows,).
     ///
     /// Raises
     /// ------
@@ -198,8 +198,8 @@ impl Run {
         self.run.trajectory.supports().to_vec()
     }
 
-    /// Work of wear at a support from the start to each row, J; shape (rows,). Without friction it is
-    /// an upper figure.
+    /// Work of wear at a support from the start to each row, J; shape (rows,). Without friction it
+    /// is an upper figure.
     ///
     /// Raises
     /// ------

@@ -19,9 +19,9 @@ pub(super) struct Beside<'a> {
 }
 
 impl Builder<'_> {
-    /// The load of a base motion. In coordinates relative to the base it is −M ι a(t), with ι = 1 on
-    /// every displacement in the direction of the motion: the mass m that moves along times −a, as
-    /// a force, through the row M ι/m.
+    /// The load of a base motion. In coordinates relative to the base it is −M ι a(t), with ι = 1
+    /// on every displacement in the direction of the motion: the mass m that moves along times −a,
+    /// as a force, through the row M ι/m.
     pub fn base(
         &mut self,
         index: usize,
@@ -99,7 +99,8 @@ impl Builder<'_> {
     }
 
     /// M ι/m over one plane, and the mass m = ιᵀM ι that moves along with the base, kg. On a bar or
-    /// beam the inertia of held ends reaches their neighbours, so its row is that of an even spread.
+    /// beam the inertia of held ends reaches their neighbours, so its row is that of an even
+    /// spread.
     fn carried(&self, system: &System, influence: Option<&[(usize, f64)]>) -> Result<(Row, f64)> {
         match &self.model {
             Model::Bar(bar) => Ok((bar.spread(0.0, bar.length)?, bar.density * bar.area * bar.length)),

@@ -59,7 +59,8 @@ fn is_named(entry: &Value, name: &str) -> bool {
     entry.get("name").and_then(Value::as_str) == Some(name)
 }
 
-/// The tables `[[wall]]`, `[[support]]`, `[[probe]]` or `[[load]]` to which the second part of `key` refers.
+/// The tables `[[wall]]`, `[[support]]`, `[[probe]]` or `[[load]]` to which the second part of
+/// `key` refers.
 fn entries<'a>(file: &'a mut Table, key: &Key) -> Result<Vec<&'a mut Value>> {
     let part = |index: usize| key.parts().get(index).map_or("", String::as_str);
     let (list, name) = (part(0), part(1));

@@ -7,9 +7,9 @@ use std::str::FromStr;
 
 /// The path of a value in a case file: names of tables and keys, joined by dots.
 ///
-/// A `[[wall]]`, `[[support]]` or `[[probe]]` is addressed by its `name`, a `[[load]]` by its number from 1, as in
-/// messages; `*` stands for all of them. Entries of number lists count from 0, as degrees of
-/// freedom do.
+/// A `[[wall]]`, `[[support]]` or `[[probe]]` is addressed by its `name`, a `[[load]]` by its
+/// number from 1, as in messages; `*` stands for all of them. Entries of number lists count from 0,
+/// as degrees of freedom do.
 ///
 /// ```
 /// use signorini::case::Key;

@@ -127,8 +127,8 @@ impl Case {
     }
 
     /// Realisation `number` of the case, from 1: the same case, where the seed of every random load
-    /// is greater by `number` − 1. So realisation 1 is the case itself, and a run with `seed` set to
-    /// that value repeats any of the others.
+    /// is greater by `number` − 1. So realisation 1 is the case itself, and a run with `seed` set
+    /// to that value repeats any of the others.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `realisation` for 0, and where a seed would exceed 2^53.

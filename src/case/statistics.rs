@@ -46,8 +46,8 @@ impl StatisticsOptions {
     }
 }
 
-/// The stretch over which forces are averaged for their spectrum: `averaging` (s), as a whole number
-/// of rows that are `row` (s) apart.
+/// The stretch over which forces are averaged for their spectrum: `averaging` (s), as a whole
+/// number of rows that are `row` (s) apart.
 pub(crate) fn stretch(averaging: f64, row: f64) -> f64 {
     rows_of(averaging, row) as f64 * row
 }

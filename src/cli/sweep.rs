@@ -69,7 +69,8 @@ pub struct Args {
     /// Scheme [default: chosen from the case; see `signorini explain`]
     #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
     scheme: Option<String>,
-    /// How rows are computed: scalar, or batch (many oscillators at once, exactly) [default: scalar]
+    /// How rows are computed: scalar, or batch (many oscillators at once, exactly) [default:
+    /// scalar]
     #[arg(long, value_name = "WORD")]
     kernel: Option<Kernel>,
     /// Draw the values of all --vary at random: uniform, lhs (Latin hypercube), sobol

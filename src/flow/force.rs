@@ -58,8 +58,8 @@ impl LocalForce {
     }
 
     /// Sets the loads to what they are just after `start` + `late`, plus the constant force `extra`
-    /// (N); valid up to the next row of a table of `forcing`. `late` is what rounding has taken from
-    /// the time `start`.
+    /// (N); valid up to the next row of a table of `forcing`. `late` is what rounding has taken
+    /// from the time `start`.
     pub fn set(&mut self, forcing: &Forcing, [start, late]: [f64; 2], extra: f64) {
         (self.constant, self.slope) = (self.lasting + extra, 0.0);
         for table in &forcing.tables {

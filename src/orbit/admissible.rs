@@ -28,8 +28,8 @@ pub struct Admissible {
     /// The nearest approach to a wall inside a flight; `None` where no flight turns back from
     /// a wall.
     pub nearest: Option<Nearest>,
-    /// The least force with which a wall carries a body at rest, N; infinite without a rest. It is 0
-    /// at the release itself, which is left out.
+    /// The least force with which a wall carries a body at rest, N; infinite without a rest. It is
+    /// 0 at the release itself, which is left out.
     pub least_push: f64,
     /// The largest |displacement|, m; of accumulating impacts only the first counts.
     pub largest: f64,

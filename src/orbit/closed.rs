@@ -7,8 +7,8 @@
 //!
 //! (g − αv)² + ((1 − β)v/Ω)² = |B|²,
 //!
-//! a quadratic in v, whose discriminant vanishes at a fold. Between mirrored walls a symmetric orbit
-//! has E over half the time and (1 + E)⁻¹ E (0, (1+e)d).
+//! a quadratic in v, whose discriminant vanishes at a fold. Between mirrored walls a symmetric
+//! orbit has E over half the time and (1 + E)⁻¹ E (0, (1+e)d).
 
 use super::forcing::{forcing_period, frequencies};
 use super::periodic::Orbit;

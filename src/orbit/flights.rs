@@ -17,9 +17,9 @@ const MOST: f64 = 128.0;
 
 impl Problem {
     /// The motion over one turn of `orbit`, from its first event on, as the flow takes it from each
-    /// event to the next; both sides of each impact. Nothing is checked: for an orbit through a wall
-    /// it is the motion through the wall, and of impacts that accumulate only the first is in it.
-    /// [`Problem::judge`] has the free run.
+    /// event to the next; both sides of each impact. Nothing is checked: for an orbit through a
+    /// wall it is the motion through the wall, and of impacts that accumulate only the first is in
+    /// it. [`Problem::judge`] has the free run.
     ///
     /// # Errors
     /// As [`Problem::correct`] for an orbit that does not belong to this problem.

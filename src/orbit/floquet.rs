@@ -16,8 +16,8 @@ use crate::variation::saltation::{IDENTITY, Matrix2, entry, impact, multiply};
 ///
 /// S = [[−e, 0], [(a⁺ + e a⁻)/q̇, −e]],
 ///
-/// which grows without bound towards a grazing impact, for one degree of freedom; [`variation`]
-/// has that of structures. A rest of one degree of freedom forgets everything: S = 0. The product of
+/// which grows without bound towards a grazing impact, for one degree of freedom; [`variation`] has
+/// that of structures. A rest of one degree of freedom forgets everything: S = 0. The product of
 /// all is e₁² e₂² … exp(−cT/m) there.
 ///
 /// [`variation`]: crate::variation
@@ -47,8 +47,8 @@ impl Floquet {
         Self::of(eigenvalues(trace, determinant).to_vec(), [trace, determinant], half)
     }
 
-    /// Of a derivative with those eigenvalues, and of that trace and determinant, over half an orbit
-    /// or a whole one.
+    /// Of a derivative with those eigenvalues, and of that trace and determinant, over half an
+    /// orbit or a whole one.
     pub(super) fn of(own: Vec<[f64; 2]>, [trace, determinant]: [f64; 2], half: bool) -> Self {
         if !half {
             return Self { multipliers: own, half: None, trace, determinant };

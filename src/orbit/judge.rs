@@ -46,8 +46,8 @@ pub struct Instant {
 /// What the free run over one period of an orbit showed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    /// How far it ended from where it began: the larger of displacement in gaps and velocity in gaps
-    /// times the forcing's Ω.
+    /// How far it ended from where it began: the larger of displacement in gaps and velocity in
+    /// gaps times the forcing's Ω.
     pub closure: f64,
     /// What that may be: 1e-10, or what the orbit's multipliers make of rounding.
     pub tolerance: f64,
@@ -71,8 +71,8 @@ impl Judged {
 
 impl Problem {
     /// Runs the body freely over one period of `orbit`, by the exact scheme, from a state on it
-    /// between two events; `points` instants of the motion are kept beside the events. An orbit that
-    /// no body can follow is not run: its closure is infinite, and it has no motion.
+    /// between two events; `points` instants of the motion are kept beside the events. An orbit
+    /// that no body can follow is not run: its closure is infinite, and it has no motion.
     ///
     /// # Errors
     /// Those of a run; [`Error::NoOrbit`] for an orbit without a stretch of free flight.

@@ -6,12 +6,12 @@
 //! where an impact becomes grazing, at which the map from period to period has a singularity
 //! (Nordmark 1991, doi:10.1016/0022-460X(91)90592-8).
 //!
-//! [`Problem`] takes a scene of one degree of freedom; [`Problem::settled`] finds the orbit on which
-//! a run settles, [`closed_forms`] lists all of one impact a turn,
-//! [`Problem::correct`] solves the equations from any start, [`Problem::floquet`] gives the
-//! multipliers, [`Problem::admissible`] says whether a body can follow the orbit, and
-//! [`Problem::judge`] lets one do so. [`branch`] follows orbits over a key. Of structures, [`shoot`]
-//! finds the orbit on which a run settles, and [`branch`] follows it by a state of it.
+//! [`Problem`] takes a scene of one degree of freedom; [`Problem::settled`] finds the orbit on
+//! which a run settles, [`closed_forms`] lists all of one impact a turn, [`Problem::correct`]
+//! solves the equations from any start, [`Problem::floquet`] gives the multipliers,
+//! [`Problem::admissible`] says whether a body can follow the orbit, and [`Problem::judge`] lets
+//! one do so. [`branch`] follows orbits over a key. Of structures, [`shoot`] finds the orbit on
+//! which a run settles, and [`branch`] follows it by a state of it.
 
 mod admissible;
 mod boundary;

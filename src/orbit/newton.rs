@@ -20,9 +20,9 @@ pub(super) const SOLVED: f64 = 1e-12;
 pub(super) const ACCEPTED: f64 = 1e-9;
 
 impl Problem {
-    /// The periodic orbit near `guess`, by Newton's method on the instants and speeds of its events.
-    /// It starts well from far away where a map from period to period does not: from starts with 3 %
-    /// of error it also reaches orbits with multipliers of 1e8.
+    /// The periodic orbit near `guess`, by Newton's method on the instants and speeds of its
+    /// events. It starts well from far away where a map from period to period does not: from starts
+    /// with 3 % of error it also reaches orbits with multipliers of 1e8.
     ///
     /// The result may pass through a wall ([`Problem::admissible`] says so): the equations do not
     /// look at what happens between the events.

@@ -27,8 +27,8 @@ impl Problem {
     /// half.
     ///
     /// # Errors
-    /// [`Error::NoOrbit`] where the events do not repeat themselves, or no orbit is found near them;
-    /// those of a run.
+    /// [`Error::NoOrbit`] where the events do not repeat themselves, or no orbit is found near
+    /// them; those of a run.
     pub fn settled(&self, settle: u32) -> Result<Orbit> {
         self.settled_with(settle, &|_| {})
     }

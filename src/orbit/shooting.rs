@@ -1,7 +1,7 @@
 //! Periodic orbits of structures, by shooting: Newton's method on the free run over one orbit.
 //!
-//! P takes the state at an instant to that N forcing periods later, by the exact scheme; x = P(x) is
-//! solved by x ← x + (1 − P′)⁻¹ (P(x) − x), with P′ the product of propagators and saltation
+//! P takes the state at an instant to that N forcing periods later, by the exact scheme; x = P(x)
+//! is solved by x ← x + (1 − P′)⁻¹ (P(x) − x), with P′ the product of propagators and saltation
 //! matrices ([`Product`]). P is smooth where no impact of the orbit grazes; contacts that last are
 //! no obstacle.
 
@@ -110,8 +110,8 @@ impl Shot {
 ///
 /// # Errors
 /// [`Error::Invalid`] for a scene that does not validate or has no forcing period;
-/// [`Error::NoOrbit`] where the states do not come back, where Newton's method does not converge, or
-/// where the derivative of the run does not exist; those of a run.
+/// [`Error::NoOrbit`] where the states do not come back, where Newton's method does not converge,
+/// or where the derivative of the run does not exist; those of a run.
 pub fn shoot(scene: &Scene, settle: u32, progress: &dyn Fn(f64)) -> Result<Shot> {
     let period = posed(scene)?;
     let shooting = Shooting { scene, period, scales: Scales::new(scene.gap_scale(), period) };

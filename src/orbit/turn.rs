@@ -1,5 +1,5 @@
-//! Runs of a structure over an orbit or a part of it: where they end, the derivative of the end with
-//! respect to the start, and what happens on the way.
+//! Runs of a structure over an orbit or a part of it: where they end, the derivative of the end
+//! with respect to the start, and what happens on the way.
 
 use super::extremes::bisect;
 use super::strobe::{state, vector};

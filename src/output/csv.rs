@@ -14,9 +14,9 @@ const BLOCK: usize = 1 << 16;
 
 /// Writes the rows of `trajectory`: time, displacement and velocity of each probe, force and
 /// impulse of each wall and, along y and z, of each round support, and the work of wear of each
-/// support since the start. Forces of walls are signed (lower wall ≥ 0, upper wall ≤ 0). The impulse
-/// in a row is that since the row before it, so that a column sums to the impulse of the run. Columns
-/// carry the names of probes, walls and supports as [`words`] writes them.
+/// support since the start. Forces of walls are signed (lower wall ≥ 0, upper wall ≤ 0). The
+/// impulse in a row is that since the row before it, so that a column sums to the impulse of the
+/// run. Columns carry the names of probes, walls and supports as [`words`] writes them.
 ///
 /// # Errors
 /// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
@@ -49,8 +49,8 @@ pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
 
 /// Writes the contact episodes of `trajectory`, one per row, in order of time. A rigid impact has
 /// no peak force, and an episode still open at the end of the run has no end: those cells are
-/// empty. In scenes with supports each row also says where around the support the contact began, its
-/// work of wear and the distance slid in it; those cells are empty at other walls.
+/// empty. In scenes with supports each row also says where around the support the contact began,
+/// its work of wear and the distance slid in it; those cells are empty at other walls.
 ///
 /// # Errors
 /// As [`trajectory`].

@@ -29,8 +29,8 @@ impl Detail {
         Ok(Some(Self { episodes: Episodes::of(case, run, options.rest), spectra }))
     }
 
-    /// Writes its files into the folder of `results`, under the names that `named` gives; `title` is
-    /// that of the figures.
+    /// Writes its files into the folder of `results`, under the names that `named` gives; `title`
+    /// is that of the figures.
     ///
     /// # Errors
     /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.

@@ -7,8 +7,8 @@ use crate::orbit::branch::Locus;
 use crate::scene::Scene;
 use std::path::Path;
 
-/// Writes one row per point: number and label of the locus, the values of both keys (`columns`), and
-/// signature, phases and speeds of the orbit.
+/// Writes one row per point: number and label of the locus, the values of both keys (`columns`),
+/// and signature, phases and speeds of the orbit.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written.

@@ -51,8 +51,8 @@ pub fn write(path: &Path, drawn: &Drawn<'_>, family: &Family<'_>) -> Result<()> 
     file.finish()
 }
 
-/// Phase (cycles), displacement (m) and velocity (m/s) over one orbit, of a structure at the place of
-/// wall number `place`.
+/// Phase (cycles), displacement (m) and velocity (m/s) over one orbit, of a structure at the place
+/// of wall number `place`.
 fn motion(scene: Scene, point: &Point, place: usize) -> Result<Vec<[f64; 3]>> {
     if let (Some(strobe), Some(wall)) = (&point.strobe, scene.walls.get(place)) {
         return path(&scene, strobe, point.orbit.signature.periods, &wall.at);
@@ -63,8 +63,8 @@ fn motion(scene: Scene, point: &Point, place: usize) -> Result<Vec<[f64; 3]>> {
 }
 
 /// Name, side and place (m) of each wall of `scene`; without a place where `other`, the scene at
-/// another value of the key, has the wall elsewhere, or where it does not stand at the place of wall
-/// number `place`.
+/// another value of the key, has the wall elsewhere, or where it does not stand at the place of
+/// wall number `place`.
 #[must_use]
 pub fn walls(scene: &Scene, other: &Scene, place: usize) -> Value {
     let at = scene.walls.get(place).map(|wall| &wall.at);

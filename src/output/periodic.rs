@@ -269,7 +269,8 @@ pub fn listed(found: &[(ClosedForm, Option<bool>)], scene: &Scene) -> Value {
     json!({ "orbits": found.iter().map(one).collect::<Vec<_>>() })
 }
 
-/// The orbit of a structure as a document, which [`read_shot`] reads back; `modal` tells that its coordinates are those of modes.
+/// The orbit of a structure as a document, which [`read_shot`] reads back; `modal` tells that its
+/// coordinates are those of modes.
 #[must_use]
 pub fn shot(found: &Shot, scene: &Scene, case: &str, modal: bool) -> Value {
     let walls =

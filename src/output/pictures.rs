@@ -37,9 +37,9 @@ pub struct Sheet<'a> {
 impl Sheet<'_> {
     /// The figures, each with its file name without extension: displacement, velocity, phase plot,
     /// the orbit of each place with probes NAME`-y` and NAME`-z` with the work of wear by sectors,
-    /// contact force (where there are walls), force of round supports, work of wear. For a run of many periods the
-    /// figures over time show the whole run and, beside it, the last periods; the phase plot shows
-    /// the last periods only.
+    /// contact force (where there are walls), force of round supports, work of wear. For a run of
+    /// many periods the figures over time show the whole run and, beside it, the last periods; the
+    /// phase plot shows the last periods only.
     ///
     /// # Errors
     /// None beyond those of a trajectory asked for its own walls.

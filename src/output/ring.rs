@@ -58,7 +58,8 @@ impl Ring {
         runs.first()?.run.statistics.wear.get(self.index)
     }
 
-    /// The largest work rate of a sector, W, and whether it is an upper figure; `None` without work.
+    /// The largest work rate of a sector, W, and whether it is an upper figure; `None` without
+    /// work.
     pub fn largest(&self, runs: &[Labelled<'_>]) -> Option<(f64, bool)> {
         let support = self.statistics(runs)?;
         let most = support.sectors.iter().map(|sector| sector.work_rate_w).fold(0.0, f64::max);

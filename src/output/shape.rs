@@ -140,8 +140,8 @@ fn row(case: &Case, place: &Place) -> Option<Row> {
     })
 }
 
-/// The column of the station at `x` m, after its plane: the digits as part of an identifier, `p` for
-/// the point and `m` for a minus.
+/// The column of the station at `x` m, after its plane: the digits as part of an identifier, `p`
+/// for the point and `m` for a minus.
 fn column(x: f64) -> String {
     format!("at_{}_m", digits(Some(x)).replace('.', "p").replace('-', "m"))
 }

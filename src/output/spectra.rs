@@ -59,8 +59,8 @@ impl Quantity {
     }
 }
 
-/// The spectra of every probe, of every wall that is no flat of a support, and of every support, over
-/// the window of the statistics. Friction at flats is not in theirs.
+/// The spectra of every probe, of every wall that is no flat of a support, and of every support,
+/// over the window of the statistics. Friction at flats is not in theirs.
 ///
 /// # Errors
 /// [`crate::Error::Invalid`] for a run with too few rows.

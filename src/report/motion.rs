@@ -73,7 +73,8 @@ pub(super) fn motion(folder: &Folder<'_>, prefix: &str, summary: &Value) -> Resu
     Ok(out)
 }
 
-/// Columns that supports add after those of the walls: four of each round one, and the work of each.
+/// Columns that supports add after those of the walls: four of each round one, and the work of
+/// each.
 fn beside(summary: &Value) -> usize {
     let supports = summary["scene"]["supports"].as_array().map_or(&[][..], Vec::as_slice);
     supports.iter().map(|support| if support["shape"] == "round" { 5 } else { 1 }).sum()

@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 /// Most walls whose impulses are among the facts; a table has all.
 const MOST_WALLS: usize = 4;
 
-/// What the page of an orbit shows; of a structure's the multipliers and the walls, since nothing of
-/// its motion is written.
+/// What the page of an orbit shows; of a structure's the multipliers and the walls, since nothing
+/// of its motion is written.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let document = folder.json("orbit.json")?;
     let mut orbit = json!({

@@ -57,8 +57,8 @@ impl Scene {
         moved
     }
 
-    /// Moves an initial state that stands at the rigid walls and holes `pressed`, up to the rounding
-    /// of how it was found, onto all of them; they are counted as contacts are
+    /// Moves an initial state that stands at the rigid walls and holes `pressed`, up to the
+    /// rounding of how it was found, onto all of them; they are counted as contacts are
     /// ([`Scene::contact_name`]).
     pub(crate) fn press_onto(&mut self, pressed: &[usize]) {
         let Self { walls, supports, initial, .. } = self;

@@ -61,9 +61,10 @@ impl Flats {
     /// one row; the direction of that row is from 0° to below 180°.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under the support's `directions`, `gap` or `centre`: no flats or more than
-    /// [`MOST_FLATS`], a direction that is not finite or occurs twice, a gap below 0, a centre that
-    /// is not finite. The law and the row are checked by [`Scene::validate`](super::Scene::validate).
+    /// [`Error::Invalid`] under the support's `directions`, `gap` or `centre`: no flats or more
+    /// than [`MOST_FLATS`], a direction that is not finite or occurs twice, a gap below 0, a centre
+    /// that is not finite. The law and the row are checked by
+    /// [`Scene::validate`](super::Scene::validate).
     pub fn walls(&self) -> Result<Vec<Wall>> {
         let key = |part: &'static str| Subject::support(&self.name).part(part);
         if self.flats.is_empty() || self.flats.len() > MOST_FLATS {

@@ -172,9 +172,10 @@ impl Scene {
     }
 
     /// The reference length γ₀ of the scene, m: the smallest of half the distances between an upper
-    /// and a lower wall on one row and of the gaps of round supports; else the largest distance of a wall from the initial position; else
-    /// the largest |position| of a wall; else the initial displacement; else 1 m. Residuals and
-    /// solvers are made dimensionless by it. Zero gaps are ignored.
+    /// and a lower wall on one row and of the gaps of round supports; else the largest distance of
+    /// a wall from the initial position; else the largest |position| of a wall; else the initial
+    /// displacement; else 1 m. Residuals and solvers are made dimensionless by it. Zero gaps are
+    /// ignored.
     #[must_use]
     pub fn gap_scale(&self) -> f64 {
         let positive = |x: &f64| x.is_finite() && *x > 0.0;

@@ -139,8 +139,8 @@ impl Scene {
         self.supports.iter().filter_map(Support::hole)
     }
 
-    /// The laws of all places that a [`Contact`](crate::Contact) refers to: those of the walls, then
-    /// those of the round supports.
+    /// The laws of all places that a [`Contact`](crate::Contact) refers to: those of the walls,
+    /// then those of the round supports.
     pub(crate) fn contact_laws(&self) -> impl Iterator<Item = WallLaw> {
         self.walls.iter().map(|wall| wall.law).chain(self.holes().map(|hole| hole.law))
     }

@@ -7,8 +7,8 @@ pub struct HoleStep {
     /// The outward unit normal n at the contact of the step, in exact motion at its end; (0, 0) if
     /// the hole was out of reach.
     pub normal: [f64; 2],
-    /// Magnitude p ≥ 0 of the normal impulse, N s; the structure gets −p n. In exact motion ∫ of the
-    /// magnitude of the force over the step, with `jump`.
+    /// Magnitude p ≥ 0 of the normal impulse, N s; the structure gets −p n. In exact motion ∫ of
+    /// the magnitude of the force over the step, with `jump`.
     pub impulse: f64,
     /// Friction impulse along t, N s, signed.
     pub friction: f64,

@@ -27,7 +27,8 @@ pub struct Contact {
     /// Impulse of the wall on the body over the episode, N s; signed as the force (lower ≥ 0, upper
     /// ≤ 0). Of a round support the sum of the magnitudes along its normals, ≥ 0.
     pub impulse: f64,
-    /// Largest |force| in the episode, N, without friction; `None` where the force was not finite (an impact).
+    /// Largest |force| in the episode, N, without friction; `None` where the force was not finite
+    /// (an impact).
     pub peak_force: Option<f64>,
     /// Speed towards the wall just before, m/s, ≥ 0.
     pub approach_speed: f64,
@@ -123,8 +124,8 @@ pub struct Step<'a> {
     /// scheme computed, which is impulse/h unless the scheme's impulse averages two of them; N,
     /// signed.
     pub force: &'a [f64],
-    /// Friction impulse at each wall over the step, N s, along (−n_z, n_y) with n the outward normal
-    /// of the flat; empty in scenes without friction and round holes.
+    /// Friction impulse at each wall over the step, N s, along (−n_z, n_y) with n the outward
+    /// normal of the flat; empty in scenes without friction and round holes.
     pub friction: &'a [f64],
     /// What each round hole did, in the order of the scene's round supports.
     pub holes: &'a [HoleStep],

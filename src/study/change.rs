@@ -22,10 +22,10 @@ pub struct Change {
     pub walls: Vec<WallChange>,
 }
 
-/// Changes at one wall or round support, over the window of the statistics. Each is relative to the largest value at
-/// any wall of the scene, or to the value of a single impact at the largest speed v at this wall if
-/// that is larger (with the mass m that the wall feels, [`Scene::wall_masses`]); so a wall that is
-/// hardly touched does not dominate.
+/// Changes at one wall or round support, over the window of the statistics. Each is relative to the
+/// largest value at any wall of the scene, or to the value of a single impact at the largest speed
+/// v at this wall if that is larger (with the mass m that the wall feels, [`Scene::wall_masses`]);
+/// so a wall that is hardly touched does not dominate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WallChange {
@@ -210,9 +210,9 @@ struct Largest {
     force: f64,
 }
 
-/// Contacts of a wall or round support that begin at or after `from` (s); `None` where impacts accumulate. Slow
-/// contacts count in proportion to their speed, so that a graze that only one of two runs has
-/// changes little.
+/// Contacts of a wall or round support that begin at or after `from` (s); `None` where impacts
+/// accumulate. Slow contacts count in proportion to their speed, so that a graze that only one of
+/// two runs has changes little.
 fn number(scene: &Scene, contacts: &[Contact], wall: usize, from: f64) -> Option<f64> {
     let here = contacts.iter().filter(|c| c.wall == wall && c.start >= from);
     let speeds = here.clone().map(|c| c.approach_speed);

@@ -44,8 +44,8 @@ pub struct WallVerdict {
     pub wall: String,
     /// Which of the two it is.
     pub kind: PlaceKind,
-    /// Impulse of the run and of its check in the window for statistics, N s: of a wall signed, of a
-    /// round support Σ|p|.
+    /// Impulse of the run and of its check in the window for statistics, N s: of a wall signed, of
+    /// a round support Σ|p|.
     pub impulse_n_s: [f64; 2],
     /// Contacts of the run and of its check in that window.
     pub contacts: [usize; 2],
@@ -65,8 +65,8 @@ pub struct Verdict {
     /// Time up to which displacements were compared, s: the end, or where a perturbation of the
     /// start has grown [`LARGEST_GROWTH`]-fold.
     pub horizon_s: f64,
-    /// One entry per wall, then per round support, in the scene's order. Unlike displacements, these
-    /// are compared over the whole run.
+    /// One entry per wall, then per round support, in the scene's order. Unlike displacements,
+    /// these are compared over the whole run.
     pub walls: Vec<WallVerdict>,
     /// What the judge refutes in the check's own run; if there is anything, the verdict is
     /// meaningless.

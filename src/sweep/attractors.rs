@@ -1,8 +1,8 @@
 //! The numbers of attractors.
 //!
 //! A row says what its attractor is from its own run alone. Numbers are given when all rows are
-//! there, in the order of the rows: what is the same as one before has its number. So they depend on
-//! neither threads nor interruptions, and `merge` gives those of the undivided sweep.
+//! there, in the order of the rows: what is the same as one before has its number. So they depend
+//! on neither threads nor interruptions, and `merge` gives those of the undivided sweep.
 
 use super::measure::Measure;
 use super::table::{Table, line_of, with_number};

@@ -157,8 +157,8 @@ impl Exponents {
 }
 
 /// Makes changes of `size` entries each orthogonal to those before them, and scales them to 1 by
-/// `factors`: the diagonal of R in a QR decomposition. A change of which nothing but rounding is left
-/// becomes 0, and stays it.
+/// `factors`: the diagonal of R in a QR decomposition. A change of which nothing but rounding is
+/// left becomes 0, and stays it.
 fn orthogonalise(changes: &mut [f64], size: usize, factors: &mut [f64]) {
     for (k, factor) in factors.iter_mut().enumerate() {
         let (before, rest) = changes.split_at_mut(k * size);

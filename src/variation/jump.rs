@@ -6,8 +6,8 @@
 //!
 //! δq⁺ = δq − Σ (1 + eᵢ) dᵢ Gᵢδq,   δq̇⁺ = δq̇ − D (1 + e) G δq̇ + Σ wᵢ Gᵢδq,
 //!
-//! where wᵢ = (a⁺ − R a⁻)/vᵢ. With the accelerations put in, and Q the projection onto what the rows
-//! held after the instant leave free,
+//! where wᵢ = (a⁺ − R a⁻)/vᵢ. With the accelerations put in, and Q the projection onto what the
+//! rows held after the instant leave free,
 //!
 //! wᵢ = (1 + eᵢ) dᵢ Gᵢa⁻/vᵢ − Q M⁻¹Gₕᵀ rₕ/vᵢ + Q M⁻¹((1 + eᵢ) C dᵢ + Gₐᵀ Δrₐ/vᵢ).
 //!
@@ -80,8 +80,8 @@ impl Jump {
         }
     }
 
-    /// True if two of the struck rows feel each other: an impulse on one moves the other, or changes
-    /// the drag on it.
+    /// True if two of the struck rows feel each other: an impulse on one moves the other, or
+    /// changes the drag on it.
     pub fn is_coupled(&mut self, flow: &Propagator) -> bool {
         let Self { struck, rows, zero, work, .. } = self;
         if struck.len() > 1 && rows.rows().len() > struck.len() {

@@ -13,8 +13,8 @@
 //! | [`Product`] | the matrix of a whole run: over a period, its eigenvalues are the Floquet multipliers |
 //! | [`Exponents`] | Lyapunov exponents over a window, with their standard error |
 //!
-//! All of them watch the [`Step`](crate::Step)s of the scheme `event`. Where the derivative does not
-//! exist, or is not known, they say so by [`NoDerivative`], and give no number.
+//! All of them watch the [`Step`](crate::Step)s of the scheme `event`. Where the derivative does
+//! not exist, or is not known, they say so by [`NoDerivative`], and give no number.
 //!
 //! ```
 //! use signorini::variation::Product;

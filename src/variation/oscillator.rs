@@ -127,8 +127,8 @@ impl OscillatorVariation {
         if after == 0.0 && (e > 0.0 || force(step, wall) != 0.0) {
             return REST;
         }
-        // The velocity that the scheme itself has met the wall with, to the last digit: near a graze
-        // the closed form has lost some.
+        // The velocity that the scheme itself has met the wall with, to the last digit: near a
+        // graze the closed form has lost some.
         let before = if e > 0.0 { -after / e } else { arc.state(arc.end()).1 };
         // The load is the same on both sides of the instant: only the velocity changes the force,
         // and a jump of the velocity may begin or end the push of a dashpot.

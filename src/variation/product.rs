@@ -47,9 +47,9 @@ impl Variation {
         }
     }
 
-    /// Carries `changes`, 2n entries each and one after the other, over `step`, the event at its end
-    /// included. Entries beyond a whole number of changes are left as they are. After an error the
-    /// changes mean nothing.
+    /// Carries `changes`, 2n entries each and one after the other, over `step`, the event at its
+    /// end included. Entries beyond a whole number of changes are left as they are. After an error
+    /// the changes mean nothing.
     ///
     /// # Errors
     /// [`NoDerivative`].
@@ -72,9 +72,9 @@ impl Variation {
 /// The derivative of the state with respect to the start, ∂(q, q̇)(t)/∂(q, q̇)(0), along a run of
 /// the scheme `event`.
 ///
-/// Rows and columns are q₀ … qₙ₋₁ (m), q̇₀ … q̇ₙ₋₁ (m/s). Over the period of a periodic motion it is
-/// the monodromy matrix, whose eigenvalues are the Floquet multipliers. A row held by a rigid wall
-/// takes 2 off its rank.
+/// Rows and columns are q₀ … qₙ₋₁ (m), q̇₀ … q̇ₙ₋₁ (m/s). Over the period of a periodic motion it
+/// is the monodromy matrix, whose eigenvalues are the Floquet multipliers. A row held by a rigid
+/// wall takes 2 off its rank.
 #[derive(Debug)]
 pub struct Product {
     variation: Variation,

@@ -18,11 +18,11 @@
 //! and f⁺ are the rates of x before and after, and n = (Gᵀ, 0) (Leine & Nijmeijer 2004,
 //! doi:10.1007/978-3-540-44398-8, ch. 7; for impacts Müller 1995,
 //! doi:10.1016/0960-0779(94)00170-U). Of one degree of freedom its determinant is e²; its corner
-//! grows like 1/v, and is infinite at a graze. The second is the same with the accelerations put in,
-//! and needs no v. Rows that other walls hold belong into R, P and both accelerations.
+//! grows like 1/v, and is infinite at a graze. The second is the same with the accelerations put
+//! in, and needs no v. Rows that other walls hold belong into R, P and both accelerations.
 //!
-//! The functions here are those of one degree of freedom, without a support; rows of several degrees
-//! of freedom are treated by [`Variation`](super::Variation).
+//! The functions here are those of one degree of freedom, without a support; rows of several
+//! degrees of freedom are treated by [`Variation`](super::Variation).
 
 /// A matrix that acts on (δq, δq̇), row by row: m and m/s.
 pub type Matrix2 = [[f64; 2]; 2];
@@ -33,8 +33,8 @@ pub const IDENTITY: Matrix2 = [[1.0, 0.0], [0.0, 1.0]];
 /// Coming to rest on a rigid wall: of one degree of freedom nothing is left of a change.
 pub const REST: Matrix2 = [[0.0, 0.0], [0.0, 0.0]];
 
-/// An impact of `restitution` e at the velocity `before` (m/s, signed, just before the impact), with
-/// the accelerations `accelerations` (m/s²) just before and just after:
+/// An impact of `restitution` e at the velocity `before` (m/s, signed, just before the impact),
+/// with the accelerations `accelerations` (m/s²) just before and just after:
 ///
 /// S = [[−e, 0], [(a⁺ + e a⁻)/v, −e]].
 ///

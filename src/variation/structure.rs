@@ -92,8 +92,8 @@ impl StructureVariation {
         self.flow.body.n
     }
 
-    /// Carries `columns`, changes of 2n entries (δq, δq̇) one after the other, over `step`. They are
-    /// not to be used after an error.
+    /// Carries `columns`, changes of 2n entries (δq, δq̇) one after the other, over `step`. They
+    /// are not to be used after an error.
     pub fn carry(&mut self, step: &Step<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         let n = self.degrees_of_freedom();
         let series = match step.path {

@@ -12,7 +12,8 @@ pub(super) struct Blow {
 }
 
 impl Blow {
-    /// The blows of the loads of `scene`, for each of its supports; none in scenes without supports.
+    /// The blows of the loads of `scene`, for each of its supports; none in scenes without
+    /// supports.
     pub fn all(scene: &Scene) -> Vec<Vec<Self>> {
         let blow = |load: &Load| match load.kind {
             LoadKind::Impulse { impulse, time } => Some((load.at.clone(), impulse, time)),

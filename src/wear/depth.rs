@@ -1,9 +1,9 @@
 //! The depth of a scar of known volume on a tube, where it bears against a round hole or a flat.
 //!
 //! A tube of radius R that has worn by the depth d bears with a scar whose cross-section, over the
-//! width of the support, has the volume V = L A(d). On a flat A is the segment that a chord at depth
-//! d cuts off the circle; in a hole of radius R_h = R + γ it is the part of the circle outside the
-//! hole when the tube is moved by d beyond the position in which it touches, a moon:
+//! width of the support, has the volume V = L A(d). On a flat A is the segment that a chord at
+//! depth d cuts off the circle; in a hole of radius R_h = R + γ it is the part of the circle
+//! outside the hole when the tube is moved by d beyond the position in which it touches, a moon:
 //!
 //! A = R² acos((x − c)/R) − R_h² acos(x/R_h) + h c,   c = γ + d,   x = (R_h² − R² + c²)/(2c),
 //! h² = R_h² − x²
@@ -36,8 +36,8 @@ pub fn flat_area(depth: f64, radius: f64) -> f64 {
     radius * radius * segment(2.0 * share.sqrt().asin())
 }
 
-/// Area (m²) of the moon by which a tube of radius `radius` (m) lies outside a hole that is wider by
-/// the radial gap `gap` (m, above 0), when it is moved by `depth` (m) beyond touching; from 0 to
+/// Area (m²) of the moon by which a tube of radius `radius` (m) lies outside a hole that is wider
+/// by the radial gap `gap` (m, above 0), when it is moved by `depth` (m) beyond touching; from 0 to
 /// twice the radius.
 #[must_use]
 pub fn moon_area(depth: f64, radius: f64, gap: f64) -> f64 {
@@ -109,7 +109,8 @@ fn depth_of(wanted: f64, radius: f64, area: impl Fn(f64) -> f64, slope: impl Fn(
             low = depth
         }
         let newton = depth - over / slope(depth);
-        // Where the bracket is wide, its geometric mean: a depth may be far smaller than the radius.
+        // Where the bracket is wide, its geometric mean: a depth may be far smaller than the
+        // radius.
         let middle = if low > 0.0 { (low * high).sqrt() } else { 1e-3 * high };
         let next = if newton > low && newton < high { newton } else { middle };
         if (next - depth).abs() <= 2.0 * f64::EPSILON * depth {

@@ -2,8 +2,8 @@
 //! depth of the scar that follows.
 //!
 //! The work of wear is W = ∫ F_n |v_t| dt, with F_n the normal force of a support and v_t the speed
-//! at which the structure slides there. Archard's law makes a worn volume of it, V = k W, with k the
-//! wear coefficient (Archard 1953, doi:10.1063/1.1721448).
+//! at which the structure slides there. Archard's law makes a worn volume of it, V = k W, with k
+//! the wear coefficient (Archard 1953, doi:10.1063/1.1721448).
 
 mod archard;
 mod blows;

@@ -1,10 +1,9 @@
 //! What slides in a step: each contact of each support, with its force and its sliding velocity.
 //!
-//! The sliding velocity is v_t = t · (g_y · q̇, g_z · q̇) with t = (−n_z, n_y) and n the outward normal
-//! of the contact. For a step on a grid it goes evenly from the step's start, after the impulses of
-//! loads, to its end. For exact
-//! motion force and velocity are polynomials in time, and |v_t| is integrated from one sign change
-//! to the next.
+//! The sliding velocity is v_t = t · (g_y · q̇, g_z · q̇) with t = (−n_z, n_y) and n the outward
+//! normal of the contact. For a step on a grid it goes evenly from the step's start, after the
+//! impulses of loads, to its end. For exact motion force and velocity are polynomials in time, and
+//! |v_t| is integrated from one sign change to the next.
 
 use super::blows::Blow;
 use super::stretch::{Slid, Sliding};

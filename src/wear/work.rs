@@ -2,7 +2,8 @@
 //!
 //! In an impulse the velocity changes in proportion to the impulse given so far, whatever the force
 //! does over time: v_t = v₀ + (v₁ − v₀) s with s the share that has been given. So the work of a
-//! rigid impact is finite, although its force is not, and it does not depend on a contact stiffness:
+//! rigid impact is finite, although its force is not, and it does not depend on a contact
+//! stiffness:
 //!
 //! W = ∫ |v_t| dp = p (|v₀| + |v₁|)/2, or p (v₀² + v₁²)/(2|v₁ − v₀|) where v_t changes its sign.
 

@@ -82,9 +82,9 @@ fn by_event(lanes: &[Lane]) -> Vec<Lane> {
 }
 
 /// The root of the variance that noise of one unit, entering the state at every event, has reached
-/// at the end of each of `periods` periods, carried by the exact derivative of the motion, up to the
-/// first period in which it reaches `most`. Displacement counts in `size` (m), velocity in `size` ·
-/// `rate` (1/s).
+/// at the end of each of `periods` periods, carried by the exact derivative of the motion, up to
+/// the first period in which it reaches `most`. Displacement counts in `size` (m), velocity in
+/// `size` · `rate` (1/s).
 fn amplified(lane: &Lane, periods: u32, (size, rate): (f64, f64), most: f64) -> Vec<f64> {
     let scene = lane.scene(f64::from(periods) * lane.period);
     let mut stepper = Stepper::new(&scene, &Scheme::Event, lane.period).unwrap();

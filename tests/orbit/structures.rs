@@ -7,9 +7,9 @@ use signorini::orbit::{Kind, Problem, Shot, closed_forms, shoot};
 use signorini::{Error, Load, Result, Row, Scene, Scheme, State, Stepper, Structure, Wall, WallLaw};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// `first`, a body of one degree of freedom (kg, N s/m, N/m), and beside it a second one that nothing
-/// joins to it, under a load of `frequency` (Hz). Both are seen in coordinates turned by an angle, so
-/// that the matrices are full.
+/// `first`, a body of one degree of freedom (kg, N s/m, N/m), and beside it a second one that
+/// nothing joins to it, under a load of `frequency` (Hz). Both are seen in coordinates turned by an
+/// angle, so that the matrices are full.
 fn beside(first: &Scene, [mass, damping, stiffness]: [f64; 3], frequency: f64) -> Scene {
     let (c, s) = (0.8, 0.6);
     // q = T p with p the two bodies: M = T diag T' as T' T = 1.

@@ -1,5 +1,5 @@
-//! `signorini orbit` and `signorini continue`: files that read back, exit codes, and what they say of
-//! wrong requests.
+//! `signorini orbit` and `signorini continue`: files that read back, exit codes, and what they say
+//! of wrong requests.
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

@@ -304,7 +304,8 @@ fn branches_show_the_orbit_that_is_clicked() {
     tab.close();
 }
 
-/// An orbit through a wall is told as such, and has nothing that could be drawn but its multipliers.
+/// An orbit through a wall is told as such, and has nothing that could be drawn but its
+/// multipliers.
 #[test]
 fn an_orbit_that_no_body_can_follow_has_a_page_that_says_so() {
     let Some(mut browser) = Browser::start() else { return };

@@ -1,5 +1,5 @@
-//! The report: what it holds, that no text of a case becomes markup, and that it is written whole or
-//! not at all.
+//! The report: what it holds, that no text of a case becomes markup, and that it is written whole
+//! or not at all.
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

@@ -59,8 +59,8 @@ fn the_density_of_the_force_is_the_one_asked_for() {
 
 #[test]
 fn the_response_has_the_variance_of_the_line_spectrum() {
-    // Σ S Δf |H(f_i)|² of an oscillator, with 40 digits, for 781 lines over 20 s: the mean square of
-    // the steady response over one period of the force, whatever the phases. Four periods of the
+    // Σ S Δf |H(f_i)|² of an oscillator, with 40 digits, for 781 lines over 20 s: the mean square
+    // of the steady response over one period of the force, whatever the phases. Four periods of the
     // table, one after another; after three the start has decayed by e^(−0.4·60) = 4e-11.
     let (end, steady) = (20.0, 1.560_804_164_802_229_5e-6);
     for seed in [3, 4] {

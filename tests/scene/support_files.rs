@@ -87,7 +87,8 @@ fn a_hole_alone_gets_probes_and_a_beam_its_radius() {
 
 #[test]
 fn a_summary_holds_the_supports_of_its_case() {
-    // Written from the scene and read again: the same case, also after a change of all restitutions.
+    // Written from the scene and read again: the same case, also after a change of all
+    // restitutions.
     for text in [BOTH.to_owned(), BOTH.replace("turn = 45", "turn = 30\nwidth = 0.03\nradius = 0.01")] {
         let case = parsed(&text);
         let mut changed = case.clone();

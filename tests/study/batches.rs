@@ -182,7 +182,8 @@ fn sliding_under_a_force_that_grows_wears_with_the_half_width_of_a_straight_line
 
 #[test]
 fn two_steps_of_contact_are_an_impact_that_slides_nowhere_and_three_last() {
-    // Pressed onto a flat by 2 N for some steps of 0.01 s while sliding at 0.3 m/s, then pulled off.
+    // Pressed onto a flat by 2 N for some steps of 0.01 s while sliding at 0.3 m/s, then pulled
+    // off.
     let (h, jean) = (1e-2, Scheme::MoreauJean { theta: 0.5 });
     for pushed in 1..6_u32 {
         let until = f64::from(pushed) * h;

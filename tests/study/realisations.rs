@@ -75,9 +75,9 @@ fn what_fails_or_is_stopped_ends_all() {
 
 #[test]
 fn a_hole_carries_what_presses_into_it() {
-    // 1 kg in two planes on springs of 100 N/m in a hole of 1 mm, pushed by 10 N along (−0.6, −0.8):
-    // it rests on the hole there, which carries the load less the spring's 0.1 N. The start is a
-    // millionth short of the hole; the impact there dies out in the first half of the run.
+    // 1 kg in two planes on springs of 100 N/m in a hole of 1 mm, pushed by 10 N along (−0.6,
+    // −0.8): it rests on the hole there, which carries the load less the spring's 0.1 N. The start
+    // is a millionth short of the hole; the impact there dies out in the first half of the run.
     let [mass, damping, stiffness] = [1.0, 0.0, 100.0].map(|x| Symmetric::diagonal(&[x, x]));
     let mut scene = Scene::structure(Structure { mass, damping, stiffness }).with_duration(1.0);
     let shape = Shape::Round { gap: 1e-3, law: WallLaw::Rigid { restitution: 0.0 } };

@@ -258,8 +258,8 @@ fn the_rms_of_a_rigid_wall_does_not_depend_on_the_step_and_that_of_a_spring_is_t
         assert!((force.rms_n / expected - 1.0).abs() < tolerance, "{scheme}: {force:?}, expected {expected}");
         assert!((force.mean_n * 0.1 - 2.0).abs() < 1e-3 && force.rms_averaged_over_s.is_none(), "{scheme}: {force:?}");
     }
-    // The whole contact, 3.14 rad of exact motion, in one piece: the quadrature of its squared force
-    // has seven parts.
+    // The whole contact, 3.14 rad of exact motion, in one piece: the quadrature of its squared
+    // force has seven parts.
     let times = signorini::TimeOptions { force_averaging: 0.1, ..signorini::TimeOptions::with_step(0.1) };
     let run = signorini::run(&spring, &signorini::Scheme::Event, &signorini::Options::new(times)).expect("a run");
     let force = run.statistics.walls[0].force.expect("a window");

@@ -32,7 +32,8 @@ pub struct Tab<'a> {
 }
 
 impl Browser {
-    /// Starts the browser that `SIGNORINI_BROWSER` names, or `chromium`; `None` where there is none.
+    /// Starts the browser that `SIGNORINI_BROWSER` names, or `chromium`; `None` where there is
+    /// none.
     pub fn start() -> Option<Self> {
         let name = std::env::var_os("SIGNORINI_BROWSER").unwrap_or_else(|| OsString::from("chromium"));
         Command::new(&name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().ok()?;

@@ -2,8 +2,8 @@
 
 use signorini::case::Case;
 
-/// What is wrong; the text of the right case that is replaced, and its replacement; line:column of the
-/// error; what the message must contain.
+/// What is wrong; the text of the right case that is replaced, and its replacement; line:column of
+/// the error; what the message must contain.
 pub type Wrong = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
 /// The wrong texts that are not rejected at the expected place and with the expected words.

@@ -102,8 +102,8 @@ fn the_force_of_a_spring_has_the_spectrum_of_its_displacement() {
     let (header, force) = columns(&path.join("spectrum-stop.csv"));
     assert_eq!(header, "frequency_Hz,contact_force_N2_per_Hz");
     assert_eq!(displacement[0], force[0]);
-    // Averaging over w = 5 ms multiplies by sinc²(f w). The averages lie half a row before the rows,
-    // which moves the segments against each other: a thousandth of their length of 512.
+    // Averaging over w = 5 ms multiplies by sinc²(f w). The averages lie half a row before the
+    // rows, which moves the segments against each other: a thousandth of their length of 512.
     let mut compared = 0;
     for (i, &f) in force[0].iter().enumerate().filter(|(_, f)| (1.5..29.5).contains(*f)) {
         let x = std::f64::consts::PI * f * 5e-3;

@@ -5,8 +5,8 @@ use crate::elementary::{TOGETHER, exps, sines};
 use nalgebra::Complex;
 
 impl Response {
-    /// Displacements and velocities at the times in `q`, which they replace: as [`Response::state`],
-    /// to the last bit, but with the sines of all times in one loop.
+    /// Displacements and velocities at the times in `q`, which they replace: as
+    /// [`Response::state`], to the last bit, but with the sines of all times in one loop.
     pub fn states(&self, q: &mut [f64], v: &mut [f64]) {
         let Roots::Pair { omega, powers } = &self.equation.roots else {
             return self.one_by_one(q, v);

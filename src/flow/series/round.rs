@@ -4,8 +4,8 @@
 use crate::linear::{Factor, Rows};
 use crate::scene::Hole;
 
-/// A round hole. Its row n·P stands beside the rows of the walls, as that of an upper wall at γ + n·c
-/// where |w| = γ.
+/// A round hole. Its row n·P stands beside the rows of the walls, as that of an upper wall at γ +
+/// n·c where |w| = γ.
 #[derive(Debug)]
 pub(crate) struct Round {
     /// γ, m.

@@ -26,8 +26,8 @@ const ITERATIONS: usize = 12;
 /// Most corrections that locate a point.
 const LOCATED: usize = 60;
 
-/// A step this short hardly advances, and after so many of them in a row a branch is left: it nears a
-/// point at which it becomes singular, such as one where several contacts graze at once.
+/// A step this short hardly advances, and after so many of them in a row a branch is left: it nears
+/// a point at which it becomes singular, such as one where several contacts graze at once.
 const SHORT: f64 = 1e-5;
 const MOST_SHORT: usize = 100;
 
@@ -133,8 +133,8 @@ pub(super) fn tangent(matrix: &DMatrix<f64>, along: &Vector) -> Result<Vector> {
 }
 
 /// The solution in the plane through `guess` across `border`, by Newton's method; with its
-/// linearised equations, and how many iterations that took. `linear` gives residual and derivatives,
-/// n × (n + 1), at a point, and whatever else belongs to them.
+/// linearised equations, and how many iterations that took. `linear` gives residual and
+/// derivatives, n × (n + 1), at a point, and whatever else belongs to them.
 ///
 /// # Errors
 /// [`Error::NoOrbit`] where it does not converge; those of `linear`.
@@ -167,8 +167,8 @@ pub(super) fn correct<L>(
     Err(Error::no_orbit(format!("Newton's method did not converge: the residual is {last:.1e} of the gap")))
 }
 
-/// A point of the branch that leaves `origin` along `aside`, by a small amplitude, and the direction
-/// to it; `correct` takes a guess to that branch.
+/// A point of the branch that leaves `origin` along `aside`, by a small amplitude, and the
+/// direction to it; `correct` takes a guess to that branch.
 ///
 /// # Errors
 /// [`Error::NoOrbit`] where none was found near.

@@ -11,8 +11,8 @@ pub enum Label {
     Fold,
     /// A branch of twice the period begins (a multiplier −1).
     PeriodDoubling,
-    /// Two orbits that are not symmetric, each the mirror image of the other, branch off a symmetric
-    /// one (a multiplier −1 of the half map, 1 of the whole).
+    /// Two orbits that are not symmetric, each the mirror image of the other, branch off a
+    /// symmetric one (a multiplier −1 of the half map, 1 of the whole).
     SymmetryBreaking,
     /// Another branch crosses (a multiplier 1): of structures alone.
     BranchPoint,

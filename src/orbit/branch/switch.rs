@@ -19,8 +19,8 @@ use nalgebra::DVector;
 const PROBE: f64 = 1e-4;
 
 impl Problem {
-    /// The orbit of which `orbit` is several turns, or both halves, and the label of the point where
-    /// a branch of such orbits begins.
+    /// The orbit of which `orbit` is several turns, or both halves, and the label of the point
+    /// where a branch of such orbits begins.
     pub(super) fn halves(&self, orbit: &Orbit) -> Option<(Orbit, Label)> {
         let (part, mirrored) = orbit.part(self.mirror())?;
         Some((part, if mirrored { Label::SymmetryBreaking } else { Label::PeriodDoubling }))

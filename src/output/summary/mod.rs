@@ -155,7 +155,8 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
     };
     let mut document = serde_json::to_value(&summary)
         .map_err(|error| Error::io("the summary", error.to_string(), false).caused_by(error))?;
-    // The wear of supports has a place of its own, and a scene without supports says nothing of them.
+    // The wear of supports has a place of its own, and a scene without supports says nothing of
+    // them.
     if let Some(statistics) = document.get_mut("statistics").and_then(Value::as_object_mut) {
         statistics.remove("wear");
         if statistics.get("supports").is_some_and(no_supports) {

@@ -6,8 +6,8 @@
 //!   its decaying part and of its steady part add up to less than the gaps;
 //! - *periodic*: the states once a period of the load come within 1e-3 of those N ≤ 32 periods
 //!   before; Newton's method on the map over N periods, with the derivative of
-//!   [`variation`](crate::variation), lands on an orbit near by; its multipliers are within the unit
-//!   circle; and the run approaches it twice as the derivative says;
+//!   [`variation`](crate::variation), lands on an orbit near by; its multipliers are within the
+//!   unit circle; and the run approaches it twice as the derivative says;
 //! - else, at the end of the run, periodic if the states have repeated themselves three times to
 //!   1e-3 and Newton's method lands on a stable orbit near by; *chaotic* if the largest Lyapunov
 //!   exponent over the window is more than three standard errors above 0; or not decided.

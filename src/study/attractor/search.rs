@@ -20,8 +20,8 @@ const NEAR: f64 = 1e-3;
 /// How often it must have come back at the end of the run.
 const REPEATS: usize = 3;
 
-/// How often the run must approach the orbit as its derivative says, and how well, as a share of the
-/// distance before; below the last it counts as there.
+/// How often the run must approach the orbit as its derivative says, and how well, as a share of
+/// the distance before; below the last it counts as there.
 const APPROACHES: u32 = 2;
 const AS_SAID: f64 = 0.2;
 const THERE: f64 = 1e-9;
@@ -81,8 +81,9 @@ impl Attractor {
     }
 }
 
-/// The largest Lyapunov exponent (1/s) of the stable periodic motion over `count` periods (s) of the
-/// load that passes near `state` at a whole one of them: ln|μ| over its time. `None` without one.
+/// The largest Lyapunov exponent (1/s) of the stable periodic motion over `count` periods (s) of
+/// the load that passes near `state` at a whole one of them: ln|μ| over its time. `None` without
+/// one.
 #[cfg(feature = "cli")]
 pub(crate) fn exponent(scene: &Checked, period: f64, count: usize, state: &State) -> Option<f64> {
     let orbit = near(scene, period, count, &vector(&state.q, &state.v))?;

@@ -34,8 +34,8 @@ impl Realisations {
         Self { count: members.len(), interval, refuted: refuted.collect(), estimates: estimates(&members), members }
     }
 
-    /// Adds what half the step changes, from `halves`: the same realisations in the same order, with
-    /// half the step.
+    /// Adds what half the step changes, from `halves`: the same realisations in the same order,
+    /// with half the step.
     #[must_use]
     pub fn with_half_step(mut self, halves: &[Realisation]) -> Self {
         add_half_step(&mut self.estimates, &self.members, halves);

@@ -10,9 +10,9 @@ use crate::orbit::branch::point::Point;
 use crate::orbit::signature::{Event, Kind};
 use crate::orbit::watch::Passage;
 
-/// A graze is looked for where its test function, continued as a straight line, vanishes within this
-/// arclength (of points of size 1). Steps are shorter there, but impact speeds and gaps go to 0 as
-/// straight lines do.
+/// A graze is looked for where its test function, continued as a straight line, vanishes within
+/// this arclength (of points of size 1). Steps are shorter there, but impact speeds and gaps go to
+/// 0 as straight lines do.
 const AHEAD: f64 = 0.1;
 
 /// Most contacts that are tried.
@@ -60,9 +60,10 @@ impl<'a> Change<'a> {
 }
 
 impl<'a> Shots<'a> {
-    /// The change ahead of `now`, which a step could not be kept for: a graze near which the map has
-    /// a square root, or a change through which Newton's method finds a way. `before` is the point
-    /// before, with its distance; `other` the orbit at the end of the step, if it has other events.
+    /// The change ahead of `now`, which a step could not be kept for: a graze near which the map
+    /// has a square root, or a change through which Newton's method finds a way. `before` is the
+    /// point before, with its distance; `other` the orbit at the end of the step, if it has other
+    /// events.
     pub(super) fn change(
         &self,
         now: &Here,

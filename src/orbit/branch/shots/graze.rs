@@ -1,9 +1,10 @@
 //! The orbit that touches a wall without speed, and the orbits beside it that strike the wall.
 //!
-//! In a window around the touch the wall is put out of the way: the map P̃ with that window is smooth
-//! through the graze, and so is the gap at the turning point of the motion in it. The grazing orbit
-//! solves P̃(x; λ) = x, gap(x; λ) = 0. From there the orbits without the contact go along the tangent
-//! of P̃(x; λ) = x. Those that strike a rigid wall with the speed v go, to first order in v, along
+//! In a window around the touch the wall is put out of the way: the map P̃ with that window is
+//! smooth through the graze, and so is the gap at the turning point of the motion in it. The
+//! grazing orbit solves P̃(x; λ) = x, gap(x; λ) = 0. From there the orbits without the contact go
+//! along the tangent of P̃(x; λ) = x. Those that strike a rigid wall with the speed v go, to first
+//! order in v, along
 //!
 //! (P̃′ − 1) δx + ∂P̃/∂λ δλ + K v = 0, ∂gap/∂x δx + ∂gap/∂λ δλ = 0,
 //!
@@ -31,7 +32,8 @@ const ITERATIONS: usize = 12;
 const SOLVED: f64 = 1e-13;
 const ACCEPTED: f64 = 1e-10;
 
-/// The stretch after the touch that gives the acceleration, as a share of what is left of the window.
+/// The stretch after the touch that gives the acceleration, as a share of what is left of the
+/// window.
 const SOON: f64 = 1e-4;
 
 /// Impact speeds, over the scale of speeds, that are tried first on the branch with the impact …
@@ -40,8 +42,8 @@ const SPEEDS: [f64; 4] = [3e-3, 1e-3, 3e-4, 1e-4];
 /// … and steps on that without it, or on that with an elastic contact.
 const BESIDE: [f64; 4] = [1e-3, 3e-4, 1e-4, 1e-5];
 
-/// Most iterations that find the first orbit with the impact, and the change at which they end, over
-/// the square of its speed.
+/// Most iterations that find the first orbit with the impact, and the change at which they end,
+/// over the square of its speed.
 const STRIKES: usize = 30;
 const STRUCK: f64 = 1e-4;
 
@@ -84,8 +86,8 @@ pub(super) struct Graze {
 }
 
 impl<'a> Shots<'a> {
-    /// The map from the state `x` with the wall of `contact` away in its window; its derivatives too
-    /// where `whole`.
+    /// The map from the state `x` with the wall of `contact` away in its window; its derivatives
+    /// too where `whole`.
     fn free(&self, posed: Posed, x: &Vector, contact: &Contact, whole: bool) -> Result<Free> {
         let Posed { scene, period } = &posed;
         let n = x.len() / 2;
@@ -189,8 +191,8 @@ impl<'a> Shots<'a> {
         Ok(&free.after * DVector::from_vec(aside) * change)
     }
 
-    /// The special point of a graze; `vanished` are the events of the contact that has lost its speed
-    /// there, and is still one of the branch's signature.
+    /// The special point of a graze; `vanished` are the events of the contact that has lost its
+    /// speed there, and is still one of the branch's signature.
     pub(super) fn grazing(&self, graze: &Graze, vanished: &[Passage]) -> Point {
         let mut turn = graze.turn.clone();
         let place = turn.passages.partition_point(|p| p.phase < graze.touch.phase);

@@ -32,7 +32,8 @@ const DIFFERENCE: f64 = 1e-6;
 /// … and what it is multiplied by where the contacts differ at its ends.
 const FINER: [f64; 3] = [1.0, 1e-2, 1e-4];
 
-/// Two halves of an orbit within this share of the scales of each other are one half and its mirror.
+/// Two halves of an orbit within this share of the scales of each other are one half and its
+/// mirror.
 const MIRRORED: f64 = 1e-7;
 
 /// The curve.
@@ -69,8 +70,8 @@ struct Linear {
 }
 
 impl<'a> Shots<'a> {
-    /// The curve through `start` at the key's value `value`, and the point there; `beside` is another
-    /// value, which tells whether the key keeps the mirror symmetry.
+    /// The curve through `start` at the key's value `value`, and the point there; `beside` is
+    /// another value, which tells whether the key keeps the mirror symmetry.
     pub fn begin(family: &'a Family<'a>, start: &Shot, value: f64, beside: f64, width: f64) -> Result<(Self, Vector)> {
         let scene = family(value)?;
         let period = posed(&scene)?;
@@ -151,8 +152,8 @@ impl<'a> Shots<'a> {
         Ok(same.then(|| self.scales.scaled(&other.end) * self.sign()))
     }
 
-    /// The derivative of `of` with the key over its width at `y`, by differences; `of` gives nothing
-    /// where they would be meaningless.
+    /// The derivative of `of` with the key over its width at `y`, by differences; `of` gives
+    /// nothing where they would be meaningless.
     fn column(&self, y: &Vector, of: impl Fn(&Posed) -> Result<Option<Vector>>) -> Result<Vector> {
         let value = self.value(y);
         let at = |value: f64| self.posed(value).and_then(|posed| of(&posed));
