@@ -122,7 +122,8 @@ fn series(title: &str, scenes: impl Iterator<Item = Scene>) -> Vec<Cost> {
         let Cost { n, walls, step, setup, programmes, pivots, interior, factor } = &cost;
         let (dof, wall) = (step / *n as f64, step / (*walls).max(1) as f64);
         println!(
-            "{n:>7} {walls:>6} {step:>12.0} {dof:>10.2} {wall:>10.1} {programmes:>10.3} {pivots:>8.2} {interior:>8.2} {setup:>10.2e}  {factor}"
+            "{n:>7} {walls:>6} {step:>12.0} {dof:>10.2} {wall:>10.1} {programmes:>10.3} \
+             {pivots:>8.2} {interior:>8.2} {setup:>10.2e}  {factor}"
         );
         let slow = step * 1e-9 > TURN.as_secs_f64() || *setup > LIMIT.as_secs_f64();
         costs.push(cost);

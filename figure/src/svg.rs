@@ -59,8 +59,9 @@ impl Canvas {
         let mut out = String::with_capacity(1 << 14);
         let _ = write!(
             out,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.1}mm\" height=\"{:.1}mm\" viewBox=\"0 0 {:.0} {:.0}\" \
-             font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" fill=\"none\" stroke-linejoin=\"round\">\n<title>",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.1}mm\" height=\"{:.1}mm\" \
+             viewBox=\"0 0 {:.0} {:.0}\" font-family=\"Helvetica, Arial, 'DejaVu Sans', \
+             sans-serif\" fill=\"none\" stroke-linejoin=\"round\">\n<title>",
             width / 4.0,
             height / 4.0,
             width,

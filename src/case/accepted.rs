@@ -148,8 +148,8 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("load.table.scale", "scale = a number other than 0: how many N one unit of the column is"),
     (
         "load.random",
-        "random = { rms = N, from = Hz, to = Hz, seed = 1 }, or psd = [[Hz, N^2/Hz], ..] or file = \"psd.csv\" in place \
-         of rms, from and to",
+        "random = { rms = N, from = Hz, to = Hz, seed = 1 }, or psd = [[Hz, N^2/Hz], ..] or file = \
+         \"psd.csv\" in place of rms, from and to",
     ),
     ("load.random.rms", "rms = a number above 0, in N: the root mean square of the force"),
     ("load.random.from", "from = a number above 0, in Hz: where the band begins"),

@@ -11,7 +11,8 @@ use std::str::FromStr;
 /// use signorini::case::KeyValue;
 ///
 /// assert_eq!("0.8".parse::<KeyValue>()?.number(), Some(0.8));
-/// assert_eq!("clamped".parse::<KeyValue>()?, KeyValue::from("clamped")); // a bare word needs no quotes
+/// // A bare word needs no quotes.
+/// assert_eq!("clamped".parse::<KeyValue>()?, KeyValue::from("clamped"));
 /// # Ok::<(), signorini::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]

@@ -28,7 +28,8 @@ Examples:
   signorini compare rigid-walls-sine --schemes moreau-jean,paoli-schatzman,implicit-euler,newmark
   signorini compare rigid-walls-sine --schemes 'moreau-jean:theta=0.75;penalty:epsilon=1e-9,integrator=trapezoidal'
 
-Methods are written as in the table. Separate them by commas; where a method's own settings need commas, by semicolons.";
+Methods are written as in the table. Separate them by commas; where a method's own settings need
+commas, by semicolons.";
 
 /// Compare methods on one case: constrained QP, penalty and the exact motion, side by side
 #[derive(Debug, clap::Args)]

@@ -42,7 +42,8 @@ impl Stretch {
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Formats {
     /// Write pictures as svg, pdf or png, or several of them [default: svg]
-    #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = values::formats(), hide_possible_values = true)]
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
+    #[arg(value_parser = values::formats(), hide_possible_values = true)]
     format: Vec<Format>,
 }
 

@@ -20,16 +20,19 @@ const EXAMPLES: &str = "\
 Examples:
   signorini orbit rigid-walls-sine --set 'wall.*.restitution=0.8' --settle 400
   signorini orbit rigid-walls-sine --set 'wall.*.restitution=0.8' --list
-  signorini orbit rigid-walls-sine --set 'wall.*.restitution=0.8' --signature U --symmetric --start 0.743,0.033
-  signorini orbit rigid-walls-sine --set 'wall.*.restitution=0.8' --from out/rigid-walls-sine/orbit/orbit.json
+  signorini orbit rigid-walls-sine --set 'wall.*.restitution=0.8' \\
+      --signature U --symmetric --start 0.743,0.033
+  signorini orbit rigid-walls-sine --set 'wall.*.restitution=0.8' \\
+      --from out/rigid-walls-sine/orbit/orbit.json
 
-A signature is a list of walls, one for each impact, by name (upper,lower) or, where no two names begin alike, by letter (UL);
-other events are written upper:rest, upper:release, pad:enter, pad:leave. --start has the phase of each event in cycles of the
-forcing period and its speed in m/s. With --symmetric both mean the first half of an orbit that is its own mirror image.
-Writes orbit.json (which --from and `signorini continue` read), orbit.csv (the motion), contacts.csv, pictures of phase plane
-and time, and report.html, which shows them all. Of a structure the orbit on which its run settles, or one near that of
---from, is found by shooting, and orbit.json and report.html are written.
-docs/orbits.md has the method.";
+A signature is a list of walls, one for each impact, by name (upper,lower) or, where no two names
+begin alike, by letter (UL); other events are written upper:rest, upper:release, pad:enter,
+pad:leave. --start has the phase of each event in cycles of the forcing period and its speed in
+m/s. With --symmetric both mean the first half of an orbit that is its own mirror image.
+Writes orbit.json (which --from and `signorini continue` read), orbit.csv (the motion),
+contacts.csv, pictures of phase plane and time, and report.html, which shows them all. Of a
+structure the orbit on which its run settles, or one near that of --from, is found by shooting,
+and orbit.json and report.html are written. docs/orbits.md has the method.";
 
 /// A periodic orbit: from a run that settles, a signature or a file; multipliers, forces, check
 #[derive(Debug, clap::Args)]

@@ -15,7 +15,8 @@ Examples:
   signorini report out/rigid-walls-sine/run
   signorini report out/rigid-walls-sine/compare --out comparison.html
 
-run, compare, chart, stability, sweep, orbit and continue write report.html beside their results already, unless --no-report is given.")]
+run, compare, chart, stability, sweep, orbit and continue write report.html beside their results
+already, unless --no-report is given.")]
 pub struct Args {
     /// Folder of results of run, compare, chart, stability, sweep, orbit or continue
     #[arg(value_hint = clap::ValueHint::DirPath)]

@@ -24,20 +24,25 @@ Examples:
   signorini stability rigid-walls-sine --restitution 0.8
   signorini stability bouncing-ball --out results
 
-Writes impact-map.csv and .svg (the restitution of one free impact by its phase within the step), stability.csv (every run of
-every map) and one stability-*.svg a scheme: classes over step and restitution, ε or wall stiffness; and lasting-contact.csv,
-what each scheme does at the case's step, at a quarter and at four times of it, to the energy and to the force of the largest
-contact that lasts: its ripple is the deviation of the force from its mean, over that mean (0: constant, 1: on and off).
-report.html shows them all; every cell of a map tells its class and the reason.
+Writes impact-map.csv and .svg (the restitution of one free impact by its phase within the step),
+stability.csv (every run of every map) and one stability-*.svg a scheme: classes over step and
+restitution, ε or wall stiffness; and lasting-contact.csv, what each scheme does at the case's
+step, at a quarter and at four times of it, to the energy and to the force of the largest contact
+that lasts: its ripple is the deviation of the force from its mean, over that mean (0: constant,
+1: on and off). report.html shows them all; every cell of a map tells its class and the reason.
 
 Classes, from harmless to worst, against a fine run of the same scene:
-  stable           energy kept as the walls' law has it; speeds, contacts and rest as in the reference (right in kind, not exact)
-  dissipative      more than 5 % of the energy arriving at the walls lost per impact, beyond what restitution takes
+  stable           energy kept as the walls' law has it; speeds, contacts and rest as in the
+                   reference (right in kind, not exact)
+  dissipative      more than 5 % of the energy arriving at the walls lost per impact, beyond what
+                   restitution takes
   frozen           the body stands still: it crosses the gap in less than a step
-  astray           another motion: a wall passed beyond the scheme's bound, contacts off by a factor of 2, speeds above 1.5 or
-                   below 0.7 of the reference's, or no rest where rest is due
+  astray           another motion: a wall passed beyond the scheme's bound, contacts off by a
+                   factor of 2, speeds above 1.5 or below 0.7 of the reference's, or no rest where
+                   rest is due
   energy-gaining   more than 1 % of the energy arriving at the walls made per impact
-  diverged         speeds above 10 times the reference's, not finite, or a step that cannot be solved";
+  diverged         speeds above 10 times the reference's, not finite, or a step that cannot be
+                   solved";
 
 /// h²k_w/m, at the case's step, of the penalty that is used for a case without one; it is resolved.
 const KAPPA: f64 = 0.1;

@@ -20,18 +20,24 @@ use std::time::{Duration, Instant};
 const EXAMPLES: &str = "\
 Examples:
   signorini sweep bifurcation.toml
-  signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=1:10:901 --measure contacts,displacement_max --keep 60 --settle 400
-  signorini sweep rigid-walls-sine --vary 'wall.*.restitution=0.5,0.8,1' --vary time.step=1e-5:1e-3:9:log --measure force_rms
-  signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=4:5:201 --follow both --scheme event --samples periods --keep 60 --settle 200
-  signorini sweep rigid-walls-sine --set 'wall.*.restitution=0.8' --vary initial.displacement=-5e-3:5e-3:200 --vary initial.velocity=-0.4:0.4:200 --measure attractor,period --scheme event --settle 400 --keep 60
-  signorini sweep tube.toml --vary system.damping.ratio=0.005:0.02 --random sobol --points 256 --measure impact_power
+  signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=1:10:901 \\
+      --measure contacts,displacement_max --keep 60 --settle 400
+  signorini sweep rigid-walls-sine --vary 'wall.*.restitution=0.5,0.8,1' \\
+      --vary time.step=1e-5:1e-3:9:log --measure force_rms
+  signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=4:5:201 --follow both \\
+      --scheme event --samples periods --keep 60 --settle 200
+  signorini sweep rigid-walls-sine --set 'wall.*.restitution=0.8' \\
+      --vary initial.displacement=-5e-3:5e-3:200 --vary initial.velocity=-0.4:0.4:200 \\
+      --measure attractor,period --scheme event --settle 400 --keep 60
+  signorini sweep tube.toml --vary system.damping.ratio=0.005:0.02 --random sobol \\
+      --points 256 --measure impact_power
   signorini sweep bifurcation.toml --plan          how many rows, how long, how many bytes
   signorini sweep bifurcation.toml --shard 3/128   one part of 128; `signorini merge` joins them
 
 A sweep file is TOML with a key `case`; docs/sweep.md has its format, and all measures.
 After an interruption at any instant, the same command continues, and ends with the same bytes.
-Results: sweep.csv, one row per point, with the reason if it failed; samples.csv, the instants; attractors.csv,
-of a basin; a picture; summary.json; report.html.";
+Results: sweep.csv, one row per point, with the reason if it failed; samples.csv, the instants;
+attractors.csv, of a basin; a picture; summary.json; report.html.";
 
 /// Many runs of one case: curves, maps, bifurcation diagrams and random designs as one table
 #[derive(Debug, clap::Args)]

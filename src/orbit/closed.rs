@@ -146,8 +146,8 @@ impl Linear {
             }
         };
         let free = || {
-            let expected = "a structure that springs hold, not at the resonance of an undamped one: else its steady motion \
-                            is not determined (a settled run needs none)";
+            let expected = "a structure that springs hold, not at the resonance of an undamped \
+                one: else its steady motion is not determined (a settled run needs none)";
             Error::invalid("system", "without a steady motion", expected)
         };
         let inverse_mass = mass.clone().try_inverse().ok_or_else(free)?;

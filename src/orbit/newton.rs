@@ -83,7 +83,8 @@ impl Problem {
         if let Some(index) = orbit.phases.iter().zip(next).position(|(phase, next)| next <= *phase) {
             let event = index + 1;
             return Err(Error::no_orbit(format!(
-                "Newton's method ended where event {event} comes after the one that follows it: start nearer, or with another signature"
+                "Newton's method ended where event {event} comes after the one that follows it: \
+                 start nearer, or with another signature"
             )));
         }
         Ok(orbit.rotated(0))

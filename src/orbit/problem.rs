@@ -52,8 +52,8 @@ impl Problem {
             return Err(Error::invalid(
                 "system",
                 format!("one of {n} degrees of freedom"),
-                "one degree of freedom: of a structure, orbits are found by settling and shooting, or in closed form, not \
-                 by signature, and not followed over a key",
+                "one degree of freedom: of a structure, orbits are found by settling and shooting, \
+                 or in closed form, not by signature, and not followed over a key",
             ));
         };
         if !scene.is_line() {

@@ -187,8 +187,8 @@ impl Shooting<'_> {
             }
         }
         Err(Error::no_orbit(format!(
-            "the motion does not come back within {LONGEST} forcing periods after {settle} of them: it is chaotic or has \
-             not settled yet (settle longer, or start elsewhere)"
+            "the motion does not come back within {LONGEST} forcing periods after {settle} of \
+             them: it is chaotic or has not settled yet (settle longer, or start elsewhere)"
         )))
     }
 
@@ -223,8 +223,8 @@ impl Shooting<'_> {
         }
         let Some((closure, x, turn)) = best.filter(|(miss, ..)| *miss <= CLOSES) else {
             return Err(Error::no_orbit(format!(
-                "shooting did not converge in {ITERATIONS} iterations: an impact of the orbit nearly grazes, or it has not \
-                 settled yet"
+                "shooting did not converge in {ITERATIONS} iterations: an impact of the orbit \
+                 nearly grazes, or it has not settled yet"
             )));
         };
         let orbit = Orbit {

@@ -96,12 +96,14 @@ pub fn stability(case: &Case, maps: &Maps, quality: &Quality, range: &dyn Fn(&Sc
     let row = |row: &Row| {
         let safe = row.safe.as_ref();
         let step = safe.and_then(|safe| safe.step);
+        let restitution =
+            range(&row.subject.scheme).map(|(least, largest)| json!({ "least": least, "largest": largest }));
         json!({
             "scheme": row.subject.scheme.to_string(),
             "largest_safe_step_s": step,
             "largest_safe_step_times_omega": step.map(|h| h * maps.scale.omega),
             "kappa": step.and_then(|h| row.subject.kappa(&maps.scale, h)),
-            "restitution": range(&row.subject.scheme).map(|(least, largest)| json!({ "least": least, "largest": largest })),
+            "restitution": restitution,
             "beyond": safe.and_then(|safe| safe.beyond.as_ref()).map(|cell| json!({
                 "step_s": cell.step,
                 "class": cell.class.to_string(),

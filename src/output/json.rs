@@ -81,7 +81,10 @@ mod tests {
     #[test]
     fn lists_run_on_and_zero_has_no_sign() {
         let pairs: Vec<(usize, f64)> = (0..30).map(|i| (i, -0.0)).collect();
-        let value = json!({ "a": -0.0, "b": [1, -0.0, [2, 3]], "c": pairs, "d": [{ "e": {} }, {}], "f": [], "g": null, "h": "x\ny" });
+        let value = json!({
+            "a": -0.0, "b": [1, -0.0, [2, 3]], "c": pairs,
+            "d": [{ "e": {} }, {}], "f": [], "g": null, "h": "x\ny",
+        });
         let text = text(&value);
         assert!(!text.contains("-0") && text.lines().all(|line| line.len() <= 104), "{text}");
         assert!(text.contains("\"b\": [1, 0.0, [2, 3]],\n"), "{text}");

@@ -206,7 +206,8 @@ fn energy(summary: &Value) -> Value {
         format!(", friction {} J", part("friction_j"))
     };
     let text = format!(
-        "The load put in {} J; damping took {} J, impacts {} J, dampers of walls {} J{friction}; {} J at first, {} J at last.",
+        "The load put in {} J; damping took {} J, impacts {} J, dampers of walls {} J{friction}; \
+         {} J at first, {} J at last.",
         part("load_work_j"),
         part("damping_j"),
         part("impact_loss_j"),

@@ -27,7 +27,8 @@ use std::fmt::Debug;
 ///
 /// let full = run(&scene, &Scheme::Event, &options)?;
 /// let judged = run(&scene, &Scheme::Event, &options.unrecorded())?; // residuals, no trajectory
-/// let bare = run(&scene, &Scheme::Event, &options.unjudged().unrecorded())?; // the state at the end, and counters
+/// // The state at the end, and counters.
+/// let bare = run(&scene, &Scheme::Event, &options.unjudged().unrecorded())?;
 /// assert_eq!(judged.residuals, full.residuals);
 /// assert_eq!(bare.state, full.state);
 /// # Ok::<(), signorini::Error>(())
@@ -37,7 +38,8 @@ use std::fmt::Debug;
 ///
 /// ```compile_fail
 /// # use signorini::{Options, Scene, Scheme, run};
-/// let bare = run(&Scene::oscillator(1.0, 0.0, 1.0), &Scheme::Event, &Options::with_step(1e-4).unjudged()).unwrap();
+/// let options = Options::with_step(1e-4).unjudged();
+/// let bare = run(&Scene::oscillator(1.0, 0.0, 1.0), &Scheme::Event, &options).unwrap();
 /// println!("{}", bare.residuals.complementarity);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -38,7 +38,8 @@ pub struct Flat {
 ///     law: WallLaw::Rigid { restitution: 0.5 },
 /// };
 /// let walls = square.walls()?;
-/// assert_eq!((walls[2].side, walls[2].position), (Side::Lower, -0.2e-3)); // the one opposite to the first
+/// // The one opposite to the first.
+/// assert_eq!((walls[2].side, walls[2].position), (Side::Lower, -0.2e-3));
 /// assert_eq!(walls[2].at, walls[0].at);
 /// # Ok::<(), signorini::Error>(())
 /// ```

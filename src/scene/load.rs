@@ -93,7 +93,8 @@ impl Table {
     ///
     /// let pulse = |t: f64| 10.0 * (-(t - 0.5).powi(2) / 0.02).exp(); // |f″| ≤ 2 · 10/0.02 N/s²
     /// let table = Table::sampled(pulse, [0.0, 1.0], 1000.0, 1e-4)?;
-    /// let worst = (0..10_000).map(|i| 1e-4 * f64::from(i)).map(|t| (table.piece(t).0 - pulse(t)).abs()).fold(0.0, f64::max);
+    /// let missed = |t: f64| (table.piece(t).0 - pulse(t)).abs();
+    /// let worst = (0..10_000).map(|i| missed(1e-4 * f64::from(i))).fold(0.0, f64::max);
     /// assert!(worst <= 1e-4);
     /// # Ok::<(), signorini::Error>(())
     /// ```
@@ -200,18 +201,21 @@ pub enum LoadKind {
 /// ```
 /// use signorini::{Load, Options, Row, Scene, Scheme, Table, Wall, run};
 ///
-/// // A sine of 3 N at 5 Hz; half a newton second at 0.2 s; a ramp from a table; a chirp of 10 to 20 Hz as a Rust closure.
+/// // A sine of 3 N at 5 Hz; half a newton second at 0.2 s; a ramp from a table; a chirp of 10 to
+/// // 20 Hz as a Rust closure.
 /// let sine = Load::harmonic(3.0, 5.0, 0.0);
 /// let blow = Load::impulse(0.5, 0.2);
 /// let ramp = Load::table(Table::new(vec![0.0, 1.0], vec![0.0, 2.0])?);
 /// let chirp = Load::function(|t| (std::f64::consts::TAU * (10.0 + 5.0 * t) * t).sin());
 ///
-/// let scene = Scene::oscillator(1.0, 0.2, 100.0).with_wall(Wall::upper("stop", 5e-3).with_restitution(0.5));
+/// let stop = Wall::upper("stop", 5e-3).with_restitution(0.5);
+/// let scene = Scene::oscillator(1.0, 0.2, 100.0).with_wall(stop);
 /// let scene = [sine, blow, ramp, chirp].into_iter().fold(scene, Scene::with_load);
 /// let run = run(&scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(1e-4))?;
 /// assert!(run.trajectory.impulse("stop")? < 0.0);
 ///
-/// // On a structure a load acts through a row: here on the relative motion of two of its degrees of freedom.
+/// // On a structure a load acts through a row: here on the relative motion of two of its degrees
+/// // of freedom.
 /// let between = Load { at: Row::new(vec![(0, 1.0), (1, -1.0)]), ..Load::constant(1.0) };
 /// assert_eq!(between.at.dot(&[0.3, 0.1]), 0.3 - 0.1);
 /// # Ok::<(), signorini::Error>(())

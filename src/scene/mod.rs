@@ -64,7 +64,8 @@ pub struct State {
 /// ```
 /// use signorini::{Load, Scene, Wall};
 ///
-/// // 1 kg, 0.2 N s/m, 100 N/m between rigid walls at ±5 mm, driven by 3 sin(2π 5 t) N, started at −1 mm with 0.1 m/s.
+/// // 1 kg, 0.2 N s/m, 100 N/m between rigid walls at ±5 mm, driven by 3 sin(2π 5 t) N, started at
+/// // −1 mm with 0.1 m/s.
 /// let scene = Scene::oscillator(1.0, 0.2, 100.0)
 ///     .with_wall(Wall::upper("upper", 5e-3).with_restitution(0.8))
 ///     .with_wall(Wall::lower("lower", -5e-3).with_restitution(0.8))

@@ -41,7 +41,7 @@ impl Structure {
 /// ```
 /// use signorini::PlaneRows;
 ///
-/// // The second of three masses in each plane; a wall, load or probe there, 30° from +y towards +z.
+/// // The second of three masses in each plane; a wall, load or probe there, 30° from +y to +z.
 /// let place = PlaneRows::doubled(&signorini::Row::dof(1), 3);
 /// let seen = place.along(30.0).dot(&[0.0, 2.0, 0.0, 0.0, 1.0, 0.0]);
 /// assert!((seen - (2.0 * 0.75_f64.sqrt() + 0.5)).abs() < 1e-15);

@@ -14,7 +14,8 @@ use serde::{Deserialize, Serialize};
 /// use signorini::linear::Symmetric;
 /// use signorini::{Damping, Load, Options, Probe, Row, Scene, Scheme, Structure, Wall, run};
 ///
-/// // Two masses of 2 kg, ground – 3e4 N/m – mass – 1e4 N/m – mass; entries of a lower or an upper triangle.
+/// // Two masses of 2 kg, ground – 3e4 N/m – mass – 1e4 N/m – mass; entries of a lower or an upper
+/// // triangle.
 /// let structure = Structure {
 ///     mass: Symmetric::diagonal(&[2.0, 2.0]),
 ///     damping: Symmetric::zeros(2),

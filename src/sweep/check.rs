@@ -66,12 +66,14 @@ impl Sweep {
         }
         let Some(followed) = self.followed().and_then(|index| self.axes.get(index)) else { return Ok(()) };
         if !periods && forcing::has_sine(&base.scene) {
-            let expected = "settle and keep in forcing periods beside it, so that the load goes on at the phase at which the last row ended";
+            let expected = "settle and keep in forcing periods beside it, so that the load goes on \
+                at the phase at which the last row ended";
             return Err(Error::invalid("follow", followed.label(), expected));
         }
         let shapes = |(target, _): &(Target, f64)| matches!(target, Target::Case(key) if key.shapes_system());
         if base.truncated.is_some() && followed.targets.iter().any(shapes) {
-            let expected = "a key outside [system]: the state of a case cut to modes is that of its modes, which change with the system";
+            let expected = "a key outside [system]: the state of a case cut to modes is that of \
+                its modes, which change with the system";
             return Err(Error::invalid("follow", followed.label(), expected));
         }
         Ok(())

@@ -72,7 +72,13 @@ fn program() -> String {
 fn described(axis: &Axis, column: &str) -> Value {
     let keys: Vec<Value> =
         axis.targets.iter().map(|(target, factor)| json!({ "key": target.to_string(), "factor": factor })).collect();
-    json!({ "column": column, "keys": keys, "count": axis.count(), "values": format!("{:?}", axis.values), "follow": format!("{:?}", axis.follow) })
+    json!({
+        "column": column,
+        "keys": keys,
+        "count": axis.count(),
+        "values": format!("{:?}", axis.values),
+        "follow": format!("{:?}", axis.follow),
+    })
 }
 
 /// A digest of sines and exponentials computed on this machine: their last bits, and so those of

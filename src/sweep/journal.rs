@@ -242,7 +242,8 @@ const TABLE: [u32; 256] = {
 
 fn interrupted(path: &Path, error: &std::io::Error) -> Error {
     let reason = format!(
-        "{error}\nhelp: the rows done so far are kept in it; make room and give the same command again, and it goes on from there"
+        "{error}\nhelp: the rows done so far are kept in it; make room and give the same command \
+         again, and it goes on from there"
     );
     Error::io(path.display(), reason, false)
 }

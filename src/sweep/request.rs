@@ -73,7 +73,8 @@ pub const JUDGED: u64 = 16;
 /// use signorini::case::CaseFile;
 /// use signorini::sweep::{Axis, Follow, Measure, Stretch, Sweep};
 ///
-/// // The largest displacement over the frequency of the load, by rising frequencies, the state carried on.
+/// // The largest displacement over the frequency of the load, by rising frequencies, the state
+/// // carried on.
 /// let sweep = Sweep::new(CaseFile::embedded("rigid-walls-sine")?)
 ///     .set("wall.*.restitution", 0.8)?
 ///     .vary(Axis::linear("load.1.harmonic.frequency", 4.0, 5.0, 3)?.followed(Follow::Up))

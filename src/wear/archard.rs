@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// ```
 /// use signorini::wear::{Archard, Bearing, Scar};
 ///
-/// // 10 mW for ten years of 3.156e7 s at 1e-14 1/Pa, on a tube of 19.05 mm in a hole of 25 mm width.
+/// // 10 mW for ten years of 3.156e7 s at 1e-14 1/Pa, on a tube of 19.05 mm in a hole 25 mm wide.
 /// let scar = Scar { width: 25e-3, radius: 9.525e-3, bearing: Bearing::Hole { gap: 0.2e-3 } };
 /// let law = Archard { coefficient: Some(1e-14), support_coefficient: None, service: 3.156e8, scar: Some(scar) };
 /// let worn = law.worn(0.01);

@@ -220,7 +220,8 @@ fn random_oscillators_agree_with_the_exact_scheme_for_as_long_as_rounding_stays_
             }
         }
         eprintln!(
-            "{width:?}: {compared} compared, {regular} of them over all 100 periods, worst {worst:.1e} of the gap, {} handed",
+            "{width:?}: {compared} compared, {regular} of them over all 100 periods, worst \
+             {worst:.1e} of the gap, {} handed",
             batch.handed()
         );
         // Guards the test itself: it would also pass if it compared nothing.

@@ -126,7 +126,12 @@ fn a_mass_that_leaves_a_soft_damped_wall_fast_has_left_it() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: draws::cases(300), rng_seed: RngSeed::Fixed(draws::seed(1)), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: draws::cases(300),
+        rng_seed: RngSeed::Fixed(draws::seed(1)),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn impacts_at_several_walls_never_gain_energy_and_leave_no_approach(

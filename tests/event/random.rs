@@ -61,7 +61,12 @@ fn wall() -> impl Strategy<Value = WallLaw> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: draws::cases(150), rng_seed: RngSeed::Fixed(draws::seed(1)), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: draws::cases(150),
+        rng_seed: RngSeed::Fixed(draws::seed(1)),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn without_loads_no_impact_and_no_flight_adds_energy(

@@ -185,14 +185,19 @@ fn crowded_labels_and_long_chaotic_orbits_stay_legible() {
         })
         .collect();
     let mut panel = Panel::new("A velocity with a long name that will not fit beside its axis on one line (mm/s)")
-        .curve(Curve::new("a label that is far too long for any legend, of a method with very many options, each of which its author found worth spelling out", points));
+        .curve(Curve::new(
+            "a label that is far too long for any legend, of a method with very \
+             many options, each of which its author found worth spelling out",
+            points,
+        ));
     for k in 0..5 {
         let at = 1.0 + 0.02 * f64::from(k);
         panel = panel.mark(Mark::wall(at, format!("wall {k}")));
         panel = panel.mark(Mark::wall(at, format!("wall {k}")).upright());
     }
     panel = panel.mark(Mark::wall(900.0, "far wall").upright());
-    let title = "A title of <&\"> three lines, since the one who wrote the case file wanted to tell the whole story of the \
-                 scene before the reader had a chance to look at the picture, which is a thing that happens";
+    let title = "A title of <&\"> three lines, since the one who wrote the case file wanted to \
+        tell the whole story of the \
+        scene before the reader had a chance to look at the picture, which is a thing that happens";
     keep("crowded", &Figure::new(title, "Displacement (mm)").panel(panel).to_svg());
 }

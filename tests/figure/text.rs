@@ -138,7 +138,11 @@ fn any_number() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: draws::cases(200), rng_seed: RngSeed::Fixed(draws::seed(1)), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: draws::cases(200),
+        rng_seed: RngSeed::Fixed(draws::seed(1)),
+        ..ProptestConfig::default()
+    })]
     #[test]
     fn any_data_give_a_document(
         points in prop::collection::vec((any_number(), any_number()), 0..40),

@@ -77,8 +77,10 @@ fn a_turned_scene_has_the_turned_motion() {
                  gap = [1e-4, 2e-4, 1.5e-4]\nrestitution = 0.5\n\
                  [[support]]\nname = \"b\"\nat = {{ position = 2.0 }}\nshape = \"flats\"\nsides = 4\nturn = {}\n\
                  gap = 2e-4\ncentre = [{:e}, {:e}]\nrestitution = 0.5\n\
-                 [[load]]\nat = {{ position = 0.5 }}\ndirection = {}\nharmonic = {{ amplitude = 60.0, frequency = 25.0 }}\n\
-                 [[load]]\nat = {{ position = 1.6 }}\ndirection = {}\nharmonic = {{ amplitude = 40.0, frequency = 33.0 }}\n\
+                 [[load]]\nat = {{ position = 0.5 }}\ndirection = {}\n\
+                 harmonic = {{ amplitude = 60.0, frequency = 25.0 }}\n\
+                 [[load]]\nat = {{ position = 1.6 }}\ndirection = {}\n\
+                 harmonic = {{ amplitude = 40.0, frequency = 33.0 }}\n\
                  [initial]\nvelocity = {{ y = {{ profile = [[0.0, 0.0], [1.5, {y}], [3.0, 0.0]] }}, \
                  z = {{ profile = [[0.0, 0.0], [1.5, {z}], [3.0, 0.0]] }} }}\n",
                 turn,
@@ -126,7 +128,8 @@ fn planes_without_a_common_wall_move_as_each_alone() {
     };
     let loads = [(60.0, 25.0), (45.0, 32.0)];
     let alone = loads.map(|(force, frequency)| tube("", &(walls("wall", "") + &load("", force, frequency))));
-    let flats = "[[support]]\nname = \"s\"\nat = { position = 1.0 }\nshape = \"flats\"\nsides = 4\ngap = 2e-4\nrestitution = 0.5\n";
+    let flats = "[[support]]\nname = \"s\"\nat = { position = 1.0 }\nshape = \"flats\"\nsides = 4\n\
+        gap = 2e-4\nrestitution = 0.5\n";
     let two = [("direction = 0\n", loads[0]), ("direction = 90\n", loads[1])]
         .map(|(direction, (force, frequency))| load(direction, force, frequency));
     let two = tube("planes = 2\n", &format!("{flats}{}{}", two[0], two[1]));
@@ -190,7 +193,8 @@ fn matrices_of_both_planes_are_the_chain_in_two_planes() {
         rest("at = { y = [[2, 1.0]], z = [[3, 1.0]] }\n")
     );
     let chain = format!(
-        "[system]\nplanes = 2\n[system.chain]\nmasses = [2.0, 1.0]\nsprings = 300.0\nleft = {{ stiffness = 400.0 }}\n{}",
+        "[system]\nplanes = 2\n[system.chain]\nmasses = [2.0, 1.0]\nsprings = 300.0\n\
+         left = {{ stiffness = 400.0 }}\n{}",
         rest("at = { dof = 1 }\n")
     );
     let matrices = Case::parse(&matrices, "matrices.toml", folder.path()).unwrap();
@@ -211,7 +215,7 @@ fn matrices_of_both_planes_are_the_chain_in_two_planes() {
 fn one_plane_is_what_it_was() {
     // planes = 1 is the default, and leaves an oscillator its three numbers.
     let text = "[system]\nplanes = 1\n[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0\n\
-                [[wall]]\nname = \"w\"\nside = \"upper\"\nposition = 5e-3\n[time]\nend = 1.0\nstep = 1e-3\n";
+        [[wall]]\nname = \"w\"\nside = \"upper\"\nposition = 5e-3\n[time]\nend = 1.0\nstep = 1e-3\n";
     let one = case(text);
     assert!(matches!(one.scene.system, System::Oscillator(_)));
     assert_eq!(one.scene.walls[0].at, Row::dof(0));

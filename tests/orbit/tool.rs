@@ -73,10 +73,13 @@ fn an_orbit_that_no_body_can_follow_is_written_and_fails() {
 #[test]
 fn a_structure_settles_on_an_orbit() {
     let dir = tempfile::tempdir().unwrap();
-    let case = "title = \"two\"\n[system.chain]\nmasses = [1.0, 0.5]\nsprings = [60.0]\nleft = { stiffness = 80.0 }\nright = { stiffness = 20.0 }\n\
-                [system.damping]\nrayleigh = { mass = 0.3, stiffness = 2e-3 }\n[[wall]]\nname = \"stop\"\nside = \"upper\"\nposition = 5e-3\n\
-                restitution = 0.6\nat = { dof = 0 }\n[[load]]\nharmonic = { amplitude = 2.0, frequency = 1.9 }\nat = { dof = 0 }\n\
-                [[probe]]\nname = \"first\"\nat = { dof = 0 }\n[time]\nend = 1.0\nstep = 1e-4\n";
+    let case = "title = \"two\"\n[system.chain]\nmasses = [1.0, 0.5]\nsprings = [60.0]\n\
+        left = { stiffness = 80.0 }\nright = { stiffness = 20.0 }\n\
+        [system.damping]\nrayleigh = { mass = 0.3, stiffness = 2e-3 }\n[[wall]]\n\
+        name = \"stop\"\nside = \"upper\"\nposition = 5e-3\n\
+        restitution = 0.6\nat = { dof = 0 }\n[[load]]\n\
+        harmonic = { amplitude = 2.0, frequency = 1.9 }\nat = { dof = 0 }\n\
+        [[probe]]\nname = \"first\"\nat = { dof = 0 }\n[time]\nend = 1.0\nstep = 1e-4\n";
     fs::write(dir.path().join("two.toml"), case).unwrap();
     let (out, _) = said(dir.path(), &["orbit", "two.toml"], 0);
     assert!(out.contains("of 4 Floquet multipliers") && out.contains("stop"), "{out}");

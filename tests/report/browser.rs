@@ -102,12 +102,13 @@ fn pages_open_and_their_controls_work_in_a_browser() {
         "[...document.querySelectorAll('#contacts th')].find((th) => th.textContent.startsWith('impulse')).click()",
     );
     let sorted = "[...document.querySelectorAll('#contacts tbody tr:not(.space)')].slice(0, 5).map((tr) => \
-                  Math.abs(Number(tr.children[2].textContent.replace('−', '-')))).every((x, i, all) => !i || all[i - 1] >= x)";
+        Math.abs(Number(tr.children[2].textContent.replace('−', '-')))).every((x, i, \
+        all) => !i || all[i - 1] >= x)";
     assert_eq!(tab.evaluate(sorted), true);
     // A row leads to its contact.
     tab.evaluate("document.querySelector('#contacts tbody tr:not(.space)').click()");
     let shown = "Math.abs(Number(document.querySelector('.clock').textContent.slice(4).split(' ')[0]) - \
-                 Number(document.querySelector('#contacts tbody tr:not(.space)').children[1].textContent)) < 1e-4";
+        Number(document.querySelector('#contacts tbody tr:not(.space)').children[1].textContent)) < 1e-4";
     tab.until(shown);
 
     // The keyboard: from contact to contact, and play.
@@ -160,8 +161,8 @@ fn pages_open_and_their_controls_work_in_a_browser() {
     // Round supports: the orbit in each, a table of all, and contacts that name them.
     let mut tab = opened(&mut browser, &pages[5]);
     let shown = "[document.querySelectorAll('#supports .plot').length, \
-                 document.querySelectorAll('#supports tbody tr:not(.space)').length, \
-                 document.querySelector('#contacts tbody tr:not(.space) td').textContent].join(' ')";
+        document.querySelectorAll('#supports tbody tr:not(.space)').length, \
+        document.querySelector('#contacts tbody tr:not(.space) td').textContent].join(' ')";
     let shown = tab.evaluate(shown);
     assert!(shown.as_str().unwrap().starts_with("2 2 plate-"), "{shown}");
     // The drawing of both planes moves from contact to contact.
@@ -183,7 +184,10 @@ fn pages_open_and_their_controls_work_in_a_browser() {
     let mut tab = opened(&mut browser, &pages[2]);
     let picture = "document.querySelector('#motion .plot canvas').toDataURL()";
     let all = tab.evaluate(picture);
-    tab.evaluate("document.querySelector('#motion .chip[aria-pressed=true]:nth-child(2), #motion .chip[aria-pressed=true]').click()");
+    tab.evaluate(
+        "document.querySelector('#motion .chip[aria-pressed=true]:nth-child(2), #motion \
+        .chip[aria-pressed=true]').click()",
+    );
     tab.frame();
     assert_ne!(tab.evaluate(picture), all);
     tab.close();
@@ -254,10 +258,16 @@ fn branches_show_the_orbit_that_is_clicked() {
 
     // Another measure, a zoom and back, the keyboard, the dark theme, a phone, paper.
     let whole = tab.evaluate(picture);
-    tab.evaluate("(() => { const list = document.querySelector('#branches select'); list.value = 'multiplier'; list.dispatchEvent(new Event('change')); })()");
+    tab.evaluate(
+        "(() => { const list = document.querySelector('#branches select'); list.value = \
+        'multiplier'; list.dispatchEvent(new Event('change')); })()",
+    );
     tab.frame();
     assert_ne!(tab.evaluate(picture), whole);
-    tab.evaluate("(() => { const list = document.querySelector('#branches select'); list.value = 'speed'; list.dispatchEvent(new Event('change')); })()");
+    tab.evaluate(
+        "(() => { const list = document.querySelector('#branches select'); list.value = \
+        'speed'; list.dispatchEvent(new Event('change')); })()",
+    );
     tab.drag((x + 0.3 * w, y + 0.5 * h), (x + 0.5 * w, y + 0.5 * h));
     tab.frame();
     assert_ne!(tab.evaluate(picture), whole);
@@ -359,7 +369,8 @@ fn basins_tell_the_attractor_of_each_start() {
     assert!(told.as_str().unwrap().contains("Displacement (m): −0.004\nVelocity (m/s): −0.3\n"), "{told}");
     tab.click(x + 76.0, y + h - 50.0);
     let command = tab.evaluate("document.querySelector('#sweep pre').textContent").as_str().unwrap().to_owned();
-    let words = "signorini run rigid-walls-sine.toml --set initial.displacement=-0.004 --set initial.velocity=-0.3 --scheme event";
+    let words = "signorini run rigid-walls-sine.toml --set initial.displacement=-0.004 --set \
+        initial.velocity=-0.3 --scheme event";
     assert!(command.lines().any(|line| line == format!("{words} --out rows/0")), "{command}");
     // With the case of the page the command runs.
     let case = tab.evaluate("document.querySelector('#text details pre').textContent").as_str().unwrap().to_owned();

@@ -233,7 +233,8 @@ fn text_of_a_case_never_becomes_markup() {
     let dir = tempfile::tempdir().unwrap();
     let evil = "</script><script>alert(1)</script><img src=x onerror=alert(2)><!-- \u{2028} ' &amp; \u{202e}";
     let case = format!(
-        "title = \"{evil}\"\nsource = \"<b>%SCRIPT%</b>\"\n[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 100.0\n\
+        "title = \"{evil}\"\nsource = \"<b>%SCRIPT%</b>\"\n[system.oscillator]\nmass = 1.0\n\
+         damping = 0.0\nstiffness = 100.0\n\
          [[wall]]\nname = \"upper\"\nside = \"upper\"\nposition = 1e-3\n[[load]]\n\
          harmonic = {{ amplitude = 3.0, frequency = 5.0 }}\n[time]\nend = 0.5\nstep = 1e-4\n"
     );

@@ -28,7 +28,7 @@ fn shaken(rows: &str) -> tempfile::TempDir {
 }
 
 const TUBE: &str = "[system.beam]\nlength = 2.0\nyoungs_modulus = 2e11\ndensity = 7850.0\nouter_diameter = 0.02\n\
-                    inner_diameter = 0.016\nadded_mass = 0.3\nelements = 8\n";
+    inner_diameter = 0.016\nadded_mass = 0.3\nelements = 8\n";
 
 #[test]
 fn a_shaken_oscillator_meets_its_stop_when_the_closed_form_says() {
@@ -67,8 +67,8 @@ fn a_free_structure_stays_behind_its_base_without_bending() {
         -u
     };
     let rest = "left = \"free\"\nright = \"free\"\n[[probe]]\nname = \"a\"\nat = { position = 0.0 }\n\
-                [[probe]]\nname = \"b\"\nat = { position = 1.3 }\n[[load]]\nbase = { file = \"shake.csv\" }\n\
-                [time]\nend = 0.05\nstep = 1e-4\n";
+        [[probe]]\nname = \"b\"\nat = { position = 1.3 }\n[[load]]\nbase = { file = \"shake.csv\" }\n\
+        [time]\nend = 0.05\nstep = 1e-4\n";
     let bar = "[system.bar]\nlength = 1.5\nyoungs_modulus = 2e11\ndensity = 7850.0\narea = 1e-4\nelements = 7\n";
     let chain = "[system.chain]\nmasses = [1.0, 3.0, 2.0]\nsprings = 5e3\n";
     let on_chain = rest
@@ -120,7 +120,8 @@ fn matrices_are_shaken_through_their_influence() {
          base = {{ file = \"shake.csv\", influence = {{ row = [[0, 1.0], [1, 1.0]] }} }}\n"
     );
     let chain = format!(
-        "[system.chain]\nmasses = [2.0, 3.0]\nsprings = 200.0\nleft = {{ stiffness = 300.0 }}\n{rest}base = {{ file = \"shake.csv\" }}\n"
+        "[system.chain]\nmasses = [2.0, 3.0]\nsprings = 200.0\nleft = {{ stiffness = 300.0 }}\n\
+         {rest}base = {{ file = \"shake.csv\" }}\n"
     );
     let [a, b] =
         [matrices, chain].map(|text| last(&made(&case_in(&text, folder.path()).scene, &Scheme::Event, 1e-3), "tip"));
@@ -134,7 +135,8 @@ fn the_static_start_is_the_closed_form_and_stays() {
     let text = |wall: &str, load: f64| {
         format!(
             "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0\n{wall}\
-             [[load]]\nconstant = {{ force = {load:?} }}\n[initial]\nequilibrium = true\n[time]\nend = 1.0\nstep = 1e-3\n"
+             [[load]]\nconstant = {{ force = {load:?} }}\n[initial]\nequilibrium = true\n[time]\n\
+             end = 1.0\nstep = 1e-3\n"
         )
     };
     let wall = "[[wall]]\nname = \"w\"\nside = \"upper\"\nposition = 5e-3\n";
@@ -163,8 +165,10 @@ fn a_tube_pressed_between_flats_starts_at_rest_whatever_its_modes() {
     // The support's centre is off by more than its gap, and the tube sags: preload from the start.
     let text = |modes: usize| {
         format!(
-            "[system]\nplanes = 2\nmodes = {modes}\n{TUBE}left = \"pinned\"\nright = \"clamped\"\n[system.damping]\nratio = 0.02\n\
-             [[support]]\nname = \"s\"\nat = {{ position = 0.9 }}\nshape = \"flats\"\nsides = 3\nturn = 20\ngap = 1e-3\n\
+            "[system]\nplanes = 2\nmodes = {modes}\n{TUBE}left = \"pinned\"\nright = \"clamped\"\n\
+             [system.damping]\nratio = 0.02\n\
+             [[support]]\nname = \"s\"\nat = {{ position = 0.9 }}\nshape = \"flats\"\nsides = 3\n\
+             turn = 20\ngap = 1e-3\n\
              centre = [3e-3, -1e-3]\nrestitution = 0.3\n\
              [[load]]\nat = {{ spread = [0.0, 2.0] }}\ndirection = 200\nconstant = {{ force = 15.0 }}\n\
              [initial]\nequilibrium = true\n[time]\nend = 0.2\nstep = 1e-4\n"
@@ -220,13 +224,13 @@ fn a_tube_pressed_between_flats_starts_at_rest_whatever_its_modes() {
 #[test]
 fn what_nothing_holds_has_no_static_start() {
     let text = "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 0.0\n[[load]]\nconstant = { force = 1.0 }\n\
-                [initial]\nequilibrium = true\n[time]\nend = 1.0\nstep = 1e-3\n";
+        [initial]\nequilibrium = true\n[time]\nend = 1.0\nstep = 1e-3\n";
     let said = Case::parse(text, "free.toml", "").unwrap_err().to_string();
     assert!(said.contains("--> free.toml:8:15") && said.contains("neither its stiffness nor a wall"), "{said}");
     let apart = "[system]\nplanes = 2\n[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 10.0\n\
-                 [[support]]\nname = \"a\"\nshape = \"flats\"\nsides = 4\ngap = 1e-3\n\
-                 [[support]]\nname = \"b\"\nshape = \"flats\"\nsides = 4\nturn = 45\ngap = 1e-3\ncentre = [1e-2, 0.0]\n\
-                 [initial]\nequilibrium = true\n[time]\nend = 1.0\nstep = 1e-3\n";
+        [[support]]\nname = \"a\"\nshape = \"flats\"\nsides = 4\ngap = 1e-3\n\
+        [[support]]\nname = \"b\"\nshape = \"flats\"\nsides = 4\nturn = 45\ngap = 1e-3\ncentre = [1e-2, 0.0]\n\
+        [initial]\nequilibrium = true\n[time]\nend = 1.0\nstep = 1e-3\n";
     let said = Case::parse(apart, "apart.toml", "").unwrap_err().to_string();
     assert!(said.contains("initial.equilibrium") && said.contains("a-flat-") && said.contains("b-flat-"), "{said}");
 }
@@ -235,8 +239,10 @@ fn what_nothing_holds_has_no_static_start() {
 fn negative_damping_grows_as_the_closed_form_and_walls_limit_it() {
     let text = |ratio: f64, wall: &str| {
         format!(
-            "[system.modal]\nfrequencies = [3.0, 10.0]\ndamping_ratios = [{ratio:?}, 0.02]\nshapes = {{ tip = [1.0, 0.4] }}\n{wall}\
-             [[probe]]\nname = \"tip\"\nat = {{ point = \"tip\" }}\n[initial]\nvelocity = [0.01, 0.0]\n[time]\nend = 4.0\nstep = 1e-4\n"
+            "[system.modal]\nfrequencies = [3.0, 10.0]\ndamping_ratios = [{ratio:?}, 0.02]\n\
+             shapes = {{ tip = [1.0, 0.4] }}\n{wall}\
+             [[probe]]\nname = \"tip\"\nat = {{ point = \"tip\" }}\n[initial]\n\
+             velocity = [0.01, 0.0]\n[time]\nend = 4.0\nstep = 1e-4\n"
         )
     };
     let free = case(&text(-0.03, ""));
@@ -270,7 +276,8 @@ fn negative_damping_grows_as_the_closed_form_and_walls_limit_it() {
 fn negative_ratios_of_a_tube_belong_to_its_modes() {
     let text = |modes: &str, ratios: &str| {
         format!(
-            "[system]\nplanes = 2\n{modes}{TUBE}left = \"pinned\"\nright = \"pinned\"\n[system.damping]\nratios = {ratios}\n\
+            "[system]\nplanes = 2\n{modes}{TUBE}left = \"pinned\"\nright = \"pinned\"\n\
+             [system.damping]\nratios = {ratios}\n\
              [[probe]]\nname = \"m\"\nat = {{ position = 1.0 }}\n[time]\nend = 1.0\nstep = 1e-3\n"
         )
     };

@@ -578,7 +578,8 @@ fn a_wall_of_the_compliance_left_out_takes_no_restitution() {
 
 #[test]
 fn walls_without_number_are_refused() {
-    let text = "[system.chain]\nmasses = 5000\nmass = 1.0\nsprings = 1.0\n[[wall]]\nname = \"stop\"\nat = \"each\"\nside = \"upper\"\n\
+    let text = "[system.chain]\nmasses = 5000\nmass = 1.0\nsprings = 1.0\n[[wall]]\n\
+        name = \"stop\"\nat = \"each\"\nside = \"upper\"\n\
                 position = 1.0\n[time]\nend = 1.0\nstep = 1e-3\n";
     let said = Case::parse(text, "wrong.toml", "").unwrap_err().to_string();
     assert!(

@@ -259,7 +259,8 @@ fn a_system_that_has_no_two_planes_says_what_to_do() {
     let rest = "[time]\nend = 1.0\nstep = 1e-3\n";
     for (system, words) in [
         (
-            "[system.bar]\nlength = 1.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\nelements = 4\nleft = \"free\"\nright = \"clamped\"\n",
+            "[system.bar]\nlength = 1.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\n\
+                elements = 4\nleft = \"free\"\nright = \"clamped\"\n",
             "a tube in bending is a beam",
         ),
         ("[system.modal]\nfrequencies = [1.0, 2.0]\nshapes = { tip = [1.0, 2.0] }\n", "one point for y and one for z"),

@@ -198,7 +198,8 @@ fn the_tube_is_cut_to_modes_and_keeps_its_whole() {
 fn a_place_means_the_same_however_it_is_said() {
     let text = |at: &str, probes: &str| {
         format!(
-            "[system.bar]\nlength = 2.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\nelements = 4\nleft = \"clamped\"\nright = \"free\"\n\
+            "[system.bar]\nlength = 2.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\n\
+             elements = 4\nleft = \"clamped\"\nright = \"free\"\n\
              [[wall]]\nname = \"stop\"\nat = {at}\nside = \"both\"\ngap = 1.0\n{probes}[time]\nend = 1.0\nstep = 1e-2\n"
         )
     };
@@ -224,8 +225,10 @@ fn a_place_means_the_same_however_it_is_said() {
 
 #[test]
 fn a_system_of_one_degree_of_freedom_needs_no_place() {
-    let text = "[system.chain]\nmasses = [2.0]\nsprings = []\nleft = { stiffness = 8.0 }\n[[wall]]\nname = \"stop\"\nside = \"upper\"\n\
-                position = 1.0\n[[load]]\nconstant = { force = 1.0 }\n[initial]\ndisplacement = 0.5\n[time]\nend = 1.0\nstep = 1e-2\n";
+    let text = "[system.chain]\nmasses = [2.0]\nsprings = []\nleft = { stiffness = 8.0 }\n\
+        [[wall]]\nname = \"stop\"\nside = \"upper\"\n\
+        position = 1.0\n[[load]]\nconstant = { force = 1.0 }\n[initial]\n\
+        displacement = 0.5\n[time]\nend = 1.0\nstep = 1e-2\n";
     let case = Case::parse(text, "one.toml", "").unwrap();
     assert_eq!(case.scene.probes, [Probe { name: String::new(), at: Row::dof(0) }]);
     assert_eq!((case.scene.walls[0].at.clone(), case.scene.initial.q.clone()), (Row::dof(0), vec![0.5]));
@@ -245,10 +248,12 @@ fn matrices_of_files_are_those_of_the_builder() {
     fs::write(folder.path().join("M.csv"), "1,0,0\n0,2,0\n0,0,3\n").unwrap();
     let rest = "[[probe]]\nname = \"a\"\nat = { dof = 0 }\n[time]\nend = 1.0\nstep = 1e-2\n";
     let of_files = format!(
-        "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.mtx\"\n[system.damping]\nrayleigh = {{ mass = 0.5 }}\n{rest}"
+        "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.mtx\"\n[system.damping]\n\
+         rayleigh = {{ mass = 0.5 }}\n{rest}"
     );
     let of_builder = format!(
-        "[system.chain]\nmasses = [1, 2, 3]\nsprings = [4, 5]\nleft = {{ stiffness = 6 }}\n[system.damping]\nrayleigh = {{ mass = 0.5 }}\n{rest}"
+        "[system.chain]\nmasses = [1, 2, 3]\nsprings = [4, 5]\nleft = {{ stiffness = 6 }}\n\
+         [system.damping]\nrayleigh = {{ mass = 0.5 }}\n{rest}"
     );
     let read = |text: &str| Case::parse(text, "case.toml", folder.path()).unwrap().scene;
     let [files, builder] = [read(&of_files), read(&of_builder)].map(|scene| scene.system.structure());
@@ -274,7 +279,8 @@ fn a_measured_table_is_read_by_the_names_of_its_columns() {
     let folder = tempfile::tempdir().unwrap();
     let case = |keys: &str| {
         let text = format!(
-            "[system.oscillator]\nmass = 1\ndamping = 0\nstiffness = 1\n[[load]]\ntable = {{ file = \"force.csv\"{keys} }}\n\
+            "[system.oscillator]\nmass = 1\ndamping = 0\nstiffness = 1\n[[load]]\n\
+             table = {{ file = \"force.csv\"{keys} }}\n\
              [time]\nend = 1\nstep = 0.1\n"
         );
         fs::write(folder.path().join("case.toml"), text).unwrap();

@@ -111,30 +111,43 @@ fn bare(text: &str) -> String {
 
 /// Features that the crate's own cases do not use.
 const MORE: [&str; 7] = [
-    "[system]\nmodes = 4\nstatic_correction = true\n[system.bar]\nlength = 2.0\nyoungs_modulus = 1e9\ndensity = 1e3\narea = 1e-4\n\
-     elements = 8\nmass_matrix = \"lumped\"\nleft = { stiffness = 1e5 }\nright = \"free\"\n[system.damping]\nratios = [0.01, 0.02]\n\
+    "[system]\nmodes = 4\nstatic_correction = true\n[system.bar]\nlength = 2.0\n\
+     youngs_modulus = 1e9\ndensity = 1e3\narea = 1e-4\n\
+     elements = 8\nmass_matrix = \"lumped\"\nleft = { stiffness = 1e5 }\nright = \"free\"\n\
+     [system.damping]\nratios = [0.01, 0.02]\n\
      [[wall]]\nname = \"stop\"\nat = { position = 2.0 }\nside = \"both\"\nposition = 1e-3\ngap = 1e-2\n\
      [[load]]\nat = { spread = [0.5, 1.0] }\nimpulse = { impulse = 1.0, time = 0.1 }\n[initial]\n\
-     displacement = { profile = [[0.0, 0.0], [2.0, 1e-3]] }\nvelocity = { dofs = [[1, 1e-3]] }\n[time]\nend = 1.0\nstep = 1e-3\n",
-    "[system.beam]\nlength = 1.0\nyoungs_modulus = 2e11\ndensity = 7850\nouter_diameter = 0.02\nelements = 3\nleft = \"clamped\"\n\
-     right = { stiffness = 1e6, rotational = 10.0 }\n[[wall]]\nname = \"s\"\nat = { position = 0.4 }\nside = \"lower\"\nposition = -1e-3\n\
+     displacement = { profile = [[0.0, 0.0], [2.0, 1e-3]] }\nvelocity = { dofs = [[1, 1e-3]] }\n\
+     [time]\nend = 1.0\nstep = 1e-3\n",
+    "[system.beam]\nlength = 1.0\nyoungs_modulus = 2e11\ndensity = 7850\nouter_diameter = 0.02\n\
+     elements = 3\nleft = \"clamped\"\n\
+     right = { stiffness = 1e6, rotational = 10.0 }\n[[wall]]\nname = \"s\"\n\
+     at = { position = 0.4 }\nside = \"lower\"\nposition = -1e-3\n\
      stiffness = 1e5\ndamping = 1.0\n[[probe]]\nname = \"p\"\nat = \"each\"\n[initial]\n\
      velocity = { profile = [[0.0, 0.0], [0.5, 0.1], [1.0, 0.0]] }\n[time]\nend = 1.0\nstep = 1e-3\n",
     "[system.chain]\nmasses = [1.0, 2.0, 3.0]\nsprings = [4.0, 5.0]\nright = \"free\"\n[[wall]]\nname = \"s\"\n\
-     at = { row = [[0, 1.0], [2, -0.5]] }\nside = \"upper\"\nposition = 1.0\nrestitution = 0.2\n[initial]\ndisplacement = [0.0, 0.1, 0.2]\n\
+     at = { row = [[0, 1.0], [2, -0.5]] }\nside = \"upper\"\nposition = 1.0\nrestitution = 0.2\n\
+     [initial]\ndisplacement = [0.0, 0.1, 0.2]\n\
      [time]\nend = 1.0\nstep = 1e-3\n",
-    "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.mtx\"\n[system.damping]\nmatrix = \"M.csv\"\n[[wall]]\nname = \"s\"\n\
+    "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.mtx\"\n[system.damping]\n\
+     matrix = \"M.csv\"\n[[wall]]\nname = \"s\"\n\
      at = { dof = 1 }\nside = \"upper\"\nposition = 1.0\n[time]\nend = 1.0\nstep = 1e-3\n",
-    "[system.matrices]\nmass = \"L.csv\"\nstiffness = \"S.csv\"\n[system.damping]\nrayleigh = { mass = 0.1, stiffness = 1e-3 }\n\
+    "[system.matrices]\nmass = \"L.csv\"\nstiffness = \"S.csv\"\n[system.damping]\n\
+     rayleigh = { mass = 0.1, stiffness = 1e-3 }\n\
      [[wall]]\nname = \"s\"\nat = { dof = 1 }\nside = \"both\"\ngap = 1e-3\n[[wall]]\nname = \"t\"\nat = { dof = 2 }\n\
-     side = \"upper\"\nposition = 1e-3\nrestitution = 0.5\n[[load]]\nat = { row = [[0, 1.0], [2, -1.0]] }\nconstant = { force = 1.0 }\n\
+     side = \"upper\"\nposition = 1e-3\nrestitution = 0.5\n[[load]]\n\
+     at = { row = [[0, 1.0], [2, -1.0]] }\nconstant = { force = 1.0 }\n\
      [initial]\nvelocity = { dofs = [[2, 0.1]] }\n[time]\nend = 1.0\nstep = 1e-3\n",
     "[system.modal]\nfrequencies = [5.0, 20.0]\nmasses = [1.0, 0.5]\ndamping_ratios = 0.01\n\
-     shapes = { tip = [1.0, -1.0], base = [0.5, 0.5] }\n[[wall]]\nname = \"s\"\nat = { point = \"tip\" }\nside = \"both\"\ngap = 1e-3\n\
+     shapes = { tip = [1.0, -1.0], base = [0.5, 0.5] }\n[[wall]]\nname = \"s\"\n\
+     at = { point = \"tip\" }\nside = \"both\"\ngap = 1e-3\n\
      [[load]]\nat = { points = [[\"tip\", 1.0], [\"base\", -1.0]] }\nconstant = { force = 1.0 }\n\
-     [[load]]\nat = { point = \"base\" }\ntable = { file = \"F.csv\", time = \"t\", force = \"F\", delimiter = \";\", decimal = \",\", scale = 2.0 }\n\
+     [[load]]\nat = { point = \"base\" }\n\
+     table = { file = \"F.csv\", time = \"t\", force = \"F\", delimiter = \";\", decimal = \",\", \
+     scale = 2.0 }\n\
      [time]\nend = 1.0\nstep = 1e-3\n",
-    "[system]\nmodes = 1\n[system.modal]\nomega = [5.0, 20.0]\nshapes = \"P.csv\"\n[[wall]]\nname = \"s\"\nat = \"each\"\nside = \"upper\"\n\
+    "[system]\nmodes = 1\n[system.modal]\nomega = [5.0, 20.0]\nshapes = \"P.csv\"\n[[wall]]\n\
+     name = \"s\"\nat = \"each\"\nside = \"upper\"\n\
      position = 1e-3\n[time]\nend = 1.0\nstep = 1e-3\n",
 ];
 
@@ -163,7 +176,12 @@ fn the_cases_that_are_mutated_are_right() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: draws::cases(4000), rng_seed: RngSeed::Fixed(draws::seed(1)), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: draws::cases(4000),
+        rng_seed: RngSeed::Fixed(draws::seed(1)),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn mutated_case_files_never_panic_and_what_is_accepted_makes_sense(
@@ -189,7 +207,10 @@ proptest! {
                 prop_assert!(matches!(error, Error::Case { .. }), "{error:?}");
                 let said = error.to_string();
                 prop_assert!(said.starts_with("error: "), "{}", said);
-                let files = ["tabulated-pulse.csv:", "base-pulse.csv:", "M.csv:", "K.mtx:", "L.csv:", "S.csv:", "F.csv:", "P.csv:"];
+                let files = [
+                    "tabulated-pulse.csv:", "base-pulse.csv:", "M.csv:", "K.mtx:", "L.csv:", "S.csv:",
+                    "F.csv:", "P.csv:",
+                ];
                 let placed = said.contains("--> mutated.toml:") || files.iter().any(|file| said.contains(file));
                 prop_assert!(placed, "{}", said);
                 prop_assert!(said.contains("help: expected "), "{}", said);

@@ -198,12 +198,13 @@ fn a_case_of_lumped_matrices_keeps_its_own_numbering() {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), "M.csv", "1,0,0\n0,0,0\n0,0,2\n");
     write(folder.path(), "K.csv", "150,-100,0\n-100,400,-300\n0,-300,300\n");
-    let text = "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.csv\"\n[system.damping]\nrayleigh = { mass = 0.1, stiffness = 1e-3 }\n\
-                [[wall]]\nname = \"end\"\nat = { dof = 2 }\nside = \"upper\"\nposition = 1e-3\nrestitution = 0.5\n\
-                [[wall]]\nname = \"node\"\nat = { dof = 1 }\nside = \"lower\"\nposition = -1e-3\n\
-                [[load]]\nat = { dof = 0 }\nharmonic = { amplitude = 1.0, frequency = 1.0 }\n\
-                [initial]\nvelocity = { dofs = [[2, 0.1]] }\n\
-                [time]\nend = 1.0\nstep = 1e-3\n";
+    let text = "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.csv\"\n[system.damping]\n\
+        rayleigh = { mass = 0.1, stiffness = 1e-3 }\n\
+        [[wall]]\nname = \"end\"\nat = { dof = 2 }\nside = \"upper\"\nposition = 1e-3\nrestitution = 0.5\n\
+        [[wall]]\nname = \"node\"\nat = { dof = 1 }\nside = \"lower\"\nposition = -1e-3\n\
+        [[load]]\nat = { dof = 0 }\nharmonic = { amplitude = 1.0, frequency = 1.0 }\n\
+        [initial]\nvelocity = { dofs = [[2, 0.1]] }\n\
+        [time]\nend = 1.0\nstep = 1e-3\n";
     let read = |text: &str| {
         write(folder.path(), "case.toml", text);
         Case::read(folder.path().join("case.toml"))
@@ -278,7 +279,8 @@ fn modal_data_make_the_scene_that_its_own_modes_make() {
         format!(
             "[system.modal]\nfrequencies = {hz:?}\nmasses = {masses:?}\ndamping_ratios = 0.01\nshapes = {shapes}\n\
              [[wall]]\nname = \"first\"\nat = {{ point = \"first\" }}\nside = \"both\"\ngap = 2e-4\nrestitution = 0.5\n\
-             [[wall]]\nname = \"second\"\nat = {{ points = [[\"second\", 1.0]] }}\nside = \"both\"\ngap = 2e-4\nrestitution = 0.5\n\
+             [[wall]]\nname = \"second\"\nat = {{ points = [[\"second\", 1.0]] }}\n\
+             side = \"both\"\ngap = 2e-4\nrestitution = 0.5\n\
              [[load]]\nat = {{ point = \"load\" }}\nharmonic = {{ amplitude = 10.0, frequency = 25.0 }}\n\
              [time]\nend = 0.2\nstep = 5e-5\n"
         )
@@ -323,8 +325,10 @@ fn modal_data_make_the_scene_that_its_own_modes_make() {
 
 #[test]
 fn modes_without_points_say_so_and_each_point_may_have_a_wall() {
-    let text = "[system.modal]\nomega = [10.0, 30.0]\nshapes = { tip = [1.0, -1.0], node = [0.0, 0.0], base = [1.0, 1.0] }\n\
-                [[wall]]\nname = \"stop\"\nat = \"each\"\nside = \"upper\"\nposition = 1e-3\n[time]\nend = 1.0\nstep = 1e-3\n";
+    let text = "[system.modal]\nomega = [10.0, 30.0]\n\
+        shapes = { tip = [1.0, -1.0], node = [0.0, 0.0], base = [1.0, 1.0] }\n\
+        [[wall]]\nname = \"stop\"\nat = \"each\"\nside = \"upper\"\nposition = 1e-3\n\
+        [time]\nend = 1.0\nstep = 1e-3\n";
     let case = Case::parse(text, "case.toml", "").unwrap_or_else(|error| panic!("{error}"));
     let names: Vec<&str> = case.scene.walls.iter().map(|wall| wall.name.as_str()).collect();
     assert_eq!(names, ["stop-tip", "stop-base"]);

@@ -168,9 +168,12 @@ fn text(end: f64, step: f64) -> String {
         "[system]\nplanes = 2\nmodes = 5\n[system.beam]\nlength = 3.0\nyoungs_modulus = 2e11\ndensity = 7850.0\n\
          outer_diameter = 19.05e-3\ninner_diameter = 15.75e-3\nelements = 12\nleft = \"pinned\"\nright = \"pinned\"\n\
          [system.damping]\nratio = 0.02\n\
-         [[support]]\nname = \"bars\"\nat = {{ position = 1.0 }}\nshape = \"flats\"\nsides = 4\ngap = 0.2e-3\nrestitution = 0.5\n\
-         [[load]]\nat = {{ position = 0.5 }}\ndirection = \"both\"\nrandom = {{ rms = 5.0, from = 1.0, to = 60.0, seed = 9 }}\n\
-         [[load]]\nat = {{ position = 2.0 }}\ndirection = 30\nrandom = {{ rms = 5.0, from = 1.0, to = 60.0, seed = 9 }}\n\
+         [[support]]\nname = \"bars\"\nat = {{ position = 1.0 }}\nshape = \"flats\"\nsides = 4\n\
+         gap = 0.2e-3\nrestitution = 0.5\n\
+         [[load]]\nat = {{ position = 0.5 }}\ndirection = \"both\"\n\
+         random = {{ rms = 5.0, from = 1.0, to = 60.0, seed = 9 }}\n\
+         [[load]]\nat = {{ position = 2.0 }}\ndirection = 30\n\
+         random = {{ rms = 5.0, from = 1.0, to = 60.0, seed = 9 }}\n\
          [time]\nend = {end:?}\nstep = {step:e}\n"
     )
 }

@@ -191,7 +191,12 @@ fn extreme_scenes_end_in_a_run_that_meets_its_residuals_or_in_a_named_error() {
 }
 
 proptest::proptest! {
-    #![proptest_config(ProptestConfig { cases: draws::cases(256), rng_seed: RngSeed::Fixed(draws::seed(1)), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: draws::cases(256),
+        rng_seed: RngSeed::Fixed(draws::seed(1)),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn drawn_scenes_do_too(

@@ -8,7 +8,8 @@ use std::f64::consts::PI;
 /// touches at rest.
 fn tube(system: &str, wall: &str, end: f64) -> Case {
     let text = format!(
-        "{system}[system.beam]\nlength = 2.0\nyoungs_modulus = 2e11\ndensity = 7850.0\nouter_diameter = 0.02\ninner_diameter = 0.016\n\
+        "{system}[system.beam]\nlength = 2.0\nyoungs_modulus = 2e11\ndensity = 7850.0\n\
+         outer_diameter = 0.02\ninner_diameter = 0.016\n\
          elements = 16\nleft = \"pinned\"\nright = \"pinned\"\n[system.damping]\nratio = 0.3\n\
          [[wall]]\nname = \"support\"\nat = {{ position = 1.0 }}\nside = \"upper\"\nposition = 0.0\n{wall}\
          [[load]]\nat = {{ spread = [0.0, 2.0] }}\nconstant = {{ force = 80.0 }}\n\
@@ -21,9 +22,11 @@ fn tube(system: &str, wall: &str, end: f64) -> Case {
 /// A bar thrown against a wall in its middle.
 fn bar(system: &str, elements: usize, wall: &str) -> Case {
     let text = format!(
-        "{system}[system.bar]\nlength = 1.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\nelements = {elements}\nleft = \"free\"\nright = \"clamped\"\n\
+        "{system}[system.bar]\nlength = 1.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\n\
+         elements = {elements}\nleft = \"free\"\nright = \"clamped\"\n\
          [[wall]]\nname = \"wall\"\nat = {{ position = 0.0 }}\nside = \"lower\"\nposition = 0.1\n{wall}\
-         [initial]\ndisplacement = {{ profile = [[0.0, 0.5], [1.0, 0.0]] }}\n[time]\nend = 1.5\nstep = 5e-3\nsample = 1e-2\n"
+         [initial]\ndisplacement = {{ profile = [[0.0, 0.5], [1.0, 0.0]] }}\n[time]\nend = 1.5\n\
+         step = 5e-3\nsample = 1e-2\n"
     );
     Case::parse(&text, "bar.toml", "").unwrap_or_else(|error| panic!("{error}"))
 }

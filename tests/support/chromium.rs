@@ -163,7 +163,8 @@ impl Tab<'_> {
     /// Left, top, width and height of the first element that matches, in the window.
     pub fn place(&mut self, selector: &str) -> [f64; 4] {
         let script = format!(
-            "(() => {{ const r = document.querySelector({}).getBoundingClientRect(); return [r.left, r.top, r.width, r.height]; }})()",
+            "(() => {{ const r = document.querySelector({}).getBoundingClientRect(); return \
+             [r.left, r.top, r.width, r.height]; }})()",
             json!(selector)
         );
         let place = self.evaluate(&script);
@@ -173,7 +174,8 @@ impl Tab<'_> {
     fn mouse(&mut self, kind: &str, (x, y): (f64, f64), pressed: bool) {
         let button = if kind == "mouseMoved" && !pressed { "none" } else { "left" };
         let params = json!({
-            "type": kind, "x": x, "y": y, "button": button, "buttons": u8::from(pressed), "clickCount": u8::from(kind != "mouseMoved"),
+            "type": kind, "x": x, "y": y,
+            "button": button, "buttons": u8::from(pressed), "clickCount": u8::from(kind != "mouseMoved"),
         });
         self.ask("Input.dispatchMouseEvent", params);
     }

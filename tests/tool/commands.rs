@@ -59,7 +59,9 @@ fn a_run_writes_everything_it_promises() {
     done(dir.path(), &["run", "rigid-walls-sine", "--end", "1", "--restitution", "0.8"]);
     let out = dir.path().join("out/rigid-walls-sine/run");
     let (header, rows) = csv(&out.join("trajectory.csv"));
-    let expected = "time_s,displacement_m,velocity_m_per_s,contact_force_upper_N,contact_impulse_upper_N_s,contact_force_lower_N,contact_impulse_lower_N_s";
+    let expected = "time_s,displacement_m,velocity_m_per_s,\
+        contact_force_upper_N,contact_impulse_upper_N_s,\
+        contact_force_lower_N,contact_impulse_lower_N_s";
     assert_eq!(header.join(","), expected);
     assert_eq!(rows.len(), 1001);
     assert_eq!(rows[0][0].parse::<f64>().unwrap(), 0.0);
@@ -178,7 +180,8 @@ fn compare_puts_qp_penalty_and_the_exact_motion_side_by_side() {
 #[test]
 fn methods_are_named_as_the_table_prints_them() {
     let dir = tempfile::tempdir().unwrap();
-    let list = "moreau-jean:theta=0.75,paoli-schatzman,penalty:epsilon=1e-9,integrator=trapezoidal,implicit-euler,newmark:qp=clarabel";
+    let list = "moreau-jean:theta=0.75,paoli-schatzman,penalty:epsilon=1e-9,\
+        integrator=trapezoidal,implicit-euler,newmark:qp=clarabel";
     let table = done(dir.path(), &["compare", "rigid-walls-sine", "--end", "0.2", "--schemes", list, "--json"]);
     let rows = rows(&table);
     let methods: Vec<_> = rows.iter().map(|r| r["method"].as_str().unwrap().to_owned()).collect();
@@ -322,8 +325,10 @@ fn help_has_examples_everywhere_and_quiet_is_quiet() {
 }
 
 /// A tube at two supports, small enough to be refined at once.
-const TUBE: &str = "title = \"A small tube\"\n[system]\nmodes = 2\n[system.beam]\nlength = 1.0\nyoungs_modulus = 2e11\ndensity = 7850.0\n\
-    outer_diameter = 0.02\ninner_diameter = 0.018\nelements = 4\nleft = \"pinned\"\nright = \"pinned\"\n[system.damping]\nratio = 0.05\n\
+const TUBE: &str = "title = \"A small tube\"\n[system]\nmodes = 2\n[system.beam]\nlength = 1.0\n\
+    youngs_modulus = 2e11\ndensity = 7850.0\n\
+    outer_diameter = 0.02\ninner_diameter = 0.018\nelements = 4\nleft = \"pinned\"\n\
+    right = \"pinned\"\n[system.damping]\nratio = 0.05\n\
     [[wall]]\nname = \"support\"\nat = { position = 0.4 }\nside = \"both\"\ngap = 1e-4\nstiffness = 1e6\n\
     [[load]]\nat = { position = 0.5 }\nharmonic = { amplitude = 50.0, frequency = 40.0 }\n\
     [[probe]]\nname = \"middle\"\nat = { position = 0.5 }\n[time]\nend = 0.05\nstep = 2e-5\nsample = 1e-4\n";
@@ -337,8 +342,9 @@ fn a_run_of_a_structure_names_its_probes_and_walls_and_tells_its_truncation() {
     assert!(output.status.success(), "{said}");
     assert!(said.contains("truncation: with 4 of 8 modes in place of 2 the impulse changes by up to"), "{said}");
     let (header, rows) = csv(&dir.path().join("o/trajectory.csv"));
-    let expected = "time_s,displacement_middle_m,velocity_middle_m_per_s,contact_force_support_upper_N,contact_impulse_support_upper_N_s,\
-                    contact_force_support_lower_N,contact_impulse_support_lower_N_s";
+    let expected = "time_s,displacement_middle_m,velocity_middle_m_per_s,\
+        contact_force_support_upper_N,contact_impulse_support_upper_N_s,\
+        contact_force_support_lower_N,contact_impulse_support_lower_N_s";
     assert_eq!(header.join(","), expected);
     assert_eq!(rows.len(), 501);
     let summary = json(&dir.path().join("o/summary.json"));

@@ -347,8 +347,10 @@ fn shells_complete_schemes_solvers_and_cases() {
 
 /// A bar whose modulus has some zeros too many: its fastest mode is at 10 GHz, and all its modes
 /// are asked for.
-const STIFF: &str = "[system.bar]\nlength = 1.0\narea = 1e-4\nyoungs_modulus = 2e19\ndensity = 7850.0\nelements = 40\nleft = \"clamped\"\n\
-    right = \"free\"\n[[wall]]\nname = \"stop\"\nat = { position = 1.0 }\nside = \"upper\"\nposition = 1e-3\n[[load]]\nat = { position = 1.0 }\n\
+const STIFF: &str = "[system.bar]\nlength = 1.0\narea = 1e-4\nyoungs_modulus = 2e19\n\
+    density = 7850.0\nelements = 40\nleft = \"clamped\"\n\
+    right = \"free\"\n[[wall]]\nname = \"stop\"\nat = { position = 1.0 }\nside = \"upper\"\n\
+    position = 1e-3\n[[load]]\nat = { position = 1.0 }\n\
     harmonic = { amplitude = 10.0, frequency = 25.0 }\n[time]\nend = 10.0\nstep = 1e-4\n";
 
 #[test]
@@ -371,8 +373,10 @@ fn a_run_of_hours_says_so_and_names_the_mode_that_sets_it() {
 
 /// One degree of freedom whose stiffness has some zeros too many, before a wall that it does not
 /// reach: one step of the exact scheme is the whole run, so that nothing comes back from it.
-const STIFF_ALONE: &str = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 4e29\n[[wall]]\nname = \"stop\"\n\
-    side = \"upper\"\nposition = 1e-3\n[[load]]\nharmonic = { amplitude = 10.0, frequency = 25.0 }\n[time]\nend = 10.0\nstep = 1e-4\n";
+const STIFF_ALONE: &str = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 4e29\n\
+    [[wall]]\nname = \"stop\"\n\
+    side = \"upper\"\nposition = 1e-3\n[[load]]\n\
+    harmonic = { amplitude = 10.0, frequency = 25.0 }\n[time]\nend = 10.0\nstep = 1e-4\n";
 
 #[test]
 fn a_single_step_of_hours_is_spoken_of_in_every_command_that_makes_it() {

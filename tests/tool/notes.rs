@@ -121,8 +121,9 @@ fn every_command_and_the_summary_show_the_notes() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path();
     fs::write(dir.join("force.csv"), "time_s,force_N\n0,1\n0.1,1\n").unwrap();
-    let case = "[system.oscillator]\nmass = 1\ndamping = 0\nstiffness = 100\n[[wall]]\nname = \"stop\"\nside = \"upper\"\nposition = 0.1\n\
-                [[load]]\ntable = { file = \"force.csv\" }\n[time]\nend = 0.5\nstep = 1e-3\n";
+    let case = "[system.oscillator]\nmass = 1\ndamping = 0\nstiffness = 100\n[[wall]]\n\
+        name = \"stop\"\nside = \"upper\"\nposition = 0.1\n\
+        [[load]]\ntable = { file = \"force.csv\" }\n[time]\nend = 0.5\nstep = 1e-3\n";
     fs::write(dir.join("case.toml"), case).unwrap();
     let tool = |args: &[&str]| {
         let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(dir).output().unwrap();
@@ -154,8 +155,10 @@ fn explain_says_where_moreau_jean_rests_too_deep_and_what_does_not() {
     // A spring of 1e4 N/m takes 10 N to the stop at 1 mm.
     let explained = |force: f64, side: &str| {
         let case = format!(
-            "[system.oscillator]\nmass = 1\ndamping = 20\nstiffness = 1e4\n[[wall]]\nname = \"stop\"\nside = \"{side}\"\n\
-             position = {}\nrestitution = 0.3\n[[load]]\nconstant = {{ force = {force:?} }}\n[time]\nend = 0.5\nstep = 1e-3\n",
+            "[system.oscillator]\nmass = 1\ndamping = 20\nstiffness = 1e4\n[[wall]]\n\
+             name = \"stop\"\nside = \"{side}\"\n\
+             position = {}\nrestitution = 0.3\n[[load]]\nconstant = {{ force = {force:?} }}\n\
+             [time]\nend = 0.5\nstep = 1e-3\n",
             if side == "upper" { 1e-3 } else { -1e-3 }
         );
         fs::write(dir.join("case.toml"), case).unwrap();

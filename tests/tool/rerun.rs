@@ -85,9 +85,13 @@ fn tables_matrices_and_modes_are_found_again_and_known_by_their_content() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path();
     write(dir, "force.csv", "t;F\n0,0;0,5\n0,03;-1,5\n0,2;3\n");
-    let table = "[system.oscillator]\nmass = 1\ndamping = 0.1\nstiffness = 100\n[[wall]]\nname = \"stop\"\nside = \"upper\"\nposition = 1e-4\n\
-                 [[load]]\ntable = { file = \"force.csv\", time = \"t\", force = \"F\", delimiter = \";\", decimal = \",\", scale = 2.0 }\n\
-                 [[load]]\nimpulse = { impulse = 0.01, time = 0.02 }\n[initial]\ndisplacement = -1e-3\nvelocity = 0.1\n";
+    let table = "[system.oscillator]\nmass = 1\ndamping = 0.1\nstiffness = 100\n[[wall]]\n\
+        name = \"stop\"\nside = \"upper\"\nposition = 1e-4\n\
+        [[load]]\n\
+        table = { file = \"force.csv\", time = \"t\", force = \"F\", delimiter = \";\", \
+        decimal = \",\", scale = 2.0 }\n\
+        [[load]]\nimpulse = { impulse = 0.01, time = 0.02 }\n[initial]\n\
+        displacement = -1e-3\nvelocity = 0.1\n";
     write(dir, "table.toml", &format!("{table}{TIME}"));
     let summary = same_again(dir, "table.toml", &[]);
     let file = &summary["files"][0];
@@ -105,11 +109,13 @@ fn tables_matrices_and_modes_are_found_again_and_known_by_their_content() {
     // Three degrees of freedom, one of them without mass and with a wall.
     write(dir, "M.csv", "1,0,0\n0,0,0\n0,0,2\n");
     write(dir, "K.csv", "150,-100,0\n-100,400,-300\n0,-300,300\n");
-    let matrices = "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.csv\"\n[system.damping]\nrayleigh = { mass = 0.1, stiffness = 1e-3 }\n\
-                    [[wall]]\nname = \"end\"\nat = { dof = 2 }\nside = \"both\"\ngap = 1e-3\nrestitution = 0.5\n\
-                    [[wall]]\nname = \"node\"\nat = { row = [[1, 1.0], [0, -0.5]] }\nside = \"lower\"\nposition = -1e-4\n\
-                    [[load]]\nat = { dof = 0 }\nharmonic = { amplitude = 1.0, frequency = 1.0, phase = 0.5 }\n\
-                    [initial]\nvelocity = [0.0, 0.0, 0.1]\n";
+    let matrices = "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.csv\"\n[system.damping]\n\
+        rayleigh = { mass = 0.1, stiffness = 1e-3 }\n\
+        [[wall]]\nname = \"end\"\nat = { dof = 2 }\nside = \"both\"\ngap = 1e-3\nrestitution = 0.5\n\
+        [[wall]]\nname = \"node\"\nat = { row = [[1, 1.0], [0, -0.5]] }\n\
+        side = \"lower\"\nposition = -1e-4\n\
+        [[load]]\nat = { dof = 0 }\nharmonic = { amplitude = 1.0, frequency = 1.0, phase = 0.5 }\n\
+        [initial]\nvelocity = [0.0, 0.0, 0.1]\n";
     write(dir, "matrices.toml", &format!("{matrices}{TIME}"));
     let summary = same_again(dir, "matrices.toml", &[]);
     assert_eq!(summary["files"].as_array().unwrap().len(), 2);
@@ -118,15 +124,18 @@ fn tables_matrices_and_modes_are_found_again_and_known_by_their_content() {
 
     write(dir, "shapes.csv", "tip,1.0,-0.7\nbase,0.3,0.4\n");
     let modal = "[system.modal]\nfrequencies = [5.3, 31.7]\ndamping_ratios = [0.01, 0.02]\nshapes = \"shapes.csv\"\n\
-                 [[wall]]\nname = \"stop\"\nat = { points = [[\"tip\", 1.0], [\"base\", -1.0]] }\nside = \"upper\"\nposition = 1e-4\nstiffness = 1e4\ndamping = 1.0\n\
-                 [[load]]\nat = { point = \"tip\" }\nconstant = { force = 3.0 }\n[[probe]]\nname = \"each\"\nat = \"each\"\n";
+        [[wall]]\nname = \"stop\"\nat = { points = [[\"tip\", 1.0], [\"base\", -1.0]] }\n\
+        side = \"upper\"\nposition = 1e-4\nstiffness = 1e4\ndamping = 1.0\n\
+        [[load]]\nat = { point = \"tip\" }\nconstant = { force = 3.0 }\n[[probe]]\n\
+        name = \"each\"\nat = \"each\"\n";
     write(dir, "modal.toml", &format!("{modal}{TIME}"));
     same_again(dir, "modal.toml", &[]);
     write(dir, "cut.toml", &format!("[system]\nmodes = 1\nstatic_correction = true\n{modal}{TIME}"));
     same_again(dir, "cut.toml", &[]);
     // A start by a profile comes back as what it made of each node.
-    let bar = "[system.bar]\nlength = 2.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\nelements = 9\nleft = \"clamped\"\nright = \"free\"\n\
-               mass_matrix = \"lumped\"\n[initial]\ndisplacement = { profile = [[0.0, 0.0], [2.0, 0.1]] }\n";
+    let bar = "[system.bar]\nlength = 2.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\n\
+        elements = 9\nleft = \"clamped\"\nright = \"free\"\n\
+        mass_matrix = \"lumped\"\n[initial]\ndisplacement = { profile = [[0.0, 0.0], [2.0, 0.1]] }\n";
     write(dir, "bar.toml", &format!("{bar}{TIME}"));
     same_again(dir, "bar.toml", &[]);
 }

@@ -23,19 +23,25 @@ use varied::Varied;
 
 const EXAMPLES: &str = "\
 Examples:
-  signorini continue rigid-walls-sine --set 'wall.*.restitution=0.8' --set load.1.harmonic.frequency=5 \\
-      --key load.1.harmonic.frequency --range 1:16
-  signorini continue rigid-walls-sine --set 'wall.*.restitution=0.8' --key 'wall.*.restitution' --range 0.3:1 --switch all
-  signorini continue bouncing-ball.toml --key load.2.harmonic.amplitude --range 1:30 --from out/bouncing-ball/orbit/orbit.json
-  signorini continue rigid-walls-sine … --second 'wall.*.restitution' --second-range 0.3:0.95 --locus fold,symmetry-breaking
-  signorini continue rigid-walls-sine … --over out/rigid-walls-sine/sweep/sweep.csv    a sweep's points beneath the branches
+  signorini continue rigid-walls-sine --set 'wall.*.restitution=0.8' \\
+      --set load.1.harmonic.frequency=5 --key load.1.harmonic.frequency --range 1:16
+  signorini continue rigid-walls-sine --set 'wall.*.restitution=0.8' \\
+      --key 'wall.*.restitution' --range 0.3:1 --switch all
+  signorini continue bouncing-ball.toml --key load.2.harmonic.amplitude --range 1:30 \\
+      --from out/bouncing-ball/orbit/orbit.json
+  signorini continue rigid-walls-sine … --second 'wall.*.restitution' \\
+      --second-range 0.3:0.95 --locus fold,symmetry-breaking
+  signorini continue rigid-walls-sine … --over out/rigid-walls-sine/sweep/sweep.csv
+      a sweep's points beneath the branches
 
-The branch starts from the orbit of --from, or from the one on which the case settles, at the case's value of the key.
-Writes branches.csv (every orbit), special.csv (folds, period doublings, broken symmetries, grazings, rests), branches.json,
-a picture (stable orbits solid, unstable ones dashed), and report.html, in which a click on an orbit shows it, drawn from
-orbits.csv. With --second also loci.csv and a picture: where the special points of the branches move in the plane of two keys.
-Of a structure the motion is drawn at the place of the wall that most orbits meet; a change of the walls that an orbit meets
-ends a branch, and the next one begins there. docs/orbits.md has the method and the labels.";
+The branch starts from the orbit of --from, or from the one on which the case settles, at the
+case's value of the key. Writes branches.csv (every orbit), special.csv (folds, period doublings,
+broken symmetries, grazings, rests), branches.json, a picture (stable orbits solid, unstable ones
+dashed), and report.html, in which a click on an orbit shows it, drawn from orbits.csv. With
+--second also loci.csv and a picture: where the special points of the branches move in the plane
+of two keys. Of a structure the motion is drawn at the place of the wall that most orbits meet; a
+change of the walls that an orbit meets ends a branch, and the next one begins there.
+docs/orbits.md has the method and the labels.";
 
 /// Branches of periodic orbits over a key: special points located, other branches found
 #[derive(Debug, clap::Args)]
@@ -60,7 +66,8 @@ pub struct Args {
     settle: u32,
     /// Which branches are followed that begin at special points: no, stable (beside stable orbits),
     /// all
-    #[arg(long, value_name = "WORD", default_value = "stable", value_parser = ["no", "stable", "all"], hide_possible_values = true)]
+    #[arg(long, value_name = "WORD", default_value = "stable")]
+    #[arg(value_parser = ["no", "stable", "all"], hide_possible_values = true)]
     switch: String,
     /// How many switches lead from the first branch to the last
     #[arg(long, value_name = "N", default_value_t = 4)]

@@ -60,8 +60,8 @@ impl Stride {
         self.short = if self.length < SHORT * size { self.short + 1 } else { 0 };
         if self.short > MOST_SHORT {
             return Err(Error::no_orbit(format!(
-                "its steps have become so short that it hardly advances ({MOST_SHORT} steps below {SHORT:.0e}): it nears a \
-                 point where several contacts graze at once, or nearly so"
+                "its steps have become so short that it hardly advances ({MOST_SHORT} steps below \
+                 {SHORT:.0e}): it nears a point where several contacts graze at once, or nearly so"
             )));
         }
         self.length = (self.length * GROWTH).min(STEPS[1] * size);

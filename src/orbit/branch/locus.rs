@@ -66,7 +66,7 @@ pub struct Locus {
 /// use signorini::orbit::Problem;
 /// use signorini::{Load, Scene, Wall};
 ///
-/// // The fold of the source oscillator's symmetric orbit in the plane of frequency and restitution.
+/// // The fold of the source oscillator's symmetric orbit, over frequency and restitution.
 /// let plane = |[frequency, restitution]: [f64; 2]| {
 ///     let scene = Scene::oscillator(1.0, 0.2, 100.0)
 ///         .with_wall(Wall::upper("upper", 5e-3).with_restitution(restitution))
