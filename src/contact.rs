@@ -213,8 +213,8 @@ impl Episodes {
         }
         let sign = self.side[wall].sign();
         let Rates { before, struck, after } = rates;
-        // A blow towards a rigid wall ends a rest on it: an impact with an approach speed of its own
-        // follows. In a spring the contact goes on.
+        // A blow towards a rigid wall ends a rest on it: an impact with an approach speed of its
+        // own follows. In a spring the contact goes on.
         if self.rigid[wall] && sign * (struck - before) < 0.0 {
             self.part(wall);
         }

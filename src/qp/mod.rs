@@ -127,8 +127,8 @@ impl Rhs<'_> {
         shape("upper bounds", m, self.hi.len())
     }
 
-    /// Checks that l < +∞, u > −∞, and that no row's own bounds cross by more than rounding, for the
-    /// rows `bounded`.
+    /// Checks that l < +∞, u > −∞, and that no row's own bounds cross by more than rounding, for
+    /// the rows `bounded`.
     fn check(&self, scale: f64, bounded: impl IntoIterator<Item = usize>) -> Result<(), Failure> {
         for row in bounded {
             let (lo, hi) = (self.lo[row], self.hi[row]);

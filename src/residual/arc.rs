@@ -39,8 +39,8 @@ impl Judge {
         self.doubt_balance(balance / weight);
     }
 
-    /// Computes the loads at instants inside an arc. Tables jump at their ends, where an arc ends: a
-    /// load read just inside is that of the arc.
+    /// Computes the loads at instants inside an arc. Tables jump at their ends, where an arc ends:
+    /// a load read just inside is that of the arc.
     fn load_at(&self, at: &mut Instants, extra: f64) {
         let (times, loads) = (&at.t[..at.count], &mut at.load[..at.count]);
         match &self.grid_load {

@@ -283,7 +283,8 @@ mod tests {
         let mut struck = Rounding::new(&weights, &[]);
         struck.step(&Moves { blow: &[-10.0], ..moves }, &[-8.0], &weights, (0.5, 2.0), 1);
         assert_eq!(struck.force(1.0, 1.0), unit * (6.0 + spring + damper + 10.0));
-        // Sums over four degrees of freedom have twice the rounding; one without springs has no rate.
+        // Sums over four degrees of freedom have twice the rounding; one without springs has no
+        // rate.
         let mut four = weights.repeated(4);
         four.roots[0] = [1.0, 0.0, 0.0];
         let mut many = Rounding::new(&four, &[]);

@@ -1,6 +1,6 @@
 //! Checks of round holes against a bound on the displacement at the end of a step
-//! ([`Promise::hole`](crate::step::Promise::hole)): that the hole is not passed, that it pushes only
-//! where it is touched, towards its centre, and never pulls.
+//! ([`Promise::hole`](crate::step::Promise::hole)): that the hole is not passed, that it pushes
+//! only where it is touched, towards its centre, and never pulls.
 
 use super::Judge;
 use super::beyond::Worst;

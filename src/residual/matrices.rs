@@ -27,8 +27,8 @@ impl Matrices {
         }
     }
 
-    /// Writes `scale` times the product with `x` to `out`, n entries each; of one degree of freedom,
-    /// any number of products with the entries of `x`.
+    /// Writes `scale` times the product with `x` to `out`, n entries each; of one degree of
+    /// freedom, any number of products with the entries of `x`.
     #[inline(always)]
     pub fn product(&self, part: Part, scale: f64, x: &[f64], out: &mut [f64]) {
         match self {

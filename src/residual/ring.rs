@@ -31,7 +31,8 @@ impl Judge {
                 let at = [0, 1].map(|i: usize| 0.5 * (start[i] + end[i]));
                 let (s0, s1) = (r0 - gap, r1 - gap);
                 let mean = mean_pressure(&law, s0, s1) + c * (s1.max(0.0) - s0.max(0.0)) / h;
-                // Over the way from w to w⁺ the force does the work of the pressure over |w⁺| − |w|.
+                // Over the way from w to w⁺ the force does the work of the pressure over
+                // |w⁺| − |w|.
                 let share = 2.0 * at[0].hypot(at[1]) / (r0 + r1);
                 (at, mean * share, law.tangent(s0.max(s1).max(f64::MIN_POSITIVE)) + 2.0 * c / h)
             }

@@ -78,8 +78,8 @@ impl Scratch {
         path
     }
 
-    /// Adds the terms of inertia, damping and stiffness to the balance of a step of `h` seconds (and
-    /// 1/h). Returns the largest force in it so far, N/√kg: `scale` before.
+    /// Adds the terms of inertia, damping and stiffness to the balance of a step of `h` seconds
+    /// (and 1/h). Returns the largest force in it so far, N/√kg: `scale` before.
     #[inline(always)]
     pub fn products(
         &mut self,
@@ -104,7 +104,8 @@ impl Scratch {
         scale
     }
 
-    /// The largest residual of the balance: so far, N, with `so_far` before; and of this step, N/√kg.
+    /// The largest residual of the balance: so far, N, with `so_far` before; and of this step,
+    /// N/√kg.
     #[inline(always)]
     pub fn open(&self, per_h: f64, weights: &Weights, n: usize, so_far: f64) -> (f64, f64) {
         let (mut balance, mut worst) = (so_far, 0.0);

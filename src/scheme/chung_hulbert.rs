@@ -5,8 +5,8 @@
 //!
 //! M[(1−α_m)a⁺ + α_m a] = (1−α_f)F⁺ + α_f F.
 //!
-//! Without a⁺ the state would be q̂ = q + hv + h²(½−β)a and v̂ = v + h(1−γ)a. With Δ = q⁺ − q̂ = h²βa⁺
-//! the rule is
+//! Without a⁺ the state would be q̂ = q + hv + h²(½−β)a and v̂ = v + h(1−γ)a. With Δ = q⁺ − q̂ =
+//! h²βa⁺ the rule is
 //!
 //! S Δ = b + Gᵀν,   S = [μM + hγC + h²βK]/(h²β),   b = past + f⁺ − C v̂ − K q̂,
 //!

@@ -110,7 +110,8 @@ fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Res
             return Ok(Box::new(Disks::new(scene, scheme.contract(), h)?));
         }
         Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. } => {
-            "moreau-jean, or no friction: a bound on the displacement leaves a contact no velocity at which it could stick"
+            "moreau-jean, or no friction: a bound on the displacement leaves a contact no velocity \
+             at which it could stick"
         }
         Scheme::PaoliSchatzman | Scheme::Newmark if round => {
             "moreau-jean: this scheme does not keep the energy of a body in a round hole"

@@ -12,9 +12,9 @@ pub(super) trait Motion: Debug + Send {
     /// Makes step number `step` under the extra force (N, n entries; `None` is zero force).
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()>;
 
-    /// Makes the steps from number `step` on that touch no wall, up to number `until`, and adds those
-    /// of one degree of freedom to `calm`; returns the number of the first step that is not made. A
-    /// motion without such a loop makes none.
+    /// Makes the steps from number `step` on that touch no wall, up to number `until`, and adds
+    /// those of one degree of freedom to `calm`; returns the number of the first step that is not
+    /// made. A motion without such a loop makes none.
     fn glide(&mut self, step: u64, _until: u64, _calm: Option<&mut Calm>) -> Result<u64> {
         Ok(step)
     }

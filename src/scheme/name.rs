@@ -120,7 +120,8 @@ impl Scheme {
     /// Checks the scheme's own numbers.
     ///
     /// # Errors
-    /// [`Error::Invalid`]: θ outside [½, 1], ρ∞ outside [0, 1], an ε or stiffness that is not positive, a negative damping.
+    /// [`Error::Invalid`]: θ outside [½, 1], ρ∞ outside [0, 1], an ε or stiffness that is not
+    /// positive, a negative damping.
     pub fn validate(&self) -> Result<()> {
         let positive = |key: &'static str, x: f64| {
             if x > 0.0 && x.is_finite() { Ok(()) } else { Err(Error::invalid(key, x, "a finite number above 0")) }

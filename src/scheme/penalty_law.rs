@@ -57,8 +57,8 @@ impl PenaltyLaw {
         }
     }
 
-    /// The law that a round hole of this radial gap (m) and law has in a penalty run: its own unless
-    /// it is rigid. The φ² law spans its diameter.
+    /// The law that a round hole of this radial gap (m) and law has in a penalty run: its own
+    /// unless it is rigid. The φ² law spans its diameter.
     #[must_use]
     pub fn round(&self, gap: f64, own: WallLaw) -> WallLaw {
         match *self {

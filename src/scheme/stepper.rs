@@ -198,7 +198,8 @@ impl Stepper {
     /// ```
     /// use signorini::{Scene, Scheme, Stepper, Wall};
     ///
-    /// let scene = Scene::oscillator(1.0, 0.0, 100.0).with_wall(Wall::upper("stop", 0.01)).with_initial(&[0.0], &[1.0]);
+    /// let scene = Scene::oscillator(1.0, 0.0, 100.0).with_initial(&[0.0], &[1.0]);
+    /// let scene = scene.with_wall(Wall::upper("stop", 0.01));
     /// let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3)?;
     /// for _ in 0..5 {
     ///     stepper.step()?;

@@ -19,9 +19,9 @@ pub struct Distribution {
     pub mean: f64,
     /// Largest.
     pub max: f64,
-    /// The values below which 50, 90 and 99 % of the episodes lie: with the sorted values
-    /// x₀ … x_{n−1}, x at the place p(n − 1), straight between neighbours (definition 7 of Hyndman &
-    /// Fan 1996, doi:10.1080/00031305.1996.10473566).
+    /// The values below which 50, 90 and 99 % of the episodes lie: with the sorted values x₀ …
+    /// x_{n−1}, x at the place p(n − 1), straight between neighbours (definition 7 of Hyndman & Fan
+    /// 1996, doi:10.1080/00031305.1996.10473566).
     pub quantiles: [f64; 3],
     /// Twenty thresholds, five a decade, 10^(j/5) with whole j: the last twenty that the largest
     /// value reaches. They are the same in every run, so that the counts of runs can be added.

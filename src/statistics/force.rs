@@ -195,8 +195,8 @@ impl Forces {
         })
     }
 
-    /// Statistics of each support, where `contacts(i)` began at support i in the window; empty for a
-    /// window of length 0.
+    /// Statistics of each support, where `contacts(i)` began at support i in the window; empty for
+    /// a window of length 0.
     pub(super) fn of_supports(&self, contacts: impl Fn(usize) -> usize) -> Vec<SupportForce> {
         let Some(sums) = self.sums() else { return Vec::new() };
         // The current interval ends with the window.

@@ -20,8 +20,8 @@ pub struct WearStatistics {
     pub upper_figure: bool,
     /// Work rate W/T, W: the work of wear ∫ F_n |v_t| dt over the window, per unit time.
     pub work_rate_w: f64,
-    /// Half width of its 95 % interval by batch means, W; `None` unless the support pushed in each of
-    /// ten batches.
+    /// Half width of its 95 % interval by batch means, W; `None` unless the support pushed in each
+    /// of ten batches.
     pub work_rate_half_width_95_w: Option<f64>,
     /// The share of the work that impacts did: of a scheme on a grid, the first two steps of each
     /// contact. `None` for an elastic support, where no force is an impulse, and without work.

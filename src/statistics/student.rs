@@ -68,8 +68,8 @@ mod tests {
 
     #[test]
     fn quantiles_are_those_of_the_tables() {
-        // ν = 1: tan(0.475 π); ν = 2: √(2·0.95²/(1 − 0.95²)); the others by integration of the density
-        // with Simpson's rule, to 1e-13 of the share.
+        // ν = 1: tan(0.475 π); ν = 2: √(2·0.95²/(1 − 0.95²)); the others by integration of the
+        // density with Simpson's rule, to 1e-13 of the share.
         let closed = (0.475 * std::f64::consts::PI).tan();
         let two = (2.0 * 0.95_f64.powi(2) / (1.0 - 0.95_f64.powi(2))).sqrt();
         for (freedom, t) in [

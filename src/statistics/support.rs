@@ -14,7 +14,8 @@ pub struct SupportStatistics {
     pub support: String,
     /// Number of contacts that began in the window, of all its flats.
     pub contacts: usize,
-    /// Largest |normal force| of each contact that overlaps the window and whose force is finite, N.
+    /// Largest |normal force| of each contact that overlaps the window and whose force is finite,
+    /// N.
     #[serde(default)]
     pub episode_peak_force_n: Summary,
     /// The force over time; `None` where only the contacts are known.
@@ -46,8 +47,8 @@ pub struct SupportForce {
 /// Where the impulses of a support stand in a step.
 #[derive(Debug, Clone)]
 enum Source {
-    /// Its flats: the wall, the outward unit normal times the sign of the wall's force along it, and
-    /// the tangent.
+    /// Its flats: the wall, the outward unit normal times the sign of the wall's force along it,
+    /// and the tangent.
     Flats(Vec<(usize, [f64; 2], [f64; 2])>),
     /// Index of the hole.
     Round(usize),
@@ -62,7 +63,8 @@ pub(super) struct SupportTally {
     /// Σ of the vector impulse, N s, and of its square over an interval's length, N² s.
     vector: [[f64; BATCHES]; 2],
     square: [f64; BATCHES],
-    /// The vector impulse in the current interval of a round hole, or of the friction at flats, N s.
+    /// The vector impulse in the current interval of a round hole, or of the friction at flats, N
+    /// s.
     stretch: [f64; 2],
 }
 
@@ -92,9 +94,9 @@ impl SupportTally {
         scene.supports.iter().map(|support| tally(&support.shape)).collect()
     }
 
-    /// Adds what a round hole and friction did in `step` between two times in it, s, in `batch`: the
-    /// force of exact motion over it, or that share of the step's impulses. The impulses of flats
-    /// are those of walls.
+    /// Adds what a round hole and friction did in `step` between two times in it, s, in `batch`:
+    /// the force of exact motion over it, or that share of the step's impulses. The impulses of
+    /// flats are those of walls.
     pub fn add(&mut self, batch: usize, step: &Step<'_>, [from, to]: [f64; 2]) {
         let share = (to - from) / (step.end - step.start);
         let mut push = |impulse: [f64; 2]| self.stretch.iter_mut().zip(impulse).for_each(|(sum, p)| *sum += share * p);

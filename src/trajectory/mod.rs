@@ -130,8 +130,8 @@ impl Trajectory {
     }
 
     /// Friction impulse at each wall since the previous row, N s, along (−n_z, n_y) with n the
-    /// outward normal of the flat: one column per wall, in the scene's order; none in scenes without
-    /// round supports and friction.
+    /// outward normal of the flat: one column per wall, in the scene's order; none in scenes
+    /// without round supports and friction.
     #[must_use]
     pub fn friction_impulses(&self) -> &[Vec<f64>] {
         &self.0.friction

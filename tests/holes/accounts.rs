@@ -73,8 +73,8 @@ fn a_hole_of_another_size_is_named_with_the_depth() {
 
 #[test]
 fn a_force_beside_the_normal_is_measured_by_its_share() {
-    // The centre elsewhere along the brim by 1e-4 of the gap, over 5e-3 rad: the gap changes by 5e-7
-    // of itself, and the direction by 1e-4.
+    // The centre elsewhere along the brim by 1e-4 of the gap, over 5e-3 rad: the gap changes by
+    // 5e-7 of itself, and the direction by 1e-4.
     for degrees in [0.0, 75.0, 200.0] {
         let scene = sliding(degrees, 2.5e-4);
         let [c, s] = heading(degrees);

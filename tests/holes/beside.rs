@@ -86,7 +86,8 @@ fn a_hole_out_of_reach_changes_no_step() {
             let mut bare = Stepper::new(&scene, &scheme, h).expect("without it");
             let mut pushed = [0_u32; 4];
             for number in 0..3000_u32 {
-                // An extra force for a while, every other step; and once both start anew in the walls.
+                // An extra force for a while, every other step; and once both start anew in the
+                // walls.
                 let extra = [0.7, -1.1].map(|f| if number % 2 == 1 { f } else { 0.0 });
                 let given = (800..1000).contains(&number).then_some(extra);
                 if number == 2000 {

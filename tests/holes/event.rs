@@ -41,7 +41,8 @@ fn made(scene: &Scene, rows: f64) -> Run {
     run
 }
 
-/// The work of wear of the first support, J: in the statistics, in the last row and in the contacts.
+/// The work of wear of the first support, J: in the statistics, in the last row and in the
+/// contacts.
 fn works(run: &Run, duration: f64) -> [f64; 3] {
     let contacts = run.trajectory.contact_wear().iter().flatten().map(|wear| wear.work).sum();
     let rate = run.statistics.wear[0].work_rate_w;

@@ -86,7 +86,8 @@ fn with_fault(friction: f64, fault: impl Fn(&mut HoleStep)) -> (Vec<Finding>, Re
 #[test]
 fn every_fault_of_a_hole_is_found() {
     for friction in [0.0, 0.3] {
-        // The normal turned by 1e-4: a force of that share is askew, and the balance misses as much.
+        // The normal turned by 1e-4: a force of that share is askew, and the balance misses as
+        // much.
         let (findings, _) = with_fault(friction, |hole| {
             let ([y, z], turn) = (hole.normal, 1e-4);
             hole.normal = [y - turn * z, z + turn * y];

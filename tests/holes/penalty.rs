@@ -262,8 +262,9 @@ fn a_comparison_names_the_restitution_of_the_hole() {
     assert!(said("the walls ask for e = 0.5") && said("implicit-euler on positions tends to e = 0"));
     assert!(!said("every wall has e = 1"), "{:?}", comparison.findings);
     let median = |row: usize| comparison.rows[row].restitution.map(|restitution| restitution.median);
-    // Of the exact motion to rounding. In moreau-jean the normal turns within a step, in the penalty
-    // within a contact, whose spring without dashpot gives all back; implicit-euler stays and slides.
+    // Of the exact motion to rounding. In moreau-jean the normal turns within a step, in the
+    // penalty within a contact, whose spring without dashpot gives all back; implicit-euler stays
+    // and slides.
     let [jean, spring, exact] = [0, 1, 3].map(|row| median(row).unwrap());
     assert!((jean - 0.5).abs() < 1e-4 && (exact - 0.5).abs() < 1e-9, "{jean} {exact}");
     assert!((spring - 1.0).abs() < 1e-4 && median(2).is_none(), "{spring} {:?}", median(2));

@@ -15,8 +15,8 @@ const BOTH: [Scheme; 2] = [EULER, ALPHA];
 #[test]
 fn motion_on_a_diameter_is_that_between_two_walls() {
     for scheme in BOTH {
-        // The last one is damped far beyond critical: the damper feels the acceleration of a step, and
-        // whether a wall pushes in it depends on that.
+        // The last one is damped far beyond critical: the damper feels the acceleration of a step,
+        // and whether a wall pushes in it depends on that.
         let cases = [(0.0, 0.3, 0.6, 5.0), (35.0, 0.8, 0.6, 5.0), (215.0, 0.0, 0.6, 5.0), (35.0, 0.5, 6e3, 200.0)];
         for (degrees, e, damping, force) in cases {
             let [c, s] = heading(degrees);
@@ -207,8 +207,8 @@ fn every_fault_of_a_hole_is_found() {
                 }
             })
         };
-        // The normal turned: a force of that share is askew, and the balance misses as much. The scale
-        // is the force of the first impact, of some 1000 N.
+        // The normal turned: a force of that share is askew, and the balance misses as much. The
+        // scale is the force of the first impact, of some 1000 N.
         let findings = with_fault(&|hole, _| {
             let ([y, z], turn) = (hole.normal, 1e-2);
             hole.normal = [y - turn * z, z + turn * y];

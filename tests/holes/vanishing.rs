@@ -30,8 +30,8 @@ fn the_way_along_the_brim_holds_a_body_that_the_load_draws_inwards() {
             let [y, z] = &made.trajectory.hole_impulses()[0];
             let p = y.iter().sum::<f64>().hypot(z.iter().sum());
             let expected = 0.5 * (3.0 - k) * 9.0 / 1e-2 * t * t * t / 3.0;
-            // The next terms are smaller by the square of the way over γ, 4e-3, and by (ωt)²; both are
-            // of the order of 1e-3 of 9t²/γ.
+            // The next terms are smaller by the square of the way over γ, 4e-3, and by (ωt)²; both
+            // are of the order of 1e-3 of 9t²/γ.
             assert!((p / expected - 1.0).abs() < 0.01 / (3.0 - k), "{k}, {degrees}: {p}, not {expected}");
             assert_eq!(made.findings, []);
         }

@@ -56,8 +56,8 @@ fn adds_up(support: &WearStatistics) {
 
 #[test]
 fn an_oblique_impact_turns_the_sliding_round() {
-    // The mass that the flat feels is not the same along it and across: the sliding velocity changes
-    // its sign within the impulse. Impulse and work with 40 digits.
+    // The mass that the flat feels is not the same along it and across: the sliding velocity
+    // changes its sign within the impulse. Impulse and work with 40 digits.
     let scene = body([2.0, 0.9, 1.0], 0.0, ([0.0; 2], [0.3, 0.05]));
     let scene = among(scene, &[0.4_f64.to_degrees()], 1e-2, rigid(0.6)).with_duration(0.06);
     for scheme in [JEAN, Scheme::Event] {
@@ -82,9 +82,9 @@ fn an_oblique_impact_turns_the_sliding_round() {
 fn a_billiard_in_a_square_hole_slides_by_at_every_impact() {
     let scene = body([1.3, 0.0, 1.3], 0.0, ([2e-4, -6e-4], [0.05, 0.083]));
     let scene = among(scene, &[20.0, 110.0, 200.0, 290.0], 1e-3, rigid(1.0));
-    // 68 impacts with 40 digits by unfolding; every impact gives some roundings. In a step of a grid
-    // that meets two flats each turns the sliding along the other round, and a pair of impacts loses
-    // half of its work: one such pair is allowed.
+    // 68 impacts with 40 digits by unfolding; every impact gives some roundings. In a step of a
+    // grid that meets two flats each turns the sliding along the other round, and a pair of impacts
+    // loses half of its work: one such pair is allowed.
     for (scheme, tolerance) in [(Scheme::Event, 1e-12), (JEAN, 1.6e-2)] {
         let run = made(&scene, scheme, 1e-5);
         let support = only(&run);
@@ -109,8 +109,8 @@ fn a_body_pressed_on_a_flat_slides_two_amplitudes_a_swing() {
     scene.loads.push(Load { at: Row::dof(1), kind: LoadKind::Constant { force } });
     let scene = scene.with_duration(swings * std::f64::consts::PI / 100.0);
     let distance = swings * 2.0 * amplitude;
-    // Seven turning points, found to rounding; the trapezium rule of the motion is 1/12 (ωh)² slow in
-    // phase, which leaves the swings whole up to its square, and each end of a swing is cut by a
+    // Seven turning points, found to rounding; the trapezium rule of the motion is 1/12 (ωh)² slow
+    // in phase, which leaves the swings whole up to its square, and each end of a swing is cut by a
     // step: (ωh)²/8 of an amplitude.
     for (scheme, steps, tolerance) in [(Scheme::Event, 700, 1e-13), (JEAN, 7000, 1e-5), (JEAN, 28000, 1e-6)] {
         let run = made(&scene, scheme, scene.duration / f64::from(steps));
@@ -132,8 +132,8 @@ fn a_body_pressed_on_a_flat_slides_two_amplitudes_a_swing() {
 
 #[test]
 fn a_blow_comes_before_the_impact_that_it_makes() {
-    // At rest on a flat, struck obliquely: the sliding velocity of the impact is what the blow gave,
-    // J_t/m throughout, and its impulse (1 + e) J_n.
+    // At rest on a flat, struck obliquely: the sliding velocity of the impact is what the blow
+    // gave, J_t/m throughout, and its impulse (1 + e) J_n.
     let scene = body([1.3, 0.0, 1.3], 0.0, ([0.0; 2], [0.0; 2]));
     let mut scene = among(scene, &[0.0], 0.0, rigid(0.5)).with_duration(0.05);
     scene
@@ -178,7 +178,8 @@ fn the_window_and_the_number_of_sectors_are_kept() {
     assert_eq!(support.sectors.len(), 36);
     assert_eq!((support.sectors[2].from_deg, support.sectors[2].to_deg), (20.0, 30.0));
     assert!(support.sectors[2].work_rate_w > 0.0 && support.sectors[3].work_rate_w == 0.0);
-    // Each impact slides at the speed that it leaves: the work is that of the impacts in the window.
+    // Each impact slides at the speed that it leaves: the work is that of the impacts in the
+    // window.
     let walls = &run.trajectory;
     let late = walls.contacts().iter().filter(|contact| contact.start >= 0.5);
     let (turn, v) = (20_f64.to_radians(), [0.05_f64, 0.083]);
@@ -195,8 +196,8 @@ fn the_window_and_the_number_of_sectors_are_kept() {
 #[test]
 fn every_scheme_tells_the_work_of_a_flat() {
     use signorini::{Integrator, PenaltyLaw};
-    // The oblique impact of a free body with equal masses: the work is 2 m v_n v_t at e = 1, and half
-    // of it where a scheme realises e = 0.
+    // The oblique impact of a free body with equal masses: the work is 2 m v_n v_t at e = 1, and
+    // half of it where a scheme realises e = 0.
     let scene = body([1.3, 0.0, 1.3], 0.0, ([0.0; 2], [0.2, -0.15]));
     let scene = among(scene, &[0.0], 1e-3, rigid(1.0)).with_duration(0.05);
     let law = PenaltyLaw::Linear { stiffness: 1e5, damping: 0.0 };

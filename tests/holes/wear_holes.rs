@@ -51,8 +51,8 @@ fn a_whirling_mass_wears_as_the_closed_form_says() {
     // The midpoint rule on the circle: 2e-5 at a step of 1e-3, order 2, so 2e-7 here.
     let force = run.statistics.supports[0].force.unwrap().mean_n;
     assert!((force / 7.064267168051028225190121 - 1.0).abs() < 1e-6, "{force}");
-    // The force is steady: the largest is the mean, up to the first step, which begins at the speed of
-    // the steady motion and is half a step behind it.
+    // The force is steady: the largest is the mean, up to the first step, which begins at the speed
+    // of the steady motion and is half a step behind it.
     let peak = run.statistics.supports[0].episode_peak_force_n.max.unwrap();
     assert!((peak / 7.064267168051028225190121 - 1.0).abs() < 1e-6, "{peak}");
     assert!((support.work_rate_w / 1.109652491907234180588153 - 1.0).abs() < 1e-6, "{}", support.work_rate_w);
@@ -89,8 +89,8 @@ fn settling(step: f64) -> Case {
 
 #[test]
 fn infinitely_many_impacts_and_then_sliding_for_ever() {
-    // With 25 digits; order 1 through the impacts. The slid distance begins where they end: what the
-    // grid takes for the last impacts is a share of the step too.
+    // With 25 digits; order 1 through the impacts. The slid distance begins where they end: what
+    // the grid takes for the last impacts is a share of the step too.
     let [coarse, fine] = [1e-4, 1e-5].map(|step| {
         let case = settling(step);
         let run = made(&case, JEAN);

@@ -36,8 +36,8 @@ fn a_blow_does_not_divide_a_contact_with_a_spring() {
         for scheme in all() {
             let (found, statistics) = made(&scene, &scheme, 1e-4);
             let [contact] = found[..] else { panic!("{scheme}: {found:?}") };
-            // The instants of contact and blow are known to a step, 0.01 of the length of either; of
-            // order one the energy falls by some ωh.
+            // The instants of contact and blow are known to a step, 0.01 of the length of either;
+            // of order one the energy falls by some ωh.
             let near = |found: f64, expected: f64| (found / expected - 1.0).abs() < 0.01;
             let what = format!("{scheme}, side {s}: {contact:?}");
             assert!(near(contact.approach_speed, speed), "{what}");
@@ -113,8 +113,8 @@ fn a_contact_ends_where_its_force_falls_to_rounding() {
                 .with_duration(0.1);
             let (found, _) = made(&scene, &scheme, 1e-2);
             let [contact] = found[..] else { panic!("{scheme}: {found:?}") };
-            // 1 N for 0.05 s, up to one step and a half: which instant stands for a step's load is the
-            // scheme's affair.
+            // 1 N for 0.05 s, up to one step and a half: which instant stands for a step's load is
+            // the scheme's affair.
             assert!(contact.end.is_some_and(|end| (end - 0.05).abs() < 0.0151), "{scheme}: {contact:?}");
             assert!((-s * contact.impulse - 0.05).abs() < 0.0101, "{scheme}: {contact:?}");
         }

@@ -5,8 +5,8 @@ use crate::rubbing::{body, isotropic, with_flats};
 use signorini::residual::Energy;
 use signorini::{Integrator, Load, Options, Row, Scene, Scheme, Wall, run};
 
-/// E at the start, at the end and the largest; work of loads, damping, impacts, dashpots, friction; and
-/// what was exchanged, J.
+/// E at the start, at the end and the largest; work of loads, damping, impacts, dashpots, friction;
+/// and what was exchanged, J.
 type Entries = [f64; 9];
 
 fn entries(e: &Energy) -> Entries {
@@ -55,7 +55,8 @@ fn loads_work_and_dampers_take() {
             .with_initial(&[x0], &[v0])
             .with_duration(t);
         for scheme in all() {
-            // Order one: h ω² T/2 of the energy, and half a step at both ends of a staggered scheme.
+            // Order one: h ω² T/2 of the energy, and half a step at both ends of a staggered
+            // scheme.
             check("a load", &scene, &scheme, expected, 2e-3);
         }
     }
@@ -96,7 +97,8 @@ fn blows_work_by_the_mean_of_the_velocities_around_them() {
 
 #[test]
 fn springs_store_and_their_dashpots_take() {
-    // 1 kg at 0.4 m/s into 400 N/m, and out again: π/20 s inside. Half way through, the spring has it.
+    // 1 kg at 0.4 m/s into 400 N/m, and out again: π/20 s inside. Half way through, the spring has
+    // it.
     let scene = |damping: f64, duration: f64, s: f64| {
         let wall = if s > 0.0 { Wall::upper("pad", 0.0) } else { Wall::lower("pad", 0.0) };
         Scene::oscillator(1.0, 0.0, 0.0)
@@ -134,7 +136,8 @@ fn springs_store_and_their_dashpots_take() {
 
 #[test]
 fn friction_takes_its_force_times_the_way() {
-    // 2 kg pressed by 3 N onto a flat, sliding at ±0.3 m/s with friction 0.25: 0.15 m/s after 0.4 s.
+    // 2 kg pressed by 3 N onto a flat, sliding at ±0.3 m/s with friction 0.25: 0.15 m/s after 0.4
+    // s.
     for direction in [0.0, 180.0] {
         for s in [1.0, -1.0] {
             let push = if direction == 0.0 { 3.0 } else { -3.0 };
@@ -152,8 +155,8 @@ fn friction_takes_its_force_times_the_way() {
 
 #[test]
 fn the_ledger_closes_to_rounding_from_a_start_within_a_spring() {
-    // 1 kg on 30 N/m, 10 mm inside a wall of 400 N/m and never out of it, pressed by 8 N, with blows
-    // within a step.
+    // 1 kg on 30 N/m, 10 mm inside a wall of 400 N/m and never out of it, pressed by 8 N, with
+    // blows within a step.
     for (wall, s) in [(Wall::upper("pad", 0.0), 1.0), (Wall::lower("pad", 0.0), -1.0)] {
         let scene = Scene::oscillator(1.0, 0.0, 30.0)
             .with_wall(wall.with_elasticity(400.0, 0.0))

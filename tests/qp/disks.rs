@@ -1,4 +1,5 @@
-//! Programmes with disks: optimality on random and adversarial ones, and Clarabel as another solver.
+//! Programmes with disks: optimality on random and adversarial ones, and Clarabel as another
+//! solver.
 
 use crate::draws::{cases, seed};
 use crate::qp_support::Random;

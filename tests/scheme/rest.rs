@@ -234,7 +234,8 @@ fn a_mass_pressed_on_a_stop_rests_under_the_static_force_in_every_scheme() {
 
 #[test]
 fn two_bodies_without_a_ground_stand_against_a_wall_with_the_spring_between_them() {
-    // 7 N press the first of two bodies, 20 N/m apart, towards a wall of the second, or a pad of it.
+    // 7 N press the first of two bodies, 20 N/m apart, towards a wall of the second, or a pad of
+    // it.
     for (wall, place, side) in [
         (Wall::upper("stop", 0.5), 0.5, 1.0),
         (Wall::lower("stop", -0.5), -0.5, -1.0),

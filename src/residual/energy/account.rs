@@ -19,8 +19,8 @@ pub struct Energy {
     pub load_work_j: f64,
     /// Dissipated by the structure's damping.
     pub damping_j: f64,
-    /// Dissipated by impacts on rigid walls and holes, −Σ p(ẇ⁻ + ẇ⁺)/2; negative if the scheme created energy
-    /// there.
+    /// Dissipated by impacts on rigid walls and holes, −Σ p(ẇ⁻ + ẇ⁺)/2; negative if the scheme
+    /// created energy there.
     pub impact_loss_j: f64,
     /// Dissipated by the dashpots of elastic walls: the work done on a wall minus what it stores.
     pub wall_damping_j: f64,

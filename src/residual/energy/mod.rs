@@ -83,8 +83,8 @@ impl Ledger {
         }
     }
 
-    /// Adds one step of `h` seconds (and 1/h) on a grid under the mean load `load` (N); n degrees of
-    /// freedom.
+    /// Adds one step of `h` seconds (and 1/h) on a grid under the mean load `load` (N); n degrees
+    /// of freedom.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn see_grid(
@@ -131,8 +131,8 @@ impl Ledger {
     }
 
     /// Energy of the structure after a step from `q0` to `q1`, with the velocity `after` in its
-    /// balance and `v` shown; under a staggered rule that of half a step from `q0`, back where `h` is
-    /// negative.
+    /// balance and `v` shown; under a staggered rule that of half a step from `q0`, back where `h`
+    /// is negative.
     #[inline(always)]
     fn after(
         &mut self,

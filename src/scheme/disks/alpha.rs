@@ -84,8 +84,8 @@ impl Alpha {
         Ok(())
     }
 
-    /// q⁺, v⁺ without the impulses of rigid walls and holes unless one was met, a⁺ likewise, and the
-    /// forces of elastic walls. Returns whether a rigid wall or hole was met.
+    /// q⁺, v⁺ without the impulses of rigid walls and holes unless one was met, a⁺ likewise, and
+    /// the forces of elastic walls. Returns whether a rigid wall or hole was met.
     fn displace(&mut self, step: u64, held: &mut Held) -> Result<bool> {
         let met = if self.rule.unfelt == 0.0 {
             self.put(step, held, 0.0)?
@@ -99,8 +99,8 @@ impl Alpha {
         Ok(met)
     }
 
-    /// Solves for Δ, the damper not feeling a and the extra force over `unfelt` (s). Returns whether
-    /// a rigid wall or hole pushes.
+    /// Solves for Δ, the damper not feeling a and the extra force over `unfelt` (s). Returns
+    /// whether a rigid wall or hole pushes.
     fn put(&mut self, step: u64, held: &Held, unfelt: f64) -> Result<bool> {
         let (body, frame) = (&held.body, &held.frame);
         self.rule.ask(body, unfelt);

@@ -6,8 +6,8 @@
 //! c_a(|w⁺| − r₊)/h is k(|w⁺| − ρ) for the radius ρ = (k_aγ + c_a r₊/h)/k. So a step is the
 //! programme of the same scheme between planar walls with disks beside the bounds, and
 //! [`DiskSolver`](crate::qp::DiskSolver) answers it. `position.rs` is implicit-euler, `alpha.rs`
-//! generalized-alpha, `velocity.rs` moreau-jean with elastic rings. In the penalty (`springs.rs`) every
-//! contact is a spring, and there is no programme.
+//! generalized-alpha, `velocity.rs` moreau-jean with elastic rings. In the penalty (`springs.rs`)
+//! every contact is a spring, and there is no programme.
 //!
 //! Friction is refused: a bound on the displacement leaves a contact no velocity at which it could
 //! stick, and between the impulse of one step and that of the next it would bounce along the

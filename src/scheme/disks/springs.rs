@@ -1,18 +1,18 @@
 //! The penalty in scenes with round holes: every wall and every hole is a spring.
 //!
-//! The step is that of [`super::super::penalty`] with θ = ½: v_θ = (v + v⁺)/2, q⁺ = q + h v_θ. A hole
-//! of the energy U(s), s = |w| − γ, gives the force
+//! The step is that of [`super::super::penalty`] with θ = ½: v_θ = (v + v⁺)/2, q⁺ = q + h v_θ. A
+//! hole of the energy U(s), s = |w| − γ, gives the force
 //!
 //! F = −P̄ (w + w⁺)/(|w| + |w⁺|),    P̄ = ΔU/Δs + c_a(s⁺₊ − s₊)/h, at least 0,
 //!
-//! the discrete gradient of U as a function of |w|² (Gonzalez 1996, doi:10.1007/BF02440162). Its work
-//! F·(w⁺ − w) is −ΔU without a dashpot, since (w⁺ − w)·(w⁺ + w) = |w⁺|² − |w|², and it has no moment
-//! about the centre at the mean place: energy and angular momentum are kept at any step. The φ² law
-//! of a hole has φ = |w|² − γ², which on a diameter is that of two walls 2γ apart.
+//! the discrete gradient of U as a function of |w|² (Gonzalez 1996, doi:10.1007/BF02440162). Its
+//! work F·(w⁺ − w) is −ΔU without a dashpot, since (w⁺ − w)·(w⁺ + w) = |w⁺|² − |w|², and it has no
+//! moment about the centre at the mean place: energy and angular momentum are kept at any step. The
+//! φ² law of a hole has φ = |w|² − γ², which on a diameter is that of two walls 2γ apart.
 //!
 //! The velocities y = G v_θ of all rows satisfy y = y_free + θh W F(y) with W = G A⁻¹Gᵀ, which is
-//! solved first, by Newton's method with a 2 × 2 derivative for each hole. Newton steps for the whole
-//! v_θ follow: they remove the rounding error of the condensation.
+//! solved first, by Newton's method with a 2 × 2 derivative for each hole. Newton steps for the
+//! whole v_θ follow: they remove the rounding error of the condensation.
 
 use super::super::matrices::Matrices;
 use super::super::penalty::{Mean, mean_pressure};

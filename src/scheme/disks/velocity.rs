@@ -1,5 +1,5 @@
-//! `moreau-jean` with elastic rings: as [`super::super::supports`] without friction, where each ring
-//! is a disk on the displacement at θ that yields.
+//! `moreau-jean` with elastic rings: as [`super::super::supports`] without friction, where each
+//! ring is a disk on the displacement at θ that yields.
 //!
 //! With w_θ = (1−θ)w + θw⁺ and r₊ = max(|w|, γ) the pressure of a ring over the step is k_a(|w_θ| −
 //! γ) + c_a(|w_θ| − r₊)/θh, at least 0, towards the centre from w_θ. Rigid holes and walls keep

@@ -1,8 +1,8 @@
 //! Flights that are plain to see: to the wall that is met first, or over all of the span.
 //!
 //! Between two instants h apart the motion is within |q⁗|z²(h − z)²/24 of the cubic that has its
-//! values and slopes at both. In Bernstein form that cubic has the control points q₀, q₀ + v₀h/3, q₁
-//! − v₁h/3, q₁ with weights B₀ … B₃ ≥ 0 of sum 1, and z²(h − z)² ≤ h⁴(B₁ + B₂)/12. So where both
+//! values and slopes at both. In Bernstein form that cubic has the control points q₀, q₀ + v₀h/3,
+//! q₁ − v₁h/3, q₁ with weights B₀ … B₃ ≥ 0 of sum 1, and z²(h − z)² ≤ h⁴(B₁ + B₂)/12. So where both
 //! ends are in front of a wall or at it, and the two inner points in front of it by more than
 //! |q⁗|h⁴/288, the motion is in front of it all the way: no grazing contact is missed.
 //!
@@ -134,8 +134,8 @@ impl Taylor {
         }
     }
 
-    /// Where it is within `noise` (m) of 0, s from now, and its derivative there, by Newton's method
-    /// from `s`; `None` if that does not converge.
+    /// Where it is within `noise` (m) of 0, s from now, and its derivative there, by Newton's
+    /// method from `s`; `None` if that does not converge.
     #[inline]
     fn meet(&self, mut s: f64, noise: f64) -> Option<(f64, f64)> {
         for _ in 0..NEWTON_STEPS {

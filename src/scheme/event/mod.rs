@@ -25,12 +25,12 @@ use room::Room;
 /// m q̈ + c q̇ + k q = f(t) + r, 0 ≤ gap ⟂ |r| ≥ 0 and ẇ⁺ = −e ẇ⁻ at a rigid wall, |r| = max(0, k_a
 /// s + c_a ṡ) for s > 0 at an elastic one.
 ///
-/// Between events the motion is an [`Arc`]. A flight in front of all walls is followed in leaps, each
-/// shown to be free of contact by the cubic through both of its ends and a bound on its error. Where
-/// that does not tell, the first root of each gap, and of the force of each wall that touches, is
-/// approached from one side by polynomials that are lower bounds of the function. Both use bounds by
-/// [`Arc`], so that no root is skipped: neither a grazing contact nor a wall is missed. Gaps are
-/// resolved to rounding; a miss by less than that counts as a touch.
+/// Between events the motion is an [`Arc`]. A flight in front of all walls is followed in leaps,
+/// each shown to be free of contact by the cubic through both of its ends and a bound on its error.
+/// Where that does not tell, the first root of each gap, and of the force of each wall that
+/// touches, is approached from one side by polynomials that are lower bounds of the function. Both
+/// use bounds by [`Arc`], so that no root is skipped: neither a grazing contact nor a wall is
+/// missed. Gaps are resolved to rounding; a miss by less than that counts as a touch.
 ///
 /// - A touch without approach speed, such as the tangential return of an undamped motion, is
 ///   located at the extremum of the gap: it has no speed and no impulse, and is no contact.

@@ -4,7 +4,8 @@ use crate::flow::Jet;
 use crate::scene::Side;
 use crate::scheme::exact::{ExactWall, Phase};
 
-/// The nearest wall on either side of the body: its position (m, infinite without a wall) and index.
+/// The nearest wall on either side of the body: its position (m, infinite without a wall) and
+/// index.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Room {
     low: (f64, Option<usize>),

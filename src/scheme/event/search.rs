@@ -127,7 +127,8 @@ impl Event {
     }
 
     /// Rounding errors of displacement and its first three derivatives on this arc. Away from its
-    /// start, where the `closed` form gives the acceleration, those of its own terms are among them.
+    /// start, where the `closed` form gives the acceleration, those of its own terms are among
+    /// them.
     fn flow_noise(&self, closed: bool) -> [f64; 4] {
         let [_, v, force, rate] = self.sizes;
         let (mass, rub) = (self.body.mass, self.body.damping / self.body.mass);

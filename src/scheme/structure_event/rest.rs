@@ -3,9 +3,10 @@
 //! Over the closed rows of speed 0, 0 ≤ ẅ ⟂ λ ≥ 0: the accelerations minimise ½ (q̈ − M⁻¹F)ᵀ M (q̈
 //! − M⁻¹F) over G q̈ ≥ 0 (Gauss's principle). Rows with λ > 0 are held, rows with ẅ > 0 leave.
 //! Where both vanish to rounding the next derivative decides in the same way, and the rows held so
-//! far are held in it too. At a round hole ẅ is that of the distance to the circle, which the turning
-//! of the normal changes too (`round.rs`). A row that no derivative decides is stopped and left free: nothing
-//! presses on it, so it is not in contact, and the search for events finds which way it goes.
+//! far are held in it too. At a round hole ẅ is that of the distance to the circle, which the
+//! turning of the normal changes too (`round.rs`). A row that no derivative decides is stopped and
+//! left free: nothing presses on it, so it is not in contact, and the search for events finds which
+//! way it goes.
 
 use super::StructureEvent;
 use super::closed_row::{ClosedRow, Fate, LEVELS, side_of};

@@ -1,11 +1,13 @@
 //! Round holes: rows that turn.
 //!
 //! A hole bounds |w| ≤ γ. Its gap is taken as φ = (γ² − |w|²)/2γ, which is γ − |w| near the circle
-//! and a polynomial of the series. At each instant the row of the hole is n·P with n = w/|w|: impacts
-//! are those of an upper wall on that row. Where the structure touches and slides, the gap has the
-//! derivatives
+//! and a polynomial of the series. At each instant the row of the hole is n·P with n = w/|w|:
+//! impacts are those of an upper wall on that row. Where the structure touches and slides, the gap
+//! has the derivatives
 //!
-//! φ̈ = −(n·ẅ + |ẇ|²/γ),    φ⁽³⁾ = −(n·w⁽³⁾ + 3 ẇ·ẅ/γ),    φ⁽⁴⁾ = −(n·w⁽⁴⁾ + (4 ẇ·w⁽³⁾ + 3 |ẅ|²)/γ),
+//! φ̈ = −(n·ẅ + |ẇ|²/γ),
+//! φ⁽³⁾ = −(n·w⁽³⁾ + 3 ẇ·ẅ/γ),
+//! φ⁽⁴⁾ = −(n·w⁽⁴⁾ + (4 ẇ·w⁽³⁾ + 3 |ẅ|²)/γ),
 //!
 //! so that the row's acceleration is compared with the bend −|ẇ|²/γ of the circle, and so on. The
 //! force r n of a hole that holds (r ≤ 0) turns as well: its derivatives are ṙ n + r ẇ/γ and r̈ n +

@@ -4,10 +4,10 @@
 //!
 //! A δ = h[f_θ − C v − K(q + hθv)] + J − C d + Σ Pᵀ(−p n + f t),    t = (−n_z, n_y),
 //!
-//! over the walls and holes that the step reaches; P are the two rows of a place. [`reach`] has their
-//! bounds on n·ẇ⁺. Friction follows Coulomb's law on the impulses and the velocity at the end of the
-//! step ([`crate::step::Friction`]): with velocities at θ in its place, a body that sticks would
-//! bounce along the surface.
+//! over the walls and holes that the step reaches; P are the two rows of a place. [`reach`] has
+//! their bounds on n·ẇ⁺. Friction follows Coulomb's law on the impulses and the velocity at the end
+//! of the step ([`crate::step::Friction`]): with velocities at θ in its place, a body that sticks
+//! would bounce along the surface.
 //!
 //! In the cross-section a contact has one tangent, so its law is piecewise linear and has an exact
 //! answer ([`touch`]); sweeps over the contacts and one linear system answer all of them

@@ -9,8 +9,8 @@
 //! from nearly opposite sides, the pivoting of [`crate::qp`] answers them.
 //!
 //! Without friction the problem is a convex programme, the sweeps descend in its dual and the
-//! answer is its minimiser. With friction it is no minimisation: for large μ answers may be several,
-//! and sweeps may not settle; such steps are counted.
+//! answer is its minimiser. With friction it is no minimisation: for large μ answers may be
+//! several, and sweeps may not settle; such steps are counted.
 
 use super::linear::Linear;
 use super::normal::dot;
