@@ -312,3 +312,6 @@ fn divide(scene: &Scene, mass: Option<&mut Factor>, x: &mut [f64]) {
         x.iter_mut().for_each(|x| *x /= o.mass);
     }
 }
+
+#[cfg(test)]
+mod tests;

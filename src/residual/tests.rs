@@ -1,0 +1,103 @@
+//! Steps made by hand, whose numbers can be added up on paper: what the judge notes of them.
+
+mod disk;
+mod friction;
+mod ring;
+mod round;
+mod sizes;
+
+use super::*;
+use crate::linear::Symmetric;
+use crate::scene::{PlaneRows, Row, Shape, Structure, Support, WallLaw};
+use crate::step::{Conserves, HoleStep, Promise, Tolerances};
+
+/// A body with these masses (kg) in two planes, dashpots (N s/m) and no springs.
+fn body(mass: [f64; 2], damping: f64) -> Scene {
+    let diagonal = |x: [f64; 2]| Symmetric::diagonal(&x);
+    let (damping, stiffness) = (diagonal([damping; 2]), diagonal([0.0; 2]));
+    Scene::structure(Structure { mass: diagonal(mass), damping, stiffness })
+}
+
+/// The scene with a round hole around the body.
+fn with_hole(mut scene: Scene, name: &str, gap: f64, law: WallLaw) -> Scene {
+    let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+    let shape = Shape::Round { gap, law };
+    scene.supports.push(Support { name: name.to_owned(), at, centre: [0.0; 2], shape, friction: 0.0 });
+    scene
+}
+
+const RIGID: WallLaw = WallLaw::Rigid { restitution: 0.5 };
+
+/// A judge of such steps from rest at `q` (m) on.
+fn judge(scene: &Scene, (balance, promise): (Balance, Promise), h: f64, q: &[f64]) -> Judge {
+    let tolerances = Tolerances::of(Conserves::Nothing);
+    Judge::new(scene, Contract { balance, promise, instant: 1.0, tolerances }, h, q, &[])
+}
+
+/// A step, to be changed at will.
+#[derive(Debug, Clone)]
+struct Made {
+    start: f64,
+    end: f64,
+    q: Vec<f64>,
+    before: Vec<f64>,
+    after: Vec<f64>,
+    impulse: Vec<f64>,
+    jump: Vec<f64>,
+    force: Vec<f64>,
+    friction: Vec<f64>,
+    holes: Vec<HoleStep>,
+    extra: Vec<f64>,
+}
+
+impl Made {
+    /// The first step of `h` seconds on `scene`, in which nothing moves.
+    fn rest(scene: &Scene, h: f64) -> Self {
+        let (n, walls) = (scene.system.degrees_of_freedom(), scene.walls.len());
+        let (zero, none) = (vec![0.0; n], vec![0.0; walls]);
+        Self {
+            start: 0.0,
+            end: h,
+            q: zero.clone(),
+            before: zero.clone(),
+            after: zero.clone(),
+            impulse: none.clone(),
+            jump: none.clone(),
+            force: none.clone(),
+            friction: if scene.turns_or_rubs() { none } else { Vec::new() },
+            holes: vec![HoleStep::default(); scene.holes().count()],
+            extra: zero,
+        }
+    }
+
+    fn step(&self) -> Step<'_> {
+        self.along(Path::Grid)
+    }
+
+    fn along<'a>(&'a self, path: Path<'a>) -> Step<'a> {
+        Step {
+            index: 0,
+            start: self.start,
+            end: self.end,
+            q: &self.q,
+            v: &self.after,
+            velocity_before: &self.before,
+            velocity_after: &self.after,
+            impulse: &self.impulse,
+            jump: &self.jump,
+            force: &self.force,
+            friction: &self.friction,
+            holes: &self.holes,
+            extra: &self.extra,
+            closed: &[],
+            path,
+        }
+    }
+}
+
+/// Fails unless `found` is `size` less a rounding error of `noise`, which itself is known to a part
+/// in a thousand: the tests choose sizes of which each term of the noise is a larger share.
+#[track_caller]
+fn assert_less(found: f64, size: f64, noise: f64) {
+    assert!((found - (size - noise)).abs() < 1e-3 * noise, "{found:e}, expected {size:e} − {noise:e}");
+}

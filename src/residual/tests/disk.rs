@@ -1,0 +1,94 @@
+//! Round holes under a bound on the displacement at the end of a step.
+
+use super::*;
+use crate::step::{Bound, Law, Normal, Turning};
+
+/// The bound alone, and with an impact law on holes that are touched within this share of the gap.
+fn bounds(touching: Option<f64>) -> (Balance, Promise) {
+    let turning = |touching| Turning { normal: Normal::Middle, touching, sagitta: 0.0, deepest: 0.0 };
+    let promise = Promise { hole: Some(Bound::End), round: touching.map(turning), ..Promise::springs(Law::Ends(0.5)) };
+    (Balance::Theta(1.0), promise)
+}
+
+#[test]
+fn the_size_of_a_way_is_that_of_all_its_terms() {
+    let mut scene = with_hole(body([4.0; 2], 0.0), "hole", 8.0, RIGID);
+    let support = &mut scene.supports[0];
+    support.centre = [1.0, -5.0];
+    support.at = PlaneRows { y: Row::new(vec![(0, -2.0), (1, 0.5)]), z: Row::dof(1) };
+    let judge = judge(&scene, bounds(None), 0.5, &[1.0, -4.0]);
+    let made = Made { q: vec![-3.0, 2.0], before: vec![10.0, -2.0], after: vec![0.5, 4.0], ..Made::rest(&scene, 0.5) };
+    // Of places 2 + 2 + 4 and 6 + 1 + 2 m, centre 6 m, gap 8 m, and half a second at 20 + 1 + 2 and
+    // 1 + 2 + 4 m/s.
+    let size = judge.way(&made.step(), &scene.supports[0], 8.0);
+    assert_eq!(size, 8.0 + 9.0 + 6.0 + 8.0 + 0.5 * (23.0 + 7.0));
+}
+
+#[test]
+fn a_body_outside_the_circle_is_accused_with_and_without_a_push() {
+    let scene = with_hole(body([4.0; 2], 0.0), "hole", 0.5, RIGID);
+    for impulse in [0.0, 0.25] {
+        let mut judge = judge(&scene, bounds(None), 0.25, &[0.0, 0.0]);
+        let did = HoleStep { normal: [0.6, 0.8], impulse, ..HoleStep::default() };
+        let (depth, speed) = (1e-9, 1e3);
+        let r = 0.5 + depth;
+        let made =
+            Made { q: vec![0.6 * r, 0.8 * r], before: vec![speed, 0.0], holes: vec![did], ..Made::rest(&scene, 0.25) };
+        judge.supports_on_grid(&made.step(), false);
+        assert!((judge.pairs.worst(1.0, 1.0) - depth).abs() < 1e-15, "{impulse}");
+        // Place 0.7 m, gap 0.5 m and a quarter of a second at 1000 m/s.
+        assert_less(judge.doubts.gaps.outside.value, depth, judge.rounding.met(0.7 + 0.5 + 250.0, 0.5));
+    }
+}
+
+#[test]
+fn a_push_beside_the_place_at_the_end_counts_less_the_rounding_of_place_and_force() {
+    let scene = with_hole(body([4.0; 2], 0.0), "hole", 4.0, RIGID);
+    let (h, turn, speed) = (0.25, 1e-6, 1e7);
+    let mut judge = judge(&scene, bounds(None), h, &[0.0, 0.0]);
+    judge.rounding.load(1e6);
+    let normal = [0.6 - 0.8 * turn, 0.8 + 0.6 * turn];
+    let did = HoleStep { normal, impulse: 0.75, ..HoleStep::default() };
+    let made = Made { q: vec![2.4, 3.2], before: vec![speed, 0.0], holes: vec![did], ..Made::rest(&scene, h) };
+    judge.supports_on_grid(&made.step(), false);
+    // 3 N at 4 m from the centre.
+    let way = judge.rounding.of(5.6 + 4.0 + h * speed);
+    let noise = 3.0 * way / 4.0 + judge.rounding.wall_force(0, h, 1.0);
+    assert_less(judge.supports.as_ref().expect("a hole").doubt.value, 3.0 * turn, noise);
+}
+
+#[test]
+fn a_hole_is_closed_where_it_is_touched_or_pushes() {
+    let touching = 1.0 / 1024.0;
+    let scene = with_hole(body([4.0; 2], 0.0), "hole", 0.5, RIGID);
+    let closes = |share: f64, impulse: f64| {
+        let made = Made {
+            q: vec![0.0, 0.5 * (share * touching - 1.0)],
+            holes: vec![HoleStep { impulse, ..HoleStep::default() }],
+            ..Made::rest(&scene, 0.25)
+        };
+        judge(&scene, bounds(Some(touching)), 0.25, &[0.0, 0.0]).closes_hole(&made.step())
+    };
+    assert!(closes(1.0, 0.0) && closes(-1.0, 0.0) && closes(500.0, 0.125));
+    assert!(!closes(3.0, 0.0) && !closes(1024.0, 0.0));
+}
+
+#[test]
+fn a_blow_drives_into_a_hole_if_its_velocity_points_outwards() {
+    let scene = with_hole(body([4.0; 2], 0.0), "hole", 5.0, RIGID);
+    for (at, given, drives) in [
+        ([3.0, 4.0], [1.0, 0.0], true),
+        ([3.0, 4.0], [-1.0, 0.0], false),
+        // Along the brim, a little outwards, and a little inwards: 3 · 4 − 4 · 3 = 0.
+        ([3.0, 4.0], [4.0, -3.0], false),
+        ([3.0, 4.0], [4.0, -2.75], true),
+        ([3.0, 4.0], [4.0, -3.25], false),
+        ([-3.0, 4.0], [-8.0, -5.0], true),
+        ([3.0, -4.0], [5.0, 4.0], false),
+    ] {
+        let made = Made { q: at.to_vec(), ..Made::rest(&scene, 0.25) };
+        let mut judge = judge(&scene, bounds(None), 0.25, &at);
+        judge.blows.struck.copy_from_slice(&given);
+        assert_eq!(judge.drives_into_hole(&made.step()), drives, "{at:?}, {given:?}");
+    }
+}

@@ -1,0 +1,86 @@
+//! Coulomb's law on the impulses of a step.
+
+use super::*;
+use crate::residual::friction::Rub;
+use crate::residual::supports::Rubs;
+use crate::scene::{FlatWall, Wall};
+use crate::step::Law;
+
+fn none() -> Rubs {
+    Rubs { pairs: Pairs::default(), doubts: Doubts::default() }
+}
+
+/// The body of 4 kg in a hole of 0.5 m, or beside a flat, with friction ½.
+fn scene(flat: bool) -> Scene {
+    let mut scene = with_hole(body([4.0; 2], 0.0), "support", 0.5, RIGID);
+    scene.supports[0].friction = 0.5;
+    if flat {
+        scene.supports[0].shape = Shape::Flats(vec![FlatWall { wall: 0, direction: 0.0 }]);
+        scene = scene.with_wall(Wall::upper("flat", 0.5));
+    }
+    scene
+}
+
+fn start(scene: &Scene) -> Judge {
+    judge(scene, (Balance::Theta(0.5), Promise::springs(Law::Ends(0.5))), 0.25, &[0.5, 0.0])
+}
+
+#[test]
+fn missing_and_surplus_friction_is_measured_whatever_else_is_zero() {
+    let scene = scene(false);
+    // Normal force and friction, N, sliding speed, m/s, and the residual at scales of 1.
+    for (push, rub, speed, residual) in [
+        (0.0, 0.0, 2.0, 0.0),
+        // None in sliding, where 1.5 N should act; less than the speed.
+        (3.0, 0.0, 2.0, 1.5),
+        (3.0, 0.0, -2.0, 1.5),
+        (3.0, 0.0, 0.25, 0.25),
+        (3.0, 0.0, 0.0, 0.0),
+        // Without anything that pushes.
+        (0.0, 0.75, 0.0, 0.75),
+        (0.0, -0.75, 0.0, 0.75),
+        // Coulomb's, at rest less, and beyond the cone.
+        (3.0, -1.5, 2.0, 0.0),
+        (3.0, 1.5, -2.0, 0.0),
+        (3.0, 1.0, 0.0, 0.0),
+        (3.0, 1.75, 0.0, 0.25),
+        (3.0, -1.75, 0.0, 0.25),
+    ] {
+        let mut judge = start(&scene);
+        let mut rubs = none();
+        let made = Made { after: vec![0.0, speed], ..Made::rest(&scene, 0.25) };
+        let rub = Rub { place: 0, friction: 0.5, impulse: [0.25 * push, 0.25 * rub], tangent: [0.0, 1.0] };
+        judge.rub(&made.step(), &scene.supports[0], &rub, &mut rubs);
+        let found = rubs.pairs.worst(1.0, 1.0);
+        assert_eq!(found, residual, "{push} N, {} N, {speed} m/s", rub.impulse[1] / 0.25);
+        // What exceeds rounding, some 1e-11 here, is the same.
+        let beyond = rubs.doubts.both(1.0, 1.0).value.max(rubs.doubts.pull.value);
+        assert!((beyond - residual).abs() < 1e-10, "{push}, {rub:?}, {speed}: {beyond}");
+    }
+}
+
+#[test]
+fn a_sliding_speed_counts_less_the_rounding_of_all_speeds() {
+    let scene = scene(false);
+    let mut judge = start(&scene);
+    judge.blows.struck.copy_from_slice(&[100.0, 0.0]);
+    let made = Made { before: vec![50.0, -20.0], after: vec![-30.0, 1e-9], ..Made::rest(&scene, 0.25) };
+    let mut rubs = none();
+    let rub = Rub { place: 0, friction: 0.5, impulse: [1.0, 0.0], tangent: [0.0, 1.0] };
+    judge.rub(&made.step(), &scene.supports[0], &rub, &mut rubs);
+    // Of 70, 30 and 100 m/s, and the solver's tolerance of the gap over a step. At this scale of
+    // forces the speed is the smaller one.
+    let found = rubs.doubts.both(1.0, 1e-30).value;
+    assert_less(found, 1e-9, judge.rounding.met(200.0, 0.5 / 0.25));
+}
+
+#[test]
+fn the_friction_of_flats_is_a_force_of_the_run() {
+    let scene = scene(true);
+    let mut judge = start(&scene);
+    let made = Made { impulse: vec![-1.0], friction: vec![-3.0], ..Made::rest(&scene, 0.25) };
+    let mut rubs = none();
+    judge.rub_flats(&made.step(), &mut rubs);
+    // 12 N beside a push of 4 N, which is noted elsewhere: 10 N beyond the cone.
+    assert_eq!((judge.force_scale, rubs.pairs.worst(1.0, 1.0)), (12.0, 10.0));
+}
