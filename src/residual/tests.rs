@@ -1,10 +1,12 @@
 //! Steps made by hand, whose numbers can be added up on paper: what the judge notes of them.
 
+mod corrected;
 mod disk;
 mod friction;
 mod ring;
 mod round;
 mod sizes;
+mod struck;
 
 use super::*;
 use crate::linear::Symmetric;
