@@ -1,11 +1,14 @@
 //! Steps made by hand, whose numbers can be added up on paper: what the judge notes of them.
 
+mod circle;
 mod corrected;
 mod disk;
+mod flight;
 mod friction;
 mod ring;
 mod round;
 mod sizes;
+mod stretch;
 mod struck;
 
 use super::*;
