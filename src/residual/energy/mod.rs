@@ -339,3 +339,6 @@ pub(super) fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
 fn half(wall: &Wall, w: f64, shift: f64, touching: bool) -> f64 {
     0.5 * (stored(wall, w, touching) + stored(wall, w + shift, touching))
 }
+
+#[cfg(test)]
+mod tests;
