@@ -147,4 +147,24 @@ mod tests {
         let count = |start: f64| panels(start, start + 1.0, 0.2, 31.4).count();
         assert!(count(0.0).abs_diff(count(1e6)) <= 1, "{} {}", count(0.0), count(1e6));
     }
+
+    #[test]
+    fn a_decay_is_followed_wherever_its_arc_starts() {
+        // ∫ e^{−2r(t − start)}, long after the clock began: times are rounded to 1e-13 s there.
+        for (start, rate) in [(0.0, 40.0), (1.0, 40.0), (1024.0, 40.0), (1024.0, 3.0)] {
+            let decay = |t: f64| (-2.0 * rate * (t - start)).exp();
+            let sum: f64 =
+                panels(start, start + 2.0, rate, 0.0).flat_map(nodes).map(|(t, weight)| weight * decay(t)).sum();
+            let exact = -(-4.0 * rate).exp_m1() / (2.0 * rate);
+            assert!((sum / exact - 1.0).abs() < 1e-10, "{start}, {rate}: {sum} {exact}");
+        }
+    }
+
+    #[test]
+    fn a_decay_within_an_ulp_of_the_time_has_one_panel() {
+        // The ulp at 1e9 s is 1e-7 s.
+        assert_eq!(panels(1e9, 1e9 + 1.0, 1e12, 0.0).take(9).count(), 1);
+        assert_eq!(panels(1e9, 1e9 + 1.0, 0.0, 1e12).take(9).count(), 1);
+        assert_eq!(panels(2.0, 2.0, 1.0, 1.0).count(), 0);
+    }
 }
