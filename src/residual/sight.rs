@@ -141,7 +141,7 @@ mod tests {
     /// Rows of every kind: one degree of freedom, some beside each other, and two far apart.
     fn rows() -> Vec<Row> {
         let row = |entries: &[(usize, f64)]| Row::new(entries.to_vec());
-        let beside: Vec<(usize, f64)> = (1..8).map(|i| (i, 0.5 - 0.25 * i as f64)).collect();
+        let beside: Vec<(usize, f64)> = (1..8).map(|i| (i, 0.625 - 0.25 * i as f64)).collect();
         vec![
             row(&[(2, -0.5)]),
             row(&[(3, 2.0), (5, -1.0)]),
@@ -174,7 +174,7 @@ mod tests {
         );
         let forms: Vec<bool> = sights.iter().map(|sight| matches!(sight.row, View::Wide(_))).collect();
         assert_eq!(forms, [false, false, false, true, false]);
-        // Multiples of 1/16 of a few units: no product is rounded.
+        // Multiples of 1/32 of a few units: no product is rounded.
         let x: Vec<f64> = (0..10).map(|i| 1.25 - 0.75 * f64::from(i * i % 7)).collect();
         for (sight, row) in sights.iter().zip(&rows) {
             let terms: Vec<f64> = row.entries().iter().map(|&(i, weight)| weight * x[i]).collect();
