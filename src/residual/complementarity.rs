@@ -175,6 +175,26 @@ mod tests {
     }
 
     #[test]
+    fn a_pair_under_another_takes_no_room_from_later_ones() {
+        // One value stays while the other rises or falls, for more than STAIRS pairs.
+        for k in 0..4 {
+            let number = |i: u32| f64::from(if k < 2 { i } else { 101 - i });
+            let pair = |i: u32| if k % 2 == 0 { (1.0, number(i)) } else { (number(i), 1.0) };
+            let expected = if k % 2 == 0 { (1.0, 100.0) } else { (100.0, 1.0) };
+            assert_eq!(of(&(1..=100).map(pair).collect::<Vec<_>>()).staircase, [expected], "{k}");
+        }
+    }
+
+    #[test]
+    fn at_its_face_a_damped_wall_does_not_push_yet() {
+        // The law at the step's start holds while s > 0.
+        let wall = Wall::upper("pad", 1.0).with_elasticity(8.0, 4.0);
+        let at = |w0: f64| expected_pressure(&wall, Law::Start, 0.5, (w0, 2.0), (1.0, 3.0));
+        // 8 N/m times 0.25 m, and 4 N s/m times the mean of 1 and 3 m/s.
+        assert_eq!([0.75, 1.0, 1.25].map(at), [0.0, 0.0, 10.0]);
+    }
+
+    #[test]
     fn many_pairs_are_merged_upwards_never_down() {
         for count in [STAIRS + 1, 100, 1000] {
             let pairs = stairs(count);
