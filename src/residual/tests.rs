@@ -5,6 +5,7 @@ mod corrected;
 mod disk;
 mod flight;
 mod friction;
+mod grid;
 mod ledger;
 mod ring;
 mod round;

@@ -1,0 +1,97 @@
+//! What is taken off a residual for rounding, where the residual is so small that this matters:
+//! 2⁻²⁰ of terms of the size of one.
+
+use super::*;
+use crate::scene::{Row, WallLaw};
+
+const SMALL: f64 = 1.0 / 1_048_576.0;
+
+/// Twice the tolerance of the solvers, relative to the gap scale.
+const MET: f64 = 2e-12;
+
+/// Fails unless `found` is `SMALL` less `noise`; the difference is rounded to 2e-22.
+#[track_caller]
+fn small_less(found: f64, noise: f64) {
+    assert!(noise > 1e-13 && (found - (SMALL - noise)).abs() < 1e-21, "{:e}, expected {noise:e}", SMALL - found);
+}
+
+#[test]
+fn a_gap_is_known_to_the_rounding_of_all_that_it_is_made_of() {
+    let mut wall = Wall::upper("stop", 2.0 - SMALL);
+    wall.at = Row::new(vec![(0, 1.0), (1, -0.5)]);
+    let scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]).with_wall(wall);
+    let mut judge = Judge::new(&scene, rigid(Some(Bound::End), None), 0.25, &[1.0, -2.0], &[0.0; 2]);
+    let claim = Claim {
+        q: vec![1.5, -1.0],
+        before: vec![2.0, 0.0],
+        after: vec![-1.0, 0.0],
+        extra: vec![0.0; 2],
+        ..Claim::of(0.0, 0.0, 0.0, 1)
+    };
+    judge.walls_on_grid(&claim.step(), false);
+    // The terms of the displacement at both ends, the wall's place, and the way of a step.
+    let size = (1.5 + 0.5) + (1.0 + 1.0) + (2.0 - SMALL) + 0.25 * (2.0 + 1.0);
+    let noise = judge.rounding.of(size) + MET * scene.gap_scale();
+    small_less(judge.doubts.gaps.outside.value, noise);
+    // A sum over two degrees of freedom has √2 the rounding of one, 64 ulps.
+    assert!((judge.rounding.of(1.0) / (64.0 * f64::EPSILON) - 2f64.sqrt()).abs() < 1e-15);
+}
+
+#[test]
+fn a_speed_of_rebound_is_known_to_the_rounding_of_all_that_it_is_made_of() {
+    let mut wall = Wall::upper("stop", 1.0);
+    wall.at = Row::new(vec![(0, 1.0), (1, -0.5)]);
+    let scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]).with_wall(wall);
+    let mut judge = Judge::new(&scene, rigid(None, Some(Reached::Ahead(0.5))), H, &[0.0; 2], &[0.0; 2]);
+    let claim = Claim {
+        q: vec![0.0; 2],
+        before: vec![2.0, -4.0],
+        after: vec![-1.0, 6.0],
+        extra: vec![0.0; 2],
+        ..Claim::of(0.0, 0.0, 0.0, 1)
+    };
+    judge.blows.struck = vec![16.0, 8.0];
+    judge.doubt_rebound(0, -SMALL, &claim.step(), 0.0);
+    let size = (2.0 + 2.0) + (1.0 + 3.0) + (16.0 + 4.0);
+    small_less(judge.doubts.rebounds.outside.value, judge.rounding.of(size) + MET * scene.gap_scale() / H);
+}
+
+#[test]
+fn the_law_of_a_spring_is_known_to_its_slope_times_the_rounding_of_the_place() {
+    let mut contract = contract(Balance::Theta(0.5));
+    contract.promise.elastic = Elastic { force: PromisedForce::Mean, law: Law::Ends(0.5) };
+    let scene = |law| under(Wall { law, ..Wall::upper("pad", 1.0) });
+    let found = |law, (w0, w1): (f64, f64), pressure: f64, slope: f64| {
+        let mut judge = judge(&scene(law), contract, w0, 0.0);
+        judge.walls_on_grid(&Claim::of(w1, 2.0, -4.0, 1).pushed(-H * (pressure + SMALL), 0.0).step(), false);
+        let size = w0 + w1 + 1.0 + H * (2.0 + 4.0);
+        let place = judge.rounding.of(size) + MET;
+        small_less(judge.doubts.law.value, slope * place + judge.rounding.wall_force(0, H, 1.0));
+    };
+    // |r|(s) = s(s + 1)(2s + 1)/2 is ¾ N at ½ m and 15/64 N at ¼ m; at ½ m it rises by
+    // (6 · ½ · 1½ + 1)/2 N/m, whichever end of the step is the deeper one.
+    let quartic = WallLaw::Quartic { epsilon: 2.0, span: 1.0 };
+    found(quartic, (1.5, 1.25), 0.5 * (0.75 + 0.234375), 2.75);
+    found(quartic, (1.25, 1.5), 0.5 * (0.75 + 0.234375), 2.75);
+    // 8 N/m and 4 N s/m: a place that is wrong at one end changes the mean rate, too. The pressure
+    // is the mean of 2 and 4 N and 4 N s/m times ¼ m in a step.
+    let damped = WallLaw::Elastic { stiffness: 8.0, damping: 4.0 };
+    found(damped, (1.25, 1.5), 3.0 + 4.0 * 0.25 / H, 8.0 + 2.0 * 4.0 / H);
+}
+
+#[test]
+fn what_rounding_explains_is_taken_off_each_residual() {
+    let mut judge = judge(&under(Wall::upper("stop", 1.0)), rigid(Some(Bound::End), None), 0.0, 0.0);
+    // Nothing has moved yet: a force is exact.
+    judge.doubt_law(0, 1.0, 0.25);
+    assert_eq!((judge.doubts.law.value, judge.doubts.law.wall), (0.75, Some(0)));
+    judge.doubt_gap(0, -1.0, 0.0, 0.0);
+    assert_eq!(judge.doubts.gaps.outside.value, 1.0 - MET);
+    // A residual of nothing is not doubted, and a small one by what is left of it.
+    judge.rounding.state(&[3.0], &[5.0], 0.0, &judge.weights);
+    let place = 64.0 * f64::EPSILON * 3.0;
+    judge.doubt_path(0.0);
+    assert_eq!(judge.doubts.path.value, 0.0);
+    judge.doubt_path(1.5 * place);
+    assert_eq!(judge.doubts.path.value, 0.5 * place);
+}

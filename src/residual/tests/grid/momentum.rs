@@ -1,0 +1,124 @@
+//! The momentum of a whole run, worked out by hand.
+
+use super::*;
+use crate::residual::sums::Forces;
+use crate::scene::{PlaneRows, Row, Shape, Support, WallLaw};
+
+/// A rigid round hole around the first two degrees of freedom.
+pub(super) fn hole() -> Support {
+    Support {
+        name: "hole".into(),
+        at: PlaneRows { y: Row::dof(0), z: Row::dof(1) },
+        centre: [0.0; 2],
+        shape: Shape::Round { gap: 1.0, law: WallLaw::Rigid { restitution: 0.5 } },
+        friction: 0.0,
+    }
+}
+
+#[test]
+fn what_the_forces_and_impulses_of_a_run_leave_is_measured_by_what_was_exchanged() {
+    let mut stop = Wall::upper("stop", 64.0);
+    stop.at = Row::new(vec![(0, 2.0)]);
+    let mut pad = Wall::lower("pad", 0.0).with_elasticity(16.0, 0.0);
+    pad.at = Row::new(vec![(0, -0.5)]);
+    let scene = Scene::oscillator(4.0, 2.0, 8.0).with_load(Load::constant(7.0)).with_wall(stop).with_wall(pad);
+    let mut judge = Judge::new(&scene, contract(Balance::Theta(0.5)), 0.5, &[1.0], &[2.0]);
+    // Four steps from 1 m at 2 m/s to 2 m at −1 m/s, after which the load is 4 N.
+    (judge.q, judge.load, judge.now, judge.force_scale) = (vec![2.0], vec![4.0], 2.0, 8.0);
+    let sums = &mut judge.sums;
+    (sums.steps, sums.last, sums.place, sums.load) = (4, vec![-1.0], vec![3.0], vec![-495.0]);
+    sums.forces = vec![Forces { load: 2.0, own: -3.0, changes: 1.0, largest: 6.0, exchanged: 9.0 }];
+    (sums.seen, sums.sizes) = (vec![-3.0, 2.0], vec![5.0, 2.0]);
+    // m Δv + c Δq + k ∫q dt − ∫f dt, and the walls' impulses through their levers.
+    let open = 4.0 * -3.0 + 2.0 * 1.0 + 8.0 * 3.0 + 495.0 - (2.0 * -3.0 - 0.5 * 2.0);
+    // The forces at the ends, f − c v − k q: how large they get, and how they differ from those of
+    // the steps beside them; and the pad at the end, 1 m deep, which pushes with 16 N.
+    let (begin, end) = (7.0 - 2.0 * 2.0 - 8.0 * 1.0, 4.0 - 2.0 * -1.0 - 8.0 * 2.0);
+    assert_eq!((open, begin, end), (516.0, -5.0, -10.0));
+    let ends = 10.0 + 5.0 + (4.0 - 2.0) + (-10.0f64 - 4.0 + 3.0).abs() + 0.5 * 16.0;
+    let exchanged = 9.0 + 2.0 * 5.0 + 0.5 * 2.0;
+    // Two steps of these forces and of their changes are what a rule may miss.
+    let left = open - 2.0 * 0.5 * (1.0 + ends);
+    let worst = judge.open_momentum();
+    assert_eq!((worst.value, worst.time, worst.wall), (left / exchanged, 2.0, None));
+}
+
+#[test]
+fn a_force_is_said_to_change_from_the_second_step_on() {
+    // 3 N in the first step, 2½ N in the second.
+    let table = Table::new(vec![0.0, 2.0], vec![3.25, -4.75]).expect("a table");
+    let scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::table(table));
+    let mut theta = judge(&scene, contract(Balance::Theta(0.5)), 0.0, 0.0);
+    theta.see(&Claim::of(0.0, 0.0, 3.0 * H, 0).step());
+    assert_eq!((theta.sums.forces[0].changes, theta.sums.forces[0].load), (0.0, 3.0));
+    theta.see(&Claim::of(0.0, 3.0 * H, 5.5 * H, 0).at(1).step());
+    assert_eq!((theta.sums.forces[0].changes, theta.sums.forces[0].load), (0.5, 2.5));
+    // generalized-α: the whole force at the end of a step is 7 N, 3 N of it the load's.
+    let alpha = Balance::GeneralizedAlpha { alpha_m: 0.0, alpha_f: 0.5, beta: 0.25, gamma: 0.5 };
+    let mut alpha = judge(&scene, contract(alpha), 0.0, 2.0);
+    (alpha.load_end, alpha.scratch.spring) = (vec![3.0], vec![7.0]);
+    alpha.sum(&Claim::of(1.0, 2.0, 4.0, 0).step(), 1.0 / H, 1);
+    let Forces { load, own, changes, largest, exchanged } = alpha.sums.forces[0];
+    assert_eq!([load, own, changes, largest, exchanged], [3.0, 4.0, 0.0, 7.0, 7.0 * H]);
+    assert_eq!((alpha.sums.rate[0], alpha.sums.last[0]), (0.5 * H * (2.0 + 4.0), 4.0));
+}
+
+#[test]
+fn a_staggered_run_ends_half_a_step_before_its_last_instant() {
+    // Blows of 2 N s before the middle of the fourth step, and of 3 N s after it: the first has
+    // changed the velocity of 1 kg.
+    let blows = [Load::impulse(2.0, 3.375 * H), Load::impulse(3.0, 3.75 * H)];
+    let scene = blows.into_iter().fold(Scene::oscillator(1.0, 0.0, 0.0), Scene::with_load);
+    let open = |last: f64| {
+        let mut judge = judge(&scene, contract(Balance::Staggered(0.25)), 0.0, 1.0);
+        let sums = &mut judge.sums;
+        (sums.steps, sums.last, sums.forces[0].exchanged) = (4, vec![last], 10.0);
+        judge.open_momentum().value
+    };
+    assert_eq!([1.0, 3.0, 6.0].map(open), [2.0 / 10.0, 0.0, 3.0 / 10.0]);
+}
+
+#[test]
+fn recorded_impulses_that_are_not_those_seen_are_found_in_any_unit() {
+    for unit in [1.0, 2f64.powi(-60), 2f64.powi(60)] {
+        let mut judge = judge(&under(Wall::upper("stop", 1.0)), rigid(None, None), 0.0, 0.0);
+        let sums = &mut judge.sums;
+        (sums.steps, sums.whole, sums.seen, sums.sizes) = (3, false, vec![-4.0 * unit], vec![8.0 * unit]);
+        assert_eq!(judge.open_momentum().value, 0.0);
+        judge.hear(&[-4.0 * unit]);
+        assert_eq!(judge.open_momentum().value, 0.0);
+        judge.hear(&[-5.0 * unit]);
+        let worst = judge.open_momentum();
+        // Three roundings are taken off.
+        assert!((worst.value - (0.125 - 3.0 * f64::EPSILON)).abs() < 1e-16, "{unit}: {worst:?}");
+        assert_eq!(worst.wall, Some(0));
+    }
+    // The same of a hole, along both axes.
+    let mut scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]);
+    scene.supports.push(hole());
+    let open = |told: [f64; 2]| {
+        let mut judge = Judge::new(&scene, rigid(None, None), H, &[0.0; 2], &[0.0; 2]);
+        (judge.sums.steps, judge.sums.whole) = (3, false);
+        let supports = judge.supports.as_mut().expect("a hole");
+        (supports.impulse[0], supports.size[0]) = ([3.0, 4.0], 20.0);
+        judge.hear_holes(&[told]);
+        judge.open_momentum().value
+    };
+    assert_eq!(open([3.0, 4.0]), 0.0);
+    let expected = 0.25 - 3.0 * f64::EPSILON;
+    assert!((open([6.0, 8.0]) - expected).abs() < 1e-16 && (open([-1.0, 1.0]) - expected).abs() < 1e-16);
+}
+
+#[test]
+fn a_hole_exchanges_its_impulse_through_its_levers() {
+    let mut lever = hole();
+    (lever.at.y, lever.at.z) = (Row::new(vec![(0, 2.0)]), Row::new(vec![(1, -0.5)]));
+    let mut scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]);
+    scene.supports.push(lever);
+    let mut judge = Judge::new(&scene, rigid(None, None), H, &[0.0; 2], &[1.0, 1.0]);
+    // Two bodies of 1 kg keep their velocities although 3 and 4 N s act through the levers.
+    judge.sums.steps = 4;
+    let supports = judge.supports.as_mut().expect("a hole");
+    (supports.impulse[0], supports.size[0]) = ([3.0, 4.0], 20.0);
+    assert_eq!(judge.open_momentum().value, 2.0 * 3.0 / (2.0 * 20.0));
+}
