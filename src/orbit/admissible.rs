@@ -14,16 +14,16 @@ pub struct Nearest {
     pub gap: f64,
     /// Index of the wall in the scene.
     pub wall: usize,
-    /// The event after which it happens.
+    /// Index of the event that begins this flight.
     pub flight: usize,
-    /// When, in cycles of the forcing period from t = 0.
+    /// The instant, in cycles of the forcing period from t = 0.
     pub phase: f64,
 }
 
-/// What separates an orbit from one that no body can follow.
+/// The quantities that decide whether a body can follow an orbit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Admissible {
-    /// The least number of an event (of a release there is none), m/s; infinite without events.
+    /// The least speed of an event (releases have none), m/s; infinite without events.
     pub least_speed: f64,
     /// The nearest approach to a wall inside a flight; `None` where no flight turns back from
     /// a wall.
@@ -31,7 +31,7 @@ pub struct Admissible {
     /// The least force with which a wall carries a body at rest, N; infinite without a rest. It is
     /// 0 at the release itself, which is left out.
     pub least_push: f64,
-    /// The largest |displacement|, m; of accumulating impacts only the first counts.
+    /// The largest |displacement|, m; of accumulating impacts only the first is looked at.
     pub largest: f64,
 }
 
@@ -46,7 +46,7 @@ impl Admissible {
     #[must_use]
     pub fn reason(&self, scene: &crate::scene::Scene) -> Option<String> {
         if self.least_speed <= 0.0 {
-            return Some(format!("an event has the speed {:.3e} m/s, out of its wall", self.least_speed));
+            return Some(format!("an event has the speed {:.3e} m/s: it comes from behind its wall", self.least_speed));
         }
         if self.least_push <= 0.0 {
             return Some(format!("a wall pulls the body at rest with {:.3e} N", -self.least_push));
@@ -90,7 +90,8 @@ impl Problem {
             let start = orbit.phases[index] * self.forcing_period();
             let span = until * self.forcing_period() - start;
             match event.kind {
-                // What accumulates is run by the exact scheme, which looks for itself.
+                // Accumulating impacts are run by the exact scheme, which finds all contacts
+                // itself.
                 Kind::Chatter => {}
                 Kind::Rest => {
                     self.fly(&mut arc, from.state, [start, span], &touching[index], Some(event.wall));
@@ -122,7 +123,7 @@ impl Problem {
         });
     }
 
-    /// The least force of `wall` on the body that rests on it over `span` (s), less its end; N.
+    /// The least force of `wall` on the body that rests on it, N; over `span` (s) without its end.
     fn pushes(&self, arc: &Arc, wall: usize, span: f64) -> f64 {
         const SAMPLES: u32 = 64;
         let at = |i: u32| arc.start() + span * f64::from(i) / f64::from(SAMPLES);

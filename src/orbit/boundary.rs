@@ -3,7 +3,7 @@
 
 use super::signature::Kind;
 
-/// A wall, as an orbit meets it.
+/// A wall as the equations of an orbit use it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Boundary {
     /// g, m.
@@ -22,7 +22,8 @@ pub(super) enum BoundaryLaw {
     Elastic { stiffness: f64, damping: f64 },
 }
 
-/// A state q (m), q̇ (m/s) that depends on the number v of an event, and its derivative with v.
+/// A state q (m), q̇ (m/s) that depends on the speed v of an event, and its derivative with respect
+/// to v.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct OnWall {
     pub state: [f64; 2],
@@ -30,7 +31,7 @@ pub(super) struct OnWall {
 }
 
 impl Boundary {
-    /// The state just before an event of number `v` (m/s).
+    /// The state just before an event of speed `v` (m/s).
     pub fn before(&self, kind: Kind, v: f64) -> OnWall {
         let on_face = |d: f64| OnWall { state: [self.position, d * v], rate: [0.0, d] };
         match (kind, self.law) {

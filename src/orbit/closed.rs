@@ -32,9 +32,9 @@ pub struct ClosedForm {
     pub periods: u32,
     /// True if it is its own mirror image half an orbit later.
     pub symmetric: bool,
-    /// When it strikes the wall, cycles of the forcing period from t = 0, in [0, 1).
+    /// The instant of the impact, in cycles of the forcing period from t = 0, in [0, 1).
     pub phase: f64,
-    /// How fast, m/s.
+    /// Approach speed at the impact, m/s.
     pub speed: f64,
     /// Floquet multipliers over one orbit, real and imaginary parts, the largest first; 2n of them.
     pub multipliers: Vec<[f64; 2]>,
@@ -75,9 +75,9 @@ struct Linear {
 }
 
 /// All orbits of `scene` that strike one rigid wall once in 1 to `most` forcing periods, or each of
-/// two mirrored walls once in an odd number of them; for any number of degrees of freedom. What
-/// happens between the impacts is not looked at: [`Problem::admissible`] does for one degree of
-/// freedom.
+/// two mirrored walls once in an odd number of them; for any number of degrees of freedom. Whether
+/// the motion passes a wall between the impacts is not checked here; for one degree of freedom
+/// [`Problem::admissible`] checks it.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a scene that does not validate, loads other than constants and sines of
@@ -96,7 +96,7 @@ pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
         return Err(Error::invalid(
             "load",
             format!("sines of {} frequencies", all.len()),
-            "sines of one frequency: orbits in closed form know no others (a settled run does)",
+            "sines of one frequency: orbits in closed form need this (a settled run does not)",
         ));
     }
     let linear = Linear::of(scene, TAU / period, period)?;
@@ -110,7 +110,7 @@ pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
             linear.solve(wall, restitution, &full, 1.0, &mut |phase, speed, multipliers| {
                 found.push(ClosedForm { wall: index, periods, symmetric: false, phase, speed, multipliers });
             });
-            // Each pair of walls once.
+            // Each pair of walls is looked at once.
             if periods % 2 == 1 && opposite.as_ref().and_then(|of| of.get(index)).is_some_and(|other| index < *other) {
                 linear.solve(wall, restitution, &part, -1.0, &mut |phase, speed, multipliers| {
                     let square = |[re, im]: [f64; 2]| [re * re - im * im, 2.0 * re * im];
@@ -186,8 +186,8 @@ impl Linear {
         Ok(Self { inverse_mass, damping, stiffness, still, steady, amplitude, constant, omega, half })
     }
 
-    /// Tells `take` phase, speed and multipliers of each orbit of flights `e` that come back
-    /// (`sign` 1) or to the mirror (−1).
+    /// Calls `take` with phase, speed and multipliers of each orbit whose flight has the propagator
+    /// `e` and ends where it began (`sign` 1) or in the mirror image (−1).
     fn solve(
         &self,
         wall: &Wall,

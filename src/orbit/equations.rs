@@ -1,7 +1,7 @@
 //! The equations of a periodic orbit with explicit times.
 //!
-//! Unknown are the phase θ_i (cycles) of every event and its number v_i. For each flight from event
-//! i to event j, the state that the flow reaches at t_j is the state before event j:
+//! The unknowns are the phase θ_i (cycles) and the speed v_i of every event. For each flight from
+//! event i to event j, the state that the flow reaches at t_j is the state before event j:
 //!
 //! r_i = φ(t_j; t_i, x_i⁺(v_i)) − s x_j⁻(v_j) = 0,
 //!
@@ -24,7 +24,7 @@ use nalgebra::{DMatrix, DVector};
 /// forcing's Ω.
 pub(super) const CYCLE: f64 = 0.1;
 
-/// What the unknowns and residuals are divided by; the same along a branch.
+/// The scales of the unknowns and residuals; the same along a branch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scales {
     /// m.
@@ -40,7 +40,7 @@ impl Scales {
     }
 }
 
-/// Sign of what the last flight passes on to the first event in a perturbation.
+/// Sign with which a perturbation at the end of the last flight is passed on to the first event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Turn {
     /// It comes back to itself.
@@ -123,7 +123,8 @@ impl<'a> Equations<'a> {
             let (r0, r1) = (2 * i, 2 * i + 1);
             let carrier = (event.kind == Kind::Rest).then_some(event.wall);
             problem.fly(arc, from.state, [start, span], touching, carrier);
-            // The derivatives of both rows: with the phase and number of i, and of j.
+            // The derivatives of both rows with respect to phase and speed of event i, and of event
+            // j.
             let (own, other);
             if let Some(wall) = carrier {
                 let side = if boundary.toward > 0.0 { crate::scene::Side::Upper } else { crate::scene::Side::Lower };

@@ -2,7 +2,7 @@
 
 use crate::flow::Arc;
 
-/// Length of a window of the search, over the shortest period of motion and load, over 2π.
+/// Length of a search window, in units of the shortest period of motion and load over 2π.
 const WINDOW: f64 = 0.25;
 
 /// Most windows of one flight.
@@ -17,15 +17,15 @@ const STEPS: usize = 80;
 /// Calls `see` with the time since the start (s), the displacement (m) and the acceleration (m/s²)
 /// of each extreme of `arc` strictly inside its `span` (s), in order.
 ///
-/// The velocity is a sum of exponentials and sines; in a window of a quarter of the shortest
-/// period over 2π it has more than one root only if the acceleration has one there too, at which it
-/// is then looked at.
+/// The velocity is a sum of exponentials and sines; in a window of a quarter of the shortest period
+/// over 2π it has more than one root only if the acceleration has one there too; the window is then
+/// split at this root.
 pub(super) fn extremes(arc: &Arc, span: f64, mut see: impl FnMut(f64, f64, f64)) {
     let fastest = arc.fastest_motion();
     let windows = (span * fastest / WINDOW).ceil().clamp(4.0, MOST_WINDOWS);
     let width = span / windows;
     let value = |tau: f64, order: usize| arc.jet(tau)[order];
-    // A velocity of 0 at the start is no extreme inside: what follows soon decides the sign.
+    // A velocity of 0 at the start is no extreme inside: the velocity soon after it gives the sign.
     let first = arc.start_jet();
     let mut before = (0.0, first[1], first[2]);
     if first[1] == 0.0 {
@@ -57,8 +57,8 @@ pub(super) fn extremes(arc: &Arc, span: f64, mut see: impl FnMut(f64, f64, f64))
     }
 }
 
-/// A root of `f` between `from` and `to`, where its signs differ, to the last digits: the secant
-/// where it stays inside and converges, else halves (the Illinois method).
+/// A root of `f` between `from` and `to`, where its signs differ, to the last digits: by secants
+/// where they stay inside and converge, else by halving (the Illinois method).
 pub(super) fn bisect(mut f: impl FnMut(f64) -> f64, from: f64, to: f64) -> f64 {
     let (mut a, mut b) = (from, to);
     let (mut fa, mut fb) = (f(a), f(b));

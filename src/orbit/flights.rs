@@ -7,19 +7,19 @@ use super::signature::Kind;
 use crate::error::Result;
 use crate::flow::Arc;
 
-/// Longest time between two instants, over the shortest period of motion and load, over 2π. The
-/// cubic through displacement and velocity at both then errs by 0.3⁴/384 = 2e-5 of the amplitude in
-/// displacement, and by 0.3³√3/216 = 2e-4 in velocity: less than a drawing shows.
+/// Longest time between two instants, in units of the shortest period of motion and load over 2π.
+/// The cubic through displacement and velocity at both then errs by 0.3⁴/384 = 2e-5 of the
+/// amplitude in displacement, and by 0.3³√3/216 = 2e-4 in velocity: less than a drawing shows.
 const STRIDE: f64 = 0.3;
 
 /// Most instants of one flight.
 const MOST: f64 = 128.0;
 
 impl Problem {
-    /// The motion over one turn of `orbit`, from its first event on, as the flow takes it from each
-    /// event to the next; both sides of each impact. Nothing is checked: for an orbit through a
-    /// wall it is the motion through the wall, and of impacts that accumulate only the first is in
-    /// it. [`Problem::judge`] has the free run.
+    /// The motion over one period of `orbit`, from its first event on, computed by the flow from
+    /// each event to the next; both sides of each impact. Nothing is checked: an orbit that passes
+    /// through a wall gives the motion through the wall, and of impacts that accumulate only the
+    /// first is included. [`Problem::judge`] makes the free run.
     ///
     /// # Errors
     /// As [`Problem::correct`] for an orbit that does not belong to this problem.

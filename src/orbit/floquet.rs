@@ -17,8 +17,8 @@ use crate::variation::saltation::{IDENTITY, Matrix2, entry, impact, multiply};
 /// S = [[−e, 0], [(a⁺ + e a⁻)/q̇, −e]],
 ///
 /// which grows without bound towards a grazing impact, for one degree of freedom; [`variation`] has
-/// that of structures. A rest of one degree of freedom forgets everything: S = 0. The product of
-/// all is e₁² e₂² … exp(−cT/m) there.
+/// that of structures. With one degree of freedom, the motion after a rest does not depend on that
+/// before: S = 0. The product of all multipliers is e₁² e₂² … exp(−cT/m) there.
 ///
 /// [`variation`]: crate::variation
 #[derive(Debug, Clone, PartialEq)]
@@ -36,19 +36,20 @@ pub struct Floquet {
 }
 
 impl Floquet {
-    /// True if all multipliers lie inside the unit circle: what runs settle on.
+    /// True if all multipliers lie inside the unit circle: runs settle on such orbits.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
     }
 
-    /// Of a 2 × 2 derivative of that trace and determinant, over half an orbit or a whole one.
+    /// The multipliers of a 2 × 2 derivative with the given trace and determinant, over half an
+    /// orbit (`half`) or a whole one.
     fn new(trace: f64, determinant: f64, half: bool) -> Self {
         Self::of(eigenvalues(trace, determinant).to_vec(), [trace, determinant], half)
     }
 
-    /// Of a derivative with those eigenvalues, and of that trace and determinant, over half an
-    /// orbit or a whole one.
+    /// The multipliers of a derivative with the eigenvalues `own` and the given trace and
+    /// determinant, over half an orbit (`half`) or a whole one.
     pub(super) fn of(own: Vec<[f64; 2]>, [trace, determinant]: [f64; 2], half: bool) -> Self {
         if !half {
             return Self { multipliers: own, half: None, trace, determinant };

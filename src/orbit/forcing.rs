@@ -6,7 +6,8 @@ use crate::scene::{LoadKind, Scene};
 /// Largest ratio of frequencies, as a quotient of whole numbers, whose common period is looked for.
 const MOST_CYCLES: u32 = 1000;
 
-/// A quotient is that of whole numbers to this share: frequencies are written with few digits.
+/// Relative tolerance for a quotient of frequencies to be one of whole numbers: frequencies are
+/// written with few digits.
 const NEAR: f64 = 1e-9;
 
 /// Frequencies of the sines of `scene`, Hz, each once.
@@ -33,7 +34,7 @@ pub(crate) fn forcing_period(scene: &Scene) -> Result<f64> {
     let refuse = |found: String, why: &str| Err(Error::invalid("forcing period", found, why));
     let repeats = |kind: &LoadKind| matches!(kind, LoadKind::Constant { .. } | LoadKind::Harmonic { .. });
     if let Some(index) = scene.loads.iter().position(|load| !repeats(&load.kind)) {
-        return refuse(format!("none: load {} does not repeat itself", index + 1), "constant and harmonic loads alone");
+        return refuse(format!("none: load {} does not repeat itself", index + 1), "only constant and harmonic loads");
     }
     let all = frequencies(scene);
     let Some((first, others)) = all.split_first() else {
@@ -57,7 +58,8 @@ pub(crate) fn forcing_period(scene: &Scene) -> Result<f64> {
             }
         }
     }
-    // 1/f to the last digit where one sine acts; else the greatest common measure of all of them.
+    // 1/f to the last digit where one sine acts; otherwise one over the greatest common divisor of
+    // all frequencies.
     let counts: Vec<u64> = all.iter().map(|f| (f / first * below as f64).round() as u64).collect();
     let common = counts.into_iter().fold(0, gcd).max(1);
     Ok(below as f64 / common as f64 / first)

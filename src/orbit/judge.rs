@@ -10,14 +10,14 @@ use crate::scene::State;
 use crate::scheme::{Scheme, Stepper};
 use crate::step::{Contact, Path};
 
-/// How near the free run must come back, in gaps, and gaps times the forcing's Ω …
+/// Tolerance for the free run to come back to its start, in gaps, and gaps times the forcing's Ω …
 const CLOSES: f64 = 1e-10;
 
 /// … or, for an orbit whose multipliers amplify rounding, within this many units in the last place
 /// times the largest of them.
 const UNITS: f64 = 1e3;
 
-/// One wall over one period of an orbit.
+/// Contacts and forces of one wall over one period of an orbit.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct WallShare {
     /// Contact episodes that ended.
@@ -43,13 +43,13 @@ pub struct Instant {
     pub forces: Vec<f64>,
 }
 
-/// What the free run over one period of an orbit showed.
+/// The result of the free run over one period of an orbit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    /// How far it ended from where it began: the larger of displacement in gaps and velocity in
-    /// gaps times the forcing's Ω.
+    /// Distance of its end from its start: the larger of displacement in gaps and velocity in gaps
+    /// times the forcing's Ω.
     pub closure: f64,
-    /// What that may be: 1e-10, or what the orbit's multipliers make of rounding.
+    /// The tolerance of the closure: 1e-10, or rounding amplified by the orbit's multipliers.
     pub tolerance: f64,
     /// True if the run went through the events of the orbit, in order, and no other.
     pub same_events: bool,
@@ -157,7 +157,7 @@ impl Problem {
         if !events.is_empty() {
             events.rotate_left(first);
         }
-        // Impacts that accumulate are one event of the orbit.
+        // Impacts that accumulate count as one event of the orbit.
         let rigid_rest =
             |wall: usize| matches!(self.boundary(wall).map(|s| s.law), Some(BoundaryLaw::Rigid(e)) if e > 0.0);
         let mut index = 0;
@@ -195,7 +195,7 @@ impl Problem {
         }
         let (start, span, state) = best.ok_or_else(|| Error::no_orbit("the orbit has no stretch of free flight"))?;
         let mut arc = self.arc();
-        // A start before t = 0 is moved by whole turns.
+        // A start before t = 0 is moved by whole periods of the orbit.
         let start = start - (start / (turn * period)).floor() * turn * period;
         self.fly(&mut arc, state, [start, 0.5 * span], &[], None);
         let (q, v) = arc.state(arc.end());

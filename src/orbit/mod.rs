@@ -1,4 +1,4 @@
-//! Periodic orbits: found, corrected to rounding, and told apart by their Floquet multipliers.
+//! Periodic orbits: found, corrected to rounding, with their stability from Floquet multipliers.
 //!
 //! An orbit is its *signature*, the cyclic list of its events (which wall, and what happens there),
 //! and the instant and speed of each event. These are the unknowns of its equations ("explicit
@@ -9,9 +9,9 @@
 //! [`Problem`] takes a scene of one degree of freedom; [`Problem::settled`] finds the orbit on
 //! which a run settles, [`closed_forms`] lists all of one impact a turn, [`Problem::correct`]
 //! solves the equations from any start, [`Problem::floquet`] gives the multipliers,
-//! [`Problem::admissible`] says whether a body can follow the orbit, and [`Problem::judge`] lets
-//! one do so. [`branch`] follows orbits over a key. Of structures, [`shoot`] finds the orbit on
-//! which a run settles, and [`branch`] follows it by a state of it.
+//! [`Problem::admissible`] says whether a body can follow the orbit, and [`Problem::judge`] makes
+//! an exact run over it. [`branch`] follows orbits over a key. For structures, [`shoot`] finds the
+//! orbit on which a run settles, and [`branch`] follows it by one of its states.
 
 mod admissible;
 mod boundary;

@@ -12,17 +12,16 @@ const ITERATIONS: usize = 30;
 /// Longest step, in the scaled unknowns.
 const LONGEST: f64 = 2.0;
 
-/// A residual below this is solved …
+/// The equations are solved where the residual is below this …
 pub(super) const SOLVED: f64 = 1e-12;
 
-/// … and one below this where it does not fall any more: rounding of a motion with large steady
-/// terms.
+/// … or below this and no longer falls: rounding of a motion with large steady terms.
 pub(super) const ACCEPTED: f64 = 1e-9;
 
 impl Problem {
     /// The periodic orbit near `guess`, by Newton's method on the instants and speeds of its
-    /// events. It starts well from far away where a map from period to period does not: from starts
-    /// with 3 % of error it also reaches orbits with multipliers of 1e8.
+    /// events. It converges from starts from which Newton's method on the map from period to period
+    /// does not: from starts with an error of 3 % it also reaches orbits with multipliers of 1e8.
     ///
     /// The result may pass through a wall ([`Problem::admissible`] says so): the equations do not
     /// look at what happens between the events.
@@ -53,9 +52,10 @@ impl Problem {
             equations.evaluate(self, &mut arc, unknowns.as_slice(), &mut residual, Some((&mut matrix, Turn::Same)));
             let size = residual.amax();
             if !size.is_finite() {
-                return Err(Error::no_orbit("Newton's method left the numbers: the start is too far from an orbit"));
+                return Err(Error::no_orbit("in Newton's method the residual became NaN or infinite: the start is too far from an orbit"));
             }
-            // One step beyond the solved residual costs little, and takes the rest of the error.
+            // One more step after the residual is small enough costs little, and removes the rest
+            // of the error.
             if last <= SOLVED || (size >= 0.5 * last && size <= ACCEPTED) {
                 return self.ordered(equations.orbit(unknowns.as_slice(), self));
             }
@@ -76,7 +76,8 @@ impl Problem {
         )))
     }
 
-    /// The orbit, if its instants are in order; its first event comes into the first period.
+    /// The orbit, if its instants are in order; it is shifted so that its first event falls into
+    /// the first forcing period.
     fn ordered(&self, orbit: Orbit) -> Result<Orbit> {
         let turn = orbit.signature.cycles();
         let next = orbit.phases.iter().skip(1).copied().chain(orbit.phases.first().map(|phase| phase + turn));

@@ -35,7 +35,7 @@ pub(crate) fn path(scene: &Scene, from: &Strobe, periods: u32, at: &Row) -> Resu
             let time = if index as f64 == count { last } else { first + (last - first) * index as f64 / count };
             series.state(time, &mut q, &mut v);
             let now = [time / period, at.dot(&q), at.dot(&v)];
-            // A stretch begins as the last one ended, but for impacts.
+            // A stretch begins in the state in which the last one ended, except at impacts.
             if motion.last() != Some(&now) {
                 motion.push(now);
             }

@@ -2,18 +2,18 @@
 
 use super::signature::{Event, Signature};
 
-/// Two turns of an orbit within this of each other are one.
+/// Two successive parts of an orbit that differ by less than this are the same.
 const SAME: f64 = 1e-5;
 
-/// A periodic orbit, by its events: of one degree of freedom they are all that there is to it.
+/// A periodic orbit, given by its events: with one degree of freedom they determine it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orbit {
-    /// Its events in order, and how they close.
+    /// Its events in order, its forcing periods and its symmetry.
     pub signature: Signature,
     /// The instant of each event, in cycles of the forcing period from t = 0; increasing.
     pub phases: Vec<f64>,
-    /// The number of each event (see [`Kind`](super::Kind)), m/s; below 0 for an orbit that passes
-    /// through the wall there, which no body does.
+    /// The speed of each event (see [`Kind`](super::Kind)), m/s; below 0 for an orbit that comes
+    /// from behind the wall there, which no body can follow.
     pub speeds: Vec<f64>,
     /// The forcing period, s.
     pub forcing_period: f64,
@@ -41,7 +41,8 @@ impl Orbit {
         whole
     }
 
-    /// The same orbit as two turns of itself, which is where one of twice its period begins.
+    /// The same orbit written with twice its period: the start of a branch of period-doubled
+    /// orbits.
     pub(super) fn doubled(&self) -> Self {
         let mut twice = self.clone();
         twice.signature.periods *= 2;
@@ -62,7 +63,8 @@ impl Orbit {
             && self.speeds.iter().zip(&other.speeds).all(|pair| close(pair, top))
     }
 
-    /// The same orbit from its event `first` on, which comes into the first forcing period.
+    /// The same orbit listed from its event `first` on; this event falls into the first forcing
+    /// period.
     pub(super) fn rotated(&self, first: usize) -> Self {
         let count = self.phases.len();
         if count == 0 {
@@ -81,8 +83,8 @@ impl Orbit {
         orbit
     }
 
-    /// The half of the orbit, if the other half is its mirror image within `near` cycles, and that
-    /// share of the largest speed. `mirror` is the wall opposite to each wall.
+    /// The first half of the orbit, if the other half is its mirror image: instants within `near`
+    /// cycles and speeds within `near` of the largest. `mirror` is the wall opposite to each wall.
     pub(super) fn folded(&self, mirror: Option<&[usize]>, near: f64) -> Option<Self> {
         mirror?;
         let signature = &self.signature;
@@ -103,7 +105,8 @@ impl Orbit {
         half.unfolded(mirror).is(self, near).then_some(half)
     }
 
-    /// The orbit of which this one is several turns, or both halves, with true for the latter.
+    /// The shorter orbit that this one repeats, with false; or the half whose mirror image is the
+    /// other half, with true.
     pub(super) fn part(&self, mirror: Option<&[usize]>) -> Option<(Self, bool)> {
         let signature = &self.signature;
         let count = signature.events.len();
@@ -131,7 +134,7 @@ impl Orbit {
         self.folded(mirror, SAME).map(|half| (half, true))
     }
 
-    /// True if both are one orbit, whichever event they begin with: all instants within `near`
+    /// True if both are the same orbit, whichever event they begin with: all instants within `near`
     /// cycles and all speeds within `near` of the largest. Both must be unfolded.
     pub(super) fn is(&self, other: &Self, near: f64) -> bool {
         let count = self.phases.len();
@@ -143,7 +146,7 @@ impl Orbit {
             let cycles = a - b;
             (cycles - (cycles / turn).round() * turn).abs()
         };
-        // Orbits are the same after whole forcing periods, too.
+        // Orbits shifted by whole forcing periods are the same, too.
         let same = |shift: usize, later: u32| {
             (0..count).all(|i| {
                 let j = (i + shift) % count;

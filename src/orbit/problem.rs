@@ -1,4 +1,5 @@
-//! What periodic orbits are looked for in: a body of one degree of freedom, its walls and loads.
+//! The scene in which periodic orbits are looked for: a body of one degree of freedom, its walls
+//! and loads.
 
 use super::boundary::{Boundary, BoundaryLaw};
 use super::forcing::forcing_period;
@@ -8,8 +9,8 @@ use crate::error::{Error, Result, Subject};
 use crate::flow::{Arc, Start, Support, Touch};
 use crate::scene::{Forcing, Oscillator, Scene, System, WallLaw};
 
-/// A scene of one degree of freedom whose loads repeat themselves: what periodic orbits are looked
-/// for in.
+/// A scene of one degree of freedom whose loads repeat themselves, in which periodic orbits are
+/// looked for.
 ///
 /// ```
 /// use signorini::orbit::Problem;
@@ -40,7 +41,7 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Takes `scene` apart.
+    /// Checks `scene`, and takes body, walls and loads from it.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a scene that does not validate, has several degrees of freedom, no
@@ -86,7 +87,7 @@ impl Problem {
         &self.scene
     }
 
-    /// The forcing period, s: that of all sines together.
+    /// The forcing period, s: the common period of all sines.
     #[must_use]
     pub fn forcing_period(&self) -> f64 {
         self.period
@@ -114,7 +115,7 @@ impl Problem {
         self.mirror.as_deref()
     }
 
-    /// A typical displacement, m, and the speed that it makes with the forcing's Ω, m/s.
+    /// A typical displacement, m, and its product with the forcing's Ω, m/s.
     pub(super) fn scales(&self) -> [f64; 2] {
         [self.length, self.length * std::f64::consts::TAU / self.period]
     }
@@ -124,8 +125,8 @@ impl Problem {
         Arc::new(self.body, self.boundaries.len(), &self.forcing)
     }
 
-    /// Lets the body go from `state` (m, m/s) at `start` (s) for `span` (s) against the elastic
-    /// walls `touching`; or rests it on the wall `support`.
+    /// Fills the arc of the body's motion from `state` (m, m/s) at `start` (s) over `span` (s)
+    /// against the elastic walls `touching`, or at rest on the wall `support`.
     pub(super) fn fly(
         &self,
         arc: &mut Arc,
@@ -146,11 +147,11 @@ impl Problem {
         arc.begin(&from, touching.iter().filter_map(touch), support);
     }
 
-    /// For each event the elastic walls that touch after it.
+    /// For each event, the elastic walls in contact after it.
     pub(super) fn touching(&self, signature: &Signature) -> Vec<Vec<usize>> {
         let mut now: Vec<usize> = Vec::new();
         let mut after = Vec::with_capacity(signature.events.len());
-        // The first turn finds with what the second begins.
+        // The first pass finds the walls in contact with which the second begins.
         for turn in 0..2 {
             for event in &signature.events {
                 match event.kind {

@@ -1,4 +1,4 @@
-//! From a run that has settled to a periodic orbit.
+//! The periodic orbit on which a run has settled.
 
 use super::periodic::Orbit;
 use super::problem::Problem;
@@ -7,24 +7,24 @@ use super::watch::{Passage, Watch, gathered};
 use crate::error::{Error, Result};
 use crate::scheme::{Scheme, Stepper};
 
-/// Most forcing periods that a settled run is looked at for repeating itself.
+/// Most forcing periods after which the events of a settled run may repeat themselves.
 const LONGEST: u32 = 32;
 
-/// How near the events must come back: in cycles, and in gaps times the forcing's Ω.
+/// Tolerance for events to count as repeated: in cycles, and in gaps times the forcing's Ω.
 const NEAR: f64 = 1e-3;
 
-/// How often they must have come back.
+/// How often they must have been repeated.
 const REPEATS: usize = 3;
 
-/// Two halves of an orbit within this of each other are one half and its mirror.
+/// An orbit is symmetric if its second half differs by less than this from the mirror image of the
+/// first.
 const MIRRORED: f64 = 1e-7;
 
 impl Problem {
     /// The periodic orbit on which a run from the scene's initial state settles: `settle` forcing
-    /// periods are run by the exact scheme, then as many as show that the events repeat themselves
-    /// three times after up to 32 forcing periods; what they are then corrected by
-    /// [`Problem::correct`] to rounding. An orbit that is its own mirror image is returned as its
-    /// half.
+    /// periods are run by the exact scheme, then as many as are needed to see the events repeat
+    /// themselves three times after up to 32 forcing periods. [`Problem::correct`] then corrects
+    /// them to rounding. An orbit that is its own mirror image is returned as its half.
     ///
     /// # Errors
     /// [`Error::NoOrbit`] where the events do not repeat themselves, or no orbit is found near
@@ -33,7 +33,7 @@ impl Problem {
         self.settled_with(settle, &|_| {})
     }
 
-    /// The same; `progress` is told the share of the run that is done.
+    /// The same; `progress` is called with the share of the run that is done.
     ///
     /// # Errors
     /// As [`Problem::settled`].
@@ -97,7 +97,7 @@ impl Problem {
             forcing_period: self.forcing_period(),
         };
         if orbit.signature.chatters() {
-            // Run from one release to the next, the orbit is exact already.
+            // If each turn begins with a release, the run itself is exact already.
             return Ok(orbit.rotated(0));
         }
         let whole = self.correct(&orbit)?;
@@ -112,7 +112,8 @@ impl Problem {
 /// those of one such stretch.
 fn repeated(passages: &[Passage], problem: &Problem) -> Option<(u32, Vec<Passage>)> {
     let [_, speed] = problem.scales();
-    // A body released from rest goes the same way each time: the load alone decides when.
+    // A body released from rest always moves in the same way: only the instant of the release
+    // matters.
     let released = |passage: &Passage| passage.event.kind == Kind::Release;
     let anchor = passages.iter().rposition(released).or_else(|| passages.len().checked_sub(1))?;
     let last = passages.get(anchor)?;

@@ -2,8 +2,8 @@
 //!
 //! P takes the state at an instant to that N forcing periods later, by the exact scheme; x = P(x)
 //! is solved by x ← x + (1 − P′)⁻¹ (P(x) − x), with P′ the product of propagators and saltation
-//! matrices ([`Product`]). P is smooth where no impact of the orbit grazes; contacts that last are
-//! no obstacle.
+//! matrices ([`Product`]). P is smooth where no impact of the orbit grazes; lasting contacts are
+//! allowed.
 
 use super::forcing::forcing_period;
 use super::periodic::Orbit;
@@ -19,16 +19,16 @@ use nalgebra::DVector;
 /// Most forcing periods of an orbit.
 const LONGEST: usize = 32;
 
-/// How near the states must come back, in gaps, and in gaps times the forcing's Ω …
+/// Tolerance for states to count as repeated, in gaps, and in gaps times the forcing's Ω …
 const NEAR: f64 = 1e-3;
 
-/// … and how often.
+/// … and how often they must be repeated.
 const REPEATS: usize = 3;
 
 /// Most iterations.
 const ITERATIONS: usize = 12;
 
-/// How near the solution must come back.
+/// Tolerance for the solution to come back to its start, in the same units.
 const CLOSES: f64 = 1e-10;
 
 /// Most degrees of freedom: the matrices are dense.
@@ -59,12 +59,12 @@ pub struct Shot {
 }
 
 impl Shot {
-    /// The orbit of `scene`, a neighbour of the one that this is an orbit of, from which Newton's
-    /// method gets there.
+    /// The orbit of `scene`, a scene close to the one of this orbit, from which Newton's method
+    /// starts.
     ///
     /// # Errors
-    /// As [`shoot`]; [`Error::Invalid`] for a state of another number of degrees of freedom, or
-    /// numbers that are none.
+    /// As [`shoot`]; [`Error::Invalid`] for a state of another number of degrees of freedom, or for
+    /// values that are not finite.
     pub fn corrected(&self, scene: &Scene) -> Result<Self> {
         let period = posed(scene)?;
         let n = scene.system.degrees_of_freedom();
@@ -74,7 +74,7 @@ impl Shot {
         shooting.solve(self.time / self.forcing_period * period, self.state.clone(), self.periods)
     }
 
-    /// Refuses what is no orbit of `n` degrees of freedom.
+    /// Refuses data that cannot be an orbit of `n` degrees of freedom.
     pub(super) fn check(&self, n: usize) -> Result<()> {
         let State { q, v } = &self.state;
         if q.len() != n || v.len() != n {
@@ -105,8 +105,8 @@ impl Shot {
 
 /// The periodic orbit on which a run of `scene` settles, for any number of degrees of freedom up to
 /// 200: `settle` forcing periods are run by the exact scheme, and the states once a period compared
-/// until they come back after up to 32 of them. `progress` is told the share of the run that is
-/// done.
+/// until they repeat themselves after up to 32 of them. `progress` is called with the share of the
+/// run that is done.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a scene that does not validate or has no forcing period;
@@ -130,7 +130,7 @@ pub(super) fn posed(scene: &Scene) -> Result<f64> {
         let expected = format!("at most {MOST_UNKNOWNS}: the matrices of shooting are dense (reduce it to modes)");
         return Err(Error::invalid("system", format!("one of {n} degrees of freedom"), expected));
     }
-    // Refused here rather than after a run.
+    // Such a scene is refused before any run.
     Product::new(scene)?;
     forcing_period(scene)
 }
@@ -148,8 +148,8 @@ impl Shooting<'_> {
         Stepper::new(&scene, &Scheme::Event, stride)
     }
 
-    /// An instant (s) between two events after `settle` periods, the state then, and after how many
-    /// periods it comes back.
+    /// An instant (s) between two events after `settle` periods, the state then, and the number of
+    /// periods after which it is repeated.
     fn settled(&self, settle: u32, progress: &dyn Fn(f64)) -> Result<(f64, State, u32)> {
         let first = f64::from(settle) * self.period;
         let most = (REPEATS + 1) * LONGEST + 1;
@@ -200,7 +200,7 @@ impl Shooting<'_> {
     }
 
     fn solve(&self, time: f64, start: State, periods: u32) -> Result<Shot> {
-        // Phases are those of the first periods: nothing is lost to rounding of a late time.
+        // The time is moved into the first period, so that no digits are lost to a late time.
         let time = time - (time / self.period).floor() * self.period;
         let end = time + f64::from(periods) * self.period;
         let mut x = vector(&start.q, &start.v);
@@ -214,7 +214,7 @@ impl Shooting<'_> {
             if best.as_ref().is_none_or(|(least, ..)| miss < *least) {
                 best = Some((miss, x.clone(), turn));
             }
-            // Where rounding ends the fall, no further step helps.
+            // Once rounding limits the residual, further steps do not help.
             if !improved && best.as_ref().is_some_and(|(least, ..)| *least <= CLOSES) {
                 break;
             }

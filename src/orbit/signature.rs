@@ -1,27 +1,27 @@
-//! The signature of a periodic orbit: which events it goes through, in which order.
+//! The signature of a periodic orbit: its events in order.
 
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use std::fmt;
 
-/// What happens at a wall.
+/// What happens at a wall. Each event has a speed, defined here for each kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Kind {
-    /// An impact on a rigid wall, q̇⁺ = −e q̇⁻. Its number is the approach speed.
+    /// An impact on a rigid wall, q̇⁺ = −e q̇⁻. Its speed is the approach speed.
     Impact,
-    /// An impact after which the body rests on the wall; its number is the approach speed.
+    /// An impact after which the body rests on the wall; its speed is the approach speed.
     Rest,
-    /// The first of impacts that accumulate and end at rest; its number is the approach speed.
+    /// The first of impacts that accumulate and end at rest; its speed is the approach speed.
     Chatter,
-    /// The end of a rest; its number is 0.
+    /// The end of a rest; its speed is 0.
     Release,
-    /// The body meets an elastic wall; its number is the approach speed.
+    /// The body meets an elastic wall; its speed is the approach speed.
     Enter,
-    /// The force of an elastic wall vanishes; its number is the speed away from the wall.
+    /// The force of an elastic wall vanishes; its speed is that away from the wall.
     Leave,
-    /// An elastic wall with a dashpot pushes again before the body is out of it; its number is the
-    /// speed away from the wall.
+    /// An elastic wall with a dashpot pushes again before the body is out of it; its speed is that
+    /// away from the wall.
     Again,
 }
 
@@ -29,7 +29,7 @@ impl Kind {
     const ALL: [Self; 7] =
         [Self::Impact, Self::Rest, Self::Chatter, Self::Release, Self::Enter, Self::Leave, Self::Again];
 
-    /// Its name, as it is written.
+    /// Its name, as signatures are written.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -55,7 +55,7 @@ impl Kind {
         })
     }
 
-    /// True for a kind whose number is an approach speed.
+    /// True for a kind whose speed is an approach speed.
     #[must_use]
     pub fn is_approach(self) -> bool {
         matches!(self, Self::Impact | Self::Rest | Self::Chatter | Self::Enter)
@@ -68,7 +68,7 @@ impl Kind {
     }
 }
 
-/// One event: what, and at which wall.
+/// One event: its kind and its wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Event {
     /// What happens.
@@ -103,7 +103,8 @@ impl Signature {
         Self { events, periods, symmetric: false }
     }
 
-    /// Cycles of the load from an event to its return: that in the mirror for a symmetric orbit.
+    /// Forcing periods after which an event is repeated; for a symmetric orbit, after which its
+    /// mirror image follows.
     #[must_use]
     pub fn cycles(&self) -> f64 {
         f64::from(self.periods) * if self.symmetric { 0.5 } else { 1.0 }

@@ -1,4 +1,4 @@
-//! What Newton's method on a map from period to period needs: states as vectors, their scales, its
+//! Parts of Newton's method on the map from period to period: states as vectors, their scales, the
 //! step, and the multipliers of the map's derivative.
 
 use crate::scene::State;
@@ -22,7 +22,7 @@ pub(crate) struct Scales {
 }
 
 impl Scales {
-    /// Those of motions of that length (m) under loads of that period (s).
+    /// The scales of motions of size `length` (m) under loads of period `period` (s).
     pub fn new(length: f64, period: f64) -> Self {
         Self { length, speed: length * TAU / period }
     }
@@ -33,7 +33,7 @@ impl Scales {
         DVector::from_fn(x.len(), |i, _| x[i] / self.of(i, n))
     }
 
-    /// And back.
+    /// The state, with dimension, of a scaled one.
     pub fn unscaled(self, x: &DVector<f64>) -> DVector<f64> {
         let n = x.len() / 2;
         DVector::from_fn(x.len(), |i, _| x[i] * self.of(i, n))
@@ -45,12 +45,12 @@ impl Scales {
         DMatrix::from_fn(2 * n, 2 * n, |i, j| matrix[(i, j)] * (self.of(j, n) / self.of(i, n)))
     }
 
-    /// That of entry `i` of a state of `n` degrees of freedom.
+    /// The scale of entry `i` of a state of `n` degrees of freedom.
     pub fn of(self, i: usize, n: usize) -> f64 {
         if i < n { self.length } else { self.speed }
     }
 
-    /// The largest entry of a difference of states; NaN if one is.
+    /// The largest scaled entry of a difference of states; NaN if an entry is NaN.
     pub fn size(self, difference: &DVector<f64>) -> f64 {
         let n = difference.len() / 2;
         let scaled = |(i, x): (usize, &f64)| x.abs() / self.of(i, n);

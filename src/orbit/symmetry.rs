@@ -2,14 +2,14 @@
 
 use crate::scene::{LoadKind, Row, Scene};
 
-/// A harmonic is an odd multiple of the fundamental to this share.
+/// Relative tolerance for a frequency to be an odd multiple of the fundamental.
 const NEAR: f64 = 1e-9;
 
 /// For each wall of `scene` the one that stands opposite to it, if the scene looks the same in the
 /// mirror q → −q half a forcing period (s) later: sines of odd multiples of the fundamental alone,
 /// and every wall with an equal one opposite.
 pub(super) fn mirror(scene: &Scene, period: f64) -> Option<Vec<usize>> {
-    // What constants at one place add up to.
+    // The sum of the constant loads at each place.
     let mut constants: Vec<(&Row, f64)> = Vec::new();
     let mut constant = |at, force: f64| match constants.iter_mut().find(|(place, _)| *place == at) {
         Some((_, sum)) => *sum += force,

@@ -1,5 +1,5 @@
-//! Runs of a structure over an orbit or a part of it: where they end, the derivative of the end
-//! with respect to the start, and what happens on the way.
+//! Runs of a structure over an orbit or a part of it: their end, its derivative with respect to the
+//! start, and the events on the way.
 
 use super::extremes::bisect;
 use super::strobe::{state, vector};
@@ -12,11 +12,11 @@ use crate::step::{Path, Step};
 use crate::variation::Product;
 use nalgebra::{DMatrix, DVector};
 
-/// Instants of a series, which is no longer than two radians of the fastest motion, between which
-/// the velocity at a wall's place is taken to have at most one root.
+/// Number of samples of a series, which covers at most two radians of the fastest motion. Between
+/// two of them the velocity at a wall is taken to have at most one root.
 const SAMPLES: usize = 8;
 
-/// A motion that turns back before a wall.
+/// A point at which the motion turns back before a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Touch {
     pub wall: usize,
@@ -26,14 +26,14 @@ pub(super) struct Touch {
     pub gap: f64,
 }
 
-/// What is to be watched on the way.
+/// What a run records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Look {
-    /// The events alone.
+    /// The events only.
     Events,
     /// Also where the motion turns back before walls.
     Touches,
-    /// All of it, and the derivative.
+    /// Both, and the derivative.
     All,
 }
 
@@ -41,7 +41,7 @@ pub(super) enum Look {
 #[derive(Debug, Clone)]
 pub(super) struct Turn {
     pub end: DVector<f64>,
-    /// Of the end with respect to the start; empty unless asked for.
+    /// The derivative of the end with respect to the start; empty unless asked for.
     pub derivative: DMatrix<f64>,
     pub passages: Vec<Passage>,
     pub touches: Vec<Touch>,

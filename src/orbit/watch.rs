@@ -14,25 +14,25 @@ pub(super) struct Passage {
     pub speed: f64,
 }
 
-/// Watches the steps of the exact scheme and writes down what happens.
+/// Watches the steps of the exact scheme and records the events.
 #[derive(Debug)]
 pub(super) struct Watch<'a> {
     walls: &'a [Wall],
     /// The forcing period, s, and a typical displacement, m.
     period: f64,
     length: f64,
-    /// Rigid walls that carry, and elastic ones that push.
+    /// Rigid walls on which the structure rests, and elastic walls that push.
     resting: Vec<usize>,
     touching: Vec<usize>,
     q: Vec<f64>,
     v: Vec<f64>,
     pub passages: Vec<Passage>,
-    /// True once a step has been seen that tells the state the run started in.
+    /// True once a step has shown which walls were in contact at the start.
     begun: bool,
 }
 
 impl<'a> Watch<'a> {
-    /// For runs of `scene`, whose loads repeat themselves after `period` (s).
+    /// A watch for runs of `scene`, whose loads repeat themselves after `period` (s).
     pub fn new(scene: &'a Scene, period: f64) -> Self {
         let zero = vec![0.0; scene.system.degrees_of_freedom()];
         Self {
@@ -91,14 +91,15 @@ impl<'a> Watch<'a> {
         step.path.state(end, &mut self.q, &mut self.v);
         for (wall, place) in self.walls.iter().enumerate() {
             let struck = step.jump.get(wall).is_some_and(|jump| *jump != 0.0);
-            // A wall that carries passes on what other walls' impacts press onto it.
+            // A wall on which the structure rests only transmits the impulses of impacts at other
+            // walls.
             if struck && !self.resting.contains(&wall) {
                 self.note(Kind::Impact, wall, step.end, self.toward(place));
             }
         }
     }
 
-    /// What has changed at the elastic walls, of which `touching` push from `start` (s) on.
+    /// Records the changes at the elastic walls, of which `touching` push from `start` (s) on.
     fn pushes(&mut self, touching: &[usize], start: f64) {
         for (wall, place) in self.walls.iter().enumerate() {
             let now = touching.contains(&wall);
@@ -116,7 +117,8 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// The body has come to rest on `wall`: with the impact that has just been noted, if one was.
+    /// Records that the body has come to rest on `wall`: an impact just recorded there becomes a
+    /// rest.
     fn rest(&mut self, wall: usize, time: f64) {
         let phase = time / self.period;
         let impact = Event { kind: Kind::Impact, wall };

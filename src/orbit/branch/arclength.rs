@@ -8,13 +8,13 @@ use nalgebra::{DMatrix, DVector};
 /// One point: the unknowns, scaled, and after them the key's value over its scale.
 pub(super) type Vector = DVector<f64>;
 
-/// The first step, the longest and the least, in the scaled unknowns.
+/// The first, the longest and the shortest step, in the scaled unknowns.
 const STEPS: [f64; 3] = [3e-3, 5e-2, 1e-9];
 
-/// How a step grows after one that went well.
+/// Factor by which a step grows after one that succeeded.
 const GROWTH: f64 = 1.3;
 
-/// Most iterations of a step that is kept.
+/// Most iterations of the correction in a step that is accepted.
 const QUICK: usize = 8;
 
 /// Least cosine between the tangents at both ends of a step: 14°.
@@ -26,7 +26,7 @@ const ITERATIONS: usize = 12;
 /// Most corrections that locate a point.
 const LOCATED: usize = 60;
 
-/// A step this short hardly advances, and after so many of them in a row a branch is left: it nears
+/// Steps below this hardly advance. After [`MOST_SHORT`] of them in a row the branch ends: it nears
 /// a point at which it becomes singular, such as one where several contacts graze at once.
 const SHORT: f64 = 1e-5;
 const MOST_SHORT: usize = 100;
@@ -34,15 +34,15 @@ const MOST_SHORT: usize = 100;
 /// Amplitudes that are tried along the eigenvector, in the scaled unknowns.
 const AMPLITUDES: [f64; 5] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
 
-/// A new branch lies within this many amplitudes of the old one; else Newton has found another
-/// orbit.
+/// A new branch lies within this many amplitudes of the old one; otherwise Newton's method has
+/// found another orbit.
 const NEIGHBOURHOOD: f64 = 3.0;
 
 /// The length of the steps along a branch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stride {
     pub length: f64,
-    /// Short steps since the last that was not.
+    /// Number of short steps in a row.
     short: usize,
 }
 
@@ -51,7 +51,7 @@ impl Stride {
         Self { length: STEPS[0], short: 0 }
     }
 
-    /// After a step that was kept, to a point of that size.
+    /// Lengthens the step after one that was accepted; `size` is the size of the point it led to.
     ///
     /// # Errors
     /// [`Error::NoOrbit`] where the steps have become too short for too long.
@@ -68,20 +68,19 @@ impl Stride {
         Ok(())
     }
 
-    /// After one that was not; false where no shorter one is tried.
+    /// Halves the step after one that was rejected; false where no shorter one is tried.
     pub fn halve(&mut self) -> bool {
         self.length *= 0.5;
         self.length >= STEPS[2]
     }
 
-    /// True for a step with these tangents at both ends, corrected in so many iterations, that is
-    /// kept.
+    /// True if a step with these tangents at its ends, corrected in `iterations`, is accepted.
     pub fn keeps(iterations: usize, before: &Vector, after: &Vector) -> bool {
         iterations <= QUICK && turns_little(before, after)
     }
 }
 
-/// True where both tangents point to one side.
+/// True where the tangents `before` and `after` a step differ by a small angle only.
 pub(super) fn turns_little(before: &Vector, after: &Vector) -> bool {
     after.dot(before) >= TURN
 }
@@ -97,7 +96,7 @@ pub(super) fn extended(vector: &Vector, last: f64) -> Vector {
     DVector::from_iterator(vector.len() + 1, vector.iter().copied().chain([last]))
 }
 
-/// The unit vector of that number among `n`.
+/// The unit vector number `index` of `n`.
 pub(super) fn unit(n: usize, index: usize) -> Vector {
     DVector::from_fn(n, |i, _| if i == index { 1.0 } else { 0.0 })
 }
@@ -109,7 +108,7 @@ pub(super) fn beyond(range: [f64; 2], value: f64) -> Option<f64> {
 }
 
 /// `bound`, an end of `range`, over `width`, so that its product with `width` does not leave the
-/// range by rounding: beyond, the key may accept nothing.
+/// range by rounding: the key may accept no value outside.
 pub(super) fn scaled(bound: f64, width: f64, range: [f64; 2]) -> f64 {
     let scaled = bound / width;
     match beyond(range, scaled * width) {
@@ -119,8 +118,8 @@ pub(super) fn scaled(bound: f64, width: f64, range: [f64; 2]) -> f64 {
     }
 }
 
-/// The unit tangent where the equations are linearised by `matrix`, n × (n + 1), on the side of
-/// `along`.
+/// The unit tangent at a point where the linearised equations are `matrix`, n × (n + 1), in the
+/// direction of `along`.
 ///
 /// # Errors
 /// [`Error::NoOrbit`] where two branches cross.
@@ -132,9 +131,9 @@ pub(super) fn tangent(matrix: &DMatrix<f64>, along: &Vector) -> Result<Vector> {
     Ok(tangent / norm)
 }
 
-/// The solution in the plane through `guess` across `border`, by Newton's method; with its
-/// linearised equations, and how many iterations that took. `linear` gives residual and
-/// derivatives, n × (n + 1), at a point, and whatever else belongs to them.
+/// The solution in the plane through `guess` with the normal `border`, by Newton's method; with its
+/// linearised equations and the number of iterations. `linear` gives residual and derivatives, n ×
+/// (n + 1), at a point, and whatever else belongs to them; `parts` takes the two out of it.
 ///
 /// # Errors
 /// [`Error::NoOrbit`] where it does not converge; those of `linear`.
@@ -151,7 +150,7 @@ pub(super) fn correct<L>(
         let (residual, matrix) = parts(&here);
         let size = if residual.is_empty() { 0.0 } else { residual.amax() };
         if !size.is_finite() {
-            return Err(Error::no_orbit("Newton's method left the numbers"));
+            return Err(Error::no_orbit("in Newton's method the residual became NaN or infinite"));
         }
         if last <= SOLVED || (size >= 0.5 * last && size <= ACCEPTED) {
             return Ok((y, here, iteration));
@@ -159,7 +158,7 @@ pub(super) fn correct<L>(
         let right = extended(residual, border.dot(&(&y - guess)));
         let step = bordered(matrix, border).lu().solve(&right).ok_or_else(singular)?;
         if !step.iter().all(|x| x.is_finite()) || step.norm() > 2.0 {
-            return Err(Error::no_orbit("Newton's method left the neighbourhood"));
+            return Err(Error::no_orbit("Newton's method led too far from the branch"));
         }
         y -= step;
         last = size;
@@ -167,11 +166,11 @@ pub(super) fn correct<L>(
     Err(Error::no_orbit(format!("Newton's method did not converge: the residual is {last:.1e} of the gap")))
 }
 
-/// A point of the branch that leaves `origin` along `aside`, by a small amplitude, and the
-/// direction to it; `correct` takes a guess to that branch.
+/// A point of the branch that leaves `origin` along `aside`, at a small amplitude, and the
+/// direction to it; `correct` turns a guess into a point of that branch.
 ///
 /// # Errors
-/// [`Error::NoOrbit`] where none was found near.
+/// [`Error::NoOrbit`] where no such point was found nearby.
 pub(super) fn beside(
     origin: &Vector,
     aside: &Vector,
@@ -188,8 +187,9 @@ pub(super) fn beside(
     Err(Error::no_orbit("no orbit was found beside the old branch"))
 }
 
-/// The arclength in `span` at which a test function vanishes, whose values at both ends are `ends`,
-/// and what `at` gives there beside its value. By the Illinois method.
+/// The arclength in `span` at which a test function vanishes, by the Illinois method. `ends` are
+/// its values at both ends; `at` gives its value at an arclength and further data, which are
+/// returned for the root.
 ///
 /// # Errors
 /// Those of `at`.
@@ -207,7 +207,7 @@ pub(super) fn locate<T>(
         let c = if inside { secant } else { 0.5 * (a + b) };
         let (fc, point) = at(c)?;
         if !fc.is_finite() {
-            return Err(Error::no_orbit("its test function is no number there"));
+            return Err(Error::no_orbit("its test function is NaN there"));
         }
         let better = best.as_ref().is_none_or(|(size, ..)| fc.abs() < *size);
         let settled = !better && (b - a).abs() <= 1e-13 * span[1].abs();
@@ -235,7 +235,7 @@ fn singular() -> Error {
 mod tests {
     use super::{MOST_SHORT, SHORT, Stride};
 
-    /// Takes `count` steps of that length, and says whether all went well.
+    /// Takes `count` steps of length `length`, and says whether all succeeded.
     fn taken(stride: &mut Stride, count: usize, length: f64) -> bool {
         (0..count).all(|_| {
             stride.length = length;
@@ -247,7 +247,7 @@ mod tests {
     fn a_branch_that_hardly_advances_is_left() {
         let mut stride = Stride::new();
         assert!(taken(&mut stride, 10 * MOST_SHORT, 2.0 * SHORT));
-        // One longer step between, and it goes on.
+        // After one longer step the count starts again.
         assert!(taken(&mut stride, MOST_SHORT, 0.5 * SHORT) && taken(&mut stride, 1, 2.0 * SHORT));
         assert!(taken(&mut stride, MOST_SHORT, 0.5 * SHORT) && !taken(&mut stride, 1, 0.5 * SHORT));
     }

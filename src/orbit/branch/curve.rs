@@ -10,8 +10,8 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector};
 
-/// The step of the difference that gives the column of the key, as a share of its value: it enters
-/// the matrix only, so that the solution does not depend on it.
+/// Relative step of the finite difference that gives the derivative with respect to the key. It
+/// enters the matrix only, so that the solution does not depend on it.
 const DIFFERENCE: f64 = 1e-6;
 
 /// A scene for each value of a key.
@@ -20,7 +20,7 @@ const DIFFERENCE: f64 = 1e-6;
 /// [`Error::Invalid`] or [`Error::Case`] for a value that the key does not accept.
 pub type Family<'a> = dyn Fn(f64) -> Result<Scene> + 'a;
 
-/// The curve.
+/// A curve of orbits: the family of scenes and the scales of its unknowns.
 #[derive(Clone)]
 pub(super) struct Curve<'a> {
     pub family: &'a Family<'a>,
@@ -34,7 +34,7 @@ pub(super) struct Curve<'a> {
 pub(super) struct Linear {
     pub problem: Problem,
     pub residual: Vector,
-    /// n × (n + 1): the derivatives with the unknowns, and with the key.
+    /// n × (n + 1): the derivatives with respect to the unknowns, and to the key.
     pub matrix: DMatrix<f64>,
 }
 
@@ -83,7 +83,7 @@ impl Curve<'_> {
         if n > 0 {
             let value = self.value(y);
             let step = DIFFERENCE * value.abs().max(1e-3 * self.width);
-            // At the end of what the key accepts, from one side.
+            // At the end of the values that the key accepts the difference is one-sided.
             let (above, below) = (self.problem_at(value + step), self.problem_at(value - step));
             let column = match (above, below) {
                 (Ok(above), Ok(below)) => (self.residual(&above, y) - self.residual(&below, y)) / (2.0 * step),
@@ -96,8 +96,9 @@ impl Curve<'_> {
         Ok(Linear { problem, residual, matrix })
     }
 
-    /// The determinant of the Jacobian of perturbations that change sign from one turn to the next:
-    /// it vanishes with det(M + 1) Πv_i, where M is the derivative over one turn.
+    /// The determinant of the Jacobian for perturbations that change sign from one period of the
+    /// orbit to the next: it vanishes with det(M + 1) Πv_i, where M is the derivative over one
+    /// period.
     pub fn twist(&self, problem: &Problem, y: &Vector) -> f64 {
         self.twisted(problem, y).determinant()
     }
@@ -111,13 +112,13 @@ impl Curve<'_> {
         matrix
     }
 
-    /// The unit tangent at a point, on the side of `along`.
+    /// The unit tangent at a point, in the direction of `along`.
     pub fn tangent(&self, linear: &Linear, along: &Vector) -> Result<Vector> {
         arclength::tangent(&linear.matrix, along)
     }
 
-    /// The point of the curve in the plane through `guess` across `border`; with its linearised
-    /// equations, and how many iterations that took.
+    /// The point of the curve in the plane through `guess` with the normal `border`; with its
+    /// linearised equations and the number of iterations.
     pub fn correct(&self, guess: &Vector, border: &Vector) -> Result<(Vector, Linear, usize)> {
         arclength::correct(guess, border, |y| self.linear(y), |linear| (&linear.residual, &linear.matrix))
     }

@@ -1,4 +1,4 @@
-//! What can happen along a branch: test functions, which change sign there.
+//! Test functions, which change sign at the special points of a branch.
 
 use super::super::boundary::BoundaryLaw;
 use super::super::problem::Problem;
@@ -18,7 +18,7 @@ pub(super) struct Test {
     pub value: f64,
 }
 
-/// All test functions at `y`, in an order that depends on the signature alone.
+/// All test functions at `y`, in an order that depends on the signature only.
 pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vector, tangent: &Vector) -> Vec<Test> {
     let orbit = &point.orbit;
     let signature = &orbit.signature;
@@ -69,10 +69,10 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
     found
 }
 
-/// What is known of the orbit at `y`.
+/// The orbit at `y` with its multipliers and its admissibility.
 ///
 /// # Errors
-/// Those of the orbit's own functions.
+/// Errors of [`Problem::floquet`] and [`Problem::admissible`].
 pub(super) fn point(curve: &Curve<'_>, problem: &Problem, y: &Vector) -> Result<Point> {
     let orbit = curve.orbit(problem, y);
     let (floquet, admissible) = (problem.floquet(&orbit)?, problem.admissible(&orbit)?);

@@ -9,10 +9,10 @@ use super::line::{End, Line, Passed};
 use super::point::Point;
 use crate::error::Result;
 
-/// A curve has closed after at least this many points.
+/// Least number of points after which a curve may be found closed.
 const LEAST_LOOP: usize = 6;
 
-/// Where a step stands.
+/// The point at which a step begins.
 struct Here {
     y: Vector,
     tangent: Vector,
@@ -27,8 +27,9 @@ fn here(curve: &Curve<'_>, y: Vector, linear: &Linear, along: &Vector) -> Result
     Ok(Here { y, tangent, point, tests })
 }
 
-/// Follows `curve` from `y`, a solution, on the side of `along`, while the key stays in `range`. At
-/// most `most` points, the first being that at `y`; `seen` is told each.
+/// Follows `curve` from the solution `y` in the direction of `along`, while the key stays in
+/// `range`. It takes at most `most` points, the first being that at `y`, and calls `seen` with
+/// each.
 pub(super) fn follow<'a>(
     curve: &Curve<'a>,
     y: Vector,
@@ -44,11 +45,12 @@ pub(super) fn follow<'a>(
     let mut stride = Stride::new();
     while line.points.len() < most {
         let last = now.y.len() - 1;
-        // Where the step would leave the range, to its end: beyond, the key may accept nothing.
+        // A step that would leave the range is shortened to its end: the key may accept no value
+        // outside.
         let slope = now.tangent[last] * curve.width;
         let bound = beyond(range, now.point.value + slope * stride.length);
         let step = bound.map_or(stride.length, |bound| (bound - now.point.value) / slope);
-        // A start on the bound that goes outwards ends at once.
+        // A branch that starts at an end of the range and leads out of it ends at once.
         if step <= 0.0 {
             line.end = End::Range;
             return Ok(line);
@@ -78,10 +80,11 @@ pub(super) fn follow<'a>(
                 continue;
             }
         };
-        // All that happens on the way, in order, and whichever end is first.
+        // All special points within the step, in order, and the first end of the branch.
         let mut crossed = Vec::new();
         for (index, (before, after)) in now.tests.iter().zip(&next.tests).enumerate() {
-            // A test that is 0 at the beginning is where the branch has come from.
+            // A test function that is 0 at the beginning belongs to the point where the branch
+            // begins.
             if before.value * after.value < 0.0 && before.value.abs() > ZERO {
                 let found = locate([0.0, step], [before.value, after.value], |s| {
                     let (y, linear, _) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
@@ -104,7 +107,7 @@ pub(super) fn follow<'a>(
             limit = step;
             line.points.push(next.point.clone());
         } else if let Some(bound) = beyond(range, next.point.value) {
-            // The branch bends out of the range.
+            // Within the step the branch leaves the range.
             let ends = [now.point.value - bound, next.point.value - bound];
             let (s, y) = locate([0.0, step], ends, |s| {
                 let (y, ..) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
@@ -157,15 +160,15 @@ pub(super) fn follow<'a>(
     Ok(line)
 }
 
-/// A test function below this is zero: the branch begins at this point.
+/// A test function below this counts as zero: the branch begins at its special point.
 const ZERO: f64 = 1e-9;
 
-/// Special points within this share of a step are one place.
+/// Special points closer to each other than this share of a step count as one.
 const SAME_PLACE: f64 = 1e-4;
 
-/// A contact with an elastic wall that loses its duration makes the equations themselves singular:
-/// the other test functions, determinants and the direction of the key, vanish there too, and mean
-/// nothing.
+/// Where the duration of a contact with an elastic wall goes to 0, the equations themselves become
+/// singular. The other test functions (determinants, and the key's part of the tangent) vanish
+/// there too without meaning anything, and are left out.
 fn forget_echoes(crossed: &mut Vec<(f64, Label, usize, Vector)>, point: &Point, near: f64) {
     let kind = |event: usize| point.orbit.signature.events.get(event).map(|event| event.kind);
     let elastic = |label: Label, event: usize| match label {
@@ -175,12 +178,12 @@ fn forget_echoes(crossed: &mut Vec<(f64, Label, usize, Vector)>, point: &Point, 
     let ends: Vec<f64> =
         crossed.iter().filter(|(_, label, event, _)| elastic(*label, *event)).map(|(s, ..)| *s).collect();
     crossed.retain(|(s, label, ..)| label.ends() || !ends.iter().any(|end| (end - s).abs() <= near));
-    // Beyond an impact without speed the motion turns back behind its wall: that is no wall touched
-    // anew.
+    // Beyond an impact of speed 0 the motion turns back behind its wall: this is not a new contact.
     let gone: Vec<f64> =
         crossed.iter().filter(|(_, label, ..)| *label == Label::GrazingOut).map(|(s, ..)| *s).collect();
     crossed.retain(|(s, label, ..)| *label != Label::GrazingIn || !gone.iter().any(|end| (end - s).abs() <= near));
-    // A contact that vanishes is left as it was entered: the first of both tests stands for it.
+    // Where a contact vanishes, its entry and its exit coincide: the first of the two tests stands
+    // for both.
     let enters =
         crossed.iter().any(|(_, label, event, _)| *label == Label::GrazingOut && kind(*event) == Some(Kind::Enter));
     crossed.retain(|(s, label, ..)| {

@@ -1,4 +1,4 @@
-//! The graph of branches: what begins where.
+//! The graph of branches: which branch begins at which special point.
 
 use super::super::equations::Scales;
 use super::super::periodic::Orbit;
@@ -15,9 +15,9 @@ use crate::error::{Error, Result};
 /// Where branches begin: an orbit of one degree of freedom, or one of a structure.
 #[derive(Debug, Clone, Copy)]
 pub enum Start<'a> {
-    /// By its events.
+    /// An orbit of one degree of freedom, given by its events.
     Orbit(&'a Orbit),
-    /// By a state of it.
+    /// An orbit of a structure, given by one of its states.
     Shot(&'a Shot),
 }
 
@@ -34,8 +34,8 @@ impl<'a> From<&'a Shot> for Start<'a> {
 }
 
 /// Follows the orbits of `family` from `start`, an orbit at the key's value `value`, in both
-/// directions, and switches to the branches that begin at special points. `seen` is told each
-/// point. An orbit of one degree of freedom is followed by its events, one of a structure
+/// directions, and switches to the branches that begin at special points. `seen` is called with
+/// each point. An orbit of one degree of freedom is followed by its events, one of a structure
 /// ([`shoot`](crate::orbit::shoot)) by its state once an orbit.
 ///
 /// ```
@@ -64,9 +64,9 @@ impl<'a> From<&'a Shot> for Start<'a> {
 /// ```
 ///
 /// # Errors
-/// [`Error::Invalid`] for a range that is none, or a start outside of it; [`Error::NoOrbit`] for a
-/// start that is no orbit, one that no body can follow, or one of one degree of freedom whose
-/// impacts accumulate; those of `family` at the start, and of a run.
+/// [`Error::Invalid`] for a range whose ends are not two increasing numbers, or a start outside of
+/// it; [`Error::NoOrbit`] for a start that is no orbit, one that no body can follow, or one of one
+/// degree of freedom whose impacts accumulate; those of `family` at the start, and of a run.
 pub fn graph<'s>(
     family: &Family<'_>,
     start: impl Into<Start<'s>>,
@@ -82,7 +82,7 @@ pub fn graph<'s>(
         return Err(Error::invalid("start", value, format!("a value of the key from {low:?} to {high:?}")));
     }
     let width = high - low;
-    // An orbit whose symmetry the key breaks is followed as a whole.
+    // If the key breaks the symmetry of the orbit, the whole orbit is followed instead of its half.
     let beside = if value + 1e-3 * width <= high { value + 1e-3 * width } else { value - 1e-3 * width };
     match start.into() {
         Start::Orbit(start) => {

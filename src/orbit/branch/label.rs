@@ -14,22 +14,23 @@ pub enum Label {
     /// Two orbits that are not symmetric, each the mirror image of the other, branch off a
     /// symmetric one (a multiplier −1 of the half map, 1 of the whole).
     SymmetryBreaking,
-    /// Another branch crosses (a multiplier 1): of structures alone.
+    /// Another branch crosses (a multiplier 1); only for structures.
     BranchPoint,
-    /// A pair of complex multipliers crosses the unit circle: a quasi-periodic motion begins. Of
-    /// structures alone.
+    /// A pair of complex multipliers crosses the unit circle: a quasi-periodic motion begins; only
+    /// for structures.
     NeimarkSacker,
-    /// An impact of the orbit has become one without speed: beyond, the signature lacks it.
+    /// The speed of an impact of the orbit has become 0: the orbits beyond lack this impact.
     GrazingOut,
-    /// The orbit touches a wall anew, without speed: beyond, the signature has one more event.
+    /// The orbit touches another wall, or a wall once more, at speed 0: the orbits beyond have one
+    /// more event.
     GrazingIn,
     /// After an impact with e = 0 the body is not pulled off its wall any more: a rest begins.
     RestBegins,
-    /// A rest has become one without duration.
+    /// The duration of a rest has become 0.
     RestEnds,
-    /// A contact with an elastic wall has become one without duration.
+    /// The duration of a contact with an elastic wall has become 0.
     ContactEnds,
-    /// Two events come together: which is first decides what follows.
+    /// Two events coincide: what follows depends on which of them is first.
     Corner,
 }
 

@@ -1,4 +1,4 @@
-//! A branch in one direction, and what any kind of curve of orbits can do.
+//! A branch in one direction, and the trait of all curves of orbits.
 
 use super::super::periodic::Orbit;
 use super::arclength::Vector;
@@ -12,9 +12,9 @@ use crate::error::Result;
 pub enum End {
     /// At the end of the range of the key.
     Range,
-    /// At a special point beyond which its orbits are none.
+    /// At a special point beyond which no body can follow its orbits.
     Special(Label),
-    /// Where it began.
+    /// It has come back to its first point.
     Closed,
     /// After as many points as were asked for.
     Points,
@@ -33,7 +33,7 @@ pub(super) struct Passed<C> {
     pub y: Vector,
     /// How many points of the branch lie before it.
     pub after: usize,
-    /// Where the orbits go on beyond, if following them has told.
+    /// The branch that goes on beyond, where following this one has found it.
     pub beyond: Option<Box<Begin<C>>>,
 }
 
@@ -45,37 +45,39 @@ pub(super) struct Line<C> {
     pub end: End,
 }
 
-/// Where a branch begins, and to which side it goes.
+/// The first point of a branch, and its direction there.
 #[derive(Debug, Clone)]
 pub(super) struct Begin<C> {
     pub curve: C,
     pub y: Vector,
     pub along: Vector,
-    /// True if it goes on to both sides.
+    /// True if the branch is to be followed in both directions.
     pub both: bool,
 }
 
-/// What orbits at one place are compared by: the mirror of the scene (the wall opposite to each
-/// wall), a typical speed (m/s), and how near.
+/// How orbits at one special point are compared: the mirror of the scene (the wall opposite to each
+/// wall), a typical speed (m/s), and a tolerance.
 #[derive(Debug)]
 pub(super) struct Metric {
     pub mirror: Option<Vec<usize>>,
     pub speed: f64,
-    /// Orbits within this, in cycles and as a share of the largest speed, are one.
+    /// Orbits are the same if they differ by less than this, in cycles and as a share of the
+    /// largest speed.
     pub near: f64,
 }
 
-/// Values of the key within this share of its range are one, and orbits of one degree of freedom
-/// within the same.
+/// Values of the key are the same if they differ by less than this share of its range; likewise
+/// orbits of one degree of freedom.
 pub(super) const NODE: f64 = 1e-6;
 
 /// A curve of orbits.
 pub(super) trait Followed: Sized {
-    /// The unit tangent at `y`, a solution, on the side of `along`.
+    /// The unit tangent at the solution `y`, in the direction of `along`.
     fn tangent_at(&self, y: &Vector, along: &Vector) -> Result<Vector>;
 
-    /// Follows it from `y`, a solution, on the side of `along`, while the key stays in `range`. At
-    /// most `most` points, the first being that at `y`; `seen` is told each.
+    /// Follows it from the solution `y` in the direction of `along`, while the key stays in
+    /// `range`. It takes at most `most` points, the first being that at `y`, and calls `seen` with
+    /// each.
     fn follow(
         &self,
         y: Vector,
@@ -91,6 +93,6 @@ pub(super) trait Followed: Sized {
     /// [`Error::NoOrbit`](crate::Error::NoOrbit) where none was found, with the reason.
     fn switch(&self, at: &Passed<Self>) -> Result<Begin<Self>>;
 
-    /// The orbit at `y`, and what it is compared by.
+    /// The orbit at `y`, and how it is compared with others.
     fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)>;
 }

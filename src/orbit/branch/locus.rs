@@ -1,8 +1,8 @@
 //! Loci: the curves of special points in the plane of two keys.
 //!
-//! The equations of the orbit with the test function of the special point as one more, and both
-//! keys unknown, followed by pseudo-arclength as a branch is. The gradient of the test function is
-//! a difference, which enters the matrix only.
+//! The equations are those of the orbit and, as one more, the test function of the special point;
+//! both keys are unknown. The curve is followed by pseudo-arclength, as a branch is. The gradient
+//! of the test function is a finite difference, which enters the matrix only.
 
 use super::super::admissible::Admissible;
 use super::super::equations::{Equations, Scales, Turn};
@@ -21,21 +21,22 @@ use nalgebra::{DMatrix, DVector};
 /// [`Error::Invalid`] or [`Error::Case`] for values that the keys do not accept.
 pub type Plane<'a> = dyn Fn([f64; 2]) -> Result<Scene> + 'a;
 
-/// The first step, the longest and the least, in the scaled unknowns.
+/// The first, the longest and the shortest step, in the scaled unknowns.
 const STEPS: [f64; 3] = [3e-3, 5e-2, 1e-7];
 
-/// How a step grows after one that went well; least cosine between tangents at both its ends.
+/// Factor by which a step grows after one that succeeded; least cosine between the tangents at its
+/// ends.
 const GROWTH: f64 = 1.3;
 const TURN: f64 = 0.97;
 
-/// Most iterations, and the step below which they end.
+/// Most iterations of a correction, and the size of its step below which it has converged.
 const ITERATIONS: usize = 10;
 const CLOSE: f64 = 1e-11;
 
-/// Steps of the differences, in the scaled unknowns.
+/// Step of the finite differences, in the scaled unknowns.
 const DIFFERENCE: f64 = 1e-6;
 
-/// What is passed by less than this share of the scales is rounding.
+/// A wall that is passed by less than this share of the scales is passed by rounding only.
 const ROUNDING: f64 = 1e-8;
 
 /// A special point of a locus.
@@ -86,8 +87,9 @@ pub struct Locus {
 /// ```
 ///
 /// # Errors
-/// [`Error::Invalid`] for ranges that are none, a start outside of them, or a label without a
-/// locus; [`Error::NoOrbit`] where the start is not on it; those of `plane` at the start.
+/// [`Error::Invalid`] for ranges whose ends are not two increasing numbers, a start outside of
+/// them, or a label without a locus; [`Error::NoOrbit`] where the start is not on it; those of
+/// `plane` at the start.
 pub fn locus(plane: &Plane<'_>, special: &Special, second: f64, ranges: [[f64; 2]; 2], most: usize) -> Result<Locus> {
     let start = [special.point.value, second];
     for ([low, high], value) in ranges.into_iter().zip(start) {
@@ -211,7 +213,7 @@ impl Traced<'_> {
 
     fn bordered(matrix: &DMatrix<f64>, border: &DVector<f64>) -> DMatrix<f64> {
         let n = matrix.nrows();
-        // The test function has its own size: its row is scaled as the others.
+        // The test function has another magnitude: its row is scaled to that of the others.
         let size = matrix.row(n - 1).amax().max(f64::MIN_POSITIVE);
         DMatrix::from_fn(n + 1, n + 1, |i, j| match i {
             i if i + 1 < n => matrix[(i, j)],
@@ -229,7 +231,7 @@ impl Traced<'_> {
         Ok(tangent / norm)
     }
 
-    /// The point of the locus in the plane through `guess` across `border`.
+    /// The point of the locus in the plane through `guess` with the normal `border`.
     fn correct(&self, guess: &DVector<f64>, border: &DVector<f64>) -> Result<(DVector<f64>, DMatrix<f64>)> {
         let mut y = guess.clone();
         for _ in 0..ITERATIONS {
@@ -244,7 +246,7 @@ impl Traced<'_> {
             let step = Self::bordered(&matrix, border).lu().solve(&right).ok_or_else(singular)?;
             let length = step.norm();
             if !length.is_finite() || length > 1.0 {
-                return Err(Error::no_orbit("Newton's method left the neighbourhood"));
+                return Err(Error::no_orbit("Newton's method led too far from the locus"));
             }
             y -= step;
             if length <= CLOSE {
@@ -254,7 +256,7 @@ impl Traced<'_> {
         Err(Error::no_orbit("Newton's method did not converge"))
     }
 
-    /// Why no body can follow the orbit at `y`, apart from what the locus itself holds at 0.
+    /// Why no body can follow the orbit at `y`, apart from the quantity that is 0 on the locus.
     fn reason(&self, problem: &Problem, y: &DVector<f64>) -> Result<Option<String>> {
         let mut found = self.admissible(problem, y)?;
         let least = self.orbit.signature.events.iter().enumerate().filter(|(i, event)| {

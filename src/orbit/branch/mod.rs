@@ -1,5 +1,5 @@
 //! Branches of periodic orbits in a key of the scene: followed by pseudo-arclength, with their
-//! special points located, and the branches that begin there found by the program.
+//! special points located, and the branches that begin there found automatically.
 //!
 //! | label | test function that changes sign | what begins there |
 //! |---|---|---|
@@ -17,10 +17,10 @@
 //! bifurcation needs a complex pair of modulus 1, whose product is the determinant e₁²e₂² …
 //! exp(−cT/m) ≤ 1: with one degree of freedom there is none.
 //!
-//! Orbits of structures are followed by a state of them instead of their events ([`Start::Shot`]).
-//! There complex pairs do cross the unit circle (neimark-sacker), and other branches cross where a
-//! multiplier passes 1 without a fold (branch-point). A change of the walls that are met ends a
-//! branch of them too; the next one goes on from there.
+//! An orbit of a structure is followed by one of its states instead of its events
+//! ([`Start::Shot`]). There complex pairs do cross the unit circle (neimark-sacker), and other
+//! branches cross where a multiplier passes 1 without a fold (branch-point). There a branch also
+//! ends where the list of walls that are met changes; another branch begins at this point.
 
 mod arclength;
 mod curve;

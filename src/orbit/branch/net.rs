@@ -9,12 +9,12 @@ use super::request::{Branch, Graph, Request, Special, Switch};
 use crate::error::Result;
 use std::collections::VecDeque;
 
-/// The graph as far as it is known, and the special points that have not been looked at.
+/// The graph found so far, and the special points whose branches have not been followed yet.
 pub(super) struct Net<'r, C> {
     graph: Graph,
     queue: VecDeque<(usize, Passed<C>)>,
     request: &'r Request,
-    /// For each branch the points of those that it goes on from, and its own.
+    /// For each branch the number of its points and of the branches that it continues.
     used: Vec<usize>,
 }
 
@@ -23,7 +23,7 @@ impl<'r, C: Followed> Net<'r, C> {
         Self { graph: Graph::default(), queue: VecDeque::new(), request, used: Vec::new() }
     }
 
-    /// All branches that are asked for, the first through `y` along `along`.
+    /// All branches asked for; the first goes through `y` in the direction `along`.
     pub fn from(mut self, curve: C, y: Vector, along: &Vector, seen: &mut dyn FnMut(&Point)) -> Result<Graph> {
         self.both(&curve, y, along, None, (0, 0), seen)?;
         while let Some((special, passed)) = self.queue.pop_front() {
@@ -100,7 +100,8 @@ impl<'r, C: Followed> Net<'r, C> {
     fn leave(&mut self, number: usize, passed: Passed<C>, seen: &mut dyn FnMut(&Point)) {
         let own = self.graph.specials.get(number).map_or(0, |special| special.branch);
         let depth = self.graph.branches.get(own).map_or(0, |branch| branch.depth);
-        // Beyond a change of its contacts the same curve goes on: that is no switch.
+        // Beyond a change of its contacts the same curve continues: this does not count as a
+        // switch.
         let goes_on = passed.beyond.is_some();
         let wanted = match self.request.switch {
             Switch::No => false,
@@ -125,7 +126,7 @@ impl<'r, C: Followed> Net<'r, C> {
     }
 
     /// Follows the branch that begins at special point `number`; gives its number, or that of the
-    /// known branch that it is. None where no points are left for it.
+    /// known branch with which it coincides. `None` where no points are left for it.
     fn begin(
         &mut self,
         number: usize,
@@ -155,7 +156,7 @@ impl<'r, C: Followed> Net<'r, C> {
         Ok(Some(next))
     }
 
-    /// The branch that has `orbit`'s signature and a special point here already.
+    /// The known branch with `orbit`'s signature and a special point at this orbit.
     fn known(&self, number: usize, orbit: &Orbit, metric: &Metric) -> Option<usize> {
         let mirror = metric.mirror.as_deref();
         let here = self.graph.specials.get(number)?;

@@ -5,7 +5,7 @@ use super::super::floquet::Floquet;
 use super::super::periodic::Orbit;
 use super::super::strobe::Strobe;
 
-/// An orbit of a branch with all that is known of it.
+/// An orbit of a branch with its multipliers and its admissibility.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
     /// The key's value.
@@ -14,9 +14,9 @@ pub struct Point {
     pub orbit: Orbit,
     /// Its multipliers.
     pub floquet: Floquet,
-    /// Whether a body can follow it. An orbit of a structure is one that a body follows.
+    /// Whether a body can follow it. A structure follows each of its orbits: they come from runs.
     pub admissible: Admissible,
-    /// Of a structure an instant of the orbit and its state then: the events alone do not tell the
-    /// motion.
+    /// For a structure, an instant of the orbit and the state then: the events alone do not
+    /// determine the motion.
     pub strobe: Option<Strobe>,
 }

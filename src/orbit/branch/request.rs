@@ -1,4 +1,4 @@
-//! What is asked for, and what is found: branches, and the points that join them.
+//! The request, and the result: branches, and the special points that join them.
 
 use super::label::Label;
 use super::line::End;
@@ -16,7 +16,7 @@ pub enum Switch {
     All,
 }
 
-/// What is asked for.
+/// A request for branches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
     /// The range of the key; the first value below the second.
@@ -47,13 +47,13 @@ pub struct Branch {
 pub struct Special {
     /// What happens there.
     pub label: Label,
-    /// The event that it happens to, from 0; 0 where it is the whole orbit's.
+    /// Index of the event concerned, from 0; 0 where the whole orbit is concerned.
     pub event: usize,
-    /// Index of the wall at which it happens; `None` where it is the whole orbit's.
+    /// Index of the wall at which it happens; `None` where the whole orbit is concerned.
     pub wall: Option<usize>,
     /// The branch on which it was found.
     pub branch: usize,
-    /// The points of that branch before it.
+    /// Number of points of that branch before it.
     pub after: usize,
     /// The orbit.
     pub point: Point,

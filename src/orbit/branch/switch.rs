@@ -15,12 +15,13 @@ use super::point::Point;
 use crate::error::{Error, Result};
 use nalgebra::DVector;
 
-/// The step to both sides that tells where a new branch has orbits that a body can follow.
+/// Step to either side of a new branch's start that shows on which side a body can follow its
+/// orbits.
 const PROBE: f64 = 1e-4;
 
 impl Problem {
-    /// The orbit of which `orbit` is several turns, or both halves, and the label of the point
-    /// where a branch of such orbits begins.
+    /// The shorter orbit that `orbit` repeats, or whose mirror image is its second half, and the
+    /// label of the point where a branch of such orbits begins.
     pub(super) fn halves(&self, orbit: &Orbit) -> Option<(Orbit, Label)> {
         let (part, mirrored) = orbit.part(self.mirror())?;
         Some((part, if mirrored { Label::SymmetryBreaking } else { Label::PeriodDoubling }))
@@ -67,7 +68,8 @@ impl<'a> Curve<'a> {
     fn leave(&self, at: &Passed<Self>) -> Result<Begin<Self>> {
         let problem = self.problem(&at.y)?;
         let orbit = &at.point.orbit;
-        // A branch of several turns that has come back to one: that one goes on to both sides.
+        // A branch of orbits over several periods has met the orbit of one of them: the branch of
+        // the latter goes on to both sides.
         if let Some((half, _)) = problem.halves(orbit) {
             return self.begin(&problem, &half, at.point.value, None, true);
         }
@@ -86,7 +88,7 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// Along the eigenvector of a multiplier −1, by a small amplitude.
+    /// The branch that leaves along the eigenvector of a multiplier −1, at a small amplitude.
     fn branch_off(&self, problem: &Problem, at: &Passed<Self>, whole: &Orbit) -> Result<Begin<Self>> {
         let curve = self.of(&whole.signature);
         curve.signature.check(problem.scene())?;
@@ -105,7 +107,7 @@ impl<'a> Curve<'a> {
         Ok(Begin { curve, y, along, both: false })
     }
 
-    /// Puts an impact of speed 0 where the orbit touches a wall.
+    /// Adds an impact of speed 0 where the orbit touches a wall.
     fn touch(&self, problem: &Problem, at: &Passed<Self>) -> Result<Begin<Self>> {
         let mut orbit = at.point.orbit.clone();
         let nearest = at.point.admissible.nearest.ok_or_else(|| Error::no_orbit("no wall is touched"))?;
@@ -123,7 +125,7 @@ impl<'a> Curve<'a> {
             let along = unit(y.len(), 2 * index + 1);
             return Ok(Begin { curve, y, along, both: false });
         }
-        // A contact that lasts a moment: the equations are singular where it has no duration.
+        // A contact of short duration: the equations are singular for duration 0.
         let speed = PROBE * self.scales.speed;
         let half = speed / (at.point.admissible.largest * (std::f64::consts::TAU / problem.forcing_period()).powi(2));
         let half = half / problem.forcing_period();
@@ -162,7 +164,8 @@ impl<'a> Curve<'a> {
         self.begin(problem, &orbit, at.point.value, Some(at), false)
     }
 
-    /// An impact with e = 0 gets a rest of no duration, or a rest of no duration becomes one.
+    /// An impact with e = 0 gets a rest of duration 0, or a rest of duration 0 becomes such an
+    /// impact.
     fn rest(&self, problem: &Problem, at: &Passed<Self>) -> Result<Begin<Self>> {
         let mut orbit = at.point.orbit.clone();
         let Some(event) = orbit.signature.events.get_mut(at.event) else {
@@ -189,8 +192,8 @@ impl<'a> Curve<'a> {
         self.begin(problem, &orbit, at.point.value, Some(at), false)
     }
 
-    /// A branch through `orbit`; to the side on which a body can follow its orbits where there is
-    /// one, else an error.
+    /// The branch through `orbit`, to the side on which a body can follow its orbits; an error
+    /// where there is no such side.
     fn begin(
         &self,
         problem: &Problem,

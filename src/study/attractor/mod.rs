@@ -20,6 +20,6 @@ pub use motion::{Attractor, Lasts, Touch};
 #[cfg(feature = "cli")]
 pub(crate) use search::{exponent, follow};
 
-/// Most degrees of freedom: an orbit is looked for with the whole derivative.
+/// Most degrees of freedom: the search for an orbit uses the full derivative, a dense matrix.
 #[cfg(feature = "cli")]
 pub(crate) const MOST_FREEDOM: usize = 20;

@@ -1,4 +1,4 @@
-//! Motions that others come to.
+//! Attractors.
 
 use crate::scene::State;
 use nalgebra::Complex;
@@ -21,9 +21,9 @@ pub enum Lasts {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Touch {
-    /// Which, by its index in the scene.
+    /// Index of the wall in the scene.
     pub wall: usize,
-    /// When it begins, in periods of the load since the first strobe.
+    /// The beginning of the contact, in periods of the load since the first strobe.
     pub phase: f64,
     /// The speed towards the wall then, m/s.
     pub speed: f64,
@@ -31,7 +31,7 @@ pub struct Touch {
     pub lasts: Lasts,
 }
 
-/// A motion that others come to.
+/// A motion that other motions approach.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Attractor {
@@ -40,7 +40,7 @@ pub enum Attractor {
         /// The states once a period of the load, at whole multiples of it: as many as the motion
         /// takes periods of the load to repeat itself.
         strobes: Vec<State>,
-        /// The walls touched on the way, in the order of time; none of a quiet motion.
+        /// The walls touched, in the order of time; none for a quiet motion.
         touches: Vec<Touch>,
         /// The Floquet multipliers over that time, 2n of them, the largest first.
         multipliers: Vec<Complex<f64>>,
@@ -50,7 +50,7 @@ pub enum Attractor {
 }
 
 impl Attractor {
-    /// How many periods of the load it takes to repeat itself; `None` of a chaotic one.
+    /// Number of periods of the load after which it repeats itself; `None` for a chaotic motion.
     #[must_use]
     pub fn period(&self) -> Option<usize> {
         match self {

@@ -11,22 +11,22 @@ use nalgebra::{Complex, DMatrix, DVector};
 /// Most iterations.
 const ITERATIONS: usize = 10;
 
-/// A motion that comes back to its start to this share of the scales is closed …
+/// A motion is closed if it comes back to its start to within this share of the scales …
 const CLOSED: f64 = 1e-10;
 
-/// … and one that comes back to this share is not improved further.
+/// … and is not improved further if it does so to within this share.
 const ROUNDING: f64 = 1e-14;
 
 /// A step of Newton's method that is longer than this leaves the neighbourhood.
 const LONGEST: f64 = 0.03;
 
-/// The orbit near a state is no further from it than this.
+/// Largest distance of an orbit from the state near which it is looked for.
 const FAR: f64 = 3e-3;
 
-/// Strobes that differ by less are one: the motion repeats itself sooner.
+/// States that differ by less than this are the same: the motion has a shorter period.
 const EQUAL: f64 = 1e-8;
 
-/// Impacts before a rest that are shown as one, chatter.
+/// Least number of impacts before a rest that are shown as one chatter.
 const CHATTER: usize = 3;
 
 /// A periodic motion.
@@ -40,7 +40,7 @@ pub(super) struct Orbit {
     period: f64,
 }
 
-/// The motion over so many periods.
+/// The motion over several periods.
 struct Passed {
     /// The state at the start and once a period.
     strobes: Vec<DVector<f64>>,
@@ -113,7 +113,7 @@ pub(super) fn near(scene: &Checked, period: f64, count: usize, x: &DVector<f64>)
     find(scene, period, count, x, scales).filter(Orbit::is_stable).filter(is_near)
 }
 
-/// Where Newton's method leads in one step over one period: the steady state of a linear motion.
+/// The result of one Newton step over one period: the steady state of a linear motion.
 pub(super) fn leap(scene: &Checked, period: f64, from: &DVector<f64>) -> Option<DVector<f64>> {
     let mut stepper = Stepper::by(scene, Method::new(Scheme::Event), period).ok()?;
     let passed = pass(&mut stepper, scene, from, 1, period)?;
@@ -137,12 +137,12 @@ impl Orbit {
         self.contacts.is_empty()
     }
 
-    /// What it is as an attractor of `scene`.
+    /// The motion as an attractor of `scene`.
     pub fn attractor(&self, scene: &Checked) -> Attractor {
         let mut contacts: Vec<Contact> = self.contacts.clone();
         contacts.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.wall.cmp(&b.wall)));
-        // Contact that goes on over the start is there twice: where it began, at the end, and where
-        // the run took it up.
+        // A contact that spans the start is recorded twice: at its beginning, near the end of the
+        // run, and at the start of the run.
         let open: Vec<usize> = contacts.iter().filter(|c| c.end.is_none()).map(|c| c.wall).collect();
         contacts.retain(|c| !(c.start == 0.0 && c.approach_speed == 0.0 && open.contains(&c.wall)));
         let lasts = |c: &Contact| match scene.walls.get(c.wall).map(|wall| &wall.law) {
@@ -157,7 +157,7 @@ impl Orbit {
             lasts: lasts(c),
         };
         let mut touches: Vec<Touch> = contacts.iter().map(touch).collect();
-        // Begin after a rest, so that none of what leads to one is cut in two.
+        // The list begins after a rest, so that no chatter that leads to a rest is cut in two.
         if let Some(last) = touches.iter().rposition(|touch| touch.lasts == Lasts::Rest) {
             touches.rotate_left(last + 1);
         }

@@ -1,4 +1,4 @@
-//! The run that is decided.
+//! The run whose attractor is looked for.
 
 use super::motion::Attractor;
 use super::orbit::{Orbit, find, leap, near};
@@ -11,25 +11,25 @@ use crate::variation::{Exponents, NoDerivative};
 use nalgebra::DVector;
 use std::collections::VecDeque;
 
-/// Most periods of the load after which a motion is looked at for repeating itself.
+/// Most periods of the load after which a motion may repeat itself.
 const MOST_PERIODS: usize = 32;
 
-/// How near it must come.
+/// Tolerance for states to count as repeated.
 const NEAR: f64 = 1e-3;
 
-/// How often it must have come back at the end of the run.
+/// How often they must have been repeated at the end of the run.
 const REPEATS: usize = 3;
 
-/// How often the run must approach the orbit as its derivative says, and how well, as a share of
-/// the distance before; below the last it counts as there.
+/// How often the run must approach the orbit as its derivative predicts, the tolerance for this as
+/// a share of the distance before, and the distance below which the run has arrived.
 const APPROACHES: u32 = 2;
 const AS_SAID: f64 = 0.2;
 const THERE: f64 = 1e-9;
 
-/// Standard errors above 0 of an exponent of chaos.
+/// A motion is chaotic if its exponent is this many standard errors above 0.
 const ERRORS: f64 = 3.0;
 
-/// An orbit that the run may be coming to.
+/// An orbit that the run may be approaching.
 struct Candidate {
     orbit: Orbit,
     /// Number of the strobe at which it was found, or last approached, and the distance there.
@@ -46,10 +46,11 @@ struct Search<'a> {
     strobes: VecDeque<DVector<f64>>,
     /// True if the present flight stays between the walls for ever.
     quiet: bool,
-    /// True once its steady motion has been looked for: without drag it attracts nothing.
+    /// True once its steady motion has been looked for: without damping it attracts nothing.
     steady: bool,
     candidate: Option<Candidate>,
-    /// Number of the strobe from which on an orbit is looked for again, and of looks in vain.
+    /// Number of the strobe from which on an orbit is looked for again, and the number of failed
+    /// searches.
     next: u32,
     vain: u32,
 }
@@ -156,7 +157,7 @@ impl Search<'_> {
         })
     }
 
-    /// What the state at the end of period number `count` decides.
+    /// The attractor, if the state at the end of period number `count` decides it.
     fn strobe(&mut self, count: u32, state: &State) -> Option<Attractor> {
         let x = vector(&state.q, &state.v);
         self.strobes.push_back(x.clone());
@@ -164,7 +165,8 @@ impl Search<'_> {
             self.strobes.pop_front();
         }
         if self.quiet && !self.steady {
-            // Linear from here on: Newton's method lands at once, however far it is.
+            // The motion is linear from here on: one Newton step finds the steady motion, however
+            // far away.
             self.steady = true;
             let landed = leap(self.scene, self.period, &x);
             let orbit = landed.and_then(|to| find(self.scene, self.period, 1, &to, self.scales));
@@ -183,7 +185,7 @@ impl Search<'_> {
         }
     }
 
-    /// Looks for an orbit that the run may be coming to.
+    /// Looks for an orbit that the run may be approaching.
     fn look(&mut self, count: u32, x: &DVector<f64>) {
         let last = self.strobes.len() - 1;
         let returned = |n: &usize| {
@@ -201,7 +203,7 @@ impl Search<'_> {
         }
     }
 
-    /// Waits longer after every look in vain: near unstable orbits there are many.
+    /// Waits longer after every failed search: near unstable orbits there are many of them.
     fn wait(&mut self, count: u32, n: usize) {
         self.vain += 1;
         self.next = count + ((n as u32) << self.vain.min(6));

@@ -10,9 +10,9 @@ use crate::orbit::branch::point::Point;
 use crate::orbit::signature::{Event, Kind};
 use crate::orbit::watch::Passage;
 
-/// A graze is looked for where its test function, continued as a straight line, vanishes within
-/// this arclength (of points of size 1). Steps are shorter there, but impact speeds and gaps go to
-/// 0 as straight lines do.
+/// A graze is looked for where its test function, extrapolated linearly, vanishes within this
+/// arclength (for points of size 1). Steps are shorter there, but impact speeds and gaps go to 0
+/// linearly.
 const AHEAD: f64 = 0.1;
 
 /// Most contacts that are tried.
@@ -21,13 +21,14 @@ const MOST_TRIED: usize = 4;
 /// A graze lies within this many times the distance at which it was expected.
 const EXPECTED: f64 = 3.0;
 
-/// The step within which a change of another kind is looked for …
+/// Longest step within which any other change is looked for …
 const SHORT: f64 = 5e-3;
 
 /// … and the one at which it is located, as a share of that.
 const LOCATED: f64 = 1e-10;
 
-/// Touches of two points at one wall are one within so many cycles.
+/// Touches of one wall at two points of the branch are the same if they differ by less than this,
+/// in cycles.
 const SAME: f64 = 0.1;
 
 /// A change ahead of a point.
@@ -45,7 +46,7 @@ pub(super) struct Change<'a> {
 /// A contact that may begin or vanish ahead.
 struct Candidate {
     contact: Contact,
-    /// Its events among those of the point, if it is one of them.
+    /// Indices of its events among those of the point; empty for a contact that may begin.
     own: Vec<usize>,
     /// How far ahead.
     distance: f64,
@@ -60,10 +61,9 @@ impl<'a> Change<'a> {
 }
 
 impl<'a> Shots<'a> {
-    /// The change ahead of `now`, which a step could not be kept for: a graze near which the map
-    /// has a square root, or a change through which Newton's method finds a way. `before` is the
-    /// point before, with its distance; `other` the orbit at the end of the step, if it has other
-    /// events.
+    /// The change ahead of `now` because of which a step was rejected: a graze, near which the map
+    /// has a square root, or a change that Newton's method can step across. `before` is the point
+    /// before, with its distance; `other` the orbit at the end of the step, if it has other events.
     pub(super) fn change(
         &self,
         now: &Here,
@@ -85,7 +85,7 @@ impl<'a> Shots<'a> {
         let following = |i: usize| passages.get(i).map_or(ends[1], |p| p.phase);
         let mut found = Vec::new();
         let last = before.filter(|(before, _)| before.meets_as(now));
-        // Where a quantity that was `a` a step before and is `b` now will vanish.
+        // Distance at which a quantity vanishes that was `a` a distance `s` before and is `b` now.
         let root = |a: f64, b: f64, s: f64| if a > b { s * b / (a - b) } else { f64::INFINITY };
         let differs = |wall: usize, more: bool| {
             let count = |here: &Here| {
@@ -99,7 +99,7 @@ impl<'a> Shots<'a> {
                 passages.iter().skip(i).position(|p| p.event == Event { kind: Kind::Leave, wall }).map(|k| i + k);
             let (until, power) = match (passage.event.kind, leave) {
                 (Kind::Impact, _) => (i, 1),
-                // A short contact is as deep as the square of its speed.
+                // The depth of a short contact grows with the square of its speed.
                 (Kind::Enter, Some(until)) => (until, 2),
                 _ => continue,
             };
@@ -141,7 +141,7 @@ impl<'a> Shots<'a> {
         if apart.norm() > EXPECTED * step.max(*distance) || apart.dot(&now.tangent) < -LOCATED {
             return None;
         }
-        // All else must stay as it is.
+        // All other events must stay the same.
         let stays = now.passages.iter().enumerate().filter(|(i, _)| !own.contains(i)).map(|(_, p)| p.event);
         if !events(&graze.turn.passages).eq(stays) {
             return None;
@@ -157,14 +157,14 @@ impl<'a> Shots<'a> {
         Some(Change { label, event, wall, point, y, step: apart.norm(), beyond: beyond.ok() })
     }
 
-    /// The number of event `i` after the strobe in the branch's signature.
+    /// The index in the branch's signature of event `i` after the strobe.
     fn number(&self, now: &Here, i: usize) -> usize {
         let count = now.passages.len() * if self.symmetric { 2 } else { 1 };
         let number = (i + count - self.first % count) % count;
         number % now.passages.len()
     }
 
-    /// A change through which the branch goes on: located by halves, between `now` and `other`.
+    /// A change across which the branch continues, located by bisection between `now` and `other`.
     fn kink(&self, now: &Here, step: f64, other: &Here) -> Option<Change<'a>> {
         if step > SHORT * now.size() {
             return None;
@@ -180,14 +180,15 @@ impl<'a> Shots<'a> {
             }
         }
         let (left, right) = (left.as_ref().unwrap_or(now), right.as_ref().unwrap_or(other));
-        // Two orbits that exist at once are no change of one.
+        // If two different orbits exist at the same key, neither is the continuation of the other.
         if (&left.y - &right.y).norm() > 1e-3 * step {
             return None;
         }
         let (label, event) = difference(now, right);
         let wall = now.passages.get(event).or(right.passages.get(event)).map(|p| p.event.wall);
         let event = if event < now.passages.len() { self.number(now, event) } else { 0 };
-        // The farther end of the step is the better start: differences of the key stay on its side.
+        // The farther end of the step is the better start: finite differences in the key stay on
+        // its side.
         let from = if other.meets_as(right) { other } else { right };
         let along = if from.tangent.dot(&now.tangent) < 0.0 { -&from.tangent } else { from.tangent.clone() };
         let beyond = Begin { curve: self.anew(), y: from.y.clone(), along, both: false };
@@ -203,7 +204,8 @@ impl<'a> Shots<'a> {
     }
 }
 
-/// What has changed between the events of two orbits, and which event it is, after the strobe.
+/// The change between the events of two orbits, and the index, after the strobe, of the event that
+/// changed.
 fn difference(before: &Here, after: &Here) -> (Label, usize) {
     let (a, b) = (&before.passages, &after.passages);
     let event = a.iter().zip(b).take_while(|(a, b)| a.event == b.event).count();

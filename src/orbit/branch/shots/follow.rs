@@ -10,22 +10,22 @@ use crate::orbit::branch::point::Point;
 use crate::orbit::newton::SOLVED;
 use crate::orbit::turn::Look;
 
-/// A curve has closed after at least this many points.
+/// Least number of points after which a curve may be found closed.
 const LEAST_LOOP: usize = 6;
 
-/// A step leads to the branch itself if it ends within this many of its lengths.
+/// A step has stayed on the branch if it ends within this many step lengths of its start.
 const NEAR: f64 = 2.0;
 
-/// Most iterations with the derivative of the point before, and how much the residual falls in each
-/// at least.
+/// Most iterations with the derivative of the point before, and the factor by which each must
+/// reduce the residual.
 const CHORDS: usize = 10;
 const FAST: f64 = 0.3;
 
-/// Multipliers within this of the unit circle are on it to rounding.
+/// Multipliers closer than this to the unit circle lie on it to rounding.
 const ON_CIRCLE: f64 = 1e-9;
 
-/// Above this step several multipliers that cross the circle at once are told apart by a shorter
-/// one.
+/// Where several multipliers cross the circle within one step, the step is shortened to separate
+/// them, but not below this.
 const APART: f64 = 1e-4;
 
 /// A change of the contacts ends the branch from within this distance, or where steps have become
@@ -41,8 +41,9 @@ type Test = fn(&Tests) -> f64;
 /// Special points of one step: arclength, label, and the point.
 type Crossed = Vec<(f64, Label, Vector)>;
 
-/// Follows `curve` from `y`, a solution, on the side of `along`, while the key stays in `range`. At
-/// most `most` points, the first being that at `y`; `seen` is told each.
+/// Follows `curve` from the solution `y` in the direction of `along`, while the key stays in
+/// `range`. It takes at most `most` points, the first being that at `y`, and calls `seen` with
+/// each.
 pub(super) fn follow<'a>(
     curve: &Shots<'a>,
     y: Vector,
@@ -62,7 +63,7 @@ pub(super) fn follow<'a>(
     Ok(line)
 }
 
-/// Adds special points of a step after the last point of `line`.
+/// Adds the special points of a step after the last point of `line`.
 fn note<'a>(curve: &Shots<'a>, line: &mut Line<Shots<'a>>, mut crossed: Crossed) -> Result<()> {
     crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
     let after = line.points.len();
@@ -70,7 +71,7 @@ fn note<'a>(curve: &Shots<'a>, line: &mut Line<Shots<'a>>, mut crossed: Crossed)
         let linear = curve.linear(&y, &mut None)?;
         let own = super::here::multipliers_of(&linear);
         let point = curve.point(&y, linear.posed.period, &linear.turn, own);
-        // A branch of several turns that has come back to one.
+        // A branch of orbits over several periods has met the orbit of one of them.
         let label = match point.orbit.part(curve.mirror.as_deref()) {
             Some((_, true)) if matches!(label, Label::Fold | Label::BranchPoint) => Label::SymmetryBreaking,
             Some((_, false)) if matches!(label, Label::Fold | Label::BranchPoint) => Label::PeriodDoubling,
@@ -91,14 +92,15 @@ impl<'a> Shots<'a> {
         line: &mut Line<Self>,
         seen: &mut dyn FnMut(&Point),
     ) -> Result<End> {
-        // Where it began, at the present strobe; nothing where it could not be carried there.
+        // The first point of the branch, at the present strobe; `None` where it could not be moved
+        // there.
         let mut start = Some((now.y.clone(), now.tangent.clone()));
         let mut stride = Stride::new();
         // The point before, and how far along the branch it lies.
         let mut before: Option<(Here, f64)> = None;
         while line.points.len() < most {
             if let Some(strobe) = self.better_strobe(&now) {
-                // Else it stays where it is.
+                // Otherwise the strobe stays where it is.
                 if let Ok((moved, there)) = self.moved(&now, strobe) {
                     start = start.and_then(|(y, tangent)| self.carried(&y, &tangent, strobe).ok());
                     (self, now, before) = (moved, there, None);
@@ -110,7 +112,8 @@ impl<'a> Shots<'a> {
                     && Stride::keeps(*iterations, &now.tangent, &next.tangent)
                     && next.point.value.is_finite()
             };
-            // Where the step would leave the range, to its end: beyond, the key may accept nothing.
+            // A step that would leave the range is shortened to its end: the key may accept no
+            // value outside.
             let slope = now.tests.fold * self.width;
             let ahead = now.point.value + slope * step;
             if let Some(bound) = beyond(range, ahead) {
@@ -151,7 +154,7 @@ impl<'a> Shots<'a> {
                     return Ok(End::Special(label));
                 }
                 if stride.length > shorter {
-                    // Nothing else may happen on the way there.
+                    // No other special point may lie within this step.
                     stride.length = shorter;
                     continue;
                 }
@@ -173,7 +176,7 @@ impl<'a> Shots<'a> {
             let value = next.point.value;
             if let Some(bound) = beyond(range, value) {
                 let ends = [now.point.value - bound, value - bound];
-                // A start on the bound that goes outwards ends at once.
+                // A branch that starts at an end of the range and leads out of it ends at once.
                 if ends[0] * ends[1] < 0.0 {
                     let (limit, mut last) = locate([0.0, step], ends, |s| {
                         let (here, _) = self.next(&now, s)?;
@@ -202,10 +205,10 @@ impl<'a> Shots<'a> {
         Ok(End::Points)
     }
 
-    /// The point a step from `now`, and how many iterations that took.
+    /// The point one step from `now`, and the number of iterations of its correction.
     ///
     /// # Errors
-    /// [`Error::NoOrbit`] where there is none near.
+    /// [`Error::NoOrbit`] where there is none nearby.
     pub(super) fn next(&self, now: &Here, step: f64) -> Result<(Here, usize)> {
         self.corrected(now, &(&now.y + &now.tangent * step), &now.tangent, step)
     }
@@ -220,21 +223,21 @@ impl<'a> Shots<'a> {
         Ok((there, iterations))
     }
 
-    /// The point in the plane through `guess` across `border`, a step from `now`.
+    /// The point in the plane through `guess` with the normal `border`, one step from `now`.
     fn corrected(&self, now: &Here, guess: &Vector, border: &Vector, step: f64) -> Result<(Here, usize)> {
         let (y, linear, iterations) = match self.chord(now, guess, border)? {
             Some(y) => (y.clone(), self.linear(&y, &mut None)?, 0),
             None => self.correct(guess, border, Some(now.column.clone()))?,
         };
         if (&y - &now.y).norm() > NEAR * step.abs() {
-            return Err(Error::no_orbit("Newton's method left the neighbourhood"));
+            return Err(Error::no_orbit("Newton's method led too far from the branch"));
         }
         Ok((self.here(y, linear, &now.tangent)?, iterations))
     }
 
-    /// That point by Newton's method with the derivative of `now`: each iteration is one run, where
-    /// those of the derivative are as many as the state has entries. Nothing where it does not
-    /// converge fast.
+    /// The same point, by Newton's method with the derivative of `now` kept: an iteration then
+    /// takes one run, while a new derivative takes as many as the state has entries. `None` where
+    /// this does not converge fast.
     fn chord(&self, now: &Here, guess: &Vector, border: &Vector) -> Result<Option<Vector>> {
         let solver = bordered(&now.matrix, border).lu();
         let mut y = guess.clone();
@@ -257,8 +260,8 @@ impl<'a> Shots<'a> {
         Ok(None)
     }
 
-    /// What is passed on a step from `now` to a point with the tests `after`; false if it is not
-    /// told apart.
+    /// The special points within a step from `now` to a point with the tests `after`; false if they
+    /// could not be separated.
     fn crossed(&self, now: &Here, after: &Tests, step: f64) -> Result<(Crossed, bool)> {
         let before = &now.tests;
         let turns = |a: f64, b: f64| a * b < 0.0;

@@ -1,16 +1,16 @@
 //! The orbit that touches a wall without speed, and the orbits beside it that strike the wall.
 //!
-//! In a window around the touch the wall is put out of the way: the map P̃ with that window is
-//! smooth through the graze, and so is the gap at the turning point of the motion in it. The
-//! grazing orbit solves P̃(x; λ) = x, gap(x; λ) = 0. From there the orbits without the contact go
-//! along the tangent of P̃(x; λ) = x. Those that strike a rigid wall with the speed v go, to first
-//! order in v, along
+//! In a time window around the touch the wall is moved far away: the map P̃ computed so is smooth
+//! at the graze, and so is the gap at the turning point of the motion in the window. The grazing
+//! orbit solves P̃(x; λ) = x, gap(x; λ) = 0. From there the orbits without the contact go along the
+//! tangent of P̃(x; λ) = x. Those that strike a rigid wall with the speed v go, to first order in
+//! v, along
 //!
 //! (P̃′ − 1) δx + ∂P̃/∂λ δλ + K v = 0, ∂gap/∂x δx + ∂gap/∂λ δλ = 0,
 //!
-//! K the change at the end that an impact of unit speed makes: (1 + e) d in the velocity, carried
-//! along. Their depth behind the wall, had it been away, is v²/2a with a the acceleration at the
-//! touch, which is what the start on that branch is solved for.
+//! where K is the change of the end state by an impact of unit speed: (1 + e) d in the velocity,
+//! propagated to the end. Without the wall the motion would reach the depth v²/2a behind it, a
+//! being the acceleration at the touch; the first orbit of that branch is computed for this depth.
 
 use super::{Posed, Shots};
 use crate::error::{Error, Result};
@@ -24,26 +24,26 @@ use crate::orbit::watch::Passage;
 use crate::scene::WallLaw;
 use nalgebra::{Complex, DMatrix, DVector};
 
-/// How far a wall is put out of the way, in typical displacements.
+/// Distance by which a wall is moved away, in typical displacements.
 const AWAY: f64 = 8.0;
 
-/// Most iterations, and the residual at which they end: that of the map and of the gap.
+/// Most iterations, and the residual of map and gap at which they end.
 const ITERATIONS: usize = 12;
 const SOLVED: f64 = 1e-13;
 const ACCEPTED: f64 = 1e-10;
 
-/// The stretch after the touch that gives the acceleration, as a share of what is left of the
+/// Time after the touch over which the acceleration is computed, as a share of the rest of the
 /// window.
 const SOON: f64 = 1e-4;
 
 /// Impact speeds, over the scale of speeds, that are tried first on the branch with the impact …
 const SPEEDS: [f64; 4] = [3e-3, 1e-3, 3e-4, 1e-4];
 
-/// … and steps on that without it, or on that with an elastic contact.
+/// … and steps tried on the branch without it, or on that with an elastic contact.
 const BESIDE: [f64; 4] = [1e-3, 3e-4, 1e-4, 1e-5];
 
-/// Most iterations that find the first orbit with the impact, and the change at which they end,
-/// over the square of its speed.
+/// Most iterations for the first orbit with the impact, and the change at which they end, over the
+/// square of its speed.
 const STRIKES: usize = 30;
 const STRUCK: f64 = 1e-4;
 
@@ -51,19 +51,19 @@ const STRUCK: f64 = 1e-4;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contact {
     pub wall: usize,
-    /// Cycles between which it happens, and about when.
+    /// The interval in which it happens, in cycles, and its approximate instant.
     pub window: [f64; 2],
     pub at: f64,
 }
 
-/// The map with the wall out of the way in the window.
+/// The map with the wall moved away in the window.
 struct Free {
     posed: Posed,
     turn: Turn,
     touch: Touch,
-    /// The derivative of the gap with the scaled state, over the scale of lengths.
+    /// The derivative of the gap with respect to the scaled state, over the scale of lengths.
     gap: Vector,
-    /// What a change of the velocity at the touch makes of the scaled end: 2n × n.
+    /// The derivative of the scaled end with respect to the velocity at the touch: 2n × n.
     after: DMatrix<f64>,
     /// The second derivative of the gap in time there, m/s².
     acceleration: f64,
@@ -76,7 +76,8 @@ pub(super) struct Graze {
     pub turn: Turn,
     period: f64,
     own: Vec<Complex<f64>>,
-    /// The derivatives of map (rows before the last) and gap (the last) with state and key.
+    /// The derivatives of the map (all rows but the last) and the gap (the last row) with respect
+    /// to state and key.
     matrix: DMatrix<f64>,
     /// K, for a speed of 1 m/s.
     kick: Vector,
@@ -86,8 +87,8 @@ pub(super) struct Graze {
 }
 
 impl<'a> Shots<'a> {
-    /// The map from the state `x` with the wall of `contact` away in its window; its derivatives
-    /// too where `whole`.
+    /// The map from the state `x` with the wall of `contact` moved away in its window; with its
+    /// derivatives if `whole`.
     fn free(&self, posed: Posed, x: &Vector, contact: &Contact, whole: bool) -> Result<Free> {
         let Posed { scene, period } = &posed;
         let n = x.len() / 2;
@@ -177,7 +178,7 @@ impl<'a> Shots<'a> {
         Err(Error::no_orbit("no orbit was found that touches the wall without speed"))
     }
 
-    /// What an impact of 1 m/s at the touch makes of the scaled end; nothing at an elastic wall.
+    /// The change of the scaled end by an impact of 1 m/s at the touch; 0 at an elastic wall.
     fn kick(&self, free: &Free, contact: &Contact) -> Result<Vector> {
         let scene = &free.posed.scene;
         let wall = scene.walls.get(contact.wall).ok_or_else(gone)?;
@@ -191,8 +192,8 @@ impl<'a> Shots<'a> {
         Ok(&free.after * DVector::from_vec(aside) * change)
     }
 
-    /// The special point of a graze; `vanished` are the events of the contact that has lost its
-    /// speed there, and is still one of the branch's signature.
+    /// The special point of a graze; `vanished` are the events of the contact whose speed is 0
+    /// there and which still belongs to the branch's signature.
     pub(super) fn grazing(&self, graze: &Graze, vanished: &[Passage]) -> Point {
         let mut turn = graze.turn.clone();
         let place = turn.passages.partition_point(|p| p.phase < graze.touch.phase);
@@ -209,7 +210,7 @@ impl<'a> Shots<'a> {
         let n = graze.y.len() - 1;
         let matrix = graze.matrix.rows(0, n).into_owned();
         let row = graze.matrix.row(n).transpose();
-        // Towards the wall or away from it.
+        // The direction is towards the wall or away from it.
         let along = tangent(&matrix, &(if strikes { -row } else { row }))?;
         let count = graze.turn.passages.len();
         for step in BESIDE {

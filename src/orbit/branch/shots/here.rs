@@ -1,4 +1,4 @@
-//! What is known at a point of the curve: the orbit, its multipliers, and test functions.
+//! The data at a point of the curve: the orbit, its multipliers, and test functions.
 
 use super::{Linear, Shots};
 use crate::error::Result;
@@ -13,7 +13,7 @@ use crate::orbit::turn::{Touch, Turn};
 use crate::orbit::watch::Passage;
 use nalgebra::{Complex, DMatrix};
 
-/// Where a step stands.
+/// The point at which a step begins.
 pub(super) struct Here {
     pub y: Vector,
     pub tangent: Vector,
@@ -36,7 +36,8 @@ pub(super) struct Tests {
     pub crossing: f64,
     /// det(H + 1) times all impact speeds, H the derivative of the map: a multiplier −1.
     pub flip: f64,
-    /// Multipliers outside the unit circle, and how near the nearest complex pair is to it.
+    /// Number of multipliers outside the unit circle, and the distance of the nearest complex pair
+    /// from it.
     pub outside: usize,
     pub pair: f64,
 }
@@ -64,7 +65,7 @@ pub(super) fn multipliers_of(linear: &Linear) -> Vec<Complex<f64>> {
 }
 
 impl Shots<'_> {
-    /// What is known at the solution `y`, with the tangent on the side of `along`.
+    /// The data at the solution `y`, with the tangent in the direction of `along`.
     pub(super) fn here(&self, y: Vector, linear: Linear, along: &Vector) -> Result<Here> {
         let tangent = tangent(&linear.matrix, along)?;
         let n = y.len() - 1;
@@ -88,7 +89,7 @@ impl Shots<'_> {
         Ok(Here { y, tangent, matrix, column, point, passages, touches, tests })
     }
 
-    /// The orbit whose run over the map is `turn`, and whose map has the multipliers `own`.
+    /// The orbit whose run is `turn`, and whose map has the multipliers `own`.
     pub(super) fn point(&self, y: &Vector, period: f64, turn: &Turn, own: Vec<Complex<f64>>) -> Point {
         let signature =
             Signature { events: events(&turn.passages).collect(), periods: self.periods, symmetric: self.symmetric };
@@ -121,7 +122,8 @@ impl Shots<'_> {
         Point { value: self.value(y), orbit: self.turned(orbit), floquet, admissible, strobe: Some(strobe) }
     }
 
-    /// The orbit from the branch's first event on, which comes into the first orbit after t = 0.
+    /// The orbit listed from the branch's first event on; this event falls into the first period of
+    /// the orbit after t = 0.
     fn turned(&self, orbit: Orbit) -> Orbit {
         let mut whole = orbit.unfolded(self.mirror.as_deref());
         let count = whole.phases.len();

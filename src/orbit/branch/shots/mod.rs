@@ -26,14 +26,14 @@ use crate::orbit::turn::{Look, Turn, run};
 use crate::scene::Scene;
 use nalgebra::DMatrix;
 
-/// The step of the difference that gives the column of the key, as a share of its value …
+/// Relative step of the finite difference that gives the derivative with respect to the key …
 const DIFFERENCE: f64 = 1e-6;
 
-/// … and what it is multiplied by where the contacts differ at its ends.
+/// … and the factors by which it is reduced while the contacts differ at its ends.
 const FINER: [f64; 3] = [1.0, 1e-2, 1e-4];
 
-/// Two halves of an orbit within this share of the scales of each other are one half and its
-/// mirror.
+/// An orbit is symmetric if its second half differs by less than this share of the scales from the
+/// mirror image of the first.
 const MIRRORED: f64 = 1e-7;
 
 /// The curve.
@@ -42,7 +42,7 @@ pub(super) struct Shots<'a> {
     family: &'a Family<'a>,
     periods: u32,
     symmetric: bool,
-    /// What states are divided by; the same along a branch.
+    /// The scales of states; the same along a branch.
     scales: Scales,
     /// What the key's value is divided by: the width of its range.
     width: f64,
@@ -65,13 +65,13 @@ struct Linear {
     posed: Posed,
     turn: Turn,
     residual: Vector,
-    /// 2n × (2n + 1): the derivatives with the scaled state, and with the key.
+    /// 2n × (2n + 1): the derivatives with respect to the scaled state, and to the key.
     matrix: DMatrix<f64>,
 }
 
 impl<'a> Shots<'a> {
     /// The curve through `start` at the key's value `value`, and the point there; `beside` is
-    /// another value, which tells whether the key keeps the mirror symmetry.
+    /// another value, which shows whether the key keeps the mirror symmetry.
     pub fn begin(family: &'a Family<'a>, start: &Shot, value: f64, beside: f64, width: f64) -> Result<(Self, Vector)> {
         let scene = family(value)?;
         let period = posed(&scene)?;
@@ -105,12 +105,12 @@ impl<'a> Shots<'a> {
         self.scales.unscaled(&y.rows(0, y.len() - 1).into_owned())
     }
 
-    /// Cycles of the forcing period in which the map takes the state along.
+    /// Number of forcing periods that the map covers.
     fn cycles(&self) -> f64 {
         f64::from(self.periods) * if self.symmetric { 0.5 } else { 1.0 }
     }
 
-    /// −1 where the map ends in the mirror.
+    /// −1 where the map is the half map of a symmetric orbit, otherwise 1.
     fn sign(&self) -> f64 {
         if self.symmetric { -1.0 } else { 1.0 }
     }
@@ -129,8 +129,8 @@ impl<'a> Shots<'a> {
         run(scene, *period, [self.strobe * period, (self.strobe + self.cycles()) * period], x, look)
     }
 
-    /// Residual and derivatives at `y`; the column of the key is taken from `column` where it is
-    /// known, else put there.
+    /// Residual and derivatives at `y`. The derivative with respect to the key is taken from
+    /// `column`; if it is `None` there, it is computed and stored.
     fn linear(&self, y: &Vector, column: &mut Option<Vector>) -> Result<Linear> {
         let (posed, x) = (self.posed(self.value(y))?, self.state(y));
         let turn = self.turn(&posed, &x, Look::All)?;
@@ -152,8 +152,8 @@ impl<'a> Shots<'a> {
         Ok(same.then(|| self.scales.scaled(&other.end) * self.sign()))
     }
 
-    /// The derivative of `of` with the key over its width at `y`, by differences; `of` gives
-    /// nothing where they would be meaningless.
+    /// The derivative of `of` with respect to the key over its width at `y`, by differences; `of`
+    /// gives `None` where they would be meaningless.
     fn column(&self, y: &Vector, of: impl Fn(&Posed) -> Result<Option<Vector>>) -> Result<Vector> {
         let value = self.value(y);
         let at = |value: f64| self.posed(value).and_then(|posed| of(&posed));
@@ -165,7 +165,7 @@ impl<'a> Shots<'a> {
             let (high, low) = (value + step, value - step);
             let ends = match (at(high), at(low)) {
                 (Err(error), Err(_)) => return Err(error),
-                // At the end of what the key accepts there is one side only.
+                // At the end of the values that the key accepts the difference is one-sided.
                 (above, below) => [above.ok().flatten(), below.ok().flatten()],
             };
             let last = finer == FINER[FINER.len() - 1];
@@ -179,10 +179,10 @@ impl<'a> Shots<'a> {
         Err(no_difference())
     }
 
-    /// The point of the curve in the plane through `guess` across `border`; with its linearised
-    /// equations, and how many iterations that took. The column of the key enters the matrix only:
-    /// `column` is one from nearby, where one is known, for the first iteration; that after it has
-    /// one of its own, which serves for the rest.
+    /// The point of the curve in the plane through `guess` with the normal `border`; with its
+    /// linearised equations and the number of iterations. The derivative with respect to the key
+    /// enters the matrix only: `column` is one from a nearby point, if known, for the first
+    /// iteration; the second iteration computes its own, which serves for the rest.
     fn correct(&self, guess: &Vector, border: &Vector, mut column: Option<Vector>) -> Result<(Vector, Linear, usize)> {
         let mut iteration = 0;
         let linear = |y: &Vector| {

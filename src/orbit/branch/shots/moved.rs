@@ -10,10 +10,10 @@ use crate::orbit::turn::{Look, run};
 /// The share of the tangent that is carried along with a point.
 const CARRY: f64 = 1e-6;
 
-/// What a stretch at rest on a wall counts for as a place of the strobe.
+/// Weight of a stretch at rest on a wall when a place for the strobe is chosen; free flight has 1.
 const HELD: f64 = 0.2;
 
-/// A touch within this share of the gap is one that may become an impact.
+/// A turning point closer to a wall than this share of the gap may become an impact.
 const CLOSE: f64 = 0.05;
 
 /// The strobe lies at least this share of the longest flight away from events.
@@ -36,7 +36,7 @@ impl Shots<'_> {
         Ok((moved, there))
     }
 
-    /// Where the strobe is to be moved to, in cycles; nothing where it is well placed.
+    /// The better instant for the strobe, in cycles; `None` where it is well placed.
     pub(super) fn better_strobe(&self, now: &Here) -> Option<f64> {
         let (start, turn) = (self.strobe, self.cycles());
         let close = now.touches.iter().filter(|touch| touch.gap < CLOSE * self.scales.length);
@@ -44,7 +44,7 @@ impl Shots<'_> {
         phases.sort_by(f64::total_cmp);
         let (first, last) = (*phases.first()?, *phases.last()?);
         phases.push(first + turn);
-        // A state that a wall holds is known worse.
+        // The state of a body held by a wall is known less accurately.
         let rests = |phase: f64| {
             now.passages.iter().any(|p| p.phase == phase && matches!(p.event.kind, Kind::Rest | Kind::Chatter))
         };
@@ -54,7 +54,7 @@ impl Shots<'_> {
         (left < ROOM * (longest[1] - longest[0])).then(|| 0.5 * (longest[0] + longest[1]))
     }
 
-    /// The point `y` and the unit tangent there with the state carried along to `strobe` (cycles).
+    /// The point `y` and the unit tangent there, with the state advanced to `strobe` (cycles).
     pub(super) fn carried(&self, y: &Vector, tangent: &Vector, strobe: f64) -> Result<(Vector, Vector)> {
         let carried = |y: &Vector| -> Result<Vector> {
             let posed = self.posed(self.value(y))?;

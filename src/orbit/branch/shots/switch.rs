@@ -10,8 +10,8 @@ use crate::orbit::branch::point::Point;
 use crate::orbit::periodic::Orbit;
 use nalgebra::{DMatrix, DVector};
 
-/// Orbits within this are one: where a branch of twice the period meets that of the single one,
-/// Newton's method on the longer map knows it to half of the digits.
+/// Orbits that differ by less than this are the same: where a branch of twice the period meets that
+/// of the single one, Newton's method on the longer map finds it to half of the digits only.
 const SAME: f64 = 1e-4;
 
 impl Followed for Shots<'_> {
@@ -33,7 +33,8 @@ impl Followed for Shots<'_> {
     fn switch(&self, at: &Passed<Self>) -> Result<Begin<Self>> {
         let whole = Self { symmetric: false, ..self.anew() };
         match at.label {
-            // A branch of several turns that has come back to one: that one goes on to both sides.
+            // A branch of orbits over several periods has met the orbit of one of them: the branch
+            // of the latter goes on to both sides.
             Label::PeriodDoubling if at.point.orbit.part(None).is_some() => {
                 let part = at.point.orbit.part(None).map_or(self.periods, |(once, _)| once.signature.periods);
                 self.onto(at, Self { periods: part, ..whole })
@@ -64,7 +65,8 @@ impl Shots<'_> {
         Ok(Begin { curve, y, along, both: true })
     }
 
-    /// Along the eigenvector of a multiplier −1, by a small amplitude, on `curve`.
+    /// The branch that leaves along the eigenvector of a multiplier −1, at a small amplitude, on
+    /// `curve`.
     fn aside(&self, at: &Passed<Self>, curve: Self) -> Result<Begin<Self>> {
         let n = at.y.len() - 1;
         let linear = self.linear(&at.y, &mut None)?;
@@ -73,7 +75,7 @@ impl Shots<'_> {
         off(curve, &at.y, &aside)
     }
 
-    /// Along the second direction in which the equations are singular.
+    /// The branch that leaves along the second direction in which the equations are singular.
     fn across(&self, at: &Passed<Self>) -> Result<Begin<Self>> {
         let n = at.y.len() - 1;
         let linear = self.linear(&at.y, &mut None)?;
@@ -83,7 +85,7 @@ impl Shots<'_> {
     }
 
     /// The direction of the branch at a point where another one crosses: of the two in which the
-    /// equations are singular the one that goes along the key the most.
+    /// equations are singular the one with the largest part along the key.
     fn own_tangent(&self, matrix: &DMatrix<f64>, n: usize) -> Result<Vector> {
         let square = DMatrix::from_fn(n + 1, n + 1, |i, j| if i < n { matrix[(i, j)] } else { 0.0 });
         let svd = square.svd(false, true);
@@ -97,13 +99,13 @@ impl Shots<'_> {
     }
 }
 
-/// The branch of `curve` beside `origin` along `aside`, by a small amplitude.
+/// The branch of `curve` that leaves `origin` along `aside`, at a small amplitude.
 fn off<'a>(curve: Shots<'a>, origin: &Vector, aside: &Vector) -> Result<Begin<Shots<'a>>> {
     let (y, along) = beside(origin, aside, |guess| Ok(curve.correct(guess, aside, None)?.0))?;
     Ok(Begin { curve, y, along, both: false })
 }
 
-/// The unit vector that `matrix` makes least of.
+/// The unit vector x with the least |`matrix` x|.
 fn null(matrix: &DMatrix<f64>) -> Result<Vector> {
     let svd = matrix.clone().svd(false, true);
     let least = svd.singular_values.imin();
