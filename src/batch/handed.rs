@@ -20,9 +20,9 @@ const HALVINGS: usize = 52;
 struct Window {
     walls: [AtWall; 2],
     extent: [f64; 2],
-    /// A small change of the initial state, carried along: m and m/s.
+    /// A small change of the initial state, propagated along the motion: m and m/s.
     tangent: [f64; 2],
-    /// What carries it.
+    /// Propagates the change.
     variation: OscillatorVariation,
     /// ln of its size when the window began, minus ln of the factors by which it was scaled down
     /// since.

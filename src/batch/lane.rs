@@ -41,7 +41,7 @@ pub struct Sine {
 /// let lane = Lane::of(&scene, 0.2)?;
 /// assert_eq!(lane.sines[0].multiple, 1);
 ///
-/// // What a lane cannot hold is refused by name.
+/// // What a lane cannot represent is refused with its name.
 /// let refused = Lane::of(&scene.with_load(Load::impulse(0.1, 0.5)), 0.2).unwrap_err();
 /// assert!(refused.to_string().starts_with("load 2"));
 /// # Ok::<(), signorini::Error>(())

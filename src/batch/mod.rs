@@ -13,11 +13,11 @@
 //! the root of the gap by Halley's method, and a bound which proves that no earlier contact was
 //! missed (`state.rs`).
 //!
-//! The result of a lane depends to the bit on its own numbers alone, not on its neighbours, its
-//! place, or the number of threads. [`Width`] says what is equal between machines. Oscillators that
-//! the lanes do not support (elastic walls, more than four sines, a contact that grazes to
-//! rounding) are computed by the scheme `event`; [`Outcome::by`] says which, [`Batch::handed`] how
-//! many.
+//! The result of a lane depends, to the bit, on its own input only, not on its neighbours, its
+//! place, or the number of threads. [`Width`] says which results are equal between machines.
+//! Oscillators that the lanes do not support (elastic walls, more than four sines, a contact that
+//! grazes to within rounding) are computed by the scheme `event`; [`Outcome::by`] says which,
+//! [`Batch::handed`] how many.
 //!
 //! ```
 //! use signorini::batch::{Lane, Plan};

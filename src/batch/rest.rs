@@ -46,7 +46,8 @@ pub(super) enum Release {
     Unclear,
 }
 
-/// A body at rest on a wall at g: all that moves is the load. The wall pushes with the acceleration
+/// A body at rest on a wall at g, so that only the load varies. The wall pushes with the
+/// acceleration
 ///
 /// p(t) = −away (p₀ − κg + Σ A sin(θt + φ)) ≥ 0,
 ///

@@ -14,7 +14,7 @@ use pulp::Simd;
 /// Maximum number of lanes.
 pub(super) const SEATS: usize = 8;
 
-/// Beyond this size, or below its inverse, the carried change of the initial state is scaled.
+/// Beyond this size, or below its inverse, the propagated change of the initial state is scaled.
 const LARGE: f64 = 1e100;
 
 /// An oscillator that the lanes support.
@@ -190,7 +190,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
             Arrival::Unclear => return true,
             Arrival::Rests => {}
         }
-        // No speed is left, and nothing of the motion before matters any more.
+        // The speed becomes 0, and the motion from here on does not depend on the motion before.
         if let Some(impulse) = self.tally.impulse.get_mut(wall) {
             impulse.put(slot, impulse.get(slot) - speed);
         }

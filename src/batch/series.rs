@@ -71,7 +71,7 @@ pub(super) struct Series {
 }
 
 impl Series {
-    /// None where a period takes too many steps.
+    /// `None` where a period takes too many steps.
     pub fn of(lane: &Lane) -> Option<Self> {
         let (m, period) = (lane.body.mass, lane.period);
         let (sigma, natural) = (0.5 * lane.body.damping / m, lane.body.stiffness / m);
@@ -79,7 +79,8 @@ impl Series {
         let own = if excess > 0.0 { sigma + excess.sqrt() } else { natural.sqrt() };
         let omega = |multiple: u32| std::f64::consts::TAU * f64::from(multiple) / period;
         let fastest = lane.sines.iter().map(|s| omega(s.multiple)).fold(own, f64::max);
-        // A body without rates of its own or of a load still has a strobe to meet.
+        // A body without frequencies of its own or of a load still takes at least one step per
+        // period.
         let steps = (fastest * period / REACH).max(1.0);
         if steps.is_nan() || steps > MOST_STEPS {
             return None;
@@ -216,8 +217,8 @@ pub(super) const COSINE: [f64; 10] = [
     -1.0 / 6_402_373_705_728_000.0,
 ];
 
-/// sin x and cos x by additions and products alone, so that they have the same bits on every
-/// machine: the mathematics library of a system may choose by processor.
+/// sin x and cos x by additions and products only, so that they have the same bits on every
+/// machine: the system's mathematical library may select its code by processor.
 pub(super) fn sin_cos(x: f64) -> [f64; 2] {
     // π/2 in three parts of 33 bits (Cody & Waite): the first two products are exact for a million
     // quarter turns.

@@ -51,7 +51,8 @@ pub(super) struct State<S: Simd, const W: usize> {
     pub w: Vector<S>,
     /// Sine and cosine of the phase of every sine of the load.
     pub phase: [[Vector<S>; 2]; W],
-    /// A small change of the initial state, carried along: of displacement, of velocity.
+    /// A small change of the initial state, propagated along the motion: of displacement, of
+    /// velocity.
     pub tangent: [Vector<S>; 2],
     /// The largest and the smallest displacement in the window; before the window, the positions of
     /// the walls.
@@ -167,7 +168,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         b1.fma(a.w.abs(), b2.fma(a.u.abs(), b0))
     }
 
-    /// Advances phases and carried changes by `z`.
+    /// Advances phases and propagated changes by `z`.
     #[inline(always)]
     pub fn turn(&self, a: &mut State<S, W>, z: Vector<S>) {
         for (wave, [sin, cos]) in self.waves.iter().zip(&mut a.phase) {

@@ -48,7 +48,7 @@ impl<S: Simd> Path<S> {
     #[inline(always)]
     fn of<const W: usize>(k: &Constants<S, W>, a: &State<S, W>) -> Self {
         let p = k.kappa.taken_from(a.u, k.push);
-        // S begins with z: a velocity stays what it is.
+        // The series of S begins with z, which is a motion at constant velocity.
         let mut way = [a.w; ORDER];
         for (n, x) in way.iter_mut().enumerate().skip(1) {
             *x = a.w.fma(k.impulse[n], p * k.integral[n]);

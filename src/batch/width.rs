@@ -14,7 +14,7 @@ use pulp::{Arch, Scalar, Simd, WithSimd};
 /// do not support, does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Width {
-    /// The widest of this machine.
+    /// The widest instructions of this machine.
     Widest,
     /// Eight lanes.
     Avx512,

@@ -52,7 +52,9 @@ impl Problem {
             equations.evaluate(self, &mut arc, unknowns.as_slice(), &mut residual, Some((&mut matrix, Turn::Same)));
             let size = residual.amax();
             if !size.is_finite() {
-                return Err(Error::no_orbit("in Newton's method the residual became NaN or infinite: the start is too far from an orbit"));
+                return Err(Error::no_orbit(
+                    "in Newton's method the residual became NaN or infinite: the start is too far from an orbit",
+                ));
             }
             // One more step after the residual is small enough costs little, and removes the rest
             // of the error.

@@ -97,7 +97,8 @@ impl Problem {
             forcing_period: self.forcing_period(),
         };
         if orbit.signature.chatters() {
-            // If each turn begins with a release, the run itself is exact already.
+            // An orbit with chatter is run from one release from rest to the next, and is exact
+            // already.
             return Ok(orbit.rotated(0));
         }
         let whole = self.correct(&orbit)?;

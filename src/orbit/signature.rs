@@ -164,7 +164,8 @@ impl Signature {
         if self.symmetric && self.periods.is_multiple_of(2) {
             return wrong(
                 format!("symmetric over {} forcing periods", self.periods),
-                "an odd number of forcing periods: half an orbit is half a period and whole ones".to_owned(),
+                "an odd number of forcing periods: half of a symmetric orbit ends half a period after whole ones"
+                    .to_owned(),
             );
         }
         if self.events.len() > MOST_EVENTS {

@@ -57,9 +57,8 @@ impl Scene {
         moved
     }
 
-    /// Moves an initial state that stands at the rigid walls and holes `pressed`, up to the
-    /// rounding of how it was found, onto all of them; they are counted as contacts are
-    /// ([`Scene::contact_name`]).
+    /// Moves an initial state that touches the rigid walls and holes `pressed`, up to rounding,
+    /// exactly onto all of them; their indices are those of contacts ([`Scene::contact_name`]).
     pub(crate) fn press_onto(&mut self, pressed: &[usize]) {
         let Self { walls, supports, initial, .. } = self;
         let rounds: Vec<&Support> = supports.iter().filter(|support| support.hole().is_some()).collect();

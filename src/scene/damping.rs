@@ -24,8 +24,9 @@ pub enum Damping {
     /// C = M Φ diag(2 ζᵢ ωᵢ) Φᵀ M with the M-orthonormal modes Φ, slowest first: one ratio ζ per
     /// mode; the last one holds for all further modes. Rigid-body motions are not damped. C is a
     /// full matrix (where the modes are not the coordinates), so a structure beyond [`MOST_DENSE`]
-    /// degrees of freedom must be reduced to modes first. Where they are, a ratio may be negative,
-    /// above −1: what a flow feeds into a mode makes it unstable, and walls alone limit its motion.
+    /// degrees of freedom must be reduced to modes first. Where the modes are the coordinates, a
+    /// ratio may be negative, above −1: a flow that feeds energy into a mode makes it unstable, and
+    /// only walls limit its motion.
     Modal(Vec<f64>),
     /// The matrix C, N s/m.
     Matrix(Symmetric),

@@ -32,8 +32,8 @@ impl Phasor {
 }
 
 /// All loads on one degree of freedom, without the blows, for a scheme that asks at the instants t
-/// = kh one after another. What it answers depends on the instant alone: a motion that is taken up
-/// again sees the same loads to the last bit.
+/// = kh one after another. The force depends on the instant only: a motion that is continued from a
+/// saved state gets the same loads to the last bit.
 #[derive(Debug, Clone)]
 pub(crate) struct GridForcing {
     forcing: Forcing,

@@ -28,7 +28,7 @@ impl Loads {
         Self { parts, blows }
     }
 
-    /// Each row and what acts behind it.
+    /// Each row with the loads that act through it.
     #[must_use]
     pub fn parts(&self) -> &[(Row, Forcing)] {
         &self.parts
@@ -83,7 +83,7 @@ impl Loads {
         self.blow_by(|forcing| forcing.impulse_about(step, h), out)
     }
 
-    /// The same of the blows after the time `since` (s) alone, as [`Forcing::impulse_about_since`].
+    /// The same for the blows after the time `since` (s) only, as [`Forcing::impulse_about_since`].
     pub fn blow_about_since(&self, since: f64, step: u64, h: f64, out: &mut [f64]) -> bool {
         self.blow_by(|forcing| forcing.impulse_about_since(since, step, h), out)
     }

@@ -5,7 +5,7 @@ use crate::linear::Symmetric;
 use serde::{Deserialize, Serialize};
 
 /// The unit vector (cos α, sin α) of the direction α in degrees, from +y towards +z. Multiples of
-/// 90° are exact, so that a direction along an axis leaves the other plane alone.
+/// 90° are exact, so that a direction along an axis has no component in the other plane.
 #[must_use]
 pub fn heading(degrees: f64) -> [f64; 2] {
     let turn = degrees.rem_euclid(360.0);
@@ -22,9 +22,8 @@ pub fn heading(degrees: f64) -> [f64; 2] {
 }
 
 impl Structure {
-    /// The structure in two planes that do not feel each other: diag(M, M), diag(C, C),
-    /// diag(K, K). Its 2n degrees of freedom are the n of this structure in the plane y, then the n
-    /// in the plane z.
+    /// The structure in two uncoupled planes: diag(M, M), diag(C, C), diag(K, K). Its 2n degrees of
+    /// freedom are the n of this structure in the plane y, then the n in the plane z.
     #[must_use]
     pub fn in_two_planes(&self) -> Self {
         let doubled = |matrix: &Symmetric| {

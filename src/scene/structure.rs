@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 /// M q̈ + C q̇ + K q = f by matrices, all n × n: M symmetric positive definite (kg), C (N s/m) and
 /// K (N/m) symmetric positive semidefinite. In modal coordinates all three may be diagonal. In
-/// uncoupled coordinates C may have negative entries, as far as a share of critical damping above
-/// −1 makes them: such a mode is unstable. For coordinates that are rotations, the units are those
-/// of the conjugate quantities.
+/// uncoupled coordinates C may have negative entries, if the damping ratio stays above −1: such a
+/// mode is unstable. For coordinates that are rotations, the units are those of the conjugate
+/// quantities.
 ///
 /// ```
 /// use signorini::linear::Symmetric;
@@ -103,8 +103,8 @@ fn definite(mass: &Symmetric, factor: impl FnOnce() -> std::result::Result<(), N
     })
 }
 
-/// Refuses an invalid C. In uncoupled coordinates an entry may be negative, as far as a share of
-/// critical damping above −1 makes it.
+/// Refuses an invalid C. In uncoupled coordinates an entry may be negative, if the damping ratio
+/// stays above −1.
 fn damped(structure: &Structure) -> Result<()> {
     let matrices = [&structure.mass, &structure.damping, &structure.stiffness];
     if matrices.iter().any(|matrix| matrix.half_bandwidth() > 0) {

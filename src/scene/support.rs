@@ -1,5 +1,5 @@
-//! Supports around a place of a structure that moves in two planes: what slides there, and how far
-//! it may move.
+//! Supports around a place of a structure that moves in two planes: flats or a round hole, with
+//! friction.
 
 use super::planes::{PlaneRows, heading};
 use super::system::{finite, nonnegative, positive};
@@ -11,7 +11,7 @@ use std::collections::HashSet;
 /// Largest coefficient of friction that is accepted.
 const MOST_FRICTION: f64 = 10.0;
 
-/// Share of its gap by which a start may lie outside of a round hole: rounding.
+/// Rounding allowance: share of its gap by which a start may lie outside of a round hole.
 const TOUCHING: f64 = 1e-12;
 
 /// A support around one place of a structure that moves in two planes. The displacement there from
@@ -54,7 +54,7 @@ pub struct FlatWall {
     pub direction: f64,
 }
 
-/// A round support, with the numbers of its hole.
+/// A round support, with gap, restitution and law of its hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Hole<'a> {

@@ -144,8 +144,8 @@ pub(crate) fn nonnegative(subject: impl Into<Subject>, value: f64) -> Result<()>
     }
 }
 
-/// Refuses a share of critical damping of −1 or less: M + s C + s² K would not be positive definite
-/// for every s > 0.
+/// Refuses a damping ratio of −1 or less: M + s C + s² K would not be positive definite for every s
+/// > 0.
 pub(crate) fn above_minus_one(subject: impl Into<Subject>, value: f64) -> Result<()> {
     if value.is_finite() && value > -1.0 {
         Ok(())

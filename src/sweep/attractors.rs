@@ -1,8 +1,8 @@
 //! The numbers of attractors.
 //!
-//! A row says what its attractor is from its own run alone. Numbers are given when all rows are
-//! there, in the order of the rows: what is the same as one before has its number. So they depend
-//! on neither threads nor interruptions, and `merge` gives those of the undivided sweep.
+//! A row describes its attractor from its own run only. Attractors are numbered when all rows are
+//! done, in the order of the rows; rows with the same attractor get the same number. So the numbers
+//! depend on neither threads nor interruptions, and `merge` gives those of the undivided sweep.
 
 use super::measure::Measure;
 use super::table::{Table, line_of, with_number};
@@ -15,7 +15,7 @@ use std::path::Path;
 /// The table of the attractors.
 pub(super) const ATTRACTORS: &str = "attractors.csv";
 
-/// Its columns: what is counted, then what a row tells.
+/// Its first columns, which are counted; those of a row's description follow.
 const COUNTED: [&str; 3] = ["attractor", "rows", "share"];
 pub(super) const TOLD: [&str; 7] = [
     "signature",
@@ -27,7 +27,8 @@ pub(super) const TOLD: [&str; 7] = [
     "velocities_m_per_s",
 ];
 
-/// Strobes are equal to this share of the largest displacement and of the largest velocity.
+/// Relative tolerance for strobes to be equal, in the largest displacement and the largest
+/// velocity.
 const EQUAL: f64 = 1e-6;
 
 /// The signature of a chaotic motion, and of one that touches no wall.
@@ -52,11 +53,11 @@ struct Strobes {
     parts: [Vec<f64>; 2],
 }
 
-/// Contacts of a signature that is shown whole.
+/// Most contacts of a signature that is shown in full.
 const SHOWN: usize = 2;
 
 impl Strobes {
-    /// Those in the cells of an attractor; none of a chaotic one.
+    /// The strobes in the cells of an attractor; `None` for a chaotic one.
     fn of(cells: &[String]) -> Option<Self> {
         let numbers = |at: usize| -> Option<Vec<f64>> {
             cells.get(at)?.split_whitespace().map(|word| word.parse().ok()).collect()
@@ -66,7 +67,7 @@ impl Strobes {
         (count > 0 && n > 0 && n % count == 0).then_some(Self { count, parts })
     }
 
-    /// True for the same orbit, wherever on it the strobes begin.
+    /// True for the same orbit, whichever of its strobes is listed first.
     fn is(&self, other: &Self) -> bool {
         let sizes = |of: &Self| of.parts.iter().map(Vec::len).collect::<Vec<_>>();
         if self.count != other.count || sizes(self) != sizes(other) {
@@ -83,7 +84,7 @@ impl Strobes {
 }
 
 impl Attractors {
-    /// The number of the attractor that a row tells of in `cells`, and counts the row.
+    /// Returns the number of the attractor that the `cells` of a row describe, and counts the row.
     pub fn number(&mut self, cells: &[String]) -> u64 {
         let strobes = Strobes::of(cells);
         let same = |known: &Known| match (&known.strobes, &strobes) {
@@ -114,7 +115,7 @@ impl Attractors {
         file.finish()
     }
 
-    /// What is told of each in the table of `folder`, by number.
+    /// The description of each attractor in the table of `folder`, by number.
     pub fn read(folder: &Path) -> Result<Vec<Vec<String>>> {
         let mut all = Vec::new();
         Table::open(&folder.join(ATTRACTORS))?.each(|line| {
@@ -127,14 +128,14 @@ impl Attractors {
 /// The attractors of shards, to be numbered as those of the whole.
 pub(super) struct Joined {
     column: usize,
-    /// Of each shard what is told of its attractors, by their numbers there.
+    /// For each shard the descriptions of its attractors, by their numbers there.
     told: Vec<Vec<Vec<String>>>,
     pub all: Attractors,
 }
 
 impl Joined {
-    /// Of the shards in `folders`, whose tables have that header; none of a sweep without
-    /// attractors.
+    /// The attractors of the shards in `folders`, whose tables have the header `header`; `None` for
+    /// a sweep without attractors.
     pub fn of(header: &csv::StringRecord, folders: &[&Path]) -> Result<Option<Self>> {
         let column = header.iter().position(|column| column == Measure::Attractor.name());
         let there = folders.iter().all(|folder| folder.join(ATTRACTORS).exists());
@@ -143,8 +144,8 @@ impl Joined {
         Ok(Some(Self { column, told, all: Attractors::default() }))
     }
 
-    /// The line of a row of a shard, with the number of its attractor in the whole; none of a row
-    /// without one.
+    /// The line of a row of a shard, with the number of its attractor in the whole sweep; `None`
+    /// for a row without an attractor.
     pub fn line(&mut self, shard: usize, row: &csv::StringRecord) -> Option<Vec<u8>> {
         let number = row.get(self.column)?.parse::<f64>().ok()?;
         let told = self.told.get(shard)?.get((number as usize).checked_sub(1)?)?;
@@ -152,7 +153,7 @@ impl Joined {
     }
 }
 
-/// What a picture needs of that table: what each attractor is in few words, and its share of the
+/// The data of a picture from that table: a short name of each attractor, and its share of the
 /// rows.
 pub(super) fn named(folder: &Path) -> Result<Vec<(String, f64)>> {
     let mut all = Vec::new();

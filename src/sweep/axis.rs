@@ -143,8 +143,8 @@ impl Axis {
         }
     }
 
-    /// Value number `index`, before any factor; of a drawn axis, the quantile of `share`, from 0 to
-    /// 1.
+    /// Value number `index`, before any factor; for a drawn axis, the quantile of `share`, from 0
+    /// to 1.
     pub(super) fn value(&self, index: u64, share: f64) -> KeyValue {
         let between = |from: f64, to: f64, points: u64| match index {
             0 => from,
@@ -205,7 +205,7 @@ impl Axis {
         own.into_iter().chain(self.settings(value).map(|(_, value)| value)).collect()
     }
 
-    /// The keys with what they are set to, for `value`.
+    /// The keys, each with the value it is set to, for the axis value `value`.
     pub(super) fn settings<'a>(&'a self, value: &'a KeyValue) -> impl Iterator<Item = (&'a Target, KeyValue)> {
         self.targets.iter().map(move |(target, factor)| match value.number() {
             Some(x) if *factor != 1.0 => (target, (factor * x).into()),
@@ -232,7 +232,7 @@ impl Axis {
         if let Some((target, _)) =
             self.targets.iter().find(|(target, factor)| *factor != 1.0 && *target == Target::Scheme)
         {
-            return Err(Error::invalid(key("factors"), target, "none for words"));
+            return Err(Error::invalid(key("factors"), target, "no factors: the values are words"));
         }
         for (_, factor) in &self.targets {
             finite("factors", *factor)?;
@@ -249,7 +249,7 @@ impl Axis {
                     return Err(Error::invalid(
                         key("to"),
                         format_args!("{to:?}"),
-                        "another number than from: the range is empty",
+                        "a number other than from: the range is empty",
                     ));
                 }
                 if *points < 2 {
@@ -293,7 +293,7 @@ impl Axis {
             return Ok(());
         }
         if random {
-            return Err(Error::invalid(key("follow"), "given", "none in a random design: its rows have no order"));
+            return Err(Error::invalid(key("follow"), "given", "no follow in a random design: its rows have no order"));
         }
         let words = if let Values::List(list) = &self.values {
             list.iter().find(|value| value.number().is_none())

@@ -1,4 +1,4 @@
-//! Rows that tell what their start leads to.
+//! Rows that find the attractor to which their start leads.
 
 use super::attractors::{Attractors, CHAOTIC, QUIET, TOLD};
 use super::measure::Measure;
@@ -14,18 +14,18 @@ use crate::study::attractor::{Attractor, Lasts, MOST_FREEDOM, follow};
 use nalgebra::Complex;
 
 impl Plan {
-    /// True if rows tell their attractors.
+    /// True if rows find their attractors.
     pub(super) fn asks_attractor(&self) -> bool {
         self.sweep.measures.contains(&Measure::Attractor)
     }
 
-    /// The column of their numbers, of a sweep that has one.
+    /// The column with the numbers of attractors, if the sweep has one.
     pub(super) fn attractor_column(&self) -> Option<usize> {
         let at = || self.header().iter().position(|column| column == Measure::Attractor.name());
         self.asks_attractor().then(at).flatten()
     }
 
-    /// Refuses what does not go with attractors.
+    /// Refuses settings that cannot be combined with attractors.
     pub(super) fn check_attractor(&self) -> Result<()> {
         if !self.asks_attractor() {
             return Ok(());
@@ -60,7 +60,7 @@ impl Plan {
         Ok(())
     }
 
-    /// Computes the row of `point`: what its start leads to.
+    /// Computes the row of `point`: the attractor to which its start leads.
     pub(super) fn lead(&self, point: &Point, row: &mut Row) {
         match self.attractor(point) {
             Ok((attractor, findings)) => {
@@ -78,7 +78,7 @@ impl Plan {
         }
     }
 
-    /// The attractor, and what the judge has found.
+    /// The attractor, and the findings of the judge.
     fn attractor(&self, point: &Point) -> Result<(Option<Attractor>, String)> {
         let (case, _) = self.build(point, None)?;
         let Stretch::Periods { settle, keep } = self.sweep.stretch else { return Ok((None, String::new())) };
@@ -113,7 +113,7 @@ impl Plan {
     }
 }
 
-/// What a row tells of its attractor: the cells of [`TOLD`].
+/// The description of a row's attractor: the cells of [`TOLD`].
 pub(super) fn described(attractor: &Attractor, scene: &Scene) -> Vec<String> {
     let Attractor::Periodic { strobes, touches, multipliers } = attractor else {
         let mut cells = vec![String::new(); TOLD.len()];

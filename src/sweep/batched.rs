@@ -58,7 +58,7 @@ impl Plan {
         Ok(())
     }
 
-    /// The rows of `points`. Each row depends on its point alone, not on the others computed with
+    /// The rows of `points`. Each row depends on its point only, not on the others computed with
     /// it.
     pub(super) fn batched(&self, points: &[Point]) -> Vec<Row> {
         let lanes: Vec<Result<(Lane, Scene)>> = points.iter().map(|point| self.lane(point)).collect();
@@ -90,7 +90,7 @@ impl Plan {
                         row.samples = strobes.iter().enumerate().skip(from).map(sample).collect();
                     }
                     if outcome.by == By::Event {
-                        row.error = "by the scheme event: the lanes do not hold it".to_owned();
+                        row.error = "by the scheme event: the lanes do not support this oscillator".to_owned();
                     }
                 }
                 Err(error) => row.fail(&error),

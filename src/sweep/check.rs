@@ -1,4 +1,4 @@
-//! What is checked of a sweep before its rows run.
+//! Checks of a sweep before its rows run.
 
 use super::forcing;
 use super::plan::Plan;
@@ -95,8 +95,8 @@ impl Plan {
         }
     }
 
-    /// An error for an axis none of whose values gives a valid case: better now than as a table of
-    /// failed rows.
+    /// An error for an axis none of whose values gives a valid case: it is better reported now than
+    /// as a table of failed rows.
     pub(super) fn try_values(&self) -> Result<()> {
         let middle = |count: u64| count / 2;
         for axis in &self.sweep.axes {

@@ -59,7 +59,7 @@ impl<'a> Source<'a> {
 }
 
 impl Source<'_> {
-    /// True if rows tell their attractors.
+    /// True if rows have attractors.
     pub fn tells_attractors(&self) -> bool {
         self.columns.iter().any(|column| column == Measure::Attractor.name())
     }

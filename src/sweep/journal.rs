@@ -35,7 +35,7 @@ struct Extent {
 pub(super) struct Journal {
     path: PathBuf,
     file: BufWriter<File>,
-    /// Of each row of this journal, in their order.
+    /// One entry for each row of this journal, in their order.
     extents: Vec<Extent>,
     done: u64,
     end: u64,
@@ -218,13 +218,13 @@ fn header(reader: &mut impl BufRead) -> Option<(u64, Length)> {
     words.next().is_none().then_some((row, Length { header: line.len() as u64, body, crc }))
 }
 
-/// CRC-32 as of IEEE 802.3, which zip files have, of the bytes `parts` one after another.
+/// CRC-32 of IEEE 802.3, as in zip files, of the concatenated `parts`.
 fn crc32(parts: &[&[u8]]) -> u32 {
     let step = |crc: u32, byte: &u8| (crc >> 8) ^ TABLE[((crc ^ u32::from(*byte)) & 0xff) as usize];
     !parts.iter().copied().flatten().fold(!0, step)
 }
 
-/// The remainders of all bytes.
+/// The remainder of each byte value.
 const TABLE: [u32; 256] = {
     let mut table = [0; 256];
     let mut byte = 0;

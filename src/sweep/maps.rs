@@ -1,4 +1,4 @@
-//! Maps of a measure over two axes: its numbers, or the attractors that starts lead to.
+//! Maps of a measure over two axes: its values, or the attractors to which starts lead.
 
 use super::attractors::named;
 use super::columns::{Along, Source};
@@ -20,7 +20,7 @@ const TONES: usize = 6;
 struct Grid {
     xs: Vec<f64>,
     ys: Vec<f64>,
-    /// Row by row from the least y; NaN where there is none.
+    /// Row by row from the least y; NaN where there is no value.
     cells: Vec<f64>,
 }
 
@@ -79,7 +79,7 @@ impl Grid {
         let direction = table.column("direction").ok();
         let mut found: Vec<(f64, f64, f64)> = Vec::new();
         table.each(|row| {
-            // Of a followed axis the way up.
+            // Of a followed axis, the rows with rising values are shown.
             if direction.is_some_and(|index| row.text(index) == "down") {
                 return;
             }

@@ -78,7 +78,7 @@ pub enum Measure {
     /// Its standard error, 1/s; see [`Exponent`](crate::variation::Exponent).
     LyapunovError,
     /// The number of the attractor that the start leads to, see
-    /// [`attractor`](crate::study::attractor); none where that is not decided.
+    /// [`attractor`](crate::study::attractor); the cell is empty where that was not decided.
     Attractor,
 }
 
@@ -175,8 +175,8 @@ impl Measure {
         matches!(self, Self::Lyapunov | Self::LyapunovError)
     }
 
-    /// True for a measure that takes the derivative with respect to the start, which the scheme
-    /// `event` alone has.
+    /// True for a measure that takes the derivative with respect to the start, which only the
+    /// scheme `event` has.
     pub(super) fn needs_event(self) -> bool {
         self.sees_growth() || self == Self::Attractor
     }

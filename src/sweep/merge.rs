@@ -47,10 +47,10 @@ struct Part {
 impl Part {
     fn read(folder: &Path) -> Result<Self> {
         let manifest = results::read(folder)
-            .ok_or_else(|| wrong(folder, "no shard of a sweep: it has no request.json".to_owned()))?;
+            .ok_or_else(|| wrong(folder, "not a shard of a sweep: it has no request.json".to_owned()))?;
         let mut request = manifest["request"].as_object().cloned().unwrap_or_default();
         if request.get("command").and_then(Value::as_str) != Some("sweep") {
-            return Err(wrong(folder, "no shard of a sweep: it holds results of another command".to_owned()));
+            return Err(wrong(folder, "not a shard of a sweep: it holds results of another command".to_owned()));
         }
         let shard: Shard = match request.remove("shard") {
             Some(shard) => shard.as_str().unwrap_or_default().parse()?,
@@ -82,7 +82,7 @@ fn expanded(folders: &[PathBuf]) -> Result<Vec<PathBuf>> {
             .filter(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("shard-")))
             .collect();
         if within.is_empty() {
-            return Err(wrong(folder, "no shard of a sweep, and none within".to_owned()));
+            return Err(wrong(folder, "not a shard of a sweep, and contains none".to_owned()));
         }
         within.sort();
         all.append(&mut within);
@@ -112,7 +112,10 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged> {
             return Err(wrong(&part.folder, reason));
         }
         if !part.finished {
-            let reason = format!("shard {} is not finished: the command that began it goes on with it", part.shard);
+            let reason = format!(
+                "shard {} is not finished: give the command that began it again, which continues it",
+                part.shard
+            );
             return Err(wrong(&part.folder, reason));
         }
     }
@@ -120,7 +123,7 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged> {
         let folders: Vec<_> = twice.iter().map(|part| part.folder.display().to_string()).collect();
         return Err(wrong(
             &twice[0].folder,
-            format!("shard {} is there twice: {}", twice[0].shard, folders.join(" and ")),
+            format!("shard {} is given twice: {}", twice[0].shard, folders.join(" and ")),
         ));
     }
     let missing: Vec<String> = (1..=of)

@@ -2,8 +2,8 @@
 //!
 //! A [`Sweep`] is the request; [`Sweep::plan`] checks it and numbers its rows; [`Plan::rows`]
 //! computes them in memory, [`Plan::run_into`] into a folder, where an interrupted sweep can be
-//! continued. The numbers of a row depend on the row alone: threads, shards and interruptions
-//! change no bit. A row that fails has the reason in place of its measures.
+//! continued. The results of a row depend on the row only: threads, shards and interruptions change
+//! no bit. A row that fails has the reason in place of its measures.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -15,7 +15,7 @@
 //! | `plan` | the rows, by number |
 //! | `row` | one row: built, run, measured |
 //! | `batched` | rows of one degree of freedom side by side, by [`batch`](crate::batch) |
-//! | `basin`, `attractors` | rows that tell what their start leads to, and the numbers of that |
+//! | `basin`, `attractors` | rows that find the attractor to which their start leads, and the numbers of attractors |
 //! | `watch`, `motion`, `strobe` | collect from the steps of a row what its measures need |
 //! | `run` | the threads that compute rows, and the one that writes them |
 //! | `journal`, `folder` | the files of an unfinished sweep, and the check whether it may be continued |

@@ -53,7 +53,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// For the probes of `scene`, from the time `from` (s) on, starting at `start`.
+    /// Sums for the probes of `scene`, from the time `from` (s) on, starting at `start`.
     pub fn new(scene: &Scene, from: f64, start: &State, speeds: bool) -> Self {
         let empty = Seen { highest: f64::NEG_INFINITY, lowest: f64::INFINITY, square: 0.0, speed: 0.0 };
         let probes: Vec<Row> = scene.probes.iter().map(|probe| probe.at.clone()).collect();
@@ -77,7 +77,7 @@ impl Motion {
                 Path::Grid | Path::OneRestitution | Path::Handed { .. } => self.see_grid(step),
             }
         }
-        // A jump at the very end.
+        // A jump at the end of the step.
         self.last.q.copy_from_slice(step.q);
         self.last.v.copy_from_slice(step.v);
     }

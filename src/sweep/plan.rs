@@ -1,5 +1,4 @@
-//! The rows of a sweep: their values and their columns. Everything about a row follows from its
-//! number.
+//! The rows of a sweep: their values and their columns. A row is determined by its number.
 
 use super::axis::Axis;
 use super::follow::Follow;

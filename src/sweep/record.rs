@@ -23,7 +23,8 @@ impl Plan {
         line_of(&cells)
     }
 
-    /// The lines of its instants in `samples.csv`; of a row that tells its attractor, that.
+    /// The lines of its instants in `samples.csv`; for a row with an attractor, the description of
+    /// the attractor.
     pub(super) fn sample_lines(&self, row: &Row) -> Vec<u8> {
         if let Some(attractor) = &row.attractor {
             return line_of(&described(attractor, &self.base.scene));

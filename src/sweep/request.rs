@@ -32,7 +32,7 @@ pub enum Stretch {
     },
 }
 
-/// What computes rows.
+/// The engine that computes rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Kernel {

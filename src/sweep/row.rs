@@ -18,7 +18,7 @@ use std::fmt;
 pub enum Status {
     /// It ran to its end.
     Ok,
-    /// It ran to its end, but the exact scheme has left a stretch of impacts to moreau-jean.
+    /// It ran to its end, but in a stretch of impacts moreau-jean replaced the exact scheme.
     Handed,
     /// Its values give no valid case.
     Invalid,
@@ -93,7 +93,8 @@ pub struct Row {
     pub measures: Vec<Option<f64>>,
     /// Its instants.
     pub samples: Vec<Sample>,
-    /// What its start leads to; `None` if the measure is not asked for, or not decided.
+    /// The attractor to which its start leads; `None` if the measure is not asked for, or it was
+    /// not decided.
     pub attractor: Option<Attractor>,
     /// The state at its end, from which the next row of a followed axis starts; `None` if it
     /// failed.
@@ -101,7 +102,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Says why there is nothing in it.
+    /// Records the error as the reason why the row has no results.
     pub(super) fn fail(&mut self, error: &Error) {
         self.status = Status::of(error);
         self.error = sentence(error);
@@ -210,7 +211,7 @@ impl Plan {
     }
 }
 
-/// An error in one line; of one that points at a place of the case file, what is wrong and what is
+/// An error in one line; if it points at a place of the case file, only what is wrong and what is
 /// accepted.
 fn sentence(error: &Error) -> String {
     let text = error.to_string();

@@ -338,5 +338,5 @@ impl Finished {
 
 /// The error for a thread that panicked, which is a defect of this program.
 fn lost() -> Error {
-    Error::io("a thread of the sweep", "it has ended by a defect of this program".to_owned(), false)
+    Error::io("a thread of the sweep", "it has panicked, which is a defect of this program".to_owned(), false)
 }

@@ -13,7 +13,7 @@ pub enum Sample {
     Impact {
         /// Name of the wall.
         wall: String,
-        /// When it began, s after the start of the row.
+        /// Time at which it began, s after the start of the row.
         start: f64,
         /// The same as a fraction of the forcing period; `None` without a forcing period.
         phase: Option<f64>,

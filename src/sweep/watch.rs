@@ -23,13 +23,14 @@ pub(super) struct Watch {
     forces: Option<Forces>,
     motion: Option<Motion>,
     strobe: Option<Strobe>,
-    /// The growth of a change, until there is no derivative.
+    /// The growth of a small change of the start; an error from the step on at which there is no
+    /// derivative.
     growth: Option<std::result::Result<Exponents, NoDerivative>>,
 }
 
 impl Watch {
-    /// For the row of `scene` (that of the stepper, with springs for a penalty's walls), which
-    /// begins at `start`.
+    /// A watch for a row that begins at `start`; `scene` is that of the stepper, in which a
+    /// penalty's walls are springs.
     pub fn new(sweep: &Sweep, scene: &Scene, time: &TimeOptions, start: &State) -> Result<Self> {
         let any = |test: fn(Measure) -> bool| sweep.measures.iter().any(|measure| test(*measure));
         let from = time.statistics_from;
@@ -78,7 +79,7 @@ impl Watch {
         }
     }
 
-    /// Why a measure has no value, where that is not to be seen in the others.
+    /// Why a measure has no value, where the other measures do not show it.
     pub fn note(&self) -> Option<String> {
         self.growth.as_ref().and_then(|growth| growth.as_ref().err()).map(ToString::to_string)
     }
@@ -157,7 +158,7 @@ impl Watch {
             }),
             Measure::Lyapunov => values.push(exponent.map(|exponent| exponent.per_s)),
             Measure::LyapunovError => values.push(exponent.and_then(|exponent| exponent.error_per_s)),
-            // Told by the row itself, which is run another way.
+            // The row itself fills this in: it is run in another way.
             Measure::Attractor => values.push(None),
             Measure::Period => {
                 let repeats = self.strobe.as_ref().and_then(|strobe| strobe.repeats(scene.gap_scale()));
@@ -166,8 +167,8 @@ impl Watch {
         }
     }
 
-    /// The largest Lyapunov exponent: of a motion that repeats itself that of the orbit, which is
-    /// exact; over the window it would swing about it.
+    /// The largest Lyapunov exponent. For a motion that repeats itself it is that of the orbit,
+    /// which is exact; the mean over the window would oscillate about it.
     fn exponent(&self, scene: &Checked) -> Option<Exponent> {
         let exponents = self.growth.as_ref()?.as_ref().ok()?;
         let orbit = self.strobe.as_ref().and_then(|strobe| {

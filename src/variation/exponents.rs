@@ -10,15 +10,15 @@ use std::f64::consts::TAU;
 /// Number of blocks into which the window is divided for the standard error.
 const BLOCKS: usize = 40;
 
-/// What is left of a change below this share of it is the rounding error of making it orthogonal to
-/// others.
+/// A change that becomes smaller than this share of itself, when it is made orthogonal to others,
+/// is rounding error.
 const NOTHING: f64 = 1e-14;
 
 /// A Lyapunov exponent over a window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exponent {
     /// Mean growth of a change of the start, 1/s: ln|δ(end)|/|δ(begin)| over the length. −∞ where
-    /// nothing is left of it.
+    /// the change becomes 0.
     pub per_s: f64,
     /// Standard error of that mean, 1/s, from blocks of the window: s/√40 with s the standard
     /// deviation of their means. `None` for a window with steps in fewer than two blocks, and for
@@ -28,17 +28,18 @@ pub struct Exponent {
 
 /// The largest Lyapunov exponents of a run of the scheme `event`, over a window [from, to].
 ///
-/// As many changes of the start as exponents are asked for are carried along ([`Variation`]). After
-/// each step they are made orthogonal and scaled to size 1 (Benettin et al. 1980,
-/// doi:10.1007/BF02128236); the mean of the logarithms of the factors are the exponents, the
+/// As many changes of the start as exponents are asked for are propagated along the run
+/// ([`Variation`]). After each step they are made orthogonal and scaled to size 1 (Benettin et al.
+/// 1980, doi:10.1007/BF02128236); the mean of the logarithms of the factors are the exponents, the
 /// largest first. Before the window the changes turn into the directions that grow most. The size
-/// is √(|δq|² + |δq̇/ω|²) with ω the fastest circular frequency of structure and loads; of a long
-/// window the exponents do not depend on it.
+/// is √(|δq|² + |δq̇/ω|²) with ω the fastest circular frequency of structure and loads; for a long
+/// window the exponents do not depend on this definition.
 ///
 /// For one degree of freedom with rigid walls flows shrink areas by exp(−c t/m), and impacts by e².
 /// So the two exponents add up to −c/m + 2 Σ ν ln e, with ν the impacts per second on each wall. A
-/// run that rests on a wall forgets its start, and has −∞. On a periodic motion the running mean
-/// swings about ln|μ|/T, with μ a Floquet multiplier and T the period, by less and less as 1/t.
+/// run that rests on a wall no longer depends on its start, and has the exponent −∞. On a periodic
+/// motion the running mean oscillates about ln|μ|/T, with μ a Floquet multiplier and T the period,
+/// and the amplitude decreases like 1/t.
 #[derive(Debug)]
 pub struct Exponents {
     variation: Variation,
@@ -53,7 +54,7 @@ pub struct Exponents {
     factors: Vec<f64>,
 }
 
-/// What has been seen of one block.
+/// Sums over one block of the window.
 #[derive(Debug, Clone)]
 struct Block {
     /// s.
@@ -83,7 +84,7 @@ impl Exponents {
         });
         let own = scene.system.frequencies()[1];
         let omega = Some(fastest.fold(own, f64::max)).filter(|omega| *omega > 0.0).unwrap_or(1.0 / (to - from));
-        // Directions with a part in every one of the state, independent of one another.
+        // Linearly independent directions with a component along every entry of the state.
         let mut changes: Vec<f64> =
             (0..size * count).map(|i| (1.0 + 0.618_033_988_75 * i as f64).fract() - 0.3).collect();
         let mut factors = vec![1.0; count];
@@ -99,11 +100,11 @@ impl Exponents {
         })
     }
 
-    /// Goes on over `step`. Steps that begin before the window turn the changes only; those that
-    /// begin after its end are left out.
+    /// Propagates the changes over `step`. Steps that begin before the window only turn the
+    /// changes; those that begin after its end are left out.
     ///
     /// # Errors
-    /// [`NoDerivative`]; the exponents mean nothing from then on.
+    /// [`NoDerivative`]; the exponents are meaningless from then on.
     pub fn see(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
         let [from, to] = self.window;
         if step.start >= to {
@@ -136,7 +137,7 @@ impl Exponents {
         self.exponent(0)
     }
 
-    /// All that were asked for, the largest first.
+    /// All exponents asked for, the largest first.
     #[must_use]
     pub fn all(&self) -> Vec<Exponent> {
         (0..self.count).map(|which| self.exponent(which)).collect()
@@ -157,15 +158,15 @@ impl Exponents {
 }
 
 /// Makes changes of `size` entries each orthogonal to those before them, and scales them to 1 by
-/// `factors`: the diagonal of R in a QR decomposition. A change of which nothing but rounding is
-/// left becomes 0, and stays it.
+/// `factors`: the diagonal of R in a QR decomposition. A change of which only rounding is left is
+/// set to 0, and stays 0.
 fn orthogonalise(changes: &mut [f64], size: usize, factors: &mut [f64]) {
     for (k, factor) in factors.iter_mut().enumerate() {
         let (before, rest) = changes.split_at_mut(k * size);
         let change = &mut rest[..size];
         let norm = |change: &[f64]| change.iter().map(|x| x * x).sum::<f64>().sqrt();
         let least = NOTHING * norm(change);
-        // Twice, since the first pass leaves rounding of the parts that it takes away.
+        // Two passes, since the first leaves rounding errors of the components that it removes.
         for _ in 0..2 {
             for other in before.chunks_exact(size) {
                 let along: f64 = other.iter().zip(&*change).map(|(a, b)| a * b).sum();

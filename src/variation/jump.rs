@@ -1,21 +1,21 @@
 //! Saltation matrices of several degrees of freedom, without writing them out.
 //!
 //! Rows J receive an impulse at an instant: rows i that were in flight, struck at the speed vᵢ with
-//! restitution eᵢ (0 where they come to rest), and rows held before, which only pass it on. With
-//! D = M⁻¹Gᵀ(G M⁻¹Gᵀ)⁻¹ over J and dᵢ its columns,
+//! restitution eᵢ (0 where they come to rest), and rows held before, which only transmit it. With D
+//! = M⁻¹Gᵀ(G M⁻¹Gᵀ)⁻¹ over J and dᵢ its columns,
 //!
 //! δq⁺ = δq − Σ (1 + eᵢ) dᵢ Gᵢδq,   δq̇⁺ = δq̇ − D (1 + e) G δq̇ + Σ wᵢ Gᵢδq,
 //!
-//! where wᵢ = (a⁺ − R a⁻)/vᵢ. With the accelerations put in, and Q the projection onto what the
-//! rows held after the instant leave free,
+//! where wᵢ = (a⁺ − R a⁻)/vᵢ. With the accelerations inserted, and Q the projection onto the
+//! velocities that the rows held after the instant allow,
 //!
 //! wᵢ = (1 + eᵢ) dᵢ Gᵢa⁻/vᵢ − Q M⁻¹Gₕᵀ rₕ/vᵢ + Q M⁻¹((1 + eᵢ) C dᵢ + Gₐᵀ Δrₐ/vᵢ).
 //!
-//! The first term is left out for a row that comes to rest (Q takes it away). In the second, rₕ are
-//! the reactions of rows that the impact lets go. In the last, Δrₐ is what the jump of the velocity
-//! adds to the force of an elastic wall: (1 + eᵢ) c_a Gₐdᵢ vᵢ while it pushes. So the matrix of
-//! coming to rest has no speed in it, and that of an impact acts on a change by a few products of
-//! vectors.
+//! The first term is left out for a row that comes to rest (Q removes it). In the second, rₕ are
+//! the reactions of rows that the impact releases. In the last, Δrₐ is the change of the force of
+//! an elastic wall by the jump of the velocity: (1 + eᵢ) c_a Gₐdᵢ vᵢ while it pushes. So the matrix
+//! of coming to rest does not contain the speed, and that of an impact acts on a change by a few
+//! products of vectors.
 
 use crate::flow::{Hold, Propagator, held};
 
@@ -40,18 +40,20 @@ pub(super) struct Jump {
     /// (1 + eᵢ) dᵢ and wᵢ of each struck row, n entries each.
     shifts: Vec<f64>,
     kicks: Vec<f64>,
-    /// What a row sees of a change, and what it is to see of the velocity afterwards.
+    /// For each row, its displacement by a change before the event, and the velocity required of it
+    /// afterwards.
     seen: Vec<f64>,
     wanted: Vec<f64>,
     zero: Vec<f64>,
     work: Vec<f64>,
 }
 
-/// Two rows feel each other if an impulse on one moves the other by more than this share of itself.
+/// Two rows are coupled if an impulse on one moves the other by more than this share of its own
+/// motion.
 const APART: f64 = 1e-12;
 
 impl Jump {
-    /// With room for a structure of `n` degrees of freedom and `rows` rows.
+    /// A matrix with memory for a structure of `n` degrees of freedom and `rows` rows.
     pub fn with_room(n: usize, rows: usize) -> Self {
         Self {
             struck: Vec::with_capacity(rows),
@@ -66,7 +68,7 @@ impl Jump {
     }
 
     /// Begins the matrix of an instant at which the rows of `struck` are struck and the rows
-    /// `passing` pass impulses on.
+    /// `passing` transmit impulses.
     pub fn begin(&mut self, flow: &mut Propagator, struck: &[Struck], passing: impl Iterator<Item = usize> + Clone) {
         self.struck.clear();
         self.struck.extend_from_slice(struck);
@@ -80,8 +82,8 @@ impl Jump {
         }
     }
 
-    /// True if two of the struck rows feel each other: an impulse on one moves the other, or
-    /// changes the drag on it.
+    /// True if two of the struck rows are coupled: an impulse on one moves the other, or changes
+    /// the damping force on it.
     pub fn is_coupled(&mut self, flow: &Propagator) -> bool {
         let Self { struck, rows, zero, work, .. } = self;
         if struck.len() > 1 && rows.rows().len() > struck.len() {
@@ -116,7 +118,7 @@ impl Jump {
         for (s, shift) in struck.iter().zip(shifts.chunks_exact(zero.len())) {
             work.fill(0.0);
             flow.body.add_force(zero, shift, work);
-            // That was −C (1 + e) d.
+            // The product above was −C (1 + e) d.
             work.iter_mut().for_each(|f| *f = -*f);
             push(flow, s, shift, work);
             flow.body.solve(work);

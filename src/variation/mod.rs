@@ -1,10 +1,10 @@
 //! The derivative of a motion with respect to its start, along an exact run.
 //!
-//! A change δx = (δq, δq̇) of the start is carried along by the flow between events, δẋ = A δx, and
-//! at an event by a saltation matrix S ([`saltation`]), since a changed motion meets the wall at
+//! A change δx = (δq, δq̇) of the start is propagated by the flow between events, δẋ = A δx, and at
+//! an event by a saltation matrix S ([`saltation`]), since a changed motion meets the wall at
 //! another instant. The derivative of the state at the end with respect to that at the start is the
 //! product of them all (Leine & Nijmeijer 2004, doi:10.1007/978-3-540-44398-8, ch. 7). It is exact:
-//! nothing is differenced, and an error of the run is the only one.
+//! no finite differences are taken, and the only errors are those of the run.
 //!
 //! | type | what it holds |
 //! |---|---|

@@ -2,15 +2,15 @@
 
 use std::fmt;
 
-/// Why a motion has no derivative with respect to its start, or none that is known.
+/// Why a motion has no derivative with respect to its start, or why it is not known.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum NoDerivative {
-    /// Walls at several places that feel each other were struck at one instant. In a changed motion
-    /// one is struck before the other, and what comes out depends on which: the derivative differs
-    /// from one direction of the change to another.
+    /// Coupled walls at several places (an impulse at one moves the other) were struck at one
+    /// instant. In a changed motion one of them is struck first, and the result depends on which:
+    /// the derivative differs from one direction of the change to another.
     Together {
-        /// When, s.
+        /// Time, s.
         time: f64,
         /// The walls, by their index in the scene.
         walls: Vec<usize>,
@@ -26,11 +26,9 @@ pub enum NoDerivative {
 impl fmt::Display for NoDerivative {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Together { time, walls } => write!(
-                f,
-                "no derivative: {} walls that feel each other are struck at one instant, t = {time} s",
-                walls.len()
-            ),
+            Self::Together { time, walls } => {
+                write!(f, "no derivative: {} coupled walls are struck at one instant, t = {time} s", walls.len())
+            }
             Self::Unresolved { time } => write!(
                 f,
                 "no derivative: the step up to t = {time} s is one on a grid, which does not resolve its events; \

@@ -7,8 +7,8 @@ use crate::flow::Arc;
 use crate::scene::{Oscillator, Scene, System, WallLaw};
 use crate::step::{Path, Step};
 
-/// A body nearer to the face of an elastic wall than this share of the scene's length stands on it:
-/// far above rounding, and far below the depth at which a push ends.
+/// A body nearer to the face of an elastic wall than this share of the scene's gap scale counts as
+/// on it. The value lies far above rounding, and far below the depth at which a push ends.
 pub(super) const ON_THE_FACE: f64 = 1e-9;
 
 /// An elastic wall with a dashpot.
@@ -29,9 +29,9 @@ struct Dashpot {
 /// The steps must be seen in turn: whether an elastic wall is entered shows in two of them. It
 /// allocates nothing.
 ///
-/// A body that rests on a rigid wall has forgotten how it came there: the matrix is 0 then, as is
-/// every product with it. A touch without speed (a graze) counts as none; near one the matrix grows
-/// without bound.
+/// Once a body rests on a rigid wall, its motion does not depend on that before: the matrix is 0
+/// then, as is every product with it. A touch at speed 0 (a graze) is ignored; near one the matrix
+/// grows without bound.
 #[derive(Debug, Clone)]
 pub struct OscillatorVariation {
     body: Oscillator,
@@ -45,7 +45,7 @@ pub struct OscillatorVariation {
 }
 
 impl OscillatorVariation {
-    /// For runs of `scene`.
+    /// The derivative along runs of `scene`.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a scene of several degrees of freedom, or with a wall behind a lever:
@@ -92,7 +92,7 @@ impl OscillatorVariation {
         Ok(saltation::multiply(event, whole))
     }
 
-    /// Walls that began to push where the last step ended, without having shown it there.
+    /// Walls that began to push at the end of the last step, which only the present step shows.
     fn entered_between(&mut self, arc: &Arc) -> Matrix2 {
         let mut whole = IDENTITY;
         if self.dashpots.is_empty() || !self.began {
@@ -127,8 +127,8 @@ impl OscillatorVariation {
         if after == 0.0 && (e > 0.0 || force(step, wall) != 0.0) {
             return REST;
         }
-        // The velocity that the scheme itself has met the wall with, to the last digit: near a
-        // graze the closed form has lost some.
+        // The approach velocity of the scheme itself, to the last digit: near a graze the closed
+        // form has lost digits.
         let before = if e > 0.0 { -after / e } else { arc.state(arc.end()).1 };
         // The load is the same on both sides of the instant: only the velocity changes the force,
         // and a jump of the velocity may begin or end the push of a dashpot.

@@ -1,4 +1,4 @@
-//! Products along a run.
+//! The derivative along a run, as a product over its steps.
 
 use super::no_derivative::NoDerivative;
 use super::oscillator::OscillatorVariation;
@@ -9,8 +9,8 @@ use crate::scene::Scene;
 use crate::step::Step;
 use nalgebra::DMatrix;
 
-/// Carries changes of the start over the steps of a run of the scheme `event`, whatever the number
-/// of degrees of freedom n.
+/// Propagates changes of the start over the steps of a run of the scheme `event`, for any number of
+/// degrees of freedom n.
 ///
 /// A change has 2n entries: δq (m), then δq̇ (m/s). Starting from the columns of the identity gives
 /// the derivative of the state with respect to the start ([`Product`]), from one vector its growth
@@ -25,7 +25,7 @@ enum Kind {
 }
 
 impl Variation {
-    /// For runs of `scene` from its start, or from anywhere along one.
+    /// A variation for runs of `scene`, from the start or from any step of the run.
     ///
     /// # Errors
     /// As [`Scene::validate`].
@@ -47,9 +47,9 @@ impl Variation {
         }
     }
 
-    /// Carries `changes`, 2n entries each and one after the other, over `step`, the event at its
+    /// Propagates `changes`, 2n entries each and one after the other, over `step`, the event at its
     /// end included. Entries beyond a whole number of changes are left as they are. After an error
-    /// the changes mean nothing.
+    /// the changes are meaningless.
     ///
     /// # Errors
     /// [`NoDerivative`].
@@ -74,7 +74,7 @@ impl Variation {
 ///
 /// Rows and columns are q₀ … qₙ₋₁ (m), q̇₀ … q̇ₙ₋₁ (m/s). Over the period of a periodic motion it
 /// is the monodromy matrix, whose eigenvalues are the Floquet multipliers. A row held by a rigid
-/// wall takes 2 off its rank.
+/// wall reduces its rank by 2.
 #[derive(Debug)]
 pub struct Product {
     variation: Variation,
@@ -82,7 +82,7 @@ pub struct Product {
 }
 
 impl Product {
-    /// The identity, before the first step of a run of `scene` that is seen.
+    /// The identity: the product before the first step of a run of `scene`.
     ///
     /// # Errors
     /// As [`Scene::validate`].
@@ -92,10 +92,10 @@ impl Product {
         Ok(Self { variation, matrix: DMatrix::identity(size, size) })
     }
 
-    /// Goes on over `step`.
+    /// Multiplies the product by the derivative over `step`.
     ///
     /// # Errors
-    /// [`NoDerivative`]; the matrix means nothing from then on.
+    /// [`NoDerivative`]; the matrix is meaningless from then on.
     pub fn see(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
         self.variation.carry(step, self.matrix.as_mut_slice())
     }
@@ -106,7 +106,7 @@ impl Product {
         &self.matrix
     }
 
-    /// Begins anew from the identity at the end of the last step, as at the start of a period.
+    /// Sets the product to the identity, for example at the start of a period.
     pub fn restart(&mut self) {
         self.matrix.fill_with_identity();
     }

@@ -1,4 +1,5 @@
-//! Saltation matrices: what an event makes of a small change of the state just before it.
+//! Saltation matrices: the map from a small change of the state just before an event to that just
+//! after it.
 //!
 //! x = (q, q̇) with n degrees of freedom. A wall's row is G, d = M⁻¹Gᵀ/(G M⁻¹Gᵀ), P = I − dG and
 //! R = I − (1 + e)dG; v = G q̇⁻ is the speed just before, a⁻ and a⁺ are the accelerations just
@@ -12,17 +13,18 @@
 //! | entering an elastic wall with dashpot c_a | [[I, 0], [−c_a M⁻¹GᵀG, I]] |
 //! | end of the push, return to the surface, push again | I: the force is continuous |
 //! | blow, row of a table | I: at a fixed time |
-//! | several rows struck at one instant that feel each other | none: [`NoDerivative::Together`](super::NoDerivative::Together) |
+//! | several coupled rows struck at one instant | does not exist: [`NoDerivative::Together`](super::NoDerivative::Together) |
 //!
 //! The first follows from S = J + (f⁺ − J f⁻)nᵀ/(nᵀf⁻), where J is the derivative of the jump, f⁻
 //! and f⁺ are the rates of x before and after, and n = (Gᵀ, 0) (Leine & Nijmeijer 2004,
 //! doi:10.1007/978-3-540-44398-8, ch. 7; for impacts Müller 1995,
-//! doi:10.1016/0960-0779(94)00170-U). Of one degree of freedom its determinant is e²; its corner
-//! grows like 1/v, and is infinite at a graze. The second is the same with the accelerations put
-//! in, and needs no v. Rows that other walls hold belong into R, P and both accelerations.
+//! doi:10.1016/0960-0779(94)00170-U). With one degree of freedom its determinant is e²; its corner
+//! grows like 1/v, and is infinite at a graze. The second is the same with the accelerations
+//! inserted, and does not contain v. R, P and both accelerations must respect the rows that other
+//! walls hold.
 //!
-//! The functions here are those of one degree of freedom, without a support; rows of several
-//! degrees of freedom are treated by [`Variation`](super::Variation).
+//! The functions here are those of one degree of freedom; several degrees of freedom are treated by
+//! [`Variation`](super::Variation).
 
 /// A matrix that acts on (δq, δq̇), row by row: m and m/s.
 pub type Matrix2 = [[f64; 2]; 2];
@@ -30,7 +32,7 @@ pub type Matrix2 = [[f64; 2]; 2];
 /// No event.
 pub const IDENTITY: Matrix2 = [[1.0, 0.0], [0.0, 1.0]];
 
-/// Coming to rest on a rigid wall: of one degree of freedom nothing is left of a change.
+/// Coming to rest on a rigid wall: with one degree of freedom a change becomes 0.
 pub const REST: Matrix2 = [[0.0, 0.0], [0.0, 0.0]];
 
 /// An impact of `restitution` e at the velocity `before` (m/s, signed, just before the impact),

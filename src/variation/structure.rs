@@ -1,4 +1,4 @@
-//! Several degrees of freedom: changes of the state carried over each step.
+//! Several degrees of freedom: changes of the state propagated over each step.
 
 use super::jump::{Jump, Struck};
 use super::no_derivative::NoDerivative;
@@ -8,7 +8,7 @@ use crate::flow::{Hold, Propagator, Series, held};
 use crate::scene::{Scene, WallLaw};
 use crate::step::{Path, Step};
 
-/// A wall as changes of the state meet it.
+/// The data of a wall for the propagation of changes.
 #[derive(Debug, Clone, Copy)]
 struct At {
     row: usize,
@@ -23,7 +23,7 @@ struct At {
     after: bool,
 }
 
-/// Carries changes of the start over the steps of a structure.
+/// Propagates changes of the start over the steps of a structure.
 #[derive(Debug)]
 pub(super) struct StructureVariation {
     flow: Propagator,
@@ -45,12 +45,12 @@ pub(super) struct StructureVariation {
     work: Vec<f64>,
 }
 
-/// A row that leaves an impact with less than this share of e times its speed has come to rest: the
-/// rest of an accumulation of impacts has been cut off.
+/// A row that leaves an impact with less than this share of e times its approach speed has come to
+/// rest: the scheme has skipped the remaining impacts of an accumulation.
 const STUCK: f64 = 0.5;
 
-/// A row that leaves an impact with another speed than e times its own, by more than this share,
-/// was struck more than once.
+/// A row whose departure speed differs from e times its approach speed by more than this share was
+/// struck more than once.
 const ONCE: f64 = 1e-6;
 
 impl StructureVariation {
@@ -92,8 +92,8 @@ impl StructureVariation {
         self.flow.body.n
     }
 
-    /// Carries `columns`, changes of 2n entries (δq, δq̇) one after the other, over `step`. They
-    /// are not to be used after an error.
+    /// Propagates `columns`, changes of 2n entries (δq, δq̇) one after the other, over `step`. They
+    /// must not be used after an error.
     pub fn carry(&mut self, step: &Step<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         let n = self.degrees_of_freedom();
         let series = match step.path {
@@ -132,7 +132,7 @@ impl StructureVariation {
         Ok(())
     }
 
-    /// Takes up which rows are held and which elastic walls push during `series`.
+    /// Records which rows are held and which elastic walls push during `series`.
     fn look(&mut self, series: &Series) {
         self.during.fill(false);
         self.walls.iter_mut().for_each(|at| at.during = false);
@@ -146,8 +146,8 @@ impl StructureVariation {
         self.flow.set(rows, pushing.map(|(wall, at)| (wall, at.stiffness, at.damping)));
     }
 
-    /// Brings to rest the rows that are held from here on without an impact: they were at rest, to
-    /// rounding, already.
+    /// Applies the matrix of coming to rest for rows that are held from here on without an impact:
+    /// they were at rest already, to rounding.
     fn come_to_rest(&mut self, columns: &mut [f64]) {
         let Self { flow, walls, jump, during, after, hold, .. } = self;
         let rows = 0..during.len();
@@ -229,7 +229,7 @@ impl StructureVariation {
         jump.kick(flow, hold, |flow, s, shift, force| {
             for (wall, at) in walls.iter().enumerate() {
                 let push = match (at.restitution, at.during, at.after) {
-                    // A reaction that the impact takes away.
+                    // A reaction that ends with the impact.
                     (Some(_), ..) if during[at.row] && !after[at.row] => -before(wall) / s.speed,
                     (None, true, true) => at.damping * flow.body.rows.dot(at.row, shift),
                     (None, true, false) | (None, false, true) => (step.force[wall] - before(wall)) / s.speed,

@@ -24,7 +24,7 @@ pub struct Archard {
     pub support_coefficient: Option<f64>,
     /// T, s.
     pub service: f64,
-    /// Where the volume comes off; without it no depth is told.
+    /// The geometry of the scar; without it no depth is computed.
     pub scar: Option<Scar>,
 }
 
@@ -51,7 +51,7 @@ pub enum Bearing {
     },
 }
 
-/// What a support and its tube lose in service; `None` where no coefficient or no scar is given.
+/// Wear of a support and its tube in service; `None` where no coefficient or no scar is given.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Worn {
@@ -67,7 +67,7 @@ pub struct Worn {
 }
 
 impl Archard {
-    /// What a work rate (W) wears off.
+    /// The wear by a work rate (W).
     #[must_use]
     pub fn worn(&self, work_rate: f64) -> Worn {
         let volume = |coefficient: Option<f64>| coefficient.map(|k| k * work_rate * self.service);

@@ -1,18 +1,19 @@
-//! What the impulses of loads change at supports: in a step they come before the contacts.
+//! Changes of the velocity at supports by the impulses of loads; within a step these come before
+//! the contacts.
 
 use crate::scene::{Load, LoadKind, Scene, Support};
 
 /// A load's impulse, as a change of the velocity at a support.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Blow {
-    /// When, s.
+    /// Time, s.
     time: f64,
     /// P M⁻¹ gᵀ J along y and z, m/s.
     change: [f64; 2],
 }
 
 impl Blow {
-    /// The blows of the loads of `scene`, for each of its supports; none in scenes without
+    /// The blows of the loads of `scene`, for each of its supports; empty in scenes without
     /// supports.
     pub fn all(scene: &Scene) -> Vec<Vec<Self>> {
         let blow = |load: &Load| match load.kind {

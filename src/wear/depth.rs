@@ -83,7 +83,7 @@ pub fn moon_depth(volume: f64, width: f64, radius: f64, gap: f64) -> Option<f64>
 }
 
 /// Depth (m) by which `volume` (m³), taken off evenly all round a tube of radius `radius` (m) over
-/// `width` (m), makes it thinner, V/(2πRL): the other end from a single scar.
+/// `width` (m), makes it thinner, V/(2πRL): the other extreme from a single scar.
 #[must_use]
 pub fn all_round(volume: f64, width: f64, radius: f64) -> f64 {
     volume / (2.0 * PI * radius * width)

@@ -1,7 +1,7 @@
 //! What slides in a step: each contact of each support, with its force and its sliding velocity.
 //!
 //! The sliding velocity is v_t = t · (g_y · q̇, g_z · q̇) with t = (−n_z, n_y) and n the outward
-//! normal of the contact. For a step on a grid it goes evenly from the step's start, after the
+//! normal of the contact. In a step on a grid it varies linearly from the step's start, after the
 //! impulses of loads, to its end. For exact motion force and velocity are polynomials in time, and
 //! |v_t| is integrated from one sign change to the next.
 
@@ -12,8 +12,9 @@ use crate::flow::Series;
 use crate::scene::{PlaneRows, Scene, Shape, heading};
 use crate::step::{Path, Step};
 
-/// Parts of a stretch of exact motion, which lasts at most two radians of its fastest motion: two
-/// sign changes of the sliding velocity within one would be missed, where it is next to nothing.
+/// Number of parts of a stretch of exact motion, which lasts at most two radians of its fastest
+/// motion. Two sign changes of the sliding velocity within one part would be missed, but it is
+/// nearly 0 there.
 const PARTS: usize = 16;
 
 /// Largest angle (rad) by which the normal of a round hole turns in one of the pieces into which a
@@ -21,7 +22,7 @@ const PARTS: usize = 16;
 const TURN: f64 = 0.04;
 const MOST_PARTS: f64 = 256.0;
 
-/// What is known of the time over which a support gave its impulse.
+/// How long a support's impulse lasted, as far as the step shows it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Manner {
     /// At one instant.
@@ -29,11 +30,11 @@ pub(crate) enum Manner {
     /// Over the whole piece of time, with a finite force.
     Lasting,
     /// In a step of a scheme on a grid, at a rigid support: an impact at some instant within it, or
-    /// a force that lasts, as the neighbouring steps tell.
+    /// a force that lasts; the neighbouring steps show which.
     Unresolved,
 }
 
-/// What one contact of a support did over a piece of a step.
+/// Impulse, work and sliding of one contact of a support over a piece of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rub {
     /// Index of the support in the scene.
@@ -41,14 +42,14 @@ pub(crate) struct Rub {
     /// The contact: the index of the wall of a flat, or the number of walls plus that of the hole.
     pub contact: usize,
     pub manner: Manner,
-    /// Where it is, degrees from +y towards +z, from 0 to below 360, and its outward normal n, of a
-    /// piece in which it turns its mean.
+    /// Its angle, degrees from +y towards +z, from 0 to below 360, and its outward normal n; their
+    /// means over a piece in which the normal turns.
     pub angle: f64,
     pub normal: [f64; 2],
     /// Magnitude of the normal impulse, and the friction impulse along t, N s.
     pub impulse: f64,
     pub friction: f64,
-    /// The work of wear ∫ |v_t| dp, and what friction takes out of the motion, J.
+    /// The work of wear ∫ |v_t| dp, and the energy dissipated by friction, J.
     pub work: f64,
     pub dissipated: f64,
     /// The distance ∫ |v_t| dt, m, and the time, s; both 0 at an instant.
@@ -115,8 +116,8 @@ impl Rubs {
         self.walls + holes.filter(|contact| matches!(contact, Contact::Hole { .. })).count()
     }
 
-    /// Calls `each` with what slid in `step` between two times in it, s; impulses at the instant of
-    /// its end are in it where `to` reaches the end.
+    /// Calls `each` with every contact that pushed in `step` between the times `from` and `to` (s);
+    /// impulses at the end of the step are included where `to` reaches the end.
     pub fn see(&self, step: &Step<'_>, [from, to]: [f64; 2], mut each: impl FnMut(&Rub)) {
         for (support, section) in self.sections.iter().enumerate() {
             for contact in &section.contacts {
@@ -148,7 +149,7 @@ impl Rubs {
     }
 }
 
-/// What a contact gave in a step.
+/// Force and impulse of a contact in a step.
 struct Push {
     angle: f64,
     normal: [f64; 2],
@@ -163,7 +164,7 @@ impl Contact {
         }
     }
 
-    /// The index of the contact and what it gave; `None` if it gave nothing.
+    /// The index of the contact, with its force and impulse; `None` if there was none.
     fn push(self, step: &Step<'_>, walls: usize) -> Option<(usize, Push)> {
         match self {
             Self::Flat { wall, angle, normal, .. } => {
@@ -215,7 +216,7 @@ fn along(
     each: &mut impl FnMut(&Rub),
 ) {
     let jump = step.jump.get(wall).map_or(0.0, |p| p.abs());
-    // What the wall gave beside the jump; rounding of the sum is not a contact.
+    // The impulse of the wall apart from the jump; rounding of the sum is not a contact.
     let pushed = series.acting_walls().any(|(acting, _)| acting == wall);
     let [y, z] = blank.normal;
     let moved = series.seen_along([&section.at.y, &section.at.z], [-z, y]);
@@ -273,7 +274,7 @@ fn around(
             let mut sum = Slid::default();
             sliding.add(a, b, &mut sum);
             let ([y, z], _) = series.at_hole(hole, 0.5 * (a + b));
-            // Of so short a piece the impulse as a vector is next to p n; this is what it is of p.
+            // Over so short a piece the impulse vector is nearly p n; this is its magnitude p.
             let push = series.hole_impulse(hole, a, b);
             let normal = if sum.impulse > 0.0 { push.map(|push| -push / sum.impulse) } else { blank.normal };
             let angle = z.atan2(y).to_degrees().rem_euclid(360.0) % 360.0;

@@ -1,4 +1,4 @@
-//! What slides over a piece of exact motion, whose force and sliding velocity are known at every
+//! Sliding over a piece of exact motion, whose force and sliding velocity are known at every
 //! instant: |v_t| is integrated from one sign change to the next.
 
 /// Gauss's rule of four points on [−1, 1]: nodes and weights.
@@ -14,12 +14,12 @@ pub(super) struct Sliding<'a> {
     /// Magnitude of the normal force, N, and of its impulse between two times, N s.
     pub force: &'a dyn Fn(f64) -> f64,
     pub impulse: &'a dyn Fn(f64, f64) -> f64,
-    /// v_t, m/s, and the way between two times, m, if v_t keeps its sign between them.
+    /// v_t, m/s, and the distance between two times, m, if v_t keeps its sign between them.
     pub speed: &'a dyn Fn(f64) -> f64,
     pub way: &'a dyn Fn(f64, f64) -> f64,
 }
 
-/// What slid: the work of wear ∫ F |v_t| dt, J, the impulse, N s, and the distance, m.
+/// The result: the work of wear ∫ F |v_t| dt, J, the impulse, N s, and the distance, m.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Slid {
     pub work: f64,
@@ -28,7 +28,8 @@ pub(super) struct Slid {
 }
 
 impl Sliding<'_> {
-    /// Adds to `sum` what slid between two times, between which v_t changes its sign once at most.
+    /// Adds to `sum` the sliding between two times, between which v_t changes its sign at most
+    /// once.
     pub fn add(&self, from: f64, to: f64, sum: &mut Slid) {
         let (left, right) = ((from, (self.speed)(from)), (to, (self.speed)(to)));
         if left.1 * right.1 < 0.0 {

@@ -1,7 +1,7 @@
 //! The work of wear of an impulse, and the distance slid in a step.
 //!
-//! In an impulse the velocity changes in proportion to the impulse given so far, whatever the force
-//! does over time: v_t = v₀ + (v₁ − v₀) s with s the share that has been given. So the work of a
+//! During an impact the velocity changes in proportion to the impulse so far, whatever the force
+//! over time: v_t = v₀ + (v₁ − v₀) s with s the share of the impulse reached. So the work of a
 //! rigid impact is finite, although its force is not, and it does not depend on a contact
 //! stiffness:
 //!

@@ -448,7 +448,7 @@ fn matrices_that_cannot_be_read_are_refused_with_their_line() {
         ("mm", format!("{C}2 2 1\n1 0 1\n"), 3, "\"0\" is no row or column", "0"),
         ("mm", format!("{C}2 2 1\n1 1 nan\n"), 3, "no finite number", "nan"),
         ("mm", format!("{C}2 2 1\n1 1 1e999\n"), 3, "no finite number", "1e999"),
-        ("mm", format!("{C}2 2 3\n1 1 1\n2 2 1\n2 1 5\n"), 5, "across the diagonal is none", "2 1 5"),
+        ("mm", format!("{C}2 2 3\n1 1 1\n2 2 1\n2 1 5\n"), 5, "entry across the diagonal is missing", "2 1 5"),
         (
             "mm",
             format!("{C}2 2 4\n1 1 1\n2 1 5\n\n1 2 5.1\n2 2 1\n"),

@@ -494,10 +494,10 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     refused(&["a", "b"], "a shard of another request");
     shard("c", "2/2", &[]);
     refused(&["a", "c"], "a shard of 2");
-    refused(&["a", "a/shard-1-of-3"], "is there twice");
+    refused(&["a", "a/shard-1-of-3"], "is given twice");
     refused(&["nowhere"], "nowhere");
     fs::create_dir(path.join("empty")).unwrap();
-    refused(&["empty"], "no shard of a sweep, and none within");
+    refused(&["empty"], "not a shard of a sweep, and contains none");
     // One that was begun and not finished.
     let mut child =
         tool(&path, &["sweep", "study.toml", "--out", "a", "--shard", "2/3", "--threads", "1"]).spawn().unwrap();

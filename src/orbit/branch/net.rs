@@ -14,7 +14,7 @@ pub(super) struct Net<'r, C> {
     graph: Graph,
     queue: VecDeque<(usize, Passed<C>)>,
     request: &'r Request,
-    /// For each branch the number of its points and of the branches that it continues.
+    /// For each branch, the number of its own points plus those of the branches that it continues.
     used: Vec<usize>,
 }
 
@@ -38,8 +38,8 @@ impl<'r, C: Followed> Net<'r, C> {
         self.graph.branches.len() - 1
     }
 
-    /// Follows a branch to both sides of `y`, and adds it: after so many switches, and so many
-    /// points of the branches that it goes on from.
+    /// Follows a branch from `y` in both directions, and adds it; `depth` switches lead to it, and
+    /// the branches that it continues have `used` points.
     fn both(
         &mut self,
         curve: &C,

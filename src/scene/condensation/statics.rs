@@ -96,7 +96,7 @@ impl<'a> Statics<'a> {
             match self.number.get(i) {
                 Some(Ok(a)) => outer.push((*a, weight)),
                 Some(Err(b)) => inner.push((*b, weight)),
-                // The check of the scene reports this, with the name.
+                // The check of the scene reports this error, with the name of the row.
                 None => outer.push((i, weight)),
             }
         }

@@ -3,8 +3,8 @@
 use super::{Line, TextError};
 use crate::linear::Symmetric;
 
-/// Relative tolerance between two entries across the diagonal: a share of the larger, or of √|aᵢᵢ
-/// aⱼⱼ|.
+/// Tolerance between an entry and its mirror across the diagonal, relative to the larger or to
+/// √|aᵢᵢ aⱼⱼ|.
 const SYMMETRIC: f64 = 1e-12;
 
 /// One entry and the line it was read from.
@@ -51,7 +51,11 @@ pub(super) fn symmetric(n: usize, mut entries: Vec<Entry<'_>>, half: bool) -> Re
         } else {
             let scale = (diagonal[first.row] * diagonal[first.column]).abs().sqrt();
             if !half && first.row != first.column && first.value.abs() > SYMMETRIC * scale {
-                let message = format!("{} is {:?}, and across the diagonal is none", named(first), first.value);
+                let message = format!(
+                    "{} is {:?}, and its mirror entry across the diagonal is missing",
+                    named(first),
+                    first.value
+                );
                 return Err(first.line.error(message, "both entries of a pair, or the header word symmetric"));
             }
             merged.push((first.row, first.column, first.value));

@@ -77,8 +77,8 @@ impl Modes {
         Self::finish(structure, shapes)
     }
 
-    /// The `count` slowest modes of two equal planes, of each of which these are the modes: each
-    /// first in the plane y, then in the plane z.
+    /// The `count` slowest modes of a structure in two equal planes, given the modes of one plane:
+    /// each mode first in the plane y, then in the plane z.
     fn in_two_planes(self, count: usize) -> Self {
         let still = vec![0.0; self.shapes.first().map_or(0, Vec::len)];
         let both = |shape: Vec<f64>| [[shape.as_slice(), &still].concat(), [still.as_slice(), &shape].concat()];
@@ -168,9 +168,9 @@ impl Modes {
     }
 }
 
-/// M and K of one half of the degrees of freedom where the other half has the same and the two do
-/// not feel each other, as the two planes of a tube. Their modes are found once. Besides, modes of
-/// equal ω are an arbitrary basis of their space: so each of them lies in one plane.
+/// M and K of one half of the degrees of freedom, if the other half has the same and the two are
+/// uncoupled, as the two planes of a tube. Their modes are then computed once, and each of them
+/// lies in one plane; otherwise modes of equal ω would be an arbitrary basis of their space.
 fn twin(structure: &Structure) -> Option<Structure> {
     let n = structure.mass.size();
     let half = |matrix: &Symmetric| {

@@ -63,7 +63,7 @@ impl WallTruncation {
     }
 }
 
-/// What becomes of the initial state.
+/// Whether the initial state is reduced.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Start {
     /// It is reduced too.

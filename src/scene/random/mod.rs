@@ -7,13 +7,13 @@ use crate::hash;
 use crate::linear::fourier::inverse;
 use std::f64::consts::{PI, TAU};
 
-/// Most rows of a random table: 16 a shortest period.
+/// Most rows of a random table, which has 16 per shortest period.
 const MOST_ROWS: f64 = 16_777_216.0;
 
 /// Rows of the table in the period of the fastest line, at least.
 const ROWS_A_PERIOD: usize = 16;
 
-/// Rounding of a band's ends in lines: an end on a line includes it.
+/// Rounding allowance for the ends of a band, in spacings of lines: a line at an end is included.
 const ON_LINE: f64 = 1e-9;
 
 /// A one-sided power spectral density.
@@ -23,9 +23,9 @@ pub enum Density {
     Flat {
         /// Root mean square of the force, N.
         rms: f64,
-        /// Where the band begins, Hz.
+        /// Lower end of the band, Hz.
         from: f64,
-        /// Where it ends, Hz.
+        /// Upper end of the band, Hz.
         to: f64,
     },
     /// Pairs (frequency in Hz, density in N²/Hz), with increasing frequencies: straight between
@@ -136,7 +136,7 @@ impl RandomForce {
 }
 
 impl Density {
-    /// The frequencies between which it is not zero, Hz.
+    /// The frequencies between which the density is not zero, Hz.
     fn band(&self) -> [f64; 2] {
         match self {
             Self::Flat { from, to, .. } => [*from, *to],
@@ -144,8 +144,8 @@ impl Density {
         }
     }
 
-    /// S(f) within the band, N²/Hz; for [`Density::Flat`] the whole mean square, N², since its
-    /// share of a line depends on their number.
+    /// S(f) within the band, N²/Hz; for [`Density::Flat`] the whole mean square, N², since the
+    /// share of each line depends on the number of lines.
     fn at(&self, f: f64) -> f64 {
         match self {
             Self::Flat { rms, .. } => rms * rms,
@@ -159,7 +159,7 @@ impl Density {
         }
     }
 
-    /// Refuses what is no density.
+    /// Refuses an invalid density.
     fn validate(&self) -> Result<()> {
         match self {
             Self::Flat { rms, from, to } => {

@@ -1,5 +1,5 @@
-//! Random designs: every coordinate of every point is a function of seed, point and dimension
-//! alone, so that rows can be computed in any order, on any machine, and again.
+//! Random designs: every coordinate of every point is a function of seed, point and dimension only,
+//! so that rows can be computed in any order, on any machine, and repeatedly.
 
 mod latin;
 mod normal;

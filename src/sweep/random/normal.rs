@@ -167,8 +167,8 @@ mod tests {
 
     #[test]
     fn quantiles_have_their_tabulated_values() {
-        // To the digits in which they are commonly tabulated; the algorithm's own test values in
-        // the paper are the first two.
+        // Values with as many digits as are commonly tabulated; the first two are the algorithm's
+        // own test values in the paper.
         for (p, x) in [
             (0.25, -0.674_489_750_196_081_7),
             (0.001, -3.090_232_306_167_813),
@@ -184,7 +184,7 @@ mod tests {
     fn the_quantile_undoes_the_distribution() {
         for i in -70..=70 {
             let x = 0.1 * f64::from(i);
-            // Above 0 what is told of the tail is 1 less it, to 1e-16 of 1.
+            // Above 0 the tail is computed as a difference from 1, with an error of 1e-16.
             let slack = 1e-14 * (1.0 + x.abs()) + if x > 0.0 { 2e-16 * (0.5 * x * x).exp() * 2.6 } else { 0.0 };
             assert!((quantile(below(x)) - x).abs() < slack, "{x}: {:e}", quantile(below(x)) - x);
         }

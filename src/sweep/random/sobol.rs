@@ -54,7 +54,7 @@ pub(super) fn share(seed: Option<u64>, point: u64, dimension: usize) -> f64 {
     f64::from(bits) / 2.0_f64.powi(BITS as i32)
 }
 
-/// Owen's nested scrambling by a hash in which every bit depends on those above it alone (Burley,
+/// Owen's nested scrambling by a hash in which every bit depends only on those above it (Burley,
 /// Practical hash-based Owen scrambling, JCGT 9(4), 2020, after Laine & Karras 2011).
 fn scrambled(bits: u32, seed: u32) -> u32 {
     let mut x = bits.reverse_bits();
