@@ -120,9 +120,10 @@ fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) -> sg::Result<()> {
 /// The numbers of one run.
 fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Vec<f64>> {
     let options = sg::Options::new(plan.time);
-    let statistics = match judge {
-        true => sg::run(scene, &plan.method, &options)?.unrefuted()?.statistics,
-        false => sg::run(scene, &plan.method, &options.unjudged())?.statistics,
+    let statistics = if judge {
+        sg::run(scene, &plan.method, &options)?.unrefuted()?.statistics
+    } else {
+        sg::run(scene, &plan.method, &options.unjudged())?.statistics
     };
     Ok(statistics.walls.iter().flat_map(|wall| COLUMNS.map(|(_, number)| number(wall))).collect())
 }

@@ -45,12 +45,11 @@ impl Builder<'_> {
                 let place = Place::Towards { place: Box::new(site.place), degrees };
                 // The place was read already, so that this cannot fail.
                 let row = self.planes.row(&self.model, &place)?;
-                match row.is_blind() {
-                    true => {
-                        let title = format!("{owner}: nothing moves there towards {degrees} deg");
-                        Err(self.source.error(at, &title, "expected a direction in which the place can move"))
-                    }
-                    false => Ok(Site { place, row, ..site }),
+                if row.is_blind() {
+                    let title = format!("{owner}: nothing moves there towards {degrees} deg");
+                    Err(self.source.error(at, &title, "expected a direction in which the place can move"))
+                } else {
+                    Ok(Site { place, row, ..site })
                 }
             }
         }

@@ -75,9 +75,10 @@ impl Builder<'_> {
 
     fn seed(&self, owner: &str, seed: &Spanned<Number>) -> Result<u64> {
         let x = seed.get_ref().0;
-        match x.fract() == 0.0 && (0.0..=MOST_SEED).contains(&x) {
-            true => Ok(x as u64),
-            false => Err(self.refuse(seed.span(), &format!("{owner}: seed"), "a whole number from 0 to 2^53")),
+        if x.fract() == 0.0 && (0.0..=MOST_SEED).contains(&x) {
+            Ok(x as u64)
+        } else {
+            Err(self.refuse(seed.span(), &format!("{owner}: seed"), "a whole number from 0 to 2^53"))
         }
     }
 

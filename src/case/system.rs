@@ -78,12 +78,11 @@ impl Builder<'_> {
             let damping = self.number(("oscillator", "damping"), &o.damping);
             let stiffness = self.number(("oscillator", "stiffness"), &o.stiffness);
             let system = System::Oscillator(Oscillator { mass, damping, stiffness });
-            let (system, planes) = match two {
-                false => (system, Planes::One),
-                true => {
-                    system.validate().map_err(|error| self.at_key(error))?;
-                    (system.structure().in_two_planes().into(), Planes::Two(1))
-                }
+            let (system, planes) = if two {
+                system.validate().map_err(|error| self.at_key(error))?;
+                (system.structure().in_two_planes().into(), Planes::Two(1))
+            } else {
+                (system, Planes::One)
             };
             return Ok(Built { model: Model::Oscillator, system, planes, pending: None });
         }

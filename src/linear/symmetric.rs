@@ -32,9 +32,10 @@ impl TryFrom<Stored> for Symmetric {
             columns.get(span[0]..span[1]).is_some_and(|row| row.last() == Some(&i) && increasing(row))
         });
         let ends = starts.first() == Some(&0) && starts.last() == Some(&columns.len());
-        match ends && columns.len() == values.len() && sound.all(|row| row) {
-            true => Ok(Self { starts, columns, values }),
-            false => Err("rows that are no lower triangle with its diagonal"),
+        if ends && columns.len() == values.len() && sound.all(|row| row) {
+            Ok(Self { starts, columns, values })
+        } else {
+            Err("rows that are not a lower triangle with its diagonal")
         }
     }
 }

@@ -108,9 +108,10 @@ fn realisations(summary: &Value) -> Option<Value> {
         None => format!("{} N", short(number(value))),
     };
     let step = &most["half_step"];
-    let changed = match step["change"].is_null() {
-        true => String::new(),
-        false => format!("; half the step changes it by {}", told(&step["change"], &step["half_width_95"])),
+    let changed = if step["change"].is_null() {
+        String::new()
+    } else {
+        format!("; half the step changes it by {}", told(&step["change"], &step["half_width_95"]))
     };
     let text = format!(
         "{}: mean force {}{changed}.",
@@ -123,9 +124,10 @@ fn realisations(summary: &Value) -> Option<Value> {
     let relative = number(&most["half_width_95"]) / number(&most["mean"]);
     let state = if relative <= SCATTER && step["larger"] != "step" { State::Good } else { State::Mind };
     let of = if count > 1.0 { format!("over {count} realisations") } else { "from ten batches of one".to_owned() };
-    let verdict = match relative.is_finite() {
-        true => format!("The mean force is known to ±{} {of}", percent(relative)),
-        false => "The mean force has no interval: too few contacts".to_owned(),
+    let verdict = if relative.is_finite() {
+        format!("The mean force is known to ±{} {of}", percent(relative))
+    } else {
+        "The mean force has no interval: too few contacts".to_owned()
     };
     Some(card("Realisations", state, verdict, text))
 }

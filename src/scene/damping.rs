@@ -76,13 +76,13 @@ fn modal(ratios: &[f64], structure: &Structure) -> Result<Symmetric> {
     let uncoupled = structure.mass.half_bandwidth() == 0 && structure.stiffness.half_bandwidth() == 0;
     for (i, &ratio) in ratios.iter().enumerate() {
         let key = Subject::from(("damping", "ratios")).value(i);
-        match uncoupled {
-            true => above_minus_one(key, ratio)?,
-            false if ratio < 0.0 => {
-                let expected = "0 or more, or a structure cut to modes: negative ratios are for uncoupled modes";
-                return Err(Error::invalid(key, format_args!("{ratio:?}"), expected));
-            }
-            false => nonnegative(key, ratio)?,
+        if uncoupled {
+            above_minus_one(key, ratio)?;
+        } else if ratio < 0.0 {
+            let expected = "0 or more, or a structure cut to modes: negative ratios are for uncoupled modes";
+            return Err(Error::invalid(key, format_args!("{ratio:?}"), expected));
+        } else {
+            nonnegative(key, ratio)?;
         }
     }
     let ratio = |i: usize| ratios.get(i).copied().unwrap_or(last);

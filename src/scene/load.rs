@@ -126,9 +126,10 @@ impl Table {
 
     /// The same forces times `weight`.
     pub(super) fn scaled(&self, weight: f64) -> Self {
-        let force = match weight == 1.0 {
-            true => Arc::clone(&self.force),
-            false => Arc::new(self.force.iter().map(|f| weight * f).collect()),
+        let force = if weight == 1.0 {
+            Arc::clone(&self.force)
+        } else {
+            Arc::new(self.force.iter().map(|f| weight * f).collect())
         };
         Self { time: Arc::clone(&self.time), force, pace: self.pace }
     }

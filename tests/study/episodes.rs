@@ -77,9 +77,9 @@ fn the_last_bounces_of_a_ball_are_one_episode() {
 
 #[test]
 fn elastic_walls_alone_have_peak_forces() {
-    let wall = |elastic: bool| match elastic {
-        true => Wall::upper("stop", 1e-3).with_elasticity(1e5, 0.0),
-        false => Wall::upper("stop", 1e-3).with_restitution(0.5),
+    let wall = |elastic: bool| {
+        let stop = Wall::upper("stop", 1e-3);
+        if elastic { stop.with_elasticity(1e5, 0.0) } else { stop.with_restitution(0.5) }
     };
     for elastic in [true, false] {
         let scene = Scene::oscillator(1.0, 0.2, 100.0).with_wall(wall(elastic));

@@ -166,11 +166,10 @@ impl Density {
                 positive(key("rms"), *rms)?;
                 positive(key("from"), *from)?;
                 finite(key("to"), *to)?;
-                match to > from {
-                    true => Ok(()),
-                    false => {
-                        Err(Error::invalid(key("to"), format_args!("{to:?}"), format!("more than from, {from:?}")))
-                    }
+                if to > from {
+                    Ok(())
+                } else {
+                    Err(Error::invalid(key("to"), format_args!("{to:?}"), format!("more than from, {from:?}")))
                 }
             }
             Self::Points(points) => {
