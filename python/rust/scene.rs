@@ -65,9 +65,13 @@ impl Scene {
     /// ValueError
     ///     For the first value that makes no sense: which, and what would be accepted.
     ///
-    /// Examples -------- >>> import signorini as sg >>> free = sg.oscillator(1.0, 0.2, 100.0) >>>
-    /// free.replace(walls=[sg.Wall.upper("stop", 5e-3)], velocity=0.1).run("event").impulse("stop")
-    /// < 0 True
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> free = sg.oscillator(1.0, 0.2, 100.0)
+    /// >>> struck = free.replace(walls=[sg.Wall.upper("stop", 5e-3)], velocity=0.1)
+    /// >>> struck.run("event").impulse("stop") < 0
+    /// True
     #[pyo3(signature = (*, walls=None, loads=None, probes=None, displacement=None, velocity=None, duration=None,
                         damping=None, modes=None, static_correction=None))]
     #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
