@@ -1,4 +1,4 @@
-//! What a panel shows: curves, stems and marks.
+//! The contents of a panel: curves, stems and marks.
 
 use super::look::Role;
 

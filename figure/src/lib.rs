@@ -1,4 +1,4 @@
-//! Figures for a paper: data in, SVG text out. This module depends on no scene and no scheme.
+//! Figures for a paper: data in, SVG text out. This crate does not depend on scenes or schemes.
 //!
 //! | type | what it draws |
 //! |---|---|

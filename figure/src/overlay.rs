@@ -72,7 +72,7 @@ struct Run {
     points: Vec<(f64, f64)>,
 }
 
-/// What is drawn over the points.
+/// The lines and signs over the points.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Overlay {
     lines: Vec<Run>,
@@ -92,7 +92,7 @@ impl Overlay {
         self.lines.is_empty() && self.signs.is_empty()
     }
 
-    /// Draws lines, then signs; what cannot be drawn breaks a line.
+    /// Draws lines, then signs; a point that cannot be drawn breaks a line.
     pub fn draw(&self, canvas: &mut Canvas, frame: &PlotArea<'_>) {
         let spot = |(x, y): (f64, f64)| Some((frame.across(frame.x_axis.share(x)?), frame.up(frame.y_axis.share(y)?)));
         // Unstable ones beneath, so that stable ones stay whole.

@@ -1,5 +1,5 @@
-//! Many points over two axes, binned as fast as they come: the size of the picture is bounded
-//! whatever their number.
+//! Many points over two axes, binned as they are added, so that the size of the picture does not
+//! grow with their number.
 
 use super::axis::{Axis, Extent, Scale};
 use super::legend::Legend;
@@ -21,7 +21,7 @@ const RIGHT: f64 = 24.0;
 const ALONE: &str = "#000000";
 const COLOURS: [&str; 2] = ["#d55e00", "#0072b2"];
 const BOTH: &str = "#000000";
-/// Of a group beneath lines.
+/// Colour of a group beneath lines.
 const BENEATH: &str = "#b4b4b4";
 
 /// Points of up to two groups over two axes.
@@ -54,7 +54,7 @@ pub struct Scatter {
     groups: Vec<String>,
     columns: usize,
     rows: usize,
-    /// Of each cell a bit for each group that has a point in it.
+    /// For each cell, a bit for each group that has a point in it.
     cells: Vec<u8>,
     overlay: Overlay,
 }
@@ -146,7 +146,7 @@ impl Scatter {
         canvas.finish()
     }
 
-    /// Which cells have which colour.
+    /// The colour of each combination of groups.
     fn colours(&self) -> Vec<(u8, &'static str)> {
         match self.groups.len() {
             0 | 1 if !self.overlay.is_empty() => vec![(1, BENEATH)],

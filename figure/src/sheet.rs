@@ -40,13 +40,13 @@ struct Column {
     axis: Axis,
 }
 
-/// Side of the frame of a square figure, and where there are several.
+/// Side of the frame of a square figure with one panel, and with several.
 const SIDE: f64 = 420.0;
 const SIDE_OF_SEVERAL: f64 = 300.0;
 
 /// Share of the width for the whole beside a detail, and the space between the two.
 const WHOLE: f64 = 0.42;
-/// How much wider bold letters are.
+/// Factor by which bold letters are wider.
 const BOLD: f64 = 1.1;
 const BETWEEN: f64 = 26.0;
 

@@ -1,14 +1,14 @@
-//! What Rust hands over as JSON or lists, as Python's objects.
+//! JSON and lists of the Rust side as Python objects.
 
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
-/// JSON as Python's objects.
+/// JSON as Python objects.
 pub fn loads<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (text,))
 }
 
-/// A list of what `items` give.
+/// A list of `items`.
 pub fn list<'py, T: IntoPyObject<'py>>(
     py: Python<'py>,
     items: impl IntoIterator<Item = T>,

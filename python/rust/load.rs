@@ -21,7 +21,7 @@ pub struct Load {
 /// The load, if its values make sense.
 fn load(load: sg::Load, place: Place) -> PyResult<Load> {
     sg::Scene::oscillator(1.0, 0.0, 0.0).with_load(load.clone()).validate().map_err(|error| match error {
-        // It has no number yet.
+        // The load has no number yet.
         sg::Error::Invalid { subject, value, expected } => {
             let part = subject.parts().last().map_or("load".to_owned(), |part| match part {
                 sg::Part::Name(name) => name.to_string(),
@@ -89,9 +89,9 @@ impl Load {
         load(sg::Load::table(sg::Table::new(time, force).map_err(raise)?), at)
     }
 
-    /// The force (N) that ``force(time)`` returns, of the time in s alone: for the stepping
-    /// schemes, which ask it at the ends of their steps. The exact scheme refuses it, and it cannot
-    /// be pickled. An exception that it raises ends the run and is passed on.
+    /// The force (N) that ``force(time)`` returns, a function of the time in s only: for the
+    /// stepping schemes, which evaluate it at the ends of their steps. The exact scheme refuses it,
+    /// and it cannot be pickled. An exception that it raises ends the run and is passed on.
     ///
     /// Examples
     /// --------
@@ -104,7 +104,7 @@ impl Load {
         if !force.is_callable() {
             return Err(PyTypeError::new_err(format!("force is {}; expected a function of the time", force.repr()?)));
         }
-        // Asked once here, so that what is no force is told at once.
+        // Evaluated once here, so that an invalid function is refused at once.
         force.call1((0.0,))?.extract::<f64>()?;
         let force = force.unbind();
         let at_time = move |t: f64| {

@@ -1,4 +1,4 @@
-//! What a scene was made from, where that differs from what is run.
+//! The scene from which another was made by damping, condensation or reduction.
 
 use serde::{Deserialize, Serialize};
 use signorini as sg;

@@ -1,11 +1,11 @@
-//! Where on a structure something is, in Python's terms, and the structure that resolves it.
+//! Locations on a structure as Python passes them, and the structure that resolves them.
 
 use crate::error::wrong;
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 use signorini as sg;
 
-/// A location as given: it means something only on a structure.
+/// A location as given; its meaning depends on the structure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Place {
     /// Not given: the only degree of freedom.
@@ -51,7 +51,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Place {
     }
 }
 
-/// What a scene was built from: it decides what locations mean.
+/// The kind of structure of a scene, which decides what locations mean.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Model {
     /// An oscillator, a chain or matrices: degrees of freedom by their numbers.

@@ -25,7 +25,7 @@ impl Plan {
         };
         let step = match (step, method.scheme) {
             (Some(step), _) => step,
-            // It has none; half the duration passes every check of a step.
+            // The exact scheme has no step; half the duration passes every check of a step.
             (None, sg::Scheme::Event) => 0.5 * scene.duration,
             (None, _) => return Err(wrong("step", "missing", &format!("the step of {method} in s, or accuracy"))),
         };

@@ -36,7 +36,7 @@ impl Run {
         sg::Method { scheme: self.run.scheme, backend: self.run.backend }
     }
 
-    /// Calls a function of the Python side, which does what needs no Rust.
+    /// Calls a function of the Python half of the package.
     fn by_python<'py>(slf: &Bound<'py, Self>, function: &str) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("signorini._run")?.call_method1(function, (slf,))
     }
@@ -56,7 +56,7 @@ impl Run {
         self.run.scheme.to_string()
     }
 
-    /// The step, s; None of the exact scheme.
+    /// The step, s; None for the exact scheme.
     #[getter]
     fn step(&self) -> Option<f64> {
         (self.run.scheme != sg::Scheme::Event).then_some(self.run.grid.step)
@@ -242,13 +242,13 @@ impl Run {
         self.run.seconds
     }
 
-    /// What a reader of the results must know, in sentences.
+    /// Notes that a reader of the results must know, in sentences.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.run.notes.clone()
     }
 
-    /// What the judge refutes, in sentences; empty for a sound run.
+    /// The judge's findings, in sentences; empty for a sound run.
     #[getter]
     fn findings(&self) -> Vec<String> {
         self.run.findings.iter().map(ToString::to_string).collect()

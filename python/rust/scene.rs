@@ -21,11 +21,11 @@ use signorini as sg;
 #[pyclass(frozen, eq, module = "signorini", from_py_object)]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
-    /// What is run.
+    /// The scene that is run.
     pub scene: sg::Scene,
-    /// How its places are understood.
+    /// How its locations are interpreted.
     pub model: Model,
-    /// What it was made from, where that differs.
+    /// The scene from which it was made, where that differs.
     pub origin: Option<Box<Origin>>,
 }
 
@@ -37,7 +37,7 @@ impl Scene {
 
 #[pymethods]
 impl Scene {
-    /// The scene with other values of what is named; the rest stays.
+    /// The scene with the given values in place of its own.
     ///
     /// Parameters
     /// ----------
@@ -102,7 +102,7 @@ impl Scene {
                 Ok(sg::Wall { at, ..wall })
             };
             scene.walls = walls.into_iter().map(stand).collect::<PyResult<_>>()?;
-            // The supports of a case file are made of its own walls.
+            // The supports of a case file refer to its own walls.
             scene.supports.clear();
         }
         if let Some(loads) = loads {
@@ -126,8 +126,8 @@ impl Scene {
         if let (Some(_), sg::System::Oscillator(_)) = (&damping, &scene.system) {
             return Err(wrong(
                 "damping",
-                "given beside that of the oscillator",
-                "none: `oscillator` takes it, in N s/m",
+                "given, beside that of the oscillator",
+                "no damping here: `oscillator` takes it, in N s/m",
             ));
         }
         origin.damping = damping.map(|damping| damping.0).or(origin.damping);
@@ -140,20 +140,14 @@ impl Scene {
 
     /// Runs the scene to its end.
     ///
-    /// Parameters
-    /// ----------
-    /// scheme : str, optional
-    ///     A scheme in the words of the command-line tool: ``"moreau-jean"``, ``"event"``,
-    ///     ``"penalty:epsilon=1e-9"``, ``"moreau-jean:theta=0.6,qp=clarabel"``; chosen if left out.
-    /// step : float, optional
-    ///     s. Every scheme but ``event`` needs one, or ``accuracy``.
-    /// accuracy : float, optional
-    ///     The error to keep, as a share of the gap; scheme and step that keep it are found.
-    ///     `AccuracyWarning` tells where it is not kept to the end.
-    /// sample : float, optional
-    ///     Time between two recorded rows, s; every step, or a thousand rows of ``event``.
-    /// statistics_from : float
-    ///     Where the window of the statistics begins, s.
+    /// Parameters ---------- scheme : str, optional A scheme in the words of the command-line tool:
+    /// ``"moreau-jean"``, ``"event"``, ``"penalty:epsilon=1e-9"``,
+    /// ``"moreau-jean:theta=0.6,qp=clarabel"``; chosen if left out. step : float, optional s. Every
+    /// scheme but ``event`` needs one, or ``accuracy``. accuracy : float, optional The error to
+    /// keep, as a share of the gap; scheme and step that keep it are found. An `AccuracyWarning`
+    /// says so where it is not kept to the end. sample : float, optional Time between two recorded
+    /// rows, s; every step, or a thousand rows of ``event``. statistics_from : float Where the
+    /// window of the statistics begins, s.
     ///
     /// Returns
     /// -------

@@ -1,4 +1,4 @@
-//! Runs are made, and judged.
+//! Runs scenes, and raises where the judge refutes the run.
 
 use crate::error::{AccuracyWarning, RefutedError, raise, wrong};
 use crate::plan::Plan;
@@ -27,7 +27,7 @@ impl Run {
         statistics_from: f64,
     ) -> PyResult<Py<Self>> {
         if let Some(step) = step {
-            return Err(wrong("step", format!("{step:?}"), "none beside accuracy, which finds the step"));
+            return Err(wrong("step", format!("{step:?}"), "no step beside accuracy, which finds one"));
         }
         let py = scene.py();
         let inner = &scene.get().scene;

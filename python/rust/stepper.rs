@@ -11,19 +11,14 @@ use signorini as sg;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Steps between two looks at the clock, and the time between two looks for signals.
+/// Steps between two readings of the clock, and time between two checks for signals.
 const STRIDE: u64 = 16;
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// Advances a scene step by step: for co-simulation and control.
 ///
-/// Parameters
-/// ----------
-/// scene : Scene
-/// scheme : str
-///     As in `Scene.run`.
-/// step : float
-///     s; of ``event`` the longest stretch of a step.
+/// Parameters ---------- scene : Scene scheme : str As in `Scene.run`. step : float s; for
+/// ``event`` the maximum length of a step.
 ///
 /// Raises
 /// ------
@@ -41,8 +36,8 @@ const INTERVAL: Duration = Duration::from_millis(50);
 /// (0.02, True)
 #[pyclass(module = "signorini")]
 pub struct Stepper {
-    /// Never locked, since whoever has the stepper has it alone: it makes the class one that
-    /// threads may share.
+    /// Never contended, since each caller has exclusive access to the stepper: it makes the class
+    /// `Sync`.
     inner: Mutex<Inner>,
 }
 
@@ -74,7 +69,7 @@ impl Inner {
             Some(Force::Values(Values::Several(force))) => self.stepper.step_with(force),
             Some(Force::Array(force)) => match force.as_slice() {
                 Ok(force) => self.stepper.step_with(force),
-                // A stretched view, such as every second entry.
+                // A view with strides, such as every second entry.
                 Err(_) => self.stepper.step_with(&force.as_array().to_vec()),
             },
         };
@@ -168,7 +163,7 @@ impl Stepper {
             });
         };
         loop {
-            // The function may look at the stepper: it is not borrowed meanwhile.
+            // The function may access the stepper, which is therefore not borrowed during the call.
             let (time, state) = {
                 let mut this = slf.try_borrow_mut()?;
                 let stepper = &this.inner().stepper;
@@ -186,7 +181,7 @@ impl Stepper {
         }
     }
 
-    /// Puts the scene into a state at a time: to repeat a step, or to go on from what was saved.
+    /// Sets time and state, to repeat a step or to continue from a saved state.
     ///
     /// Parameters
     /// ----------

@@ -1,4 +1,5 @@
-//! Studies of several runs: their numbers as lists and dictionaries, which the Python side shapes.
+//! Studies of several runs: their results as lists and dictionaries, from which the Python half
+//! makes tables.
 
 use crate::case::{Case, value};
 use crate::error::raise;

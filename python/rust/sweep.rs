@@ -1,4 +1,4 @@
-//! Many runs side by side: a row of numbers of each, and no motions.
+//! Many runs side by side: a row of numbers for each; motions are not kept.
 
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -14,7 +14,7 @@ use std::sync::{Mutex, PoisonError};
 /// A number of a wall; nan where there is none.
 type Number = fn(&WallStatistics) -> f64;
 
-/// The columns of a wall: how it is called, with the wall's name for {}, and where it comes from.
+/// The columns of a wall: the name, with the wall's name for {}, and the statistic.
 const COLUMNS: [(&str, Number); 13] = [
     ("contacts_{}", |w| w.contacts as f64),
     ("contact_rate_{}_per_s", |w| w.contact_rate_per_s),
@@ -37,7 +37,7 @@ pub fn _columns(walls: Vec<String>) -> Vec<String> {
     walls.iter().flat_map(|wall| COLUMNS.map(|(name, _)| name.replace("{}", wall))).collect()
 }
 
-/// A row of numbers a scene, and why there is none.
+/// A row of numbers for each scene, and the reason where there is none.
 type Rows<'py> = (Bound<'py, PyArray2<f64>>, Vec<Option<String>>);
 
 /// Runs scenes on threads without the interpreter's lock.
@@ -67,7 +67,7 @@ pub fn _run_many<'py>(
     let plans = scenes
         .iter()
         .map(|scene| {
-            // Two rows: nothing of the motion is kept.
+            // Two rows only: the motion is not kept.
             Plan::new(&scene.scene, scheme, step, Some(scene.scene.duration), statistics_from)
         })
         .collect::<PyResult<Vec<_>>>()?;
@@ -102,7 +102,7 @@ pub fn _run_many<'py>(
     Ok((PyArray1::from_vec(py, table).reshape([scenes.len(), width])?, errors))
 }
 
-/// Does `work` on several threads, under the interrupt that is over this one.
+/// Does `work` on several threads, which the interrupt of this thread stops too.
 fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) -> sg::Result<()> {
     let interrupt = sg::Interrupt::current();
     let done = || {

@@ -5,7 +5,7 @@ use crate::pickle::Reduced;
 use pyo3::prelude::*;
 use signorini as sg;
 
-/// Damping of a structure: a share of critical damping for all modes or one a mode, or Rayleigh's.
+/// Damping of a structure: a damping ratio for all modes or one per mode, or Rayleigh's.
 pub struct Damping(pub sg::Damping);
 
 impl<'a, 'py> FromPyObject<'a, 'py> for Damping {

@@ -17,7 +17,7 @@ pub struct Wall {
     pub place: Place,
 }
 
-/// What a wall answers to a body: rigid unless a stiffness is given.
+/// The contact law of a wall: rigid unless a stiffness is given.
 struct Law {
     restitution: Option<f64>,
     stiffness: Option<f64>,
@@ -39,7 +39,7 @@ fn wall(wall: sg::Wall, law: Law, at: Place) -> PyResult<Wall> {
         (None, Some(k), c) => wall.with_elasticity(k, c.unwrap_or(0.0)),
         (e, None, None) => wall.with_restitution(e.unwrap_or(1.0)),
     };
-    // Before the wall there is room for a body, wherever it stands.
+    // The body starts at the wall, so that the check passes wherever the wall stands.
     let start = if wall.position.is_finite() { wall.position } else { 0.0 };
     let one = sg::Scene::oscillator(1.0, 0.0, 0.0).with_initial(&[start], &[0.0]).with_wall(wall.clone());
     one.validate().map_err(raise)?;
@@ -128,19 +128,19 @@ impl Wall {
         if self.wall.side == sg::Side::Upper { "upper" } else { "lower" }
     }
 
-    /// The restitution of a rigid wall; None of an elastic one.
+    /// The restitution of a rigid wall; None for an elastic one.
     #[getter]
     fn restitution(&self) -> Option<f64> {
         self.wall.law.restitution()
     }
 
-    /// The stiffness of an elastic wall, N/m; None of a rigid one.
+    /// The stiffness of an elastic wall, N/m; None for a rigid one.
     #[getter]
     fn stiffness(&self) -> Option<f64> {
         if let sg::WallLaw::Elastic { stiffness, .. } = self.wall.law { Some(stiffness) } else { None }
     }
 
-    /// The damping of an elastic wall, N s/m; None of a rigid one.
+    /// The damping of an elastic wall, N s/m; None for a rigid one.
     #[getter]
     fn damping(&self) -> Option<f64> {
         if let sg::WallLaw::Elastic { damping, .. } = self.wall.law { Some(damping) } else { None }

@@ -8,11 +8,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use std::time::Duration;
 
-/// Time between two looks for signals while other threads work.
+/// Time between two checks for signals while other threads work.
 const INTERVAL: Duration = Duration::from_millis(50);
 
 thread_local! {
-    /// What a Python function that is a load has raised on this thread.
+    /// The exception raised on this thread by a Python function that is a load.
     static RAISED: RefCell<Option<PyErr>> = const { RefCell::new(None) };
 }
 
@@ -33,8 +33,8 @@ fn has_raised() -> bool {
     RAISED.with_borrow(Option::is_some)
 }
 
-/// Does `work` on this thread without the interpreter's lock. Signals are looked for every 50 ms;
-/// an exception that a handler raises (Ctrl-C: `KeyboardInterrupt`) ends the work and is passed on.
+/// Does `work` on this thread without the interpreter's lock. Signals are checked every 50 ms; an
+/// exception that a handler raises (Ctrl-C: `KeyboardInterrupt`) ends the work and is passed on.
 pub fn compute<T: Send>(py: Python<'_>, work: impl FnOnce() -> Result<T> + Send) -> PyResult<T> {
     let signal = Arc::new(Mutex::new(None));
     let heard = Arc::clone(&signal);
@@ -53,8 +53,8 @@ pub fn compute<T: Send>(py: Python<'_>, work: impl FnOnce() -> Result<T> + Send)
     }
 }
 
-/// Does `work`, which takes long and may use many threads, on a thread of its own; this one looks
-/// for signals and tells the caller's `watch` that time passes.
+/// Does `work`, which takes long and may use many threads, on a thread of its own. Meanwhile this
+/// thread checks for signals and calls the caller's `watch` from time to time.
 pub fn compute_beside<T: Send>(
     py: Python<'_>,
     work: impl FnOnce() -> Result<T> + Send,
@@ -84,7 +84,7 @@ pub fn compute_beside<T: Send>(
                 }
             }
         };
-        // A panic is told by its message, once, and does not go further.
+        // A panic has printed its message already; it is not passed on.
         let ended = py.detach(|| worker.join());
         match (signal.take(), outcome) {
             (Some(error), _) | (None, Some((_, Some(error)))) => Err(error),

@@ -119,7 +119,7 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("wear", "the table [wear] with coefficient (1/Pa), service (s) and, where wanted, support_coefficient, sectors"),
     ("wear.coefficient", "coefficient = a number above 0, in 1/Pa: the wear coefficient of the tube"),
     ("wear.support_coefficient", "support_coefficient = a number above 0, in 1/Pa: that of the supports"),
-    ("wear.service", "service = a number above 0, in s: the time for which the worn volume is told"),
+    ("wear.service", "service = a number above 0, in s: the time for which the worn volume is computed"),
     ("wear.sectors", "sectors = a whole number from 1 to 3600: parts of the circle around each support"),
     ("load", "one [[load]] table, in double brackets, for each load"),
     (
@@ -195,7 +195,7 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("penalty.integrator", "integrator = a name in quotes, such as \"discrete-gradient\""),
 ];
 
-/// Keys that are looked for in another table than theirs.
+/// Keys that users may write in the wrong table, with the right one.
 const ELSEWHERE: &[(&str, &str)] = &[
     ("statistics.force_window", "`force_averaging` in [time]: the stretch over which forces are averaged"),
     ("statistics.force_averaging", "`force_averaging` in [time]"),
@@ -204,7 +204,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("time.spectra", "`spectra` in [statistics]"),
 ];
 
-/// What a key that is in the wrong table is meant to be.
+/// The key that was probably meant by a key in the wrong table.
 pub(super) fn elsewhere(path: &str) -> Option<&'static str> {
     ELSEWHERE.iter().find(|(key, _)| *key == path).map(|(_, text)| *text)
 }

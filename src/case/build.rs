@@ -1,6 +1,6 @@
 //! Builds a case from a case file. The scene and the options check the values themselves; this
-//! module knows the position of each value in the file, and refuses what can be written but cannot
-//! be meant.
+//! module knows the position of each value in the file, and refuses combinations that the format
+//! allows but that make no sense.
 
 use super::builder::{Builder, MOST_MASSES, TableReader};
 use super::file::{self, File};

@@ -155,7 +155,7 @@ mod tests {
         for (path, words) in [
             ("wall.uper.position", "no wall is named \"uper\"; there is a, b"),
             ("load.2.harmonic.phase", "no load is named \"2\"; there is 1"),
-            ("probe.*.name", "no probe is named \"*\": there is none"),
+            ("probe.*.name", "no probe is named \"*\": none exists"),
             ("penalty.epsilon.2", "an entry of that list from 0 to below 2"),
             ("time.end.3", "a list or a table before .3"),
         ] {

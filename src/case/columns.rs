@@ -1,4 +1,4 @@
-//! Reads which columns of its file a table refers to.
+//! Reads the columns of its file to which a table refers.
 
 use super::builder::Builder;
 use super::table::TableColumns;
@@ -6,7 +6,7 @@ use super::value::Number;
 use crate::error::Result;
 use toml::Spanned;
 
-/// What the file says of the columns of a table: of times, and of values.
+/// The keys of the case file for the columns of a table: times and values.
 pub(super) struct Given<'a> {
     pub time: &'a Option<Spanned<String>>,
     pub value: &'a Option<Spanned<String>>,
@@ -27,7 +27,8 @@ impl Builder<'_> {
         self.open(name).map_err(|reason| {
             let help = format!("{}; its path is relative to the case file", columns.expected());
             let help = help.replacen("expected ", "expected a CSV file: ", 1);
-            // A table of a load says which file; other owners say so themselves.
+            // For a table of a load, the name of the file is added; other owners include it
+            // already.
             let title = match owner.strip_suffix(": table") {
                 Some(load) => format!("{load}: table {name:?}: {reason}"),
                 None => format!("{owner} {name:?}: {reason}"),

@@ -101,7 +101,7 @@ impl Builder<'_> {
                 self.written.matrices.push(("matrix", file.get_ref().clone()));
                 Ok(Damping::Matrix(self.matrix("damping", file)?))
             }
-            None => Err(self.source.error(span, "`system.damping` says nothing", help)),
+            None => Err(self.source.error(span, "`system.damping` has no kind of damping", help)),
         }
     }
 

@@ -1,4 +1,4 @@
-//! Reads what makes the flats of a `[[support]]`: their directions and their gaps.
+//! Reads the directions and gaps of the flats of a `[[support]]`.
 
 use super::builder::Builder;
 use super::file;

@@ -97,8 +97,8 @@ pub struct Case {
     /// The massless degrees of freedom that were condensed, before any reduction to modes; `None`
     /// where all have mass.
     pub condensation: Option<Condensation>,
-    /// The scene before the reduction to modes, and what the reduction cost; `None` for a case that
-    /// is not reduced.
+    /// The scene before the reduction to modes, and the errors of the reduction; `None` for a case
+    /// that is not reduced.
     pub truncated: Option<Truncated>,
     /// Step, recording and statistics.
     pub time: TimeOptions,

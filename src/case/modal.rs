@@ -12,7 +12,7 @@ use toml::Spanned;
 
 /// Description of the file of shapes, for messages.
 const SHAPES: &str = "expected a row for each point: its name, then its displacement in each mode, with commas \
-                      between them; a header above is passed over";
+                      between them; a header line above is ignored";
 
 impl Builder<'_> {
     /// The modes, and the points whose shapes are known.

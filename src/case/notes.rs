@@ -54,7 +54,7 @@ impl Case {
         ))
     }
 
-    /// What was condensed, and the walls that this affected.
+    /// The degrees of freedom that were condensed, and the walls that this affected.
     fn condensed(&self) -> Vec<String> {
         let Some(condensation) = &self.condensation else { return Vec::new() };
         let (left, kept) = (condensation.massless.len(), condensation.kept.len());
@@ -77,7 +77,7 @@ impl Case {
         notes
     }
 
-    /// What the reduction to modes cost.
+    /// The errors of the reduction to modes.
     fn cut_notes(&self) -> Vec<String> {
         let Some(Truncated { whole, reduction }) = &self.truncated else { return Vec::new() };
         let mut notes = Vec::new();

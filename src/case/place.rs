@@ -96,7 +96,7 @@ impl Builder<'_> {
                 // In the order of the file; the order in the parsed table may differ.
                 let later =
                     entries.iter().map(|entry| entry.0.span()).max_by_key(|span| span.start).unwrap_or(at.span());
-                let title = format!("{key} says more than one place");
+                let title = format!("{key} gives more than one place");
                 return Err(self.source.error(later, &title, &format!("expected one of {}", self.takes(load))));
             }
         };
@@ -169,7 +169,7 @@ impl Builder<'_> {
                 Err(self.refuse(
                     word.span(),
                     key,
-                    if names.is_empty() { "a point, which shapes has to name" } else { &wanted },
+                    if names.is_empty() { "the name of a point, which shapes must define" } else { &wanted },
                 ))
             }
         };

@@ -1,4 +1,4 @@
-//! Reads random loads, and makes them anew for another end.
+//! Reads random loads, and computes them again for another end of the run.
 
 use super::Case;
 use super::builder::Builder;
@@ -109,7 +109,7 @@ impl Builder<'_> {
                 "from" => from.as_ref().map(Spanned::span),
                 "to" | "band" => to.as_ref().map(Spanned::span).or_else(density),
                 "psd" => density(),
-                // An end that makes no duration is refused at its own key.
+                // An invalid end of the run is refused at its own key.
                 _ => None,
             },
             _ => None,
@@ -152,7 +152,8 @@ impl Case {
         Ok(case)
     }
 
-    /// Makes the random forces anew, for a run that ends at `end` (s): only their tables change.
+    /// Computes the random forces again, for a run that ends at `end` (s): only their tables
+    /// change.
     ///
     /// # Errors
     /// [`Error::Invalid`] where a random force has no line at this end or too many rows.
@@ -176,7 +177,7 @@ impl Case {
     }
 
     /// Changes the end of the run. The lines of a random force are multiples of 1/end, so random
-    /// loads are made anew.
+    /// loads are computed again.
     ///
     /// # Errors
     /// Those of the reduction to modes, and [`Error::Invalid`] where a random force has no line at

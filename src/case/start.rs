@@ -1,4 +1,4 @@
-//! Makes a scene start from the final state of another one.
+//! Makes a scene start from a given state, such as the final state of another run.
 
 use crate::scene::{Scene, State};
 

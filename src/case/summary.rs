@@ -11,14 +11,14 @@ use std::path::Path;
 pub(super) fn read(text: &str, path: &Path) -> Result<(String, String, Value)> {
     let failed = |reason: String| Error::io(path.display(), reason, true);
     let summary: Value =
-        serde_json::from_str(text).map_err(|error| failed(format!("no JSON: {error}")).caused_by(error))?;
+        serde_json::from_str(text).map_err(|error| failed(format!("not valid JSON: {error}")).caused_by(error))?;
     let written = summary.get("case_file").filter(|value| value.is_object()).ok_or_else(|| {
         let help = "a case file is a TOML text; of JSON files the summary.json of a run is read, which has a \
-                    `case_file` within";
-        failed(format!("no summary of a run\nhelp: {help}"))
+                    key `case_file`";
+        failed(format!("not the summary of a run\nhelp: {help}"))
     })?;
     let case = toml::to_string(written)
-        .map_err(|error| failed(format!("its `case_file` is no case file: {error}")).caused_by(error))?;
+        .map_err(|error| failed(format!("its `case_file` is not a case file: {error}")).caused_by(error))?;
     let name = summary.get("case").and_then(Value::as_str).unwrap_or("case").to_owned();
     Ok((format!("{name}.toml"), case, summary))
 }
@@ -37,7 +37,7 @@ pub(super) fn open(summary: &Value, file: &str) -> std::result::Result<(String, 
     };
     match word("sha256") {
         Some(digest) if digest != sha256(text.as_bytes()) => {
-            Err(format!("{at} is not what the run read: its SHA-256 was {digest}"))
+            Err(format!("{at} is not what the run read: the SHA-256 of that file was {digest}"))
         }
         _ => Ok((at.to_owned(), text)),
     }

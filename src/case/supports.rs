@@ -177,7 +177,7 @@ impl Builder<'_> {
         }
     }
 
-    /// What the depth of a scar depends on.
+    /// The values on which the depth of a scar depends.
     fn scarred(&mut self, owner: &Owner, support: &file::Support) -> Result<Scarred> {
         let width = self.above_0(&owner.name, "width", "m", support.width.as_ref())?;
         let radius = self.above_0(&owner.name, "radius", "m", support.radius.as_ref())?;

@@ -48,7 +48,7 @@ impl Builder<'_> {
         let one = "expected one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], \
                    [system.matrices], [system.modal]";
         match given.as_slice() {
-            [] => return Err(self.source.error(span, "`system` says nothing of what vibrates", one)),
+            [] => return Err(self.source.error(span, "`system` does not say what vibrates", one)),
             [_] => {}
             [(first, a), (second, b), ..] => {
                 let later = if a.start > b.start { a } else { b };
@@ -109,13 +109,13 @@ impl Builder<'_> {
             let structure = modal.structure();
             (Model::Modal(modal), structure)
         } else {
-            return Err(self.source.error(span, "`system` says nothing of what vibrates", one));
+            return Err(self.source.error(span, "`system` does not say what vibrates", one));
         };
         let mut structure = structure.map_err(|error| self.at_key(error))?;
         if let Some(damping) = system.damping {
             if own_damping.is_some() {
                 let help = "expected the damping beside the matrices or modes, or [system.damping]";
-                return Err(self.source.error(damping.span, "`system` says its damping twice", help));
+                return Err(self.source.error(damping.span, "`system` gives its damping twice", help));
             }
             let massless = !structure.massless().is_empty();
             let damping = self.damping(damping)?;

@@ -24,7 +24,7 @@ impl Case {
     /// [`Scene::reduced`].
     pub fn with_modes(mut self, modes: usize) -> Result<Self> {
         if let System::Oscillator(_) = self.scene.system {
-            return Err(Error::invalid("modes", modes, "none: the case has one degree of freedom"));
+            return Err(Error::invalid("modes", modes, "no modes: the case has one degree of freedom"));
         }
         let whole = match self.truncated.take() {
             Some(truncated) => truncated.whole,

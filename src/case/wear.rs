@@ -14,9 +14,10 @@ use toml::Spanned;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct WearOptions {
-    /// Wear coefficient of what slides at the supports, 1/Pa, where a support has none of its own.
+    /// Wear coefficient of the structure at the supports, 1/Pa, where a support has no coefficient
+    /// of its own.
     pub coefficient: Option<f64>,
-    /// Wear coefficient of the supports, 1/Pa, where a support has none of its own.
+    /// Wear coefficient of the supports, 1/Pa, where a support has no coefficient of its own.
     pub support_coefficient: Option<f64>,
     /// Time in service, s.
     pub service: Option<f64>,
@@ -73,14 +74,14 @@ impl Builder<'_> {
         self.whole("sectors", value, TimeOptions::MOST_SECTORS)
     }
 
-    /// Where the support of that name has a coefficient.
+    /// The position of the coefficient of the support `name`, if it has one.
     fn coefficient_of(&self, name: &str) -> Option<Range<usize>> {
         let subject = crate::error::Subject::support(name).part("coefficient");
         self.places.iter().find(|(known, _)| *known == subject).map(|(_, at)| at.clone())
     }
 }
 
-/// What to write where a service is missing.
+/// Help for a missing service.
 const SERVICE: &str =
     "expected service = a number above 0, in s, in [wear]: volume = coefficient x work rate x service";
 

@@ -145,8 +145,8 @@ mod tests {
     use crate::scene::counted as checked;
     use clap::Parser;
 
-    /// How often `signorini run CASE --no-verdict` checks a scene, and the sizes of the matrices
-    /// that it factors.
+    /// Number of times that `signorini run CASE --no-verdict` checks a scene, and the sizes of the
+    /// matrices that it factors.
     fn counted(case: &str) -> (usize, Vec<usize>) {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("out").display().to_string();

@@ -2,7 +2,7 @@
 
 use crate::study::compare::Comparison;
 
-/// Every note of the rows, with the methods it applies to.
+/// Every note of the rows, with the methods to which it applies.
 pub(super) fn of_rows(comparison: &Comparison) -> Vec<String> {
     let runs =
         comparison.rows.iter().filter_map(|row| Some((row.method.to_string(), &row.outcome.as_ref().ok()?.notes)));

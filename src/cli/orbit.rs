@@ -43,11 +43,11 @@ pub struct Args {
     case: String,
     #[command(flatten)]
     changes: Changes,
-    /// Forcing periods that are run before the motion is looked at for repeating itself
+    /// Forcing periods that are run before the motion is checked for repetition
     #[arg(long, value_name = "N", default_value_t = 400)]
     settle: u32,
-    /// List all orbits of one impact a turn (or one on each of two mirrored walls) up to 8 forcing
-    /// periods, from closed forms; for any number of degrees of freedom
+    /// List all orbits of one impact per period of the orbit (or one on each of two mirrored walls)
+    /// up to 8 forcing periods, from closed forms; for any number of degrees of freedom
     #[arg(long, conflicts_with_all = ["signature", "from", "settle"])]
     list: bool,
     /// Events of the orbit, such as UL or upper,lower
@@ -129,7 +129,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     match known.admissible.reason(problem.scene()) {
         Some(reason) => Err(Error::no_orbit(format!("no body can follow what was found: {reason}"))),
         None if !judged.holds() => Err(Error::no_orbit(format!(
-            "the free run from it does not come back: it misses by {:.1e} of the gap, where {:.1e} is rounding{}",
+            "the free run from it does not come back: it misses its start by {:.1e} of the gap, and rounding explains {:.1e}{}",
             judged.closure,
             judged.tolerance,
             if judged.same_events { "" } else { ", and goes through other events" }
@@ -281,7 +281,7 @@ fn multipliers(floquet: &Floquet) -> Vec<String> {
 fn list(case: &Case, ui: &Ui) -> Result<()> {
     let scene = &case.scene;
     let forms = closed_forms(scene, LISTED)?;
-    // Several degrees of freedom are not looked at between the impacts.
+    // With several degrees of freedom the motion between the impacts is not checked.
     let problem = Problem::new(scene.clone()).ok();
     let holds = |form: &crate::orbit::ClosedForm| {
         let problem = problem.as_ref()?;
@@ -292,7 +292,7 @@ fn list(case: &Case, ui: &Ui) -> Result<()> {
         return ui.document(&listed(&found, scene));
     }
     if found.is_empty() {
-        return ui.answer(&format!("no orbit of one impact a turn in up to {LISTED} forcing periods"));
+        return ui.answer(&format!("no orbit of one impact per period of the orbit in up to {LISTED} forcing periods"));
     }
     let rows = found.iter().map(|(form, admissible)| {
         let wall = scene.walls.get(form.wall).map_or("", |wall| wall.name.as_str());

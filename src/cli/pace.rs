@@ -1,4 +1,4 @@
-//! Estimates how long a run will take, and says what decides it.
+//! Estimates how long a run will take, and what determines this.
 
 use crate::scene::{LoadKind, Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};

@@ -20,7 +20,7 @@ pub struct Request {
     /// built-in case
     #[arg(value_hint = clap::ValueHint::FilePath)]
     pub case: String,
-    /// What of the case is changed by its keys
+    /// Changes of the case by its keys
     #[command(flatten)]
     pub changes: Changes,
     /// Step of the stepping schemes, s
@@ -75,7 +75,7 @@ pub struct Destination {
     /// Write no report.html, nor the shape.csv or orbits.csv from which it draws motions
     #[arg(long)]
     pub no_report: bool,
-    /// What pictures are written as
+    /// File formats of pictures
     #[command(flatten)]
     pub formats: Formats,
 }

@@ -137,7 +137,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 /// written.
 fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     if let Some(step) = args.request.step {
-        return Err(Error::invalid("--step", step, "none beside --accuracy, which finds the step"));
+        return Err(Error::invalid("--step", step, "no step beside --accuracy, which finds one"));
     }
     let method = args.scheme.as_ref().map(|name| args.request.method(name, case)).transpose()?;
     if let Some(method) = method {
@@ -199,7 +199,7 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     if let (Some(error), Some(map)) = (&shortfall, document.as_object_mut()) {
         map.insert("error".to_owned(), json!(error.to_string()));
     }
-    let kept = if shortfall.is_some() { ", kept in spite of what follows" } else { "" };
+    let kept = if shortfall.is_some() { ", kept in spite of the error below" } else { "" };
     finish(&mut results, kept, !args.request.place.no_report, ui)?;
     tell(&case, &run, &method, document, &results, ui)?;
     seeds::tell(study.as_ref(), &case, ui)?;

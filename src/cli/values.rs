@@ -1,4 +1,4 @@
-//! The values that options take, so that the shell can complete them.
+//! The values that options accept, so that the shell can complete them.
 
 use crate::case::Embedded;
 use crate::output::format::Format;

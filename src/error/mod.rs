@@ -8,8 +8,7 @@ pub use subject::{Part, Subject};
 
 use std::fmt;
 
-/// Everything that can fail, with what the reader needs to find the place: key, value, time, step,
-/// wall.
+/// Everything that can fail, with the data that locate the fault: key, value, time, step, wall.
 ///
 /// [`Error::is_request`] separates a request that no run could meet (bad scene, unknown name: exit
 /// code 2 of the tool) from a run that failed (exit code 1).
@@ -209,7 +208,7 @@ impl fmt::Display for Error {
         match self {
             Self::Invalid { subject, value, expected } => write!(f, "{subject} is {value}; expected {expected}"),
             Self::Unknown { kind, name, known } if known.is_empty() => {
-                write!(f, "no {kind} is named {name:?}: there is none")
+                write!(f, "no {kind} is named {name:?}: none exists")
             }
             Self::Unknown { kind, name, known } => {
                 write!(f, "no {kind} is named {name:?}; ")?;
@@ -251,7 +250,7 @@ impl fmt::Display for Error {
                 "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
                  the displacement keeps it until t = {until:.6} s"
             ),
-            Self::Stopped => f.write_str("stopped before its end, as asked"),
+            Self::Stopped => f.write_str("stopped before its end on request"),
             Self::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),
             Self::NoOrbit { reason } => write!(f, "no periodic orbit: {reason}"),
             Self::Truncated { tolerance, reached, quantity, modes } => write!(

@@ -57,9 +57,9 @@ impl LocalForce {
         force
     }
 
-    /// Sets the loads to what they are just after `start` + `late`, plus the constant force `extra`
-    /// (N); valid up to the next row of a table of `forcing`. `late` is what rounding has taken
-    /// from the time `start`.
+    /// Sets the loads to their values just after `start` + `late`, plus the constant force `extra`
+    /// (N); valid up to the next row of a table of `forcing`. `late` is the rounding error of the
+    /// time `start`.
     pub fn set(&mut self, forcing: &Forcing, [start, late]: [f64; 2], extra: f64) {
         (self.constant, self.slope) = (self.lasting + extra, 0.0);
         for table in &forcing.tables {

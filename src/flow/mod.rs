@@ -34,8 +34,8 @@ use response::Response;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Arc {
     start: f64,
-    /// How much later than `start` it really starts, s: the rounding error of a sum of the times of
-    /// many arcs.
+    /// Correction of `start`, s: the arc starts this much later, by the rounding error of the sum
+    /// of the times of many arcs.
     late: f64,
     end: f64,
     /// Its length, s, without the rounding errors of both ends.
@@ -51,9 +51,9 @@ pub struct Arc {
     response: Response,
 }
 
-/// What an arc starts from.
+/// The start of an arc.
 pub(crate) struct Start<'a> {
-    /// When, s.
+    /// Time, s.
     pub time: f64,
     /// The rounding error of `time`, s: the arc starts this much later.
     pub late: f64,
@@ -61,9 +61,9 @@ pub(crate) struct Start<'a> {
     pub state: [f64; 2],
     /// The loads, those that the arc was made for.
     pub forcing: &'a Forcing,
-    /// A constant force on top, N.
+    /// An additional constant force, N.
     pub extra: f64,
-    /// How far the arc may reach, s.
+    /// Maximum length of the arc, s.
     pub span: f64,
     /// A typical displacement of the scene, m.
     pub length: f64,
@@ -118,8 +118,8 @@ impl Arc {
         (self.end, self.span) = (end, span);
     }
 
-    /// Time since the start, s: exactly 0 and the length at the ends, whatever these times have
-    /// lost to rounding.
+    /// Time since the start, s: exactly 0 and the length at the ends, without the rounding errors
+    /// of these times.
     fn since(&self, t: f64) -> f64 {
         if t == self.end {
             self.span
@@ -237,9 +237,9 @@ impl Arc {
         self.response.jet(tau)
     }
 
-    /// As [`Arc::jet`], at the start, from the differential equation. It lacks the closed form's
-    /// rounding error near resonance, where the steady motion is far larger than the motion and
-    /// large terms cancel.
+    /// As [`Arc::jet`], at the start, from the differential equation. It does not have the closed
+    /// form's rounding error near resonance, where the steady motion is far larger than the motion
+    /// and large terms cancel.
     #[inline]
     pub(crate) fn start_jet(&self) -> Jet {
         let [q, v] = self.initial;

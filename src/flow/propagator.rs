@@ -7,7 +7,7 @@
 use super::series::{Held, Hold, Series, SeriesBody, Start, Touching};
 use crate::scene::Scene;
 
-/// Carries changes (δq, δq̇) of a structure's state along.
+/// Propagates changes (δq, δq̇) of a structure's state.
 #[derive(Debug)]
 pub(crate) struct Propagator {
     /// The structure without loads.
@@ -26,7 +26,7 @@ pub(crate) fn held(row: usize) -> Held {
 }
 
 impl Propagator {
-    /// For the structure of `scene`; `None` if its mass matrix cannot be factored.
+    /// The propagator of the structure of `scene`; `None` if its mass matrix cannot be factored.
     pub fn new(scene: &Scene) -> Option<Self> {
         let body = SeriesBody::new(&Scene { loads: Vec::new(), ..scene.clone() })?;
         let (n, rows, walls) = (body.n, body.rows.count(), scene.walls.len());
@@ -40,8 +40,8 @@ impl Propagator {
         })
     }
 
-    /// From here on these `rows` are held, and these elastic walls (index, stiffness N/m, dashpot
-    /// N s/m) touch.
+    /// Sets the `rows` that are held, and the elastic walls (index, stiffness N/m, dashpot N s/m)
+    /// that touch, from here on.
     pub fn set(
         &mut self,
         rows: impl Iterator<Item = usize> + Clone,
@@ -59,7 +59,7 @@ impl Propagator {
         }));
     }
 
-    /// Carries the change (`q`, `v`), n entries each, along for `span` (s).
+    /// Propagates the change (`q`, `v`), n entries each, over `span` (s).
     pub fn flow(&mut self, span: f64, q: &mut [f64], v: &mut [f64]) {
         let Self { body, series, hold, touching, zero, scratch } = self;
         let mut passed = 0.0;
@@ -68,7 +68,7 @@ impl Propagator {
             hold.stop(body, v, scratch);
             let from = Start { time: 0.0, q, v, extra: zero, span: span - passed };
             series.begin(body, &from, touching, hold, std::iter::empty(), scratch);
-            // A series that does not converge would be cut to nothing: numbers are not finite then.
+            // A series that does not converge is cut to length 0: some values are not finite then.
             if series.end() <= 0.0 || series.end().is_nan() {
                 return;
             }

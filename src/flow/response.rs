@@ -153,7 +153,7 @@ impl Response {
         self.bound_extent(span);
     }
 
-    /// √κ of a body that oscillates, rad/s; 0 of one that is critically or more damped.
+    /// √κ of a body that oscillates, rad/s; 0 for one that is critically or more damped.
     pub fn oscillation(&self) -> f64 {
         if matches!(self.equation.roots, Roots::Pair { .. }) { self.equation.natural } else { 0.0 }
     }

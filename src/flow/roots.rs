@@ -38,7 +38,7 @@ pub(super) struct Equation {
 }
 
 impl Equation {
-    /// Of mass (kg), damping c (N s/m) and stiffness k (N/m).
+    /// The constants for mass (kg), damping c (N s/m) and stiffness k (N/m).
     pub fn new([mass, c, k]: [f64; 3]) -> Self {
         let (sigma, kappa) = (0.5 * c / mass, k / mass);
         let natural = kappa.sqrt();

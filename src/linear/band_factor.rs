@@ -214,8 +214,8 @@ impl BandFactor {
         first..end
     }
 
-    /// Eliminates from both ends at once: two independent chains of operations, which overlap;
-    /// waiting for results is the whole cost of one chain.
+    /// Eliminates from both ends at once: the two chains of operations are independent and overlap,
+    /// while the cost of a single chain is all waiting for its own results.
     fn solve_tridiagonal(&self, x: &mut [f64]) {
         let (n, middle) = (self.n, self.n / 2);
         let (x, lower, inverse) = (&mut x[..n], &self.lower[..n], &self.inverse[..n]);

@@ -17,7 +17,7 @@ use std::sync::Arc;
 pub struct Factor {
     n: usize,
     kind: Kind,
-    /// n entries for a sparse matrix, none for a band.
+    /// Work space: n entries for a sparse matrix, empty for a band.
     room: Vec<f64>,
 }
 

@@ -1,5 +1,5 @@
-//! Symmetric matrices, rows and factors of structures: diagonal, banded, sparse or dense. This room
-//! uses nothing else of the crate.
+//! Symmetric matrices, rows and factors of structures: diagonal, banded, sparse or dense. This
+//! module uses nothing else of the crate.
 //!
 //! | type | what it holds |
 //! |---|---|

@@ -14,7 +14,7 @@ pub struct Symmetric {
     values: Vec<f64>,
 }
 
-/// A matrix as it was written down, perhaps by another program.
+/// A matrix as it was serialised, perhaps by another program.
 #[derive(Deserialize)]
 struct Stored {
     starts: Vec<usize>,

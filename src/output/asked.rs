@@ -1,5 +1,5 @@
-//! What a request asked for, as recorded beside its results: it tells whether a folder holds the
-//! results of this request or of another one.
+//! The request, as recorded beside its results: it shows whether a folder holds the results of this
+//! request or of another one.
 
 use super::results::FINGERPRINT;
 use crate::case::{Case, sha256};

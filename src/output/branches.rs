@@ -9,7 +9,7 @@ use crate::scene::Scene;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// A graph with what names its columns.
+/// A graph, with the names of its columns and axis.
 #[derive(Debug)]
 pub struct Drawn<'a> {
     /// The branches.
@@ -122,7 +122,7 @@ impl Drawn<'_> {
                 for special in self.graph.specials.iter().filter(own).filter(|special| special.after == index) {
                     add(&special.point, special.label.name());
                 }
-                // A branch that ends at a special point has it as its last.
+                // A branch that ends at a special point has it as its last point.
                 if !self.graph.specials.iter().filter(own).any(|special| special.point == *point) {
                     add(point, "");
                 }

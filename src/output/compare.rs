@@ -298,7 +298,7 @@ pub fn table(case: &Case, comparison: &Comparison) -> Table {
     Table::new(&header, rows).in_blocks()
 }
 
-/// What the reader must be told beside the table.
+/// The remark below the table, if one is needed.
 #[must_use]
 pub fn remark(case: &Case) -> Option<String> {
     let count = Site::all(case).count();

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::run::Run;
 use serde::Serialize;
 
-/// What `[statistics]` asks for, as it stands in the summary.
+/// The results that `[statistics]` asks for, in the form of the summary.
 #[derive(Debug, Clone, Serialize)]
 pub struct Detail {
     /// Joined episodes of every wall and support.
@@ -19,7 +19,7 @@ pub struct Detail {
 }
 
 impl Detail {
-    /// That of `run`; `None` where the case has no such table.
+    /// The results of `run`; `None` where the case has no such table.
     ///
     /// # Errors
     /// [`crate::Error::Invalid`] for a run with too few rows for a spectrum.

@@ -19,7 +19,7 @@ const MOST_ROWS: usize = 24;
 pub struct Episodes {
     /// Contacts are joined where less than this lies between them, s.
     pub rest_s: f64,
-    /// Those of every wall, then of every support.
+    /// The episodes of every wall, then of every support.
     pub places: Vec<EpisodeStatistics>,
 }
 
@@ -35,7 +35,7 @@ fn quantities(one: &EpisodeStatistics) -> [Quantity<'_>; 3] {
 }
 
 impl Episodes {
-    /// Those of `run` on `case`, joined over rests shorter than `rest` (s).
+    /// The episodes of `run` on `case`, joined over rests shorter than `rest` (s).
     #[must_use]
     pub fn of(case: &Case, run: &Run, rest: f64) -> Self {
         let contacts = run.trajectory.contacts();
@@ -118,7 +118,7 @@ impl Episodes {
         (!rows.is_empty()).then(|| Table::new(&header, rows))
     }
 
-    /// What the reader must be told beside the table.
+    /// The remark below the table.
     #[must_use]
     pub fn remark(&self) -> String {
         match self.rest_s {

@@ -1,10 +1,10 @@
-//! What a run leaves behind: tables, a summary and pictures, each file written whole or not at all.
+//! The files of a run: tables, a summary and pictures, each written whole or not at all.
 //!
 //! | module | what it holds |
 //! |---|---|
 //! | [`atomic`] | files that appear complete or not at all |
 //! | [`results`] | the folder of a request's results, and what it may replace |
-//! | [`asked`] | what a request asked for, as its results remember it |
+//! | [`asked`] | the request, as recorded beside its results |
 //! | [`csv`] | `trajectory.csv` and `contacts.csv` |
 //! | [`supports`] | `supports.csv`, `sectors.csv`, the table of supports and their part of the summary |
 //! | [`summary`] | `summary.json` |

@@ -14,7 +14,8 @@ const MM: f64 = 1e3;
 const MOST: usize = 4;
 /// Room around an orbit, as a share of its size.
 const ROOM: f64 = 0.08;
-/// A wall whose row differs from a combination of the two by more than this share is elsewhere.
+/// A wall whose row differs from a combination of the station's two rows by more than this share is
+/// not at the station.
 const ELSEWHERE: f64 = 1e-9;
 
 /// A station along the structure: its displacements along y and z are both recorded.

@@ -13,17 +13,17 @@ use std::path::Path;
 /// The file beside the branches.
 pub const FILE: &str = "orbits.csv";
 
-/// About so many instants are written, some megabytes; of more orbits than they suffice for, every
-/// second, third and so on.
+/// About this many instants are written (some megabytes); with more orbits, only every second,
+/// third and so on is written.
 const MOST_INSTANTS: usize = 60_000;
 
-/// Instants of one forcing period and of one event, about.
+/// Approximate number of instants per forcing period, and per event.
 const OF_PERIOD: usize = 24;
 const OF_EVENT: usize = 2;
 
 /// Writes the motion of the orbits of `drawn`, of the scenes of `family`, one row per instant with
 /// six digits: a drawing shows no more. Branch and point are numbered as in `branches.csv`. Special
-/// points are all there; of the others every second, third and so on where they are many.
+/// points are all written; of the others only every second, third and so on where there are many.
 ///
 /// # Errors
 /// Those of `family`; [`Error::Io`] where the file cannot be written, which is whole or not at all.
@@ -51,8 +51,8 @@ pub fn write(path: &Path, drawn: &Drawn<'_>, family: &Family<'_>) -> Result<()> 
     file.finish()
 }
 
-/// Phase (cycles), displacement (m) and velocity (m/s) over one orbit, of a structure at the place
-/// of wall number `place`.
+/// Phase (cycles), displacement (m) and velocity (m/s) over one orbit; for a structure, at the
+/// place of wall number `place`.
 fn motion(scene: Scene, point: &Point, place: usize) -> Result<Vec<[f64; 3]>> {
     if let (Some(strobe), Some(wall)) = (&point.strobe, scene.walls.get(place)) {
         return path(&scene, strobe, point.orbit.signature.periods, &wall.at);

@@ -11,7 +11,7 @@ use std::path::Path;
 /// Largest file that is read, bytes.
 const MOST_BYTES: u64 = 1 << 24;
 
-/// All that is known of an orbit.
+/// An orbit with all its results.
 #[derive(Debug)]
 pub struct Known<'a> {
     /// The scene it belongs to.
@@ -26,7 +26,7 @@ pub struct Known<'a> {
     pub judged: &'a Judged,
 }
 
-/// A number, or null where there is none.
+/// A number, or null if it is not finite.
 fn finite(x: f64) -> Value {
     if x.is_finite() { json!(x) } else { Value::Null }
 }
@@ -189,8 +189,8 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Orbit> {
     Ok(orbit)
 }
 
-/// The orbit of a structure in a file that [`shot`] has made; `modal` tells that the coordinates of
-/// `scene` are those of modes.
+/// The orbit of a structure in a file that [`shot`] has made; `modal` is true if the coordinates of
+/// `scene` are modal.
 ///
 /// # Errors
 /// [`Error::Io`] for a file that cannot be read; [`Error::Invalid`] naming the key that is missing
@@ -243,10 +243,10 @@ fn document(path: &Path) -> Result<Value> {
         return Err(unreadable(format!("{} bytes: an orbit has at most {MOST_BYTES}", meta.len())));
     }
     let text = std::fs::read_to_string(path).map_err(|error| unreadable(error.to_string()))?;
-    serde_json::from_str(&text).map_err(|error| unreadable(format!("no JSON: {error}")))
+    serde_json::from_str(&text).map_err(|error| unreadable(format!("not valid JSON: {error}")))
 }
 
-/// What the coordinates of states are.
+/// The kind of coordinates of states.
 fn coordinates(modal: bool) -> &'static str {
     if modal { "modal" } else { "degrees of freedom" }
 }
@@ -269,8 +269,8 @@ pub fn listed(found: &[(ClosedForm, Option<bool>)], scene: &Scene) -> Value {
     json!({ "orbits": found.iter().map(one).collect::<Vec<_>>() })
 }
 
-/// The orbit of a structure as a document, which [`read_shot`] reads back; `modal` tells that its
-/// coordinates are those of modes.
+/// The orbit of a structure as a document, which [`read_shot`] reads back; `modal` is true if its
+/// coordinates are modal.
 #[must_use]
 pub fn shot(found: &Shot, scene: &Scene, case: &str, modal: bool) -> Value {
     let walls =

@@ -1,4 +1,4 @@
-//! `realisations.csv`, and what a study of realisations tells the terminal.
+//! `realisations.csv`, and the table and remarks of a study of realisations for the terminal.
 
 use super::csv;
 use super::table::Table;
@@ -11,13 +11,14 @@ use std::path::Path;
 /// Name of the file.
 pub const FILE: &str = "realisations.csv";
 
-/// Most rows of the table in the terminal, and places of which half the step is told.
+/// Most rows of the table in the terminal, and most places for which it shows the effect of half
+/// the step.
 const MOST_ROWS: usize = 24;
 const MOST_LINES: usize = 4;
 
 /// Writes one row for each realisation and place: the number of the realisation, the place, its
-/// measures, and how many findings of the judge refute the realisation. What a place does not have
-/// is empty.
+/// measures, and how many findings of the judge refute the realisation. Cells of measures that a
+/// place does not have are empty.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
@@ -94,7 +95,7 @@ pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
     (!rows.is_empty()).then(|| Table::new(&header, rows))
 }
 
-/// What the reader must be told beside the table, a sentence each.
+/// The remarks below the table, a sentence each.
 #[must_use]
 pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
     let count = study.count;

@@ -12,7 +12,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::time::SystemTime;
 
-/// The file that says what a folder holds.
+/// The file that describes the contents of a folder.
 pub(crate) const MANIFEST: &str = "request.json";
 
 /// Largest manifest that is read, bytes.
@@ -42,7 +42,7 @@ pub struct Results {
     /// When the results already in the folder were made, and their files.
     before: Option<Before>,
     files: Vec<String>,
-    /// What the manifest says beside the request: nothing that decides what may be replaced.
+    /// Further entries of the manifest, which do not affect what may be replaced.
     told: Map<String, Value>,
 }
 
@@ -119,7 +119,7 @@ impl Results {
         Ok(paths)
     }
 
-    /// Tells the manifest `value` as `key`, beside the request.
+    /// Adds `value` to the manifest as `key`, beside the request.
     pub fn tell(&mut self, key: &str, value: Value) {
         self.told.insert(key.to_owned(), value);
     }

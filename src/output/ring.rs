@@ -1,4 +1,5 @@
-//! What bounds the motion at a support, and its work of wear by sectors as a ring around it.
+//! The outline that bounds the motion at a support, and its work of wear by sectors as a ring
+//! around it.
 
 use super::labelled::Labelled;
 use crate::scene::{Probe, Scene, Support};

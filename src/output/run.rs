@@ -100,7 +100,7 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
     Ok((!rows.is_empty()).then(|| Table::new(&headers, rows)))
 }
 
-/// What the reader must be told beside the table of walls.
+/// The remarks below the table of walls, a sentence each.
 #[must_use]
 pub fn remarks(run: &Run) -> Vec<String> {
     let all = run.statistics.walls.len();
@@ -173,7 +173,7 @@ fn busiest(run: &Run) -> Vec<&WallStatistics> {
     order.into_iter().filter_map(|(i, _)| walls.get(i)).collect()
 }
 
-/// What solved the steps that met a wall, and how many there were.
+/// How the steps that met a wall were solved, and how many there were.
 fn solved(run: &Run) -> String {
     let counters = &run.counters;
     match run.scheme {

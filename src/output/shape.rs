@@ -1,9 +1,9 @@
 //! `shape.csv`: the displacement of the whole structure over time, at stations along it, from which
 //! a report draws it in motion.
 //!
-//! A case names the places that it watches, and these are few; a drawing needs places all along a
-//! tube, and every mass of a chain. They are recorded as probes beside those of the case, and taken
-//! out of the run again before anything else sees it.
+//! A case names a few probes only; a drawing needs places all along a tube, and every mass of a
+//! chain. They are recorded as probes beside those of the case, and taken out of the run again
+//! before any other output is made from it.
 
 use super::atomic::WholeFile;
 use super::csv::digits;
@@ -17,7 +17,7 @@ use std::path::Path;
 /// The file's name.
 pub const FILE: &str = "shape.csv";
 
-/// How the columns of a structure in one plane begin; and of one in two planes, with the direction
+/// Prefix of the columns of a structure in one plane; and of one in two planes, with the direction
 /// of each plane, degrees.
 const ONE: (&str, f64) = ("displacement_", 0.0);
 const PLANES: [(&str, f64); 2] = [("displacement_y_", 0.0), ("displacement_z_", 90.0)];

@@ -1,9 +1,9 @@
-//! Where a scene is in contact, and what a run says of it.
+//! Walls and round supports, and the results of a run there.
 
 use crate::case::Case;
 use crate::run::Run;
 
-/// Where a scene is in contact: its walls, then its round supports.
+/// A place of contact of a scene: a wall or a round support.
 #[derive(Clone, Copy)]
 pub(super) enum Site<'a> {
     /// With its index.

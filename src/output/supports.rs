@@ -1,5 +1,5 @@
 //! `supports.csv` and `sectors.csv`, the table of supports, and their part of the summary: force,
-//! work of wear, sliding, and what that wears off.
+//! work of wear, sliding, and the worn volume.
 
 use super::csv::{self, digits};
 use super::table::Table;
@@ -21,11 +21,11 @@ const UPPER: &str = "upper figure";
 struct Known<'a> {
     wear: &'a WearStatistics,
     contact: &'a SupportStatistics,
-    /// What its work rate wears off.
+    /// The wear by its work rate.
     worn: Option<Worn>,
 }
 
-/// The supports of a run; none where only the contacts are known.
+/// The supports of a run; empty where only the contacts are known.
 fn all<'a>(case: &'a Case, run: &'a Run) -> impl Iterator<Item = Known<'a>> {
     let statistics = &run.statistics;
     statistics.wear.iter().zip(&statistics.supports).enumerate().map(|(index, (wear, support))| Known {
@@ -110,7 +110,7 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
     csv::table(&place("sectors.csv")?, &header.map(str::to_owned), rows)
 }
 
-/// What the work rate of a support is.
+/// The kind of work rate of a support.
 fn kind(support: &WearStatistics) -> &'static str {
     if support.upper_figure { UPPER } else { "with friction" }
 }
@@ -184,7 +184,7 @@ fn figures(x: f64) -> String {
     }
 }
 
-/// What the reader must be told beside the table of supports.
+/// The remarks below the table of supports, a sentence each.
 #[must_use]
 pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
     let supports = &run.statistics.wear;

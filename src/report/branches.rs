@@ -12,7 +12,7 @@ use std::collections::HashMap;
 const MOST_POINTS: usize = 20_000;
 const MOST_BENEATH: usize = 100_000;
 
-/// The columns of the branches that the page draws or tells, beside the key.
+/// The columns of the branches that the page draws or shows as text, beside the key.
 const SHOWN: [&str; 11] = [
     "branch",
     "point",

@@ -1,6 +1,6 @@
-//! How far a run is to be trusted, in sentences: one card for each check, and its number.
+//! How reliable a run is, in sentences: one card for each check, with its number.
 //!
-//! What counts as broken is decided by the judge alone, in its findings; the limits here only
+//! Only the judge decides, in its findings, whether a promise is broken; the limits here only
 //! decide where a change by refinement deserves attention.
 
 use serde_json::{Value, json};
@@ -19,7 +19,7 @@ pub(super) fn cards(summary: &Value) -> Vec<Value> {
     checks.into_iter().flatten().chain(judged).collect()
 }
 
-/// How a card stands: what was promised is kept, needs attention, or is broken; or was not checked.
+/// The state of a card: the promise is kept, needs attention, is broken, or was not checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum State {
     Good,
@@ -163,7 +163,7 @@ fn modes(summary: &Value) -> Option<Value> {
     Some(card("Modes", state, verdict, text))
 }
 
-/// What the judge found of these kinds, one sentence each.
+/// The judge's findings of these kinds, one sentence each.
 fn found(summary: &Value, kinds: &[&str]) -> Vec<String> {
     let here = |finding: &&Value| finding["refuted"].as_str().is_some_and(|kind| kinds.contains(&kind));
     let sentence = |finding: &Value| {

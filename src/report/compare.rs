@@ -28,14 +28,14 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         }
         // The name comes from the table: it must not lead out of the folder.
         if method.is_empty() || prefix.contains(['/', '\\']) || prefix.starts_with('.') {
-            let reason = format!("{method:?} is no method");
+            let reason = format!("{method:?} is not the name of a method");
             return Err(Error::io(folder.path.join("compare.csv").display(), reason, true));
         }
         let summary = folder.json(&format!("{prefix}/summary.json"))?;
         let mut run = motion(folder, &prefix, &summary)?;
         run["label"] = json!(method);
         run["reference"] = json!(summary["scheme"] == "event");
-        // Through Clarabel the motion is the same; what is far off hides the others.
+        // Through Clarabel the motion is the same; a method far from the others would hide them.
         run["hidden"] = json!(method.contains("qp=clarabel") || *error > FAR);
         first.get_or_insert(summary);
         runs.push(run);

@@ -56,7 +56,7 @@ impl Folder<'_> {
         let path = self.path.join(name);
         let wrong = |reason: String| Error::io(path.display(), reason, true);
         let text = std::fs::read_to_string(&path).map_err(|error| wrong(error.to_string()).caused_by(error))?;
-        serde_json::from_str(&text).map_err(|error| wrong(format!("no JSON: {error}")).caused_by(error))
+        serde_json::from_str(&text).map_err(|error| wrong(format!("not valid JSON: {error}")).caused_by(error))
     }
 
     /// The table in the file `name`, all cells numbers.

@@ -79,7 +79,7 @@ pub(super) fn file(title: &str, data: &Value) -> Result<String> {
     Ok(out)
 }
 
-/// What a Content-Security-Policy calls a text.
+/// The name of a text in a Content-Security-Policy: its hash.
 fn hash(text: &str) -> String {
     format!("sha256-{}", base64(&Sha256::digest(text.as_bytes())))
 }

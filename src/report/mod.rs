@@ -1,5 +1,5 @@
-//! The report: one HTML file that shows what a folder of results holds, opens without network, and
-//! may be forwarded alone.
+//! The report: one HTML file that shows the contents of a folder of results, opens without network,
+//! and can be forwarded by itself.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -7,13 +7,13 @@
 //! | `column` | numbers as base64, long series by their extremes |
 //! | `motion` | `trajectory.csv`, `contacts.csv` and `shape.csv` of one run |
 //! | `scene` | what is drawn: the structure, its walls and loads |
-//! | `cards` | how far a run is to be trusted, in sentences |
+//! | `cards` | how reliable a run is, in sentences |
 //! | `run`, `compare`, `chart`, `stability`, `sweep`, `orbit`, `branches` | the contents of each kind of page |
 //! | `html` | the file itself: escapes, and what it may load (nothing) |
 //! | `page/` | the page's HTML, CSS and JavaScript |
 //!
-//! A report is made from the files of the folder alone, so that `signorini report FOLDER` gives the
-//! bytes that the command which filled the folder gave.
+//! A report is made from the files of the folder only, so that `signorini report FOLDER` writes the
+//! same bytes as the command that filled the folder.
 
 mod branches;
 mod cards;

@@ -111,13 +111,13 @@ fn episodes(cells: &Cells) -> Result<Value> {
     }))
 }
 
-/// The force of each wall over the rows within contacts of a finite force, and 0 beside them. The
-/// force of an impact is none: it is an impulse, which the contacts have.
+/// The force of each wall over the rows, within contacts of finite force, and 0 elsewhere. An
+/// impact has no finite force; its impulse is among the contacts.
 fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> Result<Vec<Value>> {
     let walls = summary["scene"]["walls"].as_array().map_or(&[][..], Vec::as_slice);
     let (start, end) = (contacts.column("start_s")?, contacts.column("end_s")?);
     let peak = contacts.column("peak_force_N")?;
-    // motion() has checked the number of columns.
+    // `motion` has checked the number of columns.
     let from = table.columns.len().saturating_sub(2 * walls.len() + beside(summary));
     let mut out = Vec::new();
     for (index, wall) in walls.iter().enumerate() {

@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 /// Most walls whose impulses are among the facts; a table has all.
 const MOST_WALLS: usize = 4;
 
-/// What the page of an orbit shows; of a structure's the multipliers and the walls, since nothing
-/// of its motion is written.
+/// The contents of the page of an orbit; for a structure only the multipliers and the walls, since
+/// its motion is not written.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let document = folder.json("orbit.json")?;
     let mut orbit = json!({
@@ -88,12 +88,13 @@ fn moduli(list: &Value) -> Vec<f64> {
     list.as_array().into_iter().flatten().filter_map(modulus).collect()
 }
 
-/// True if the orbit was run once around: what no body can follow is not, and has no impulses.
+/// True if the free run over the orbit was made; an orbit that no body can follow is not run, and
+/// has no impulses.
 fn was_run(document: &Value) -> bool {
     document["judge"]["closure"].is_number() || document["closure"].is_number()
 }
 
-/// The numbers that are asked for first.
+/// The key figures.
 fn facts(document: &Value) -> Value {
     let fact = |label: &str, value: String, unit: &str| json!({ "label": label, "value": value, "unit": unit });
     let mut facts = Vec::new();
@@ -115,12 +116,13 @@ fn facts(document: &Value) -> Value {
     json!(facts)
 }
 
-/// What the program found of the orbit: is it one, can a body follow it, do runs settle on it.
+/// The checks of the orbit: whether the free run comes back, whether a body can follow it, whether
+/// runs settle on it.
 fn cards(document: &Value) -> Vec<Value> {
     let mut cards = Vec::new();
     let stable = document["stable"] == true;
     let largest = moduli(&document["multipliers"]).into_iter().fold(0.0, f64::max);
-    // Of an orbit that no body can follow the multipliers tell nothing of runs.
+    // For an orbit that no body can follow, the multipliers say nothing about runs.
     let (state, verdict) = match (document["admissible"] == false, stable) {
         (true, _) => (State::Open, "As a solution of the equations only"),
         (false, true) => (State::Good, "Stable: runs settle on it"),

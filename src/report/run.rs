@@ -20,8 +20,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     Ok(page)
 }
 
-/// What a page says of the scene of a run with this summary, and of how far the run is to be
-/// trusted.
+/// The page's data on the scene of a run with this summary, and on how reliable the run is.
 pub(super) fn of_scene(summary: &Value) -> Value {
     let duration = summary["scene"]["duration_s"].as_f64().unwrap_or(0.0);
     let horizon = summary["refinement"]["horizon_s"].as_f64().filter(|t| *t < duration * (1.0 - 1e-9));
@@ -55,7 +54,7 @@ fn notes(summary: &Value, run: &Value) -> Value {
     json!(notes)
 }
 
-/// The numbers that are asked for first.
+/// The key figures.
 fn facts(summary: &Value) -> Value {
     let walls = summary["statistics"]["walls"].as_array().map_or(&[][..], Vec::as_slice);
     let number = |value: &Value| value.as_f64();
@@ -80,7 +79,7 @@ fn facts(summary: &Value) -> Value {
         let unit = if upper { "mW, upper figure" } else { "mW" };
         facts.push(fact("work rate", short(1e3 * work), unit));
         facts.push(fact("mean force", short(force), "N, of all supports"));
-        // That of flats is among those of the walls.
+        // The force of flats is among those of the walls.
         let peaks = forces.iter().filter_map(|support| number(&support["episode_peak_force_n"]["max"]));
         facts.extend(peaks.reduce(f64::max).filter(|_| walls.is_empty()).map(|f| fact("largest force", short(f), "N")));
     }

@@ -5,7 +5,7 @@ use super::run::case_text;
 use crate::error::Result;
 use serde_json::{Value, json};
 
-/// The columns of the maps that the page draws or tells.
+/// The columns of the maps that the page draws or shows as text.
 const SHOWN: [&str; 12] = [
     "scheme",
     "parameter",

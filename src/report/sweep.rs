@@ -15,7 +15,7 @@ const SAMPLES: &str = "samples.csv";
 /// Most cells of the tables that a page holds: some tens of megabytes of HTML.
 const MOST_CELLS: usize = 4_000_000;
 
-/// The table of the attractors, of a sweep that tells them, and what the page tells of each.
+/// The table of the attractors, for a sweep that has them, and the columns that the page shows.
 const ATTRACTORS: &str = "attractors.csv";
 const TOLD: [&str; 8] =
     ["attractor", "rows", "share", "signature", "period", "phases_cycles", "approach_speeds_m_per_s", "multipliers"];

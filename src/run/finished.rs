@@ -45,7 +45,7 @@ pub struct Run<J: Judging = Judged, R: Recording = Recorded> {
     pub seconds: f64,
     /// Stretches that the exact scheme handed to moreau-jean; empty for other schemes.
     pub handed: Vec<Handed>,
-    /// What a reader must know about this run, in sentences.
+    /// Notes that a reader of the results must know, in sentences.
     pub notes: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What looks at the steps of a run: judge and recorder.
+//! The observers of the steps of a run: judge and recorder.
 
 use super::{Judging, Recording};
 use crate::error::Result;
@@ -6,16 +6,16 @@ use crate::scheme::Stepper;
 use crate::step::Calm;
 
 /// The judge and the recorder of a run. Steps of one degree of freedom between two contacts are
-/// shown to them many at once, if they gain by that.
+/// passed to them in groups, if that is faster.
 pub(super) struct Observers<J: Judging, R: Recording> {
     pub judge: J::Judge,
     pub recorder: R::Recorder,
-    /// Steps that they have not seen yet; `None` where each is shown at once.
+    /// Steps that have not been passed on yet; `None` where each step is passed on at once.
     calm: Option<Calm>,
 }
 
 impl<J: Judging, R: Recording> Observers<J, R> {
-    /// Those of a run by `stepper`.
+    /// The observers of a run by `stepper`.
     pub fn new(judge: J::Judge, recorder: R::Recorder, stepper: &Stepper) -> Self {
         let together = J::gains_by_calm(&judge).unwrap_or(!R::ROWLESS);
         let calm = (together && stepper.is_line()).then(|| Calm::new(stepper.scene().walls.len()));
@@ -50,7 +50,7 @@ impl<J: Judging, R: Recording> Observers<J, R> {
         Ok((1, step.end))
     }
 
-    /// Shows the steps that have not been seen yet.
+    /// Passes on the steps that have not been passed on yet.
     pub fn catch_up(&mut self) {
         if let Some(calm) = self.calm.as_mut().filter(|calm| calm.len() > 0) {
             J::see_calm(&mut self.judge, calm);

@@ -123,7 +123,7 @@ pub trait Judging: sealed::Sealed + Debug + Copy {
     fn begin(stepper: &Stepper, step: f64, start: &State) -> Self::Judge;
     #[doc(hidden)]
     fn see(judge: &mut Self::Judge, step: &Step<'_>);
-    /// Whether it gains by seeing many steps at once; `None` if it does not look at them.
+    /// Whether processing many steps at once is faster; `None` if it does not look at steps.
     #[doc(hidden)]
     fn gains_by_calm(judge: &Self::Judge) -> Option<bool>;
     #[doc(hidden)]
@@ -216,7 +216,7 @@ impl Judging for Unjudged {
 
 /// Whether a run is recorded: [`Recorded`] or [`Unrecorded`], no others.
 pub trait Recording: sealed::Sealed + Debug + Copy {
-    /// What is recorded of the motion: a [`Trajectory`], or nothing.
+    /// The recorded motion: a [`Trajectory`], or nothing.
     type Motion: Debug + Clone;
     /// The statistics of its contacts: [`Statistics`], or nothing.
     type Statistics: Debug + Clone;

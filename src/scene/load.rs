@@ -24,7 +24,7 @@ pub struct Table {
     pace: f64,
 }
 
-/// A table as it was written down, perhaps by another program.
+/// A table as it was serialised, perhaps by another program.
 #[derive(Serialize, Deserialize)]
 struct Columns {
     time: Vec<f64>,

@@ -1,4 +1,5 @@
-//! Steps of one degree of freedom between two contacts, kept to be looked at together.
+//! Steps of one degree of freedom between two contacts, collected so that recorder and judge can
+//! process them together.
 
 use super::{Path, Step};
 
@@ -8,7 +9,7 @@ const MOST: usize = 128;
 /// Steps of one degree of freedom on a grid, one after another, in none of which a wall pushes, a
 /// contact ends or an extra force acts.
 ///
-/// What a recorder and a judge do for such a step is little, and for many of them one loop does it.
+/// Recorder and judge have little to do in such a step, and process many of them in one loop.
 #[derive(Debug)]
 pub struct Calm {
     length: usize,
@@ -25,7 +26,7 @@ pub struct Calm {
 }
 
 impl Calm {
-    /// No steps, of a scene with this number of walls.
+    /// An empty collection for a scene with this number of walls.
     pub fn new(walls: usize) -> Self {
         let none = [0.0; MOST];
         let zeros = vec![0.0; walls];
@@ -37,8 +38,8 @@ impl Calm {
         MOST
     }
 
-    /// Takes the step that follows the last one taken, if there is room for it and it is one of
-    /// these. Returns whether it is.
+    /// Takes the step that follows the last one taken, if there is room for it and it meets the
+    /// conditions above. Returns whether it was taken.
     #[inline]
     pub fn take(&mut self, step: &Step<'_>) -> bool {
         let (&[q], &[v], &[extra]) = (step.q, step.v, step.extra) else { return false };
@@ -55,8 +56,8 @@ impl Calm {
         true
     }
 
-    /// Prepares for the step of this index, which starts at `start` (s); returns for how many there
-    /// is room.
+    /// Prepares for the step of this index, which starts at `start` (s); returns the number of
+    /// steps for which there is room.
     #[inline]
     pub fn begin(&mut self, index: u64, start: f64) -> u64 {
         if self.length == 0 {
@@ -94,7 +95,7 @@ impl Calm {
         self.length == MOST
     }
 
-    /// Leaves all steps out.
+    /// Removes all steps.
     pub fn clear(&mut self) {
         self.length = 0;
     }

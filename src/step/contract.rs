@@ -1,5 +1,5 @@
-//! The contract of a scheme: the momentum balance of a step, what holds at the walls, and within
-//! which tolerances.
+//! The contract of a scheme: the momentum balance of a step, the conditions at the walls, and their
+//! tolerances.
 
 use super::Promise;
 #[cfg(doc)]
@@ -15,9 +15,9 @@ use crate::flow::{Arc, Series};
 ///
 /// An impulse at t = 0 is part of the initial state and belongs to no step. A blow (a load's
 /// impulse) J_b acts at its own instant t_b, not where the rule counts it. So the displacement at
-/// the step's end is that of the rule plus d, which takes a free body exactly where the blow would.
-/// Smooth forces and elastic walls are taken without d, except for dampers: the term −C d makes
-/// them feel the whole displacement over any time.
+/// the step's end is that of the rule plus d, so that a free body ends exactly where the blow would
+/// take it. Smooth forces and elastic walls are evaluated without d, except for dampers: by the
+/// term −C d they act on the whole displacement over any time.
 ///
 /// Where blows drive the body into a rigid wall that pushes in the step, blow and answer take
 /// effect together and d is 0 (unless the wall pushes only because of −C d). This does not hold
@@ -64,7 +64,7 @@ pub enum Balance {
     Exact,
 }
 
-/// How far a run may miss a promise, beyond rounding, before that becomes a finding, and why.
+/// Largest deviation from a promise, beyond rounding, that is not a finding, and the reason for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// Largest residual, dimensionless.
@@ -77,8 +77,8 @@ pub struct Tolerance {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Conserves {
-    /// None: the energy that the scheme creates or loses is its known error, which the ledger shows
-    /// and a note states.
+    /// No scenes: the energy that the scheme creates or loses is its known error, which the ledger
+    /// shows and a note states.
     Nothing,
     /// Scenes whose walls are all rigid.
     RigidWalls,
@@ -117,7 +117,7 @@ impl Tolerances {
             balance: Tolerance { limit: 1e-6, reason: "a step's equations are solved to rounding" },
             impulses: Tolerance {
                 limit: 1e-6,
-                reason: "what a step's rule for the smooth forces may miss is taken off",
+                reason: "the error of the step's rule for the smooth forces is subtracted",
             },
             energy: Tolerance { limit: 1e-6, reason: "the scheme conserves energy to rounding" },
             conserves,
@@ -125,7 +125,7 @@ impl Tolerances {
     }
 }
 
-/// What a scheme promises of every step; constant over a run.
+/// The promises of a scheme for every step; constant over a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contract {
     /// The momentum balance of a step.
@@ -134,6 +134,6 @@ pub struct Contract {
     pub promise: Promise,
     /// Where in the step a contact impulse belongs, as a fraction of it (0: its start, 1: its end).
     pub instant: f64,
-    /// How far a run may miss these promises.
+    /// The tolerances of these promises.
     pub tolerances: Tolerances,
 }

@@ -1,4 +1,4 @@
-//! What a round hole did in a step.
+//! The impulses of a round hole in a step.
 
 /// The impulse of a round hole in one step, along its normal n and its tangent t = (−n_z, n_y).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -15,14 +15,14 @@ pub struct HoleStep {
     /// The part of `impulse` that acted at the instant of the step's end, along the normal there,
     /// N s; 0 for schemes on a grid.
     pub jump: f64,
-    /// What the structure gets beside −p n + f t, since the normal turned in the step, N s along y
-    /// and z; 0 for schemes on a grid, which take one normal for a step.
+    /// The impulse on the structure in addition to −p n + f t, since the normal turned in the step,
+    /// N s along y and z; 0 for schemes on a grid, which use one normal per step.
     pub turned: [f64; 2],
 }
 
 impl HoleStep {
     /// The impulse on the structure along y and z, normal and friction together, N s: −p n + f t,
-    /// and what the turning of the normal adds.
+    /// and the part that the turning of the normal adds.
     #[must_use]
     pub fn push(&self) -> [f64; 2] {
         let ([y, z], p, f) = (self.normal, self.impulse, self.friction);

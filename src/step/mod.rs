@@ -19,10 +19,10 @@ pub struct Contact {
     /// Index of the wall in the scene; from the number of walls on, the round supports are counted
     /// in the scene's order ([`Scene::contact_name`](crate::Scene::contact_name)).
     pub wall: usize,
-    /// When it began, s.
+    /// Time at which it began, s.
     pub start: f64,
-    /// When it ended, s: equal to `start` for an instantaneous impact; `None` if still open at the
-    /// end of the run.
+    /// Time at which it ended, s: equal to `start` for an instantaneous impact; `None` if still
+    /// open at the end of the run.
     pub end: Option<f64>,
     /// Impulse of the wall on the body over the episode, N s; signed as the force (lower ≥ 0, upper
     /// ≤ 0). Of a round support the sum of the magnitudes along its normals, ≥ 0.
@@ -127,7 +127,7 @@ pub struct Step<'a> {
     /// Friction impulse at each wall over the step, N s, along (−n_z, n_y) with n the outward
     /// normal of the flat; empty in scenes without friction and round holes.
     pub friction: &'a [f64],
-    /// What each round hole did, in the order of the scene's round supports.
+    /// The impulses of each round hole, in the order of the scene's round supports.
     pub holes: &'a [HoleStep],
     /// Extra force given by the caller, N, as it enters the momentum balance: constant over the
     /// step, or for a staggered scheme, whose balance is centred at `start`, the mean of the last
@@ -135,6 +135,6 @@ pub struct Step<'a> {
     pub extra: &'a [f64],
     /// Contact episodes that ended in this step.
     pub closed: &'a [Contact],
-    /// What is known of the motion inside the step.
+    /// The motion inside the step, as far as it is known.
     pub path: Path<'a>,
 }

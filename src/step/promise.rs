@@ -1,4 +1,4 @@
-//! What a scheme promises of the contact forces of a step.
+//! The conditions that a scheme promises for the contact forces of a step.
 //!
 //! A promise is made of parts, and the judge checks each part: a new scheme states the parts that
 //! it keeps, and needs no judge of its own. Depth s = −gap, s₊ = max(s, 0), |r| = pressure; w, s
@@ -10,31 +10,31 @@ use super::Step;
 #[cfg(doc)]
 use crate::flow::{Arc, Series};
 
-/// What holds at the walls in every step.
+/// The conditions at the walls in every step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Promise {
     /// At rigid walls.
     pub rigid: Rigid,
-    /// At walls whose force follows a law of the depth: elastic ones, and what a penalty puts in
-    /// place of rigid ones.
+    /// At walls whose force follows a law of the depth: elastic ones, and the springs that a
+    /// penalty puts in place of rigid ones.
     pub elastic: Elastic,
-    /// At round holes; `None` of a scheme that does not step scenes with such.
+    /// At round holes; `None` for a scheme that does not step scenes with round holes.
     pub round: Option<Turning>,
-    /// At round holes in exact motion; `None` of a scheme on a grid.
+    /// At round holes in exact motion; `None` for a scheme on a grid.
     pub circle: Option<Circle>,
     /// The bound on the displacement at rigid round holes, complementary to the impulse p of the
     /// step: under [`Bound::End`] 0 ≤ γ − |w⁺| ⟂ p ≥ 0, with w⁺ at the step's end, including the
     /// displacement that blows add; where there is no impact law [`Promise::round`] beside it, the
-    /// impulse is −p n with n = w⁺/|w⁺|. `None` of a scheme without such a bound.
+    /// impulse is −p n with n = w⁺/|w⁺|. `None` for a scheme without such a bound.
     pub hole: Option<Bound>,
-    /// At supports with friction; `None` as above.
+    /// At supports with friction; `None` for a scheme without friction.
     pub friction: Option<Friction>,
 }
 
-/// What holds at round holes, |w| ≤ γ, at every instant of the step's [`Series`]:
+/// The conditions at round holes, |w| ≤ γ, at every instant of the step's [`Series`]:
 ///
 /// the force on the structure is −N n with n = w/|w| and 0 ≤ γ − |w| ⟂ N ≥ 0; while N > 0 the
-/// structure slides round the circle.
+/// structure slides along the circle.
 ///
 /// At the instant of its end the hole may give the impulse −p n, p ≥ 0, where |w| = γ. Then the
 /// structure does not approach the hole any more, n·ẇ⁺ ≤ 0, and if no other wall or hole gives one
@@ -43,16 +43,17 @@ pub struct Promise {
 /// −e n·ẇ⁻ and 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circle {
-    /// See above.
+    /// Share of the largest speed below which an approach may be the last of infinitely many.
     pub tail: f64,
 }
 
-/// What holds at round holes, |w| ≤ γ, where the normal turns while the body slides: Newton's law
-/// of impact for what arrives at the hole, and its reflection for what only the turning of the
-/// normal makes an approach.
+/// The conditions at round holes, |w| ≤ γ, where the normal turns while the body slides: Newton's
+/// law of impact for the velocity with which the body arrives at the hole, and full reflection for
+/// the approach velocity that is due only to the turning of the normal.
 ///
 /// A hole in play gives −p n with p ≥ 0; [`Normal`] says which holes are, and n. Any other gives no
-/// impulse. Let a = n·ẇ, a_r its part that arrives and a_c = a − a_r what turning adds:
+/// impulse. Let a = n·ẇ, a_r the part of it with which the body arrives, and a_c = a − a_r the part
+/// that turning adds:
 ///
 /// a_r = a where |w| < γ(1 − τ), τ = (h|ẇ|/γ)²/8, the height of the arc of a step, but at least
 /// `sagitta` and at most `deepest`: the body comes from inside. Else the body touches, and a_r is
@@ -98,8 +99,8 @@ pub enum Friction {
     EndVelocity,
 }
 
-/// What holds at rigid walls. With neither a bound nor an impact law they give no force, as where a
-/// penalty has replaced them by springs.
+/// The conditions at rigid walls. With neither a bound nor an impact law they give no force, for
+/// example where a penalty has replaced them by springs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rigid {
     /// The force r, or the impulse p of the step, that the conditions refer to.
@@ -150,7 +151,7 @@ pub enum Reached {
     Closed,
 }
 
-/// What holds at walls whose force follows a law of the depth.
+/// The conditions at walls whose force follows a law of the depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elastic {
     /// The force that follows the law.

@@ -105,7 +105,7 @@ fn a_structure_settles_on_an_orbit() {
     fs::write(path.join("short.json"), short).unwrap();
     for (more, words) in [
         (&["--signature", "S", "--start", "0.1,0.1"][..], "one degree of freedom"),
-        (&["--from", "two.toml"], "no JSON"),
+        (&["--from", "two.toml"], "not valid JSON"),
         (&["--from", "no.json"], "periods"),
         (&["--from", "modal.json"], "those of the case: degrees of freedom"),
         (&["--from", "short.json"], "2 of each"),
@@ -240,7 +240,7 @@ fn wrong_requests_say_what_would_be_accepted() {
         (&["--signature", "U", "--start", "0.1,0.1", "--periods", "2", "--symmetric"], "odd number"),
         (&["--signature", "upper:enter", "--start", "0.1,0.1"], "which is rigid"),
         (&["--from", "none.json"], "none.json"),
-        (&["--from", "no.json"], "no JSON"),
+        (&["--from", "no.json"], "not valid JSON"),
         (&["--from", "other.json"], "entry 1, wall and kind"),
         (&["--from", "wall.json"], "no wall is named \"side\""),
     ];
@@ -251,7 +251,7 @@ fn wrong_requests_say_what_would_be_accepted() {
     let frequency = "load.1.harmonic.frequency";
     let branch: [(&[&str], &str); 14] = [
         (&["--key", frequency, "--range", "4:6", "--second", "system.oscillator.mass"], "--second-range"),
-        (&["--key", frequency, "--range", "4:6", "--second", frequency, "--second-range", "4:6"], "another key"),
+        (&["--key", frequency, "--range", "4:6", "--second", frequency, "--second-range", "4:6"], "a key other than"),
         (
             &["--key", frequency, "--range", "4:6", "--second", "system.oscillator.mass", "--second-range", "2:3"],
             "the case's value of the key, 1.0, in it",

@@ -439,7 +439,7 @@ fn what_cannot_be_shown_is_one_clear_error() {
     broken("trajectory.csv", "time_s,displacement_m\n0.0,1.0\n", &["2 columns", "each of the 2 walls"]);
     broken("trajectory.csv", "", &["trajectory.csv"]);
     broken("contacts.csv", "wall,start_s\nupper,0.1\n", &["contacts.csv", "has no column"]);
-    broken("summary.json", "{", &["summary.json", "no JSON"]);
+    broken("summary.json", "{", &["summary.json", "not valid JSON"]);
     broken("request.json", r#"{"request":{"command":"figures"},"files":[]}"#, &["\"figures\"", "no report"]);
     // A folder in place of a file.
     assert!(said(dir.path(), &["report", "o", "--out", "empty"], 2).contains("empty"));

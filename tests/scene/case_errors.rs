@@ -403,7 +403,7 @@ step = 1e-3
 const WRONG_TUBES: &[Wrong] = &[
     // The system.
     ("two systems", "[system.damping]", "[system.oscillator]\nmass = 1\ndamping = 0\nstiffness = 1\n[system.damping]", "16:1", &["two systems, `oscillator` and `beam`"]),
-    ("no system", "[system.beam]\nlength = 3.0\nyoungs_modulus = 2e11\ndensity = 7850.0\nouter_diameter = 0.019\ninner_diameter = 0.016\nelements = 12\nleft = \"pinned\"\nright = { stiffness = 1e6 }\n", "", "3:1", &["nothing of what vibrates", "[system.chain]"]),
+    ("no system", "[system.beam]\nlength = 3.0\nyoungs_modulus = 2e11\ndensity = 7850.0\nouter_diameter = 0.019\ninner_diameter = 0.016\nelements = 12\nleft = \"pinned\"\nright = { stiffness = 1e6 }\n", "", "3:1", &["does not say what vibrates", "[system.chain]"]),
     ("no length", "length = 3.0", "length = 0", "7:10", &["system.beam.length", "above 0"]),
     ("negative stiffness", "youngs_modulus = 2e11", "youngs_modulus = -2e11", "8:18", &["system.beam.youngs_modulus", "above 0"]),
     ("text for a density", "density = 7850.0", "density = \"steel\"", "9:11", &["system.beam.density", "kg/m^3"]),
@@ -420,7 +420,7 @@ const WRONG_TUBES: &[Wrong] = &[
     // Damping and modes.
     ("negative ratio", "ratio = 0.01", "ratio = -0.01", "17:9", &["system.damping.ratio", "0 or more"]),
     ("two kinds of damping", "ratio = 0.01", "ratio = 0.01\nrayleigh = { mass = 1.0 }", "17:9", &["two kinds, `rayleigh` and `ratio`"]),
-    ("no kind of damping", "ratio = 0.01\n", "", "16:1", &["says nothing", "rayleigh"]),
+    ("no kind of damping", "ratio = 0.01\n", "", "16:1", &["has no kind of damping", "rayleigh"]),
     ("no ratios", "ratio = 0.01", "ratios = []", "17:10", &["system.damping.ratios", "one ratio or more"]),
     ("more modes than there are", "modes = 6", "modes = 60", "4:9", &["modes is 60", "from 1 to 25"]),
     ("no modes", "modes = 6", "modes = 0", "4:9", &["modes", "from 1"]),

@@ -145,9 +145,9 @@ fn a_json_file_that_is_no_summary_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path();
     for (text, words) in [
-        ("{", "no JSON"),
-        ("{}", "no summary of a run"),
-        ("{ \"case_file\": 3 }", "no summary of a run"),
+        ("{", "not valid JSON"),
+        ("{}", "not the summary of a run"),
+        ("{ \"case_file\": 3 }", "not the summary of a run"),
         ("{ \"case_file\": { \"time\": null } }", "case_file"),
         ("{ \"case_file\": { \"time\": { \"end\": 1.0, \"step\": 0.1 } } }", "`system` is missing"),
     ] {

@@ -1,4 +1,4 @@
-//! Where the first branch begins.
+//! The start of the first branch.
 
 use super::super::ui::Ui;
 use crate::case::Case;

@@ -7,8 +7,8 @@ use crate::error::Result;
 use crate::orbit::branch::{Graph, Label, Locus, locus};
 use crate::scene::Scene;
 
-/// The loci of the special points of these `names`, of all without any, with at most so many
-/// points; of those that cannot be followed the reason is said.
+/// The loci of the special points with these `names` (of all special points if there are no names),
+/// with at most `most` points each. For those that cannot be followed the reason is printed.
 pub(super) fn follow(
     file: &CaseFile,
     found: &Graph,

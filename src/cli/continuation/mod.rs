@@ -61,15 +61,15 @@ pub struct Args {
     /// Start from an orbit that `signorini orbit` has written
     #[arg(long, value_name = "FILE", value_hint = clap::ValueHint::FilePath)]
     from: Option<PathBuf>,
-    /// Forcing periods that are run before the motion is looked at for repeating itself
+    /// Forcing periods that are run before the motion is checked for repetition
     #[arg(long, value_name = "N", default_value_t = 400, conflicts_with = "from")]
     settle: u32,
-    /// Which branches are followed that begin at special points: no, stable (beside stable orbits),
+    /// Which branches that begin at special points are followed: no, stable (beside stable orbits),
     /// all
     #[arg(long, value_name = "WORD", default_value = "stable")]
     #[arg(value_parser = ["no", "stable", "all"], hide_possible_values = true)]
     switch: String,
-    /// How many switches lead from the first branch to the last
+    /// Maximum number of switches between the first branch and any other
     #[arg(long, value_name = "N", default_value_t = 4)]
     depth: u32,
     /// Most points of one branch
@@ -115,7 +115,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
             "a case of one degree of freedom: the special points of structures are not followed over two keys";
         return Err(Error::invalid("--second", second, expected));
     }
-    // What cannot be followed at all is refused before the folder of results is made.
+    // A scene that cannot be followed at all is refused before the folder of results is made.
     let problem = if lines { Some(Problem::new(case.scene.clone())?) } else { None };
     let from = args.from.as_deref().map(|path| Begin::read(path, &case, problem.as_ref())).transpose()?;
     let request = Request {
@@ -156,7 +156,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     drawn.branches(&results.place("branches.csv")?)?;
     drawn.specials(&results.place("special.csv")?)?;
     let mut document = drawn.document();
-    // Another value of the key tells which walls it moves.
+    // Another value of the key shows which walls it moves.
     let moved = found.branches.iter().flat_map(|branch| &branch.points).find(|point| point.value != *value);
     let other = moved.map(|point| scene_at(point.value)).transpose()?;
     document["walls"] = orbits::walls(&case.scene, other.as_ref().unwrap_or(&case.scene), drawn.place());
@@ -212,13 +212,13 @@ impl Args {
     fn second(&self, file: &CaseFile) -> Result<Option<Varied>> {
         let (Some(key), Some(text)) = (&self.second, &self.second_range) else { return Ok(None) };
         if *key == self.key {
-            return Err(Error::invalid("--second", key, "another key than --key"));
+            return Err(Error::invalid("--second", key, "a key other than --key"));
         }
         Varied::new(file, ("--second", key), ("--second-range", text)).map(Some)
     }
 }
 
-/// Follows the branches under a bar, which shows how far the key has come on the last one.
+/// Follows the branches with a progress bar, which shows the value of the key on the current one.
 fn watched(
     family: &dyn Fn(f64) -> Result<Scene>,
     start: &Begin,

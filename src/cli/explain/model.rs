@@ -75,7 +75,7 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
     lines
 }
 
-/// Each support, and what its flats are to the schemes.
+/// Each support, and how its flats are treated by the schemes.
 pub(super) fn supports(case: &Case) -> Vec<String> {
     let line = |(support, there): (&Support, &scene::Support)| {
         let off = match there.centre {

@@ -25,9 +25,9 @@ pub(crate) struct SeriesBody {
     pub(super) loads: Vec<(Row, Forcing)>,
     /// The distinct rows of the walls, then one for each round hole, along its normal.
     pub rows: Rows,
-    /// Which of them each wall has, in the scene's order, then each hole.
+    /// The index of the row of each wall, in the scene's order, then of each hole.
     pub row_of: Vec<usize>,
-    /// Number of the rows of walls: those that follow turn.
+    /// Number of the rows of walls: the rows of holes, which turn, follow them.
     pub fixed: usize,
     /// The round holes, in the scene's order.
     pub rounds: Vec<Round>,
@@ -48,19 +48,20 @@ struct Column {
     own: f64,
 }
 
-/// Up to this many entries in all, the columns are computed at once, so that steps allocate nothing
-/// (512 kB).
+/// Up to this many entries in all (512 kB), the columns are computed in advance, so that steps do
+/// not allocate.
 const AT_ONCE: usize = 1 << 16;
 
 /// Motion below this share of the motion that a force causes at its own row is dropped, in the
 /// metric of the mass (as in the programmes of impacts).
 const NOTHING: f64 = 1e-17;
 
-/// The power method approaches the largest ratio from below; this factor covers what it may miss.
-/// Each series checks its last terms besides.
+/// The power method approaches the largest ratio from below; this factor covers its error. Each
+/// series also checks its last terms.
 const MARGIN: f64 = 1.05;
 
-/// Sizes of forces are at least this share of the largest: the rounding error of a rounding error.
+/// The size of a force counts as at least this share of the largest one: smaller rounding errors do
+/// not matter.
 const FLOOR: f64 = f64::EPSILON;
 
 /// Iterations of the power method.
@@ -136,7 +137,7 @@ impl SeriesBody {
         self.rounds.get(row.wrapping_sub(self.fixed))
     }
 
-    /// True if all columns are computed at once.
+    /// True if all columns are computed in advance.
     pub fn is_small(&self) -> bool {
         self.n * self.rows.count() <= AT_ONCE
     }

@@ -7,7 +7,7 @@
 //!
 //! r_k is linear in the terms before it, with a matrix that is the same for all orders, since r_k
 //! itself acts along w_0, the row n·P at the start. So it is found as the force of a wall is, by
-//! [`Hold`](super::Hold), that wants w_{k+2} instead of 0.
+//! [`Hold`](super::Hold), which demands this w_{k+2} instead of 0.
 
 /// w at a hole over a stretch.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,7 +19,7 @@ pub(super) struct Circle {
 }
 
 impl Circle {
-    /// Room for so many terms.
+    /// A circle with memory for `terms` terms.
     pub fn new(radius: f64, terms: usize) -> Self {
         Self { radius, w: [vec![0.0; terms], vec![0.0; terms]] }
     }
@@ -48,7 +48,8 @@ impl Circle {
         })
     }
 
-    /// n · w_k as the circle demands it of the terms before: −Σ_{j=1}^{k−1} w_j · w_{k−j}/2γ.
+    /// The n · w_k that keeps the motion on the circle, from the terms before: −Σ_{j=1}^{k−1} w_j ·
+    /// w_{k−j}/2γ.
     pub fn bend(&self, k: usize) -> f64 {
         let sum: f64 = self.w.iter().map(|w| (1..k).map(|j| w[j] * w[k - j]).sum::<f64>()).sum();
         -0.5 * sum / self.radius

@@ -2,7 +2,7 @@
 
 use super::SeriesBody;
 
-/// A row held in place, and the side whose walls carry it.
+/// A row held in place, and the side of the walls that hold it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Held {
     pub row: usize,
@@ -32,15 +32,15 @@ pub(crate) struct Hold {
     factor: Vec<f64>,
     relations: Vec<f64>,
     work: Vec<f64>,
-    /// Number of passes that find the forces: each after the first removes what rounding has left
-    /// of the last.
+    /// Number of passes that find the forces: each after the first removes the rounding error of
+    /// the one before.
     passes: usize,
 }
 
 /// With a pivot below this share of Wᵢᵢ a row depends on those before it.
 const DEPENDENT: f64 = 1e-10;
 
-/// Number of rows for which room is made at the start.
+/// Number of rows for which memory is reserved at the start.
 const ROOM: usize = 64;
 
 /// A pivot below this share of Wᵢᵢ has lost digits that the forces need. One example is a light
@@ -52,7 +52,7 @@ const COARSE: f64 = 1e-3;
 const PASSES: usize = 3;
 
 impl Hold {
-    /// Room for `rows` rows, up to [`ROOM`]: more is made when so many are held.
+    /// Reserves memory for `rows` rows, up to [`ROOM`]; more is allocated when more are held.
     pub fn with_room(rows: usize) -> Self {
         let rows = rows.min(ROOM);
         let square = || Vec::with_capacity(rows * rows);
@@ -94,8 +94,8 @@ impl Hold {
         }
     }
 
-    /// Holds the same rows again, after rows of holes have turned: each at the place (m) that
-    /// `position` makes of its row and its last place.
+    /// Holds the same rows again, after rows of holes have turned: each at the position (m) that
+    /// `position` gives for its row and its last position.
     pub fn renew(&mut self, body: &SeriesBody, position: impl Fn(usize, f64) -> f64) {
         let mut rows = std::mem::take(&mut self.last);
         rows.clear();
@@ -210,8 +210,8 @@ impl Hold {
     }
 
     /// Adds to `force` (N, n entries; or a derivative of it) the forces that hold the rows, and
-    /// passes each to `tell`, row by row, once per pass. A row has the acceleration `wanted` then:
-    /// 0 at a wall, that of the circle at a hole.
+    /// calls `tell` with each, row by row, once per pass. Each row then has the acceleration
+    /// `wanted`: 0 at a wall, that along the circle at a hole.
     pub fn balance(
         &self,
         body: &SeriesBody,
@@ -238,13 +238,13 @@ impl Hold {
         self.change(body, q, scratch, |held| held.position);
     }
 
-    /// Removes from velocities what the held rows still see of them, in the same way.
+    /// Makes the velocities of the held rows 0, by the smallest change in the same metric.
     pub fn stop(&self, body: &SeriesBody, v: &mut [f64], scratch: &mut [f64]) {
         self.change(body, v, scratch, |_| 0.0);
     }
 
-    /// Changes `x` by the least change in the metric of M after which each held row sees what is
-    /// `wanted` of it.
+    /// Changes `x` by the least change in the metric of M after which each held row has the value
+    /// `wanted`.
     pub fn change(&self, body: &SeriesBody, x: &mut [f64], scratch: &mut [f64], wanted: impl Fn(&Held) -> f64) {
         for _ in 0..self.passes {
             for (b, held) in scratch.iter_mut().zip(self.independent()) {

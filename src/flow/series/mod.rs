@@ -48,8 +48,8 @@ pub struct Series {
     terms: usize,
     /// aₖ one after the other, n entries each.
     motion: Vec<f64>,
-    /// Displacements at the rows of the walls, m: a polynomial in x each. The row of a hole sees
-    /// what leaves the gap (γ² − |w|²)/2γ to the wall of its row.
+    /// Displacements at the rows of the walls, m: a polynomial in x each. The value at the row of a
+    /// hole is such that its distance to the wall of this row is the gap (γ² − |w|²)/2γ.
     seen: Vec<f64>,
     /// Number of walls, of their rows, and of the terms at the rows of holes.
     walls: usize,
@@ -57,7 +57,7 @@ pub struct Series {
     squares: usize,
     /// One for each round hole.
     circles: Vec<Circle>,
-    /// Work space: what the circles want of the accelerations at the held rows.
+    /// Work space: the accelerations that the circles demand at the held rows.
     wanted: Vec<f64>,
     /// Force polynomials, N: of the touching elastic walls, then of the held rows.
     forces: Vec<f64>,
@@ -187,15 +187,15 @@ impl Series {
         self.force(touching + held)
     }
 
-    /// The displacement polynomial that row `row` sees, m; at a hole the gap to the wall of its row
-    /// is (γ² − |w|²)/2γ, which is γ − |w| near the circle.
+    /// The displacement polynomial of row `row`, m; at a hole the gap to the wall of its row is (γ²
+    /// − |w|²)/2γ, which is γ − |w| near the circle.
     #[inline]
     pub(crate) fn seen(&self, row: usize) -> &[f64] {
         let terms = if row < self.fixed { self.terms } else { self.squares };
         &self.seen[row * TERMS..row * TERMS + terms]
     }
 
-    /// The polynomial in x of a weighted sum of what two rows see, m.
+    /// The polynomial in x of a weighted sum of the displacements of two rows, m.
     pub(crate) fn seen_along(&self, rows: [&Row; 2], weights: [f64; 2]) -> [f64; TERMS] {
         let mut out = [0.0; TERMS];
         for (k, c) in out.iter_mut().enumerate().take(self.terms) {

@@ -13,7 +13,7 @@ pub(crate) struct Round {
     /// n.
     pub normal: [f64; 2],
     centre: [f64; 2],
-    /// The degrees of freedom that either row of the place sees, with both weights.
+    /// The degrees of freedom of the two rows of the place, with both weights.
     entries: Vec<(usize, [f64; 2])>,
     /// M⁻¹ g_yᵀ and M⁻¹ g_zᵀ, from entry `first` on.
     first: usize,
@@ -103,7 +103,7 @@ impl Round {
         }
     }
 
-    /// The place of the wall that its row sees, γ + n·c, m.
+    /// The position of the wall of its row, γ + n·c, m.
     #[inline]
     pub fn bound(&self) -> f64 {
         self.gap + self.normal[0] * self.centre[0] + self.normal[1] * self.centre[1]

@@ -4,16 +4,16 @@ use super::circle::Circle;
 use super::wave::Wave;
 use super::{Acting, Hold, Series, SeriesBody, TERMS};
 
-/// What a series starts from.
+/// The start of a series.
 pub(crate) struct Start<'a> {
-    /// When, s.
+    /// Time, s.
     pub time: f64,
     /// Displacement, m, and velocity, m/s, n entries each.
     pub q: &'a [f64],
     pub v: &'a [f64],
-    /// A constant force on top of the loads, N, n entries.
+    /// A constant force in addition to the loads, N, n entries.
     pub extra: &'a [f64],
-    /// How far it may reach, s.
+    /// Maximum length of the stretch, s.
     pub span: f64,
 }
 
@@ -41,8 +41,8 @@ const ROUND_RADIANS: f64 = 1.5;
 /// The series ends where a term of the acceleration is below this share of the first.
 const LAST: f64 = 1e-18;
 
-/// Minimum number of terms: beside constants and ramps of the load they leave room for the load's
-/// own oscillations.
+/// Minimum number of terms, so that oscillations of the load are included besides its constant and
+/// ramp.
 const FEWEST: usize = 8;
 
 /// If the last term is above this share of the largest, the fastest rate was underestimated and the
@@ -50,7 +50,7 @@ const FEWEST: usize = 8;
 const TRUNCATION: f64 = 1e-16;
 
 /// The same for a stretch along a circle. Its series is that of elliptic functions, whose terms
-/// fall like the powers of a number, so that all that is left out adds up to twice this.
+/// fall geometrically, so that the sum of all terms left out is at most twice this.
 const ROUND_TRUNCATION: f64 = 2e-17;
 
 /// With a larger acceleration over γ, in units of the stretch, a series along a circle is begun
@@ -141,8 +141,8 @@ impl Series {
         }
     }
 
-    /// Computes the terms. Returns a shorter unit, with nothing of use done, if the acceleration
-    /// along a circle is so large that the terms would grow without bounds.
+    /// Computes the terms. If the acceleration along a circle is so large that the terms would grow
+    /// without bounds, it returns a shorter unit, and the terms are invalid.
     fn fill(
         &mut self,
         body: &mut SeriesBody,

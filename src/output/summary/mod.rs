@@ -1,4 +1,4 @@
-//! `summary.json`: what a run was, what it cost and how far it is to be trusted.
+//! `summary.json`: the case, the cost and the checks of a run.
 
 mod case_file;
 mod scene;
@@ -155,8 +155,8 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
     };
     let mut document = serde_json::to_value(&summary)
         .map_err(|error| Error::io("the summary", error.to_string(), false).caused_by(error))?;
-    // The wear of supports has a place of its own, and a scene without supports says nothing of
-    // them.
+    // The wear of supports stands under a key of its own, which a scene without supports does not
+    // have.
     if let Some(statistics) = document.get_mut("statistics").and_then(Value::as_object_mut) {
         statistics.remove("wear");
         if statistics.get("supports").is_some_and(no_supports) {
@@ -166,7 +166,7 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
     Ok(document)
 }
 
-/// True where there is nothing to say of supports.
+/// True for a scene without supports.
 fn no_supports(supports: &Value) -> bool {
     supports.as_array().is_none_or(Vec::is_empty)
 }

@@ -105,7 +105,7 @@ impl Scene {
 
     fn cut(&self, modes: usize, static_correction: bool, start: Start) -> Result<Reduction> {
         let System::Structure(structure) = &self.system else {
-            return Err(Error::invalid("modes", modes, "none: the system has one degree of freedom"));
+            return Err(Error::invalid("modes", modes, "no modes: the system has one degree of freedom"));
         };
         let n = structure.mass.size();
         let (mut kept, next_omega) = split(structure, modes)?;

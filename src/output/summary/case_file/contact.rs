@@ -22,7 +22,7 @@ pub(super) fn wall(case: &Case, wall: &Wall, place: Option<&Place>, several: boo
     Value::Object(out)
 }
 
-/// Puts a law that a case file can express.
+/// Adds a law that a case file can express.
 fn put_law(out: &mut Map<String, Value>, law: WallLaw) {
     match law {
         // Where a static correction replaces the restitution, the file must not name one.

@@ -5,7 +5,7 @@ use crate::case::{Case, Place};
 use crate::scene::Row;
 use serde_json::{Map, Value, json};
 
-/// Puts the location that the scene has as `row`: as the file gave it, with its direction, or as
+/// Adds the location that the scene has as `row`: as the file gave it, with its direction, or as
 /// the row itself where the location was changed or condensed.
 pub(super) fn put_place(map: &mut Map<String, Value>, case: &Case, place: Option<&Place>, row: &Row) {
     match place.filter(|place| case.sees(place).is_some_and(|seen| seen == *row)) {

@@ -1,8 +1,8 @@
-//! Keys that are written only where there is something to say.
+//! Keys that are written only where they have a value.
 
 use serde_json::{Map, Value};
 
-/// Puts a value, if there is one.
+/// Adds a value, if there is one.
 pub(super) fn put(map: &mut Map<String, Value>, key: &str, value: Option<Value>) {
     if let Some(value) = value {
         map.insert(key.to_owned(), value);

@@ -5,7 +5,7 @@ use crate::case::{Case, Model};
 use crate::scene::{BarEnd, BeamEnd, Damping, MassMatrix, System};
 use serde_json::{Map, Value, json};
 
-/// What vibrates.
+/// The system.
 pub(super) fn system(case: &Case) -> Value {
     let mut out = Map::new();
     let file = |key: &str| case.written.matrices.iter().find(|(name, _)| *name == key).map(|(_, file)| json!(file));
