@@ -1,4 +1,4 @@
-//! Where the names of marks are placed, so that none covers another.
+//! The positions of the names of marks, so that they do not overlap.
 
 use super::axis::Axis;
 use super::look::{SMALL, WIDTH};

@@ -12,12 +12,13 @@ use super::text;
 /// Height of the frame, and side of a cell: 0.2 mm.
 const HEIGHT: f64 = 320.0;
 const CELL: f64 = 0.8;
-/// A dot is wider than its cell, to be seen by itself.
+/// A dot is wider than its cell, so that a single dot is visible.
 const DOT: f64 = 1.5;
 const LEFT: f64 = 84.0;
 const RIGHT: f64 = 24.0;
 
-/// Colours of one group alone, of the first and the second of two, and of cells that have both.
+/// Colours of a single group, of the first and the second of two groups, and of cells with points
+/// of both.
 const ALONE: &str = "#000000";
 const COLOURS: [&str; 2] = ["#d55e00", "#0072b2"];
 const BOTH: &str = "#000000";
@@ -103,7 +104,7 @@ impl Scatter {
     }
 
     /// Draws a line over the points, which are grey then; a point that cannot be drawn breaks it.
-    /// Lines of one label have one entry in the legend, those without a label none.
+    /// Lines of the same label share one entry in the legend; lines without a label have no entry.
     pub fn line(&mut self, line: Line, label: &str, points: Vec<(f64, f64)>) {
         self.overlay.line(line, label, points);
     }

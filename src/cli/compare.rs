@@ -123,7 +123,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 }
 
 /// Runs the first method that succeeded once more, with the places from which the report draws a
-/// structure; the comparison itself is of the probes of the case alone.
+/// structure; the comparison itself uses only the probes of the case.
 fn draw(case: &Case, comparison: &Comparison, results: &mut Results) -> Result<()> {
     let shape = Shape::of(case);
     let first = comparison.rows.iter().find(|row| row.outcome.is_ok());

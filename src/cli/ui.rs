@@ -19,7 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 pub enum Stdout {
     /// It has one: a terminal, a pipe, a file, /dev/null.
     Open,
-    /// It has none, as after `>&-`: whatever is printed is lost.
+    /// It has no stdout, as after `>&-`: whatever is printed is lost.
     Closed,
 }
 

@@ -5,9 +5,9 @@ use crate::scheme::Scheme;
 use crate::study::compare::Comparison;
 use crate::study::verdict::Verdict;
 
-/// The verdict on every method that ran; `progress` is told how many rows are done. The step
-/// matters for the scheme, not for the solver, so a scheme is checked once, by the first of its
-/// solvers.
+/// The verdict on every method that ran; `progress` is called with the number of rows done. The
+/// step matters for the scheme, not for the solver, so a scheme is checked once, by the first of
+/// its solvers.
 pub(super) fn check(case: &Case, comparison: &Comparison, progress: &dyn Fn(u64)) -> Vec<Option<Verdict>> {
     let mut verdicts: Vec<Option<Verdict>> = Vec::new();
     for (index, row) in comparison.rows.iter().enumerate() {

@@ -226,8 +226,8 @@ impl BandFactor {
             bottom = x[j] - lower[j + 1] * bottom;
             (x[k], x[j]) = (top, bottom);
         }
-        // The upper half is one longer where n is even; with two unknowns the lower one is the
-        // middle.
+        // The upper half is longer by one row where n is even; with two unknowns the lower one is
+        // the middle.
         for k in (n - middle - 1).max(1)..middle {
             top = x[k] - lower[k] * top;
             x[k] = top;

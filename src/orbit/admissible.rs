@@ -31,7 +31,7 @@ pub struct Admissible {
     /// The least force with which a wall carries a body at rest, N; infinite without a rest. It is
     /// 0 at the release itself, which is left out.
     pub least_push: f64,
-    /// The largest |displacement|, m; of accumulating impacts only the first is looked at.
+    /// The largest |displacement|, m; of accumulating impacts only the first counts.
     pub largest: f64,
 }
 

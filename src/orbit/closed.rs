@@ -1,4 +1,5 @@
-//! Orbits of one impact a turn in closed form, for any number of degrees of freedom.
+//! Orbits with one impact per period of the orbit in closed form, for any number of degrees of
+//! freedom.
 //!
 //! One rigid wall with row G and gap g is struck once in N periods T = 2πN/Ω of one sine. With
 //! E = exp(AT) the free part of the motion just before the impact is v w, w = (1 − E)⁻¹ E (0,
@@ -23,7 +24,7 @@ use std::f64::consts::TAU;
 /// Most degrees of freedom: the matrices are dense.
 const MOST_UNKNOWNS: usize = 200;
 
-/// An orbit of one impact a turn.
+/// An orbit with one impact per period of the orbit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClosedForm {
     /// Index of the wall that it strikes; a symmetric one strikes the opposite wall too.

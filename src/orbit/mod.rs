@@ -7,11 +7,12 @@
 //! (Nordmark 1991, doi:10.1016/0022-460X(91)90592-8).
 //!
 //! [`Problem`] takes a scene of one degree of freedom; [`Problem::settled`] finds the orbit on
-//! which a run settles, [`closed_forms`] lists all of one impact a turn, [`Problem::correct`]
-//! solves the equations from any start, [`Problem::floquet`] gives the multipliers,
-//! [`Problem::admissible`] says whether a body can follow the orbit, and [`Problem::judge`] makes
-//! an exact run over it. [`branch`] follows orbits over a key. For structures, [`shoot`] finds the
-//! orbit on which a run settles, and [`branch`] follows it by one of its states.
+//! which a run settles, [`closed_forms`] lists all with one impact per period of the orbit,
+//! [`Problem::correct`] solves the equations from any start, [`Problem::floquet`] gives the
+//! multipliers, [`Problem::admissible`] says whether a body can follow the orbit, and
+//! [`Problem::judge`] makes an exact run over it. [`branch`] follows orbits over a key. For
+//! structures, [`shoot`] finds the orbit on which a run settles, and [`branch`] follows it by one
+//! of its states.
 
 mod admissible;
 mod boundary;

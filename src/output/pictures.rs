@@ -113,7 +113,7 @@ impl Sheet<'_> {
         motion(self.scene, run, probe, window.whole, window.detail(), false)
     }
 
-    /// The panel of a probe, told the smallest range that counts as motion: a share of the largest
+    /// The panel of a probe. The smallest range that it draws as motion is a share of the largest
     /// motion of any probe in the leading run.
     fn moving(&self, label: &str, probe: usize, columns: impl Fn(&Run) -> &[Vec<f64>]) -> Panel {
         let largest = |run: &Run| columns(run).iter().flatten().fold(0.0_f64, |a, x| a.max(x.abs()));
@@ -226,7 +226,7 @@ impl Sheet<'_> {
             }
         }
         points.retain(|point| self.span.holds(point.0));
-        // The exact scheme knows its forces at every row. A step that met a rigid wall reports
+        // The exact scheme gives its forces at every row. A step that met a rigid wall reports
         // impulse/h, which is not a force to draw.
         let exact = run.scheme == crate::scheme::Scheme::Event;
         let blur = if exact { 0.0 } else { 1.5 * spacing.max(2.0 * run.grid.step) };

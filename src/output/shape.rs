@@ -39,9 +39,9 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// The stations of `case`, in two planes those along y and then those along z: none for an
-    /// oscillator, for matrices and for modes, whose places are not in a line, nor for a run of
-    /// very many rows.
+    /// The stations of `case`, in two planes those along y and then those along z. There are no
+    /// stations for an oscillator, for matrices and modes, whose places are not in a line, and for
+    /// a run of very many rows.
     #[must_use]
     pub fn of(case: &Case) -> Self {
         let places: Vec<(String, Place)> = match &case.model {

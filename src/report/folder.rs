@@ -1,5 +1,5 @@
-//! The files of a folder of results, read and checked: what is missing or not as written is one
-//! error that names file, line and column.
+//! The files of a folder of results, read and checked: a file that is missing or was changed gives
+//! an error that names file, line and column.
 
 use super::column;
 use crate::error::{Error, Result};
@@ -124,8 +124,8 @@ impl Cells {
         })
     }
 
-    /// The columns for the page, those of `wanted` or all: numbers where every cell is one or is
-    /// empty, else words, each distinct one once.
+    /// The columns for the page, those of `wanted` or all: numbers where every cell is a number or
+    /// empty, otherwise words, each distinct word once.
     pub fn for_page(&self, wanted: Option<&[&str]>) -> Value {
         let shown = |name: &str| wanted.is_none_or(|wanted| wanted.contains(&name));
         let mut columns = Vec::new();

@@ -135,8 +135,8 @@ impl Forcing {
     #[inline]
     #[must_use]
     pub fn impulse_about_since(&self, since: f64, step: u64, h: f64) -> f64 {
-        // The limit between two steps is one product for both: t − h/2 of one and t + h/2 of the
-        // other would differ in the last digit.
+        // The limit between two steps is computed as the same product for both: t − h/2 of one and
+        // t + h/2 of the other would differ in the last digit.
         let edge = |half_steps: f64| (half_steps * h).max(since);
         self.impulse(edge(step as f64 - 0.5), edge(step as f64 + 0.5))
     }

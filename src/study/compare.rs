@@ -92,8 +92,8 @@ pub fn default_methods(chosen: Method, penalties: impl Iterator<Item = Method>) 
     methods
 }
 
-/// Runs every method on `scene`, the reference first. `progress` is told how many runs are done, as
-/// a fraction. A method that fails is a row that gives the reason.
+/// Runs every method on `scene`, the reference first. `progress` is called with the runs done, as a
+/// fraction. A method that fails is a row that gives the reason.
 ///
 /// # Errors
 /// [`Error::Invalid`] for times that make no sense. Errors of a method are in its row.

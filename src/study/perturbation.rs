@@ -11,9 +11,9 @@
 //! 1.
 //!
 //! A stepping scheme meets walls at the grid's instants only; a perturbation far below its own
-//! error may change nothing there, or shift a contact by a whole step. Where such runs are to tell
+//! error may change nothing there, or shift a contact by a whole step. Where such runs are to show
 //! how long errors can be compared, δ is as large as these errors ([`COMPARED`]); where they are to
-//! tell how far rounding grows, δ is small ([`SMALL`]). The scheme's response to the phase of an
+//! show how far rounding grows, δ is small ([`SMALL`]). The scheme's response to the phase of an
 //! impact within its step separates two of its runs too, and is part of the growth they show.
 
 use super::difference::largest;

@@ -74,8 +74,8 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Checks `run` of `scene`, made by `method` with the options `time`; `progress` is told the
-    /// time (s) that the check has reached.
+    /// Checks `run` of `scene`, made by `method` with the options `time`; `progress` is called with
+    /// the time (s) that the check has reached.
     ///
     /// # Errors
     /// Errors of the check's run.

@@ -80,8 +80,8 @@ impl Strobe {
 
 /// The smallest number of periods N up to 32 for which each of the last 3 N of `states`, one per
 /// `period` (s), equals the one N before it, to 1e-3 of `length` (m) and of the speed of that
-/// length times the angular frequency; `None` if there is none. An N for which too few states were
-/// kept is not tried.
+/// length times the angular frequency; `None` if there is no such N. An N for which too few states
+/// were kept is not tried.
 pub(super) fn repeats(states: &[&State], period: f64, length: f64) -> Option<usize> {
     let omega = std::f64::consts::TAU / period;
     let near = |a: &State, b: &State| {

@@ -15,8 +15,8 @@ pub enum NoDerivative {
         /// The walls, by their index in the scene.
         walls: Vec<usize>,
     },
-    /// The step does not resolve its events: it is one of a scheme on a grid, or of a stretch that
-    /// the exact scheme has handed to one.
+    /// The step does not resolve its events: it was made by a scheme on a grid, or in a stretch
+    /// that the exact scheme has handed to one.
     Unresolved {
         /// End of the step, s.
         time: f64,
@@ -31,7 +31,7 @@ impl fmt::Display for NoDerivative {
             }
             Self::Unresolved { time } => write!(
                 f,
-                "no derivative: the step up to t = {time} s is one on a grid, which does not resolve its events; \
+                "no derivative: the step up to t = {time} s is of a scheme on a grid and does not resolve its events; \
                  the scheme event does"
             ),
         }

@@ -19,14 +19,14 @@ from ._sweep import Table
 
 @dataclass(frozen=True)
 class Bifurcation:
-    """What a motion settles to, over the values of a key: see `bifurcation`."""
+    """The motions that runs settle on, over the values of a key: see `bifurcation`."""
 
     table: Table
-    """A row a sample: ``value``, ``direction`` (up, down or None), ``error``; of impacts ``wall``,
+    """One row per sample: ``value``, ``direction`` (up, down or None), ``error``; of impacts ``wall``,
     ``time_s``, ``phase_cycles``, ``approach_speed_m_per_s``, ``departure_speed_m_per_s``,
     ``impulse_N_s``; of periods ``time_s``, ``displacement_m``, ``velocity_m_per_s``."""
     key: str
-    """What was varied."""
+    """The key that was varied."""
 
     def plot(self, column: str | None = None, ax: Any = None) -> Any:
         """Draw a column over the values with matplotlib.
@@ -68,13 +68,13 @@ def bifurcation(
     scheme : str
         As in `Scene.run`.
     settle, keep : int
-        Periods of the load that are let pass, and that are sampled, at each value.
+        Periods of the load before the samples, and with samples, at each value.
     follow : str
         ``"up"``, ``"down"`` or ``"both"``; ``"no"`` starts each value from the case's own start.
     samples : str
         ``"impacts"``, or ``"periods"``: the first probe once a period, a Poincaré section.
     threads : int, optional
-        All cores if left out; values that follow one another run on one.
+        All cores if left out; values that follow one another run on one thread.
 
     Raises
     ------

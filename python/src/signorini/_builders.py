@@ -15,7 +15,7 @@ from ._types import Place, Support
 
 
 class SceneOptions(TypedDict, total=False):
-    """What every function that makes a scene takes besides its own arguments: see `Scene.replace`."""
+    """Arguments of every function that makes a scene, besides its own: see `Scene.replace`."""
 
     walls: Sequence[Wall]
     loads: Sequence[Load]
@@ -245,13 +245,13 @@ def modal(
     Parameters
     ----------
     frequencies : sequence of float
-        Hz, 0 for a rigid-body motion; one a mode.
+        Hz, 0 for a rigid-body motion; one per mode.
     shapes : mapping of str to sequence of float
-        The mode shapes at each named point, one value a mode.
+        The mode shapes at each named point, one value per mode.
     masses : sequence of float, optional
         Generalised masses, kg; 1 for mass-normalised shapes, the default.
     ratios : float or sequence of float
-        Shares of critical damping, for all modes or one a mode.
+        Damping ratios, one for all modes or one per mode.
     **scene
         Walls, loads and so on, whose places are names of points: see `Scene.replace`.
 

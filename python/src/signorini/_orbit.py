@@ -18,15 +18,15 @@ class Orbit:
     """A periodic orbit, by its events: see `orbit`."""
 
     kinds: list[str]
-    """What happens at each event: impact, rest, release, enter, leave and so on."""
+    """The kind of each event: impact, rest, release, enter, leave and so on."""
     walls: list[str]
-    """At which wall."""
+    """The wall of each event."""
     phases: Array
-    """When, in periods of the load from t = 0; shape (events,)."""
+    """The instant of each event, in periods of the load from t = 0; shape (events,)."""
     speeds: Array
     """Speed at each event, m/s; shape (events,)."""
     symmetric: bool
-    """Whether the events are a half of the orbit, of which the other half is the mirror image."""
+    """Whether the events are the first half of an orbit whose second half is the mirror image."""
     period: float
     """s."""
     forcing_period: float
@@ -35,7 +35,7 @@ class Orbit:
     """The two Floquet multipliers; the orbit is stable if both are within the unit circle."""
     stable: bool
     closure: float
-    """How far a free run over one period comes back beside its start, as a share of the scales."""
+    """Distance between start and end of a free run over one period, as a share of the scales."""
     time: Array
     """Instants of that run, s; shape (rows,)."""
     displacement: Array
@@ -64,7 +64,7 @@ def orbit(scene: Scene, *, settle: int = 200, rows: int = 400) -> Orbit:
     scene : Scene
         One degree of freedom between walls, under loads with a common period.
     settle : int
-        Periods of the load that are run, exactly, before events are looked at.
+        Periods of the load that are run, exactly, before events are recorded.
     rows : int
         Instants of its motion that are kept.
 
@@ -87,7 +87,7 @@ def orbit(scene: Scene, *, settle: int = 200, rows: int = 400) -> Orbit:
     refused, holds = made.pop("refused"), made.pop("holds")
     if refused is not None or not holds:
         reason = refused or f"a free run misses it by {made['closure']:.1e} after a period"
-        raise RunError(f"no body follows the orbit that was found: {reason}")
+        raise RunError(f"no body can follow the orbit that was found: {reason}")
     for name in ("phases", "speeds", "time", "displacement", "velocity"):
         made[name] = np.array(made[name], np.float64)
     made["multipliers"] = np.array([complex(*pair) for pair in made["multipliers"]])

@@ -1,4 +1,4 @@
-"""Pictures with matplotlib, which is asked for here only, in the look of the tool's figures."""
+"""Pictures with matplotlib, which is imported only here, in the look of the tool's figures."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _legend(ax: Any) -> None:
 
 
 def run(made: Run, axes: Any = None) -> Any:
-    """Displacement between its walls, velocity, and what the walls gave: see `Run.plot`."""
+    """Displacement between its walls, velocity, and contact forces or impulses: see `Run.plot`."""
     axes = _new(3, 5.6) if axes is None else axes
     position, speed, wall_axes = axes
     for name, dash in zip(made.probes, DASHES * (1 + len(made.probes) // len(DASHES))):
@@ -99,7 +99,7 @@ def chart(made: Chart, quantity: str, ax: Any = None) -> Any:
 
 
 def stability(made: Stability, ax: Any = None) -> Any:
-    """The class of every step, a line a scheme: see `Stability.plot`."""
+    """The class of every step, one line per scheme: see `Stability.plot`."""
     schemes = list(dict.fromkeys(made.safe["scheme"]))
     ax = _new(1, 1.2 + 0.35 * len(schemes)) if ax is None else ax
     values = dict(zip(made.safe["scheme"], made.safe["value"], strict=True))

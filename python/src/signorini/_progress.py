@@ -1,4 +1,4 @@
-"""How far a long computation is, on the terminal."""
+"""Progress of a long computation, on the terminal."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Progress:
         self.shown = False
 
     def tell(self, further: int) -> None:
-        """So many more than are counted are done."""
+        """Show that ``further`` runs are done beyond those counted."""
         now = time.monotonic()
         if not self.wanted or now - self.started < _PATIENCE or now - self.told < _INTERVAL:
             return
@@ -32,7 +32,7 @@ class Progress:
         print(f"\r{done} of {self.total} runs{left}\033[K", end="", file=sys.stderr, flush=True)
 
     def step(self, further: int) -> None:
-        """So many more are done, and counted."""
+        """Count ``further`` runs as done."""
         self.done += further
         self.tell(0)
 

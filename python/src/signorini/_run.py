@@ -1,4 +1,4 @@
-"""What a run can be turned into: called by the compiled class."""
+"""Conversions of a run: called by the compiled class."""
 
 from __future__ import annotations
 

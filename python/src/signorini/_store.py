@@ -1,4 +1,4 @@
-"""Finished rows of a sweep in a folder, from where an interrupted one goes on."""
+"""Finished rows of a sweep in a folder, from which an interrupted sweep continues."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Store:
         self.digests = [_digest(make, point, how) for point in points]
 
     def missing(self, values: npt.NDArray[np.float64], errors: list[str | None]) -> list[int]:
-        """Puts in what the folder has, and gives the indices of the rest."""
+        """Fills in the rows that the folder has, and returns the indices of the others."""
         if self.folder is None:
             return list(range(self.count))
         found: dict[bytes, tuple[npt.NDArray[np.float64], str]] = {}

@@ -28,14 +28,14 @@ class Comparison:
     """Methods side by side: see `compare`."""
 
     table: Table
-    """A row a method: ``method``, ``error`` (share of the gap, up to the horizon), ``agrees_until_s``,
-    ``restitution`` (median of what it realised), ``step_ns``, ``failure`` and ``refuted`` (words)."""
+    """One row per method: ``method``, ``error`` (share of the gap, up to the horizon), ``agrees_until_s``,
+    ``restitution`` (median over the impacts), ``step_ns``, ``failure`` and ``refuted`` (words)."""
     runs: list[Run | None]
     """The runs, as the rows; None where one failed."""
     findings: list[str]
-    """What the comparison shows, in sentences."""
+    """Findings of the comparison, in sentences."""
     horizon: float
-    """Until when errors are meaningful, s."""
+    """Time up to which errors are meaningful, s."""
 
     def __repr__(self) -> str:
         lines = ["method                             error   agrees until (s)   ns a step"]
@@ -85,12 +85,12 @@ class Chart:
     """Computing time against error: see `chart`."""
 
     table: Table
-    """A row a method and step: ``method``, ``kind``, ``step_s``, ``seconds``, ``displacement_error``,
+    """One row per method and step: ``method``, ``kind``, ``step_s``, ``seconds``, ``displacement_error``,
     ``impulse_error``, ``contact_time_error`` (shares), ``failure`` (words)."""
     reference: str
-    """What errors are taken against."""
+    """The reference of the errors."""
     horizon: float
-    """Until when errors are taken, s."""
+    """Time up to which errors are taken, s."""
 
     def cheapest(self, error: float, quantity: str = "displacement") -> tuple[str, float, float] | None:
         """The fastest method and step with at most this error: method, step (s), seconds.
@@ -141,7 +141,7 @@ def chart(
     coarsest, finest : float, optional
         The range of steps, s.
     levels : int, optional
-        How many steps.
+        Number of steps.
     repeats : int
         Timed runs of each point, of which the fastest counts.
     most_seconds : float
@@ -170,11 +170,11 @@ class Stability:
     """Where each scheme fails: see `stability`."""
 
     table: Table
-    """A row a scheme, parameter and step: ``scheme``, ``parameter`` and its ``value``, ``step_s``,
+    """One row per scheme, parameter and step: ``scheme``, ``parameter`` and its ``value``, ``step_s``,
     ``class`` (stable, dissipative, frozen, astray, gaining, diverged) and its ``reason``."""
     safe: Table
-    """A row a scheme at the scene's own parameters: its largest ``safe_step_s`` (nan: there is
-    none), and what is ``beyond`` it, in words."""
+    """One row per scheme at the scene's own parameters: its largest ``safe_step_s`` (nan: there is
+    none), and the first failure ``beyond`` it, in words."""
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the classes with matplotlib, at the scene's own parameters.
@@ -206,7 +206,7 @@ def stability(
     per_decade : float, optional
         Steps tried in each decade.
     contacts : int, optional
-        How many contacts the runs see.
+        Number of contacts after which the runs end.
 
     Raises
     ------

@@ -25,8 +25,9 @@ Table = dict[str, npt.NDArray[Any]]
 
 _Rows = tuple[npt.NDArray[np.float64], list[str | None]]
 
-# A task of two seconds costs a scheduler a thousandth more than its work, and is all that a lost
-# machine loses; where that makes few tasks, shorter ones, but long beside what a task costs.
+# For a task of two seconds the overhead of a scheduler is a thousandth, and a lost machine loses
+# only so much work. Where this would make few tasks, they are shorter, but still long compared with
+# the overhead.
 _SECONDS_PER_TASK = 2.0
 _LEAST_SECONDS = 0.05
 _TASKS = 64
@@ -68,13 +69,13 @@ def run_many(
     threads : int, optional
         All cores if left out.
     progress : bool
-        Whether a terminal shows how far it is, after a second.
+        Whether a terminal shows the progress, after a second.
 
     Returns
     -------
     dict of str to numpy.ndarray of shape (scenes,)
-        What each wall felt over the window of the statistics, with half widths of 95 % intervals;
-        ``error`` is None, or says why a row has no numbers.
+        Contact statistics of each wall over the window, with half widths of 95 % intervals;
+        ``error`` is None, or the reason why a row has no numbers.
 
     Raises
     ------
@@ -128,12 +129,12 @@ def sweep(
         Where to run instead of here: a ``ProcessPoolExecutor``, that of a Dask client
         (``client.get_executor(pure=False)``), ``mpi4py.futures.MPIPoolExecutor`` and the like.
     chunk : int, optional
-        Points of one of its tasks; else found from the time that some of the points take here.
+        Points per task; by default derived from the time that some of the points take here.
     folder : path, optional
         Finished rows are kept there; a sweep that is repeated takes them from there, and goes on
         after an interruption.
     progress : bool
-        Whether a terminal shows how far it is, after a second.
+        Whether a terminal shows the progress, after a second.
 
     Returns
     -------
@@ -179,7 +180,7 @@ def sweep(
         if not missing:
             pass  # All rows are in the folder.
         elif executor is None:
-            # In pieces, so that what is done can be kept, and shown.
+            # In pieces, so that finished rows can be kept, and progress shown.
             size = len(missing) if folder is None else _size(make, points, missing, walls, options)
             for piece in _pieces(missing, size):
                 take(piece, _task(make, [points[i] for i in piece], walls, options, shown.tell))
@@ -215,7 +216,7 @@ def _table(walls: Sequence[str], rows: _Rows) -> Table:
 
 
 def _first_walls(make: Callable[..., Scene], points: Sequence[Mapping[str, Any]]) -> list[str]:
-    """The walls of the first point that has a scene. A defect of ``make`` is told before anything runs."""
+    """The walls of the first point that has a scene. A defect of ``make`` raises before anything runs."""
     for point in points:
         try:
             scene = make(**point)
@@ -234,7 +235,7 @@ def _task(
     options: _Options,
     tell: Callable[[int], None] | None = None,
 ) -> _Rows:
-    """The rows of some points; this is what executors are given."""
+    """The rows of some points; executors run this function."""
     values = np.full((len(points), len(_columns(list(walls)))), np.nan)
     errors: list[str | None] = [None] * len(points)
     scenes, rows = [], []
@@ -295,7 +296,7 @@ def _send(
     take: Callable[[Sequence[int], _Rows], None],
     shown: Progress,
 ) -> None:
-    """Gives each piece to the executor; what fails there is run here."""
+    """Gives each piece to the executor; pieces that fail there are run here."""
     futures = {executor.submit(_task, make, [points[i] for i in p], walls, options): p for p in pieces}
     lost = []
     try:

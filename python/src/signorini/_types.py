@@ -10,7 +10,7 @@ import numpy.typing as npt
 Array = npt.NDArray[np.float64]
 
 Place = int | float | str | tuple[float, float] | Sequence[tuple[int, float]] | Sequence[tuple[str, float]] | None
-"""Where something is: a degree of freedom, a position in m on a bar or beam, a stretch of it, a point
+"""A location: a degree of freedom, a position in m on a bar or beam, a stretch of it, a point
 of modal data, or degrees of freedom (or points) with weights; None where there is one only."""
 
 Support = str | float | tuple[float, float]

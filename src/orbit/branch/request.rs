@@ -7,12 +7,12 @@ use super::point::Point;
 /// At which special points the branches that begin there are followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Switch {
-    /// At none.
+    /// At none of them.
     No,
     /// Where the branch has stable orbits on one side of the point.
     #[default]
     Stable,
-    /// At all.
+    /// At all of them.
     All,
 }
 
@@ -23,7 +23,8 @@ pub struct Request {
     pub range: [f64; 2],
     /// Which branches are followed beside the first.
     pub switch: Switch,
-    /// How many switches lead from the first branch to the last: 0 for the first alone.
+    /// Maximum number of switches between the first branch and any other: 0 for the first branch
+    /// only.
     pub depth: u32,
     /// Most points of a branch.
     pub points: usize,

@@ -24,8 +24,8 @@ use crate::time::TimeOptions;
 use judged::{Judged, exact, unchecked};
 use refine::{Refined, refine};
 
-/// Finds scheme and step for `target` on `scene`. `progress` is told the time (s) that the current
-/// run has reached.
+/// Finds scheme and step for `target` on `scene`. `progress` is called with the time (s) that the
+/// current run has reached.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a request that makes no sense, [`Error::Inaccurate`] if even the first

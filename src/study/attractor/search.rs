@@ -93,7 +93,7 @@ pub(crate) fn exponent(scene: &Checked, period: f64, count: usize, state: &State
 }
 
 /// The attractor that the run of `scene` comes to within `settle` + `keep` periods (s); `see` is
-/// told of every step.
+/// called with every step.
 pub(crate) fn follow(
     scene: &Checked,
     period: f64,

@@ -16,8 +16,8 @@ use std::time::Duration;
 const TELL: Duration = Duration::from_millis(100);
 
 /// Runs the realisations `numbers` by `method` on all cores; `scene` makes the scene of each.
-/// `progress` is told the share of the work that is done. The results do not depend on the number
-/// of cores.
+/// `progress` is called with the share of the work that is done. The results do not depend on the
+/// number of cores.
 ///
 /// # Errors
 /// Of the first realisation that failed, by its number; [`Error::Stopped`](crate::Error::Stopped).

@@ -186,8 +186,8 @@ impl Plan {
         self.steps.first().copied().unwrap_or(self.horizon)
     }
 
-    /// Runs everything; `progress` is told the number of steps taken, of [`Plan::work`]. The result
-    /// does not depend on the number of threads.
+    /// Runs everything; `progress` is called with the number of steps taken, of [`Plan::work`]. The
+    /// result does not depend on the number of threads.
     ///
     /// # Errors
     /// Errors of a reference run; a run of a map that fails is a cell with the reason in it.

@@ -144,8 +144,8 @@ pub struct Truncation {
 
 impl Truncation {
     /// Compares `run` of the `reduction`, made by `method` with the options `time`, with the run of
-    /// twice its modes, or of all of them. `None` if it has all. `progress` is told the time (s)
-    /// that the other run has reached.
+    /// twice its modes, or of all of them. `None` if it has all. `progress` is called with the time
+    /// (s) that the other run has reached.
     ///
     /// # Errors
     /// Errors of the other reduction or run.

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::scheme::{Counters, Integrator, Method, Scheme};
 use crate::study::choice::choose;
 
-/// Measures `methods` on `scene`; `progress` is told the share done, from 0 to 1.
+/// Measures `methods` on `scene`; `progress` is called with the share done, from 0 to 1.
 ///
 /// # Errors
 /// [`crate::Error::Invalid`] for steps that make no sense, and any error that leaves the study

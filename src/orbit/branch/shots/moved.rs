@@ -7,7 +7,8 @@ use crate::orbit::branch::arclength::{Vector, extended};
 use crate::orbit::signature::Kind;
 use crate::orbit::turn::{Look, run};
 
-/// The share of the tangent that is carried along with a point.
+/// Step along the tangent, relative to its length, of the second point that is moved to the new
+/// strobe to find the tangent there.
 const CARRY: f64 = 1e-6;
 
 /// Weight of a stretch at rest on a wall when a place for the strobe is chosen; free flight has 1.
