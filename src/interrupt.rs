@@ -7,25 +7,28 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Time between two questions.
+/// Time between two calls of the caller's function.
 const INTERVAL: Duration = Duration::from_millis(50);
 
-/// Time between two looks at the clock, at least and about: short beside the interval, since steps
-/// may suddenly cost a hundred times more, and long beside a look, which costs some 30 ns.
+/// Approximate time between two readings of the clock: short compared with the interval, since
+/// steps may suddenly cost a hundred times more, and long compared with a reading, which costs some
+/// 30 ns.
 const LOOK: Duration = Duration::from_millis(1);
 
 thread_local! {
     static CURRENT: RefCell<Option<Interrupt>> = const { RefCell::new(None) };
-    /// When this thread last asked, or first could have: many short computations in turn, such as
-    /// the rows of a sweep, ask as often as a long one.
+    /// Time of the last call on this thread, or of the first possibility of one. It outlasts a
+    /// computation, so that many short ones in turn, such as the rows of a sweep, call as often as
+    /// a long one.
     static ASKED: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
-/// A question that computations ask about every 50 ms: whether to stop.
+/// A function of the caller that computations call about every 50 ms, to know whether to stop.
 ///
-/// [`Interrupt::over`] puts it over any computation of the crate: runs, studies, sweeps, and
-/// steppers made within it. All of them end with [`Error::Stopped`] soon after the answer yes, on
-/// every thread that takes part. An interrupt that has stopped something stays stopped.
+/// [`Interrupt::over`] applies it to any computation of the crate: runs, studies, sweeps, and
+/// steppers made within it. All of them end with [`Error::Stopped`] soon after the function has
+/// returned true, on every thread that takes part. An interrupt that has stopped something stays
+/// stopped.
 ///
 /// ```
 /// use signorini::{Error, Interrupt, Options, Scene, Scheme, run};
@@ -48,29 +51,30 @@ struct Inner {
 }
 
 impl Interrupt {
-    /// An interrupt by `ask`, which returns true if the computation shall stop. It is called on the
+    /// An interrupt by `ask`, which returns true if the computation is to stop. It is called on the
     /// threads of the computation.
     #[must_use]
     pub fn new(ask: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         Self(Arc::new(Inner { ask: Box::new(ask), stopped: AtomicBool::new(false) }))
     }
 
-    /// Does `work`, and lets it ask. Of interrupts over one another, the innermost is asked.
+    /// Does `work` under this interrupt. Of nested interrupts, only the innermost is called.
     ///
     /// # Errors
-    /// [`Error::Stopped`] if the work was stopped, whatever it made of that; else its own errors.
+    /// [`Error::Stopped`] if the work was stopped, whatever the work itself returned; otherwise its
+    /// own errors.
     pub fn over<T>(&self, work: impl FnOnce() -> Result<T>) -> Result<T> {
         let outcome = Carried(Some(self.clone())).over(work);
         if self.is_stopped() { Err(Error::Stopped) } else { outcome }
     }
 
-    /// The interrupt over the caller, to be put over what it does on other threads.
+    /// The interrupt that applies to the caller, to be applied to its work on other threads too.
     #[must_use]
     pub fn current() -> Option<Self> {
         CURRENT.with_borrow(Option::clone)
     }
 
-    /// True once the answer was yes.
+    /// True once the function has returned true.
     #[must_use]
     pub fn is_stopped(&self) -> bool {
         self.0.stopped.load(Ordering::Relaxed)
@@ -90,33 +94,34 @@ impl fmt::Debug for Interrupt {
     }
 }
 
-/// The interrupt over a computation, if there is one, to be put over its parts on other threads.
+/// The interrupt that applies to a computation, if there is one, to be applied to its parts on
+/// other threads too.
 #[derive(Debug, Clone)]
 pub(crate) struct Carried(Option<Interrupt>);
 
 impl Carried {
-    /// The one over the caller.
+    /// The interrupt that applies to the caller.
     pub fn here() -> Self {
         Self(Interrupt::current())
     }
 
-    /// Does `work` under it.
+    /// Does `work` under this interrupt.
     pub fn over<T>(&self, work: impl FnOnce() -> T) -> T {
         let _before = Restored(CURRENT.replace(self.0.clone()));
         work()
     }
 
-    /// For what would pass off work that was stopped on its way as done.
+    /// Refuses incomplete results: to be called where stopped work would otherwise count as done.
     ///
     /// # Errors
-    /// [`Error::Stopped`] once it was told to stop.
+    /// [`Error::Stopped`] once the interrupt has stopped.
     #[cfg(feature = "cli")]
     pub fn check(&self) -> Result<()> {
         if self.0.as_ref().is_some_and(Interrupt::is_stopped) { Err(Error::Stopped) } else { Ok(()) }
     }
 }
 
-/// Puts back what was there before, also after a panic.
+/// Restores the former interrupt when dropped, also after a panic.
 struct Restored(Option<Interrupt>);
 
 impl Drop for Restored {
@@ -125,10 +130,10 @@ impl Drop for Restored {
     }
 }
 
-/// Asks the interrupt over a loop about every 50 ms, at the cost of one comparison per pass.
+/// Calls the interrupt of a loop about every 50 ms, at the cost of one comparison per pass.
 #[derive(Debug, Clone)]
 pub(crate) struct Asking {
-    /// The count of passes at which to look at the clock next.
+    /// The number of passes at which the clock is read next.
     due: u64,
     pace: Option<Box<Pace>>,
 }
@@ -136,13 +141,13 @@ pub(crate) struct Asking {
 #[derive(Debug, Clone)]
 struct Pace {
     interrupt: Interrupt,
-    /// Passes between two looks at the clock; it follows their cost.
+    /// Passes between two readings of the clock; adapted to the cost of a pass.
     stride: u64,
     looked: Instant,
 }
 
 impl Asking {
-    /// For a loop of the computation that the caller is in.
+    /// For a loop of the caller's computation.
     pub fn here() -> Self {
         let pace = |interrupt| {
             let now = Instant::now();

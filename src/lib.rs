@@ -2,13 +2,13 @@
 //!
 //! # The rooms
 //!
-//! [`Scene`] says what is simulated, [`Scheme`] how time advances, [`Stepper`] does it a step at a
-//! time, [`run()`] from start to end under the eyes of [`residual::Judge`], and [`Trajectory`] is
-//! what was recorded. [`qp`] is the convex programme of a step, [`flow`] the exact motion between
-//! events, [`variation`] its derivative with respect to the start, [`wear`] what sliding at
-//! supports wears off. Case files come with the feature `case`, output and the tool itself with
-//! `cli`, which is the default and has `case` in it; the format of a case file is documented in
-//! [`case`].
+//! [`Scene`] is what is simulated, [`Scheme`] the time-stepping scheme. [`Stepper`] makes one step
+//! at a time, [`run()`] all steps from start to end, checked by [`residual::Judge`], and
+//! [`Trajectory`] is the recorded motion. [`qp`] is the convex programme of a step, [`flow`] the
+//! exact motion between events, [`variation`] its derivative with respect to the start, [`wear`]
+//! the wear by sliding at supports. Case files come with the feature `case`, output and the tool
+//! itself with `cli`, which is the default and has `case` in it; the format of a case file is
+//! documented in [`case`].
 //!
 //! # Examples
 //!
@@ -37,7 +37,7 @@ mod interrupt;
 pub mod linear;
 mod notes;
 pub mod orbit;
-// What the tool leaves behind, for its benchmarks and tests.
+// The files that the tool writes; public for its benchmarks and tests.
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod output;

@@ -94,7 +94,7 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) 
     notes
 }
 
-/// Notes on what counters say of round holes and friction.
+/// Notes on the counters of round holes and friction.
 fn of_supports(counters: &Counters) -> Vec<String> {
     let mut notes = Vec::new();
     let turn = counters.largest_turn_rad;

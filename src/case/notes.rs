@@ -65,12 +65,11 @@ impl Case {
         let soft = self.whole().walls.iter().zip(&condensation.compliance).filter(|(_, s)| **s > 0.0);
         let names: Vec<String> = soft.clone().map(|(wall, _)| format!("{:?}", wall.name)).collect();
         if let Some(most) = soft.map(|(_, s)| *s).reduce(f64::max) {
-            let (walls, push, are) =
-                if names.len() == 1 { ("wall", "pushes", "is a spring") } else { ("walls", "push", "are springs") };
+            let (walls, push) = if names.len() == 1 { ("wall", "pushes") } else { ("walls", "push") };
             notes.push(format!(
-                "the {walls} {} {push} degrees of freedom without mass, which give up to {most:.3e} m/N: what \
-                 is rigid there {are} of that \
-                 compliance, without restitution; displacements recorded there are those before it gives",
+                "the {walls} {} {push} degrees of freedom without mass, whose static compliance is up to {most:.3e} \
+                 m/N: a rigid wall there is a spring of that compliance, without restitution, and displacements \
+                 recorded there do not include its deflection",
                 names.join(", ")
             ));
         }

@@ -129,7 +129,8 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     match known.admissible.reason(problem.scene()) {
         Some(reason) => Err(Error::no_orbit(format!("no body can follow what was found: {reason}"))),
         None if !judged.holds() => Err(Error::no_orbit(format!(
-            "the free run from it does not come back: it misses its start by {:.1e} of the gap, and rounding explains {:.1e}{}",
+            "the free run from it does not come back: it misses its start by {:.1e} of the gap, and rounding \
+             explains {:.1e}{}",
             judged.closure,
             judged.tolerance,
             if judged.same_events { "" } else { ", and goes through other events" }

@@ -163,8 +163,7 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     if let Some(until) = foreseen {
         ui.message(&format!(
             "beyond about t = {until:.4e} s no step keeps an error of {tolerance:e}: rounding alone grows to \
-             it; what follows is \
-             found up to there at most"
+             it; so scheme and step are found for the time up to then at most"
         ));
     }
     let (case, modes) = match (foreseen, &case.truncated) {

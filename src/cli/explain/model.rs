@@ -63,7 +63,7 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
             ))
         }
         Origin::Base { file, .. } => Some(format!(
-            "load {}: the base moves as {file} says; displacements are relative to it, and walls move along",
+            "load {}: the base moves as {file} says; displacements are relative to it, and walls move with it",
             index + 1
         )),
         Origin::Stated | Origin::Table { .. } | Origin::Second(_) => None,

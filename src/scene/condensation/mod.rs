@@ -124,10 +124,10 @@ impl Scene {
     /// Refuses loads and walls that displace massless degrees of freedom which another row
     /// includes.
     fn check_apart(&self, walls: &[Seen], loads: &[Seen], probes: &[Seen]) -> Result<()> {
-        const GIVE: &str = "give the degrees of freedom there mass, or sit it where they have some";
+        const GIVE: &str = "give the degrees of freedom there mass, or choose a place where they have mass";
         for (index, load) in loads.iter().enumerate() {
             let key = Subject::nth("load", index).part("at");
-            let what = "a place without mass, which it displaces at once";
+            let what = "a place without mass, which it displaces without inertia";
             if let Some((wall, _)) = self.walls.iter().zip(walls).find(|(_, seen)| seen.meets(load)) {
                 let expected = format!("a place that the wall {:?} does not see: {GIVE}", wall.name);
                 return Err(Error::invalid(key, what, expected));
@@ -148,7 +148,8 @@ impl Scene {
                     _ => false,
                 };
                 if seen.meets(beside) && !(facing && places.of.get(i) == places.of.get(j)) {
-                    let value = format!("a place without mass that the wall {:?} displaces at once", other.name);
+                    let value =
+                        format!("a place without mass that the wall {:?} displaces without inertia", other.name);
                     return Err(Error::invalid(Subject::wall(&wall.name).part("at"), value, GIVE));
                 }
             }
@@ -157,7 +158,7 @@ impl Scene {
             let pushed =
                 self.walls.iter().zip(walls).find(|(wall, wall_seen)| wall.at != probe.at && seen.meets(wall_seen));
             if let Some((wall, _)) = pushed {
-                let value = format!("a place without mass that the wall {:?} displaces at once", wall.name);
+                let value = format!("a place without mass that the wall {:?} displaces without inertia", wall.name);
                 let expected = format!("the place of that wall itself; or {GIVE}");
                 return Err(Error::invalid(Subject::probe(&probe.name).part("at"), value, expected));
             }

@@ -118,10 +118,8 @@ fn sampling(statistics: &Statistics, tolerance: f64) -> Option<String> {
     let (widest, wall) = shares.filter(|(share, _)| *share > tolerance).max_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(format!(
         "the mean force of wall {wall:?} scatters along the window: its 95 % interval by ten batches is ±{:.1} \
-         % of it, wider than the \
-         {tolerance:e} asked for; the error is that of this stretch of motion, and as an average of a longer \
-         one the force is known no better \
-         than the interval",
+         % of it, wider than the {tolerance:e} asked for; the error holds for this stretch of motion, and as an \
+         average over a longer one the force is known no better than the interval",
         100.0 * widest
     ))
 }
@@ -131,9 +129,8 @@ pub(super) fn explain(scene: &Scene, outcome: &mut Outcome) {
     let until = outcome.accuracy.until_s;
     if let Some(growth) = outcome.accuracy.growth.filter(|&g| g > LARGEST_GROWTH) {
         outcome.run.notes.push(format!(
-            "a small change of the start or of the numbers of the case grows {growth:.1e}-fold up to t = \
-             {until:.4} s: the error is that of \
-             the calculation, for exactly these numbers"
+            "a small change of the start or of the values of the case grows {growth:.1e}-fold up to t = \
+             {until:.4} s: the error is that of the calculation, for exactly these values"
         ));
     }
     outcome.run.notes.extend(sampling(&outcome.run.statistics, outcome.accuracy.tolerance));
@@ -148,9 +145,8 @@ pub(super) fn explain(scene: &Scene, outcome: &mut Outcome) {
     let rigid = exact(scene, time).map(|exact| Change::of_runs(scene, &outcome.run, &exact, until));
     if let Ok(change) = rigid {
         outcome.run.notes.push(format!(
-            "the error is against {judged}: from the rigid walls the displacement lies {:.1e} of the gap away \
-             up to t = {until:.4} s, which \
-             no step changes",
+            "the error is against {judged}: from the motion between rigid walls the displacement differs by {:.1e} \
+             of the gap up to t = {until:.4} s, which no step changes",
             change.displacement
         ));
     }
