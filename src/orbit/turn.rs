@@ -31,7 +31,7 @@ pub(super) struct Touch {
 pub(super) enum Look {
     /// The events only.
     Events,
-    /// Also where the motion turns back before walls.
+    /// Also the points where the motion turns back before walls.
     Touches,
     /// Both, and the derivative.
     All,

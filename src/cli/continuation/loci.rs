@@ -8,7 +8,7 @@ use crate::orbit::branch::{Graph, Label, Locus, locus};
 use crate::scene::Scene;
 
 /// The loci of the special points with these `names` (of all special points if there are no names),
-/// with at most `most` points each. For those that cannot be followed the reason is printed.
+/// with at most `points` points each. For those that cannot be followed the reason is printed.
 pub(super) fn follow(
     file: &CaseFile,
     found: &Graph,

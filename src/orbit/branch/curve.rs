@@ -26,7 +26,7 @@ pub(super) struct Curve<'a> {
     pub family: &'a Family<'a>,
     pub signature: Signature,
     pub scales: Scales,
-    /// What the key's value is divided by: the width of its range.
+    /// The scale of the key's value: the width of its range.
     pub width: f64,
 }
 

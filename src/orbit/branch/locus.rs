@@ -135,7 +135,7 @@ struct Traced<'a> {
     label: Label,
     event: usize,
     scales: Scales,
-    /// What the values of the keys are divided by.
+    /// The scales of the values of the keys: the widths of their ranges.
     widths: [f64; 2],
 }
 

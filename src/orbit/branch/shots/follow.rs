@@ -28,9 +28,10 @@ const ON_CIRCLE: f64 = 1e-9;
 /// them, but not below this.
 const APART: f64 = 1e-4;
 
-/// A change of the contacts ends the branch from within this distance, or where steps have become
-/// this share of what is left: before a graze they become as short as the square of the impact's
-/// speed. From farther away steps of the last share go towards it.
+/// The branch goes to a change of its contacts in one step, and ends there, from within the
+/// distance `LAST`, or where steps have become shorter than the share `CRAWL` of the distance left:
+/// before a graze they become as short as the square of the impact's speed. From farther away it
+/// approaches by steps of the share `SHARE` of the distance.
 const LAST: f64 = 1e-2;
 const CRAWL: f64 = 3e-2;
 const SHARE: f64 = 0.7;

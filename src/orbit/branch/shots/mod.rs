@@ -44,7 +44,7 @@ pub(super) struct Shots<'a> {
     symmetric: bool,
     /// The scales of states; the same along a branch.
     scales: Scales,
-    /// What the key's value is divided by: the width of its range.
+    /// The scale of the key's value: the width of its range.
     width: f64,
     /// The instant of the states, in cycles from t = 0.
     strobe: f64,
