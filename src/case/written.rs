@@ -44,7 +44,7 @@ pub enum Origin {
     Table {
         /// Name of the file.
         file: String,
-        /// What was read of it.
+        /// The columns that were read.
         columns: TableColumns,
     },
     /// As a random force.
@@ -62,7 +62,7 @@ pub enum Origin {
     Base {
         /// Name of the file.
         file: String,
-        /// What was read of it.
+        /// The columns that were read.
         columns: TableColumns,
         /// ι of matrices and modal data: pairs (degree of freedom, displacement).
         influence: Option<Vec<(usize, f64)>>,
@@ -78,7 +78,7 @@ pub(super) struct NewLoad {
     pub origin: Origin,
 }
 
-/// What a support of the scene no longer shows.
+/// The data of a support that the scene does not hold.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Support {
@@ -89,17 +89,17 @@ pub struct Support {
     /// Its flats, with their place on the system of the file, and the index of the first of their
     /// walls in the scene; the others follow. `None` for a round support.
     pub flats: Option<(Flats, usize)>,
-    /// What the depth of a scar there depends on.
+    /// The values on which the depth of a scar there depends.
     pub scarred: Scarred,
 }
 
-/// What the depth of a scar at a support depends on.
+/// The values on which the depth of a scar at a support depends.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Scarred {
-    /// Width of the support and radius of what slides there, m.
+    /// Width of the support and radius of the tube that slides there, m.
     pub scar: Option<(f64, f64)>,
-    /// Wear coefficient of what slides there, 1/Pa; `None` where `[wear]` has it.
+    /// Wear coefficient of the tube there, 1/Pa; `None` where that of `[wear]` holds.
     pub coefficient: Option<f64>,
     /// Wear coefficient of the support, 1/Pa, likewise.
     pub support_coefficient: Option<f64>,
@@ -126,7 +126,7 @@ impl PartialEq for FileRead {
     }
 }
 
-/// Used by summaries, which write the case again.
+/// Used by summaries, which contain the case.
 #[cfg(feature = "cli")]
 impl Case {
     /// The row of a location of the file in the scene that is condensed but not reduced; `None`
@@ -143,8 +143,8 @@ impl Case {
         row.entries().iter().map(kept).collect::<Option<_>>().map(Row::new)
     }
 
-    /// The law of the walls of support number `index`, if the scene has them as the file gave them
-    /// but for a law that all of them may have got since.
+    /// The law of the walls of support number `index`, if the scene has them as the file gave them;
+    /// only their law may have been changed since, and must be the same for all of them.
     pub(crate) fn law_of_flats(&self, index: usize) -> Option<WallLaw> {
         let (flats, first) = self.written.supports.get(index)?.flats.as_ref()?;
         let made = flats.walls().ok()?;
