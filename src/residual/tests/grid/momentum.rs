@@ -33,7 +33,7 @@ fn what_the_forces_and_impulses_of_a_run_leave_is_measured_by_what_was_exchanged
     let open = 4.0 * -3.0 + 2.0 * 1.0 + 8.0 * 3.0 + 495.0 - (2.0 * -3.0 - 0.5 * 2.0);
     // The forces at the ends, f − c v − k q: how large they get, and how they differ from those of
     // the steps beside them; and the pad at the end, 1 m deep, which pushes with 16 N.
-    let (begin, end) = (7.0 - 2.0 * 2.0 - 8.0 * 1.0, 4.0 - 2.0 * (-1.0) - 8.0 * 2.0);
+    let (begin, end) = (7.0 - 2.0 * 2.0 - 8.0 * 1.0, 4.0 + 2.0 * 1.0 - 8.0 * 2.0);
     assert_eq!((open, begin, end), (516.0, -5.0, -10.0));
     let ends = 10.0 + 5.0 + (4.0 - 2.0) + (-10.0f64 - 4.0 + 3.0).abs() + 0.5 * 16.0;
     let exchanged = 9.0 + 2.0 * 5.0 + 0.5 * 2.0;
