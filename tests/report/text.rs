@@ -455,7 +455,7 @@ fn a_comparison_reads_within_its_folder_only() {
     let table = dir.path().join("c/compare.csv");
     let text = fs::read_to_string(&table).unwrap();
     fs::write(&table, text.replacen("moreau-jean,", "../c/event,", 1)).unwrap();
-    assert!(said(dir.path(), &["report", "c"], 2).contains("no method"));
+    assert!(said(dir.path(), &["report", "c"], 2).contains("not the name of a method"));
 }
 
 /// The curves of the page, in the light theme, are those of the SVG figures.
