@@ -218,3 +218,6 @@ impl Block {
         (motion.abs() > SPREAD * size).then_some(motion)
     }
 }
+
+#[cfg(test)]
+mod tests;

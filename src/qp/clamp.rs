@@ -295,3 +295,6 @@ fn blind(row: usize, lo: f64, hi: f64, compliance: f64, tolerance: f64) -> Resul
 fn free_of(g: f64, value: f64) -> f64 {
     if g == 0.0 { 0.0 } else { value }
 }
+
+#[cfg(test)]
+mod tests;

@@ -32,3 +32,6 @@ impl Cycle {
         false
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -264,3 +264,6 @@ fn symmetrise(w: &mut Runs) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

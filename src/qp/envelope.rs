@@ -216,3 +216,6 @@ impl Envelope {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -173,3 +173,8 @@ fn finite(what: &'static str, values: &[f64], sound: impl Fn(f64) -> bool) -> Re
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod trial;

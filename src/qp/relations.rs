@@ -229,3 +229,6 @@ impl Relations {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

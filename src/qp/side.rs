@@ -37,3 +37,6 @@ impl Side {
         if self == Self::Lower { lo } else { hi }
     }
 }
+
+#[cfg(test)]
+mod tests;

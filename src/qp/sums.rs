@@ -24,3 +24,6 @@ pub(super) fn add(factor: f64, x: &[f64], out: &mut [f64]) {
         *out += factor * x;
     }
 }
+
+#[cfg(test)]
+mod tests;

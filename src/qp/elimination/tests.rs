@@ -31,13 +31,23 @@ fn solved(
     pivoting: &mut Option<Pivoting>,
     (b, lo, hi): (&[f64], &[f64], &[f64]),
 ) -> Option<(Vec<f64>, Vec<f64>, u64)> {
+    solved_in(1.0, problem, pivoting, (b, lo, hi))
+}
+
+/// The same with the unit of length in which gaps are tested.
+fn solved_in(
+    scale: f64,
+    problem: &Problem,
+    pivoting: &mut Option<Pivoting>,
+    (b, lo, hi): (&[f64], &[f64], &[f64]),
+) -> Option<(Vec<f64>, Vec<f64>, u64)> {
     let mut elimination = Elimination::new(problem).expect("a band");
     let mut system = Delassus::new(problem).expect("definite");
     let (mut x, mut r) = (vec![0.0; b.len()], vec![0.0; lo.len()]);
     system.release(b, &mut x);
     system.complete(&x);
     let pivoting = pivoting.get_or_insert_with(|| Pivoting::new(&system));
-    let changes = elimination.solve(&system, pivoting, &Rhs { b, lo, hi }, 1.0, (&mut x, &mut r))?;
+    let changes = elimination.solve(&system, pivoting, &Rhs { b, lo, hi }, scale, (&mut x, &mut r))?;
     Some((x, r, changes))
 }
 
@@ -130,6 +140,19 @@ fn changes_of_state_are_counted() {
     for (b, force, expected) in [(4.0, -4.0, 1), (-4.0, 4.0, 0), (4.0, -4.0, 0)] {
         let (x, r, changes) = solved(&apart, &mut pivoting, (&[b, 0.0, 0.0], &lo, &hi)).expect("settles");
         assert_eq!((x, r, changes), (vec![0.0; 3], vec![force, 0.0, 0.0], expected), "{b}");
+        let side = if force > 0.0 { Side::Lower } else { Side::Upper };
+        assert!(pivoting.iter().flat_map(Pivoting::called).eq([(0, side)]), "{b}");
+    }
+}
+
+#[test]
+fn a_bound_is_violated_by_more_than_rounding_in_all_units() {
+    let apart = problem(chain(2, 1.0, 0.0), &[(0, 1.0, 0.0), (1, 1.0, 0.0)]);
+    for unit in [1e-9, 1.0, 1e9] {
+        // A row beyond its bound by half of what rounding may do to lengths near 1, and by twice.
+        let b = [0.5e-12, 2e-12].map(|x| x * unit);
+        let (x, r, changes) = solved_in(unit, &apart, &mut None, (&b, &[-unit; 2], &[0.0; 2])).expect("settles");
+        assert_eq!((x, r, changes), (vec![b[0], 0.0], vec![0.0, -b[1]], 1), "{unit}");
     }
 }
 
@@ -169,6 +192,10 @@ fn what_does_not_settle_or_is_not_definite_changes_nothing() {
     let rhs = Rhs { b: &[5.0, 5.0], lo: &[-1.0], hi: &[9.0] };
     let (mut x, mut r) = ([7.0, 7.0], [3.0]);
     let mut elimination = Elimination::new(&bad).expect("a band");
+    assert_eq!(elimination.solve(&system, &mut pivoting, &rhs, 1.0, (&mut x, &mut r)), None);
+    assert_eq!((x, r, pivoting.called().count()), ([7.0, 7.0], [3.0], 0));
+    // Singular: D is 1 and 1 − 1.
+    let mut elimination = Elimination::new(&problem(chain(2, 1.0, 1.0), &[(0, 1.0, 0.0)])).expect("a band");
     assert_eq!(elimination.solve(&system, &mut pivoting, &rhs, 1.0, (&mut x, &mut r)), None);
     assert_eq!((x, r, pivoting.called().count()), ([7.0, 7.0], [3.0], 0));
 }
