@@ -207,7 +207,13 @@ impl ActiveSet {
                 if sum <= NOISE * size {
                     return Err(Failure::NotSolved { status: "rows too nearly dependent" });
                 }
-                return Err(Failure::Infeasible { row, against: self.strongest(system).unwrap_or(row) });
+                let Some(i) = self.strongest(system) else { return Err(Failure::Infeasible { row, against: row }) };
+                let against = self.rows[i];
+                let (row, against) = match (side, self.sides[i]) {
+                    (Side::Upper, Side::Lower) => (against, row),
+                    _ => (row, against),
+                };
+                return Err(Failure::Infeasible { row, against });
             }
             for (force, change) in self.force.iter_mut().zip(&self.change[..k]) {
                 *force += push * change;
@@ -227,13 +233,10 @@ impl ActiveSet {
         }
     }
 
-    /// The row in play whose reaction to an impossible push is largest.
+    /// Which of the rows in play reacts most to an impossible push.
     fn strongest(&self, system: &Delassus) -> Option<usize> {
         let resistance = |i: usize| self.change[i].abs() * system.weight[self.rows[i]];
-        (0..self.rows.len())
-            .filter(|&i| self.change[i] != 0.0)
-            .max_by(|&i, &j| resistance(i).total_cmp(&resistance(j)))
-            .map(|i| self.rows[i])
+        (0..self.rows.len()).filter(|&i| self.change[i] != 0.0).max_by(|&i, &j| resistance(i).total_cmp(&resistance(j)))
     }
 
     /// Forces that put every row in play exactly on its bound: W_SS r = bound − y_free.
@@ -301,3 +304,6 @@ fn triangular(factor: &[f64], m: usize, k: usize, v: &mut [f64]) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
