@@ -292,3 +292,6 @@ const fn words(status: SolverStatus) -> &'static str {
         SolverStatus::CallbackTerminated => "interrupted",
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -100,26 +100,25 @@ impl Condensed {
                 return super::finite("solution", x, |v| v.is_finite());
             }
             match pivoting.solve(system, rhs, bounded, scale, self.passes, r) {
-                Ok(pivots) => {
+                Some(pivots) => {
                     counters.pivots += pivots;
                     if let Some(elimination) = &mut self.elimination {
                         elimination.note(system, pivoting.rows().iter().copied());
                     }
                     return self.answer(rhs, solution);
                 }
-                // Whatever the error (crossing bounds included), it is reported only if the next
-                // method fails too.
-                Err(_) if pivoting.rank() < r.len() && r.len() <= MOST_ROWS => {
+                // Whether it did not settle or found that bounds cross, the next method decides.
+                None if pivoting.rank() < r.len() && r.len() <= MOST_ROWS => {
                     counters.crowded += 1;
                     system.complete(x);
                     let crowd = self.crowd.get_or_insert_with(|| Box::new(Crowd::new(system)));
-                    if let Ok(pivots) = crowd.solve(system, pivoting, rhs, bounded, scale, r) {
+                    if let Some(pivots) = crowd.solve(system, pivoting, rhs, bounded, scale, r) {
                         counters.pivots += pivots;
                         return self.answer(rhs, solution);
                     }
                     counters.fallbacks += 1;
                 }
-                Err(_) => counters.fallbacks += 1,
+                None => counters.fallbacks += 1,
             }
         }
         system.complete(x);
@@ -137,7 +136,7 @@ impl Condensed {
             counters.iterations += iterations;
             self.start.clear();
             self.start.extend(pivoting.called());
-            if let Ok(pivots) = pivoting.solve(system, rhs, bounded, scale, passes(r.len()), r) {
+            if let Some(pivots) = pivoting.solve(system, rhs, bounded, scale, passes(r.len()), r) {
                 counters.pivots += pivots;
                 return self.answer(rhs, solution);
             }
@@ -161,7 +160,7 @@ impl Condensed {
         pivoting.clear();
         play.rows().for_each(|(row, side)| pivoting.call(row, side));
         // Pivoting from this active set divides the forces among dependent rows, if it settles.
-        if pivoting.solve(system, rhs, bounded, scale, passes(r.len()), r).is_err() {
+        if pivoting.solve(system, rhs, bounded, scale, passes(r.len()), r).is_none() {
             r.copy_from_slice(&forces);
         }
         let all: Vec<usize> = (0..r.len()).collect();

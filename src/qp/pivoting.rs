@@ -17,7 +17,7 @@ use super::clamp::meet;
 use super::cycle::Cycle;
 use super::delassus::Delassus;
 use super::side::Side;
-use super::{Failure, NOISE, ROUNDING, Rhs, ULPS};
+use super::{NOISE, ROUNDING, Rhs, ULPS};
 
 /// Number of passes in which all wrong rows are exchanged although their number has not fallen.
 const PATIENCE: u32 = 10;
@@ -111,7 +111,8 @@ impl Pivoting {
 
     /// Starts from the states of the rows and ends with the exact r (m entries). `bounded` are the
     /// rows with a bound, increasing. Signs of gaps are tested relative to `scale`, or to the row's
-    /// free motion where that is larger. Returns the number of exchanges.
+    /// free motion where that is larger. Returns the number of exchanges; `None` if it did not
+    /// settle, or found no forces that meet all bounds, which another method then has to confirm.
     pub(super) fn solve(
         &mut self,
         system: &Delassus,
@@ -120,7 +121,7 @@ impl Pivoting {
         scale: f64,
         passes: usize,
         r: &mut [f64],
-    ) -> Result<u64, Failure> {
+    ) -> Option<u64> {
         // Rows that had a bound in the last programme and have none in this one have none to stand
         // on.
         let stays = |row: usize, side: Side| if side == Side::Lower { rhs.lo[row] } else { rhs.hi[row] }.is_finite();
@@ -148,14 +149,14 @@ impl Pivoting {
                 joins += 1;
             }
             if self.wrong.is_empty() {
-                return match self.crossing(system, rhs) {
-                    Some(Failure::NotSolved { .. }) if ulps == 0.0 => {
-                        ulps = ULPS;
-                        continue;
-                    }
-                    Some(failure) => Err(failure),
-                    None => Ok(pivots),
-                };
+                // Forces that grow without limit: rows that cannot be met together, because their
+                // bounds cross or because they are so nearly dependent that rounding decides.
+                let Some(escape) = self.block.escape() else { return Some(pivots) };
+                if ulps == 0.0 && !self.crossing(rhs, escape) {
+                    ulps = ULPS;
+                    continue;
+                }
+                return None;
             }
             if self.wrong.len() < least {
                 (least, patience) = (self.wrong.len(), PATIENCE);
@@ -175,7 +176,7 @@ impl Pivoting {
             pivots += self.wrong.len() as u64;
             self.exchange(r);
         }
-        Err(Failure::NotSolved { status: "pivoting did not settle" })
+        None
     }
 
     /// One pass: forces r, the motion y they cause, and the rows whose state is wrong, increasing.
@@ -282,32 +283,21 @@ impl Pivoting {
         self.next.extend(stay);
     }
 
-    /// If forces grow without limit, the two rows with the largest opposing ones: their bounds
-    /// cannot be met together.
+    /// True if the bounds cannot be met together, as forces that grow like `escape` show.
     ///
     /// By Farkas's lemma they cannot if Gᵀe = 0 and Σ eᵢ · boundᵢ > 0, with eᵢ of the sign of its
     /// bound: so never where all bounds contain 0. A sum within rounding of 0 proves nothing about
     /// the bounds.
-    fn crossing(&self, system: &Delassus, rhs: &Rhs) -> Option<Failure> {
-        let escape = self.block.escape()?;
+    fn crossing(&self, rhs: &Rhs, escape: &[f64]) -> bool {
         let (mut sum, mut size) = (0.0, 0.0);
         for (row, side) in self.called() {
             let term = escape[row] * side.bound(rhs, row);
             sum += term;
             size += term.abs();
         }
-        if sum <= NOISE * size {
-            return Some(Failure::NotSolved { status: "rows too nearly dependent" });
-        }
-        let strongest = |except: Option<usize>| {
-            let reach = |row: usize| escape[row].abs() * system.weight[row];
-            let rows = self.block.rows().iter().copied();
-            rows.filter(|&row| Some(row) != except && escape[row] != 0.0).max_by(|&i, &j| reach(i).total_cmp(&reach(j)))
-        };
-        let row = strongest(None)?;
-        let against = strongest(Some(row)).unwrap_or(row);
-        let upper = |row: usize| self.side[row] == Some(Side::Upper);
-        let (row, against) = if upper(row) && !upper(against) { (against, row) } else { (row, against) };
-        Some(Failure::Infeasible { row, against })
+        sum > NOISE * size
     }
 }
+
+#[cfg(test)]
+mod tests;
