@@ -164,25 +164,4 @@ impl fmt::Debug for Solver {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::linear::{Rows, Symmetric};
-
-    #[test]
-    fn clarabel_answers_where_pivoting_does_not_settle() {
-        let chain = || Problem {
-            a: Symmetric::from_entries(3, [(0, 0, 2.0), (1, 1, 2.0), (2, 2, 2.0), (1, 0, -1.0), (2, 1, -1.0)]),
-            g: Rows::new(3, [[(0, 1.0)], [(1, 1.0)], [(2, 1.0)]].iter().map(|row| row.as_slice())),
-            compliance: vec![0.0; 3],
-        };
-        let rhs = Rhs { b: &[5.0, -4.0, 1.0], lo: &[-1.0; 3], hi: &[1.0; 3] };
-        let mut sound = Solver::new(chain(), Backend::Condensed, 1.0).unwrap();
-        let exact = sound.solve(&rhs).unwrap().clone();
-        let mut hurried = Solver::new(chain(), Backend::Condensed, 1.0).unwrap();
-        let Kind::Condensed(condensed) = &mut hurried.kind else { panic!("not condensed") };
-        condensed.passes = 0;
-        assert_eq!(hurried.solve(&rhs).unwrap(), &exact);
-        assert_eq!((hurried.counters().fallbacks, sound.counters().fallbacks), (1, 0));
-        assert!(hurried.counters().iterations > 0 && sound.counters().iterations == 0);
-    }
-}
+mod tests;
