@@ -290,12 +290,9 @@ pub(super) fn mean_pressure(law: &WallLaw, mean: Mean, theta: f64, h: f64, s0: f
     (pressure, tangent)
 }
 
-/// ΔU/Δs between two depths, and its derivative with respect to the second; without division by
-/// zero.
+/// ΔU/Δs between two depths, of which one is above 0, and its derivative with respect to the
+/// second; without division by zero.
 fn discrete_gradient(law: &WallLaw, s0: f64, s1: f64) -> (f64, f64) {
-    if s0 <= 0.0 && s1 <= 0.0 {
-        return (0.0, 0.0);
-    }
     if s0 <= 0.0 {
         let slope = law.energy(s1) / (s1 - s0);
         return (slope, (law.pressure(s1, 0.0) - slope) / (s1 - s0));

@@ -105,7 +105,7 @@ impl Forces {
                     self.add(wall, p, square);
                 }
             }
-            if !self.supports.is_empty() && step.end > step.start {
+            if !self.supports.is_empty() {
                 let batch = self.batch();
                 self.supports.iter_mut().for_each(|support| support.add(batch, step, [from, to]));
             }
