@@ -231,3 +231,6 @@ impl Walls {
         &self.step
     }
 }
+
+#[cfg(test)]
+mod tests;

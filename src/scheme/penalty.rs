@@ -311,3 +311,6 @@ fn discrete_gradient(law: &WallLaw, s0: f64, s1: f64) -> (f64, f64) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
