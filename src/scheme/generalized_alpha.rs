@@ -273,3 +273,6 @@ fn closed<S: Space>(body: &Body<S>, q: &S::Vector) -> bool {
     let rests = |(wall, face): (usize, &Face)| face.law.is_rigid() && face.depth(body.seen(wall, q)) >= -body.touch;
     body.walls.iter().enumerate().any(rests)
 }
+
+#[cfg(test)]
+mod tests;
