@@ -169,3 +169,54 @@ fn refused(scene: &Scene, failure: &Failure) -> Error {
         _ => Error::invalid(key, format!("not found: {failure}"), "a structure whose matrices can be solved"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Chain, Load};
+
+    /// Three masses of `mass` (kg) without a ground, between springs of `stiffness` (N/m).
+    fn floating(mass: f64, stiffness: f64) -> Scene {
+        let chain = Chain { masses: vec![mass; 3], springs: vec![stiffness; 2], grounds: [0.0; 2] };
+        Scene::structure(chain.structure().unwrap())
+    }
+
+    #[test]
+    fn the_pull_is_a_small_share_of_the_squared_frequencies_in_all_units() {
+        let held = |mass: f64, stiffness: f64| pull(&Scene::oscillator(mass, 0.0, stiffness), &[3.0], 0.1);
+        // Times sixteen times as long, and masses eight times as large.
+        for (mass, stiffness) in [(2.0, 50.0), (2.0, 50.0 / 256.0), (16.0, 400.0), (2.0, 50.0 * 65536.0)] {
+            let share = held(mass, stiffness) / (stiffness / mass);
+            // What is left of an error after each programme; the frequency is computed to rounding.
+            assert!((share / PULL - 1.0).abs() < 1e-12, "{share:e}");
+        }
+        // Hardly pushed, and pushed so that it flies: both ends of the range.
+        for (force, end) in [(1e-12, 0), (1e9, 1)] {
+            for (mass, stiffness, time) in [(2.0, 50.0, 1.0), (2.0, 50.0 / 256.0, 16.0), (16.0, 400.0, 1.0)] {
+                let force = [force * mass / (time * time), 0.0, 0.0];
+                // Three equal masses and two springs: the fastest motion has ω² = 3 k/m.
+                let share = pull(&floating(mass, stiffness), &force, 0.1) / (3.0 * stiffness / mass);
+                assert!((share / LOOSE[end] - 1.0).abs() < 1e-6, "{share:e}, {force:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_spring_yields_by_its_load_whatever_the_unit_of_length() {
+        for unit in [1e-12, 1e-3, 1.0, 1e6] {
+            // Half of the way to the wall.
+            let scene = Scene::oscillator(1.0, 0.0, 4.0)
+                .with_wall(Wall::upper("stop", 1.5 * unit))
+                .with_load(Load::constant(3.0 * unit));
+            let q = equilibrium(&scene).unwrap()[0];
+            // Settled to 1e-13 of the gap, and rounding.
+            assert!((q / (0.75 * unit) - 1.0).abs() < 1e-12, "{q:e} of {unit:e}");
+        }
+    }
+
+    #[test]
+    fn what_nothing_holds_and_nothing_pushes_stays_where_it_is() {
+        assert_eq!(equilibrium(&Scene::oscillator(1.0, 0.0, 0.0)), Ok(vec![0.0]));
+        assert_eq!(equilibrium(&floating(2.0, 50.0)), Ok(vec![0.0; 3]));
+    }
+}

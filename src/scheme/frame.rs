@@ -160,3 +160,27 @@ impl<S: Space> Frame<S> {
 pub(super) fn all_finite(x: &[f64]) -> bool {
     x.iter().fold(true, |all, x| all & x.is_finite())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::matrices::Matrices;
+    use super::*;
+    use crate::linear::Symmetric;
+    use crate::scene::Structure;
+
+    #[test]
+    fn a_state_with_one_number_that_is_not_finite_is_refused_and_what_it_is_said() {
+        let pair = |x: f64| Symmetric::diagonal(&[x, x]);
+        let scene = Scene::structure(Structure { mass: pair(1.0), damping: pair(0.0), stiffness: pair(1.0) });
+        let mut frame = Frame::<Matrices>::new(&scene).unwrap();
+        frame.begin(7, 0.5);
+        assert_eq!(frame.check(7), Ok(()));
+        let refused = |what| Err(Error::NotFinite { time: 4.0, step: 7, what });
+        for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            frame.restart(4.0, &[0.0, wrong], &[0.0, 0.0]);
+            assert_eq!(frame.check(7), refused("displacement"));
+            frame.restart(4.0, &[0.0, 0.0], &[wrong, 0.0]);
+            assert_eq!(frame.check(7), refused("velocity"));
+        }
+    }
+}

@@ -147,3 +147,75 @@ impl Scheme {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_says_what_is_not_the_default_and_reads_back_as_the_scheme() {
+        for (text, name) in [
+            ("moreau-jean:theta=0.5", "moreau-jean"),
+            ("moreau-jean: theta = 0.75 ", "moreau-jean:theta=0.75"),
+            ("generalized-alpha:rho=0.8,", "generalized-alpha"),
+            ("generalized-alpha:rho=0", "generalized-alpha:rho=0"),
+            ("penalty:epsilon=1e-9,integrator=discrete-gradient", "penalty:epsilon=1e-9"),
+            ("penalty:epsilon=1e-9,integrator=trapezoidal", "penalty:epsilon=1e-9,integrator=trapezoidal"),
+            ("penalty:stiffness=1e8,damping=0", "penalty:stiffness=1e8"),
+            ("penalty:damping=20,stiffness=1e8", "penalty:stiffness=1e8,damping=2e1"),
+        ] {
+            let scheme: Scheme = text.parse().unwrap();
+            assert_eq!(scheme.to_string(), name);
+            assert_eq!(name.parse(), Ok(scheme), "{name}");
+        }
+    }
+
+    #[test]
+    fn settings_of_other_schemes_and_those_that_exclude_one_another_are_refused() {
+        for (text, reason) in [
+            ("moreau-jean:rho=0.5", "one of the keys theta"),
+            ("generalized-alpha:theta=0.5", "one of the keys rho"),
+            ("moreau-jean:theta", "key=value"),
+            ("newmark:theta=0.5", "no settings"),
+            ("penalty", "neither epsilon nor stiffness"),
+            ("penalty:epsilon=1e-9,damping=1", "damping with epsilon"),
+            ("penalty:epsilon=1e-9,stiffness=1", "epsilon and stiffness"),
+            ("penalty:epsilon=1e-9,integrator=leapfrog", "integrator"),
+            ("leapfrog", "scheme"),
+        ] {
+            let error = text.parse::<Scheme>().unwrap_err().to_string();
+            assert!(error.contains(reason), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn numbers_outside_of_their_range_are_refused_by_key() {
+        let integrator = Integrator::Trapezoidal;
+        let alpha = |rho| Scheme::GeneralizedAlpha { rho };
+        let spring =
+            |stiffness, damping| Scheme::Penalty { law: PenaltyLaw::Linear { stiffness, damping }, integrator };
+        let quartic = |epsilon| Scheme::Penalty { law: PenaltyLaw::Quartic { epsilon }, integrator };
+        let theta = |theta| Scheme::MoreauJean { theta };
+        let none = f64::NAN;
+        for sound in
+            [theta(0.5), theta(1.0), alpha(0.0), alpha(1.0), spring(1e-3, 0.0), spring(1.0, 2.0), quartic(1e-9)]
+        {
+            assert_eq!(sound.validate(), Ok(()), "{sound}");
+        }
+        for (key, wrong) in [
+            ("theta", [theta(0.49), theta(1.01), theta(none), theta(f64::INFINITY)]),
+            ("rho", [alpha(-0.01), alpha(1.01), alpha(none), alpha(f64::NEG_INFINITY)]),
+            ("penalty.epsilon", [quartic(0.0), quartic(-1.0), quartic(none), quartic(f64::INFINITY)]),
+            ("penalty.stiffness", [spring(0.0, 0.0), spring(-1.0, 0.0), spring(none, 0.0), spring(f64::INFINITY, 0.0)]),
+            (
+                "penalty.damping",
+                [spring(1.0, -0.1), spring(1.0, none), spring(1.0, f64::INFINITY), spring(1.0, f64::NEG_INFINITY)],
+            ),
+        ] {
+            for scheme in wrong {
+                let error = scheme.validate().unwrap_err().to_string();
+                assert!(error.contains(key), "{scheme}: {error}");
+            }
+        }
+    }
+}

@@ -200,10 +200,29 @@ mod tests {
         assert_eq!(spans[1], Ok(walls[1].law));
         assert_eq!(spans[2], Ok(WallLaw::Quartic { epsilon: 1e-9, span: 1.0 }));
         let scene = |wall: &Wall| Scene::oscillator(1.0, 0.0, 1.0).with_wall(wall.clone());
-        assert!(law.validate(&scene(&walls[0])).is_err_and(|e| e.to_string().contains("stiffness")));
+        for (wall, facing) in [(&walls[0], "a lower wall"), (&walls[2], "an upper wall")] {
+            let error = law.validate(&scene(wall)).unwrap_err().to_string();
+            assert!(error.contains("stiffness") && error.contains(facing), "{error}");
+        }
         assert!(law.validate(&scene(&walls[1])).is_err_and(|e| e.to_string().contains("rigid wall")));
         assert!(PenaltyLaw::Linear { stiffness: 1e8, damping: 0.0 }.validate(&scene(&walls[0])).is_ok());
         assert_eq!(law.round(0.5, walls[0].law), WallLaw::Quartic { epsilon: 1e-9, span: 1.0 });
         assert_eq!(law.round(0.5, walls[1].law), walls[1].law);
+    }
+
+    #[test]
+    fn walls_at_one_place_have_no_span_between_them() {
+        let law = PenaltyLaw::Quartic { epsilon: 1e-9 };
+        let behind = |position: f64| [Wall::upper("upper", 0.5), Wall::lower("lower", position)];
+        assert!(behind(0.5).iter().all(|wall| law.at(wall, &behind(0.5)).is_err()));
+        assert!(behind(0.75).iter().all(|wall| law.at(wall, &behind(0.75)).is_err()));
+        assert!(behind(0.25).iter().all(|wall| law.at(wall, &behind(0.25)).is_ok()));
+    }
+
+    #[test]
+    fn only_a_dashpot_loses_energy() {
+        let linear = |damping: f64| PenaltyLaw::Linear { stiffness: 1e8, damping };
+        assert!(linear(0.0).is_lossless() && !linear(1e-3).is_lossless());
+        assert!(PenaltyLaw::Quartic { epsilon: 1e-9 }.is_lossless());
     }
 }

@@ -65,3 +65,32 @@ impl Pushes {
         self.episodes.still_open()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Scheme;
+    use super::*;
+    use crate::scene::{Scene, Wall};
+
+    #[test]
+    fn a_contact_ends_when_its_push_is_cleared_and_is_forgotten_when_the_state_is_set() {
+        let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop", 1.0));
+        let contract = Scheme::MoreauJean { theta: 0.5 }.contract();
+        let mut pushes = Pushes::new(&Checked::new(&scene).unwrap(), contract);
+        let told = |pushes: &mut Pushes, step: f64| {
+            pushes.tell(0.5 * step, 0.5, |_, known| known);
+            (pushes.still_open().len(), pushes.closed().len())
+        };
+        pushes.rates[0] = Rates { before: 1.0, struck: 1.0, after: -1.0 };
+        pushes.push(0, -2.0);
+        assert_eq!(told(&mut pushes, 0.0), (1, 0));
+        pushes.clear();
+        assert_eq!(told(&mut pushes, 1.0), (0, 1));
+        assert_eq!((pushes.closed()[0].impulse, pushes.closed()[0].approach_speed), (-2.0, 1.0));
+        assert_eq!(told(&mut pushes, 2.0), (0, 0));
+        pushes.push(0, -2.0);
+        assert_eq!(told(&mut pushes, 3.0), (1, 0));
+        pushes.forget();
+        assert_eq!((pushes.still_open().len(), pushes.closed().len()), (0, 0));
+    }
+}

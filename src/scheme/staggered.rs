@@ -163,3 +163,6 @@ pub(super) fn counted_blows(step: u64, h: f64) -> (f64, f64, f64) {
     let edge = |half_steps: f64| (half_steps * h).max(0.0);
     (edge(step as f64 - 0.5), edge(step as f64 + 0.5), step as f64 * h)
 }
+
+#[cfg(test)]
+mod tests;

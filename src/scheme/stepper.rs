@@ -347,3 +347,6 @@ fn without_quartic(scene: &Checked) -> Result<&Checked> {
         None => Ok(scene),
     }
 }
+
+#[cfg(test)]
+mod tests;
