@@ -266,3 +266,6 @@ fn contact(wall: usize, sign: f64, rigid: bool, episode: &Open, ended: bool) -> 
         departure_speed: ended.then_some(episode.departure),
     }
 }
+
+#[cfg(test)]
+mod tests;

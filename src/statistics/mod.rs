@@ -236,3 +236,6 @@ fn scatter_of_peaks(peaks: impl Iterator<Item = (f64, f64)>, [from, length]: [f6
     }
     if counts.iter().sum::<f64>() < BATCHES as f64 { None } else { ratio_half_width(&sums, &counts) }
 }
+
+#[cfg(test)]
+mod tests;

@@ -328,3 +328,6 @@ impl Recorder {
         Trajectory(columns)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,166 @@
+//! What begins, ends or happens at the very edge of a window, and what does not happen at all.
+
+use super::batch::Sums;
+use super::*;
+use crate::linear::Symmetric;
+use crate::scene::{FlatWall, PlaneRows, Row, Shape, Structure, Support, WallLaw};
+use crate::step::{Path, Step};
+
+fn contact(wall: usize, start: f64, end: f64, peak_force: Option<f64>) -> Contact {
+    let (impulse, speed) = (-1.0, 1.0);
+    Contact { wall, start, end: Some(end), impulse, peak_force, approach_speed: speed, departure_speed: Some(speed) }
+}
+
+/// A body in two planes between two flats, which are one support.
+fn between_flats(duration: f64) -> Scene {
+    let unit = |x: f64| Symmetric::diagonal(&[x, x]);
+    let structure = Structure { mass: unit(1.0), damping: unit(0.0), stiffness: unit(1.0) };
+    let mut scene = Scene::structure(structure)
+        .with_wall(Wall::upper("right", 1.0))
+        .with_wall(Wall::lower("left", -1.0))
+        .with_duration(duration);
+    let flats = [(0, 0.0), (1, 180.0)].map(|(wall, direction)| FlatWall { wall, direction });
+    scene.supports.push(Support {
+        name: "plate".into(),
+        at: PlaneRows { y: Row::dof(0), z: Row::dof(1) },
+        centre: [0.0; 2],
+        shape: Shape::Flats(flats.to_vec()),
+        friction: 0.0,
+    });
+    scene
+}
+
+/// A step on a grid in which the first wall gives `impulse`, of which `jump` at its end.
+fn step<'a>(index: u64, [start, end]: [f64; 2], impulse: &'a [f64], jump: &'a [f64]) -> Step<'a> {
+    let none = &[0.0; 2];
+    Step {
+        index,
+        start,
+        end,
+        q: &[1.0, 0.0],
+        v: none,
+        velocity_before: &[2.0, 0.0],
+        velocity_after: none,
+        impulse,
+        jump,
+        force: none,
+        friction: none,
+        holes: &[],
+        extra: none,
+        closed: &[],
+        path: Path::Grid,
+    }
+}
+
+#[test]
+fn ten_contacts_make_an_interval_and_nothing_at_all_makes_none_that_is_no_number() {
+    let (none, sums) = ([0.0; BATCHES], Sums { length: 10.0, bin: 0.1 });
+    assert_eq!(ratio_half_width(&none, &none), None);
+    assert_eq!(sums.mean(&none, &none, 9), (0.0, None));
+    assert_eq!(sums.mean(&none, &none, 10), (0.0, Some(0.0)));
+    assert_eq!(sums.root_mean(&none, &none, 10), (0.0, Some(0.0)));
+    let mut one = [1.0; BATCHES];
+    assert!(sums.mean(&one, &one, 0).1.is_some());
+    one[3] = 0.0;
+    assert_eq!(sums.mean(&one, &one, 0).1, None);
+}
+
+#[test]
+fn a_window_without_length_has_no_rates_and_no_intervals() {
+    let scene = between_flats(1.0);
+    let contacts: Vec<Contact> = (0..10).map(|_| contact(0, 1.0, 1.0, None)).collect();
+    let statistics = Statistics::new(&scene, &contacts, 1.0);
+    assert_eq!((statistics.walls[0].contacts, &statistics.walls[0].half_width_95), (10, &None));
+    assert_eq!(EpisodeStatistics::of(&scene, &statistics, &contacts, 0.1)[0].episodes_per_s, 0.0);
+    let (mut forces, mut rubbing) = (Forces::new(&scene, 1.0, 0.1), Rubbing::new(&scene, 1.0, 4));
+    let last = step(9, [0.9, 1.0], &[-1.0, 0.0], &[-1.0, 0.0]);
+    forces.see(&last);
+    rubbing.see(&last);
+    assert_eq!(forces.statistics(0, 10), None);
+    assert!(rubbing.statistics().is_empty());
+}
+
+#[test]
+fn a_support_has_the_contacts_that_begin_in_the_window_and_the_forces_of_those_that_reach_it() {
+    let contacts = [
+        contact(0, 0.1, 0.2, Some(9.0)),
+        contact(1, 0.3, 0.6, Some(5.0)),
+        contact(0, 0.5, 0.6, Some(2.0)),
+        contact(1, 0.7, 0.9, Some(2.0)),
+    ];
+    let support = &Statistics::new(&between_flats(1.0), &contacts, 0.5).supports[0];
+    assert_eq!(support.contacts, 2);
+    assert_eq!((support.episode_peak_force_n.mean, support.episode_peak_force_n.max), (Some(3.0), Some(5.0)));
+}
+
+#[test]
+fn a_round_support_has_its_own_contacts_and_the_impulse_of_its_mean_force() {
+    let mut scene = between_flats(3.0);
+    let ring = Shape::Round { gap: 1.0, law: WallLaw::Rigid { restitution: 1.0 } };
+    scene.supports.push(Support { name: "ring".into(), shape: ring, ..scene.supports[0].clone() });
+    // Contacts of round supports are numbered after the walls.
+    let contacts = [contact(0, 2.0, 2.0, None), contact(2, 0.25, 0.25, None), contact(2, 2.5, 2.5, None)];
+    let mut statistics = Statistics::new(&scene, &contacts, 1.0);
+    assert_eq!([0, 1].map(|hole| statistics.round(&scene, hole)), [(1, 0.0), (0, 0.0)]);
+    statistics.supports[1].force = Some(SupportForce {
+        mean_n: 8.0,
+        mean_half_width_95_n: None,
+        mean_vector_n: [8.0, 0.0],
+        mean_vector_half_width_95_n: None,
+        rms_n: 9.0,
+        rms_half_width_95_n: None,
+        rms_averaged_over_s: 0.1,
+    });
+    // 8 N over the two seconds of the window.
+    assert_eq!(statistics.round(&scene, 0), (1, 16.0));
+}
+
+#[test]
+fn contacts_are_one_episode_if_less_than_the_rest_lies_between_them_and_not_if_just_the_rest_does() {
+    let scene = between_flats(2.5);
+    let contacts = [0.5, 1.0, 2.0].map(|start| contact(0, start, start, None));
+    let statistics = Statistics::new(&scene, &contacts, 0.5);
+    // The first begins with the window.
+    for (rest, episodes) in [(0.5, 3), (0.75, 2), (1.0, 2), (1.25, 1)] {
+        let found = &EpisodeStatistics::of(&scene, &statistics, &contacts, rest)[0];
+        assert_eq!((found.episodes, found.episodes_per_s), (episodes, 0.5 * episodes as f64), "{rest} s");
+    }
+}
+
+#[test]
+fn an_impact_at_the_beginning_of_the_window_counts_and_one_after_its_end_does_not() {
+    let scene = between_flats(12.0);
+    let total = |span: [f64; 2], jump: f64| {
+        let mut forces = Forces::new(&scene, 2.0, 0.1);
+        forces.see(&step(0, span, &[-3.0, 0.0], &[jump, 0.0]));
+        forces.statistics(0, 0).map(|force| force.impulse_n_s)
+    };
+    assert_eq!(total([1.5, 2.0], -3.0), Some(-3.0));
+    assert_eq!(total([1.5, 1.75], -3.0), Some(0.0));
+    assert_eq!(total([11.5, 12.0], -3.0), Some(-3.0));
+    assert_eq!(total([11.5, 12.5], -3.0), Some(0.0));
+    // Of a force over a step the part in the window: a sum over five intervals.
+    assert!(total([11.5, 12.5], 0.0).is_some_and(|p| (p + 1.5).abs() < 1e-12));
+    assert!(total([1.5, 2.5], 0.0).is_some_and(|p| (p + 1.5).abs() < 1e-12));
+}
+
+#[test]
+fn a_support_at_which_nothing_slides_has_no_shares_of_nothing() {
+    let scene = between_flats(10.0);
+    let mut rubbing = Rubbing::new(&scene, 0.0, 4);
+    let untouched = &rubbing.statistics()[0];
+    assert!(untouched.sectors.iter().all(|sector| sector.impulse_share == 0.0 && sector.work_rate_w == 0.0));
+    assert_eq!((untouched.impact_share, untouched.sliding_speed_m_per_s), (None, None));
+    assert_eq!(untouched.work_rate_half_width_95_w, None);
+    // An impact straight onto a flat: all of the impulse in its sector, and no work.
+    rubbing.see(&step(3, [0.3, 0.4], &[-2.0, 0.0], &[0.0, 0.0]));
+    let struck = &rubbing.statistics()[0];
+    assert_eq!(struck.sectors.iter().map(|sector| sector.impulse_share).sum::<f64>(), 1.0);
+    assert_eq!((struck.impact_share, struck.sliding_speed_m_per_s), (None, None));
+    assert_eq!((struck.work_rate_w, struck.work_rate_half_width_95_w), (0.0, None));
+}
+
+#[test]
+fn places_are_named_in_files() {
+    assert_eq!([PlaceKind::Wall.word(), PlaceKind::Support.word()], ["wall", "support"]);
+}
