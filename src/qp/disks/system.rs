@@ -216,7 +216,7 @@ impl System {
         let offset = self.offset(block);
         let free = [offset[0] - (a * old[0] + b * old[1]), offset[1] - (c * old[0] + d * old[1])];
         let (state, mu, new) = match self.bounds[block] {
-            DiskBound::Disk { radius, .. } => circle((self.blocks[block].1, own), free, radius),
+            DiskBound::Disk { radius, .. } => circle(own, free, radius),
             DiskBound::Strip { normal, lo, hi } => {
                 let compliance = form(own, normal, normal);
                 let y = dot(normal, free);
@@ -305,20 +305,16 @@ impl System {
     }
 }
 
-/// The state, μ and multipliers of a disk alone, of one row or two.
-fn circle((rows, own): (usize, [f64; 4]), free: [f64; 2], radius: f64) -> (State, f64, [f64; 2]) {
+/// The state, μ and multipliers of a disk alone; of one row the second entries are 0.
+fn circle([a, b, _, d]: [f64; 4], free: [f64; 2], radius: f64) -> (State, f64, [f64; 2]) {
     let size = norm(free);
     if size.is_nan() || size <= radius {
         return (State::Free, 0.0, [0.0; 2]);
     }
-    let [a, b, _, d] = own;
-    let mu = if rows == 1 { (size / radius - 1.0) / a } else { multiplier([a, b, d], free, radius) };
-    let below = if rows == 1 { 1.0 + mu * a } else { 1.0 + mu * (a + d + mu * (a * d - b * b).max(0.0)) };
-    let z = if rows == 1 {
-        [free[0] / below, 0.0]
-    } else {
-        [(free[0] + mu * (d * free[0] - b * free[1])) / below, (free[1] + mu * (a * free[1] - b * free[0])) / below]
-    };
+    let mu = multiplier([a, b, d], free, radius);
+    let below = 1.0 + mu * (a + d + mu * (a * d - b * b).max(0.0));
+    let z =
+        [(free[0] + mu * (d * free[0] - b * free[1])) / below, (free[1] + mu * (a * free[1] - b * free[0])) / below];
     (State::Circle, mu, z.map(|z| -mu * z))
 }
 
