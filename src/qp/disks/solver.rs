@@ -61,6 +61,19 @@ pub struct DiskCounters {
     pub iterations: u64,
 }
 
+impl DiskCounters {
+    /// The work of two solvers together.
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            solves: self.solves + other.solves,
+            free: self.free + other.free,
+            newton: self.newton + other.newton,
+            fallbacks: self.fallbacks + other.fallbacks,
+            iterations: self.iterations + other.iterations,
+        }
+    }
+}
+
 impl DiskSolver {
     /// Factors what stays the same. `scale` > 0 is a typical size of the bounds.
     ///

@@ -78,7 +78,8 @@ impl Alpha {
             self.rule.free_velocity(&held.body, &mut held.frame, |b| held.body.push(1.0, &self.held, b));
         }
         let pushed = self.correct_velocity(step, held)?;
-        let changed = met || pushed || answered;
+        // What was met is closed, so its velocity is corrected too.
+        let changed = pushed || answered;
         self.rule.renew(&held.body, &held.frame, changed, |force| held.body.push(1.0, &self.held, force));
         held.frame.after.clone_from(&held.frame.v);
         Ok(())
@@ -224,13 +225,6 @@ impl Alpha {
 
     /// The work of both programmes.
     pub fn counters(&self) -> DiskCounters {
-        let (place, rate) = (self.place.counters(), self.rate.counters());
-        DiskCounters {
-            solves: place.solves + rate.solves,
-            free: place.free + rate.free,
-            newton: place.newton + rate.newton,
-            fallbacks: place.fallbacks + rate.fallbacks,
-            iterations: place.iterations + rate.iterations,
-        }
+        self.place.counters().and(self.rate.counters())
     }
 }

@@ -4,9 +4,10 @@ use super::super::body::Body;
 use super::super::frame::Frame;
 use super::super::matrices::Matrices;
 use super::super::supports::TURNING;
+use crate::error::Result;
 use crate::linear::Rows;
 use crate::qp::DiskBound;
-use crate::scene::WallLaw;
+use crate::scene::{Hole, Scene, WallLaw};
 use crate::step::HoleStep;
 
 /// The entries of the two rows of a hole.
@@ -36,6 +37,18 @@ pub(super) struct Held {
 }
 
 impl Held {
+    /// The structure of `scene` at its start, in steps of `h` seconds.
+    pub fn new(scene: &Scene, h: f64) -> Result<Self> {
+        let mut body = Body::<Matrices>::new(scene, h)?;
+        body.restart(0.0);
+        let places = scene.holes().flat_map(|hole| [&hole.support.at.y, &hole.support.at.z]);
+        let rows = Rows::new(body.n, places.map(|row| row.entries()));
+        let round = |hole: Hole<'_>| Round { centre: hole.support.centre, gap: hole.gap, law: hole.law };
+        let rounds: Vec<Round> = scene.holes().map(round).collect();
+        let (holes, friction) = (vec![HoleStep::default(); rounds.len()], vec![0.0; scene.walls.len()]);
+        Ok(Self { body, frame: Frame::new(scene)?, rows, rounds, holes, friction })
+    }
+
     /// The displacement (or velocity) of the place of a hole.
     pub fn seen(&self, hole: usize, x: &[f64]) -> [f64; 2] {
         pair(&self.rows, hole, x)

@@ -21,19 +21,15 @@ mod springs;
 mod velocity;
 
 use super::Counters;
-use super::body::Body;
-use super::frame::Frame;
-use super::matrices::Matrices;
 use super::motion::Motion;
 use super::pushes::Pushes;
 use crate::contact::Rates;
 use crate::error::Result;
-use crate::linear::Rows;
 use crate::qp::{Backend, DiskCounters};
 use crate::scene::{Checked, Scene};
 use crate::step::{Balance, Contact, Contract, HoleStep, Law, Step};
 use alpha::Alpha;
-use held::{Held, Round, pair};
+use held::{Held, pair};
 use position::Position;
 use springs::Springs;
 use velocity::Velocity;
@@ -82,15 +78,7 @@ impl Disks {
     /// `scene` in steps of `h` seconds that satisfy `contract`: that of implicit-euler, of
     /// generalized-alpha, of moreau-jean, or of the penalty with the discrete gradient.
     pub fn new(scene: &Checked, contract: Contract, h: f64) -> Result<Self> {
-        let body = Body::<Matrices>::new(scene, h)?;
-        let places = || scene.holes().flat_map(|hole| [&hole.support.at.y, &hole.support.at.z]);
-        let round = |hole: crate::scene::Hole<'_>| Round { centre: hole.support.centre, gap: hole.gap, law: hole.law };
-        let rounds: Vec<Round> = scene.holes().map(round).collect();
-        let rows = Rows::new(body.n, places().map(|row| row.entries()));
-        let holes = vec![HoleStep::default(); rounds.len()];
-        let friction = vec![0.0; scene.walls.len()];
-        let mut held = Held { body, frame: Frame::new(scene)?, rows, rounds, holes, friction };
-        held.body.restart(0.0);
+        let held = Held::new(scene, h)?;
         Ok(Self {
             rule: match contract.balance {
                 Balance::GeneralizedAlpha { .. } => Rule::Alpha(Box::new(Alpha::new(scene, contract.balance, &held)?)),
