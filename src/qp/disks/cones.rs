@@ -148,3 +148,6 @@ fn apart(lines: &[Line], certificate: &[f64]) -> Failure {
     let [(_, row), (_, against)] = most;
     Failure::Infeasible { row, against: if against == usize::MAX { row } else { against } }
 }
+
+#[cfg(test)]
+mod tests;

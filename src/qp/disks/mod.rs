@@ -122,3 +122,6 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 fn norm(a: [f64; 2]) -> f64 {
     a[0].hypot(a[1])
 }
+
+#[cfg(test)]
+mod tests;

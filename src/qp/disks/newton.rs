@@ -213,3 +213,6 @@ fn radius(bound: DiskBound) -> f64 {
         DiskBound::Strip { .. } => f64::INFINITY,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -127,4 +127,29 @@ mod tests {
         }
         assert_eq!(x.iter().filter(|x| **x == 0.0).count(), 1, "{x:?}");
     }
+
+    #[test]
+    fn an_unknown_that_repeats_another_or_has_no_stiffness_stays_still_wherever_it_stands() {
+        // Each order of the unknowns u, u, v, v and one without stiffness: S = G Gᵀ with the rows
+        // g_u = (2, 0) and g_v = (1, 3).
+        let kinds = [Some([2.0, 0.0]), Some([2.0, 0.0]), Some([1.0, 3.0]), Some([1.0, 3.0]), None];
+        for turn in 0..5 {
+            for flip in [false, true] {
+                let place =
+                    |i: usize| kinds[if flip { (9 + turn - i) % 5 } else { (i + turn) % 5 }].unwrap_or([0.0; 2]);
+                let s: Vec<f64> =
+                    (0..25).map(|at| (place(at / 5), place(at % 5))).map(|(a, b)| a[0] * b[0] + a[1] * b[1]).collect();
+                // b = G (5, −7).
+                let b: Vec<f64> = (0..5).map(|i| 5.0 * place(i)[0] - 7.0 * place(i)[1]).collect();
+                let mut x = b.clone();
+                factored(5, &s).solve(&mut x);
+                for (i, b) in b.iter().enumerate() {
+                    let sum: f64 = (0..5).map(|j| s[5 * i + j] * x[j]).sum();
+                    // Some roundings of numbers up to 16.
+                    assert!((sum - b).abs() < 1e-13, "{turn}, {flip}: {x:?}");
+                }
+                assert_eq!(x.iter().filter(|x| **x == 0.0).count(), 3, "{turn}, {flip}: {x:?}");
+            }
+        }
+    }
 }

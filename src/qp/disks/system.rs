@@ -332,3 +332,6 @@ fn distance(block: (usize, usize), y: &[f64], centre: [f64; 2]) -> f64 {
     let [y, z] = pair(block, y);
     norm([y - centre[0], z - centre[1]])
 }
+
+#[cfg(test)]
+mod tests;
