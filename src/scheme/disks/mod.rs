@@ -182,3 +182,6 @@ impl Motion for Disks {
         None
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -274,3 +274,6 @@ fn ends(held: &Held, hole: usize, y: &DVector<f64>) -> ([f64; 2], [f64; 2]) {
     let start = held.offset(hole, &held.frame.q);
     (start, [start[0] + held.body.h * y[first], start[1] + held.body.h * y[first + 1]])
 }
+
+#[cfg(test)]
+mod tests;
