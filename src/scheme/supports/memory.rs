@@ -55,3 +55,92 @@ impl Memory {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::touch::State;
+    use super::*;
+
+    /// Contacts 0 and 1 are walls, 2 and 3 holes, each on rows of its own.
+    fn touch(index: usize, degrees: f64, impulse: [f64; 2]) -> Touch {
+        let normal = [degrees.to_radians().cos(), degrees.to_radians().sin()];
+        Touch {
+            index,
+            rows: [2 * index, 2 * index + 1],
+            normal,
+            tangent: [-normal[1], normal[0]],
+            bound: 0.0,
+            friction: 0.3,
+            compliance: 0.0,
+            own: [1.0, 0.0, 1.0],
+            state: State::Ahead,
+            impulse,
+        }
+    }
+
+    fn memory() -> Memory {
+        Memory::new(2, 4, 8)
+    }
+
+    #[test]
+    fn a_body_is_frozen_between_opposite_flats_or_sides_of_a_hole_that_push_one_after_the_other() {
+        // A flat that pushes after another one of its place: frozen if they are opposite. In a hole
+        // it is enough that the normals are more than a right angle apart.
+        for (index, degrees, frozen) in
+            [(0, 180.0, 1), (0, 179.0, 0), (1, -180.0, 1), (2, 180.0, 1), (2, 91.0, 1), (2, 89.0, 0), (3, -120.0, 1)]
+        {
+            let mut memory = memory();
+            memory.keep(&[touch(index, 0.0, [1.0, 0.0])], &[0.0; 2]);
+            assert_eq!(memory.frozen, 0);
+            memory.keep(&[touch(index, degrees, [1.0, 0.0])], &[0.0; 2]);
+            assert_eq!(memory.frozen, frozen, "{index}, {degrees}");
+            // Only the last step counts, not the one before, nor a place of another contact.
+            memory.keep(&[touch((index + 1) % 4, degrees + 180.0, [1.0, 0.0])], &[0.0; 2]);
+            memory.keep(&[touch(index, 0.0, [1.0, 0.0])], &[0.0; 2]);
+            assert_eq!(memory.frozen, frozen, "{index}, {degrees}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_push_or_yields_freezes_nothing() {
+        let open = touch(0, 0.0, [0.0; 2]);
+        let elastic = Touch { compliance: 0.1, ..touch(0, 0.0, [1.0, 0.0]) };
+        let opposite = touch(0, 180.0, [1.0, 0.0]);
+        for (first, second) in [(open, opposite), (elastic, opposite), (opposite, open)] {
+            let mut memory = memory();
+            memory.keep(&[first], &[0.0; 2]);
+            memory.keep(&[second], &[0.0; 2]);
+            assert_eq!(memory.frozen, 0, "{first:?}, {second:?}");
+        }
+        let mut memory = memory();
+        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [1.0, 0.0])], &[0.0; 2]);
+        memory.forget();
+        memory.keep(&[opposite, touch(2, 180.0, [1.0, 0.0])], &[0.0; 2]);
+        assert_eq!(memory.frozen, 0);
+        // Two of them in a step freeze it once.
+        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [1.0, 0.0])], &[0.0; 2]);
+        assert_eq!(memory.frozen, 1);
+    }
+
+    #[test]
+    fn the_impulses_of_a_step_are_kept_for_the_next_one_only() {
+        let mut memory = memory();
+        memory.keep(&[touch(1, 0.0, [2.0, -0.5]), touch(3, 0.0, [3.0, 0.7]), touch(2, 0.0, [0.0; 2])], &[0.0; 2]);
+        assert_eq!(memory.warm, [[0.0; 2], [2.0, -0.5], [0.0; 2], [3.0, 0.7]]);
+        memory.keep(&[touch(0, 0.0, [1.0, 0.0])], &[0.0; 2]);
+        assert_eq!(memory.warm, [[1.0, 0.0], [0.0; 2], [0.0; 2], [0.0; 2]]);
+        memory.forget();
+        assert_eq!(memory.warm, [[0.0; 2]; 4]);
+    }
+
+    #[test]
+    fn the_largest_turn_is_that_of_a_hole_that_pushes() {
+        let mut memory = memory();
+        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [0.0; 2])], &[0.5, 0.6]);
+        assert!(memory.turned == 0.0);
+        for (turns, largest) in [([0.1, 0.9], 0.1), ([0.3, 0.9], 0.3), ([0.2, 0.9], 0.3)] {
+            memory.keep(&[touch(2, 0.0, [1.0, 0.0])], &turns);
+            assert!(memory.turned == largest, "{turns:?}: {}", memory.turned);
+        }
+    }
+}

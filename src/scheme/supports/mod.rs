@@ -300,3 +300,6 @@ impl Motion for Supports {
         None
     }
 }
+
+#[cfg(test)]
+mod tests;

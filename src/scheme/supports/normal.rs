@@ -96,4 +96,17 @@ mod tests {
         let met = meet((1.0, 0.25), [1.5, 0.0], [-0.5, 0.0], h).unwrap();
         assert!(met.arriving == -0.5 && met.bound == 0.5, "{met:?}");
     }
+
+    #[test]
+    fn the_angle_of_a_turn_is_the_way_along_the_circle_over_its_radius() {
+        for k in 0..20 {
+            // From the circle of radius 4e-3 m, at a speed of which 0.3 m/s is along it.
+            let (gap, h, turn, along) = (4e-3, 1e-7, 0.37 * f64::from(k), if k % 2 == 0 { 0.3 } else { -0.3 });
+            let (c, s, out) = (f64::cos(turn), f64::sin(turn), 0.2);
+            let rate = [out * c - along * s, out * s + along * c];
+            let met = meet((gap, 0.5), [gap * c, gap * s], rate, h).unwrap();
+            // The normal is that half a step ahead, 4e-6 rad on.
+            assert!((met.turn / (h * 0.3 / gap) - 1.0).abs() < 1e-5, "{met:?}");
+        }
+    }
 }

@@ -181,3 +181,6 @@ fn most(rate: f64, touches: &[Touch]) -> f64 {
     });
     largest.min(WEDGED * rate)
 }
+
+#[cfg(test)]
+mod tests;

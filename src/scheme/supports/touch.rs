@@ -203,4 +203,85 @@ mod tests {
         }
         assert!(seen.iter().all(|&count| count > 50), "{seen:?}");
     }
+
+    #[test]
+    fn a_guess_is_the_state_of_the_answer_whatever_the_impulse_was() {
+        for k in 0..2000 {
+            let turn = 0.37 * f64::from(k);
+            let (places, mut touch) = one([turn.cos(), turn.sin()], 0.1 * f64::from(k % 9));
+            // Velocities without the contact, and an impulse that it may have.
+            let mut y = vec![(1.3 * turn).sin(), (2.1 * turn).cos()];
+            let (_, mut fresh) = one(touch.normal, touch.friction);
+            fresh.answer(&places, &mut y.clone(), 1.0);
+            let rubs = f64::from(u8::from(touch.friction > 0.0));
+            touch.impulse = [(0.7 * turn).sin(), rubs * (1.7 * turn).cos()];
+            places.add(touch.rows, touch.push(touch.impulse), &mut y);
+            assert_eq!(touch.guess(&y), fresh.state, "{touch:?}");
+        }
+    }
+
+    #[test]
+    fn the_size_of_an_answer_counts_both_parts_of_the_impulse() {
+        // The inverse of the mass matrix is [[1, −0.9], [−0.9, 2]]/1.19.
+        let form = |x: [f64; 2]| (x[0] * x[0] - 1.8 * x[0] * x[1] + 2.0 * x[1] * x[1]) / 1.19;
+        for k in 0..50 {
+            let turn = 0.37 * f64::from(k);
+            let (places, mut touch) = one([turn.cos(), turn.sin()], 0.4);
+            let (size, _) = touch.answer(&places, &mut [(1.3 * turn).sin(), (2.1 * turn).cos()], 1.0);
+            let [p, f] = touch.impulse;
+            let both = form(touch.normal) * p.abs() + form(touch.tangent) * f.abs();
+            // Some roundings of a few m/s.
+            assert!((size - both).abs() < 1e-14, "{touch:?}: {size} {both}");
+        }
+    }
+
+    #[test]
+    fn a_body_that_does_not_approach_gets_no_impulse_however_it_slides() {
+        for k in 0..100 {
+            let turn = 0.37 * f64::from(k);
+            let (_, touch) = one([turn.cos(), turn.sin()], 0.5 * f64::from(k % 9));
+            for n in [0.0, -0.1] {
+                assert_eq!(touch.alone(n, (2.1 * turn).cos()), (Some(State::Open), [0.0; 2]), "{touch:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn where_no_state_answers_the_push_is_that_without_friction() {
+        // No mass has this response, whose determinant is below 0: at t = 0 the four states fail,
+        // stick at p = −1/12, slip ahead at t·ẇ⁺ = −1, slip back at p = −1/4.
+        let (_, touch) = one([1.0, 0.0], 1.0);
+        let touch = Touch { own: [4.0, 8.0, 4.0], ..touch };
+        assert_eq!(touch.alone(1.0, 0.0), (None, [0.25, 0.0]));
+    }
+
+    #[test]
+    fn a_state_holds_within_the_noise_and_no_farther() {
+        for [a, c] in [[1e-3, 1e3], [1e3, 1e-3]] {
+            for noise in [1e-9, 1e-3] {
+                let (_, touch) = one([1.0, 0.0], 0.5);
+                let touch = Touch { own: [a, 0.0, c], bound: 0.0, ..touch };
+                let holds =
+                    |state: State, impulse: [f64; 2], y: [f64; 2]| Touch { state, impulse, ..touch }.holds(&y, noise);
+                let (less, more) = (0.5 * noise, 2.0 * noise);
+                let press = 1.0;
+                for state in [State::Stick, State::Ahead, State::Back] {
+                    assert!(holds(state, [press, 0.0], [0.0; 2]), "{state:?}");
+                    assert!(!holds(state, [-more / a, 0.0], [0.0; 2]), "{state:?}");
+                    assert!(holds(state, [press, 0.0], [less, 0.0]) && holds(state, [press, 0.0], [-less, 0.0]));
+                    assert!(!holds(state, [press, 0.0], [more, 0.0]) && !holds(state, [press, 0.0], [-more, 0.0]));
+                }
+                assert!(holds(State::Open, [0.0; 2], [less, 7.0]) && !holds(State::Open, [0.0; 2], [more, 7.0]));
+                // It sticks with up to half of the push, and moves along with the side of its slip.
+                assert!(holds(State::Stick, [press, 0.5 + less / c], [0.0; 2]));
+                assert!(!holds(State::Stick, [press, -0.5 - more / c], [0.0; 2]));
+                assert!(!holds(State::Stick, [press, 0.0], [0.0, more]));
+                for (state, sign) in [(State::Ahead, 1.0), (State::Back, -1.0)] {
+                    assert!(holds(state, [press, 0.0], [0.0, sign]) && holds(state, [press, 0.0], [0.0, -sign * less]));
+                    assert!(!holds(state, [press, 0.0], [0.0, -sign * more]), "{state:?}");
+                    assert!(holds(state, [-less / a, 0.0], [0.0; 2]), "{state:?}");
+                }
+            }
+        }
+    }
 }
