@@ -41,8 +41,8 @@ fn rounding_at_a_hole_grows_with_what_acts_there_and_has_its_units() {
         assert!(limit >= f64::EPSILON * size && limit < 100.0 * f64::EPSILON * size, "{limit:e}");
     }
     assert!(at_hole([30.0, 200.0, 0.25, 2.0])[0] > force && at_hole([3.0, 300.0, 0.25, 2.0])[0] > force);
-    // Lengths eight times as large, then masses, then times of half the length; powers of two do not
-    // round.
+    // Lengths eight times as large, then masses, then times of half the length; powers of two do
+    // not round.
     for (units, grown) in
         [([8.0, 1.0, 8.0, 1.0], [8.0, 8.0]), ([4.0, 4.0, 1.0, 4.0], [4.0, 4.0]), ([4.0, 4.0, 1.0, 1.0], [4.0, 1.0])]
     {

@@ -18,8 +18,8 @@ fn weights(rho: f64) -> [f64; 4] {
     [alpha_m, alpha_f, 0.25 * (gamma + 0.5) * (gamma + 0.5), gamma]
 }
 
-/// m, c, k and the constant load of a body, its walls, a blow (its impulse and its instant), and the
-/// extra force of every step.
+/// m, c, k and the constant load of a body, its walls, a blow (its impulse and its instant), and
+/// the extra force of every step.
 #[derive(Debug, Clone)]
 struct Plan {
     body: [f64; 4],
@@ -49,8 +49,8 @@ struct Written {
     closed: bool,
 }
 
-/// Distance at which a rigid wall counts as touched, m: in these scenes more than rounding, and less
-/// than any other distance.
+/// Distance at which a rigid wall counts as touched, m: in these scenes more than rounding, and
+/// less than any other distance.
 const TOUCH: f64 = 1e-12;
 
 fn sign(wall: &Wall) -> f64 {
@@ -130,8 +130,8 @@ impl Written {
         let place =
             |unfelt: f64| self.place(s, past + f - c * (free - unfelt * (self.a + extra / m)) - k * ahead, ahead);
         let (felt, not_felt) = (place(0.0), place(unfelt));
-        // A wall that holds the body is met if it is met either way; another if it is met both ways,
-        // or by the damper that feels the acceleration alone.
+        // A wall that holds the body is met if it is met either way; another if it is met both
+        // ways, or by the damper that feels the acceleration alone.
         let (delta, push, met) =
             if c == 0.0 || rho == 1.0 || !(self.closed || felt.2) || !not_felt.2 { felt } else { not_felt };
         let q1 = ahead + delta;
@@ -300,8 +300,9 @@ fn a_body_before_a_wall_is_not_held_by_it_though_a_damper_that_feels_less_would_
 
 #[test]
 fn a_wall_far_from_the_origin_gives_back_the_blow_that_drives_a_damped_body_into_it() {
-    // There the place of a body on its floor, behind a lever, is known to some 1e-10 m, far less well
-    // than a touching distance. It rests under 5 N, with a blow of 1 N s within the second step.
+    // There the place of a body on its floor, behind a lever, is known to some 1e-10 m, far less
+    // well than a touching distance. It rests under 5 N, with a blow of 1 N s within the second
+    // step.
     let [alpha_m, alpha_f, beta, gamma] = weights(0.8);
     let balance = Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma };
     for place in (0..50).map(|i| 1e6 + 0.1 * f64::from(i)) {

@@ -58,8 +58,8 @@ fn the_tangent_is_the_derivative_of_the_mean_pressure() {
         let rounding = 1e-12 / (s1 - s0).abs();
         assert!((at(s1).0 - expected).abs() < rounding.max(1e-12), "{law:?} {mean:?}: {s0} to {s1}");
         let d = 1e-5;
-        // Where the body reaches or leaves the wall, or the dashpot's pull ends, there is a corner; and
-        // a gradient over a short way is a difference of nearly equal energies.
+        // Where the body reaches or leaves the wall, or the dashpot's pull ends, there is a corner;
+        // and a gradient over a short way is a difference of nearly equal energies.
         let ends = [s1 - d, s1 + d];
         if ends[0] * ends[1] <= 0.0
             || (s1 - s0).abs() < 0.01

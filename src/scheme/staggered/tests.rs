@@ -9,8 +9,8 @@ fn schemes() -> [Scheme; 2] {
     [Scheme::PaoliSchatzman, Scheme::Penalty { law, integrator: Integrator::CentralDifference }]
 }
 
-/// 2 kg with a damper between a spring that pushes up and one that pushes down, each with a dashpot;
-/// a rigid wall is never reached.
+/// 2 kg with a damper between a spring that pushes up and one that pushes down, each with a
+/// dashpot; a rigid wall is never reached.
 fn between(stiffness: f64, damping: f64) -> Scene {
     Scene::oscillator(2.0, 3.0, 40.0)
         .with_wall(Wall::upper("far", 100.0))

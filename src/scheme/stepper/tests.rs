@@ -162,16 +162,16 @@ fn the_mean_square_of_a_force_that_swings_often_in_one_step_is_that_of_its_close
         }
         let wall = Statistics::new(&scene, &[], 0.0).with_forces(&forces).walls[0].force.unwrap();
         assert!((wall.mean_n - 3.0).abs() < 1e-9, "{wall:?}");
-        // 3² + 2²/2; Gauss's rule of two points over a radian of the squared force errs by 1/4320 of
-        // its fourth derivative, which has the mean 0 over whole periods.
+        // 3² + 2²/2; Gauss's rule of two points over a radian of the squared force errs by 1/4320
+        // of its fourth derivative, which has the mean 0 over whole periods.
         assert!((wall.rms_n - 11.0_f64.sqrt()).abs() < 1e-5, "{wall:?}");
     }
 }
 
 #[test]
 fn the_mean_square_of_a_single_push_is_that_of_its_closed_form() {
-    // A spring pushes 1 kg out with 5 N at first, and a load of 1 N pulls it away: 6 cos φ − 1 N with
-    // φ = ωt, until cos φ = 1/6. It never comes back.
+    // A spring pushes 1 kg out with 5 N at first, and a load of 1 N pulls it away: 6 cos φ − 1 N
+    // with φ = ωt, until cos φ = 1/6. It never comes back.
     let leaves = (1.0_f64 / 6.0).acos();
     let square = leaves - 12.0 * leaves.sin() + 36.0 * (0.5 * leaves + 0.25 * (2.0 * leaves).sin());
     for omega in [1.0, 1e3, 1e-3] {
@@ -187,8 +187,8 @@ fn the_mean_square_of_a_single_push_is_that_of_its_closed_form() {
             forces.see(&stepper.step().unwrap());
         }
         let wall = Statistics::new(&scene, &[], 0.0).with_forces(&forces).walls[0].force.unwrap();
-        // Gauss's rule of two points over at most half a radian: 1/4320 of its fourth power times the
-        // third derivative at the end, 36 N², of 18 N².
+        // Gauss's rule of two points over at most half a radian: 1/4320 of its fourth power times
+        // the third derivative at the end, 36 N², of 18 N².
         let expected = (square / 100.0).sqrt();
         assert!((wall.rms_n / expected - 1.0).abs() < 5e-5, "{wall:?}, {expected}");
     }

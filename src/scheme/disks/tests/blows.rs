@@ -24,8 +24,8 @@ fn a_blow_on_one_body_moves_it_as_if_no_other_were_pressed_into_its_hole() {
                     .with_load(blow(3))
                     .with_initial(&[1e-3 * n[0], 1e-3 * n[1], 0.0, 0.0], &[0.0; 4])
             };
-            // Roundings of numbers up to 1e-4 m and 0.1 m/s; but generalized-alpha lets all dampers act
-            // otherwise, to order h², in a step that meets a hole.
+            // Roundings of numbers up to 1e-4 m and 0.1 m/s; but generalized-alpha lets all dampers
+            // act otherwise, to order h², in a step that meets a hole.
             let alpha = matches!(scheme, Scheme::GeneralizedAlpha { .. });
             let small = if alpha { [1e-9, 1e-6] } else { [1e-17, 1e-14] };
             // In the large hole the first body meets nothing.
