@@ -63,11 +63,14 @@ fn read(path: &Path) -> Source {
     Source { path: path.to_owned(), items, types, blocks }
 }
 
+/// All sources of a folder, but those compiled for tests only: `tests.rs` and folders `tests`.
 fn sources(folder: &Path, found: &mut Vec<Source>) {
     let mut entries: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     entries.sort();
     for path in entries {
-        if path.is_dir() {
+        if path.file_stem().is_some_and(|name| name == "tests") {
+            continue;
+        } else if path.is_dir() {
             sources(&path, found);
         } else if path.extension().is_some_and(|e| e == "rs") {
             found.push(read(&path));
