@@ -78,7 +78,7 @@ fn descend(p: &[f64], b: [f64; TERMS], count: usize) -> Option<f64> {
             if changes == 1 && b[count - 1] <= 0.0 {
                 return Some(refine(p, low, high));
             }
-            if depth >= DEPTH || high - low <= f64::EPSILON * high {
+            if depth >= DEPTH {
                 return Some(low);
             }
             let middle = 0.5 * (low + high);

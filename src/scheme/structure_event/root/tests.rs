@@ -109,6 +109,10 @@ fn a_root_at_an_end_counts() {
     assert_eq!(first_root(&[1.0, -1.0], 1.0), Some(1.0));
     assert_eq!(first_root(&[0.5, -0.25, -0.25], 1.0), Some(1.0));
     assert_eq!(first_root(&[0.5, -1.0], 1.0), Some(0.5));
+    // With more terms than the quick test takes: 7/7 and 7/14 are exact too.
+    let mut c = [0.0; 15];
+    (c[0], c[1]) = (7.0, -7.0);
+    assert_eq!(first_root(&c, 1.0), Some(1.0));
     // A touch is known to the square root of rounding.
     let x = first_root(&[1.0, -2.0, 1.0], 1.0).unwrap();
     assert!((x - 1.0).abs() <= f64::EPSILON.sqrt(), "{x}");
