@@ -212,7 +212,6 @@ impl StructureEvent {
         for (side, sign) in SIGNS.into_iter().enumerate() {
             let stays = place.held == sign;
             if s.push[side] > 0.0 {
-                self.clock.count().impacts += 1;
                 self.tell_impact(s, side, stays, rate);
             } else if s.was == sign && !stays {
                 self.each_wall(s.row, sign, |b, _, closed, time| closed.extend(b.close(time, sign * rate)));
