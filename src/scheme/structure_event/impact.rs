@@ -115,9 +115,11 @@ impl StructureEvent {
     /// are so nearly dependent that it fails, the approached walls are treated in turn with e = 0,
     /// which also ends at a motion that approaches no wall.
     fn stop(&mut self) -> Result<()> {
-        if self.pass(true)? {
-            return Ok(());
-        }
+        if self.pass(true)? { Ok(()) } else { self.in_turn() }
+    }
+
+    /// Treats the approached walls with e = 0 until none is left.
+    fn in_turn(&mut self) -> Result<()> {
         self.seats.iter_mut().for_each(|s| s.restitution = 0.0);
         for _ in 0..TURNS {
             if !(0..self.seats.len()).any(|seat| self.is_approached(seat)) {
@@ -277,3 +279,6 @@ impl StructureEvent {
         noise(size(&self.body, row, &self.q) + moved + position.abs())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -245,3 +245,6 @@ impl StructureEvent {
         self.shown.jump = jump;
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -204,3 +204,6 @@ impl StructureEvent {
         Err(Error::NotFinite { time: self.time, step: self.steps, what: "state" })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -196,3 +196,6 @@ impl StructureEvent {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
