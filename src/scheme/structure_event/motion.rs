@@ -157,3 +157,6 @@ impl StructureEvent {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -223,3 +223,6 @@ impl StructureEvent {
         self.solver = None;
     }
 }
+
+#[cfg(test)]
+mod tests;

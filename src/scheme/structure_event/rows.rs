@@ -244,3 +244,6 @@ const DECIDED: f64 = 1e3;
 /// A value below 0 by this many times its rounding error is not 0; the search starts from as far
 /// above that.
 const BELOW: f64 = 2.0;
+
+#[cfg(test)]
+mod tests;

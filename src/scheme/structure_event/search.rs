@@ -112,12 +112,8 @@ impl StructureEvent {
         }
         self.measure();
         let noises = self.noises(row, position);
-        let of_sum = std::array::from_fn(|k| {
-            let next = noises.get(k + 1).copied().unwrap_or(noises[3]);
-            stiffness * noises[k] + damping * (k + 1) as f64 * next / unit
-        });
         let travel = self.travel(row);
-        let of_sum = Rounding::new(of_sum, (stiffness + damping / unit) * travel);
+        let of_sum = of_sum(noises, travel, (stiffness, damping / unit));
         let noises = Rounding::new(noises, travel);
         let looks: [Option<(Watched, f64, Rounding)>; 2] = match phase {
             Phase::Rigid(_) => [None, None],
@@ -196,6 +192,16 @@ impl StructureEvent {
     }
 }
 
+/// Rounding errors of k_a s + c_a ṡ, N, from those of s and the sizes of its further terms, m, with
+/// k_a and, over the unit of the series, c_a, N/m.
+fn of_sum(noises: [f64; 4], travel: f64, (stiffness, damping): (f64, f64)) -> Rounding {
+    let of = std::array::from_fn(|k| {
+        let next = noises.get(k + 1).copied().unwrap_or(noises[3]);
+        stiffness * noises[k] + damping * (k + 1) as f64 * next
+    });
+    Rounding::new(of, (stiffness + damping) * travel)
+}
+
 fn note(found: Seen, cause: Cause, end: &mut f64, hit: &mut Option<Hit>) {
     let x = match found {
         Seen::Now => 0.0,
@@ -207,3 +213,6 @@ fn note(found: Seen, cause: Cause, end: &mut f64, hit: &mut Option<Hit>) {
         *hit = Some(Hit { x, cause });
     }
 }
+
+#[cfg(test)]
+mod tests;
