@@ -162,3 +162,6 @@ impl StructureEvent {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;
