@@ -206,7 +206,8 @@ impl StructureEvent {
             let most = self.body.answer_size(s.row, &self.rhs_size) + self.bend_size(s.row, 0);
             let resolved = self.resolution(s.row, position);
             let low = self.low(s.row) + TAIL_HEIGHT * self.places[s.row].travel + resolved;
-            let wanted = s.push[side_of(s.sign)] > 0.0 && s.restitution > 0.0 && rate > 0.0;
+            // A row at rest that the impact presses does not fly: in the trial it is held.
+            let wanted = s.push[side_of(s.sign)] > 0.0 && s.restitution > 0.0 && rate > self.quiet(s.row);
             // Reactions of other held rows press too, with the size of the forces that they
             // balance: no bound is known then.
             let most = if self.seats.len() > 1 { f64::INFINITY } else { most };

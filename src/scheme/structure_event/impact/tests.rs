@@ -185,21 +185,26 @@ fn a_rebound_that_only_another_wall_presses_may_be_the_last() {
     // of 8 N presses the first onto its own.
     let (force, weight) = (800.0, 100.0);
     let press = force * weight / (1.0 + weight * weight);
-    let scene = masses(&[1.0, 1.0], &[], &[])
-        .with_wall(rigid(Wall::lower("lever", 0.0), 0.0, &[(0, -1.0), (1, weight)]))
-        .with_wall(rigid(Wall::lower("floor", 0.0), 0.5, &[(0, 1.0)]))
-        .with_load(on(Load::constant(-force), 1));
+    let scene = |e: f64| {
+        masses(&[1.0, 1.0], &[], &[])
+            .with_wall(rigid(Wall::lower("lever", 0.0), e, &[(0, -1.0), (1, weight)]))
+            .with_wall(rigid(Wall::lower("floor", 0.0), 0.5, &[(0, 1.0)]))
+            .with_load(on(Load::constant(-force), 1))
+    };
     let last = f64::sqrt(2.0 * press * 1e-12);
     for part in 0..64 {
-        // Just above and just below it, with other roundings.
+        // Just above and just below it, with other roundings: the lever, which rests, may leave by
+        // one whatever its restitution.
         let apart = 0.02 - 1e-4 * f64::from(part);
         let rebound = last * if part % 2 == 0 { 1.0 + apart } else { 1.0 - apart };
-        let scene = scene.clone().with_initial(&[0.0, 0.0], &[-2.0 * rebound, -2.0 * rebound / weight]);
-        let mut event = started(&scene, 1.0);
-        event.places[1].travel = 1.0;
-        event.advance(None).unwrap();
         let wanted = if part % 2 == 0 { rebound } else { 0.0 };
-        assert!((event.v[0] - wanted).abs() < 1e-6 * rebound, "{part}: {:e} for {wanted:e}", event.v[0]);
+        for e in [0.0, 0.5] {
+            let scene = scene(e).with_initial(&[0.0, 0.0], &[-2.0 * rebound, -2.0 * rebound / weight]);
+            let mut event = started(&scene, 1.0);
+            event.places[1].travel = 1.0;
+            event.advance(None).unwrap();
+            assert!((event.v[0] - wanted).abs() < 1e-6 * rebound, "{part} {e}: {:e} for {wanted:e}", event.v[0]);
+        }
     }
 }
 
