@@ -116,7 +116,8 @@ fn pressed(press: f64, e: f64) -> Body {
 }
 
 impl Body {
-    /// True if the body stays on the floor after an impact that makes it leave with this speed, m/s.
+    /// True if the body stays on the floor after an impact that makes it leave with this speed,
+    /// m/s.
     fn stays_after(&self, rebound: f64) -> bool {
         let scene = masses(&[2.0], &[], &[])
             .with_wall(rigid(Wall::lower("floor", self.floor), self.e, &[(0, 1.0)]))
@@ -169,8 +170,8 @@ fn rebounds_do_not_end_while_their_force_changes() {
 
 #[test]
 fn a_rebound_that_rounding_hides_is_the_last() {
-    // In steps of 20 µs the body moves by 1.6e-9 m only. At a place of 1 m the search takes 4 · 1.8e-15
-    // m for 0, and the rebound is 1e-15 m high.
+    // In steps of 20 µs the body moves by 1.6e-9 m only. At a place of 1 m the search takes 4 ·
+    // 1.8e-15 m for 0, and the rebound is 1e-15 m high.
     let short = || Body { stride: 2e-5, travel: 0.0, ..pressed(8.0, 0.5) };
     assert!(Body { floor: 1.0, ..short() }.stays_after(1.26e-7));
     assert!(!short().stays_after(1.26e-7));
@@ -181,8 +182,8 @@ fn a_rebound_that_rounding_hides_is_the_last() {
 
 #[test]
 fn a_rebound_that_only_another_wall_presses_may_be_the_last() {
-    // A force of 800 N on the second coordinate presses on the wall −q₀ + 100 q₁ ≥ 0, whose reaction
-    // of 8 N presses the first onto its own.
+    // A force of 800 N on the second coordinate presses on the wall −q₀ + 100 q₁ ≥ 0, whose
+    // reaction of 8 N presses the first onto its own.
     let (force, weight) = (800.0, 100.0);
     let press = force * weight / (1.0 + weight * weight);
     let scene = |e: f64| {

@@ -1,4 +1,5 @@
-//! What the search goes by: the rounding errors of gaps and forces, worked out from state and loads.
+//! What the search goes by: the rounding errors of gaps and forces, worked out from state and
+//! loads.
 
 use super::super::tests::{hole, masses, near, on, rigid, started, with};
 use super::*;
