@@ -22,11 +22,8 @@ impl Event {
     /// ended the arc. True if the velocity jumped or a wall's phase changed.
     pub(super) fn happen(&mut self, hit: Option<usize>, extra: f64) -> bool {
         let left = self.v;
-        while let Some(&(time, impulse)) = self.forcing.impulses.get(self.blow).filter(|b| b.0 <= self.time) {
-            // Blows at t = 0 are part of the initial state.
-            if time > 0.0 {
-                self.v += impulse / self.body.mass;
-            }
+        while let Some(&(_, impulse)) = self.forcing.impulses.get(self.blow).filter(|b| b.0 <= self.time) {
+            self.v += impulse / self.body.mass;
             self.blow += 1;
         }
         let blown = self.v != left;

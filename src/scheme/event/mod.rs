@@ -127,6 +127,8 @@ impl Event {
         let walls = barriers.len();
         let farthest = barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
         let arc = Arc::new(body, walls, &forcing);
+        // Blows at t = 0 are part of the initial state.
+        let blow = forcing.impulses.partition_point(|blow| blow.0 <= 0.0);
         let mut event = Self {
             body,
             forcing,
@@ -143,7 +145,7 @@ impl Event {
             v,
             largest: [0.0; 2],
             support: None,
-            blow: 0,
+            blow,
             released: f64::NEG_INFINITY,
             accumulation: None,
             force_size: [0.0; 2],
@@ -214,7 +216,7 @@ impl Event {
     /// blow, or the end if it is still ahead.
     fn limit(&self) -> f64 {
         let mut limit = self.clock.limit(self.time);
-        if let Some(&(time, _)) = self.forcing.impulses.get(self.blow).filter(|b| b.0 > self.time) {
+        if let Some(&(time, _)) = self.forcing.impulses.get(self.blow) {
             limit = limit.min(time);
         }
         for table in &self.forcing.tables {
@@ -231,3 +233,6 @@ impl Event {
         self.clock.check(self.time + tau, &self.barriers)
     }
 }
+
+#[cfg(test)]
+mod tests;
