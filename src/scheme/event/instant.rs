@@ -43,9 +43,6 @@ impl Event {
                 }
                 self.meet_rigid(None, extra, None);
             } else {
-                if hit == Some(index) {
-                    self.support = None;
-                }
                 self.meet_rigid(hit, extra, Some(index));
             }
         } else {
@@ -143,7 +140,7 @@ impl Event {
                     self.shown.closed.extend(b.close(time, speed));
                 }
             }
-        } else if hit.is_some_and(|h| closed.contains(&Some(h))) && self.support.is_none() && held.is_none() {
+        } else if hit.is_some_and(|h| closed.contains(&Some(h))) && held.is_none() {
             // Touched with a velocity within rounding of 0: it is set to 0 if the body is pressed
             // onto the wall.
             let away = if hit == closed[0] { 1.0 } else { -1.0 };
