@@ -91,3 +91,6 @@ impl Clock {
         Error::TooManyEvents { time, wall, count, window: self.window }
     }
 }
+
+#[cfg(test)]
+mod tests;

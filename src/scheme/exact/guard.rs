@@ -45,3 +45,6 @@ impl Guard {
         (count > EVENTS_PER_WINDOW).then_some(count)
     }
 }
+
+#[cfg(test)]
+mod tests;

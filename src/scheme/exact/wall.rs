@@ -198,3 +198,6 @@ impl ExactWall {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
