@@ -148,3 +148,6 @@ impl Taylor {
         None
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -243,3 +243,6 @@ impl Event {
         change <= 0.5 * press * mass
     }
 }
+
+#[cfg(test)]
+mod tests;

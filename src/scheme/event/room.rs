@@ -40,3 +40,6 @@ impl Room {
         if upper { self.high } else { self.low }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -140,6 +140,15 @@ impl Event {
         [self.resolution, noise(v), noise(a) + noise(steady), noise(jerk) + noise(steady * self.arc.fastest_motion())]
     }
 
+    /// Rounding errors of the force on a body at rest and of its first three derivatives, N, N/s …
+    fn rest_noise(&self) -> [f64; 4] {
+        let ([.., force, rate], fastest) = (self.sizes, self.arc.fastest());
+        // The instant itself is known only to an ulp of the time.
+        let late = 1.0 + fastest * self.time;
+        let curve = rate * fastest;
+        [noise(force + rate * self.time), noise(rate * late), noise(curve * late), noise(curve * fastest)]
+    }
+
     /// The search at rest: the first root of the pressing force.
     fn search_rest(&mut self, index: usize, span: f64) -> Result<Hit> {
         let state = [self.q, 0.0];
@@ -147,14 +156,9 @@ impl Event {
             return Ok(Hit { tau: span, state, wall: None });
         };
         let support = Support { wall: index, side };
-        let [.., force, rate] = self.sizes;
-        let bound = self.arc.pressing_bound();
+        let (bound, noise) = (self.arc.pressing_bound(), self.rest_noise());
         let fastest = self.arc.fastest();
         let longest = if fastest > 0.0 { WINDOW_RADIANS / fastest } else { f64::INFINITY };
-        // The instant itself is known only to an ulp of the time.
-        let late = 1.0 + fastest * self.time;
-        let curve = rate * fastest;
-        let noise = [noise(force + rate * self.time), noise(rate * late), noise(curve * late), noise(curve * fastest)];
         let jet = self.arc.jet(0.0);
         self.note_pressures(&jet);
         let (mut tau, mut pressing) = (0.0, self.arc.pressing(support, 0.0));

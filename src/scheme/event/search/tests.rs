@@ -1,7 +1,10 @@
 //! What the search goes by: the rounding of its functions, and their peaks.
 
+mod careful;
+mod rest;
+
 use super::*;
-use crate::scene::{Load, Scene, Wall};
+use crate::scene::{Load, Scene, Table, Wall};
 use std::cell::Cell;
 
 /// Damped, under a sine, at the start of an arc that is not the first, in other units of length,
