@@ -176,5 +176,3 @@ fn finite(what: &'static str, values: &[f64], sound: impl Fn(f64) -> bool) -> Re
 
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod trial;

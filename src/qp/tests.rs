@@ -1,5 +1,7 @@
 //! Programmes that make no sense.
 
+pub(super) mod trial;
+
 use super::*;
 
 const INF: f64 = f64::INFINITY;

@@ -1,7 +1,7 @@
 //! Programmes by their optimality conditions and by hand.
 
-use super::super::trial::{Dense, Draws, block, part, solution};
 use super::*;
+use crate::qp::tests::trial::{Dense, Draws, block, part, solution};
 use nalgebra::{DMatrix, DVector};
 
 const INF: f64 = f64::INFINITY;

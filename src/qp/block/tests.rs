@@ -1,7 +1,7 @@
 //! Independent and dependent rows, with full matrices.
 
-use super::super::trial::{Dense, Draws, block, part, solution};
 use super::*;
+use crate::qp::tests::trial::{Dense, Draws, block, part, solution};
 use nalgebra::{DMatrix, DVector};
 
 /// Units of W: no power of ten is special.

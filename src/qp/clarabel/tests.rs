@@ -1,8 +1,8 @@
 //! The rows that the interior point finds, compared with those of the dual active-set method.
 
 use super::super::active_set::ActiveSet;
-use super::super::trial::{Dense, Draws, chain};
 use super::*;
+use crate::qp::tests::trial::{Dense, Draws, chain};
 
 #[test]
 fn the_rows_that_push_are_found_in_all_units() {

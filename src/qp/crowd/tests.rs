@@ -1,7 +1,7 @@
 //! The parts of the method, by closed forms and full matrices.
 
-use super::super::trial::{Dense, Draws};
 use super::*;
+use crate::qp::tests::trial::{Dense, Draws};
 use nalgebra::{DMatrix, DVector};
 
 #[test]

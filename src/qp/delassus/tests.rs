@@ -1,7 +1,7 @@
 //! The condensed matrix, compared with a full one.
 
-use super::super::trial::{Dense, Draws, chain};
 use super::*;
+use crate::qp::tests::trial::{Dense, Draws, chain};
 use nalgebra::{DMatrix, DVector};
 
 #[test]

@@ -1,7 +1,7 @@
 //! Factors compared with full matrices and their LU decomposition.
 
-use super::super::trial::{Dense, Draws, block, part, solution};
 use super::*;
+use crate::qp::tests::trial::{Dense, Draws, block, part, solution};
 use nalgebra::{DMatrix, DVector};
 
 /// Rows of which each sees as many unknowns as `reach` more than one, shifted by one from row to

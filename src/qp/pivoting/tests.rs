@@ -1,7 +1,7 @@
 //! Single passes, by hand.
 
-use super::super::trial::Dense;
 use super::*;
+use crate::qp::tests::trial::Dense;
 
 const INF: f64 = f64::INFINITY;
 

@@ -1,8 +1,8 @@
 //! What still counts as met, by hand. Dividing and escaping are tested where rows are put in play:
 //! in `block`.
 
-use super::super::trial::Dense;
 use super::*;
+use crate::qp::tests::trial::Dense;
 
 /// Whether a row of weight 8 that depends with coefficient `c` on a row of weight 4 is met together
 /// with it: the other row moves by `q` with force `force`, this one by `c q` plus `miss`.

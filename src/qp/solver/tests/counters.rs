@@ -1,7 +1,7 @@
 //! Counts of small programmes, by hand.
 
-use super::super::super::trial::Dense;
 use super::*;
+use crate::qp::tests::trial::Dense;
 
 #[test]
 fn programmes_without_a_force_are_counted() {

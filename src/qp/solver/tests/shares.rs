@@ -1,7 +1,7 @@
 //! Rows that depend on one another, at whole numbers: many touch at once, and share forces.
 
-use super::super::super::trial::{Dense, Draws};
 use super::*;
+use crate::qp::tests::trial::{Dense, Draws};
 use nalgebra::{DMatrix, DVector};
 
 /// The columns `rows` of Gᵀ.

@@ -2,8 +2,8 @@
 //! mass, of which roots are taken), all numbers keep their digits: a solver whose tolerances have
 //! the right dimensions takes the same steps to the same bits.
 
-use super::super::super::trial::{Draws, chain};
 use super::*;
+use crate::qp::tests::trial::{Draws, chain};
 use nalgebra::{DMatrix, DVector};
 
 /// A programme and its right-hand sides.

@@ -1,43 +1,43 @@
 //! What the tests of this room share: numbers that look random, and programmes as full matrices.
 
-use super::Problem;
-use super::delassus::Delassus;
 use crate::hash::{mix, unit};
 use crate::linear::{Rows, Symmetric};
+use crate::qp::Problem;
+use crate::qp::delassus::Delassus;
 use nalgebra::{DMatrix, DVector};
 
 /// Numbers that look random, the same in every run.
-pub(super) struct Draws {
+pub(in crate::qp) struct Draws {
     pub seed: u64,
     count: u64,
 }
 
 impl Draws {
-    pub(super) fn new(seed: u64) -> Self {
+    pub(in crate::qp) fn new(seed: u64) -> Self {
         Self { seed, count: 0 }
     }
 
-    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(in crate::qp) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.count += 1;
         low + (high - low) * unit(mix(self.seed, 0, self.count))
     }
 
-    pub(super) fn chance(&mut self, share: f64) -> bool {
+    pub(in crate::qp) fn chance(&mut self, share: f64) -> bool {
         self.between(0.0, 1.0) < share
     }
 
     /// A whole number from `low` to `high`.
-    pub(super) fn whole(&mut self, low: i32, high: i32) -> f64 {
+    pub(in crate::qp) fn whole(&mut self, low: i32, high: i32) -> f64 {
         self.between(f64::from(low) - 0.5, f64::from(high) + 0.5).round()
     }
 
-    pub(super) fn vector(&mut self, n: usize) -> DVector<f64> {
+    pub(in crate::qp) fn vector(&mut self, n: usize) -> DVector<f64> {
         DVector::from_fn(n, |_, _| self.between(-1.0, 1.0))
     }
 }
 
 /// A programme with equal masses, so that W = G Gᵀ/mass + diag(c).
-pub(super) struct Dense {
+pub(in crate::qp) struct Dense {
     pub mass: f64,
     pub g: DMatrix<f64>,
     pub compliance: Vec<f64>,
@@ -45,12 +45,12 @@ pub(super) struct Dense {
 
 impl Dense {
     /// Rigid rows on unit masses.
-    pub(super) fn rigid<const M: usize, const N: usize>(rows: [[f64; N]; M]) -> Self {
+    pub(in crate::qp) fn rigid<const M: usize, const N: usize>(rows: [[f64; N]; M]) -> Self {
         let g = DMatrix::from_fn(M, N, |i, j| rows[i][j]);
         Self { mass: 1.0, g, compliance: vec![0.0; M] }
     }
 
-    pub(super) fn problem(&self) -> Problem {
+    pub(in crate::qp) fn problem(&self) -> Problem {
         let (m, n) = self.g.shape();
         let entries = |i: usize| (0..n).map(|j| (j, self.g[(i, j)])).filter(|entry| entry.1 != 0.0).collect();
         let rows: Vec<Vec<(usize, f64)>> = (0..m).map(entries).collect();
@@ -62,40 +62,40 @@ impl Dense {
     }
 
     /// The condensed programme; its free motion is that of the displacements `x`.
-    pub(super) fn system(&self, x: &[f64]) -> Delassus {
+    pub(in crate::qp) fn system(&self, x: &[f64]) -> Delassus {
         let mut system = Delassus::new(&self.problem()).expect("definite");
         system.complete(x);
         system
     }
 
     /// The condensed programme where no force moves anything yet.
-    pub(super) fn at_rest(&self) -> Delassus {
+    pub(in crate::qp) fn at_rest(&self) -> Delassus {
         self.system(&vec![0.0; self.g.ncols()])
     }
 
-    pub(super) fn w(&self) -> DMatrix<f64> {
+    pub(in crate::qp) fn w(&self) -> DMatrix<f64> {
         &self.g * self.g.transpose() / self.mass + DMatrix::from_diagonal(&DVector::from_column_slice(&self.compliance))
     }
 }
 
 /// The lines and columns `rows` of W.
-pub(super) fn block(w: &DMatrix<f64>, rows: &[usize]) -> DMatrix<f64> {
+pub(in crate::qp) fn block(w: &DMatrix<f64>, rows: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(rows.len(), rows.len(), |i, j| w[(rows[i], rows[j])])
 }
 
 /// Entries `rows` of column `column` of W.
-pub(super) fn part(w: &DMatrix<f64>, rows: &[usize], column: usize) -> DVector<f64> {
+pub(in crate::qp) fn part(w: &DMatrix<f64>, rows: &[usize], column: usize) -> DVector<f64> {
     DVector::from_fn(rows.len(), |i, _| w[(rows[i], column)])
 }
 
 /// The solution of a regular system, of no equation, too.
-pub(super) fn solution(matrix: &DMatrix<f64>, asked: &DVector<f64>) -> DVector<f64> {
+pub(in crate::qp) fn solution(matrix: &DMatrix<f64>, asked: &DVector<f64>) -> DVector<f64> {
     if asked.is_empty() { asked.clone() } else { matrix.clone().lu().solve(asked).expect("regular") }
 }
 
 /// A chain of masses on springs, in a unit of stiffness far from 1, with rows that see some of it:
 /// A, G and the programme.
-pub(super) fn chain(draws: &mut Draws, n: usize, m: usize) -> (DMatrix<f64>, DMatrix<f64>, Problem) {
+pub(in crate::qp) fn chain(draws: &mut Draws, n: usize, m: usize) -> (DMatrix<f64>, DMatrix<f64>, Problem) {
     let unit = 10_f64.powf(draws.between(-12.0, 12.0));
     let mut a = DMatrix::from_diagonal(&DVector::from_fn(n, |_, _| unit * draws.between(0.5, 2.0)));
     for i in 1..n {
