@@ -41,7 +41,7 @@ VALUES: list[tuple[Callable[[], object], str]] = [
     (lambda: ball(walls=[WALL, WALL]), "another wall has"),
     (lambda: ball(walls=[WALL], displacement=1.0), r"expected at most 0\.005"),
     (lambda: ball(damping=0.1), "given twice|multiple values|damping"),
-    (lambda: ball().replace(damping=0.1), "expected none: `oscillator` takes it"),
+    (lambda: ball().replace(damping=0.1), "expected no damping here: `oscillator` takes it"),
     (lambda: ball().replace(modes=1), "one degree of freedom"),
     (lambda: sg.Wall.upper("a b", 0.0), "letters, digits"),
     (lambda: sg.Wall.upper("a", math.inf), "position is inf"),
