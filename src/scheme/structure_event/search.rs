@@ -113,7 +113,7 @@ impl StructureEvent {
         self.measure();
         let noises = self.noises(row, position);
         let travel = self.travel(row);
-        let of_sum = of_sum(noises, travel, (stiffness, damping / unit));
+        let of_sum = of_sum(noises, travel, (stiffness, damping, unit));
         let noises = Rounding::new(noises, travel);
         let looks: [Option<(Watched, f64, Rounding)>; 2] = match phase {
             Phase::Rigid(_) => [None, None],
@@ -193,8 +193,9 @@ impl StructureEvent {
 }
 
 /// Rounding errors of k_a s + c_a ṡ, N, from those of s and the sizes of its further terms, m, with
-/// k_a and, over the unit of the series, c_a, N/m.
-fn of_sum(noises: [f64; 4], travel: f64, (stiffness, damping): (f64, f64)) -> Rounding {
+/// k_a (N/m), c_a (N s/m) and the unit of the series (s).
+fn of_sum(noises: [f64; 4], travel: f64, (stiffness, damping, unit): (f64, f64, f64)) -> Rounding {
+    let damping = damping / unit;
     let of = std::array::from_fn(|k| {
         let next = noises.get(k + 1).copied().unwrap_or(noises[3]);
         stiffness * noises[k] + damping * (k + 1) as f64 * next

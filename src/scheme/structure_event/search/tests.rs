@@ -65,7 +65,7 @@ fn the_force_of_a_spring_and_a_dashpot_has_the_rounding_errors_of_both() {
     // k_a s + c_a ṡ of s = Σ sₖ xᵏ has the coefficients k_a sₖ + c_a (k + 1) sₖ₊₁/unit.
     let (stiffness, damping, unit) = (300.0, 7.0, 0.125);
     let noises = [3e-16, 5e-16, 11e-16, 13e-16];
-    let found = of_sum(noises, 0.75, (stiffness, damping / unit));
+    let found = of_sum(noises, 0.75, (stiffness, damping, unit));
     let next = [5e-16, 11e-16, 13e-16, 13e-16];
     let mut all = 0.0;
     for k in [0, 1, 2, 3] {
