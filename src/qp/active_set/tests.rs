@@ -111,9 +111,7 @@ fn rounding_is_passed_on_by_the_combination() {
     let mut draws = Draws::new(6);
     for trial in 0..20 {
         let m = 2 + trial % 5;
-        let g = DMatrix::from_fn(m, m, |_, _| draws.between(-1.0, 1.0));
-        let mass = 10_f64.powf(draws.between(-6.0, 6.0));
-        let dense = Dense { mass, g, compliance: vec![0.3 / mass; m] };
+        let dense = Dense::yielding(&mut draws, m);
         let (system, w) = (dense.at_rest(), dense.w());
         let rows: Vec<usize> = (0..m - 1).rev().collect();
         let mut play = ActiveSet::new(m);

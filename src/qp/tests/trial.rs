@@ -50,6 +50,13 @@ impl Dense {
         Self { mass: 1.0, g, compliance: vec![0.0; M] }
     }
 
+    /// m rows on m unknowns whose equal masses have any size; each row yields a little.
+    pub(in crate::qp) fn yielding(draws: &mut Draws, m: usize) -> Self {
+        let g = DMatrix::from_fn(m, m, |_, _| draws.between(-1.0, 1.0));
+        let mass = 10_f64.powf(draws.between(-6.0, 6.0));
+        Self { mass, g, compliance: vec![0.3 / mass; m] }
+    }
+
     pub(in crate::qp) fn problem(&self) -> Problem {
         let (m, n) = self.g.shape();
         let entries = |i: usize| (0..n).map(|j| (j, self.g[(i, j)])).filter(|entry| entry.1 != 0.0).collect();

@@ -1,24 +1,9 @@
 //! What shows a flight to be clear of the walls, and where its series meets one.
 
 use super::*;
-use crate::hash::{mix, unit};
 use crate::scene::Wall;
+use crate::scheme::event::tests::draws::Draws;
 use crate::scheme::exact::ExactWall;
-
-/// Numbers that look random, the same in every run.
-struct Draws(u64, u64);
-
-impl Draws {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.1 += 1;
-        low + (high - low) * unit(mix(6, self.0, self.1))
-    }
-
-    /// From 2^−`octaves` to 2^`octaves`, as often in one octave as in another.
-    fn size(&mut self, octaves: f64) -> f64 {
-        self.between(-octaves, octaves).exp2()
-    }
-}
 
 fn room(low: f64, high: f64) -> Room {
     let wall = |wall: Wall| ExactWall::new(&wall).unwrap();
@@ -33,7 +18,7 @@ fn at<const N: usize>(c: &[f64; N], s: f64) -> [f64; 2] {
 
 #[test]
 fn a_way_is_clear_where_the_control_points_of_its_cubic_have_the_margin() {
-    let mut draws = Draws(1, 0);
+    let mut draws = Draws::new(6, 1);
     let mut clear = [0; 2];
     for _ in 0..4000 {
         // The control points of a cubic over h, and a bound on a fourth derivative that moves it by
@@ -62,7 +47,7 @@ fn a_way_is_clear_where_the_control_points_of_its_cubic_have_the_margin() {
 
 #[test]
 fn a_way_that_is_said_to_be_clear_passes_no_wall() {
-    let mut draws = Draws(2, 0);
+    let mut draws = Draws::new(6, 2);
     let mut clear = 0;
     for _ in 0..4000 {
         let h = draws.size(6.0);
@@ -100,7 +85,7 @@ fn a_series_has_the_value_and_the_slope_of_its_motion() {
 
 #[test]
 fn the_way_to_a_wall_is_guessed_by_halley_and_refined_once_within_the_window() {
-    let mut draws = Draws(3, 0);
+    let mut draws = Draws::new(6, 3);
     for _ in 0..2000 {
         // gap + v s + ½a s² vanishes first at −2 gap/(v + sgn v √(v² − 2 gap a)).
         let (v, time, x) = (draws.size(8.0), draws.size(8.0), draws.between(-0.1, 0.1));

@@ -6,25 +6,12 @@ mod steps;
 mod touch;
 
 use super::*;
-use crate::hash::{mix, unit};
+use crate::scheme::event::tests::draws::Draws;
 
 /// Rounding of a sum of five terms, in shares of the sum of their magnitudes.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Numbers that look random, the same in every run.
-struct Draws(u64, u64);
-
 impl Draws {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.1 += 1;
-        low + (high - low) * unit(mix(5, self.0, self.1))
-    }
-
-    /// From 2^−`octaves` to 2^`octaves`, as often in one octave as in another.
-    fn size(&mut self, octaves: f64) -> f64 {
-        self.between(-octaves, octaves).exp2()
-    }
-
     /// Of either sign, and 0 in a third of the cases.
     fn number(&mut self, octaves: f64) -> f64 {
         self.between(-1.5, 1.5).round() * self.size(octaves)

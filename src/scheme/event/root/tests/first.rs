@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_polynomial_that_is_said_to_stay_above_does_and_one_with_a_margin_is_said_to() {
-    let mut draws = Draws(1, 0);
+    let mut draws = Draws::new(5, 1);
     for _ in 0..1000 {
         let (c, b, w) = draws.polynomial();
         // What the terms that fall can take away at most.
@@ -24,7 +24,7 @@ fn a_polynomial_that_is_said_to_stay_above_does_and_one_with_a_margin_is_said_to
 
 #[test]
 fn the_root_of_a_parabola_is_never_passed_and_missed_by_little() {
-    let mut draws = Draws(2, 0);
+    let mut draws = Draws::new(5, 2);
     for _ in 0..2000 {
         // ½M(r − u)(u + q).
         let (r, q, m) = (draws.size(3.0), draws.size(20.0), draws.size(30.0));
@@ -46,7 +46,7 @@ fn the_root_of_a_parabola_is_never_passed_and_missed_by_little() {
 
 #[test]
 fn no_root_of_a_polynomial_is_passed() {
-    let mut draws = Draws(3, 0);
+    let mut draws = Draws::new(5, 3);
     let (mut ends, mut whole) = (0, 0);
     for _ in 0..4000 {
         let (c, b, w) = draws.polynomial();
@@ -67,7 +67,7 @@ fn no_root_of_a_polynomial_is_passed() {
 
 #[test]
 fn the_first_root_is_reached_from_a_window_of_any_length() {
-    let mut draws = Draws(4, 0);
+    let mut draws = Draws::new(5, 4);
     for _ in 0..4000 {
         let (c, root, noise) = draws.noisy();
         if c[4] > 0.0 {

@@ -20,7 +20,7 @@ fn a_window_far_longer_than_the_way_to_the_root_does_not_shorten_the_step() {
 
 #[test]
 fn a_step_is_a_root_only_where_all_functions_of_the_family_are_0_to_rounding() {
-    let mut draws = Draws(5, 0);
+    let mut draws = Draws::new(5, 5);
     let (mut roots, mut free) = (0, 0);
     for _ in 0..4000 {
         let (c, root, noise) = draws.noisy();
@@ -53,7 +53,7 @@ fn a_step_is_a_root_only_where_all_functions_of_the_family_are_0_to_rounding() {
 
 #[test]
 fn a_root_is_reached_in_few_steps() {
-    let mut draws = Draws(6, 0);
+    let mut draws = Draws::new(5, 6);
     let mut all = 0;
     for _ in 0..4000 {
         let (c, root, noise) = draws.noisy();
@@ -81,7 +81,7 @@ fn a_root_is_reached_in_few_steps() {
 
 #[test]
 fn from_a_root_the_next_one_is_not_passed_whatever_its_multiplicity() {
-    let mut draws = Draws(9, 0);
+    let mut draws = Draws::new(5, 9);
     let mut tried = [0; 4];
     for _ in 0..6000 {
         // u, u² or u³ times a polynomial whose first root is known.
@@ -165,7 +165,7 @@ fn letting_go_forgives_what_is_rounding() {
 
 #[test]
 fn steps_do_not_depend_on_the_units() {
-    let mut draws = Draws(10, 0);
+    let mut draws = Draws::new(5, 10);
     for _ in 0..4000 {
         let (mut c, b, w) = draws.polynomial();
         let share = draws.between(-40.0, 0.0).exp2();

@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_minimum_that_is_0_to_rounding_is_found_where_it_is() {
-    let mut draws = Draws(7, 0);
+    let mut draws = Draws::new(5, 7);
     for _ in 0..4000 {
         let (curve, noise) = (draws.size(10.0), draws.size(10.0));
         let unit = (noise / curve).sqrt();
@@ -41,7 +41,7 @@ fn a_minimum_that_is_0_to_rounding_is_found_where_it_is() {
 
 #[test]
 fn a_touch_is_told_only_where_the_curve_stays() {
-    let mut draws = Draws(8, 0);
+    let mut draws = Draws::new(5, 8);
     let (mut told, mut open) = (0, 0);
     for _ in 0..10000 {
         let (curve, noise) = (draws.size(10.0), draws.size(10.0));
