@@ -40,16 +40,17 @@ impl Floor {
         // the loads.
         let spring = if let System::Oscillator(o) = scene.system { o.stiffness } else { 0.0 };
         let positions = matches!(contract.promise.rigid.displacement, Some(Bound::End | Bound::Reflected));
+        let spring_of = |law: WallLaw| law.spring().map_or(0.0, |spring| spring.stiffness);
         let floor = |(wall, mass): (&crate::scene::Wall, &f64)| {
             let place = wall.position.abs();
-            let own = if let WallLaw::Elastic { stiffness, .. } = wall.law { stiffness } else { 0.0 };
+            let own = spring_of(wall.law);
             let inertia = if positions { mass * place } else { 0.0 };
             Self { force: ROUNDING * (loads + (spring + own) * place), inertia: ROUNDING * inertia }
         };
         let displaced = contract.promise.hole.is_some();
         let hole = |(hole, mass): (Hole<'_>, &f64)| {
             let inertia = if displaced { mass * hole.gap } else { 0.0 };
-            let own = if let WallLaw::Elastic { stiffness, .. } = hole.law { stiffness } else { 0.0 };
+            let own = spring_of(hole.law);
             Self { force: ROUNDING * (loads + (spring + own) * hole.gap), inertia: ROUNDING * inertia }
         };
         let holes = scene.holes().zip(masses.iter().skip(scene.walls.len())).map(hole);

@@ -142,7 +142,7 @@ impl Lane {
             return Err(Error::invalid(format!("sine {}: multiple", index + 1), 0, "1 or more"));
         }
         for stop in [self.lower, self.upper].into_iter().flatten() {
-            if matches!(stop.law, WallLaw::Quartic { .. }) {
+            if !stop.law.is_linear() {
                 return Err(Error::invalid("wall: law", "the φ² penalty", "a rigid or an elastic wall"));
             }
         }

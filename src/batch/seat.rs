@@ -8,7 +8,6 @@ use super::series::{REACH, Series};
 use super::state::{Constants, State};
 use super::stretch::Ended;
 use super::vector::Vector;
-use crate::scene::WallLaw;
 use pulp::Simd;
 
 /// Maximum number of lanes.
@@ -182,7 +181,9 @@ impl<S: Simd, const W: usize> Group<S, W> {
     pub fn arrive(&mut self, slot: usize, wall: usize, guests: &[Guest], results: &mut Results) -> bool {
         let Some(Guest { lane, series, .. }) = self.guest(slot, guests) else { return true };
         let (stop, away) = if wall == 0 { (lane.lower, 1.0) } else { (lane.upper, -1.0) };
-        let Some(Stop { position, law: WallLaw::Rigid { restitution } }) = stop else { return true };
+        let Some((Stop { position, .. }, restitution)) = stop.and_then(|s| Some((s, s.law.restitution()?))) else {
+            return true;
+        };
         let rest = Rest::new(series, away, position);
         let (mut t, speed) = (self.state.t.get(slot), self.state.w.get(slot).abs());
         match rest.arrival(t, speed, restitution, lane.length(), position) {

@@ -4,7 +4,6 @@ use super::lane::{Lane, Stop};
 use super::rest::TAIL_HEIGHT;
 use super::series::{COSINE, ORDER, SINE, Series};
 use super::vector::{Mask, Vector, polynomial, series};
-use crate::scene::WallLaw;
 use pulp::Simd;
 
 /// Constants of one sine in every lane, as in [`super::series::Wave`].
@@ -118,11 +117,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         // Twice the largest v²/2p of such a flight, with the rounding error of the wall's position.
         self.tail.put(slot, 4.0 * most * (TAIL_HEIGHT * lane.length() + 8.0 * f64::EPSILON * far));
         for (e, stop) in self.restitution.iter_mut().zip([lane.lower, lane.upper]) {
-            let value = match stop.map(|s| s.law) {
-                Some(WallLaw::Rigid { restitution }) => restitution,
-                _ => 0.0,
-            };
-            e.put(slot, value);
+            e.put(slot, stop.and_then(|s| s.law.restitution()).unwrap_or(0.0));
         }
     }
 

@@ -9,7 +9,7 @@ use super::seat::{Guest, Results};
 use super::series::Series;
 use super::width::Width;
 use crate::error::Result;
-use crate::scene::{Side, WallLaw};
+use crate::scene::Side;
 
 /// Maximum number of sines of a lane's load; the scheme `event` accepts more.
 const MOST_SINES: usize = 4;
@@ -54,8 +54,7 @@ impl Work<'_> {
 fn seated(lane: &Lane) -> Option<Series> {
     let starts_free = |stop: Option<Stop>, side: Side| {
         stop.is_none_or(|stop| {
-            let rigid = matches!(stop.law, WallLaw::Rigid { .. });
-            rigid && (lane.displacement != stop.position || side.sign() * lane.velocity >= 0.0)
+            stop.law.is_rigid() && (lane.displacement != stop.position || side.sign() * lane.velocity >= 0.0)
         })
     };
     let holds = starts_free(lane.lower, Side::Lower) && starts_free(lane.upper, Side::Upper);

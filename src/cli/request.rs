@@ -208,7 +208,9 @@ fn set_restitution(case: &mut Case, restitution: Option<f64>) -> Result<()> {
             wall.law = WallLaw::Rigid { restitution };
         }
         for support in &mut scene.supports {
-            if let Shape::Round { law: law @ WallLaw::Rigid { .. }, .. } = &mut support.shape {
+            if let Shape::Round { law, .. } = &mut support.shape
+                && law.is_rigid()
+            {
                 *law = WallLaw::Rigid { restitution };
             }
         }

@@ -1,6 +1,6 @@
 //! What a reader must know about a scene and a step, independent of the run.
 
-use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table, WallLaw};
+use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table};
 use crate::scheme::Scheme;
 use std::f64::consts::{PI, TAU};
 
@@ -194,16 +194,11 @@ fn fastest_that_matters(scene: &Scene, modes: &[(f64, f64)]) -> Option<f64> {
 /// A note on elastic walls that the step does not resolve. The springs that a penalty scheme puts
 /// in place of rigid walls are left to the judge: some integrators need not resolve them.
 fn walls_resolved(scene: &Scene, step: f64) -> Option<String> {
-    let stiffness = |law: &WallLaw| match *law {
-        WallLaw::Rigid { .. } => 0.0,
-        WallLaw::Elastic { stiffness, .. } => stiffness,
-        WallLaw::Quartic { epsilon, span } => span * span / epsilon,
-    };
     if scene.walls.iter().all(|wall| wall.law.is_rigid()) {
         return None;
     }
     let masses = scene.wall_masses();
-    let all = scene.walls.iter().zip(&masses).map(|(wall, mass)| (wall, stiffness(&wall.law) / mass));
+    let all = scene.walls.iter().zip(&masses).map(|(wall, mass)| (wall, wall.law.stiffness().unwrap_or(0.0) / mass));
     let coarse: Vec<_> = all.filter(|(_, ratio)| step * step * ratio >= RESOLVED).collect();
     let (wall, ratio) = coarse.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let others = match coarse.len() {

@@ -17,7 +17,7 @@ use super::problem::Problem;
 use super::signature::Signature;
 use super::symmetry::mirror;
 use crate::error::{Error, Result};
-use crate::scene::{LoadKind, Row, Scene, System, Wall, WallLaw};
+use crate::scene::{LoadKind, Row, Scene, System, Wall};
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -105,7 +105,7 @@ pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
     let opposite = mirror(scene, period);
     let mut found = Vec::new();
     for (index, wall) in scene.walls.iter().enumerate() {
-        let WallLaw::Rigid { restitution } = wall.law else { continue };
+        let Some(restitution) = wall.law.restitution() else { continue };
         let (mut full, mut part) = (whole.clone(), linear.half.clone());
         for periods in 1..=most {
             linear.solve(wall, restitution, &full, 1.0, &mut |phase, speed, multipliers| {

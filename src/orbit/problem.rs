@@ -7,7 +7,7 @@ use super::signature::{Kind, Signature};
 use super::symmetry::mirror;
 use crate::error::{Error, Result, Subject};
 use crate::flow::{Arc, Start, Support, Touch};
-use crate::scene::{Forcing, Oscillator, Scene, System, WallLaw};
+use crate::scene::{Forcing, Oscillator, Scene, System, WallSpring};
 
 /// A scene of one degree of freedom whose loads repeat themselves, in which periodic orbits are
 /// looked for.
@@ -64,10 +64,10 @@ impl Problem {
             return Err(Error::invalid("wall", "none", "a wall: without one all motions settle on the same"));
         }
         let boundary = |wall: &crate::scene::Wall| {
-            let law = match wall.law {
-                WallLaw::Rigid { restitution } => BoundaryLaw::Rigid(restitution),
-                WallLaw::Elastic { stiffness, damping } => BoundaryLaw::Elastic { stiffness, damping },
-                WallLaw::Quartic { .. } => {
+            let law = match (wall.law.restitution(), wall.law.spring()) {
+                (Some(restitution), _) => BoundaryLaw::Rigid(restitution),
+                (_, Some(WallSpring { stiffness, damping })) => BoundaryLaw::Elastic { stiffness, damping },
+                _ => {
                     let key = Subject::wall(&wall.name).part("law");
                     return Err(Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall"));
                 }

@@ -104,7 +104,7 @@ pub(super) fn expected_pressure(
     let (s0, s1) = (-wall.gap(w0), -wall.gap(w1));
     let law = &wall.law;
     let c = wall.law.damping();
-    let k = if let WallLaw::Elastic { stiffness, .. } = *law { stiffness } else { 0.0 };
+    let k = law.spring().map_or(0.0, |spring| spring.stiffness);
     let rate = (s1.max(0.0) - s0.max(0.0)) / h;
     let pressure = match at {
         Law::Depth(theta) => {

@@ -4,7 +4,7 @@
 use super::Judge;
 use super::beyond::Worst;
 use super::complementarity::mean_pressure;
-use crate::scene::{Support, WallLaw};
+use crate::scene::{Support, WallLaw, WallSpring};
 use crate::step::{HoleStep, Law, Step};
 
 impl Judge {
@@ -20,8 +20,8 @@ impl Judge {
         let (start, h) = (support.offset(&self.q), self.h);
         let (r0, r1, c) = (start[0].hypot(start[1]), end[0].hypot(end[1]), law.damping());
         // The vector along which the ring pushes, its pressure, and how that changes with depth.
-        let (at, expected, slope) = match (law, self.contract.promise.elastic.law) {
-            (WallLaw::Elastic { stiffness, damping }, Law::Depth(theta)) => {
+        let (at, expected, slope) = match (law.spring(), self.contract.promise.elastic.law) {
+            (Some(WallSpring { stiffness, damping }), Law::Depth(theta)) => {
                 let at = [0, 1].map(|i: usize| (1.0 - theta) * start[i] + theta * end[i]);
                 let distance = at[0].hypot(at[1]);
                 let pressure = stiffness * (distance - gap) + damping * (distance - r0.max(gap)) / (theta * h);

@@ -1,6 +1,6 @@
 //! Moves a state that lies behind rigid walls and holes to them.
 
-use super::{Row, Scene, Shape, Side, Support, System, WallLaw};
+use super::{Row, Scene, Shape, Side, Support, System};
 
 /// Most passes over the walls and holes behind which the state lies.
 const PASSES: usize = 50;
@@ -79,7 +79,10 @@ impl Scene {
 
 /// Moves `q` onto the circle of a rigid hole by the smallest move.
 fn move_onto(support: &Support, q: &mut [f64]) {
-    let Shape::Round { gap, law: WallLaw::Rigid { .. } } = support.shape else { return };
+    let gap = match support.shape {
+        Shape::Round { gap, law } if law.is_rigid() => gap,
+        _ => return,
+    };
     let [y, z] = support.offset(q);
     let distance = y.hypot(z);
     if distance > 0.0 {

@@ -237,19 +237,10 @@ impl Support {
     fn check_hole(&self, gap: f64, law: &WallLaw, start: &[f64]) -> Result<()> {
         let key = |part: &'static str| Subject::support(&self.name).part(part);
         positive(key("gap"), gap)?;
-        match law {
-            WallLaw::Rigid { restitution } if (0.0..=1.0).contains(restitution) => {}
-            WallLaw::Rigid { restitution } => {
-                return Err(Error::invalid(key("restitution"), format!("{restitution:?}"), "from 0 to 1"));
-            }
-            WallLaw::Elastic { stiffness, damping } => {
-                positive(key("stiffness"), *stiffness)?;
-                nonnegative(key("damping"), *damping)?;
-            }
-            WallLaw::Quartic { .. } => {
-                return Err(Error::invalid(key("law"), "that of a penalty", "a rigid or an elastic hole"));
-            }
+        if !law.is_linear() {
+            return Err(Error::invalid(key("law"), "that of a penalty", "a rigid or an elastic hole"));
         }
+        law.validate(key)?;
         let [y, z] = self.seen(start);
         let distance = (y - self.centre[0]).hypot(z - self.centre[1]);
         if self.holds_out(start) {

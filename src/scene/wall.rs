@@ -1,7 +1,8 @@
-//! Walls: the bounds on displacements, and the law of contact there.
+//! Walls: the bounds on displacements.
 
+use super::law::WallLaw;
 use super::row::Row;
-use super::system::{finite, nonnegative, positive};
+use super::system::finite;
 use crate::error::{Error, Result, Subject};
 use serde::{Deserialize, Serialize};
 
@@ -22,98 +23,6 @@ impl Side {
             Self::Lower => 1.0,
             Self::Upper => -1.0,
         }
-    }
-}
-
-/// The contact law of a wall. Depth s is the penetration −gap, and |r| the magnitude of the force.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub enum WallLaw {
-    /// Signorini's condition 0 ≤ gap ⟂ |r| ≥ 0 with Newton's impact law ẇ⁺ = −e ẇ⁻.
-    ///
-    /// Where several walls are struck at once the law is Moreau's (1988,
-    /// doi:10.1007/978-3-7091-2624-0_1): all of them answer in one impact, 0 ≤ ẇ⁺ + e ẇ⁻ ⟂ |p| ≥ 0
-    /// at each. Three equal masses in a row that touch, the first with a speed of 1, leave with
-    /// (−⅓, ⅔, ⅔) at e = 1, not with the (0, 0, 1) of Newton's cradle, which is a sequence of
-    /// impacts: leave gaps between the masses where that is meant.
-    Rigid {
-        /// Restitution e, from 0 (stays) to 1 (rebounds at full speed).
-        restitution: f64,
-    },
-    /// A spring and dashpot that never pull: |r| = max(0, k_a s + c_a ṡ) while s > 0.
-    Elastic {
-        /// Stiffness k_a, N/m.
-        stiffness: f64,
-        /// Damping c_a, N s/m.
-        damping: f64,
-    },
-    /// The φ² penalty of a pair of walls a span apart: energy φ²/(2ε) with φ = s (s + span), hence
-    /// |r| = s (s + span)(2s + span)/ε, which at the wall is a spring of stiffness span²/ε.
-    Quartic {
-        /// Penalty parameter ε, m³/N.
-        epsilon: f64,
-        /// Distance between the upper and the lower wall, m.
-        span: f64,
-    },
-}
-
-impl WallLaw {
-    /// Force magnitude |r| in newtons at depth `s` (m) and rate `rate` = ṡ (m/s); 0 outside, and 0
-    /// for a rigid wall, whose force is not a function of the state.
-    #[must_use]
-    pub fn pressure(&self, s: f64, rate: f64) -> f64 {
-        if s <= 0.0 {
-            return 0.0;
-        }
-        match *self {
-            Self::Rigid { .. } => 0.0,
-            Self::Elastic { stiffness, damping } => (stiffness * s + damping * rate).max(0.0),
-            Self::Quartic { epsilon, span } => s * (s + span) * (2.0 * s + span) / epsilon,
-        }
-    }
-
-    /// ∂|r|/∂s at depth `s` (m), N/m, without damping; 0 for s ≤ 0, also at s = 0, where the
-    /// derivative from inside differs.
-    #[must_use]
-    pub fn tangent(&self, s: f64) -> f64 {
-        if s <= 0.0 {
-            return 0.0;
-        }
-        match *self {
-            Self::Rigid { .. } => 0.0,
-            Self::Elastic { stiffness, .. } => stiffness,
-            Self::Quartic { epsilon, span } => (6.0 * s * (s + span) + span * span) / epsilon,
-        }
-    }
-
-    /// Energy stored at depth `s` (m), J.
-    #[must_use]
-    pub fn energy(&self, s: f64) -> f64 {
-        if s <= 0.0 {
-            return 0.0;
-        }
-        match *self {
-            Self::Rigid { .. } => 0.0,
-            Self::Elastic { stiffness, .. } => 0.5 * stiffness * s * s,
-            Self::Quartic { epsilon, span } => 0.5 * (s * (s + span)).powi(2) / epsilon,
-        }
-    }
-
-    /// The restitution e of a rigid wall; `None` for the others, which have a force law instead.
-    #[must_use]
-    pub fn restitution(&self) -> Option<f64> {
-        if let Self::Rigid { restitution } = *self { Some(restitution) } else { None }
-    }
-
-    /// The dashpot c_a of an elastic wall, N s/m; 0 for the others.
-    pub(crate) fn damping(&self) -> f64 {
-        if let Self::Elastic { damping, .. } = *self { damping } else { 0.0 }
-    }
-
-    /// True for a rigid wall.
-    #[must_use]
-    pub fn is_rigid(&self) -> bool {
-        matches!(self, Self::Rigid { .. })
     }
 }
 
@@ -205,19 +114,6 @@ impl Wall {
     pub(crate) fn validate(&self) -> Result<()> {
         let key = |what: &'static str| Subject::wall(&self.name).part(what);
         finite(key("position"), self.position)?;
-        match self.law {
-            WallLaw::Rigid { restitution } if (0.0..=1.0).contains(&restitution) => Ok(()),
-            WallLaw::Rigid { restitution } => {
-                Err(Error::invalid(key("restitution"), format_args!("{restitution:?}"), "a number from 0 to 1"))
-            }
-            WallLaw::Elastic { stiffness, damping } => {
-                positive(key("stiffness"), stiffness)?;
-                nonnegative(key("damping"), damping)
-            }
-            WallLaw::Quartic { epsilon, span } => {
-                positive(key("epsilon"), epsilon)?;
-                positive(key("span between the walls"), span)
-            }
-        }
+        self.law.validate(key)
     }
 }

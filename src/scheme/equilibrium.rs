@@ -81,10 +81,7 @@ impl Held {
     /// With the matrix `a`, for lengths of the size `scale`.
     fn new(scene: &Scene, a: Symmetric, scale: f64) -> std::result::Result<Self, Failure> {
         let n = a.size();
-        let compliance = |law: &WallLaw| match law {
-            WallLaw::Elastic { stiffness, .. } => 1.0 / stiffness,
-            WallLaw::Rigid { .. } | WallLaw::Quartic { .. } => 0.0,
-        };
+        let compliance = |law: &WallLaw| law.spring().map_or(0.0, |spring| 1.0 / spring.stiffness);
         let mut soft: Vec<f64> = scene.walls.iter().map(|wall| compliance(&wall.law)).collect();
         let bound = |wall: &Wall, side: Side, none: f64| if wall.side == side { wall.position } else { none };
         let (lo, hi) = (

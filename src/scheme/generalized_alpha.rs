@@ -133,14 +133,13 @@ impl<S: Space> GeneralizedAlpha<S> {
             let ahead = place.seen(row, &rule.q);
             for number in place.walls(row) {
                 let wall = place.wall(number);
-                let bound = match wall.law {
-                    WallLaw::Elastic { stiffness, damping } => {
-                        // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
+                let bound = match wall.law.spring() {
+                    // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
+                    Some(spring) => {
                         let plate = wall.plate(place.seen(row, &frame.q));
-                        let offset = stiffness * (ahead - wall.g) + damping * (ahead - plate) / h;
-                        -offset / (stiffness + damping / h)
+                        -spring.force(ahead, wall.g, plate, h) / spring.over(h)
                     }
-                    _ => wall.g - ahead,
+                    None => wall.g - ahead,
                 };
                 place.bind(row, number, bound);
             }

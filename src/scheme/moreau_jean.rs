@@ -32,7 +32,7 @@ use super::rule::Rule;
 use super::space::{Space, zero};
 use crate::error::Result;
 use crate::qp::Backend;
-use crate::scene::{Scene, WallLaw};
+use crate::scene::Scene;
 use crate::step::Calm;
 use std::mem::take;
 
@@ -83,15 +83,13 @@ impl<S: Space> MoreauJean<S> {
         let struck = programme.seen(row, frame.struck());
         for number in programme.walls(row) {
             let wall = programme.wall(number);
-            let bound = match wall.law {
-                WallLaw::Elastic { stiffness, damping } => {
-                    // p = −h[k_a(w_θ − g) + c_a(w_θ − plate)/θh] with w_θ = w + hθẇ + hθ²δ.
-                    let stiff = stiffness + damping / ht;
-                    let ahead = w + ht * before;
-                    let offset = h * (stiffness * (ahead - wall.g) + damping * (ahead - wall.plate(w)) / ht);
-                    -offset / (ht * ht * stiff)
+            let bound = match (wall.law.spring(), wall.law.restitution()) {
+                // p = −h[k_a(w_θ − g) + c_a(w_θ − plate)/θh] with w_θ = w + hθẇ + hθ²δ.
+                (Some(spring), _) => {
+                    let offset = h * spring.force(w + ht * before, wall.g, wall.plate(w), ht);
+                    -offset / (ht * ht * spring.over(ht))
                 }
-                WallLaw::Rigid { restitution } if wall.depth(reach) >= -body.touch => {
+                (_, Some(restitution)) if wall.depth(reach) >= -body.touch => {
                     let epsilon = if wall.sign * struck <= 0.0 { restitution } else { 1.0 };
                     -(1.0 + epsilon) * struck + (struck - before)
                 }

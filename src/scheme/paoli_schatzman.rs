@@ -33,7 +33,7 @@ use super::staggered::{Staggered, counted_blows};
 use crate::error::{Error, Result};
 use crate::linear::Symmetric;
 use crate::qp::Backend;
-use crate::scene::{Scene, WallLaw};
+use crate::scene::{Scene, WallSpring};
 
 #[derive(Debug)]
 pub(super) struct PaoliSchatzman<S: Space> {
@@ -95,14 +95,14 @@ impl<S: Space> PaoliSchatzman<S> {
             let shared = if self.unequal[row] { self.shared_restitution(row, w - h * struck) } else { None };
             for number in self.programme.walls(row) {
                 let wall = self.programme.wall(number);
-                let bound = match wall.law {
-                    WallLaw::Elastic { stiffness, damping } => {
+                let bound = match wall.law.spring() {
+                    Some(WallSpring { stiffness, damping }) => {
                         // |r| = k_a s̄ + c_a(s⁺ − s⁻₊)/2h, written in Δ.
                         let plate = wall.plate(w - h * before);
                         let offset = stiffness * (w - 0.25 * h * before - wall.g) + 0.5 * damping * (w - plate) / h;
                         -offset / (0.25 * stiffness + 0.5 * damping / h)
                     }
-                    _ => {
+                    None => {
                         let e = one.or(shared).or(wall.law.restitution()).unwrap_or(0.0);
                         (1.0 + e) * (wall.g - w) + e * h * struck
                     }

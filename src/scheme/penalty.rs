@@ -276,11 +276,10 @@ pub(super) fn mean_pressure(law: &WallLaw, mean: Mean, theta: f64, h: f64, s0: f
             let ends = (1.0 - theta) * law.pressure(s0, 0.0) + theta * law.pressure(s1, 0.0);
             (ends, theta * law.tangent(s1))
         }
-        Mean::DiscreteGradient => discrete_gradient(law, s0, s1),
+        Mean::DiscreteGradient => law.mean_force(s0, s1),
     };
-    if let WallLaw::Elastic { damping, .. } = *law
-        && damping > 0.0
-    {
+    let damping = law.damping();
+    if damping > 0.0 {
         pressure += damping * (s1.max(0.0) - s0.max(0.0)) / h;
         tangent += if s1 > 0.0 { damping / h } else { 0.0 };
         if pressure < 0.0 {
@@ -288,28 +287,6 @@ pub(super) fn mean_pressure(law: &WallLaw, mean: Mean, theta: f64, h: f64, s0: f
         }
     }
     (pressure, tangent)
-}
-
-/// ΔU/Δs between two depths, of which one is above 0, and its derivative with respect to the
-/// second; without division by zero.
-fn discrete_gradient(law: &WallLaw, s0: f64, s1: f64) -> (f64, f64) {
-    if s0 <= 0.0 {
-        let slope = law.energy(s1) / (s1 - s0);
-        return (slope, (law.pressure(s1, 0.0) - slope) / (s1 - s0));
-    }
-    if s1 <= 0.0 {
-        let slope = law.energy(s0) / (s0 - s1);
-        return (slope, slope / (s0 - s1));
-    }
-    match *law {
-        WallLaw::Rigid { .. } => (0.0, 0.0),
-        WallLaw::Elastic { stiffness, .. } => (0.5 * stiffness * (s0 + s1), 0.5 * stiffness),
-        WallLaw::Quartic { epsilon, span } => {
-            let phi = s0 * (s0 + span) + s1 * (s1 + span);
-            let sum = s0 + s1 + span;
-            (phi * sum / (2.0 * epsilon), ((2.0 * s1 + span) * sum + phi) / (2.0 * epsilon))
-        }
-    }
 }
 
 #[cfg(test)]

@@ -26,7 +26,7 @@ use super::start::StartForce;
 use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::qp::Backend;
-use crate::scene::{Scene, Wall, WallLaw};
+use crate::scene::{Scene, Wall};
 
 #[derive(Debug)]
 pub(super) struct Position<S: Space> {
@@ -70,13 +70,10 @@ impl<S: Space> Position<S> {
             };
             for number in programme.walls(row) {
                 let wall = programme.wall(number);
-                let bound = match wall.law {
+                let bound = match wall.law.spring() {
                     // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
-                    WallLaw::Elastic { stiffness, damping } => {
-                        let offset = stiffness * (w - wall.g) + damping * (w - wall.plate(w)) / body.h;
-                        -offset / (stiffness + damping / body.h)
-                    }
-                    _ => wall.g - w - shift,
+                    Some(spring) => -spring.force(w, wall.g, wall.plate(w), body.h) / spring.over(body.h),
+                    None => wall.g - w - shift,
                 };
                 programme.bind(row, number, bound);
             }

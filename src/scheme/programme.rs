@@ -61,10 +61,7 @@ impl<S: Space> Programme<S> {
         let (n, m) = (a.size(), layout.count());
         let first: Vec<&Wall> =
             (0..m).filter_map(|row| layout.first(row).and_then(|wall| scene.walls.get(wall))).collect();
-        let soft = |wall: &&Wall| match wall.law {
-            WallLaw::Elastic { stiffness, damping } => compliance(stiffness, damping),
-            _ => 0.0,
-        };
+        let soft = |wall: &&Wall| wall.law.spring().map_or(0.0, |s| compliance(s.stiffness, s.damping));
         let g = Rows::new(n, first.iter().map(|wall| wall.at.entries()));
         let problem = qp::Problem { a, g, compliance: first.iter().map(soft).collect() };
         let solver = S::Solver::new(problem, backend, scale).map_err(|f| failure(&f, None, 0.0, 0))?;

@@ -5,7 +5,7 @@ use super::{Handed, Method, Scheme};
 use crate::error::{Error, Result, Subject};
 use crate::interrupt::Asking;
 use crate::qp::Backend;
-use crate::scene::{Checked, Scene, State, Wall, WallLaw};
+use crate::scene::{Checked, Scene, State, Wall};
 use crate::scheme::Counters;
 use crate::step::{Calm, Contact, Contract, Step};
 use crate::time::MOST_STEPS;
@@ -338,7 +338,7 @@ impl Stepper {
 
 /// The scene, if a quadratic programme can represent its walls: the φ² law cannot be.
 fn without_quartic(scene: &Checked) -> Result<&Checked> {
-    match scene.walls.iter().find(|wall| matches!(wall.law, WallLaw::Quartic { .. })) {
+    match scene.walls.iter().find(|wall| !wall.law.is_linear()) {
         Some(wall) => Err(Error::invalid(
             Subject::wall(&wall.name).part("law"),
             "the φ² penalty",

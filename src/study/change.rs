@@ -2,7 +2,7 @@
 
 use super::difference::{self, wall_speeds, worse};
 use crate::run::Run;
-use crate::scene::{Hole, Scene, WallLaw};
+use crate::scene::{Hole, Scene};
 use crate::statistics::{PlaceKind, Statistics, WallStatistics};
 use crate::step::Contact;
 use crate::trajectory::Trajectory;
@@ -109,13 +109,10 @@ impl Change {
             };
             let of = |what: fn(&WallStatistics) -> f64| statistics.map(|s| part(s, index, what));
             let [time, time_against] = of(|w| w.contact_time_ratio);
-            let peak_force = match wall.law {
-                WallLaw::Elastic { stiffness, .. } => {
-                    let least = most.force.max(speed * (stiffness * mass).sqrt());
-                    relative(of(|w| w.episode_peak_force_n.max.unwrap_or(0.0)), least)
-                }
-                _ => 0.0,
-            };
+            let peak_force = wall.law.spring().map_or(0.0, |spring| {
+                let least = most.force.max(speed * (spring.stiffness * mass).sqrt());
+                relative(of(|w| w.episode_peak_force_n.max.unwrap_or(0.0)), least)
+            });
             walls.push(WallChange {
                 wall: wall.name.clone(),
                 kind: PlaceKind::Wall,

@@ -53,7 +53,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     let run = match exact {
         Ok(run) => run,
         Err(error) => {
-            let restitution_0 = |w: &Wall| w.law == WallLaw::Rigid { restitution: 0.0 };
+            let restitution_0 = |w: &Wall| w.law.restitution() == Some(0.0);
             let (scheme, why) = if scene.walls.iter().all(restitution_0) && !scene.turns_or_rubs() {
                 (Scheme::PaoliSchatzman, "with e = 0 at every wall paoli-schatzman is of order 2")
             } else {

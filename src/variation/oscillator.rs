@@ -4,7 +4,7 @@ use super::no_derivative::NoDerivative;
 use super::saltation::{self, IDENTITY, Matrix2, REST};
 use crate::error::{Error, Result};
 use crate::flow::Arc;
-use crate::scene::{Oscillator, Scene, System, WallLaw};
+use crate::scene::{Oscillator, Scene, System};
 use crate::step::{Path, Step};
 
 /// A body nearer to the face of an elastic wall than this share of the scene's gap scale counts as
@@ -58,11 +58,10 @@ impl OscillatorVariation {
                 "one degree of freedom, with its walls on it directly",
             ));
         };
-        let dashpots = scene.walls.iter().enumerate().filter_map(|(wall, w)| match w.law {
-            WallLaw::Elastic { damping, .. } if damping > 0.0 => {
-                Some(Dashpot { wall, sign: w.side.sign(), position: w.position, damping, touches: false })
-            }
-            _ => None,
+        let dashpots = scene.walls.iter().enumerate().filter_map(|(wall, w)| {
+            let damping = w.law.damping();
+            let at_rest = Dashpot { wall, sign: w.side.sign(), position: w.position, damping, touches: false };
+            (damping > 0.0).then_some(at_rest)
         });
         Ok(Self {
             body: *body,

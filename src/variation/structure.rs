@@ -5,7 +5,7 @@ use super::no_derivative::NoDerivative;
 use super::oscillator::ON_THE_FACE;
 use crate::error::{Error, Result};
 use crate::flow::{Hold, Propagator, Series, held};
-use crate::scene::{Scene, WallLaw};
+use crate::scene::Scene;
 use crate::step::{Path, Step};
 
 /// The data of a wall for the propagation of changes.
@@ -64,10 +64,7 @@ impl StructureVariation {
         let flow = Propagator::new(scene).ok_or_else(singular)?;
         let (n, rows) = (flow.body.n, flow.body.rows.count());
         let walls = scene.walls.iter().zip(&flow.body.row_of).map(|(wall, &row)| {
-            let (stiffness, damping) = match wall.law {
-                WallLaw::Elastic { stiffness, damping } => (stiffness, damping),
-                _ => (0.0, 0.0),
-            };
+            let (stiffness, damping) = wall.law.spring().map_or((0.0, 0.0), |s| (s.stiffness, s.damping));
             let (sign, position, restitution) = (wall.side.sign(), wall.position, wall.law.restitution());
             At { row, sign, position, restitution, stiffness, damping, during: false, after: false }
         });

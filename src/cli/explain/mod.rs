@@ -11,7 +11,7 @@ use crate::case::Case;
 use crate::error::Result;
 use crate::notes;
 use crate::output::summary;
-use crate::scene::{System, WallLaw};
+use crate::scene::{System, WallSpring};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice::{self, Choice};
 use model::{MOST_WALLS, excitations, supports, walls, what};
@@ -113,10 +113,7 @@ fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     let estimate = |of: Option<&Estimate>| of.map(|e| json!({ "seconds": e.seconds, "set_by": e.cause }));
     let seen = |index: usize, words: &String| {
         let wall = case.scene.walls.get(index);
-        let stiffness = wall.and_then(|wall| match wall.law {
-            WallLaw::Elastic { stiffness, .. } => Some(stiffness),
-            _ => None,
-        });
+        let stiffness = wall.and_then(|wall| wall.law.spring()).map(|spring| spring.stiffness);
         let mass = masses(case).get(index).copied();
         json!({
             "name": wall.map(|wall| &wall.name),
@@ -194,7 +191,7 @@ fn step(case: &Case) -> Vec<String> {
     let resolved = if omega > 0.0 { format!(", h ω = {:.2e}", h * omega) } else { String::new() };
     let mut lines = vec![format!("{h:e} s, {:.0} steps{resolved}", case.scene.duration / h)];
     for (wall, mass) in case.scene.walls.iter().zip(masses(case)).take(MOST_WALLS) {
-        if let WallLaw::Elastic { stiffness, .. } = wall.law {
+        if let Some(WallSpring { stiffness, .. }) = wall.law.spring() {
             lines.push(format!("{:?}: h² k_a/m = {:.2e}", wall.name, h * h * stiffness / mass));
         }
     }

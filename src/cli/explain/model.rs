@@ -1,7 +1,7 @@
 //! The model of a case in words: structure, supports, walls and loads.
 
 use crate::case::{Case, Model, Origin, Support};
-use crate::scene::{self, Density, Flats, LoadKind, Shape, WallLaw};
+use crate::scene::{self, Density, Flats, LoadKind, Shape, WallSpring};
 use crate::study::choice;
 use crate::study::truncation::Start;
 
@@ -89,10 +89,11 @@ pub(super) fn supports(case: &Case) -> Vec<String> {
         let (name, place) = (&support.name, &support.place);
         let Some((Flats { flats, .. }, _)) = &support.flats else {
             let (gap, law) = match &there.shape {
-                Shape::Round { gap, law: WallLaw::Elastic { stiffness, damping } } => {
-                    (*gap, format!("elastic, {stiffness:?} N/m and {damping:?} N s/m"))
+                Shape::Round { gap, law } => {
+                    let elastic = |s: WallSpring| format!("elastic, {:?} N/m and {:?} N s/m", s.stiffness, s.damping);
+                    let rigid = || format!("rigid, restitution {}", law.restitution().unwrap_or(0.0));
+                    (*gap, law.spring().map_or_else(rigid, elastic))
                 }
-                Shape::Round { gap, law } => (*gap, format!("rigid, restitution {}", law.restitution().unwrap_or(0.0))),
                 Shape::Flats(_) => (0.0, String::new()),
             };
             return format!(

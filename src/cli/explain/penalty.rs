@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::error::Result;
-use crate::scene::{Scene, WallLaw};
+use crate::scene::Scene;
 use crate::scheme::{Integrator, PenaltyLaw};
 use serde_json::{Value, json};
 
@@ -49,10 +49,5 @@ impl Penalty {
 /// Stiffness at its face of the stiffest wall or hole of the penalised scene, N/m.
 fn stiffest(scene: &Scene, law: PenaltyLaw) -> Result<f64> {
     let scene = scene.penalised(law)?;
-    let stiffness = |law: WallLaw| match law {
-        WallLaw::Rigid { .. } => 0.0,
-        WallLaw::Elastic { stiffness, .. } => stiffness,
-        WallLaw::Quartic { epsilon, span } => span * span / epsilon,
-    };
-    Ok(scene.contact_laws().map(stiffness).fold(0.0, f64::max))
+    Ok(scene.contact_laws().filter_map(|law| law.stiffness()).fold(0.0, f64::max))
 }

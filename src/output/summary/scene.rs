@@ -179,11 +179,10 @@ fn support(support: &Support, place: Option<&Place>, walls: &[Wall]) -> Value {
             "friction": friction,
         }),
     };
-    if let (Shape::Round { law: WallLaw::Elastic { stiffness, damping }, .. }, Some(map)) =
-        (&support.shape, out.as_object_mut())
-    {
-        map.insert("stiffness_n_per_m".to_owned(), json!(stiffness));
-        map.insert("damping_n_s_per_m".to_owned(), json!(damping));
+    let spring = support.hole().and_then(|hole| hole.law.spring());
+    if let (Some(spring), Some(map)) = (spring, out.as_object_mut()) {
+        map.insert("stiffness_n_per_m".to_owned(), json!(spring.stiffness));
+        map.insert("damping_n_s_per_m".to_owned(), json!(spring.damping));
     }
     if let (Some(place), Some(map)) = (place, out.as_object_mut()) {
         map.insert("at".to_owned(), at(place));

@@ -13,7 +13,7 @@ use super::matrices::{Matrices, Part};
 use super::most::most;
 use super::moves::Moves;
 use super::pushes::pushes;
-use crate::scene::{Forcing, Scene, Wall, WallLaw};
+use crate::scene::{Forcing, Scene, Wall};
 use crate::step::{Balance, Calm, Contract, Step};
 use rings::Rings;
 
@@ -222,9 +222,8 @@ impl Ledger {
                 if staggered { half(wall, w0, h * wall.at.dot(after), touches) } else { stored(wall, w1, touches) };
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);
-            if let WallLaw::Elastic { damping, .. } = wall.law
-                && damping > 0.0
-            {
+            let damping = wall.law.damping();
+            if damping > 0.0 {
                 if touches {
                     let plate = |w: f64| (-wall.gap(w)).max(0.0);
                     let rate = if staggered { rate } else { (plate(w1) - plate(w0)) / h };
@@ -329,10 +328,7 @@ fn see_supports(scene: &Scene, step: &Step<'_>, flows: &mut Flows) {
 /// Energy stored in a wall at displacement `w`, J; 0 for a damped wall that does not touch the
 /// body.
 pub(super) fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
-    match wall.law {
-        WallLaw::Elastic { damping, .. } if damping > 0.0 && !touching => 0.0,
-        _ => wall.law.energy(-wall.gap(w)),
-    }
+    if wall.law.damping() > 0.0 && !touching { 0.0 } else { wall.law.energy(-wall.gap(w)) }
 }
 
 /// Energy stored half a step on the way from `w` to `w + shift`: the mean of both ends.

@@ -1,6 +1,6 @@
 //! Energy in elastic round holes.
 
-use crate::scene::{Hole, Scene, WallLaw};
+use crate::scene::{Hole, Scene};
 use crate::step::Step;
 
 /// What each elastic hole stored after the last step, J; 0 of rigid ones.
@@ -31,9 +31,8 @@ impl Rings {
         for ((hole, did), held) in scene.holes().zip(step.holes).zip(&mut self.held) {
             let (r0, r1, touches) = (distance(&hole, q0), distance(&hole, q1), did.impulse != 0.0);
             let before = std::mem::replace(held, stored(&hole, r1, touches));
-            if let WallLaw::Elastic { damping, .. } = hole.law
-                && damping > 0.0
-            {
+            let damping = hole.law.damping();
+            if damping > 0.0 {
                 if touches {
                     let rate = ((r1 - hole.gap).max(0.0) - (r0 - hole.gap).max(0.0)) / h;
                     lost += damping * rate * rate * h;

@@ -5,7 +5,7 @@ mod statics;
 
 use super::row::distinct;
 use super::structure::Structure;
-use super::wall::{Side, Wall, WallLaw};
+use super::wall::{Side, Wall};
 use super::{Scene, System};
 use crate::error::{Error, Result, Subject};
 use statics::{Seen, Statics};
@@ -169,18 +169,15 @@ impl Scene {
 
 /// Puts the compliance `s` (m/N) of the massless part in series between wall and structure.
 fn soften(wall: &mut Wall, s: f64) -> Result<()> {
-    match &mut wall.law {
-        WallLaw::Rigid { .. } => wall.law = WallLaw::Elastic { stiffness: 1.0 / s, damping: 0.0 },
-        WallLaw::Elastic { stiffness, damping: 0.0 } => *stiffness = 1.0 / (1.0 / *stiffness + s),
-        WallLaw::Elastic { damping, .. } => {
-            let expected = "0 where the wall pushes degrees of freedom without mass: in series with their \
-                            spring a dashpot has a motion of its own";
-            return Err(Error::invalid(Subject::wall(&wall.name).part("damping"), format!("{damping:?}"), expected));
-        }
-        WallLaw::Quartic { .. } => {
-            let expected = "a rigid or elastic wall where degrees of freedom have no mass";
-            return Err(Error::invalid(Subject::wall(&wall.name), "a φ² penalty", expected));
-        }
+    let damping = wall.law.damping();
+    if damping > 0.0 {
+        let expected = "0 where the wall pushes degrees of freedom without mass: in series with their \
+                        spring a dashpot has a motion of its own";
+        return Err(Error::invalid(Subject::wall(&wall.name).part("damping"), format!("{damping:?}"), expected));
     }
+    wall.law = wall.law.in_series(s).ok_or_else(|| {
+        let expected = "a rigid or elastic wall where degrees of freedom have no mass";
+        Error::invalid(Subject::wall(&wall.name), "a φ² penalty", expected)
+    })?;
     Ok(())
 }

@@ -4,7 +4,7 @@ use super::modes::Modes;
 use super::residual::Residual;
 use crate::error::{Error, Result};
 use crate::linear::Symmetric;
-use crate::scene::{Damping, Row, Scene, State, Structure, System, Wall, WallLaw};
+use crate::scene::{Damping, Row, Scene, State, Structure, System, Wall};
 
 /// A scene reduced to its slowest modes, and what was left out.
 ///
@@ -266,18 +266,10 @@ fn correct(wall: &mut Wall, truncation: &mut WallTruncation) -> Result<()> {
     if s <= NOTHING * truncation.compliance {
         return Ok(());
     }
-    match &mut wall.law {
-        WallLaw::Rigid { .. } => wall.law = WallLaw::Elastic { stiffness: 1.0 / s, damping: 0.0 },
-        WallLaw::Elastic { stiffness, damping } => {
-            let series = 1.0 / (1.0 / *stiffness + s);
-            *damping *= (series / *stiffness).powi(2);
-            *stiffness = series;
-        }
-        WallLaw::Quartic { .. } => {
-            let value = format!("true, with the φ² wall {:?}", wall.name);
-            return Err(Error::invalid("static correction", value, "rigid or elastic walls only"));
-        }
-    }
+    wall.law = wall.law.in_series(s).ok_or_else(|| {
+        let value = format!("true, with the φ² wall {:?}", wall.name);
+        Error::invalid("static correction", value, "rigid or elastic walls only")
+    })?;
     truncation.corrected = true;
     Ok(())
 }

@@ -13,7 +13,7 @@ use super::bounds::Bounds;
 use super::held::Held;
 use crate::error::Result;
 use crate::qp::{DiskBound, DiskCounters};
-use crate::scene::{Scene, WallLaw};
+use crate::scene::Scene;
 use crate::step::Balance;
 
 #[derive(Debug)]
@@ -108,14 +108,13 @@ impl Alpha {
         let Self { place, rule, .. } = self;
         for (wall, &face) in body.walls.iter().enumerate() {
             let ahead = body.seen(wall, &rule.q);
-            let bound = match face.law {
-                WallLaw::Elastic { stiffness, damping } => {
-                    // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
+            let bound = match face.law.spring() {
+                // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
+                Some(spring) => {
                     let plate = face.plate(body.seen(wall, &frame.q));
-                    let offset = stiffness * (ahead - face.g) + damping * (ahead - plate) / body.h;
-                    -offset / (stiffness + damping / body.h)
+                    -spring.force(ahead, face.g, plate, body.h) / spring.over(body.h)
                 }
-                _ => face.g - ahead,
+                None => face.g - ahead,
             };
             place.bind_wall(wall, face, bound);
         }

@@ -21,10 +21,7 @@ impl Bounds {
     /// With the matrix `a`, a typical size `scale` of the rows' values, and the compliance of
     /// elastic walls and holes as a function of stiffness and damping.
     pub fn new(scene: &Scene, a: Symmetric, scale: f64, compliance: impl Fn(f64, f64) -> f64) -> Result<Self> {
-        let soft = |law: &WallLaw| match *law {
-            WallLaw::Elastic { stiffness, damping } => compliance(stiffness, damping),
-            _ => 0.0,
-        };
+        let soft = |law: &WallLaw| law.spring().map_or(0.0, |s| compliance(s.stiffness, s.damping));
         let walls = scene.walls.len();
         let mut rows: Vec<&Row> = scene.walls.iter().map(|wall| &wall.at).collect();
         let mut yields: Vec<f64> = scene.walls.iter().map(|wall| soft(&wall.law)).collect();

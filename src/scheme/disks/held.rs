@@ -64,12 +64,9 @@ impl Held {
     /// elastic one, which must yield by 1/(k_a + c_a/h), at `now` at the step's start.
     pub fn disk(&self, hole: usize, now: [f64; 2], ahead: [f64; 2]) -> DiskBound {
         let Round { gap, law, .. } = self.rounds[hole];
-        let radius = match law {
-            WallLaw::Elastic { stiffness, damping } => {
-                let plate = now[0].hypot(now[1]).max(gap);
-                (stiffness * gap + damping * plate / self.body.h) / (stiffness + damping / self.body.h)
-            }
-            _ => gap,
+        let radius = match law.spring() {
+            Some(spring) => spring.freed_radius(gap, now, self.body.h),
+            None => gap,
         };
         DiskBound::Disk { centre: ahead.map(|w| -w), radius }
     }

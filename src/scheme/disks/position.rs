@@ -9,7 +9,7 @@ use super::held::Held;
 use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::qp::DiskCounters;
-use crate::scene::{Scene, WallLaw};
+use crate::scene::Scene;
 
 #[derive(Debug)]
 pub(super) struct Position {
@@ -72,13 +72,10 @@ impl Position {
         let shift = body.blows.as_ref().filter(|_| blown).map(|blows| &blows.shift);
         for (wall, &face) in body.walls.iter().enumerate() {
             let w = body.seen(wall, q);
-            let bound = match face.law {
+            let bound = match face.law.spring() {
                 // As in implicit-euler between walls: |r| = k_a s⁺ + c_a(s⁺ − s₊)/h.
-                WallLaw::Elastic { stiffness, damping } => {
-                    let offset = stiffness * (w - face.g) + damping * (w - face.plate(w)) / body.h;
-                    -offset / (stiffness + damping / body.h)
-                }
-                _ => face.g - w - shift.map_or(0.0, |shift| body.seen(wall, shift)),
+                Some(spring) => -spring.force(w, face.g, face.plate(w), body.h) / spring.over(body.h),
+                None => face.g - w - shift.map_or(0.0, |shift| body.seen(wall, shift)),
             };
             self.bounds.bind_wall(wall, face, bound);
         }

@@ -10,7 +10,7 @@ use super::bounds::Bounds;
 use super::held::Held;
 use crate::error::Result;
 use crate::qp::{DiskBound, DiskCounters};
-use crate::scene::{Scene, WallLaw};
+use crate::scene::Scene;
 
 #[derive(Debug)]
 pub(super) struct Velocity {
@@ -54,14 +54,13 @@ impl Velocity {
         for (wall, &face) in held.body.walls.iter().enumerate() {
             let seen = |x: &Vec<f64>| held.body.seen(wall, x);
             let (w, before, struck) = (seen(&held.frame.q), seen(&held.frame.v), seen(held.frame.struck()));
-            match face.law {
-                WallLaw::Elastic { stiffness, damping } => {
-                    // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
-                    let (stiff, ahead) = (stiffness + damping / ht, w + ht * before);
-                    let offset = h * (stiffness * (ahead - face.g) + damping * (ahead - face.plate(w)) / ht);
-                    self.bounds.bind_wall(wall, face, -offset / (ht * ht * stiff));
+            match (face.law.spring(), face.law.restitution()) {
+                // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
+                (Some(spring), _) => {
+                    let offset = h * spring.force(w + ht * before, face.g, face.plate(w), ht);
+                    self.bounds.bind_wall(wall, face, -offset / (ht * ht * spring.over(ht)));
                 }
-                WallLaw::Rigid { restitution } if face.depth(w + 0.5 * h * struck) >= -held.body.touch => {
+                (_, Some(restitution)) if face.depth(w + 0.5 * h * struck) >= -held.body.touch => {
                     let epsilon = if face.sign * struck <= 0.0 { restitution } else { 1.0 };
                     self.bounds.bind_wall(wall, face, -epsilon * struck - before);
                 }
@@ -71,17 +70,16 @@ impl Velocity {
         for hole in 0..held.rounds.len() {
             let (now, rate) = (held.offset(hole, &held.frame.q), held.seen(hole, &held.frame.v));
             let round = held.rounds[hole];
-            let bound = match round.law {
-                WallLaw::Elastic { stiffness, damping } => {
+            let bound = match round.law.spring() {
+                Some(spring) => {
                     // In δ: w_θ = w + hθ ẇ + hθ² δ.
-                    let (per, plate) = (1.0 / (ht * self.theta), now[0].hypot(now[1]).max(round.gap));
-                    let radius = (stiffness * round.gap + damping * plate / ht) / (stiffness + damping / ht);
+                    let per = 1.0 / (ht * self.theta);
                     DiskBound::Disk {
                         centre: [0, 1].map(|i: usize| -(now[i] + ht * rate[i]) * per),
-                        radius: radius * per,
+                        radius: spring.freed_radius(round.gap, now, ht) * per,
                     }
                 }
-                _ => {
+                None => {
                     let struck = held.seen(hole, held.frame.struck());
                     let e = round.law.restitution().unwrap_or(0.0);
                     match meet((round.gap, e), now, struck, h) {

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, Subject};
 use crate::flow::Touch;
-use crate::scene::{Hole, Scene, Side, Wall, WallLaw};
+use crate::scene::{Hole, Scene, Side, Wall};
 use crate::step::Contact;
 
 /// Where the body is relative to one wall.
@@ -54,10 +54,10 @@ pub(in crate::scheme) struct ExactWall {
 impl ExactWall {
     /// `None` for a law that the exact schemes do not follow.
     pub fn new(wall: &Wall) -> Option<Self> {
-        let (stiffness, damping, phase) = match wall.law {
-            WallLaw::Rigid { restitution } => (0.0, 0.0, Phase::Rigid(restitution)),
-            WallLaw::Elastic { stiffness, damping } => (stiffness, damping, Phase::Outside),
-            WallLaw::Quartic { .. } => return None,
+        let (stiffness, damping, phase) = match (wall.law.restitution(), wall.law.spring()) {
+            (Some(restitution), _) => (0.0, 0.0, Phase::Rigid(restitution)),
+            (_, Some(spring)) => (spring.stiffness, spring.damping, Phase::Outside),
+            _ => return None,
         };
         Some(Self {
             name: wall.name.clone(),

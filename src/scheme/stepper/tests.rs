@@ -3,7 +3,7 @@
 use super::super::{Integrator, PenaltyLaw};
 use super::*;
 use crate::linear::Symmetric;
-use crate::scene::{Load, PlaneRows, Row, Shape, Structure, Support, Table};
+use crate::scene::{Load, PlaneRows, Row, Shape, Structure, Support, Table, WallLaw};
 use crate::statistics::{Forces, Rubbing, Statistics};
 use crate::trajectory::Recorder;
 

@@ -11,7 +11,7 @@ use super::normal::{AHEAD, Met, TURNING, dot, meet};
 use super::places::Places;
 use super::points::ContactPoint;
 use super::touch::Touch;
-use crate::scene::{Hole, Scene, WallLaw};
+use crate::scene::{Hole, Scene};
 
 /// A hole.
 #[derive(Debug, Clone, Copy)]
@@ -66,17 +66,15 @@ impl Reach {
         warm: [f64; 2],
     ) -> Option<Touch> {
         let (face, point, ht) = (body.walls[wall], self.points[wall], body.h * self.theta);
-        let (bound, compliance) = match face.law {
-            WallLaw::Elastic { stiffness, damping } => {
-                // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
-                let stiff = stiffness + damping / ht;
+        let (bound, compliance) = match (face.law.spring(), face.law.restitution()) {
+            // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
+            (Some(spring), _) => {
                 let (w, before) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
-                let ahead = w + ht * before;
-                let offset = body.h * (stiffness * (ahead - face.g) + damping * (ahead - face.plate(w)) / ht);
-                let compliance = 1.0 / (ht * ht * stiff);
+                let offset = body.h * spring.force(w + ht * before, face.g, face.plate(w), ht);
+                let compliance = 1.0 / (ht * ht * spring.over(ht));
                 (-face.sign * (before - offset * compliance), compliance)
             }
-            WallLaw::Rigid { restitution } if face.depth(body.seen(wall, &self.ahead)) >= -body.touch => {
+            (_, Some(restitution)) if face.depth(body.seen(wall, &self.ahead)) >= -body.touch => {
                 let struck = body.seen(wall, frame.struck());
                 let epsilon = if face.sign * struck <= 0.0 { restitution } else { 1.0 };
                 (face.sign * epsilon * struck, 0.0)

@@ -2,7 +2,7 @@
 //! the scene.
 
 use crate::error::Result;
-use crate::scene::{LoadKind, Loads, Scene, System, WallLaw};
+use crate::scene::{LoadKind, Loads, Scene, System};
 use crate::time::{TimeGrid, TimeOptions};
 use std::f64::consts::{PI, TAU};
 
@@ -88,12 +88,9 @@ fn shortest_time(scene: &Scene) -> f64 {
         if speed > 0.0 {
             times.push(scene.gap_scale() / speed);
         }
-        let stiffness = match wall.law {
-            WallLaw::Rigid { .. } => continue,
-            WallLaw::Elastic { stiffness, .. } => stiffness,
-            WallLaw::Quartic { epsilon, span } => span * span / epsilon,
-        };
-        times.push(PI / TAU * period(slowest * slowest + stiffness / mass));
+        if let Some(stiffness) = wall.law.stiffness() {
+            times.push(PI / TAU * period(slowest * slowest + stiffness / mass));
+        }
     }
     times.into_iter().fold(f64::INFINITY, f64::min)
 }

@@ -2,7 +2,7 @@
 
 use super::motion::{Attractor, Lasts, Touch};
 use crate::orbit::strobe::{Scales, multipliers, newton_step, state, vector};
-use crate::scene::{Checked, WallLaw};
+use crate::scene::Checked;
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::step::Contact;
 use crate::variation::Product;
@@ -145,10 +145,11 @@ impl Orbit {
         // run, and at the start of the run.
         let open: Vec<usize> = contacts.iter().filter(|c| c.end.is_none()).map(|c| c.wall).collect();
         contacts.retain(|c| !(c.start == 0.0 && c.approach_speed == 0.0 && open.contains(&c.wall)));
-        let lasts = |c: &Contact| match scene.walls.get(c.wall).map(|wall| &wall.law) {
-            Some(WallLaw::Rigid { .. }) if c.end == Some(c.start) => Lasts::Instant,
-            Some(WallLaw::Rigid { .. }) => Lasts::Rest,
-            _ => Lasts::Push,
+        let lasts = |c: &Contact| match scene.walls.get(c.wall) {
+            Some(wall) if !wall.law.is_rigid() => Lasts::Push,
+            Some(_) if c.end == Some(c.start) => Lasts::Instant,
+            Some(_) => Lasts::Rest,
+            None => Lasts::Push,
         };
         let touch = |c: &Contact| Touch {
             wall: c.wall,

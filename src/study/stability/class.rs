@@ -2,7 +2,7 @@
 
 use super::ruler::{REST, Ruler, exchanged};
 use super::watch::{Record, depth_bound};
-use crate::scene::{Scene, System, WallLaw};
+use crate::scene::{Scene, System};
 use crate::scheme::Scheme;
 use crate::step::Contact;
 use std::fmt;
@@ -257,10 +257,8 @@ fn growth(record: &Record, scene: &Scene, masses: &[f64], ruler: &Ruler) -> Opti
     let mass = masses.iter().copied().reduce(f64::min).unwrap_or(0.0);
     let energy = |speed: f64| 0.5 * mass * speed * speed;
     let arrived: f64 = record.contacts.iter().map(|c| energy(c.approach_speed)).sum();
-    let beyond = |c: &Contact| match (scene.walls.get(c.wall).map(|w| w.law), c.departure_speed) {
-        (Some(WallLaw::Rigid { restitution: e }), Some(departure)) => {
-            energy(departure) - e * e * energy(c.approach_speed)
-        }
+    let beyond = |c: &Contact| match (scene.walls.get(c.wall).and_then(|w| w.law.restitution()), c.departure_speed) {
+        (Some(e), Some(departure)) => energy(departure) - e * e * energy(c.approach_speed),
         _ => 0.0,
     };
     (arrived > 0.0).then(|| (record.made + record.contacts.iter().map(beyond).sum::<f64>()) / arrived)

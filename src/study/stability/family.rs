@@ -1,6 +1,5 @@
 //! The schemes of the maps, and the second parameter of each map.
 
-use super::watch::wall_stiffness;
 use crate::error::{Error, Result};
 use crate::scene::{Scene, WallLaw};
 use crate::scheme::{Integrator, PenaltyLaw, Scheme};
@@ -121,7 +120,7 @@ impl Parameter {
                     |l: &PenaltyLaw| if let PenaltyLaw::Linear { stiffness, .. } = l { Some(*stiffness) } else { None };
                 laws.filter_map(stiffness).collect()
             }
-            Self::WallStiffness => walls.filter_map(wall_stiffness).collect(),
+            Self::WallStiffness => walls.filter_map(|law| law.stiffness()).collect(),
         };
         let mut seen = Vec::new();
         values.retain(|v| {

@@ -1,7 +1,7 @@
 //! The energy that a scheme itself produces, for one degree of freedom: a few operations per step,
 //! much cheaper than the judge.
 
-use crate::scene::{Wall, WallLaw};
+use crate::scene::Wall;
 use crate::scheme::Stepper;
 use crate::step::{Balance, Step};
 
@@ -45,15 +45,12 @@ impl Ledger {
         let q = at(&stepper.state().q);
         let (mut springs, mut rigid) = (Vec::new(), Vec::new());
         for (index, wall) in scene.walls.iter().enumerate() {
-            let damping = match wall.law {
-                WallLaw::Rigid { .. } => {
-                    rigid.push(index);
-                    continue;
-                }
-                WallLaw::Elastic { damping, .. } => damping,
-                WallLaw::Quartic { .. } => 0.0,
-            };
-            springs.push(Spring { index, wall: wall.clone(), damping, stored: wall.law.energy(-wall.gap(q)) });
+            if wall.law.is_rigid() {
+                rigid.push(index);
+                continue;
+            }
+            let (damping, stored) = (wall.law.damping(), wall.law.energy(-wall.gap(q)));
+            springs.push(Spring { index, wall: wall.clone(), damping, stored });
         }
         Self { springs, rigid, balance: stepper.contract().balance, h, mass, stiffness, q, busy: true, made: 0.0 }
     }

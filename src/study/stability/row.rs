@@ -4,7 +4,7 @@ use super::class::{Class, DIVERGED, Measurement};
 use super::family::{Family, Parameter};
 use super::ruler::Ruler;
 use super::scale::Scale;
-use super::watch::{STARTS, nudged, wall_stiffness, watch};
+use super::watch::{STARTS, nudged, watch};
 use crate::scene::Scene;
 use crate::scheme::Scheme;
 
@@ -51,7 +51,7 @@ impl Subject {
     /// h²k_w/m at the step `h` (s) for the stiffest wall; `None` where all walls are rigid.
     #[must_use]
     pub fn kappa(&self, scale: &Scale, h: f64) -> Option<f64> {
-        let stiffest = self.seen.walls.iter().filter_map(|w| wall_stiffness(w.law)).reduce(f64::max);
+        let stiffest = self.seen.walls.iter().filter_map(|w| w.law.stiffness()).reduce(f64::max);
         stiffest.map(|k| h * h * k / scale.mass)
     }
 

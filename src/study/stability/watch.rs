@@ -199,16 +199,6 @@ pub(super) fn total_mass(system: &System) -> f64 {
     system.mass_form(&ones, &ones)
 }
 
-/// Stiffness of a wall at first contact, N/m; `None` for a rigid wall.
-#[must_use]
-pub fn wall_stiffness(law: WallLaw) -> Option<f64> {
-    match law {
-        WallLaw::Rigid { .. } => None,
-        WallLaw::Elastic { stiffness, .. } => Some(stiffness),
-        WallLaw::Quartic { epsilon, span } => Some(span * span / epsilon),
-    }
-}
-
 /// Upper bound, m, of the depth behind a wall of this law (as the scheme sees it) in a sound run.
 /// It depends on the scheme, the mass m that the wall feels (kg), the energy E that may reach it
 /// (J), the largest speed `v` (m/s) and the largest free acceleration `a` (m/s²) there; h²a is
@@ -223,8 +213,8 @@ pub fn wall_stiffness(law: WallLaw) -> Option<f64> {
 /// which the spring stores E, and twice the static depth under the load |
 #[must_use]
 pub fn depth_bound(law: WallLaw, scheme: &Scheme, mass: f64, energy: f64, h: f64, v: f64, a: f64) -> f64 {
-    let stated = match (law, wall_stiffness(law)) {
-        (WallLaw::Rigid { restitution: e }, _) => match scheme {
+    let stated = match (law.restitution(), law.stiffness()) {
+        (Some(e), _) => match scheme {
             Scheme::PaoliSchatzman => 2.0 * e * h * v / (1.0 + e),
             Scheme::MoreauJean { .. } => h * v * (1.0 - 0.5 * e),
             _ => 0.0,

@@ -21,7 +21,6 @@ use crate::orbit::branch::point::Point;
 use crate::orbit::strobe::multipliers;
 use crate::orbit::turn::{Look, Touch, Turn, run};
 use crate::orbit::watch::Passage;
-use crate::scene::WallLaw;
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// Distance by which a wall is moved away, in typical displacements.
@@ -182,7 +181,7 @@ impl<'a> Shots<'a> {
     fn kick(&self, free: &Free, contact: &Contact) -> Result<Vector> {
         let scene = &free.posed.scene;
         let wall = scene.walls.get(contact.wall).ok_or_else(gone)?;
-        let WallLaw::Rigid { restitution } = wall.law else { return Ok(DVector::zeros(free.after.nrows())) };
+        let Some(restitution) = wall.law.restitution() else { return Ok(DVector::zeros(free.after.nrows())) };
         let mut body = SeriesBody::new(scene).ok_or_else(gone)?;
         let mut aside = vec![0.0; body.n];
         wall.at.entries().iter().for_each(|&(dof, weight)| aside[dof] += weight);
