@@ -315,6 +315,10 @@ impl Request {
                 return Err(Error::invalid("--schemes", format!("{method}, twice"), "each method once"));
             }
         }
+        if let (Some(step), false) = (self.step, any(|s| *s != Scheme::Event)) {
+            let expected = "a request with a scheme that has a step in it: event has none, and --sample sets its rows";
+            return Err(Error::invalid("--step", step, expected));
+        }
         if let (Some(qp), false) = (self.qp, any(Scheme::has_qp)) {
             return unused("--qp", qp.to_string(), "a scheme that solves quadratic programmes");
         }

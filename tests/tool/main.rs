@@ -11,3 +11,4 @@ mod seeds;
 mod set_values;
 mod statistics;
 mod sweep;
+mod verdicts;
