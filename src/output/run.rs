@@ -17,6 +17,10 @@ use serde_json::Value;
 /// Most rows of the table in the terminal.
 const MOST_ROWS: usize = 24;
 
+/// Energy at walls is rounding below this share of the energy exchanged over the run, as in the
+/// notes of a run.
+const ROUNDING: f64 = 1e-9;
+
 /// What the pictures of one run show, and the index of its look among the runs of the command.
 #[derive(Debug, Clone, Copy)]
 pub struct Picture {
@@ -124,7 +128,9 @@ pub fn remarks(run: &Run) -> Vec<String> {
              as h → 0 (--force-averaging); 95 % intervals of both are in the summary"
         ));
     }
-    if run.statistics.walls.iter().any(|wall| wall.arrived_less_departed_power_w < 0.0) {
+    let window = run.statistics.to_s - run.statistics.from_s;
+    let rounding = ROUNDING * run.residuals.energy.exchanged_j / window;
+    if run.statistics.walls.iter().any(|wall| wall.arrived_less_departed_power_w < -rounding) {
         remarks.push(
             "arrived - left is negative: load and structure did work on the body during contact, so that it \
              left with more energy than it arrived with"
@@ -145,7 +151,7 @@ pub fn remarks(run: &Run) -> Vec<String> {
 pub fn line(case: &Case, run: &Run, method: &Method) -> String {
     let r = &run.residuals;
     format!(
-        "{method} on {}: {} steps, {}, complementarity {:.1e}, penetration {:.1e} m, energy ledger {:.1e}, {:.3} s",
+        "{method} on {}: {} steps, {}, complementarity {:.1e}, penetration {:.1e} m, energy balance {:.1e}, {:.3} s",
         case.name,
         run.counters.steps,
         solved(run),

@@ -20,6 +20,27 @@ fn summary(folder: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap()
 }
 
+/// A spring of the wall that keeps energy: the power arrived less that departed is its rounding,
+/// −3e-19 W. Where a load pushes the body off, it is negative, and said.
+#[test]
+fn rounding_is_no_work_done_on_the_body() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 100.0\n[[wall]]\nname = \"pad\"\n\
+        side = \"upper\"\nposition = -1e-3\nstiffness = 1e3\ndamping = 0.0\n\
+        [initial]\ndisplacement = -2e-3\nvelocity = 0.05\n[time]\nend = 3.0\nstep = 1e-3\n";
+    fs::write(dir.path().join("pad.toml"), case).unwrap();
+    let run = |case: &str, out: &str| {
+        let own = ["run", case, "--scheme", "event", "--end", "3", "--no-verdict", "--no-report", "--out", out];
+        let err = said(dir.path(), &own, 0).1;
+        let power = summary(&dir.path().join(out))["statistics"]["walls"][0]["arrived_less_departed_power_w"].as_f64();
+        (power.unwrap(), err.contains("arrived - left is negative"))
+    };
+    let (power, told) = run("pad.toml", "pad");
+    assert!(power.abs() < 1e-15 && !told, "{power:e}");
+    let (power, told) = run("elastic-wall", "driven");
+    assert!(power < -1e-3 && told, "{power:e}");
+}
+
 #[test]
 fn a_step_that_no_scheme_of_the_request_takes_is_refused() {
     let dir = tempfile::tempdir().unwrap();
