@@ -28,14 +28,14 @@ pub(super) fn line(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Str
     let mut parts: Vec<String> = Vec::new();
     for (row, verdict) in comparison.rows.iter().zip(verdicts) {
         let scheme = row.method.scheme.to_string();
-        if row.method.scheme == Scheme::Event || parts.iter().any(|part| part.starts_with(&format!("{scheme} "))) {
+        let known = |part: &String| [": ", " was"].iter().any(|end| part.starts_with(&format!("{scheme}{end}")));
+        if row.method.scheme == Scheme::Event || parts.iter().any(known) {
             continue;
         }
         parts.push(match verdict {
             Some(v) => format!(
-                "{scheme} displacement {:.1e} of the gap until {:.3} s, impulse {:.1e}, contacts {:+}",
-                v.displacement,
-                v.horizon_s,
+                "{scheme}: the displacement {}, impulses by up to {:.1e} of the largest, contacts {:+}",
+                v.displacement_words(),
                 v.impulse_change(),
                 v.contacts_gained()
             ),
@@ -45,6 +45,6 @@ pub(super) fn line(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Str
     if parts.is_empty() {
         "the exact scheme has no step".into()
     } else {
-        format!("half the step changes: {}", parts.join("; "))
+        format!("with half the step: {}", parts.join("; "))
     }
 }

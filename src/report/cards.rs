@@ -74,26 +74,30 @@ fn refinement(summary: &Value) -> Option<Value> {
         walls.iter().map(|wall| pair(wall, "impulse_n_s")).fold(0.0, |most: f64, [a, b]| most.max((b - a).abs()));
     let change = if largest > 0.0 { change / largest } else { 0.0 };
     let contacts = [0, 1].map(|i| walls.iter().filter_map(|wall| wall["contacts"][i].as_u64()).sum::<u64>());
-    let displacement = number(&check["displacement"]);
+    // `null` where the horizon is before the first row.
+    let displacement = check["displacement"].as_f64();
     let (horizon, end) = (number(&check["horizon_s"]), number(&summary["scene"]["duration_s"]));
     let until = if horizon < end * (1.0 - 1e-9) {
         format!("up to t = {} s, the horizon of prediction", short(horizon))
     } else {
         "over the whole run".to_owned()
     };
-    let text = format!(
-        "Contacts {} → {}; the displacement changes by {} of the gap {until}.",
-        contacts[0],
-        contacts[1],
-        percent(displacement)
-    );
+    let moved = match displacement {
+        None => format!("was not compared: the horizon of prediction, {} s, is before the first row", short(horizon)),
+        Some(share) if check["is_gap"] == json!(false) => {
+            format!("changes by {} m {until}", short(share * number(&check["length_m"])))
+        }
+        Some(share) => format!("changes by {} of the gap {until}", percent(share)),
+    };
+    let text = format!("Contacts {} → {}; the displacement {moved}.", contacts[0], contacts[1]);
     if !list(&check["findings"]).is_empty() {
         let verdict = "The run it was checked against is refuted".to_owned();
         return Some(card("Refinement", State::Bad, verdict, text));
     }
     let how = if check["check"]["half_step"].is_object() { "Half the step" } else { "Other rounding" };
     let verdict = format!("{how} changes impulses by up to {}", percent(change));
-    let state = if change <= SMALL && displacement <= SMALL { State::Good } else { State::Mind };
+    let state =
+        if change <= SMALL && displacement.is_some_and(|share| share <= SMALL) { State::Good } else { State::Mind };
     Some(card("Refinement", state, verdict, text))
 }
 

@@ -182,17 +182,24 @@ impl Scene {
     #[must_use]
     pub fn gap_scale(&self) -> f64 {
         let positive = |x: &f64| x.is_finite() && *x > 0.0;
+        self.gap()
+            .or_else(|| self.walls.iter().map(|w| w.position.abs()).filter(positive).reduce(f64::max))
+            .or_else(|| self.initial.q.iter().map(|q| q.abs()).filter(positive).reduce(f64::max))
+            .unwrap_or(1.0)
+    }
+
+    /// The gap of the scene, m: the smallest of half the distances between an upper and a lower
+    /// wall on one row and of the gaps of round supports; else the largest distance of a wall from
+    /// the initial position. `None` where there is none above 0.
+    pub(crate) fn gap(&self) -> Option<f64> {
+        let positive = |x: &f64| x.is_finite() && *x > 0.0;
         let (place, lower) = self.lower_walls();
         let uppers = self.walls.iter().zip(place).filter(|(w, _)| w.side == Side::Upper);
         let spans = uppers
             .flat_map(|(upper, place)| lower[place].iter().map(move |lower| 0.5 * (upper.position - lower.position)));
         let start = |w: &Wall| w.gap(w.at.dot(&self.initial.q)).abs();
         let least = spans.chain(self.holes().map(|hole| hole.gap)).filter(positive).reduce(f64::min);
-        least
-            .or_else(|| self.walls.iter().map(start).filter(positive).reduce(f64::max))
-            .or_else(|| self.walls.iter().map(|w| w.position.abs()).filter(positive).reduce(f64::max))
-            .or_else(|| self.initial.q.iter().map(|q| q.abs()).filter(positive).reduce(f64::max))
-            .unwrap_or(1.0)
+        least.or_else(|| self.walls.iter().map(start).filter(positive).reduce(f64::max))
     }
 
     /// True for one degree of freedom whose walls stand on it directly: schemes on a grid then

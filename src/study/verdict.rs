@@ -60,8 +60,13 @@ pub struct WallVerdict {
 pub struct Verdict {
     /// How the run was checked.
     pub check: Check,
-    /// Largest |Δu| of any probe over the gap scale up to the horizon.
-    pub displacement: f64,
+    /// Largest |Δu| of any probe over [`Scene::gap_scale`] up to the horizon; `None` where the
+    /// horizon is before the first row after the start, so that nothing was compared.
+    pub displacement: Option<f64>,
+    /// [`Scene::gap_scale`], m.
+    pub length_m: f64,
+    /// True if that length is a gap of the scene.
+    pub is_gap: bool,
     /// Time up to which displacements were compared, s: the end, or where a perturbation of the
     /// start has grown [`LARGEST_GROWTH`]-fold.
     pub horizon_s: f64,
@@ -109,6 +114,8 @@ impl Verdict {
         let horizon_s = growth.map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH));
         let pair = ((&run.trajectory, &run.statistics), (&again.trajectory, &again.statistics));
         let change = Change::between(scene, pair.0, pair.1, horizon_s);
+        let first = run.trajectory.time().get(1);
+        let compared = first.is_some_and(|first| *first <= horizon_s * (1.0 + 1e-12));
         let mut walls = Vec::new();
         for (index, (before, after)) in run.statistics.walls.iter().zip(&again.statistics.walls).enumerate() {
             walls.push(WallVerdict {
@@ -129,7 +136,15 @@ impl Verdict {
                 peak_force_n: [None, None],
             });
         }
-        Ok(Self { check, displacement: change.displacement, horizon_s, walls, findings: again.findings })
+        Ok(Self {
+            check,
+            displacement: compared.then_some(change.displacement),
+            length_m: scene.gap_scale(),
+            is_gap: scene.gap().is_some(),
+            horizon_s,
+            walls,
+            findings: again.findings,
+        })
     }
 
     /// Largest change of a wall's impulse, as a share of the largest impulse at any wall in either
@@ -152,6 +167,22 @@ impl Verdict {
         walls
     }
 
+    /// What the check changes in the displacement, as the rest of a sentence.
+    pub(crate) fn displacement_words(&self) -> String {
+        let horizon = match self.horizon_s {
+            t if t < 0.1 => format!("{t:.3e}"),
+            t => format!("{t:.4}"),
+        };
+        match self.displacement {
+            None => format!(
+                "was not compared: beyond t = {horizon} s, before the first row, a change of the start has grown \
+                 {LARGEST_GROWTH:.0e}-fold"
+            ),
+            Some(share) if self.is_gap => format!("changes by {share:.1e} of the gap up to t = {horizon} s"),
+            Some(share) => format!("changes by {:.1e} m up to t = {horizon} s", share * self.length_m),
+        }
+    }
+
     /// By how many contacts the check exceeds the run, all walls together.
     #[must_use]
     pub fn contacts_gained(&self) -> i64 {
@@ -165,13 +196,9 @@ impl fmt::Display for Verdict {
             Check::HalfStep { step_s } => write!(f, "with half the step, {step_s:.3e} s,")?,
             Check::OtherRounding { .. } => f.write_str("the exact scheme has no step; with other roundings")?,
         }
-        write!(
-            f,
-            " the displacement changes by {:.1e} of the gap up to t = {:.4} s",
-            self.displacement, self.horizon_s
-        )?;
+        write!(f, " the displacement {}", self.displacement_words())?;
         for wall in self.foremost() {
-            write!(f, "; {} {:?}: impulse {}", wall.kind.word(), wall.wall, relative(wall.impulse_n_s))?;
+            write!(f, "; {} {:?}: impulse {}", wall.kind.word(), wall.wall, relative(wall.impulse_n_s, "N s"))?;
             let [before, after] = wall.contacts;
             if before == after {
                 write!(f, ", {before} contacts as before")?
@@ -179,7 +206,7 @@ impl fmt::Display for Verdict {
                 write!(f, ", contacts {before} → {after}")?
             }
             if let [Some(before), Some(after)] = wall.peak_force_n {
-                write!(f, ", peak force {}", relative([before, after]))?;
+                write!(f, ", peak force {}", relative([before, after], "N"))?;
             }
         }
         match self.walls.len() {
@@ -196,14 +223,14 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// The change as a share of the value after it (which is 0 only if both are).
-fn relative([before, after]: [f64; 2]) -> String {
+/// The change of a value in `unit`, as a share of the value after it.
+fn relative([before, after]: [f64; 2], unit: &str) -> String {
     if before == after {
         "unchanged".into()
     } else if after == 0.0 {
-        format!("{before:.1e} → none")
+        format!("{before:.1e} {unit} → none")
     } else {
-        format!("{:+.1e}", (after - before) / after.abs())
+        format!("{:+.1e} of its value", (after - before) / after.abs())
     }
 }
 
@@ -222,7 +249,9 @@ mod tests {
         let walls = impulses.iter().enumerate().map(wall).collect();
         Verdict {
             check: Check::HalfStep { step_s: 1e-3 },
-            displacement: 0.0,
+            displacement: Some(0.0),
+            length_m: 1e-3,
+            is_gap: true,
             horizon_s: 1.0,
             walls,
             findings: Vec::new(),
@@ -233,8 +262,20 @@ mod tests {
     fn a_wall_that_only_one_run_touches_is_measured_by_the_largest() {
         let one_run_only = verdict(&[[-2.0, -2.0], [0.5, 0.0], [0.0, -0.25]]);
         assert!((one_run_only.impulse_change() - 0.25).abs() < 1e-15);
-        assert!(one_run_only.to_string().contains("5.0e-1 → none"), "{one_run_only}");
+        assert!(one_run_only.to_string().contains("5.0e-1 N s → none"), "{one_run_only}");
+        assert!(verdict(&[[1.0, 0.8]]).to_string().contains("impulse -2.5e-1 of its value"));
         assert!(verdict(&[[0.0, 0.0], [0.0, 0.0]]).impulse_change() == 0.0);
         assert!((verdict(&[[1.0, 0.8]]).impulse_change() - 0.2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_displacement_that_was_not_compared_or_has_no_gap_does_not_read_as_a_share_of_it() {
+        let mut said = Verdict { displacement: Some(1.3e-8), length_m: 2e-3, ..verdict(&[]) };
+        assert_eq!(said.displacement_words(), "changes by 1.3e-8 of the gap up to t = 1.0000 s");
+        said.is_gap = false;
+        assert_eq!(said.displacement_words(), "changes by 2.6e-11 m up to t = 1.0000 s");
+        (said.displacement, said.horizon_s) = (None, 2e-5);
+        let words = said.displacement_words();
+        assert!(words.starts_with("was not compared: beyond t = 2.000e-5 s"), "{words}");
     }
 }

@@ -20,6 +20,33 @@ fn summary(folder: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap()
 }
 
+#[test]
+fn a_displacement_is_a_share_of_the_gap_only_where_there_is_one() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = |case: &str| said(dir.path(), &["run", case, "--end", "0.5", "--no-report"], 0).1;
+    let free = run("linear-sine");
+    let words = line(&free, "refinement: ");
+    assert!(!words.contains("gap") && words.contains(" m up to t = 0.5000 s"), "{words}");
+    let struck = run("rigid-walls-sine");
+    let words = line(&struck, "refinement: ");
+    assert!(words.contains(" of the gap up to t = 0.5000 s"), "{words}");
+    assert!(words.contains(" of its value, ") || words.contains("impulse unchanged"), "{words}");
+}
+
+/// At e = 1 a change of the start has grown 1000-fold at 2.6 s; the first row is recorded at 10 s.
+#[test]
+fn a_displacement_that_was_not_compared_is_not_called_unchanged() {
+    let dir = tempfile::tempdir().unwrap();
+    let own = ["run", "rigid-walls-sine", "--restitution", "1", "--end", "10", "--sample", "10", "--out", "out"];
+    let (_, err) = said(dir.path(), &own, 0);
+    let words = line(&err, "refinement: ");
+    assert!(words.contains("the displacement was not compared: beyond t = 2.6"), "{words}");
+    let summary = summary(&dir.path().join("out"));
+    assert!(summary["refinement"]["displacement"].is_null() && summary["refinement"]["length_m"] == 5e-3);
+    let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
+    assert!(page.contains("the displacement was not compared"));
+}
+
 /// A spring of the wall that keeps energy: the power arrived less that departed is its rounding,
 /// −3e-19 W. Where a load pushes the body off, it is negative, and said.
 #[test]

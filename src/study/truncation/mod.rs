@@ -135,6 +135,8 @@ pub struct Truncation {
     /// Largest |Δu| of the first probe over the gap scale, over the whole run; meaningless where
     /// the motion is chaotic.
     pub displacement: f64,
+    /// That gap scale, m: [`Scene::gap_scale`].
+    pub length_m: f64,
     /// One entry per wall, then per round support, in the scene's order.
     pub walls: Vec<WallTruncated>,
     /// What the judge refutes in the run with more modes; if there is anything, this comparison is
@@ -208,6 +210,7 @@ impl Truncation {
             degrees_of_freedom: cuts[0].degrees_of_freedom,
             static_correction: whole.static_correction,
             displacement: change.displacement,
+            length_m: cuts[0].scene.gap_scale(),
             walls,
             findings: Vec::new(),
         }
@@ -243,7 +246,7 @@ impl fmt::Display for Truncation {
         let [kept, more] = self.modes;
         write!(f, "with {more} of {} modes in place of {kept}", self.degrees_of_freedom)?;
         if self.walls.is_empty() {
-            return write!(f, " the displacement changes by {:.1e} of the gap scale", self.displacement);
+            return write!(f, " the displacement changes by {:.1e} m", self.displacement * self.length_m);
         }
         let largest = |part: fn(&WallTruncated) -> f64| {
             self.walls.iter().max_by(|a, b| part(a).total_cmp(&part(b))).map(|w| (part(w), w))
