@@ -300,7 +300,7 @@ fn tell(case: &Case, run: &Run, method: &Method, document: Value, results: &Resu
         }
     }
     ui.message(&output::line(case, run, method));
-    for note in run.notes.iter().chain(&case.notes()) {
+    for note in run.notes.iter().chain(&case.notes()).chain(&supports::warnings(case, run)) {
         ui.message(&format!("note: {note}"));
     }
     Ok(())

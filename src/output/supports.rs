@@ -3,7 +3,7 @@
 
 use super::csv::{self, digits};
 use super::table::Table;
-use crate::case::Case;
+use crate::case::{Case, Model};
 use crate::error::Result;
 use crate::run::Run;
 use crate::statistics::{SupportForce, SupportStatistics, WearStatistics};
@@ -216,6 +216,31 @@ pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
         ));
     }
     remarks
+}
+
+/// Warnings of scars deeper than the wall of the tube, where the case knows it.
+#[must_use]
+pub fn warnings(case: &Case, run: &Run) -> Vec<String> {
+    let Model::Beam(beam) = &case.model else { return Vec::new() };
+    let wall = 0.5 * (beam.outer_diameter - beam.inner_diameter);
+    let [thick, whole] = [wall, beam.outer_diameter].map(|x| figures(1e3 * x));
+    let one = |Known { wear: support, worn, .. }: Known<'_>| {
+        let worn = worn?;
+        let (volume, round) = (worn.volume_m3?, worn.depth_all_round_m?);
+        let scar = match worn.depth_one_scar_m {
+            Some(depth) if depth <= wall => return None,
+            Some(depth) => format!("{} mm deep", figures(1e3 * depth)),
+            None => format!("deeper than the whole tube, {whole} mm"),
+        };
+        Some(format!(
+            "the scar at support {:?} goes through the tube, whose wall is {thick} mm: {} mm³ off one scar is {scar}; \
+             off evenly all round it is {} mm deep",
+            support.support,
+            figures(1e9 * volume),
+            figures(1e3 * round)
+        ))
+    };
+    all(case, run).filter_map(one).collect()
 }
 
 /// The wear of the supports in the summary; their forces are in its statistics.

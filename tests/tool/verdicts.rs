@@ -68,6 +68,24 @@ fn rounding_is_no_work_done_on_the_body() {
     assert!(power < -1e-3 && told, "{power:e}");
 }
 
+/// The wall of the tube is 1.65 mm. Ten years with a coefficient of 1e-11/Pa take more off than
+/// that, those with 1e-14/Pa do not.
+#[test]
+fn a_scar_through_the_wall_of_the_tube_is_a_warning_with_its_numbers() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = |coefficient: &str, out: &str| {
+        let set = format!("wear.coefficient={coefficient}");
+        let own = ["run", "tube-round-supports", "--end", "0.5", "--no-verdict", "--no-report", "--set", &set];
+        said(dir.path(), &[&own[..], &["--out", out]].concat(), 0).1
+    };
+    let (deep, shallow) = (run("1e-11", "deep"), run("1e-14", "shallow"));
+    let told = line(&deep, "note: the scar at support ");
+    assert!(told.contains("goes through the tube, whose wall is 1.650 mm: "), "{told}");
+    assert!(!shallow.contains("goes through the tube"), "{shallow}");
+    let notes = summary(&dir.path().join("deep"))["notes"].to_string();
+    assert!(notes.contains("whose wall is 1.650 mm"), "{notes}");
+}
+
 #[test]
 fn a_step_that_no_scheme_of_the_request_takes_is_refused() {
     let dir = tempfile::tempdir().unwrap();

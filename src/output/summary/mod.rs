@@ -151,7 +151,7 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
              power of walls is that of their normal motion alone"
         },
         checks,
-        notes: run.notes.iter().cloned().chain(case.notes()).collect(),
+        notes: run.notes.iter().cloned().chain(case.notes()).chain(supports::warnings(case, run)).collect(),
     };
     let mut document = serde_json::to_value(&summary)
         .map_err(|error| Error::io("the summary", error.to_string(), false).caused_by(error))?;
