@@ -1,19 +1,29 @@
 //! A warning that moreau-jean may let a body rest behind its wall.
 
 use crate::scene::{LoadKind, Scene, Side, System, Wall};
+use crate::scheme::{Scheme, Stepper};
 use std::f64::consts::TAU;
 
 /// A sine slower than this share of the natural frequency counts as a lasting load.
 const SLOW: f64 = 0.1;
 
 /// The warning before moreau-jean steps a scene whose load may hold the body on a rigid wall;
-/// `None` without such a wall.
-pub(crate) fn resting(scene: &Scene) -> Option<String> {
+/// `None` without such a wall. It names the schemes that rest on the face of the wall, of those
+/// that take the scene with steps of `step` seconds.
+pub(crate) fn resting(scene: &Scene, step: f64) -> Option<String> {
     let wall = scene.walls.iter().find(|wall| wall.law.is_rigid() && may_rest(scene, wall))?;
+    let others = [(Scheme::Event, "event"), (Scheme::GeneralizedAlpha { rho: 1.0 }, "generalized-alpha")];
+    let taken: Vec<&str> =
+        others.iter().filter(|(scheme, _)| Stepper::new(scene, scheme, step).is_ok()).map(|(_, name)| *name).collect();
+    let others = match taken.as_slice() {
+        [] => String::new(),
+        [one] => format!("{one} rests on the face, and "),
+        all => format!("{} rest on the face, and ", all.join(" and ")),
+    };
     Some(format!(
         "a load that lasts can hold the body on wall {:?}: moreau-jean lets it rest up to h v (1 - e/2) behind \
-         a wall (v: its speed of landing), and its force has an error of the stiffness times the depth; event \
-         and generalized-alpha rest on the face, and a smaller step makes the depth smaller",
+         a wall (v: its speed of landing), and its force has an error of the stiffness times the depth; {others}a \
+         smaller step makes the depth smaller",
         wall.name
     ))
 }

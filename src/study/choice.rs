@@ -5,7 +5,7 @@ use crate::linear::{Factor, Symmetric};
 use crate::qp::Backend;
 use crate::run::Run;
 use crate::scene::{MOST_DENSE, Scene, Shape, Side, Structure, System, Wall, WallLaw};
-use crate::scheme::{Method, Scheme};
+use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme, Stepper};
 
 /// A method and the reason for it.
 #[derive(Debug, Clone)]
@@ -20,9 +20,10 @@ pub struct Choice {
 /// The default method: the constrained QP with every wall's restitution, moreau-jean with θ = ½.
 ///
 /// Of the two stepping schemes that take e per wall, it was more accurate than paoli-schatzman on
-/// the source scene with impacts (error over the gap at h = 1e-4: 4e-3 against 3e-2 at e = 1 after
-/// 1 s, 8e-4 against 3e-3 at e = 0.8), it conserves energy to rounding, and its velocities are
-/// those at the grid's instants. paoli-schatzman is more accurate at e = 0 (order 2).
+/// the built-in case `rigid-walls-sine` with impacts (error over the gap at h = 1e-4: 4e-3 against
+/// 3e-2 at e = 1 after 1 s, 8e-4 against 3e-3 at e = 0.8), it conserves energy to rounding, and its
+/// velocities are those at the grid's instants. paoli-schatzman is more accurate at e = 0 (order
+/// 2).
 #[must_use]
 pub fn choose(scene: &Scene) -> Choice {
     let method = Method::new(Scheme::MoreauJean { theta: 0.5 });
@@ -39,8 +40,7 @@ pub fn choose(scene: &Scene) -> Choice {
         "elastic walls only: θ = ½ conserves energy between and within contacts to the order of the step"
     } else {
         "the constrained QP that honours every wall's restitution, and with θ = ½ keeps the energy of free \
-         motion exactly; at equal steps its \
-         error was below paoli-schatzman's on the source scene"
+         motion exactly; at equal steps its error was below paoli-schatzman's on the case rigid-walls-sine"
     };
     Choice { method, reason: reason.into() }
 }
@@ -87,25 +87,60 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     Choice { method: Method::new(Scheme::Event), reason }
 }
 
-/// The laws of the schemes at round supports; empty for a scene without any.
+/// The laws of the schemes at round supports; and which schemes refuse them or their
+/// friction; empty for a scene without round supports and friction. A scheme refuses a scene where
+/// its stepper does.
 #[must_use]
-pub fn at_holes(scene: &Scene) -> Vec<String> {
-    if scene.holes().next().is_none() {
+pub fn at_supports(scene: &Scene, step: f64) -> Vec<String> {
+    if !scene.turns_or_rubs() {
         return Vec::new();
     }
-    [
-        "at round supports moreau-jean lets rebound by the restitution what arrives, and reflects what only the \
-         turning of the normal adds",
-        "at round supports without friction generalized-alpha has the same law, after it has put the body within \
-         the circle, which it never passes; implicit-euler puts it there too, stops what arrives, whatever the \
-         restitution, and slows what slides; event is exact",
-        "at elastic round supports, without friction: moreau-jean, implicit-euler and penalty",
-        "penalty (discrete-gradient) replaces a rigid round support by a ring that keeps energy and angular \
-         momentum; it tends to restitution 1",
-        "paoli-schatzman and newmark refuse round supports, where they would not keep the energy of a body",
-    ]
-    .map(str::to_owned)
-    .into()
+    let law = PenaltyLaw::Linear { stiffness: 1.0, damping: 0.0 };
+    let penalty = Scheme::Penalty { law, integrator: Integrator::DiscreteGradient };
+    let laws = [
+        (
+            Scheme::MoreauJean { theta: 0.5 },
+            "moreau-jean",
+            "lets rebound by the restitution what arrives, and reflects what only the turning of the normal adds",
+        ),
+        (
+            Scheme::GeneralizedAlpha { rho: 1.0 },
+            "generalized-alpha",
+            "has the same law, after it has put the body within the circle, which it never passes",
+        ),
+        (
+            Scheme::ImplicitEuler,
+            "implicit-euler",
+            "puts the body within the circle, stops what arrives, whatever the restitution, and slows what slides",
+        ),
+        (
+            penalty,
+            "penalty (discrete-gradient)",
+            "replaces a rigid round support by a ring that keeps energy and angular momentum; it tends to \
+             restitution 1",
+        ),
+        (Scheme::Event, "event", "is exact"),
+        (Scheme::PaoliSchatzman, "paoli-schatzman", ""),
+        (Scheme::Newmark, "newmark", ""),
+    ];
+    let (taken, refused): (Vec<_>, Vec<_>) = laws.iter().partition(|(scheme, ..)| takes(scene, scheme, step));
+    let rigid = scene.holes().next().is_some() && scene.holes().all(|hole| hole.law.is_rigid());
+    let law = |(_, name, law): &&(Scheme, &str, &str)| format!("at round supports {name} {law}");
+    let mut lines: Vec<String> = if rigid { taken.iter().map(law).collect() } else { Vec::new() };
+    let names = |of: &[&(Scheme, &str, &str)]| of.iter().map(|(_, name, _)| *name).collect::<Vec<_>>().join(", ");
+    if !rigid {
+        lines.push(format!("schemes for these supports: {}", names(&taken)));
+    }
+    if !refused.is_empty() {
+        lines.push(format!("refused here: {}; `run --scheme NAME` says why", names(&refused)));
+    }
+    lines
+}
+
+/// True if `scheme` does not refuse `scene`.
+#[must_use]
+pub(crate) fn takes(scene: &Scene, scheme: &Scheme, step: f64) -> bool {
+    Stepper::new(scene, scheme, step).is_ok()
 }
 
 /// Why `method` on `scene` uses its solver.

@@ -68,6 +68,37 @@ fn rounding_is_no_work_done_on_the_body() {
     assert!(power < -1e-3 && told, "{power:e}");
 }
 
+#[test]
+fn explain_recommends_no_scheme_that_refuses_the_scene() {
+    let dir = tempfile::tempdir().unwrap();
+    let flats = "[system]\nplanes = 2\n[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0\n\
+        [[support]]\nname = \"a\"\nshape = \"flats\"\nsides = 4\ngap = 1e-3\nfriction = 0.3\nrestitution = 0.5\n\
+        [[load]]\ndirection = 20\nharmonic = { amplitude = 20.0, frequency = 3.0 }\n\
+        [[load]]\ndirection = 0\nconstant = { force = 5.0 }\n[penalty]\nstiffness = [1e6]\n\
+        [time]\nend = 0.05\nstep = 1e-3\n";
+    fs::write(dir.path().join("flats.toml"), flats).unwrap();
+    fs::write(dir.path().join("smooth.toml"), flats.replace("friction = 0.3\n", "")).unwrap();
+    let round = "shape = \"round\"";
+    fs::write(dir.path().join("round.toml"), flats.replace("shape = \"flats\"\nsides = 4", round)).unwrap();
+    let hole = flats.replace("shape = \"flats\"\nsides = 4", round).replace("friction = 0.3\n", "");
+    fs::write(dir.path().join("hole.toml"), hole).unwrap();
+    let schemes = ["moreau-jean", "generalized-alpha", "implicit-euler", "event", "paoli-schatzman", "newmark"];
+    for case in ["flats.toml", "smooth.toml", "round.toml", "hole.toml"] {
+        let explained = said(dir.path(), &["explain", case], 0).0;
+        let refused = explained.lines().find(|line| line.trim_start().starts_with("refused here: ")).unwrap_or("");
+        let others: String = explained.lines().filter(|line| *line != refused).collect::<Vec<_>>().join("\n");
+        for scheme in schemes {
+            let run = ["run", case, "--scheme", scheme, "--no-verdict", "--no-report", "--force", "--out", "out"];
+            let run = Command::new(env!("CARGO_BIN_EXE_signorini")).args(run).current_dir(dir.path()).output().unwrap();
+            let refuses = run.status.code() == Some(2);
+            assert_eq!(refused.contains(scheme), refuses, "{case}, {scheme}: {refused}");
+            assert!(!refuses || !others.contains(scheme), "{case}, {scheme}: {others}");
+        }
+        let penalised = explained.contains("penalty, for comparison");
+        assert_eq!(penalised, case != "flats.toml" && case != "round.toml", "{case}: {explained}");
+    }
+}
+
 /// The wall of the tube is 1.65 mm. Ten years with a coefficient of 1e-11/Pa take more off than
 /// that, those with 1e-14/Pa do not.
 #[test]

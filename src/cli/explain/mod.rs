@@ -80,11 +80,10 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     model.extend(case.notes().iter().map(|note| format!("note: {note}")));
     tell("model", model);
     let mut schemes = vec![format!("{}: {}", choice.method, choice.reason)];
-    let elastic = case.scene.holes().any(|hole| !hole.law.is_rigid());
-    if !elastic && case.scene.supports.iter().all(|support| support.friction == 0.0) {
+    if choice::takes(&case.scene, &Scheme::Event, case.time.step) {
         schemes.push("event: exact, from impact to impact without a step; the reference of `compare`".to_owned());
     }
-    schemes.extend(choice::at_holes(&case.scene));
+    schemes.extend(choice::at_supports(&case.scene, case.time.step));
     tell("scheme", schemes);
     tell("matrices", choice::path(&case.scene, case.time.step).into_iter().collect());
     tell(
@@ -155,7 +154,7 @@ fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
 /// Notes on the step and the scene that need no run.
 fn setup(case: &Case, choice: &Choice) -> Vec<String> {
     let mut said = notes::setup(&case.scene, &choice.method.scheme, case.time.step);
-    said.extend(notes::resting(&case.scene));
+    said.extend(notes::resting(&case.scene, case.time.step));
     said
 }
 

@@ -3,7 +3,8 @@
 use crate::case::Case;
 use crate::error::Result;
 use crate::scene::Scene;
-use crate::scheme::{Integrator, PenaltyLaw};
+use crate::scheme::{Integrator, PenaltyLaw, Scheme};
+use crate::study::choice::takes;
 use serde_json::{Value, json};
 
 /// A penalty of the case, and how well its step resolves it.
@@ -15,14 +16,15 @@ pub(super) struct Penalty {
 }
 
 impl Penalty {
-    /// All penalties of a case.
+    /// All penalties of a case whose scheme takes its scene.
     pub(super) fn all(case: &Case) -> Result<Vec<Self>> {
         let integrator = case.penalty.integrator.unwrap_or_default();
         let least = case.scene.wall_masses().into_iter().fold(f64::INFINITY, f64::min);
         let h = case.time.step;
         let one =
             |&law: &PenaltyLaw| stiffest(&case.scene, law).map(|k| Self { law, integrator, kappa: h * h * k / least });
-        case.penalty.laws.iter().map(one).collect()
+        let taken = |law: &&PenaltyLaw| takes(&case.scene, &Scheme::Penalty { law: **law, integrator }, h);
+        case.penalty.laws.iter().filter(taken).map(one).collect()
     }
 
     /// True if the step resolves its wall.
