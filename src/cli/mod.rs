@@ -93,7 +93,9 @@ pub fn main(stdout: Stdout) -> ExitCode {
         Err(text) => return answer(&text, stdout),
     };
     let ui = Ui::new(cli.quiet, cli.json, stdout);
-    match execute(&cli.command, &ui) {
+    let done = execute(&cli.command, &ui);
+    ui.close();
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             ui.error(&error);

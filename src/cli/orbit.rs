@@ -192,13 +192,13 @@ fn structure(args: &Args, case: &Case, request: Map<String, Value>, ui: &Ui) -> 
     let period = f64::from(found.periods) * found.forcing_period;
     let turns =
         if found.periods == 1 { "1 forcing period".to_owned() } else { format!("{} forcing periods", found.periods) };
-    ui.answer(&format!("orbit: {turns}, period {period:.9} s"))?;
+    ui.prose(&format!("orbit: {turns}, period {period:.9} s"))?;
     let shown = found.multipliers.iter().take(4).map(|[re, im]| match im {
         0.0 => format!("{re:.9}"),
         im => format!("{re:.9} {im:+.9}i"),
     });
     let verdict = if found.is_stable() { "stable" } else { "unstable" };
-    ui.answer(&format!(
+    ui.prose(&format!(
         "largest of {} Floquet multipliers: {} ({verdict})",
         found.multipliers.len(),
         shown.collect::<Vec<_>>().join(", ")
@@ -208,7 +208,7 @@ fn structure(args: &Args, case: &Case, request: Map<String, Value>, ui: &Ui) -> 
         vec![wall.name.clone(), contacts.to_string(), format!("{impulse:.9e}")]
     };
     ui.table(&Table::new(&["wall", "contacts", "impulse (N s)"], rows.map(row).collect()), "orbit.json")?;
-    ui.answer(&format!("free run over one period: comes back within {:.1e} of the gap", found.closure))
+    ui.prose(&format!("free run over one period: comes back within {:.1e} of the gap", found.closure))
 }
 
 /// The orbit in a few words.
@@ -227,7 +227,7 @@ fn report(known: &Known<'_>, ui: &Ui) -> Result<()> {
     let Known { problem, orbit, floquet, admissible, judged } = known;
     let scene = problem.scene();
     let name = |wall: usize| scene.walls.get(wall).map_or("", |wall| wall.name.as_str());
-    ui.answer(&format!("orbit: {}, period {:.9} s", headline(problem, orbit), orbit.period()))?;
+    ui.prose(&format!("orbit: {}, period {:.9} s", headline(problem, orbit), orbit.period()))?;
     if !orbit.phases.is_empty() {
         let rows = orbit.signature.events.iter().enumerate().map(|(index, event)| {
             let number = |values: &[f64]| values.get(index).map_or_else(String::new, |x| format!("{x:.12}"));
@@ -237,12 +237,12 @@ fn report(known: &Known<'_>, ui: &Ui) -> Result<()> {
         ui.table(&Table::new(&["event", "wall", "phase (cycles)", "speed (m/s)"], rows.collect()), "orbit.json")?;
     }
     for line in multipliers(floquet) {
-        ui.answer(&line)?;
+        ui.prose(&line)?;
     }
     let near = admissible.nearest.map_or_else(String::new, |nearest| {
         format!(", nearest to a wall that it does not strike: {:.4e} m ({})", nearest.gap, name(nearest.wall))
     });
-    ui.answer(&format!("displacement at most {:.6e} m{near}", admissible.largest))?;
+    ui.prose(&format!("displacement at most {:.6e} m{near}", admissible.largest))?;
     if judged.motion.is_empty() {
         return Ok(());
     }
@@ -258,7 +258,7 @@ fn report(known: &Known<'_>, ui: &Ui) -> Result<()> {
     });
     let header = ["wall", "contacts", "impulse (N s)", "largest speed (m/s)", "largest lasting force (N)"];
     ui.table(&Table::new(&header, rows.collect()), "orbit.json")?;
-    ui.answer(&format!(
+    ui.prose(&format!(
         "free run over one period: comes back within {:.1e} of the gap, {} events",
         judged.closure,
         if judged.same_events { "the same" } else { "other" }
@@ -293,7 +293,7 @@ fn list(case: &Case, ui: &Ui) -> Result<()> {
         return ui.document(&listed(&found, scene));
     }
     if found.is_empty() {
-        return ui.answer(&format!("no orbit of one impact per period of the orbit in up to {LISTED} forcing periods"));
+        return ui.prose(&format!("no orbit of one impact per period of the orbit in up to {LISTED} forcing periods"));
     }
     let rows = found.iter().map(|(form, admissible)| {
         let wall = scene.walls.get(form.wall).map_or("", |wall| wall.name.as_str());

@@ -41,7 +41,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         // So that a later run without a report takes this one away.
         results::list(&args.folder, manifest, report::FILE)?;
     }
-    ui.message(&format!("wrote {}", path.display()));
+    ui.close_with(format!("wrote the page; open {}", path.display()));
     if ui.json() {
         ui.document(&json!({ "command": "report", "results": args.folder, "files_written": [path] }))?;
     }

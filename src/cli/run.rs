@@ -27,6 +27,7 @@ use crate::study::truncation::{ChosenModes, Truncation, choose_modes};
 use crate::study::verdict::{self, Verdict};
 use crate::time::TimeOptions;
 use serde_json::{Value, json};
+use std::path::Path;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -315,8 +316,15 @@ pub(super) fn with_folder(mut document: Value, results: &Results) -> Value {
     document
 }
 
-/// Finishes the folder of the results, with a `report` where one is wanted, and prints where it is
-/// and what it replaced.
+/// The last line of a command: the folder of its results, and the `report` to open if there is one.
+pub(super) fn last_line(folder: &Path, remark: &str, report: bool) -> String {
+    let page = folder.join(report::FILE);
+    let open = if report { format!("; open {}", page.display()) } else { String::new() };
+    format!("results in {}{remark}{open}", folder.display())
+}
+
+/// Finishes the folder of the results, with a `report` where one is wanted, and prints what it
+/// replaced; the last line of the command says where it is, and which page to open.
 pub(super) fn finish(results: &mut Results, remark: &str, report: bool, ui: &Ui) -> Result<()> {
     if report {
         let place = results.place(report::FILE)?;
@@ -326,6 +334,6 @@ pub(super) fn finish(results: &mut Results, remark: &str, report: bool, ui: &Ui)
     if let Some(replaced) = results.finish()? {
         ui.message(&replaced);
     }
-    ui.message(&format!("results in {}{remark}", results.folder().display()));
+    ui.close_with(last_line(results.folder(), remark, report));
     Ok(())
 }

@@ -7,8 +7,9 @@ use crate::output::json;
 use crate::output::table::Table;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::Value;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::io::{self, IsTerminal, Write};
+use std::os::fd::AsFd;
 use std::time::{Duration, Instant};
 
 /// After this time a progress bar appears, and a line says how long the work will take.
@@ -44,13 +45,15 @@ pub struct Ui {
     printed: Cell<bool>,
     /// True once the reader of stdout has closed it, as `head` does.
     deserted: Cell<bool>,
+    /// The last line of the command.
+    last: RefCell<Option<String>>,
 }
 
 impl Ui {
     /// Quiet, JSON, or neither.
     #[must_use]
     pub fn new(quiet: bool, json: bool, stdout: Stdout) -> Self {
-        Self { quiet, json, stdout, printed: Cell::new(false), deserted: Cell::new(false) }
+        Self { quiet, json, stdout, printed: Cell::new(false), deserted: Cell::new(false), last: RefCell::new(None) }
     }
 
     /// True if the answer is a JSON document.
@@ -59,12 +62,33 @@ impl Ui {
         self.json
     }
 
-    /// Prints a line on stderr, unless quiet.
+    /// Prints text on stderr, unless quiet; on a terminal its lines break between words.
     pub fn message(&self, text: &str) {
         if !self.quiet {
             // If stderr is closed, the message is lost.
-            let _ = writeln!(io::stderr(), "{text}");
+            let _ = writeln!(io::stderr(), "{}", wrapped(text, width(&io::stderr())));
         }
+    }
+
+    /// Keeps `text` for the last line of the command, in place of what was kept before.
+    pub fn close_with(&self, text: String) {
+        self.last.replace(Some(text));
+    }
+
+    /// Prints the line kept for the end.
+    pub fn close(&self) {
+        if let Some(text) = self.last.take() {
+            self.message(&text);
+        }
+    }
+
+    /// Prints sentences on stdout, as [`answer`](Self::answer) does; on a terminal their lines
+    /// break between words.
+    ///
+    /// # Errors
+    /// As [`answer`](Self::answer).
+    pub fn prose(&self, text: &str) -> Result<()> {
+        self.answer(&wrapped(text, width(&io::stdout())))
     }
 
     /// Prints text on stdout: the answer itself. If the reader has closed its end of a pipe,
@@ -103,7 +127,7 @@ impl Ui {
     /// # Errors
     /// As [`answer`](Self::answer).
     pub fn table(&self, table: &Table, file: &str) -> Result<()> {
-        let shown = table.fit(width());
+        let shown = table.fit(width(&io::stdout()));
         self.answer(&shown.text)?;
         if !shown.left_out.is_empty() {
             self.message(&format!("no room for {}: {file} has them", shown.left_out.join(", ")));
@@ -111,9 +135,9 @@ impl Ui {
         Ok(())
     }
 
-    /// Prints a line on stderr, also with `--quiet`.
+    /// Prints text on stderr, also with `--quiet`.
     pub fn alarm(&self, text: &str) {
-        let _ = writeln!(std::io::stderr(), "{text}");
+        let _ = writeln!(io::stderr(), "{}", wrapped(text, width(&io::stderr())));
     }
 
     /// The same while `progress` shows a bar.
@@ -133,9 +157,13 @@ impl Ui {
             // The error itself is reported next, whether or not this can be written.
             let _ = self.document(&serde_json::json!({ "error": text, "exit_code": code }));
         }
-        // An error of a case file is already rendered, with its place.
-        let head = if text.starts_with("error: ") { "" } else { "error: " };
-        let _ = writeln!(io::stderr(), "{head}{text}");
+        // An error of a case file is already rendered, with its place, below which a mark points at
+        // the column.
+        if text.starts_with("error: ") {
+            let _ = writeln!(io::stderr(), "{text}");
+        } else {
+            self.alarm(&format!("error: {text}"));
+        }
     }
 
     /// A bar of `total` units that appears on stderr after a second, if that is a terminal and
@@ -158,9 +186,12 @@ impl Ui {
     pub fn paced(&self, label: &str, total: u64, pace: Pace) -> Progress {
         let progress = self.progress(label, total);
         let bar = progress.bar.clone();
-        let say = move |line: &str| match &bar {
-            Some(bar) => bar.suspend(|| drop(writeln!(io::stderr(), "{line}"))),
-            None => drop(writeln!(io::stderr(), "{line}")),
+        let say = move |line: &str| {
+            let line = wrapped(line, width(&io::stderr()));
+            match &bar {
+                Some(bar) => bar.suspend(|| drop(writeln!(io::stderr(), "{line}"))),
+                None => drop(writeln!(io::stderr(), "{line}")),
+            }
         };
         Progress { watch: (!self.quiet).then(|| Watch::new(pace, PATIENCE, say)), ..progress }
     }
@@ -171,11 +202,41 @@ pub(super) fn unwritable(error: &io::Error) -> Error {
     Error::io("standard output", error.to_string(), false)
 }
 
-/// Columns of text that stdout has: `COLUMNS`, else those of the terminal; `None` for a file or a
+/// Columns of text that `stream` has: `COLUMNS`, else those of the terminal; `None` for a file or a
 /// pipe, which take any width.
-fn width() -> Option<usize> {
+fn width(stream: &impl AsFd) -> Option<usize> {
     let asked = std::env::var("COLUMNS").ok().and_then(|text| text.trim().parse::<usize>().ok()).filter(|&n| n > 0);
-    asked.or_else(|| terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0)))
+    asked.or_else(|| terminal_size::terminal_size_of(stream).map(|(width, _)| usize::from(width.0)))
+}
+
+/// The text with its lines broken between words, so that none has more than `width` columns unless
+/// a single word has. A line that goes on is indented by two columns more than it began with.
+fn wrapped(text: &str, width: Option<usize>) -> String {
+    let Some(width) = width else { return text.to_owned() };
+    let mut lines: Vec<String> = Vec::new();
+    for line in text.split('\n') {
+        if line.chars().count() <= width {
+            lines.push(line.to_owned());
+            continue;
+        }
+        let begin = line.chars().take_while(|c| *c == ' ').count();
+        let (mut now, mut columns, mut words) = (" ".repeat(begin), begin, 0);
+        for word in line.split_whitespace() {
+            let length = word.chars().count();
+            if words > 0 && columns + 1 + length > width {
+                lines.push(std::mem::replace(&mut now, " ".repeat(begin + 2)));
+                (columns, words) = (begin + 2, 0);
+            }
+            if words > 0 {
+                now.push(' ');
+                columns += 1;
+            }
+            now.push_str(word);
+            (columns, words) = (columns + length, words + 1);
+        }
+        lines.push(now);
+    }
+    lines.join("\n")
 }
 
 /// Progress of work; shared between threads by reference.
@@ -211,5 +272,20 @@ impl Progress {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::wrapped;
+
+    #[test]
+    fn lines_break_between_words_and_a_word_that_is_too_long_stays_whole() {
+        let text = "note: the body stays on the wall\n  and an indented line of seven words";
+        assert_eq!(wrapped(text, None), text);
+        let lines = "note: the body\n  stays on the\n  wall\n  and an\n    indented\n    line of\n    seven words";
+        assert_eq!(wrapped(text, Some(15)), lines);
+        assert_eq!(wrapped("results in /a/very/long/path", Some(12)), "results in\n  /a/very/long/path");
+        assert_eq!(wrapped("θ = ½ and φ", Some(5)), "θ = ½\n  and\n  φ");
     }
 }

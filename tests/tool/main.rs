@@ -11,4 +11,5 @@ mod seeds;
 mod set_values;
 mod statistics;
 mod sweep;
+mod terminal;
 mod verdicts;

@@ -192,7 +192,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
             let values = |point: Option<&crate::orbit::branch::OnLocus>| {
                 point.map_or_else(String::new, |point| format!("({:.9}, {:.9})", point.values[0], point.values[1]))
             };
-            ui.answer(&format!(
+            ui.prose(&format!(
                 "locus {} of {}: {} points from {} ({}) to {} ({})",
                 number + 1,
                 locus.label,

@@ -61,7 +61,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         text.push(heading.to_owned());
         text.extend(lines.iter().map(|line| format!("  {line}")));
     }
-    ui.answer(&text.join("\n"))
+    ui.prose(&text.join("\n"))
 }
 
 fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<&Estimate>) -> Result<Vec<Section>> {
