@@ -1,6 +1,9 @@
 //! `signorini merge`: joins the shards of a sweep.
 
 use super::drawing::Formats;
+use super::report::quoted;
+use super::run::last_line;
+use super::sweep::{tell_pictures, tell_status};
 use super::ui::Ui;
 use crate::error::Result;
 use crate::sweep::{Merged, merge, write_summary};
@@ -28,7 +31,7 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let formats = args.formats.usable()?;
     let merged = merge(&args.folders, &args.out, args.force)?;
     let Merged { rows, shards, tables, request, title, picture, differing_arithmetic } = merged;
-    let drawn = picture.draw(&args.out, &request, &title, &formats)?;
+    let (drawn, left_out) = picture.draw(&args.out, &request, &title, &formats)?;
     let counts: serde_json::Map<String, serde_json::Value> =
         tables.counts.iter().map(|(status, count)| (status.clone(), json!(count))).collect();
     let document = json!({
@@ -51,8 +54,11 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
              may differ from those of one machine",
         );
     }
-    ui.message(&format!("{rows} rows of {shards} shards in {}", args.out.display()));
-    drawn.iter().for_each(|path| ui.message(&format!("wrote {}", path.display())));
+    ui.message(&format!("{rows} rows of {shards} shards"));
+    tell_status(&args.out, &tables, rows, ui)?;
+    tell_pictures((&drawn, &left_out), ui);
+    let page = format!("; `signorini report {}` writes a page to open", quoted(&args.out.display().to_string()));
+    ui.close_with(last_line(&args.out, &page, false));
     if ui.json() {
         ui.document(&document)?;
     }

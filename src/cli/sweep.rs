@@ -2,6 +2,7 @@
 
 use super::report::command_line;
 use super::request::{Changes, Destination, case_file};
+use super::run::last_line;
 use super::ui::Ui;
 use super::values;
 use crate::error::{Error, Result};
@@ -9,13 +10,16 @@ use crate::output::atomic::write_whole;
 use crate::output::results;
 use crate::report;
 use crate::sweep::{
-    Axis, Design, Finished, Follow, Kernel, Manner, Measure, Plan, Progress, Random, Shard, Stretch, Sweep, Values,
-    write_summary,
+    Axis, Design, Finished, Follow, Kernel, Manner, Measure, Plan, Progress, Random, Shard, Status, Stretch, Sweep,
+    Tables, Values, write_summary,
 };
 use serde_json::{Value, json};
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+
+/// The table of the rows.
+const TABLE: &str = "sweep.csv";
 
 const EXAMPLES: &str = "\
 Examples:
@@ -79,6 +83,10 @@ pub struct Args {
     /// scalar]
     #[arg(long, value_name = "WORD")]
     kernel: Option<Kernel>,
+    /// Rows that are judged step by step, evenly spread; the others are marked unjudged [default:
+    /// all; of --kernel batch 16, which the scheme event computes once more]
+    #[arg(long, value_name = "N")]
+    judged: Option<u64>,
     /// Draw the values of all --vary at random: uniform, lhs (Latin hypercube), sobol
     #[arg(long, value_name = "KIND", requires = "points")]
     random: Option<Design>,
@@ -122,13 +130,14 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let threads = args.threads.map(usize::from);
     let manner = Manner { threads, shard: args.shard.unwrap_or(Shard::WHOLE), force: args.place.force };
     let finished = watched(&plan, &out, manner, ui)?;
-    let drawn = if manner.shard == Shard::WHOLE { plan.draw(&finished.folder, &formats)? } else { Vec::new() };
+    let whole = manner.shard == Shard::WHOLE;
+    let (drawn, left_out) = if whole { plan.draw(&finished.folder, &formats)? } else { Default::default() };
     let document = document(&plan, &finished, &drawn);
     write_summary(&finished.folder, &document)?;
-    if manner.shard == Shard::WHOLE && !args.place.no_report {
-        write_report(&finished.folder, ui)?;
-    }
-    tell(&finished, &drawn, ui);
+    let report = whole && !args.place.no_report && write_report(&finished.folder, ui)?;
+    tell(&finished, (&drawn, &left_out), ui)?;
+    let remark = if whole { "" } else { "; `signorini merge` joins the shards" };
+    ui.close_with(last_line(&finished.folder, remark, report));
     if ui.json() {
         ui.document(&document)?;
     }
@@ -175,6 +184,9 @@ impl Args {
         }
         if let Some(kernel) = self.kernel {
             sweep = sweep.kernel(kernel);
+        }
+        if let Some(judged) = self.judged {
+            sweep = sweep.judged(judged);
         }
         if let Some(scheme) = &self.scheme {
             sweep = sweep.by(scheme);
@@ -238,7 +250,7 @@ fn tell_plan(plan: &Plan, ui: &Ui) -> Result<()> {
         if estimate.failed > 0 { format!(", {} of which failed", estimate.failed) } else { String::new() }
     ));
     lines.push(format!("about {:.1e} bytes of tables, and as much again while it runs", estimate.bytes));
-    ui.answer(&lines.join("\n"))
+    ui.prose(&lines.join("\n"))
 }
 
 /// The sweep as a document: `summary.json`.
@@ -262,31 +274,76 @@ fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
     })
 }
 
-/// Writes the report on the sweep in `folder`, unless its tables are too large for one.
-fn write_report(folder: &Path, ui: &Ui) -> Result<()> {
-    let manifest = results::read(folder).unwrap_or_default();
-    if let Some(reason) = report::too_large(folder, &manifest)? {
-        ui.message(&format!("no {}: {reason}; the tables and the pictures are complete", report::FILE));
-        return Ok(());
-    }
-    write_whole(&folder.join(report::FILE), report::page(folder, &manifest)?.as_bytes())
+/// What to do where the tables in `folder` are too large for a page, for this reason.
+fn without_page(folder: &Path, reason: &str) -> String {
+    format!(
+        "no {}: {reason}; the tables and the pictures are complete. For a page, ask for fewer points, measures or \
+         --most-samples in another --out; in Python, pandas.read_csv({:?}) reads the table",
+        report::FILE,
+        folder.join(TABLE).display().to_string()
+    )
 }
 
-fn tell(finished: &Finished, drawn: &[PathBuf], ui: &Ui) {
+/// Writes the report on the sweep in `folder`, unless its tables are too large for one; true if it
+/// was written.
+fn write_report(folder: &Path, ui: &Ui) -> Result<bool> {
+    let manifest = results::read(folder).unwrap_or_default();
+    if let Some(reason) = report::too_large(folder, &manifest)? {
+        ui.message(&without_page(folder, &reason));
+        return Ok(false);
+    }
+    write_whole(&folder.join(report::FILE), report::page(folder, &manifest)?.as_bytes())?;
+    Ok(true)
+}
+
+fn tell(finished: &Finished, drawn: (&[PathBuf], &[String]), ui: &Ui) -> Result<()> {
     let found = match finished.found {
         0 => String::new(),
         found if found == finished.rows => ", all of them there already".to_owned(),
         found => format!(", {found} of them there already"),
     };
     ui.message(&format!("{} rows in {}{found}", finished.rows, span(finished.seconds)));
-    for (status, count) in finished.tables.counts.iter().filter(|(status, _)| status != "ok") {
-        ui.message(&format!("{status}: {count} rows"));
+    tell_status(&finished.folder, &finished.tables, finished.rows, ui)?;
+    tell_pictures(drawn, ui);
+    Ok(())
+}
+
+/// Most names of curves that are printed.
+const MOST_NAMED: usize = 12;
+
+/// Prints the paths of pictures, and the names of what they leave out.
+pub(super) fn tell_pictures((drawn, left_out): (&[PathBuf], &[String]), ui: &Ui) {
+    drawn.iter().for_each(|path| ui.message(&format!("wrote {}", path.display())));
+    if !left_out.is_empty() {
+        let named = left_out.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join("; ");
+        let more = match left_out.len().saturating_sub(MOST_NAMED) {
+            0 => String::new(),
+            more => format!("; and {more} more"),
+        };
+        ui.message(&format!(
+            "the picture has no room for {named}{more}; sweep.csv has them all, and [figure] y, z and wall choose \
+             others"
+        ));
     }
-    if let Some(error) = &finished.tables.first_error {
+}
+
+/// Prints how many of `rows` rows of the tables in `folder` have which status, apart from `ok`, and
+/// how many starts lead to no attractor that was found.
+pub(super) fn tell_status(folder: &Path, tables: &Tables, rows: u64, ui: &Ui) -> Result<()> {
+    for (status, count) in tables.counts.iter().filter(|(status, _)| status != Status::Ok.name()) {
+        let hint = if status == Status::Unjudged.name() { ": nothing checked their steps; see --judged" } else { "" };
+        ui.message(&format!("{status}: {count} of {rows} rows{hint}"));
+    }
+    if let Some(error) = &tables.first_error {
         ui.message(&format!("the first that failed: {error}"));
     }
-    drawn.iter().for_each(|path| ui.message(&format!("wrote {}", path.display())));
-    ui.message(&format!("results in {}", finished.folder.display()));
+    if let Some(undecided @ 1..) = tables.undecided(folder)? {
+        ui.message(&format!(
+            "undecided: {undecided} of {rows} starts, whose attractor was not found: an empty cell; try a longer \
+             --settle"
+        ));
+    }
+    Ok(())
 }
 
 /// A length of time in words.
@@ -297,5 +354,19 @@ fn span(seconds: f64) -> String {
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
         s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
         s => format!("{:.1} days", s / 86_400.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_page;
+    use std::path::Path;
+
+    #[test]
+    fn a_sweep_too_large_for_a_page_says_what_to_do() {
+        let said = without_page(Path::new("out/s"), "its tables have 4100000 cells; a report holds 4000000 at most");
+        for words in ["4100000 cells", "fewer points, measures or --most-samples", "read_csv(\"out/s/sweep.csv\")"] {
+            assert!(said.contains(words), "{words}: {said}");
+        }
     }
 }

@@ -73,6 +73,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "axes": axes,
             "scheme": request["methods"][0],
             "kept": kept(folder.path, &table),
+            "unjudged": summary["status"]["unjudged"].as_u64().unwrap_or(0),
         },
         "case": folder.manifest["case_text"],
         "summary": { "status": summary["status"], "first_error": summary["first_error"], results::MANIFEST: request },

@@ -5,7 +5,7 @@
 //! depend on neither threads nor interruptions, and `merge` gives those of the undivided sweep.
 
 use super::measure::Measure;
-use super::table::{Table, line_of, with_number};
+use super::table::{TABLE, Table, line_of, with_number};
 use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
 use crate::output::csv::digits;
@@ -151,6 +151,18 @@ impl Joined {
         let told = self.told.get(shard)?.get((number as usize).checked_sub(1)?)?;
         Some(with_number(row, self.column, self.all.number(told)))
     }
+}
+
+/// Number of rows whose attractor was found, by the tables in `folder`; `None` for a sweep that
+/// does not look for attractors.
+pub(super) fn rows_found(folder: &Path) -> Result<Option<u64>> {
+    let asked = |table: &Table| table.column(Measure::Attractor.name()).is_ok();
+    if !folder.join(ATTRACTORS).exists() || !asked(&Table::open(&folder.join(TABLE))?) {
+        return Ok(None);
+    }
+    let mut found = 0;
+    Table::open(&folder.join(ATTRACTORS))?.each(|line| found += line.number(1).unwrap_or(0.0) as u64)?;
+    Ok(Some(found))
 }
 
 /// The data of a picture from that table: a short name of each attractor, and its share of the

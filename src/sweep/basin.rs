@@ -61,8 +61,8 @@ impl Plan {
     }
 
     /// Computes the row of `point`: the attractor to which its start leads.
-    pub(super) fn lead(&self, point: &Point, row: &mut Row) {
-        match self.attractor(point) {
+    pub(super) fn lead(&self, point: &Point, judged: bool, row: &mut Row) {
+        match self.attractor(point, judged) {
             Ok((attractor, findings)) => {
                 let tell = |measure: &Measure| match measure {
                     Measure::Period => attractor.as_ref().and_then(Attractor::period).map(|n| n as f64),
@@ -79,13 +79,13 @@ impl Plan {
     }
 
     /// The attractor, and the findings of the judge.
-    fn attractor(&self, point: &Point) -> Result<(Option<Attractor>, String)> {
+    fn attractor(&self, point: &Point, judged: bool) -> Result<(Option<Attractor>, String)> {
         let (case, _) = self.build(point, None)?;
         let Stretch::Periods { settle, keep } = self.sweep.stretch else { return Ok((None, String::new())) };
         let period = super::forcing::period(&case.scene)?;
         let scene = &Checked::new(&case.scene)?;
         let initial = crate::scheme::Stepper::by(scene, Scheme::Event.into(), period)?.state();
-        let mut judge = self.is_judged(point.row).then(|| {
+        let mut judge = judged.then(|| {
             let contract = Scheme::Event.contract();
             Judge::over(scene.shared(), scene.wall_masses(), contract, period, (&initial.q, &initial.v))
         });

@@ -95,13 +95,20 @@ impl Plan {
                 }
                 Err(error) => row.fail(&error),
             }
+            // The batch engine makes no steps that could be judged, so the judged rows are computed
+            // by the scheme `event`, which it replaces.
             if row.status == Status::Ok && self.is_judged(point.row) {
-                // The batch engine makes no steps that could be judged, so the judged rows are
-                // computed by the scheme `event`, which it replaces.
                 let judged = self.row(point, None);
-                if judged.status == Status::Refuted {
-                    (row.status, row.error) = (judged.status, judged.error);
+                match judged.status {
+                    Status::Ok | Status::Handed => {}
+                    Status::Refuted => (row.status, row.error) = (judged.status, judged.error),
+                    _ => {
+                        row.mark_unjudged();
+                        row.error = format!("the scheme event, by which it is judged: {}", judged.error);
+                    }
                 }
+            } else {
+                row.mark_unjudged();
             }
             rows.push(row);
         }

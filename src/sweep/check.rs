@@ -1,6 +1,7 @@
 //! Checks of a sweep before its rows run.
 
 use super::forcing;
+use super::measure::{Measure, Scope};
 use super::plan::Plan;
 use super::request::{Stretch, Sweep};
 use super::sample::Samples;
@@ -93,6 +94,25 @@ impl Plan {
             )),
             None => Ok(()),
         }
+    }
+
+    /// An error for a measure, or for instants, of places that the case does not have.
+    pub(super) fn check_places(&self) -> Result<()> {
+        let scene = &self.base.scene;
+        let has = |measure: &Measure| !measure.columns(scene).is_empty();
+        let round = scene.holes().next().is_some();
+        let walls = if round { "round supports, which have no measures yet, and no wall" } else { "no wall" };
+        let lacks = |scope: Scope| if scope == Scope::Probe { "no probe" } else { walls };
+        if let Some(measure) = self.sweep.measures.iter().find(|measure| !has(measure)) {
+            let known = Measure::all().filter(has).map(Measure::name).collect::<Vec<_>>().join(", ");
+            let expected = format!("one of {known}: the case has {}", lacks(measure.scope()));
+            return Err(Error::invalid("[measure] columns", measure, expected));
+        }
+        if self.sweep.samples == Some(Samples::Impacts) && scene.walls.is_empty() {
+            let expected = format!("\"periods\": the case has {walls}");
+            return Err(Error::invalid("[measure] samples", "\"impacts\"", expected));
+        }
+        Ok(())
     }
 
     /// An error for an axis none of whose values gives a valid case: it is better reported now than

@@ -1,7 +1,7 @@
 //! Curves of measures.
 
 use super::columns::{Along, Source, place_of, place_suffix, short};
-use super::picture::Picture;
+use super::picture::{Drawn, MOST_PANELS, Picture};
 use super::table::{TABLE, Table, label, quantity};
 use crate::error::Result;
 use crate::output::figure::{Curve, Figure, Panel, Scale, Scatter};
@@ -9,13 +9,19 @@ use crate::output::figure::{Curve, Figure, Panel, Scale, Scatter};
 /// Maximum number of curves in one panel.
 const MOST_CURVES: usize = 8;
 
+/// Maximum number of groups of points of a random design.
+const MOST_CLOUDS: usize = 2;
+
 /// The points of one curve, with its label.
 type Labelled = (String, Vec<(f64, f64)>);
 
 impl Picture {
-    pub(super) fn line(&self, source: &Source<'_>) -> Result<Option<String>> {
+    pub(super) fn line(&self, source: &Source<'_>) -> Result<Option<Drawn>> {
         let x = Self::axis(self.x.as_ref(), source)?;
-        let groups = self.measures(self.y.as_ref(), source)?;
+        let mut groups = self.measures(self.y.as_ref(), source)?;
+        let panels = if source.random { 1 } else { MOST_PANELS };
+        let beyond = groups.split_off(panels.min(groups.len()));
+        let mut left_out: Vec<String> = beyond.into_iter().map(|(measure, _)| measure).collect();
         if !x.is_numeric(source) || groups.is_empty() {
             return Ok(None);
         }
@@ -35,9 +41,9 @@ impl Picture {
             .iter()
             .map(|(_, columns)| columns.iter().map(|c| table.column(c)).collect())
             .collect::<Result<_>>()?;
+        let most = if source.random { MOST_CLOUDS } else { MOST_CURVES };
         // By panel, then by column and group of rows: points.
         let mut curves: Vec<Vec<Labelled>> = vec![Vec::new(); groups.len()];
-        let mut left_out = false;
         table.each(|row| {
             let Some(at) = row.number(own) else { return };
             let mut words: Vec<String> =
@@ -58,15 +64,23 @@ impl Picture {
                     let point = (at, row.number(index).unwrap_or(f64::NAN));
                     match curves.iter().position(|(known, _)| *known == label) {
                         Some(known) => curves[known].1.push(point),
-                        None if curves.len() < MOST_CURVES => curves.push((label, vec![point])),
-                        None => left_out = true,
+                        None if curves.len() < most => curves.push((label, vec![point])),
+                        None => {
+                            let name = format!("{measure} {label}");
+                            if !left_out.contains(&name) {
+                                left_out.push(name);
+                            }
+                        }
                     }
                 }
             }
         })?;
-        let title = if left_out { format!("{}: the first curves", source.title) } else { source.title.to_owned() };
+        let title = match left_out.len() {
+            0 => source.title.to_owned(),
+            count => format!("{}: {count} more left out", source.title),
+        };
         if source.random {
-            return Ok(cloud(&title, x, &groups, &curves));
+            return Ok(cloud(&title, x, &groups, &curves).map(|svg| Drawn { svg, left_out }));
         }
         let mut figure = Figure::new(title, label(&x.column));
         if x.scale == Scale::Log {
@@ -85,15 +99,15 @@ impl Picture {
             }
             figure = figure.panel(panel);
         }
-        Ok(Some(figure.to_svg()))
+        Ok(Some(Drawn { svg: figure.to_svg(), left_out }))
     }
 }
 
 /// A measure over one coordinate of the points of a random design.
 fn cloud(title: &str, x: &Along, groups: &[(String, Vec<String>)], curves: &[Vec<Labelled>]) -> Option<String> {
     let (curves, (measure, columns)) = (curves.first()?, groups.first()?);
-    let labels: Vec<&str> = curves.iter().take(2).map(|(label, _)| label.as_str()).collect();
-    let points = || curves.iter().take(2).flat_map(|(_, points)| points).filter(|p| p.0.is_finite() && p.1.is_finite());
+    let labels: Vec<&str> = curves.iter().map(|(label, _)| label.as_str()).collect();
+    let points = || curves.iter().flat_map(|(_, points)| points).filter(|p| p.0.is_finite() && p.1.is_finite());
     let extent = |pick: fn(&(f64, f64)) -> f64| {
         points().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
     };
@@ -103,7 +117,7 @@ fn cloud(title: &str, x: &Along, groups: &[(String, Vec<String>)], curves: &[Vec
     let x_label = label(&x.column);
     let mut scatter =
         Scatter::new(title, (&x_label, x.scale, extent(|p| p.0)), (&y_label, Scale::Linear, extent(|p| p.1)), &labels);
-    for (group, (_, points)) in curves.iter().take(2).enumerate() {
+    for (group, (_, points)) in curves.iter().enumerate() {
         points.iter().for_each(|(x, y)| scatter.add(group, *x, *y));
     }
     Some(scatter.to_svg())

@@ -3,7 +3,7 @@
 use super::measure::Measure;
 use super::picture::{Kind, Picture};
 use super::random::Random;
-use super::request::{JUDGED, Kernel, MOST_SAMPLES, Stretch, Sweep};
+use super::request::{Kernel, MOST_SAMPLES, Stretch, Sweep};
 use super::vary::Vary;
 use crate::case::{CaseFile, Embedded, KeyValue};
 use crate::error::{Error, Result};
@@ -127,7 +127,7 @@ impl Sweep {
         sweep.stretch = stretch(file.run.settle, file.run.keep)?;
         sweep.scheme = file.run.scheme;
         sweep.kernel = file.run.kernel.map_or(Ok(Kernel::Scalar), |word| word.parse())?;
-        sweep.judged = file.run.judged.unwrap_or(JUDGED);
+        sweep.judged = file.run.judged;
         if let Some(measure) = file.measure {
             let measures = measure.columns.iter().map(|name| name.parse::<Measure>()).collect::<Result<Vec<_>>>()?;
             sweep = sweep.measure(measures);

@@ -1,8 +1,9 @@
 //! The tables of a sweep, in the order of their rows.
 
-use super::attractors::Attractors;
+use super::attractors::{self, Attractors};
 use super::journal::Journal;
 use super::plan::Plan;
+use super::row::Status;
 use super::table::{SAMPLES, TABLE, cells_of, line_of, with_number};
 use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
@@ -26,7 +27,7 @@ impl Tables {
             Some((_, count)) => *count += 1,
             None => self.counts.push((status.to_owned(), 1)),
         }
-        if !["ok", "handed"].contains(&status) && self.first_error.is_none() {
+        if !Status::is_good_word(status) && self.first_error.is_none() {
             self.first_error = Some(format!("row {number}: {error}"));
         }
     }
@@ -34,8 +35,19 @@ impl Tables {
     /// Number of rows that failed.
     #[must_use]
     pub fn bad(&self) -> u64 {
-        let bad = self.counts.iter().filter(|(status, _)| !["ok", "handed"].contains(&status.as_str()));
+        let bad = self.counts.iter().filter(|(status, _)| !Status::is_good_word(status));
         bad.map(|(_, count)| count).sum()
+    }
+
+    /// Number of rows with results whose start leads to no attractor that was found, by the table
+    /// of attractors in `folder`; `None` where the sweep does not look for attractors.
+    ///
+    /// # Errors
+    /// [`Error::Io`] for a table that cannot be read.
+    pub(crate) fn undecided(&self, folder: &Path) -> Result<Option<u64>> {
+        let Some(found) = attractors::rows_found(folder)? else { return Ok(None) };
+        let all: u64 = self.counts.iter().map(|(_, count)| count).sum();
+        Ok(Some((all - self.bad()).saturating_sub(found)))
     }
 
     /// The counts of a table that exists.

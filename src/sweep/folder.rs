@@ -56,7 +56,7 @@ impl Plan {
                 "columns": self.header(),
                 "sample_columns": sweep.samples.map(|_| self.sample_header()),
                 "most_samples": sweep.samples.map(|_| sweep.most_samples),
-                "judged": sweep.judged,
+                "judged": sweep.rows_judged().min(self.count()),
                 "wall_names": self.base.scene.walls.iter().map(|wall| wall.name.as_str()).collect::<Vec<_>>(),
                 "rows": self.count(),
                 "rows_of_a_chain": self.chain_rows(),

@@ -3,7 +3,7 @@
 use super::attractors::named;
 use super::columns::{Along, Source};
 use super::measure::Measure;
-use super::picture::Picture;
+use super::picture::{Drawn, Picture};
 use super::table::{TABLE, Table, label};
 use crate::error::{Error, Result};
 use crate::output::figure::{Class, HeatMap, Scale};
@@ -25,13 +25,15 @@ struct Grid {
 }
 
 impl Picture {
-    pub(super) fn heat(&self, source: &Source<'_>) -> Result<Option<String>> {
+    pub(super) fn heat(&self, source: &Source<'_>) -> Result<Option<Drawn>> {
         let sides = self.map_sides(source, "heat")?;
         let groups = self.measures(self.z.as_ref(), source)?;
         let Some(column) = groups.first().and_then(|(_, columns)| columns.first()) else { return Ok(None) };
         let grid = Grid::of(source, sides, column, MOST_CELLS)?;
         let map = grid.map(source.title, sides);
-        Ok(Some(map.numbers(label(column), Scale::Linear, grid.cells).to_svg()))
+        let svg = map.numbers(label(column), Scale::Linear, grid.cells).to_svg();
+        let others = groups.iter().flat_map(|(_, columns)| columns).filter(|other| *other != column);
+        Ok(Some(Drawn { svg, left_out: others.cloned().collect() }))
     }
 
     pub(super) fn basin(&self, source: &Source<'_>) -> Result<Option<String>> {

@@ -76,7 +76,9 @@ fn expanded(folders: &[PathBuf]) -> Result<Vec<PathBuf>> {
             all.push(folder.clone());
             continue;
         }
-        let entries = std::fs::read_dir(folder).map_err(|error| wrong(folder, error.to_string()))?;
+        let expected = "expected a shard of a sweep, or a folder that holds shards";
+        let entries =
+            std::fs::read_dir(folder).map_err(|error| wrong(folder, format!("not a folder ({error}); {expected}")))?;
         let mut within: Vec<PathBuf> = entries
             .filter_map(|entry| Some(entry.ok()?.path()))
             .filter(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("shard-")))

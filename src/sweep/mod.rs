@@ -73,7 +73,7 @@ pub use merge::{Merged, merge};
 pub use picture::{Kind, Picture};
 pub use plan::Plan;
 pub use random::{Design, MOST_DIMENSIONS, Normal, Random};
-pub use request::{JUDGED, Kernel, MOST_SAMPLES, Stretch, Sweep};
+pub use request::{Kernel, MOST_SAMPLES, Stretch, Sweep};
 pub use row::{Row, Status};
 pub use run::{Estimate, Finished, Manner, Progress};
 pub use sample::{Sample, Samples};

@@ -62,8 +62,24 @@ pub struct Picture {
     /// The wall whose instants or measures are drawn; all walls if `None`.
     pub wall: Option<String>,
 }
+
+/// A picture that has been drawn.
+#[derive(Debug)]
+pub(super) struct Drawn {
+    pub svg: String,
+    /// The names of the curves, and of the measures, for which it has no room.
+    pub left_out: Vec<String>,
+}
+
+impl Drawn {
+    /// A picture of everything.
+    pub fn whole(svg: String) -> Self {
+        Self { svg, left_out: Vec::new() }
+    }
+}
+
 /// Maximum number of panels.
-const MOST_PANELS: usize = 4;
+pub(super) const MOST_PANELS: usize = 4;
 
 /// An axis with fewer values than this becomes separate curves rather than a side of a map.
 const FEW: u64 = 6;
@@ -123,7 +139,8 @@ impl Picture {
     }
 
     /// Draws the picture of the tables in `folder`, of the request `request`, in each of `formats`,
-    /// and returns the paths; none if the tables contain nothing to draw.
+    /// and returns the paths, none if the tables contain nothing to draw, and the names of what is
+    /// left out.
     ///
     /// # Errors
     /// [`Error::Unknown`] for a column that the tables do not have, [`Error::Io`] if they cannot be
@@ -134,19 +151,19 @@ impl Picture {
         request: &Map<String, Value>,
         title: &str,
         formats: &[Format],
-    ) -> Result<Vec<PathBuf>> {
-        let Some(svg) = self.svg(folder, request, title)? else { return Ok(Vec::new()) };
+    ) -> Result<(Vec<PathBuf>, Vec<String>)> {
+        let Some(drawn) = self.drawn(folder, request, title)? else { return Ok(Default::default()) };
         let mut paths = Vec::new();
         for format in formats {
             let path = folder.join(format!("sweep.{format}"));
-            format.write(&path, &svg)?;
+            format.write(&path, &drawn.svg)?;
             paths.push(path);
         }
-        Ok(paths)
+        Ok((paths, drawn.left_out))
     }
 
-    /// The picture as SVG text; `None` if there is nothing to draw.
-    pub(super) fn svg(&self, folder: &Path, request: &Map<String, Value>, title: &str) -> Result<Option<String>> {
+    /// The picture; `None` if there is nothing to draw.
+    pub(super) fn drawn(&self, folder: &Path, request: &Map<String, Value>, title: &str) -> Result<Option<Drawn>> {
         let source = Source::new(folder, request, title);
         let sampled = source.sample_columns.len() > 1;
         let is_map = || !source.random && source.axes.iter().all(|axis| axis.count >= FEW && axis.is_numeric(&source));
@@ -166,9 +183,9 @@ impl Picture {
         match kind {
             Kind::Line => self.line(&source),
             Kind::Heat => self.heat(&source),
-            Kind::Basin => self.basin(&source),
-            Kind::Bifurcation => self.bifurcation(&source),
-            Kind::Section => self.section(&source),
+            Kind::Basin => Ok(self.basin(&source)?.map(Drawn::whole)),
+            Kind::Bifurcation => Ok(self.bifurcation(&source)?.map(Drawn::whole)),
+            Kind::Section => Ok(self.section(&source)?.map(Drawn::whole)),
         }
     }
 
@@ -205,7 +222,7 @@ impl Picture {
         })
     }
 
-    /// The columns named `asked`, or all columns of the first measures, one list for each.
+    /// The columns named `asked`, or those of all measures, one list for each.
     pub(super) fn measures(&self, asked: Option<&String>, source: &Source<'_>) -> Result<Vec<(String, Vec<String>)>> {
         let from = source.columns.iter().position(|column| column == "error").map_or(0, |index| index + 1);
         let all = source.columns.get(from..).unwrap_or_default();
@@ -221,10 +238,7 @@ impl Picture {
                 _ => {}
             }
         }
-        let Some(asked) = asked else {
-            groups.truncate(MOST_PANELS);
-            return Ok(groups);
-        };
+        let Some(asked) = asked else { return Ok(groups) };
         if let Some(column) = all.iter().find(|column| *column == asked) {
             return Ok(vec![(asked.clone(), vec![column.clone()])]);
         }

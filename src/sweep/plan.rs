@@ -124,6 +124,7 @@ impl Sweep {
         let keys: Vec<Key> = self.axes.iter().flat_map(|axis| &axis.targets).filter_map(case_key).collect();
         let template = Template::new(&self.case, &keys)?;
         let plan = Plan { template, sweep: self, base, method, order, chains, header, sample_header, axis_columns };
+        plan.check_places()?;
         if plan.sweep.kernel == Kernel::Batch {
             plan.check_batch()?;
         } else {
@@ -161,8 +162,8 @@ impl Plan {
     }
 
     /// Draws its picture from the tables in `folder`, as `sweep.svg`, `sweep.pdf` or `sweep.png`,
-    /// and returns the paths.
-    pub(crate) fn draw(&self, folder: &Path, formats: &[Format]) -> Result<Vec<PathBuf>> {
+    /// and returns the paths, and the names of what it leaves out.
+    pub(crate) fn draw(&self, folder: &Path, formats: &[Format]) -> Result<(Vec<PathBuf>, Vec<String>)> {
         self.sweep.picture.draw(folder, &self.request(), &self.sweep.title, formats)
     }
 
@@ -172,7 +173,7 @@ impl Plan {
     /// # Errors
     /// [`Error::Io`] for tables that cannot be read.
     pub fn svg(&self, folder: &Path) -> Result<Option<String>> {
-        self.sweep.picture.svg(folder, &self.request(), &self.sweep.title)
+        Ok(self.sweep.picture.drawn(folder, &self.request(), &self.sweep.title)?.map(|drawn| drawn.svg))
     }
 
     /// The case without the values that vary.
@@ -227,7 +228,7 @@ impl Plan {
 
     /// True for a row that is judged.
     pub(super) fn is_judged(&self, row: u64) -> bool {
-        let judged = self.sweep.judged.min(self.count());
+        let judged = self.sweep.rows_judged().min(self.count());
         // The rows ⌈k n/j⌉, k from 0 to j − 1: evenly spread, the first among them.
         judged > 0 && {
             let k = u128::from(row) * u128::from(judged) / u128::from(self.count());

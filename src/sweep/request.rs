@@ -64,8 +64,9 @@ impl FromStr for Kernel {
 /// Default number of instants of a row that are kept: the last ones.
 pub const MOST_SAMPLES: usize = 200;
 
-/// Default number of rows that are judged.
-pub const JUDGED: u64 = 16;
+/// Default number of rows of the batch engine that are judged: each of them is computed once more,
+/// by the scheme `event`.
+const JUDGED_OF_BATCH: u64 = 16;
 
 /// A sweep: one case, the values of it that vary, and the measures computed for every row.
 ///
@@ -98,7 +99,7 @@ pub struct Sweep {
     pub(super) measures: Vec<Measure>,
     pub(super) samples: Option<Samples>,
     pub(super) most_samples: usize,
-    pub(super) judged: u64,
+    pub(super) judged: Option<u64>,
     pub(super) kernel: Kernel,
     pub(super) title: String,
     pub(super) picture: Picture,
@@ -120,7 +121,7 @@ impl Sweep {
             measures: Vec::new(),
             samples: None,
             most_samples: MOST_SAMPLES,
-            judged: JUDGED,
+            judged: None,
         }
     }
 
@@ -183,11 +184,19 @@ impl Sweep {
     }
 
     /// The same sweep with that number of rows judged step by step, evenly spread over all rows; a
-    /// row that violates what its scheme promises has the status `refuted`.
+    /// row that violates what its scheme promises has the status `refuted`, and a row that is not
+    /// judged the status `unjudged`. By default all rows are judged, of the batch engine 16, which
+    /// the scheme `event` computes once more.
     #[must_use]
     pub fn judged(mut self, rows: u64) -> Self {
-        self.judged = rows;
+        self.judged = Some(rows);
         self
+    }
+
+    /// Number of rows that are judged.
+    pub(super) fn rows_judged(&self) -> u64 {
+        let default = if self.kernel == Kernel::Batch { JUDGED_OF_BATCH } else { u64::MAX };
+        self.judged.unwrap_or(default)
     }
 
     /// The same sweep, computed by `kernel`.

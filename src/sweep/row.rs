@@ -16,8 +16,10 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Status {
-    /// It ran to its end.
+    /// It ran to its end, and the judge checked its steps.
     Ok,
+    /// It ran to its end; its steps were not checked.
+    Unjudged,
     /// It ran to its end, but in a stretch of impacts moreau-jean replaced the exact scheme.
     Handed,
     /// Its values give no valid case.
@@ -40,6 +42,7 @@ impl Status {
     pub fn name(self) -> &'static str {
         match self {
             Self::Ok => "ok",
+            Self::Unjudged => "unjudged",
             Self::Handed => "handed",
             Self::Invalid => "invalid",
             Self::TooManyEvents => "too-many-events",
@@ -53,7 +56,12 @@ impl Status {
     /// True for a row whose measures are valid.
     #[must_use]
     pub fn is_good(self) -> bool {
-        matches!(self, Self::Ok | Self::Handed)
+        matches!(self, Self::Ok | Self::Unjudged | Self::Handed)
+    }
+
+    /// The same for its word in a table.
+    pub(super) fn is_good_word(word: &str) -> bool {
+        [Self::Ok, Self::Unjudged, Self::Handed].iter().any(|status| status.name() == word)
     }
 
     fn of(error: &Error) -> Self {
@@ -86,7 +94,8 @@ pub struct Row {
     pub values: Vec<KeyValue>,
     /// Its status.
     pub status: Status,
-    /// The reason for the status, in a sentence; empty for `ok`.
+    /// The reason for the status, in a sentence; empty for `ok`. Of an `unjudged` row, what another
+    /// status would say if it had been judged: that stretches were handed to moreau-jean.
     pub error: String,
     /// The measures, as in their columns; `None` for a measure without a value, and in a row that
     /// failed.
@@ -107,6 +116,13 @@ impl Row {
         self.status = Status::of(error);
         self.error = sentence(error);
     }
+
+    /// Marks a row that has results, but was not judged.
+    pub(super) fn mark_unjudged(&mut self) {
+        if self.status.is_good() {
+            self.status = Status::Unjudged;
+        }
+    }
 }
 
 /// The results of the run of one row.
@@ -125,12 +141,21 @@ impl Plan {
     /// numbers depend on nothing else.
     pub(super) fn row(&self, point: &Point, start: Option<&State>) -> Row {
         let mut row = self.blank(point);
+        let judged = self.is_judged(point.row);
         if self.asks_attractor() {
-            self.lead(point, &mut row);
-            return row;
+            self.lead(point, judged, &mut row);
+        } else {
+            self.measure(point, start, judged, &mut row);
         }
-        match self.build(point, start).and_then(|(case, method)| self.perform(case, method, self.is_judged(point.row)))
-        {
+        if !judged {
+            row.mark_unjudged();
+        }
+        row
+    }
+
+    /// Runs the row of `point`, and records its measures and instants.
+    fn measure(&self, point: &Point, start: Option<&State>, judged: bool, row: &mut Row) {
+        match self.build(point, start).and_then(|(case, method)| self.perform(case, method, judged)) {
             Ok(done) => {
                 (row.measures, row.samples, row.end) = (done.measures, done.samples, Some(done.end));
                 row.error = done.note.unwrap_or_default();
@@ -145,7 +170,6 @@ impl Plan {
             }
             Err(error) => row.fail(&error),
         }
-        row
     }
 
     /// The row of `point` without results.

@@ -1,7 +1,7 @@
 //! `signorini sweep`: rows that equal runs, failures as rows, folders that are continued, shards
 //! that are merged.
 use signorini::case::{Case, CaseFile};
-use signorini::sweep::{Axis, Follow, Measure, Plan, Sample, Samples, Scope, Shard, Status, Stretch, Sweep};
+use signorini::sweep::{Axis, Follow, Kernel, Measure, Plan, Sample, Samples, Scope, Shard, Status, Stretch, Sweep};
 use signorini::{Load, Options, Scheme, Stepper, run};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -308,12 +308,78 @@ fn rows_that_fail_are_rows_with_their_reason() {
 }
 
 #[test]
-fn the_judged_rows_are_spread_and_judging_changes_no_number() {
-    let sweep = |judged| {
-        let sweep = source().vary(frequency(4.0, 5.0, 10)).by("moreau-jean").set("time.end", 0.5).unwrap();
-        sweep.judged(judged).measure([Measure::Impulse]).plan().unwrap().rows(2).unwrap()
+fn all_rows_are_judged_unless_fewer_are_asked_for_and_judging_changes_no_number() {
+    let sweep = || source().vary(frequency(4.0, 5.0, 40)).by("moreau-jean").set("time.end", 0.5).unwrap();
+    let rows = |sweep: Sweep| sweep.measure([Measure::Impulse]).plan().unwrap().rows(2).unwrap();
+    let all = rows(sweep());
+    assert!(all.iter().all(|row| row.status == Status::Ok));
+    for judged in [0, 10, 16, 1000] {
+        let some = rows(sweep().judged(judged));
+        let ok: Vec<u64> = some.iter().filter(|row| row.status == Status::Ok).map(|row| row.number).collect();
+        // ⌈40 k/j⌉, the first row among them.
+        let j = judged.min(40);
+        assert_eq!(ok, (0..j).map(|k| (40 * k).div_ceil(j)).collect::<Vec<_>>(), "{judged}");
+        for (row, same) in some.iter().zip(&all) {
+            let expected = if ok.contains(&row.number) { Status::Ok } else { Status::Unjudged };
+            assert_eq!((row.status, row.error.as_str(), &row.measures), (expected, "", &same.measures));
+        }
+    }
+}
+
+/// Starts of a basin, and oscillators side by side: each is judged or marked.
+#[test]
+fn basins_are_judged_whole_and_of_the_batch_engine_sixteen_rows() {
+    let starts = |sweep: Sweep| {
+        let axis = Axis::linear("initial.displacement", -4e-3, 4e-3, 20).unwrap();
+        let sweep = sweep.vary(axis).by("event").over(Stretch::Periods { settle: 20, keep: 20 });
+        let rows = sweep.plan().unwrap().rows(2).unwrap();
+        [Status::Ok, Status::Unjudged].map(|status| rows.iter().filter(|row| row.status == status).count())
     };
-    assert_eq!(sweep(0), sweep(10));
+    let damped = || source().set("wall.*.restitution", 0.8).unwrap();
+    assert_eq!(starts(damped().measure([Measure::Attractor])), [20, 0]);
+    assert_eq!(starts(damped().measure([Measure::Attractor]).judged(5)), [5, 15]);
+    let batch = || damped().measure([Measure::Impacts]).kernel(Kernel::Batch);
+    assert_eq!(starts(batch()), [16, 4]);
+    assert_eq!(starts(batch().judged(20)), [20, 0]);
+}
+
+#[test]
+fn unjudged_rows_are_named_in_the_table_the_terminal_and_the_page_also_when_merged() {
+    let dir = tempfile::tempdir().unwrap();
+    let request = |out: &str, more: &[&str]| {
+        let own = ["sweep", "rigid-walls-sine", "--set", "time.end=0.5", "--judged", "10", "--measure", "impulse"];
+        let vary = ["--vary", "load.1.harmonic.frequency=4:5:40", "--out", out];
+        said(dir.path(), &[&own[..], &vary, more].concat(), 0).1
+    };
+    let told = "unjudged: 30 of 40 rows: nothing checked their steps; see --judged";
+    assert!(request("whole", &[]).contains(told));
+    let table = fs::read_to_string(dir.path().join("whole/sweep.csv")).unwrap();
+    assert_eq!((table.matches(",ok,,").count(), table.matches(",unjudged,,").count()), (10, 30));
+    assert!(fs::read_to_string(dir.path().join("whole/report.html")).unwrap().contains("\"unjudged\":30"));
+    for shard in ["1/2", "2/2"] {
+        request("parts", &["--shard", shard]);
+    }
+    let (_, merged) = said(dir.path(), &["merge", "parts", "--out", "merged"], 0);
+    assert!(merged.contains(told), "{merged}");
+    assert_eq!(fs::read_to_string(dir.path().join("merged/sweep.csv")).unwrap(), table);
+}
+
+#[test]
+fn a_measure_without_a_place_is_refused_by_name() {
+    let dir = tempfile::tempdir().unwrap();
+    let ask = |case: &str, what: &[&str]| {
+        let own = ["sweep", case, "--vary", "time.end=0.3,0.4"];
+        said(dir.path(), &[&own[..], what].concat(), 2).1
+    };
+    // Its supports are round: it has no walls, and a probe.
+    let round = ask("tube-round-supports", &["--measure", "displacement_max,impulse,impact_power"]);
+    assert!(round.contains("[measure] columns is impulse; expected one of displacement_max, "), "{round}");
+    assert!(round.contains("round supports, which have no measures yet, and no wall"), "{round}");
+    assert!(!round.contains("impact_power, "), "what it cannot be measured at is not recommended: {round}");
+    let instants = ask("tube-round-supports", &["--samples", "impacts"]);
+    assert!(instants.contains("[measure] samples is \"impacts\"; expected \"periods\""), "{instants}");
+    let bare = ask("linear-sine", &["--measure", "contacts"]);
+    assert!(bare.contains("columns is contacts") && bare.contains("the case has no wall"), "{bare}");
 }
 
 fn tool(folder: &Path, args: &[&str]) -> Command {
@@ -573,7 +639,7 @@ fn all_rows_failed_or_one_under_strict_is_exit_code_1() {
         "time.end=0.2",
     ];
     let (_, err) = said(&path, &[&args[..], &["--out", "some"]].concat(), 0);
-    assert!(err.contains("invalid: 1 rows"), "{err}");
+    assert!(err.contains("invalid: 1 of 2 rows"), "{err}");
     said(&path, &[&args[..], &["--out", "some", "--strict"]].concat(), 1);
     let (out, _) = said(&path, &[&args[..], &["--plan"]].concat(), 0);
     assert!(out.contains("2 rows by moreau-jean") && out.contains("1 of which failed"), "{out}");
@@ -593,7 +659,6 @@ fn a_shard_is_a_part_of_the_whole_by_number() {
 
 #[test]
 fn the_batch_engine_gives_the_rows_of_the_scheme_event() {
-    use signorini::sweep::Kernel;
     let sweep = |kernel| {
         let gap = Axis::list("wall.*.restitution", &[0.8.into(), 0.7.into()]).unwrap();
         let measures = [
@@ -603,7 +668,7 @@ fn the_batch_engine_gives_the_rows_of_the_scheme_event() {
             Measure::DisplacementLowest,
             Measure::Period,
         ];
-        let sweep = source().vary(gap).vary(frequency(4.0, 5.5, 31)).by("event").kernel(kernel);
+        let sweep = source().vary(gap).vary(frequency(4.0, 5.5, 31)).by("event").kernel(kernel).judged(62);
         let sweep = sweep
             .over(Stretch::Periods { settle: 150, keep: 40 })
             .measure(measures)
@@ -641,7 +706,6 @@ fn the_batch_engine_gives_the_rows_of_the_scheme_event() {
 
 #[test]
 fn exponents_of_rows_are_those_of_their_runs_and_of_the_lanes() {
-    use signorini::sweep::Kernel;
     use signorini::variation::Exponents;
     let sweep = |kernel, measures: &[Measure]| {
         let over = Stretch::Periods { settle: 100, keep: 400 };

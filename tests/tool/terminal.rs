@@ -52,3 +52,66 @@ fn lines_break_between_words() {
         }
     }
 }
+
+#[test]
+fn the_last_line_names_the_page_to_open() {
+    let dir = tempfile::tempdir().unwrap();
+    let orbit = ["--set", "wall.*.restitution=0.8", "--set", "load.1.harmonic.frequency=5"];
+    for (number, args) in [
+        &["run", "rigid-walls-sine", "--end", "0.2"][..],
+        &["run", "rigid-walls-sine", "--end", "0.2", "--accuracy", "1e-2"],
+        &["compare", "rigid-walls-sine", "--end", "0.2"],
+        &["sweep", "rigid-walls-sine", "--vary", "time.end=0.2,0.3", "--measure", "contacts"],
+        &[&["orbit", "rigid-walls-sine"][..], &orbit].concat(),
+    ]
+    .iter()
+    .enumerate()
+    {
+        let out = format!("out-{number}");
+        let err = said(dir.path(), &[args, &["--out", &out][..]].concat(), 0);
+        let page = format!("{out}/report.html");
+        assert_eq!(err.lines().last(), Some(format!("results in {out}; open {page}").as_str()), "{args:?}: {err}");
+        assert!(dir.path().join(&page).is_file(), "{page}");
+        let bare = said(dir.path(), &[args, &["--out", &out, "--no-report"][..]].concat(), 0);
+        assert_eq!(bare.lines().last(), Some(format!("results in {out}").as_str()), "{args:?}: {bare}");
+    }
+    let err = said(dir.path(), &["report", "out-0"], 0);
+    assert_eq!(err.lines().last(), Some("wrote the page; open out-0/report.html"), "{err}");
+}
+
+#[test]
+fn curves_and_measures_that_a_picture_leaves_out_are_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let own = ["sweep", "rigid-walls-sine", "--set", "time.end=0.3", "--no-report"];
+    let run = |more: &[&str], out: &str| said(dir.path(), &[&own[..], more, &["--out", out]].concat(), 0);
+    // Two walls by five restitutions: ten curves, of which eight are drawn.
+    let frequency = ["--vary", "load.1.harmonic.frequency=4:5:7", "--measure", "contacts"];
+    let err = run(&[&["--vary", "wall.*.restitution=0.5,0.6,0.7,0.8,0.9"][..], &frequency].concat(), "curves");
+    let named = "no room for contacts upper: restitution 0.9; contacts lower: restitution 0.9; sweep.csv has them all";
+    assert!(err.contains(named), "{err}");
+    let measures = "contacts,impulse,force_mean,force_rms,impact_power,displacement_max";
+    let err = run(&["--vary", "load.1.harmonic.frequency=4:5:7", "--measure", measures], "panels");
+    assert!(err.contains("no room for impact_power; displacement_max; sweep.csv has them all"), "{err}");
+    let map = ["--vary", "load.1.harmonic.frequency=4:5:6", "--vary", "load.1.harmonic.amplitude=2:3:6"];
+    let err = run(&[&map[..], &["--measure", "displacement_max,velocity_max"]].concat(), "map");
+    assert!(err.contains("no room for velocity_max_m_per_s; sweep.csv has them all"), "{err}");
+}
+
+#[test]
+fn starts_whose_attractor_was_not_found_are_counted() {
+    let dir = tempfile::tempdir().unwrap();
+    // Three periods are too few for an orbit to repeat itself three times.
+    let starts = ["--vary", "initial.displacement=-4e-3:4e-3:6", "--vary", "initial.velocity=-0.3:0.3:6"];
+    let run = |keep: &str, out: &str| {
+        let own = ["sweep", "rigid-walls-sine", "--set", "wall.*.restitution=0.8", "--measure", "attractor"];
+        let by = ["--scheme", "event", "--settle", "1", "--keep", keep, "--no-report", "--out", out];
+        let err = said(dir.path(), &[&own[..], &starts, &by].concat(), 0);
+        let table = fs::read_to_string(dir.path().join(out).join("sweep.csv")).unwrap();
+        (table.lines().filter(|line| line.ends_with(',')).count(), err)
+    };
+    let (empty, err) = run("3", "short");
+    assert!(empty > 0);
+    assert!(err.contains(&format!("undecided: {empty} of 36 starts, whose attractor was not found")), "{err}");
+    let (empty, err) = run("400", "long");
+    assert!(empty == 0 && !err.contains("undecided"), "{err}");
+}

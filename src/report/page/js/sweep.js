@@ -1,7 +1,7 @@
 // Sweeps: curves over one axis, maps over two, bifurcation diagrams.
 
 function sweepSection() {
-  const { axes, samples, scheme } = DATA.sweep;
+  const { axes, samples, scheme, unjudged } = DATA.sweep;
   const table = tableOf(DATA.sweep.table);
   const { columns } = table;
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
@@ -25,7 +25,7 @@ function sweepSection() {
       attractors && columns.attractor ? attractorText(attractors, columns.attractor[i]) : null,
       ...measures.slice(0, 14).map((name) => `${columnLabel(name)}: ${digits(columns[name][i])}`),
       columns.status && columns.status[i] !== "ok"
-        ? `${columns.status[i]}: ${columns.error[i] || ""}`
+        ? [columns.status[i], columns.error[i]].filter((word) => word).join(": ")
         : null,
     ]
       .filter((line) => line)
@@ -75,7 +75,8 @@ function sweepSection() {
     "Point at a row for its numbers; click it for the command that runs it alone" +
       (kept.size
         ? `, or for its own report (there ${kept.size === 1 ? "is" : "are"} ${kept.size}).`
-        : "."),
+        : ".") +
+      (unjudged ? ` ${unjudged} of ${table.count} rows are unjudged: nothing checked their steps.` : ""),
     ...content,
     command,
   );
