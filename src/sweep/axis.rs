@@ -65,6 +65,18 @@ pub struct Axis {
     pub(super) follow: Follow,
 }
 
+/// The value of a grid as a person would type it: the number of at most 12 digits next to `x`,
+/// where the two differ only by the rounding of numbers of size `scale`, from which `x` was
+/// computed.
+fn typed(x: f64, scale: f64) -> f64 {
+    let rounding = 4.0 * f64::EPSILON * scale;
+    if x.abs() <= rounding {
+        return 0.0;
+    }
+    let near: f64 = format!("{x:.11e}").parse().unwrap_or(x);
+    if (near - x).abs() <= rounding { near } else { x }
+}
+
 impl Axis {
     /// `values` for `key`.
     ///
@@ -146,19 +158,22 @@ impl Axis {
     /// Value number `index`, before any factor; for a drawn axis, the quantile of `share`, from 0
     /// to 1.
     pub(super) fn value(&self, index: u64, share: f64) -> KeyValue {
+        // Both ends are exact.
         let between = |from: f64, to: f64, points: u64| match index {
             0 => from,
-            // Both ends are exact.
             i if i + 1 >= points => to,
             i => from + (to - from) * (i as f64 / (points - 1) as f64),
         };
         match &self.values {
             Values::List(list) => list.get(index as usize).cloned().unwrap_or_else(|| KeyValue::from(f64::NAN)),
-            Values::Linear { from, to, points } => between(*from, *to, *points).into(),
+            Values::Linear { from, to, points } => typed(between(*from, *to, *points), from.abs().max(to.abs())).into(),
             Values::Log { from, to, points } if index == 0 || index + 1 >= *points => {
                 between(*from, *to, *points).into()
             }
-            Values::Log { from, to, points } => between(from.ln(), to.ln(), *points).exp().into(),
+            Values::Log { from, to, points } => {
+                let value = between(from.ln(), to.ln(), *points).exp();
+                typed(value, value * from.ln().abs().max(to.ln().abs()).max(1.0)).into()
+            }
             Values::Range { from, to, log: false } => (from + (to - from) * share).into(),
             Values::Range { from, to, log: true } => {
                 (from.ln() + (to.ln() - from.ln()) * share).exp().clamp(*from, *to).into()

@@ -80,6 +80,24 @@ fn the_last_line_names_the_page_to_open() {
 }
 
 #[test]
+fn values_of_a_grid_are_those_that_would_be_typed() {
+    let dir = tempfile::tempdir().unwrap();
+    let column = |vary: &str, out: &str| {
+        let own = ["sweep", "rigid-walls-sine", "--set", "time.end=0.02", "--vary", vary, "--measure", "contacts"];
+        said(dir.path(), &[&own[..], &["--no-report", "--out", out]].concat(), 0);
+        let table = fs::read_to_string(dir.path().join(out).join("sweep.csv")).unwrap();
+        table.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(column("time.step=1e-3:1e-5:3:log", "log"), ["0.001", "0.0001", "0.00001"]);
+    assert_eq!(column("penalty.epsilon.0=1e-12:1e-6:7:log", "wide")[1..4], ["1e-11", "1e-10", "1e-9"]);
+    let tenths = column("initial.velocity=-1:1:21", "linear");
+    assert_eq!(tenths[9..14], ["-0.1", "0.0", "0.1", "0.2", "0.3"]);
+    // What no one would type stays as it is computed.
+    let thirds: f64 = column("initial.velocity=0:1:4", "thirds")[1].parse().unwrap();
+    assert_eq!(thirds, 1.0 / 3.0);
+}
+
+#[test]
 fn curves_and_measures_that_a_picture_leaves_out_are_named() {
     let dir = tempfile::tempdir().unwrap();
     let own = ["sweep", "rigid-walls-sine", "--set", "time.end=0.3", "--no-report"];
