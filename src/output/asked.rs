@@ -2,6 +2,8 @@
 //! request or of another one.
 
 use super::results::FINGERPRINT;
+use super::summary;
+use super::values::{VALUES, by_keys};
 use crate::case::{Case, sha256};
 use crate::scheme::{Method, Scheme};
 use serde_json::{Map, Value, json};
@@ -46,6 +48,7 @@ pub fn asked(command: &str, case: &Case, methods: &[Method]) -> Map<String, Valu
     ] {
         request.insert(format!("{part}{FINGERPRINT}"), digest);
     }
+    request.insert(VALUES.to_owned(), Value::Object(by_keys(&summary::case_file(case))));
     request
 }
 
@@ -83,7 +86,7 @@ mod tests {
         moved.scene.walls[0].position *= 1.0 + f64::EPSILON;
         let other = asked("run", &moved, &method);
         let differing: Vec<_> = own.keys().filter(|key| own[*key] != other[*key]).collect();
-        assert_eq!(differing, ["walls_fingerprint"]);
+        assert_eq!(differing, ["walls_fingerprint", "values"]);
         assert_ne!(own, asked("compare", &case, &method));
     }
 }

@@ -58,6 +58,7 @@ pub mod stability;
 pub mod summary;
 pub mod supports;
 pub mod table;
+mod values;
 mod window;
 pub mod work_precision;
 

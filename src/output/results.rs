@@ -6,6 +6,7 @@
 
 use super::atomic::{check_folder, write_whole};
 use super::format::Format;
+use super::values::{VALUES, differing, shown};
 use crate::error::{Error, Result};
 use serde_json::{Map, Value, json};
 use std::fs;
@@ -230,22 +231,23 @@ pub(crate) fn differences(other: Option<&Value>, request: &Map<String, Value>) -
     let empty = Map::new();
     let other = other.and_then(Value::as_object).unwrap_or(&empty);
     let keys = other.keys().chain(request.keys().filter(|key| !other.contains_key(*key)));
-    let shown = |value: Option<&Value>| match value {
-        None | Some(Value::Null) => "none".to_owned(),
-        Some(Value::String(text)) => text.clone(),
-        Some(value) => value.to_string(),
-    };
-    let mut text = String::new();
+    let (mut lines, mut parts) = (Vec::new(), Vec::new());
     for key in keys.filter(|key| other.get(*key).unwrap_or(&Value::Null) != request.get(*key).unwrap_or(&Value::Null)) {
         // A fingerprint shows that something differs; its digits mean nothing to the reader.
         match key.strip_suffix(FINGERPRINT) {
-            Some(what) => text.push_str(&format!("\n  another {what}")),
-            None => {
-                text.push_str(&format!("\n  {key}: {} there, {} now", shown(other.get(key)), shown(request.get(key))))
-            }
+            Some(what) => parts.push(what),
+            None if key == VALUES => {}
+            None => lines.push(format!(
+                "{key}: {} there, {} asked",
+                shown(other.get(key).or(Some(&Value::Null))),
+                shown(request.get(key).or(Some(&Value::Null)))
+            )),
         }
     }
-    if text.is_empty() { None } else { Some(text) }
+    let (values, unnamed) = differing(&parts, other, request);
+    lines.extend(values);
+    lines.extend(unnamed.iter().map(|part| format!("another {}", part.replace('_', " "))));
+    (!lines.is_empty()).then(|| lines.iter().map(|line| format!("\n  {line}")).collect())
 }
 
 /// Suffix of the keys that hold fingerprints.
@@ -279,7 +281,7 @@ mod tests {
         let refused = fill(path, 1.0, false, "other.csv").unwrap_err();
         assert!(refused.is_request());
         let text = refused.to_string();
-        for words in ["made 20", "end_s: 10.0 there, 1.0 now", "another walls", "--force", "--out"] {
+        for words in ["made 20", "end_s: 10 there, 1 asked", "another walls", "--force", "--out"] {
             assert!(text.contains(words), "{words}: {text}");
         }
         assert!(path.join("method/summary.json").exists());

@@ -48,7 +48,7 @@ fn results_of_another_request_are_kept_by_every_command() {
         ask(&["--end", "0.4"], 0);
         let before = fs::read(dir.path().join(file)).unwrap();
         let refused = ask(&["--end", "0.2"], 2);
-        for words in ["another request", "made 20", "end_s: 0.4 there, 0.2 now", "--force", "--out"] {
+        for words in ["another request", "made 20", "end_s: 0.4 there, 0.2 asked", "--force", "--out"] {
             assert!(refused.contains(words), "{command:?} does not say {words}: {refused}");
         }
         assert_eq!(fs::read(dir.path().join(file)).unwrap(), before, "{command:?}");
@@ -70,7 +70,7 @@ fn an_edited_case_is_another_request_and_an_edited_comment_is_not() {
     fs::write(&path, format!("# measured on Monday\n{original}")).unwrap();
     ask(0);
     fs::write(&path, original.replace("restitution = 1.0", "restitution = 0.9")).unwrap();
-    assert!(ask(2).contains("another walls"));
+    assert!(ask(2).contains("wall.upper.restitution: left out there, 0.9 asked"));
 }
 
 #[test]

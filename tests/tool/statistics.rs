@@ -180,7 +180,7 @@ fn support(case: &str, flats: usize) {
     assert_eq!(summary(&path.join("again"))["episodes"], results["episodes"]);
     let args = ["run", "square.toml", "--no-verdict", "--out", "out", "--set", "statistics.rest=0.02"];
     let (_, err) = said(path, &args, 2);
-    assert!(err.contains("rest_s: 0.01 there, 0.02 now"), "{err}");
+    assert!(err.contains("rest_s: 0.01 there, 0.02 asked"), "{err}");
 }
 
 #[test]

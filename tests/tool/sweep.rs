@@ -525,7 +525,7 @@ fn a_folder_is_gone_on_with_by_its_own_request_alone() {
     let (_, err) = said(&path, &["sweep", "study.toml", "--out", "out"], 0);
     assert!(err.contains("all of them there already"), "{err}");
     for (args, words) in [
-        (&["--set", "wall.upper.position=6e-3"][..], "another case_text"),
+        (&["--set", "wall.upper.position=6e-3"][..], "wall.upper.position: 0.005 there, 0.006 asked"),
         (&["--scheme", "moreau-jean"], "scheme"),
         (&["--keep", "10"], "run"),
         (&["--measure", "contact_rate"], "columns"),

@@ -80,6 +80,39 @@ fn the_last_line_names_the_page_to_open() {
 }
 
 #[test]
+fn a_refusal_of_another_request_names_the_values_that_differ() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = |case: &str, more: &[&str], code: i32| {
+        let out = format!("out-{case}");
+        let own = ["run", case, "--end", "0.01", "--no-verdict", "--no-report", "--out", &out];
+        said(dir.path(), &[&own[..], more].concat(), code)
+    };
+    run("rigid-walls-sine", &[], 0);
+    let err = run("rigid-walls-sine", &["--set", "wall.upper.position=6e-3", "--restitution", "0.5"], 2);
+    for line in [
+        "  wall.upper.position: 0.005 there, 0.006 asked\n",
+        "  wall.upper.restitution: left out there, 0.5 asked\n",
+        "  wall.lower.restitution: left out there, 0.5 asked\n",
+    ] {
+        assert!(err.contains(line), "{line}: {err}");
+    }
+    assert!(!err.contains("another walls"), "{err}");
+    run("tube-round-supports", &[], 0);
+    let err = run("tube-round-supports", &["--set", "support.plate-1.gap=3e-4"], 2);
+    assert!(err.contains("  support.plate-1.gap: 2e-4 there, 3e-4 asked\n"), "{err}");
+    // Another number of rows of a table has no value by which it could be named.
+    let table = |rows: &str| fs::write(dir.path().join("force.csv"), format!("time_s,force_N\n{rows}")).unwrap();
+    let case = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 1.0\n\
+        [[load]]\ntable = { file = \"force.csv\" }\n[time]\nend = 1.0\nstep = 1e-3\n";
+    fs::write(dir.path().join("pulse.toml"), case).unwrap();
+    table("0,0\n1,1\n");
+    run("pulse.toml", &[], 0);
+    table("0,0\n1,2\n");
+    let err = run("pulse.toml", &[], 2);
+    assert!(err.contains("  another loads\n"), "{err}");
+}
+
+#[test]
 fn values_of_a_grid_are_those_that_would_be_typed() {
     let dir = tempfile::tempdir().unwrap();
     let column = |vary: &str, out: &str| {
