@@ -79,7 +79,7 @@ impl WholeFile {
             return Err(wrong("this is a folder, where a file is to be written"));
         }
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-            fs::create_dir_all(folder).map_err(|e| failure(folder, e, true))?;
+            fs::create_dir_all(folder).map_err(|e| no_folder(folder, e))?;
         }
         loop {
             let (partial, file) = open_sibling(path, name).map_err(|e| failure(path, e, true))?;
@@ -143,6 +143,17 @@ fn open_sibling(path: &Path, name: &std::ffi::OsStr) -> io::Result<(PathBuf, Opt
 
 fn failure(path: &Path, error: io::Error, request: bool) -> Error {
     Error::io(shown(path), error.to_string(), request).caused_by(error)
+}
+
+/// The error for a folder that cannot be created.
+fn no_folder(folder: &Path, error: io::Error) -> Error {
+    let file = folder.ancestors().find(|path| path.exists() && !path.is_dir());
+    let reason = match file {
+        Some(file) if file == folder => "this is a file, where a folder for results is expected".to_owned(),
+        Some(file) => format!("{} is a file, where a folder is expected", file.display()),
+        None => format!("no folder can be made there ({error}); expected one that can be written to"),
+    };
+    Error::io(shown(folder), reason, true).caused_by(error)
 }
 
 fn shown(path: &Path) -> String {

@@ -25,6 +25,13 @@ pub fn read(path: &Path, column: &str) -> Result<Vec<(f64, f64)>> {
     let failed = |path: &Path, error: &::csv::Error| Error::io(path.display(), error.to_string(), true);
     let open = |path: &Path| ::csv::Reader::from_path(path).map_err(|error| failed(path, &error));
     let place = |header: &::csv::StringRecord, name: &str| header.iter().position(|own| own == name);
+    if !path.is_file() {
+        return Err(Error::io(
+            path.display(),
+            "no regular file; expected the sweep.csv of `signorini sweep`".to_owned(),
+            true,
+        ));
+    }
     let mut table = open(path)?;
     let header = table.headers().map_err(|error| failed(path, &error))?.clone();
     let unknown = |name: &str| Error::Unknown {

@@ -238,11 +238,15 @@ pub fn read_shot(path: &Path, scene: &Scene, modal: bool) -> Result<Shot> {
 /// The document in a file of an orbit.
 fn document(path: &Path) -> Result<Value> {
     let unreadable = |reason: String| Error::io(path.display(), reason, true);
-    let meta = std::fs::metadata(path).map_err(|error| unreadable(error.to_string()))?;
+    let expected = "expected the orbit.json of `signorini orbit`";
+    let meta = std::fs::metadata(path).map_err(|error| unreadable(format!("{error}; {expected}")))?;
+    if !meta.is_file() {
+        return Err(unreadable(format!("not a regular file; {expected}")));
+    }
     if meta.len() > MOST_BYTES {
         return Err(unreadable(format!("{} bytes: an orbit has at most {MOST_BYTES}", meta.len())));
     }
-    let text = std::fs::read_to_string(path).map_err(|error| unreadable(error.to_string()))?;
+    let text = std::fs::read_to_string(path).map_err(|error| unreadable(format!("{error}; {expected}")))?;
     serde_json::from_str(&text).map_err(|error| unreadable(format!("not valid JSON: {error}")))
 }
 

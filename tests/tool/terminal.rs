@@ -113,6 +113,28 @@ fn a_refusal_of_another_request_names_the_values_that_differ() {
 }
 
 #[test]
+fn a_path_of_the_wrong_kind_is_refused_with_what_was_expected() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("file"), "x").unwrap();
+    fs::create_dir(dir.path().join("folder")).unwrap();
+    let orbit = ["orbit", "rigid-walls-sine", "--from", "folder"];
+    let branches = ["continue", "rigid-walls-sine", "--key", "load.1.harmonic.frequency", "--range", "4:5"];
+    let merge = |from| ["merge", from, "--out", "merged"];
+    for (args, expected) in [
+        (&["run", "linear-sine", "--out", "file"][..], "this is a file, where a folder for results is expected"),
+        (&["run", "linear-sine", "--out", "file/within"], "file is a file, where a folder is expected"),
+        (&merge("file"), "expected a shard of a sweep, or a folder that holds shards"),
+        (&merge("nowhere"), "expected a shard of a sweep, or a folder that holds shards"),
+        (&orbit, "not a regular file; expected the orbit.json of `signorini orbit`"),
+        (&[&branches[..], &["--over", "folder"]].concat(), "expected the sweep.csv of `signorini sweep`"),
+        (&["chart", "rigid-walls-sine", "--with", "folder"], "expected a CSV file with the columns program"),
+    ] {
+        let err = said(dir.path(), args, 2);
+        assert!(err.contains(expected), "{args:?}: {err}");
+    }
+}
+
+#[test]
 fn values_of_a_grid_are_those_that_would_be_typed() {
     let dir = tempfile::tempdir().unwrap();
     let column = |vary: &str, out: &str| {
