@@ -63,6 +63,16 @@ pub fn _run_many<'py>(
         );
         return Err(PyValueError::new_err(text));
     }
+    let round = scenes.iter().find(|scene| walls.is_empty() && scene.scene.holes().next().is_some());
+    if let Some(scene) = round {
+        let names: Vec<&str> = scene.scene.holes().map(|hole| hole.support.name.as_str()).collect();
+        let text = format!(
+            "the scene has no wall, only round supports ({}); expected one wall or more: the columns are those of \
+             walls, and round supports have none yet; Scene.run has those of one run",
+            names.join(", ")
+        );
+        return Err(PyValueError::new_err(text));
+    }
     let width = COLUMNS.len() * walls.len();
     let plans = scenes
         .iter()

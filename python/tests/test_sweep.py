@@ -51,7 +51,9 @@ def test_a_row_is_what_its_run_says(whole: sg.Table) -> None:
 
 def test_threads_and_the_judge_change_no_bit(whole: sg.Table) -> None:
     assert_same(sg.sweep(cluster.make, POINTS, "event", threads=2), whole)
-    assert_same(sg.sweep(cluster.make, POINTS, "event", judge=False), whole)
+    unjudged = sg.sweep(cluster.make, POINTS, "event", judge=False)
+    assert set(unjudged["status"]) == {"unjudged"} and set(whole["status"]) == {"ok"}
+    assert_same(unjudged | {"status": whole["status"]}, whole)
     assert_same(sg.run_many([cluster.make(**p) for p in POINTS], "event"), {k: whole[k] for k in list(whole)[2:]})
 
 
@@ -176,11 +178,20 @@ def test_points_that_are_all_refused_are_rows_with_their_reasons(chunk: int) -> 
             with pytest.warns(RuntimeWarning, match="2 of 2 rows failed"):
                 table = sg.sweep(make, sg.grid(mass=[-1.0, -2.0]), "event", **options)  # type: ignore[arg-type]
             assert all("mass" in error for error in table["error"])
+            assert list(table["status"]) == ["failed"] * 2
+
+
+def test_scenes_with_round_supports_alone_are_refused() -> None:
+    round_ = sg.load("tube-round-supports").scene
+    with pytest.raises(ValueError, match=r"no wall, only round supports \(plate-1, plate-2\); expected one wall"):
+        sg.sweep(lambda duration: round_.replace(duration=duration), sg.grid(duration=[0.1, 0.2]))
+    with pytest.raises(ValueError, match="no wall, only round supports"):
+        sg.run_many([round_])
 
 
 def test_nothing_to_run() -> None:
-    assert list(sg.run_many([], "event")) == ["error"]
-    assert list(sg.sweep(cluster.make, [], "event")) == ["error"]
+    assert list(sg.run_many([], "event")) == ["status", "error"]
+    assert list(sg.sweep(cluster.make, [], "event")) == ["status", "error"]
     assert sg.grid() == [{}]
 
 

@@ -65,7 +65,8 @@ def run_many(
     scheme, step, statistics_from
         As in `Scene.run`.
     judge : bool
-        Whether every run is checked step by step; it takes most of the time of a short run.
+        Whether every run is checked step by step; it takes most of the time of a short run. Without
+        it rows have the status ``unjudged``.
     threads : int, optional
         All cores if left out.
     progress : bool
@@ -75,12 +76,13 @@ def run_many(
     -------
     dict of str to numpy.ndarray of shape (scenes,)
         Contact statistics of each wall over the window, with half widths of 95 % intervals;
-        ``error`` is None, or the reason why a row has no numbers.
+        ``status`` is ``ok``, ``unjudged`` (nothing checked its steps) or ``failed``; ``error`` is
+        None, or the reason why a row has no numbers.
 
     Raises
     ------
     ValueError
-        For a wrong request.
+        For a wrong request, and for scenes whose supports are all round, which have no columns yet.
 
     Examples
     --------
@@ -95,7 +97,7 @@ def run_many(
     names = [wall.name for wall in scenes[0].walls] if scenes else []
     with Progress(len(scenes), progress) as shown:
         rows = _run_many(scenes, *options, shown.tell)
-    return _table(names, rows)
+    return _table(names, rows, judge)
 
 
 def sweep(
@@ -145,7 +147,7 @@ def sweep(
     Raises
     ------
     ValueError
-        For a wrong request.
+        For a wrong request, and for scenes whose supports are all round, which have no columns yet.
     Exception
         Whatever ``make`` raises besides ValueError.
 
@@ -189,7 +191,7 @@ def sweep(
             size = chunk or _size(make, points, missing, walls, options)
             _send(executor, make, points, _pieces(missing, size), walls, options, take, shown)
     table: Table = {name: np.array([point[name] for point in points]) for name in names}
-    table |= _table(walls, (values, errors))
+    table |= _table(walls, (values, errors), judge)
     failed = [text for text in errors if text is not None]
     if failed:
         text = f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}"
@@ -208,9 +210,11 @@ def _options(
     return scheme, step, statistics_from, judge, threads or os.cpu_count() or 1
 
 
-def _table(walls: Sequence[str], rows: _Rows) -> Table:
+def _table(walls: Sequence[str], rows: _Rows, judge: bool) -> Table:
     values, errors = rows
     table: Table = {name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(_columns(list(walls)))}
+    good = "ok" if judge else "unjudged"
+    table["status"] = np.array([good if text is None else "failed" for text in errors], object)
     table["error"] = np.array(errors, object)
     return table
 
