@@ -16,7 +16,7 @@ use crate::study::choice;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Draw all figures of the source (2 to 9) from the built-in cases
+/// Draw figures 2 to 9 of the study that the built-in cases reproduce
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  signorini figures --out figures")]
 pub struct Args {

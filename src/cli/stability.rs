@@ -37,9 +37,8 @@ Classes, from harmless to worst, against a fine run of the same scene:
   dissipative      more than 5 % of the energy arriving at the walls lost per impact, beyond what
                    restitution takes
   frozen           the body stands still: it crosses the gap in less than a step
-  astray           another motion: a wall passed beyond the scheme's bound, contacts off by a
-                   factor of 2, speeds above 1.5 or below 0.7 of the reference's, or no rest where
-                   rest is due
+  another-motion   a wall passed beyond the scheme's bound, contacts off by a factor of 2, speeds
+                   above 1.5 or below 0.7 of the reference's, or no rest where rest is due
   energy-gaining   more than 1 % of the energy arriving at the walls made per impact
   diverged         speeds above 10 times the reference's, not finite, or a step that cannot be
                    solved";

@@ -228,8 +228,8 @@ fn energy(summary: &Value) -> Value {
             format!("{} of the energy exchanged is unaccounted for; the scheme promises no less", percent(open));
         return card("Energy", State::Mind, verdict, text);
     }
-    let kept = format!("The ledger closes to {} of what was exchanged", short(open));
-    judged("Energy", &broken, ("The ledger does not close", kept), text)
+    let kept = format!("The energy balance closes to {} of what was exchanged", short(open));
+    judged("Energy", &broken, ("The energy balance does not close", kept), text)
 }
 
 fn momentum(summary: &Value) -> Value {

@@ -68,7 +68,7 @@ impl fmt::Display for Refuted {
                 "the recorded impulses do not carry the momentum of the run, in shares of what was exchanged"
             }
             Self::Kinematics => "displacement and velocities do not belong together",
-            Self::Energy => "the energy ledger does not close",
+            Self::Energy => "the energy balance does not close",
         })
     }
 }

@@ -188,3 +188,18 @@ fn starts_whose_attractor_was_not_found_are_counted() {
     let (empty, err) = run("400", "long");
     assert!(empty == 0 && !err.contains("undecided"), "{err}");
 }
+
+#[test]
+fn words_are_those_of_the_field() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = said(dir.path(), &["run", "rigid-walls-sine", "--end", "0.2"], 0);
+    assert!(run.contains("energy balance"), "{run}");
+    let help = on(None, dir.path(), &["stability", "--help"], 0).0;
+    assert!(help.contains("another-motion"), "{help}");
+    let explained = on(None, dir.path(), &["explain", "rigid-walls-sine"], 0).0;
+    for text in [run, help, explained] {
+        for word in ["ledger", "astray", "source scene"] {
+            assert!(!text.contains(word), "{word}: {text}");
+        }
+    }
+}

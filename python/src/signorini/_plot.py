@@ -20,7 +20,7 @@ TONES = {
     "stable": "#f7f7f7",
     "dissipative": "#b5cfe6",
     "frozen": "#dc9a33",
-    "astray": "#c0452a",
+    "another-motion": "#c0452a",
     "gaining": "#4b2357",
     "diverged": "#111111",
 }

@@ -171,7 +171,7 @@ class Stability:
 
     table: Table
     """One row per scheme, parameter and step: ``scheme``, ``parameter`` and its ``value``, ``step_s``,
-    ``class`` (stable, dissipative, frozen, astray, gaining, diverged) and its ``reason``."""
+    ``class`` (stable, dissipative, frozen, another-motion, energy-gaining, diverged) and its ``reason``."""
     safe: Table
     """One row per scheme at the scene's own parameters: its largest ``safe_step_s`` (nan: there is
     none), and the first failure ``beyond`` it, in words."""

@@ -11,7 +11,7 @@ use std::fmt;
 /// more than a hundred.
 pub const DIVERGED: f64 = 10.0;
 /// Share of the arriving energy gained per impact above which a scheme gains energy: 1 % compounds
-/// to a factor e in a hundred impacts, one run of the source scene.
+/// to a factor e in a hundred impacts, one run of the case `rigid-walls-sine`.
 pub const GAIN: f64 = 0.01;
 /// Share of the arriving energy lost per impact above which a scheme dissipates: 5 % is a
 /// restitution off by 0.025, less than the uncertainty of the restitution of any real wall. A loss
@@ -73,7 +73,7 @@ impl Class {
             Self::Stable => "stable",
             Self::Dissipative => "dissipative",
             Self::Frozen => "frozen",
-            Self::Astray => "astray",
+            Self::Astray => "another-motion",
             Self::Gaining => "energy-gaining",
             Self::Diverged => "diverged",
         }

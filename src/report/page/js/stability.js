@@ -1,7 +1,7 @@
 // Stability studies: where each scheme fails, one impact, contacts that last.
 
 /** Classes of stability, from harmless to worst, and the curve colours they are shown in. */
-const CLASSES = ["stable", "dissipative", "frozen", "astray", "energy-gaining", "diverged"];
+const CLASSES = ["stable", "dissipative", "frozen", "another-motion", "energy-gaining", "diverged"];
 const CLASS_TONES = {
   light: [
     [214, 232, 224],
