@@ -21,7 +21,7 @@ TONES = {
     "dissipative": "#b5cfe6",
     "frozen": "#dc9a33",
     "another-motion": "#c0452a",
-    "gaining": "#4b2357",
+    "energy-gaining": "#4b2357",
     "diverged": "#111111",
 }
 
