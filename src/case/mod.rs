@@ -68,6 +68,8 @@ pub use statistics::StatisticsOptions;
 pub(crate) use statistics::rows_of;
 pub use table::TableColumns;
 pub use template::Template;
+#[cfg(feature = "cli")]
+pub(crate) use text::{MOST_TABLE_BYTES, open_regular, read_text};
 pub use truncated::Truncated;
 pub use wear::WearOptions;
 pub use written::{FileRead, Origin, Scarred, Support, Written};

@@ -88,13 +88,13 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     refuted.announce(ui);
     any_succeeded(&comparison)?;
     let common = args.stretch.span(&case, comparison.horizon)?;
-    let rows = output::write(&mut results, &case, &comparison, &verdicts, [span, common])?;
-    let notes = noted::of_rows(&comparison).into_iter().chain(case.notes());
-    results.tell("remarks", json!(comparison.findings.iter().cloned().chain(notes).collect::<Vec<_>>()));
     let report = !args.request.place.no_report;
     if report {
         draw(&case, &comparison, &mut results)?;
     }
+    let rows = output::write(&mut results, &case, &comparison, &verdicts, [span, common])?;
+    let notes = noted::of_rows(&comparison).into_iter().chain(case.notes());
+    results.tell("remarks", json!(comparison.findings.iter().cloned().chain(notes).collect::<Vec<_>>()));
     super::run::finish(&mut results, "", report, ui)?;
     if ui.json() {
         ui.document(&document(&case, &comparison, rows, &results))?;

@@ -6,7 +6,7 @@ use super::run::last_line;
 use super::sweep::{tell_pictures, tell_status};
 use super::ui::Ui;
 use crate::error::Result;
-use crate::sweep::{Merged, merge, write_summary};
+use crate::sweep::{Merged, merge_in, write_summary};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -29,9 +29,9 @@ pub struct Args {
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let formats = args.formats.usable()?;
-    let merged = merge(&args.folders, &args.out, args.force)?;
-    let Merged { rows, shards, tables, request, title, picture, differing_arithmetic } = merged;
-    let (drawn, left_out) = picture.draw(&args.out, &request, &title, &formats)?;
+    let (merged, mut results) = merge_in(&args.folders, &args.out, args.force, formats)?;
+    let Merged { rows, shards, tables, request, title, picture, differing_arithmetic, unverified } = merged;
+    let (drawn, left_out) = picture.draw(&mut results, &request, &title)?;
     let counts: serde_json::Map<String, serde_json::Value> =
         tables.counts.iter().map(|(status, count)| (status.clone(), json!(count))).collect();
     let document = json!({
@@ -46,7 +46,12 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         "pictures": drawn,
         "results": args.out,
     });
-    write_summary(&args.out, &document)?;
+    let document = write_summary(&mut results, document)?;
+    results.finish()?;
+    for folder in unverified {
+        let folder = folder.display();
+        ui.message(&format!("{folder}: of a version that recorded no digests: its tables are not verified"));
+    }
     if differing_arithmetic {
         ui.message(
             "the shards come from machines whose sines and exponentials differ in their last digits: rows that \

@@ -3,7 +3,8 @@
 use super::ui::Ui;
 use crate::error::{Error, Result};
 use crate::output::atomic::write_whole;
-use crate::output::results;
+use crate::output::manifest::{self, MANIFEST};
+use crate::output::record::TABLES;
 use crate::report;
 use serde_json::json;
 use std::path::PathBuf;
@@ -27,19 +28,20 @@ pub struct Args {
 }
 
 pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let Some(manifest) = results::read(&args.folder) else {
-        let reason = format!(
-            "holds no {} that can be read; expected a folder of results, such as out/CASE/run",
-            results::MANIFEST
-        );
+    let Some(manifest) = manifest::read(&args.folder) else {
+        let reason =
+            format!("holds no {MANIFEST} that can be read; expected a folder of results, such as out/CASE/run");
         return Err(Error::io(args.folder.display(), reason, true));
     };
     let page = report::page(&args.folder, &manifest)?;
     let path = args.out.clone().unwrap_or_else(|| args.folder.join(report::FILE));
-    write_whole(&path, page.as_bytes())?;
-    if args.out.is_none() {
-        // So that a later run without a report takes this one away.
-        results::list(&args.folder, manifest, report::FILE)?;
+    if manifest.get(TABLES).is_none() {
+        ui.message("the version that made these results recorded no digests: their tables are not verified");
+    }
+    match &args.out {
+        Some(path) => write_whole(path, page.as_bytes())?,
+        // Listed, so that a later run without a report takes this one away.
+        None => manifest::add(&args.folder, manifest, report::FILE, page.as_bytes())?,
     }
     ui.close_with(format!("wrote the page; open {}", path.display()));
     if ui.json() {

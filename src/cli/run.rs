@@ -112,12 +112,13 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         realisations: study.as_ref(),
         ..Checks::default()
     };
-    let document =
-        output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
     seeds::write(study.as_ref(), &mut results)?;
     if !shape.is_empty() {
         shape.write(&results.place(shape::FILE)?, run.trajectory.time(), &moved)?;
     }
+    // Last, since the summary records the tables beside it.
+    let document =
+        output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
     finish(&mut results, "", report, ui)?;
     tell(&case, &run, &method, document, &results, ui)?;
     seeds::tell(study.as_ref(), &case, ui)?;
@@ -192,9 +193,9 @@ fn accurate(args: &Args, case: &Case, tolerance: f64, ui: &Ui) -> Result<()> {
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
     let checks =
         Checks { accuracy: Some(&accuracy), modes: modes.as_ref(), realisations: study.as_ref(), ..Checks::default() };
+    seeds::write(study.as_ref(), &mut results)?;
     let mut document =
         output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
-    seeds::write(study.as_ref(), &mut results)?;
     shortfall = shortfall.or(modes.as_ref().and_then(ChosenModes::shortfall));
     if let (Some(error), Some(map)) = (&shortfall, document.as_object_mut()) {
         map.insert("error".to_owned(), json!(error.to_string()));
@@ -326,12 +327,14 @@ pub(super) fn last_line(folder: &Path, remark: &str, report: bool) -> String {
 /// Finishes the folder of the results, with a `report` where one is wanted, and prints what it
 /// replaced; the last line of the command says where it is, and which page to open.
 pub(super) fn finish(results: &mut Results, remark: &str, report: bool, ui: &Ui) -> Result<()> {
+    // The report is made from the files in their places.
+    let replaced = results.finish()?;
     if report {
-        let place = results.place(report::FILE)?;
         let page = report::page(results.folder(), &results.manifest())?;
-        write_whole(&place, page.as_bytes())?;
+        write_whole(&results.place(report::FILE)?, page.as_bytes())?;
+        results.finish()?;
     }
-    if let Some(replaced) = results.finish()? {
+    if let Some(replaced) = replaced {
         ui.message(&replaced);
     }
     ui.close_with(last_line(results.folder(), remark, report));

@@ -5,9 +5,11 @@ use super::request::{Changes, Destination, case_file};
 use super::run::last_line;
 use super::ui::Ui;
 use super::values;
+use crate::case::{MOST_TABLE_BYTES, read_text};
 use crate::error::{Error, Result};
 use crate::output::atomic::write_whole;
-use crate::output::results;
+use crate::output::format::Format;
+use crate::output::results::Results;
 use crate::report;
 use crate::sweep::{
     Axis, Design, Finished, Follow, Kernel, Manner, Measure, Plan, Progress, Random, Shard, Status, Stretch, Sweep,
@@ -129,12 +131,12 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     let out = args.place.out.clone().unwrap_or_else(|| Path::new("out").join(&name).join("sweep"));
     let threads = args.threads.map(usize::from);
     let manner = Manner { threads, shard: args.shard.unwrap_or(Shard::WHOLE), force: args.place.force };
-    let finished = watched(&plan, &out, manner, ui)?;
+    let (finished, mut results) = watched(&plan, &out, manner, formats, ui)?;
     let whole = manner.shard == Shard::WHOLE;
-    let (drawn, left_out) = if whole { plan.draw(&finished.folder, &formats)? } else { Default::default() };
-    let document = document(&plan, &finished, &drawn);
-    write_summary(&finished.folder, &document)?;
-    let report = whole && !args.place.no_report && write_report(&finished.folder, ui)?;
+    let (drawn, left_out) = if whole { plan.draw(&mut results)? } else { Default::default() };
+    let document = write_summary(&mut results, document(&plan, &finished, &drawn))?;
+    results.finish()?;
+    let report = whole && !args.place.no_report && write_report(&mut results, ui)?;
     tell(&finished, (&drawn, &left_out), ui)?;
     let remark = if whole { "" } else { "; `signorini merge` joins the shards" };
     ui.close_with(last_line(&finished.folder, remark, report));
@@ -145,17 +147,19 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
 }
 
 /// Runs the sweep with a progress bar; without one, a line from time to time reports progress.
-fn watched(plan: &Plan, out: &Path, manner: Manner, ui: &Ui) -> Result<Finished> {
+fn watched(plan: &Plan, out: &Path, manner: Manner, formats: Vec<Format>, ui: &Ui) -> Result<(Finished, Results)> {
     let bar = ui.progress("sweep", plan.count());
     let said = Cell::new(Instant::now());
-    let finished = plan.run_into(out, manner, &|Progress { done, rows, rate }| {
+    let progress = |Progress { done, rows, rate }| {
         bar.share(done as f64 / rows.max(1) as f64);
         if said.get().elapsed() > SAY {
             said.set(Instant::now());
             let left = if rate > 0.0 { (rows - done) as f64 / rate } else { f64::INFINITY };
             ui.beside(&bar, &format!("{done} of {rows} rows, {rate:.3} rows/s, {} left", span(left)));
         }
-    });
+    };
+    let damaged = |what: &str| ui.beside(&bar, &format!("the rows are computed again: {what}"));
+    let finished = plan.run_in(out, manner, formats, &progress, &damaged);
     bar.finish();
     finished
 }
@@ -164,7 +168,7 @@ impl Args {
     /// The sweep that the arguments describe.
     fn sweep(&self, ui: &Ui) -> Result<Sweep> {
         let path = Path::new(&self.file);
-        let is_sweep = std::fs::read_to_string(path).is_ok_and(|text| Sweep::is_file(&text));
+        let is_sweep = read_text(path, MOST_TABLE_BYTES).is_ok_and(|text| Sweep::is_file(&text));
         let mut sweep = if is_sweep { Sweep::read(path)? } else { Sweep::new(case_file(&self.file, ui)?) };
         for (key, value) in self.changes.pairs()? {
             sweep = sweep.set(&key, value)?;
@@ -284,15 +288,17 @@ fn without_page(folder: &Path, reason: &str) -> String {
     )
 }
 
-/// Writes the report on the sweep in `folder`, unless its tables are too large for one; true if it
+/// Adds the report on the sweep to its `results`, unless its tables are too large for one; true if it
 /// was written.
-fn write_report(folder: &Path, ui: &Ui) -> Result<bool> {
-    let manifest = results::read(folder).unwrap_or_default();
-    if let Some(reason) = report::too_large(folder, &manifest)? {
-        ui.message(&without_page(folder, &reason));
+fn write_report(results: &mut Results, ui: &Ui) -> Result<bool> {
+    let manifest = results.manifest();
+    if let Some(reason) = report::too_large(results.folder(), &manifest)? {
+        ui.message(&without_page(results.folder(), &reason));
         return Ok(false);
     }
-    write_whole(&folder.join(report::FILE), report::page(folder, &manifest)?.as_bytes())?;
+    let page = report::page(results.folder(), &manifest)?;
+    write_whole(&results.place(report::FILE)?, page.as_bytes())?;
+    results.finish()?;
     Ok(true)
 }
 

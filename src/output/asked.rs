@@ -1,7 +1,7 @@
 //! The request, as recorded beside its results: it shows whether a folder holds the results of this
 //! request or of another one.
 
-use super::results::FINGERPRINT;
+use super::manifest::FINGERPRINT;
 use super::summary;
 use super::values::{VALUES, by_keys};
 use crate::case::{Case, sha256};

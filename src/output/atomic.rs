@@ -1,11 +1,13 @@
-//! Files that appear whole or not at all: written beside their final place, then renamed onto it.
+//! Files that appear whole or not at all: written beside their final place and onto the disk, then
+//! renamed into it.
 
-use std::fs::{self, File};
+use super::lock::is_at;
+use crate::error::{Error, Result};
+use std::ffi::OsStr;
+use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
-
-use crate::error::{Error, Result};
 
 /// Writes `bytes` to `path` and creates the folders that lead there. A reader sees the old file or
 /// the whole new one, never a part.
@@ -81,6 +83,7 @@ impl WholeFile {
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             fs::create_dir_all(folder).map_err(|e| no_folder(folder, e))?;
         }
+        remove_abandoned(path.parent().unwrap_or(Path::new("")), Some(name));
         loop {
             let (partial, file) = open_sibling(path, name).map_err(|e| failure(path, e, true))?;
             if let Some(file) = file {
@@ -100,7 +103,8 @@ impl WholeFile {
         &self.path
     }
 
-    /// Writes what is buffered and renames the file into its place.
+    /// Writes the file onto the disk and renames it into its place, so that after a power failure
+    /// no empty file has its name. [`sync_folder`] makes the rename itself last.
     ///
     /// # Errors
     /// [`Error::Io`] when the write or the rename fails; the temporary file is then removed, and an
@@ -108,7 +112,7 @@ impl WholeFile {
     pub fn finish(mut self) -> Result<()> {
         if let Some(writer) = self.writer.take() {
             let file = writer.into_inner().map_err(|e| failure(&self.path, e.into_error(), false))?;
-            drop(file);
+            file.sync_all().map_err(|e| failure(&self.path, e, false))?;
         }
         fs::rename(&self.partial.path, &self.path).map_err(|e| failure(&self.path, e, false))?;
         self.partial.kept = true;
@@ -126,18 +130,65 @@ impl Write for WholeFile {
     }
 }
 
-/// A new sibling `.NAME.PROCESS-NUMBER.partial`; `None` in place of the file where that name is
-/// taken (by a run that was killed).
-fn open_sibling(path: &Path, name: &std::ffi::OsStr) -> io::Result<(PathBuf, Option<File>)> {
+/// The end of the names of temporary files.
+const PARTIAL: &str = ".partial";
+
+/// A new sibling `.NAME.PROCESS-NUMBER.partial`, locked for as long as it is open; `None` in place
+/// of the file where that name is taken.
+fn open_sibling(path: &Path, name: &OsStr) -> io::Result<(PathBuf, Option<File>)> {
     static NUMBER: AtomicU64 = AtomicU64::new(0);
     let mut sibling = std::ffi::OsString::from(".");
     sibling.push(name);
-    sibling.push(format!(".{}-{}.partial", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed)));
+    sibling.push(format!(".{}-{}{PARTIAL}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed)));
     let sibling = path.with_file_name(sibling);
     match File::create_new(&sibling) {
-        Ok(file) => Ok((sibling, Some(file))),
+        Ok(file) => {
+            // Another process may have taken it for an abandoned one before it was locked.
+            let lost = matches!(file.try_lock(), Err(TryLockError::WouldBlock)) || !is_at(&file, &sibling);
+            Ok((sibling, (!lost).then_some(file)))
+        }
         Err(e) if e.kind() == io::ErrorKind::AlreadyExists => Ok((sibling, None)),
         Err(e) => Err(e),
+    }
+}
+
+/// Removes from `folder` the temporary files of [`WholeFile`]s for a file `name`, or for any file,
+/// that processes left behind which were killed: those that nobody has locked.
+pub(crate) fn remove_abandoned(folder: &Path, name: Option<&OsStr>) {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let is_partial =
+            entry.file_name().to_str().and_then(target).is_some_and(|of| name.is_none_or(|name| name == of));
+        let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
+        if is_partial && is_file && File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
+            let _ = fs::remove_file(&path);
+        }
+    }
+}
+
+/// The file for which the temporary file of that name is written: `NAME` of
+/// `.NAME.PROCESS-NUMBER.partial`.
+fn target(partial: &str) -> Option<&str> {
+    let (name, number) = partial.strip_prefix('.')?.strip_suffix(PARTIAL)?.rsplit_once('.')?;
+    let (process, count) = number.split_once('-')?;
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    (is_number(process) && is_number(count)).then_some(name)
+}
+
+/// Writes the entries of `folder` onto the disk: which files are in it, and under which names.
+///
+/// # Errors
+/// [`Error::Io`] where the disk fails.
+pub(crate) fn sync_folder(folder: &Path) -> Result<()> {
+    if cfg!(not(unix)) {
+        return Ok(());
+    }
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    match File::open(folder).and_then(|file| file.sync_all()) {
+        // Some network file systems cannot, and write entries at once.
+        Err(e) if matches!(e.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
+        done => done.map_err(|e| failure(folder, e, false)),
     }
 }
 
@@ -158,4 +209,36 @@ fn no_folder(folder: &Path, error: io::Error) -> Error {
 
 fn shown(path: &Path) -> String {
     path.display().to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> =
+            fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn what_a_killed_process_left_goes_with_the_next_file_of_that_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        for name in [".a.csv.12-0.partial", ".b.csv.12-3.partial", ".a.csv.x-0.partial", "a.csv.12-0.partial"] {
+            fs::write(path(name), "left").unwrap();
+        }
+        write_whole(&path("a.csv"), b"1").unwrap();
+        let others = [".a.csv.x-0.partial", "a.csv", "a.csv.12-0.partial"];
+        assert_eq!(names(folder.path()), [&[".a.csv.x-0.partial", ".b.csv.12-3.partial"], &others[1..]].concat());
+        // One that is being written is nobody else's.
+        let mut file = WholeFile::create(&path("a.csv")).unwrap();
+        file.write_all(b"2").unwrap();
+        remove_abandoned(folder.path(), None);
+        assert_eq!(names(folder.path()).len(), 4);
+        file.finish().unwrap();
+        assert_eq!(names(folder.path()), others);
+        assert_eq!(fs::read(path("a.csv")).unwrap(), b"2");
+    }
 }

@@ -1,6 +1,7 @@
 //! Points of a sweep beneath branches of orbits: read from its tables, written as `beneath.csv`.
 
 use super::csv::{self, digits};
+use crate::case::open_regular;
 use crate::error::{Error, Result};
 use std::path::Path;
 
@@ -23,7 +24,10 @@ pub fn write(path: &Path, column: &str, points: &[(f64, f64)]) -> Result<()> {
 /// [`Error::Io`] for a table that cannot be read; [`Error::Unknown`] for one without the column.
 pub fn read(path: &Path, column: &str) -> Result<Vec<(f64, f64)>> {
     let failed = |path: &Path, error: &::csv::Error| Error::io(path.display(), error.to_string(), true);
-    let open = |path: &Path| ::csv::Reader::from_path(path).map_err(|error| failed(path, &error));
+    let open = |path: &Path| {
+        let opened = open_regular(path).map_err(|reason| Error::io(path.display(), reason, true));
+        opened.map(|(file, _)| ::csv::Reader::from_reader(file))
+    };
     let place = |header: &::csv::StringRecord, name: &str| header.iter().position(|own| own == name);
     if !path.is_file() {
         return Err(Error::io(

@@ -4,6 +4,9 @@
 //! |---|---|
 //! | [`atomic`] | files that appear complete or not at all |
 //! | [`results`] | the folder of a request's results, and what it may replace |
+//! | `manifest` | `request.json`: the contents of a folder of results |
+//! | `record` | rows, length and digest of a table, and whether it still has them |
+//! | `lock` | one writer in a folder at a time |
 //! | [`asked`] | the request, as recorded beside its results |
 //! | [`csv`] | `trajectory.csv` and `contacts.csv` |
 //! | [`supports`] | `supports.csv`, `sectors.csv`, the table of supports and their part of the summary |
@@ -40,6 +43,8 @@ pub mod format;
 pub(crate) mod json;
 mod labelled;
 pub mod loci;
+mod lock;
+pub(crate) mod manifest;
 mod motion;
 mod orbit;
 pub mod orbits;
@@ -47,6 +52,7 @@ pub mod periodic;
 pub mod pictures;
 mod places;
 pub mod realisations;
+pub(crate) mod record;
 pub mod results;
 pub(crate) mod ring;
 mod rubbed;

@@ -2,6 +2,7 @@
 
 use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
+use crate::case::read_text;
 use crate::error::{Error, Result};
 use crate::orbit::{Admissible, ClosedForm, Event, Floquet, Judged, Kind, Orbit, Problem, Shot, Signature};
 use crate::scene::{Scene, Side, State};
@@ -239,14 +240,7 @@ pub fn read_shot(path: &Path, scene: &Scene, modal: bool) -> Result<Shot> {
 fn document(path: &Path) -> Result<Value> {
     let unreadable = |reason: String| Error::io(path.display(), reason, true);
     let expected = "expected the orbit.json of `signorini orbit`";
-    let meta = std::fs::metadata(path).map_err(|error| unreadable(format!("{error}; {expected}")))?;
-    if !meta.is_file() {
-        return Err(unreadable(format!("not a regular file; {expected}")));
-    }
-    if meta.len() > MOST_BYTES {
-        return Err(unreadable(format!("{} bytes: an orbit has at most {MOST_BYTES}", meta.len())));
-    }
-    let text = std::fs::read_to_string(path).map_err(|error| unreadable(format!("{error}; {expected}")))?;
+    let text = read_text(path, MOST_BYTES).map_err(|reason| unreadable(format!("{reason}; {expected}")))?;
     serde_json::from_str(&text).map_err(|error| unreadable(format!("not valid JSON: {error}")))
 }
 

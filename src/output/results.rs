@@ -1,37 +1,27 @@
 //! The folder that holds the results of a request. Results of another request are not overwritten
 //! unless that is asked for.
 //!
-//! `request.json` in the folder says what was asked, when it was done, and which files belong to
-//! it.
+//! One process at a time writes into a folder. Files are first written into a folder of their own
+//! within it, onto the disk; only when all are there do they take the places of earlier results,
+//! and then [`MANIFEST`](manifest::MANIFEST) says what was asked, when it was done, which files
+//! belong to it, and what is recorded of each table. An interruption before that leaves the earlier
+//! results as they were. One amidst it leaves a manifest that says so, and the same request
+//! replaces everything that it lists.
 
-use super::atomic::{check_folder, write_whole};
+use super::atomic::{check_folder, remove_abandoned, sync_folder};
 use super::format::Format;
-use super::values::{VALUES, differing, shown};
+use super::lock::Lock;
+use super::manifest::{self, UNFINISHED};
+use super::record::{Record, TABLES};
 use crate::error::{Error, Result};
 use serde_json::{Map, Value, json};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::time::SystemTime;
 
-/// The file that describes the contents of a folder.
-pub(crate) const MANIFEST: &str = "request.json";
-
-/// Largest manifest that is read, bytes.
-const MOST_BYTES: u64 = 1 << 24;
-
-/// Files that results consist of: a folder with one of them but no manifest holds results of an
-/// unknown request.
-const RESULTS: [&str; 9] = [
-    "summary.json",
-    "trajectory.csv",
-    "compare.csv",
-    "work-precision.csv",
-    "stability.csv",
-    "impact-map.csv",
-    "sweep.csv",
-    "orbit.json",
-    "branches.csv",
-];
+/// The folder, within that of the results, of files that are not yet in their places.
+const STAGE: &str = ".signorini.partial";
 
 /// A folder of results that is being written.
 #[derive(Debug)]
@@ -43,8 +33,17 @@ pub struct Results {
     /// When the results already in the folder were made, and their files.
     before: Option<Before>,
     files: Vec<String>,
+    /// Number of `files`, the first ones, that are in their places.
+    placed: usize,
+    /// True once the manifest says that the files in their places are whole.
+    finished: bool,
+    tables: BTreeMap<String, Record>,
     /// Further entries of the manifest, which do not affect what may be replaced.
     told: Map<String, Value>,
+    /// The file from which this request goes on after an interruption.
+    journal: Option<String>,
+    _stage: Stage,
+    _lock: Lock,
 }
 
 #[derive(Debug, Default)]
@@ -53,27 +52,70 @@ struct Before {
     files: Vec<String>,
 }
 
+/// The folder of files that are not yet in their places; it is removed in the end, whatever is left
+/// in it.
+#[derive(Debug)]
+struct Stage(PathBuf);
+
+impl Stage {
+    /// That of `folder`, empty, whatever a process left there that was killed.
+    fn of(folder: &Path) -> Self {
+        let stage = Self(folder.join(STAGE));
+        stage.clear();
+        stage
+    }
+
+    fn clear(&self) {
+        let _ = match fs::symlink_metadata(&self.0) {
+            Ok(meta) if meta.is_dir() => fs::remove_dir_all(&self.0),
+            Ok(_) => fs::remove_file(&self.0),
+            Err(_) => Ok(()),
+        };
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        self.clear();
+    }
+}
+
 impl Results {
-    /// Checks that `folder` can be written and holds no results of another request than `request`.
-    /// Call it before a long run rather than find out afterwards. With `force` the folder may hold
-    /// anything. Pictures are written in each of `formats`.
+    /// Checks that `folder` can be written and holds no results of another request than `request`,
+    /// and keeps other processes from writing there. Call it before a long run rather than find out
+    /// afterwards. With `force` the folder may hold anything. Pictures are written in each of
+    /// `formats`.
     ///
     /// # Errors
     /// [`Error::Io`], marked as a wrong request; it says when the other results were made and what
-    /// differs.
+    /// differs, or that another process is at work in the folder.
     pub fn open(folder: &Path, request: Map<String, Value>, force: bool, formats: Vec<Format>) -> Result<Self> {
-        if !force {
-            check(folder, &request)?;
-        }
-        let manifest = read(folder);
+        let check = || if force { Ok(()) } else { manifest::check(folder, &request) };
+        check()?;
         check_folder(folder)?;
-        let unknown = || RESULTS.iter().any(|name| folder.join(name).exists()).then(Before::default);
-        let before = manifest.as_ref().map_or_else(unknown, |manifest| {
-            let listed = manifest.get("files").and_then(Value::as_array).into_iter().flatten();
-            let files = listed.filter_map(|name| name.as_str().map(str::to_owned)).collect();
-            Some(Before { made: made(manifest).map(str::to_owned), files })
+        let lock = Lock::take(folder)?;
+        // Another process may have been at work in between.
+        check()?;
+        remove_abandoned(folder, None);
+        let unknown = || manifest::unknown_results(folder).map(|_| Before::default());
+        let before = manifest::read(folder).as_ref().map_or_else(unknown, |manifest| {
+            let files = manifest::files(manifest).map(str::to_owned).collect();
+            Some(Before { made: manifest::made(manifest).map(str::to_owned), files })
         });
-        Ok(Self { folder: folder.to_owned(), request, formats, before, files: Vec::new(), told: Map::new() })
+        Ok(Self {
+            folder: folder.to_owned(),
+            request,
+            formats,
+            before,
+            files: Vec::new(),
+            placed: 0,
+            finished: false,
+            tables: BTreeMap::new(),
+            told: Map::new(),
+            journal: None,
+            _stage: Stage::of(folder),
+            _lock: lock,
+        })
     }
 
     /// The folder.
@@ -88,34 +130,35 @@ impl Results {
         &self.files
     }
 
-    /// The path for a file that belongs to the results; `name` may include folders.
+    /// The path to write a file to that belongs to the results; `name`, its path in the folder, may
+    /// include folders. [`Results::finish`] moves it there.
     ///
     /// # Errors
-    /// [`Error::Io`] where the older manifest cannot be removed: once a file is replaced it would
-    /// no longer be true.
+    /// [`Error::Io`], marked as a wrong request, where there is a folder of that name.
     pub fn place(&mut self, name: &str) -> Result<PathBuf> {
-        if self.files.is_empty() {
-            let manifest = self.folder.join(MANIFEST);
-            match fs::remove_file(&manifest) {
-                Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(failure(&manifest, error)),
-                _ => {}
-            }
+        let place = self.folder.join(name);
+        if place.is_dir() {
+            return Err(Error::io(place.display(), "this is a folder, where a file is to be written", true));
         }
         self.files.push(name.to_owned());
-        Ok(self.folder.join(name))
+        Ok(self.staged(name))
+    }
+
+    fn staged(&self, name: &str) -> PathBuf {
+        self.folder.join(STAGE).join(name)
     }
 
     /// Writes the picture `svg` in each format asked for, as `name` with the extension of the
-    /// format; `name` may include folders. Returns the paths.
+    /// format; `name` may include folders. Returns the paths that they get.
     ///
     /// # Errors
     /// As [`Results::place`] and [`Format::write`].
     pub fn draw(&mut self, name: &str, svg: &str) -> Result<Vec<PathBuf>> {
         let mut paths = Vec::new();
         for format in self.formats.clone() {
-            let path = self.place(&format!("{name}.{format}"))?;
-            format.write(&path, svg)?;
-            paths.push(path);
+            let name = format!("{name}.{format}");
+            format.write(&self.place(&name)?, svg)?;
+            paths.push(self.folder.join(name));
         }
         Ok(paths)
     }
@@ -125,7 +168,8 @@ impl Results {
         self.told.insert(key.to_owned(), value);
     }
 
-    /// The manifest: what was asked, when it was done, and which files belong to it.
+    /// The manifest: what was asked, when it was done, which files belong to it, and what is
+    /// recorded of its tables.
     #[must_use]
     pub fn manifest(&self) -> Value {
         let mut manifest = Map::new();
@@ -135,25 +179,105 @@ impl Results {
         manifest.extend(self.told.clone());
         manifest.insert("request".to_owned(), json!(self.request));
         manifest.insert("files".to_owned(), json!(self.files));
+        manifest.insert(TABLES.to_owned(), json!(self.tables));
         Value::Object(manifest)
     }
 
-    /// Writes the manifest and removes what is left of the earlier results. Returns the sentence
-    /// that says what was replaced, if anything was.
+    /// What is recorded of the tables written so far in the folder `prefix` of the results (empty
+    /// for these themselves), by their names there: rows, bytes, and the SHA-256.
     ///
     /// # Errors
-    /// [`Error::Io`] where the manifest cannot be written.
-    pub fn finish(&self) -> Result<Option<String>> {
-        if let Some(before) = &self.before {
-            before.files.iter().filter(|name| !self.files.contains(name)).for_each(|name| self.take_away(name));
+    /// [`Error::Io`] where one cannot be read.
+    pub fn tables(&mut self, prefix: &str) -> Result<Value> {
+        self.record()?;
+        let within = |name: &str| match prefix {
+            "" => Some(name.to_owned()),
+            prefix => name.strip_prefix(prefix)?.strip_prefix('/').map(str::to_owned),
+        };
+        Ok(self.tables.iter().filter_map(|(name, record)| Some((within(name)?, json!(record)))).collect())
+    }
+
+    fn record(&mut self) -> Result<()> {
+        for name in self.files.iter().skip(self.placed).filter(|name| name.ends_with(".csv")) {
+            if !self.tables.contains_key(name) {
+                let path = self.folder.join(STAGE).join(name);
+                let record = fs::File::open(&path).and_then(Record::of).map_err(|error| failure(&path, error))?;
+                self.tables.insert(name.clone(), record);
+            }
         }
-        let manifest = self.manifest();
-        write_whole(&self.folder.join(MANIFEST), format!("{manifest:#}\n").as_bytes())?;
-        let replaced = |before: &Before| {
-            let made = before.made.as_deref().map_or_else(String::new, |time| format!(", made {time}"));
+        Ok(())
+    }
+
+    /// Records the request in the folder, with the file `journal` in it, from which the request
+    /// goes on after an interruption, and which [`Results::finish`] removes last.
+    ///
+    /// # Errors
+    /// [`Error::Io`] where it cannot be written.
+    pub(crate) fn begin(&mut self, journal: &str) -> Result<()> {
+        self.journal = Some(journal.to_owned());
+        self.write_unfinished()
+    }
+
+    /// The manifest from the first change in the folder to the last: with the files of the earlier
+    /// results, which are still to be removed.
+    fn write_unfinished(&self) -> Result<()> {
+        let earlier = self.before.iter().flat_map(|before| &before.files).filter(|name| !self.files.contains(name));
+        let files: Vec<&String> = self.files.iter().chain(&self.journal).chain(earlier).collect();
+        let mut manifest = self.manifest();
+        manifest["files"] = json!(files);
+        manifest[UNFINISHED] = json!(true);
+        manifest::write(&self.folder, &manifest)
+    }
+
+    /// Takes over the results of this request in the folder, as they are: those of the tables
+    /// `tables`.
+    pub(crate) fn keep(&mut self, tables: impl IntoIterator<Item = (String, Record)>) {
+        self.tables.extend(tables);
+        self.files = self.tables.keys().cloned().collect();
+        self.placed = self.files.len();
+        self.finished = true;
+    }
+
+    /// Moves the files into their places, removes what is left of earlier results, and writes the
+    /// manifest; all of that reaches the disk in this order. Returns the sentence that says what
+    /// was replaced, if anything was. Files can be added afterwards, and it be called again.
+    ///
+    /// # Errors
+    /// [`Error::Io`] where a file cannot be moved or the manifest cannot be written.
+    pub fn finish(&mut self) -> Result<Option<String>> {
+        self.record()?;
+        if !self.finished {
+            self.write_unfinished()?;
+        }
+        let mut folders = BTreeSet::new();
+        for name in self.files.iter().skip(self.placed) {
+            let place = self.folder.join(name);
+            let folder = place.parent().unwrap_or(&self.folder).to_owned();
+            if !folders.contains(&folder) {
+                fs::create_dir_all(&folder).map_err(|error| failure(&folder, error))?;
+                remove_abandoned(&folder, None);
+            }
+            fs::rename(self.staged(name), &place).map_err(|error| failure(&place, error))?;
+            folders.insert(folder);
+        }
+        folders.iter().try_for_each(|folder| sync_folder(folder))?;
+        self.placed = self.files.len();
+        let before = self.before.take();
+        if let Some(before) = &before {
+            let stays = |name: &String| self.files.contains(name) || self.journal.as_ref() == Some(name);
+            before.files.iter().filter(|name| !stays(name)).for_each(|name| self.take_away(name));
+        }
+        manifest::write(&self.folder, &self.manifest())?;
+        if let Some(journal) = self.journal.take() {
+            // If it cannot be removed, the next process finds the results finished.
+            let _ = fs::remove_file(self.folder.join(journal));
+        }
+        self.finished = true;
+        let replaced = |before: Before| {
+            let made = before.made.map_or_else(String::new, |time| format!(", made {time}"));
             format!("replaced the results in {}{made}", self.folder.display())
         };
-        Ok(self.before.as_ref().map(replaced))
+        Ok(before.map(replaced))
     }
 
     /// Removes a file of the earlier results, and its folder if that is then empty. The manifest
@@ -170,88 +294,12 @@ impl Results {
         }
         let _ = fs::remove_file(self.folder.join(path));
         for folder in path.ancestors().skip(1).filter(|folder| !folder.as_os_str().is_empty()) {
+            remove_abandoned(&self.folder.join(folder), None);
             // This removes empty folders only.
             let _ = fs::remove_dir(self.folder.join(folder));
         }
     }
 }
-
-/// Checks that `folder` holds no results of another request than `request`.
-///
-/// # Errors
-/// [`Error::Io`], marked as a wrong request; it says when the other results were made and what
-/// differs.
-pub(crate) fn check(folder: &Path, request: &Map<String, Value>) -> Result<()> {
-    let refused = match read(folder) {
-        Some(other) => differences(other.get("request"), request).map(|what| {
-            format!("holds results of another request, made {}:{what}", made(&other).unwrap_or("at some time"))
-        }),
-        None => RESULTS
-            .iter()
-            .find(|name| folder.join(name).exists())
-            .map(|name| format!("holds results ({name}) but no {MANIFEST} that says which request made them")),
-    };
-    match refused {
-        Some(reason) => {
-            let reason = format!("{reason}\nhelp: --force replaces them, --out DIR writes elsewhere");
-            Err(Error::io(folder.display(), reason, true))
-        }
-        None => Ok(()),
-    }
-}
-
-/// The manifest in `folder`, if there is one that can be read.
-pub(crate) fn read(folder: &Path) -> Option<Value> {
-    let path = folder.join(MANIFEST);
-    let meta = fs::metadata(&path).ok().filter(|meta| meta.is_file() && meta.len() <= MOST_BYTES)?;
-    let text = fs::read_to_string(&path).ok().filter(|_| meta.len() > 0)?;
-    serde_json::from_str(&text).ok()
-}
-
-fn made(manifest: &Value) -> Option<&str> {
-    manifest.get("made").and_then(Value::as_str)
-}
-
-/// Adds the file `name` to those that `manifest`, the manifest in `folder`, lists.
-///
-/// # Errors
-/// [`Error::Io`] where it cannot be written.
-pub(crate) fn list(folder: &Path, mut manifest: Value, name: &str) -> Result<()> {
-    let Some(files) =
-        manifest.get_mut("files").and_then(Value::as_array_mut).filter(|files| !files.iter().any(|file| file == name))
-    else {
-        return Ok(());
-    };
-    files.push(json!(name));
-    write_whole(&folder.join(MANIFEST), format!("{manifest:#}\n").as_bytes())
-}
-
-/// How `request` differs from `other`, one line per difference; `None` where both ask the same.
-pub(crate) fn differences(other: Option<&Value>, request: &Map<String, Value>) -> Option<String> {
-    let empty = Map::new();
-    let other = other.and_then(Value::as_object).unwrap_or(&empty);
-    let keys = other.keys().chain(request.keys().filter(|key| !other.contains_key(*key)));
-    let (mut lines, mut parts) = (Vec::new(), Vec::new());
-    for key in keys.filter(|key| other.get(*key).unwrap_or(&Value::Null) != request.get(*key).unwrap_or(&Value::Null)) {
-        // A fingerprint shows that something differs; its digits mean nothing to the reader.
-        match key.strip_suffix(FINGERPRINT) {
-            Some(what) => parts.push(what),
-            None if key == VALUES => {}
-            None => lines.push(format!(
-                "{key}: {} there, {} asked",
-                shown(other.get(key).or(Some(&Value::Null))),
-                shown(request.get(key).or(Some(&Value::Null)))
-            )),
-        }
-    }
-    let (values, unnamed) = differing(&parts, other, request);
-    lines.extend(values);
-    lines.extend(unnamed.iter().map(|part| format!("another {}", part.replace('_', " "))));
-    (!lines.is_empty()).then(|| lines.iter().map(|line| format!("\n  {line}")).collect())
-}
-
-/// Suffix of the keys that hold fingerprints.
-pub const FINGERPRINT: &str = "_fingerprint";
 
 fn failure(path: &Path, error: std::io::Error) -> Error {
     Error::io(path.display(), error.to_string(), false).caused_by(error)
@@ -259,6 +307,8 @@ fn failure(path: &Path, error: std::io::Error) -> Error {
 
 #[cfg(test)]
 mod tests {
+    use super::super::atomic::write_whole;
+    use super::super::manifest::MANIFEST;
     use super::*;
 
     fn request(end: f64) -> Map<String, Value> {

@@ -1,11 +1,13 @@
 //! Files of one run, and the table of its walls; shared by `run`, `compare` and any other caller.
 
+use super::atomic::write_whole;
 use super::detail::Detail;
 use super::pictures::{Labelled, Sheet};
+use super::record::TABLES;
 use super::results::Results;
 use super::summary::{self, Checks, Reasons};
 use super::table::Table;
-use super::{Span, csv, supports};
+use super::{Span, csv, json, supports};
 use crate::case::Case;
 use crate::error::Result;
 use crate::qp::Backend;
@@ -33,7 +35,7 @@ pub struct Picture {
 /// Writes the files of one run: `trajectory.csv`, `contacts.csv`, of supports also `supports.csv`
 /// and `sectors.csv`, the figures, what `[statistics]` asks for, and `summary.json`, into the
 /// folder of `results` or, where `prefix` is not empty, into a folder of that name in it. Returns
-/// the summary.
+/// the summary, which records all tables written there so far.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
@@ -62,8 +64,10 @@ pub fn write(
         detail.write(results, title, named)?;
     }
     let checks = Checks { detail: detail.as_ref(), ..checks };
-    summary::write(&results.place(&named("summary.json"))?, case, run, reasons, checks)?;
-    summary::document(case, run, reasons, checks)
+    let mut document = summary::document(case, run, reasons, checks)?;
+    document[TABLES] = results.tables(prefix)?;
+    write_whole(&results.place(&named("summary.json"))?, json::text(&document).as_bytes())?;
+    Ok(document)
 }
 
 /// The table of walls for the terminal; where there are many, the walls of the largest impulses.

@@ -1,10 +1,14 @@
-//! The files of a folder of results, read and checked: a file that is missing or was changed gives
-//! an error that names file, line and column.
+//! The files of a folder of results, read and checked: a table that is missing or was changed since
+//! it was written, and a file that is not what it should be, give an error that names the file, and
+//! where it can line and column.
 
 use super::column;
+use crate::case::{MOST_TABLE_BYTES, open_regular, read_text};
 use crate::error::{Error, Result};
+use crate::output::record::{MOST_BYTES, Record};
 use csv::StringRecord;
 use serde_json::{Value, json};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// A folder of results.
@@ -34,18 +38,20 @@ pub(super) struct Cells {
 }
 
 impl Folder<'_> {
+    /// True if there is a file of that name, or was one when the results were written.
     pub fn has(&self, name: &str) -> bool {
-        self.path.join(name).is_file()
+        self.path.join(name).exists() || Record::read(self.manifest, name).is_some()
     }
 
     /// Rows and columns of the table in the file `name`.
     pub fn size(&self, name: &str) -> Result<(usize, usize)> {
         let file = self.path.join(name);
-        let wrong = |error: csv::Error| Error::io(file.display(), error.to_string(), true).caused_by(error);
-        let mut reader = csv::Reader::from_path(&file).map_err(wrong)?;
-        let columns = reader.byte_headers().map_err(wrong)?.len();
+        let (source, _) = open_regular(&file).map_err(|reason| wrong(&file, reason))?;
+        let failed = |error: csv::Error| wrong(&file, error.to_string()).caused_by(error);
+        let mut reader = csv::Reader::from_reader(source);
+        let columns = reader.byte_headers().map_err(failed)?.len();
         let (mut rows, mut row) = (0, csv::ByteRecord::new());
-        while reader.read_byte_record(&mut row).map_err(wrong)? {
+        while reader.read_byte_record(&mut row).map_err(failed)? {
             rows += 1;
         }
         Ok((rows, columns))
@@ -54,9 +60,24 @@ impl Folder<'_> {
     /// The JSON document in the file `name`.
     pub fn json(&self, name: &str) -> Result<Value> {
         let path = self.path.join(name);
-        let wrong = |reason: String| Error::io(path.display(), reason, true);
-        let text = std::fs::read_to_string(&path).map_err(|error| wrong(error.to_string()).caused_by(error))?;
-        serde_json::from_str(&text).map_err(|error| wrong(format!("not valid JSON: {error}")).caused_by(error))
+        let text = read_text(&path, MOST_TABLE_BYTES).map_err(|reason| wrong(&path, reason))?;
+        serde_json::from_str(&text).map_err(|error| wrong(&path, format!("not valid JSON: {error}")).caused_by(error))
+    }
+
+    /// The bytes of the table in the file `name`, which is the one that was recorded when it was
+    /// written; of a version that recorded nothing, whatever is there.
+    fn table(&self, name: &str) -> Result<Vec<u8>> {
+        let path = self.path.join(name);
+        if let Some(record) = Record::read(self.manifest, name) {
+            return record.bytes(&path);
+        }
+        let (mut source, length) = open_regular(&path).map_err(|reason| wrong(&path, reason))?;
+        if length > MOST_BYTES {
+            return Err(wrong(&path, format!("has {length} bytes; a table that is shown has {MOST_BYTES} at most")));
+        }
+        let mut bytes = Vec::new();
+        let read = source.read_to_end(&mut bytes);
+        read.map_err(|error| wrong(&path, error.to_string()).caused_by(error)).map(|_| bytes)
     }
 
     /// The table in the file `name`, all cells numbers.
@@ -74,12 +95,18 @@ impl Folder<'_> {
     /// The table in the file `name`; every row has as many cells as the header.
     pub fn cells(&self, name: &str) -> Result<Cells> {
         let file = self.path.join(name);
-        let wrong = |error: csv::Error| Error::io(file.display(), error.to_string(), true).caused_by(error);
-        let mut reader = csv::Reader::from_path(&file).map_err(wrong)?;
-        let header = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
-        let rows = reader.records().collect::<std::result::Result<_, _>>().map_err(wrong)?;
+        let failed = |error: csv::Error| wrong(&file, error.to_string()).caused_by(error);
+        let bytes = self.table(name)?;
+        let mut reader = csv::Reader::from_reader(bytes.as_slice());
+        let header = reader.headers().map_err(failed)?.iter().map(str::to_owned).collect();
+        let rows = reader.records().collect::<std::result::Result<_, _>>().map_err(failed)?;
         Ok(Cells { file, header, rows })
     }
+}
+
+/// A wrong request: the file at `path` is not what it should be.
+fn wrong(path: &Path, reason: impl Into<String>) -> Error {
+    Error::io(path.display(), reason, true)
 }
 
 impl Numbers {

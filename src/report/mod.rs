@@ -32,6 +32,7 @@ mod sweep;
 pub use html::FILE;
 
 use crate::error::{Error, Result};
+use crate::output::manifest;
 use folder::Folder;
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -52,9 +53,15 @@ pub fn too_large(path: &Path, manifest: &Value) -> Result<Option<String>> {
 ///
 /// # Errors
 /// [`Error::Io`], a wrong request, where the folder holds the results of a command that has no
-/// report, or where one of its files is missing or is not what that command writes.
+/// report, or results that are not finished, or where one of its files is missing, was changed or
+/// is not what that command writes.
 pub fn page(path: &Path, manifest: &Value) -> Result<String> {
     let folder = Folder { path, manifest };
+    if !manifest::is_finished(manifest) {
+        let reason = "its results are not finished: a run was interrupted, or is still at work\n\
+                      help: the same command writes them again, a sweep goes on";
+        return Err(Error::io(path.display(), reason, true));
+    }
     let command = manifest["request"]["command"].as_str().unwrap_or_default();
     let contents = match command {
         "run" => run::contents(&folder)?,

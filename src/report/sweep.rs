@@ -3,7 +3,7 @@
 use super::folder::{Cells, Folder};
 use super::html::FILE;
 use crate::error::{Error, Result};
-use crate::output::results;
+use crate::output::manifest::MANIFEST;
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::Path;
@@ -76,7 +76,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "unjudged": summary["status"]["unjudged"].as_u64().unwrap_or(0),
         },
         "case": folder.manifest["case_text"],
-        "summary": { "status": summary["status"], "first_error": summary["first_error"], results::MANIFEST: request },
+        "summary": { "status": summary["status"], "first_error": summary["first_error"], MANIFEST: request },
     }))
 }
 

@@ -100,9 +100,9 @@ impl Attractors {
         at as u64 + 1
     }
 
-    /// Writes them into `folder`, of a sweep of `rows` rows.
-    pub fn write(&self, folder: &Path, rows: u64) -> Result<()> {
-        let mut file = WholeFile::create(&folder.join(ATTRACTORS))?;
+    /// Writes them to the file at `path`, of a sweep of `rows` rows.
+    pub fn write(&self, path: &Path, rows: u64) -> Result<()> {
+        let mut file = WholeFile::create(path)?;
         let header: Vec<String> = COUNTED.iter().chain(&TOLD).map(|&name| name.to_owned()).collect();
         let lines = self.0.iter().zip(1_u64..).map(|(known, number)| {
             let share = digits(Some(known.rows as f64 / rows.max(1) as f64));
@@ -204,7 +204,7 @@ mod tests {
         assert_eq!(attractors.number(&orbit(&[[-1.0, -2.0], [-3.0, -4.0], [-5.0, -6.0]])), 5);
         assert_eq!(attractors.number(&chaotic()), 2);
         let folder = tempfile::tempdir().unwrap();
-        attractors.write(folder.path(), 10).unwrap();
+        attractors.write(&folder.path().join(ATTRACTORS), 10).unwrap();
         assert_eq!(Attractors::read(folder.path()).unwrap()[3], orbit(&[[5.0, 6.0], [1.0, 2.0], [3.0, 4.1]]));
         assert_eq!(
             named(folder.path()).unwrap()[..2],

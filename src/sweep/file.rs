@@ -5,7 +5,7 @@ use super::picture::{Kind, Picture};
 use super::random::Random;
 use super::request::{Kernel, MOST_SAMPLES, Stretch, Sweep};
 use super::vary::Vary;
-use crate::case::{CaseFile, Embedded, KeyValue};
+use crate::case::{CaseFile, Embedded, KeyValue, read_text};
 use crate::error::{Error, Result};
 use serde::Deserialize;
 use std::path::Path;
@@ -96,11 +96,7 @@ impl Sweep {
     /// valid sweep file, and the errors of the parts of a sweep.
     pub fn read(path: &Path) -> Result<Self> {
         let failed = |reason: String| Error::io(path.display(), reason, true);
-        let length = std::fs::metadata(path).map_err(|error| failed(error.to_string()))?.len();
-        if length > MOST_BYTES {
-            return Err(failed(format!("more than {MOST_BYTES} bytes")));
-        }
-        let text = std::fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
+        let text = read_text(path, MOST_BYTES).map_err(failed)?;
         Self::parse(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new("")))
     }
 

@@ -1,12 +1,14 @@
 //! The tables of a sweep, in the order of their rows.
 
-use super::attractors::{self, Attractors};
+use super::attractors::{self, ATTRACTORS, Attractors};
 use super::journal::Journal;
 use super::plan::Plan;
 use super::row::Status;
 use super::table::{SAMPLES, TABLE, cells_of, line_of, with_number};
+use crate::case::open_regular;
 use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
+use crate::output::results::Results;
 use std::io::Write;
 use std::path::Path;
 
@@ -46,8 +48,12 @@ impl Tables {
     /// [`Error::Io`] for a table that cannot be read.
     pub(crate) fn undecided(&self, folder: &Path) -> Result<Option<u64>> {
         let Some(found) = attractors::rows_found(folder)? else { return Ok(None) };
-        let all: u64 = self.counts.iter().map(|(_, count)| count).sum();
-        Ok(Some((all - self.bad()).saturating_sub(found)))
+        Ok(Some((self.rows() - self.bad()).saturating_sub(found)))
+    }
+
+    /// Number of all rows.
+    pub(super) fn rows(&self) -> u64 {
+        self.counts.iter().map(|(_, count)| count).sum()
     }
 
     /// The counts of a table that exists.
@@ -56,7 +62,8 @@ impl Tables {
     /// [`Error::Io`] for a file that cannot be read.
     pub fn read(path: &Path) -> Result<Self> {
         let failed = |error: csv::Error| Error::io(path.display(), error.to_string(), false);
-        let mut reader = csv::Reader::from_path(path).map_err(failed)?;
+        let (file, _) = open_regular(path).map_err(|reason| Error::io(path.display(), reason, true))?;
+        let mut reader = csv::Reader::from_reader(file);
         let columns = Columns::of(reader.headers().map_err(failed)?);
         let mut tables = Self::default();
         let mut record = csv::StringRecord::new();
@@ -85,8 +92,8 @@ impl Columns {
     }
 }
 
-/// Writes the tables from the journal, each whole or not at all.
-pub(super) fn write_tables(plan: &Plan, folder: &Path, journal: &mut Journal, rows: u64) -> Result<Tables> {
+/// Adds the tables, written from the journal, to `results`.
+pub(super) fn write_tables(plan: &Plan, results: &mut Results, journal: &mut Journal, rows: u64) -> Result<Tables> {
     let failed = |path: &Path, error: &std::io::Error| {
         Error::io(
             path.display(),
@@ -94,8 +101,9 @@ pub(super) fn write_tables(plan: &Plan, folder: &Path, journal: &mut Journal, ro
             false,
         )
     };
-    let mut table = WholeFile::create(&folder.join(TABLE))?;
-    let mut samples = plan.sweep.samples.map(|_| WholeFile::create(&folder.join(SAMPLES))).transpose()?;
+    let mut table = WholeFile::create(&results.place(TABLE)?)?;
+    let mut samples =
+        plan.sweep.samples.map(|_| results.place(SAMPLES).and_then(|path| WholeFile::create(&path))).transpose()?;
     let put = |file: &mut WholeFile, bytes: &[u8]| {
         let written = file.write_all(bytes);
         written.map_err(|error| failed(file.path(), &error))
@@ -110,7 +118,7 @@ pub(super) fn write_tables(plan: &Plan, folder: &Path, journal: &mut Journal, ro
     for place in 0..rows {
         let block = journal
             .read(place as usize)?
-            .ok_or_else(|| Error::io(folder.display(), "a row is missing in the journal".to_owned(), false))?;
+            .ok_or_else(|| Error::io(results.folder().display(), "a row is missing in the journal", false))?;
         let record = cells_of(&block.line);
         columns.count(&record, &mut tables);
         match attractor_column {
@@ -128,7 +136,7 @@ pub(super) fn write_tables(plan: &Plan, folder: &Path, journal: &mut Journal, ro
         samples.finish()?;
     }
     if attractor_column.is_some() {
-        attractors.write(folder, rows)?;
+        attractors.write(&results.place(ATTRACTORS)?, rows)?;
     }
     table.finish()?;
     Ok(tables)

@@ -1,31 +1,41 @@
-//! The folder of a sweep: the request recorded in it, the rows done, and what may be replaced.
+//! The folder of a sweep: the request recorded in it, the rows done, and whether its tables are as
+//! they were written.
 
 use super::attractors::ATTRACTORS;
 use super::axis::Axis;
+use super::finish::Tables;
+use super::journal::JOURNAL;
 use super::picture::Picture;
 use super::plan::Plan;
 use super::request::Stretch;
 use super::shard::Shard;
 use super::table::{SAMPLES, TABLE};
 use crate::batch::Width;
-use crate::case::sha256;
+use crate::case::{open_regular, sha256};
 use crate::error::{Error, Result};
 use crate::output::asked::{asked, with};
 use crate::output::atomic::write_whole;
 use crate::output::json;
-use crate::output::results::{self, FINGERPRINT};
+use crate::output::manifest::{self, FINGERPRINT};
+use crate::output::record::{Record, TABLES};
+use crate::output::results::Results;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
+/// The tables of a sweep, each of which may be absent but the first.
+const TABLE_NAMES: [&str; 3] = [TABLE, SAMPLES, ATTRACTORS];
+
 /// The contents of a folder.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug)]
 pub(super) enum State {
     /// No row of this request.
     Empty,
     /// Some of its rows, in the journal.
     Begun,
-    /// All of its rows, in tables.
-    Finished,
+    /// All of its rows, in tables, which are as they were written.
+    Finished { tables: Tables, records: Vec<(String, Record)> },
+    /// Tables that are no longer as they were written, and which.
+    Damaged(String),
 }
 
 impl Plan {
@@ -94,22 +104,61 @@ pub(super) fn arithmetic() -> String {
     sha256(&bytes)
 }
 
-/// What `folder` contains of `request`. With `force`, its contents are ignored.
+/// What `folder` contains of the request that its manifest names, which has `rows` rows.
+pub(super) fn state(folder: &Path, rows: u64) -> State {
+    let Some(manifest) = manifest::read(folder) else { return State::Empty };
+    let listed = |name: &str| manifest::files(&manifest).any(|file| file == name);
+    if !(listed(TABLE) && manifest::is_finished(&manifest)) {
+        return if listed(JOURNAL) { State::Begun } else { State::Empty };
+    }
+    // The first line alone: what to do about it is being done.
+    let damaged = |error: Error| State::Damaged(error.to_string().lines().next().unwrap_or_default().to_owned());
+    let mut records = match verified(folder, &manifest) {
+        Ok(records) => records,
+        Err(error) => return damaged(error),
+    };
+    // A version that recorded nothing listed all names, whether there were such files or not.
+    for name in TABLE_NAMES {
+        let path = folder.join(name);
+        if listed(name) && path.exists() && records.iter().all(|(known, _)| known != name) {
+            let reason = |reason: String| Error::io(path.display(), reason, true);
+            let found = open_regular(&path).map_err(reason).and_then(|(file, length)| {
+                let record = Record::of(file).map_err(|error| reason(error.to_string()))?;
+                if length > 0 { Ok(record) } else { Err(reason("is empty".to_owned())) }
+            });
+            match found {
+                Ok(record) => records.push((name.to_owned(), record)),
+                Err(error) => return damaged(error),
+            }
+        }
+    }
+    let path = folder.join(TABLE);
+    let tables = match Tables::read(&path) {
+        Ok(tables) => tables,
+        Err(error) => return damaged(error),
+    };
+    let count = tables.rows();
+    if count != rows {
+        return State::Damaged(format!("{}: has {count} of {rows} rows", path.display()));
+    }
+    State::Finished { tables, records }
+}
+
+/// The tables in `folder` with what `manifest` records of each, which it still has; empty for a
+/// manifest of a version that recorded nothing.
 ///
 /// # Errors
-/// [`Error::Io`] (a wrong request) if it contains results of another request.
-pub(super) fn look(folder: &Path, request: &Map<String, Value>, force: bool) -> Result<State> {
-    if force {
-        return Ok(State::Empty);
+/// [`Error::Io`], a wrong request, for a table that was emptied, shortened, changed or removed, or
+/// is no regular file.
+pub(super) fn verified(folder: &Path, manifest: &Value) -> Result<Vec<(String, Record)>> {
+    let mut records = Vec::new();
+    for name in TABLE_NAMES {
+        if let Some(record) = Record::read(manifest, name) {
+            record.verify(&folder.join(name))?;
+            records.push((name.to_owned(), record));
+        }
     }
-    results::check(folder, request)?;
-    let Some(manifest) = results::read(folder) else { return Ok(State::Empty) };
-    let listed = |name: &str| manifest["files"].as_array().is_some_and(|files| files.iter().any(|file| file == name));
-    Ok(match (listed(TABLE) && folder.join(TABLE).exists(), listed(super::journal::JOURNAL)) {
-        (true, _) => State::Finished,
-        (false, true) => State::Begun,
-        (false, false) => State::Empty,
-    })
+    Ok(records)
 }
 
 /// What is recorded in a folder beside the request, and changes no number.
@@ -133,35 +182,17 @@ impl Study {
     }
 }
 
-/// Writes to `folder` the request and the list of its files.
-///
-/// # Errors
-/// [`Error::Io`] where it cannot be written.
-pub(super) fn say(
-    folder: &Path,
-    request: &Map<String, Value>,
-    study: &Study,
-    shard: Shard,
-    finished: bool,
-) -> Result<()> {
-    // Files that do not exist are not removed.
-    let files: &[&str] = if finished {
-        &[TABLE, SAMPLES, ATTRACTORS, "summary.json", "sweep.svg", "sweep.pdf", "sweep.png", "report.html"]
-    } else {
-        &[super::journal::JOURNAL]
-    };
-    let manifest = json!({
-        "program": program(),
-        "made": humantime::format_rfc3339_seconds(std::time::SystemTime::now()).to_string(),
-        "request": request,
-        "shard": shard.to_string(),
-        "arithmetic": arithmetic(),
-        "case_text": study.case_text,
-        "title": study.title,
-        "picture": study.picture.document(),
-        "files": files,
-    });
-    write_whole(&folder.join(results::MANIFEST), format!("{manifest:#}\n").as_bytes())
+/// Adds to the manifest of `results` what is recorded beside the request.
+pub(super) fn tell(results: &mut Results, study: &Study, shard: Shard) {
+    for (key, value) in [
+        ("shard", json!(shard.to_string())),
+        ("arithmetic", json!(arithmetic())),
+        ("case_text", json!(study.case_text)),
+        ("title", json!(study.title)),
+        ("picture", study.picture.document()),
+    ] {
+        results.tell(key, value);
+    }
 }
 
 /// The request of a shard: that of the whole sweep, and the number of the shard.
@@ -172,12 +203,15 @@ pub(super) fn of_shard(mut request: Map<String, Value>, shard: Shard) -> Map<Str
     request
 }
 
-/// Writes `summary.json` of a sweep into `folder`.
+/// Adds `summary.json` of a sweep to `results`: `document`, and what is recorded of the tables.
+/// Returns the whole document.
 ///
 /// # Errors
 /// [`Error::Io`] where it cannot be written.
-pub(crate) fn write_summary(folder: &Path, document: &Value) -> Result<()> {
-    write_whole(&folder.join("summary.json"), json::text(document).as_bytes())
+pub(crate) fn write_summary(results: &mut Results, mut document: Value) -> Result<Value> {
+    document[TABLES] = results.tables("")?;
+    write_whole(&results.place("summary.json")?, json::text(&document).as_bytes())?;
+    Ok(document)
 }
 
 /// An error of a wrong request that concerns `folder`.

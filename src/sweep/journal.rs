@@ -8,7 +8,7 @@
 
 use crate::error::{Error, Result};
 use crate::scene::State;
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -30,7 +30,7 @@ struct Extent {
     length: u32,
 }
 
-/// An open journal; it is locked against other processes.
+/// An open journal, in a folder that is locked against other processes.
 #[derive(Debug)]
 pub(super) struct Journal {
     path: PathBuf,
@@ -88,23 +88,18 @@ impl Journal {
     /// `position` gives the position of a row in this journal from its number.
     ///
     /// # Errors
-    /// [`Error::Io`] if it cannot be opened, or another process has locked it.
+    /// [`Error::Io`] if it cannot be opened.
     pub fn open(folder: &Path, rows: u64, anew: bool, position: impl Fn(u64) -> Option<usize>) -> Result<Self> {
         let path = folder.join(JOURNAL);
         let failed = |error: &std::io::Error| failure(&path, error, true);
         let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
         let mut file = opened.map_err(|error| failed(&error))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                let reason = "another process is at work in this folder".to_owned();
-                return Err(Error::io(folder.display(), reason, true));
-            }
-            // A file system without locks: the caller must not run two processes at once.
-            Err(TryLockError::Error(_)) => {}
+        if !file.metadata().is_ok_and(|meta| meta.is_file()) {
+            return Err(Error::io(path.display(), "not a regular file", true));
         }
         if anew {
-            file.set_len(0).map_err(|error| failed(&error))?;
+            // On the disk before the folder says whose rows these are.
+            file.set_len(0).and_then(|()| file.sync_all()).map_err(|error| failed(&error))?;
         }
         let mut extents = vec![Extent::default(); usize::try_from(rows).unwrap_or(usize::MAX)];
         let (mut done, mut end) = (0, 0);
@@ -190,12 +185,6 @@ impl Journal {
         let back = file.seek(SeekFrom::Start(self.end));
         read.and(back).map_err(|error| failure(&self.path, &error, false))?;
         Ok(Block::read(&bytes))
-    }
-
-    /// Removes the journal.
-    pub fn remove(self) {
-        // If it cannot be removed, the next process finds all rows done.
-        let _ = std::fs::remove_file(&self.path);
     }
 }
 
@@ -310,15 +299,5 @@ mod tests {
             std::fs::write(&path, &damaged).unwrap();
             assert!(open(folder.path()).done() < 3, "bit at {at}");
         }
-    }
-
-    #[test]
-    fn a_journal_is_one_process_s_at_a_time() {
-        let folder = tempfile::tempdir().unwrap();
-        let first = open(folder.path());
-        let second = Journal::open(folder.path(), 10, false, |row| usize::try_from(row).ok());
-        assert!(second.unwrap_err().to_string().contains("another process"));
-        drop(first);
-        open(folder.path());
     }
 }

@@ -1,17 +1,21 @@
-//! Joins shards into the files of the whole sweep, with the same bytes as without shards.
+//! Joins shards into the files of the whole sweep, with the same bytes as without shards. The
+//! tables of the shards are those that were recorded when they were written, or nothing is written.
 
-use super::attractors::Joined;
+use super::attractors::{ATTRACTORS, Joined};
 use super::finish::{Columns, Tables};
 use super::folder::{self, Study, wrong};
 use super::picture::Picture;
 use super::shard::Shard;
 use super::table::{SAMPLES, TABLE, cells_of};
+use crate::case::open_regular;
 use crate::error::{Error, Result};
-use crate::output::atomic::{WholeFile, check_folder};
-use crate::output::results;
+use crate::output::atomic::WholeFile;
+use crate::output::format::Format;
+use crate::output::manifest;
+use crate::output::results::Results;
 use serde_json::{Map, Value};
 use std::fs::File;
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufRead, BufReader, Take, Write};
 use std::path::{Path, PathBuf};
 
 /// The result of a merge.
@@ -32,6 +36,9 @@ pub struct Merged {
     pub picture: Picture,
     /// True if the shards were computed with mathematical libraries that differ in their last bits.
     pub differing_arithmetic: bool,
+    /// The shards of a version that recorded nothing of its tables, so that only their numbers of
+    /// rows were checked.
+    pub unverified: Vec<PathBuf>,
 }
 
 /// One shard, in its folder.
@@ -42,11 +49,12 @@ struct Part {
     arithmetic: Value,
     study: Study,
     finished: bool,
+    manifest: Value,
 }
 
 impl Part {
     fn read(folder: &Path) -> Result<Self> {
-        let manifest = results::read(folder)
+        let manifest = manifest::read(folder)
             .ok_or_else(|| wrong(folder, "not a shard of a sweep: it has no request.json".to_owned()))?;
         let mut request = manifest["request"].as_object().cloned().unwrap_or_default();
         if request.get("command").and_then(Value::as_str) != Some("sweep") {
@@ -56,14 +64,15 @@ impl Part {
             Some(shard) => shard.as_str().unwrap_or_default().parse()?,
             None => Shard::WHOLE,
         };
-        let finished = manifest["files"].as_array().is_some_and(|files| files.iter().any(|file| file == TABLE));
+        let finished = manifest::is_finished(&manifest) && manifest::files(&manifest).any(|file| file == TABLE);
         Ok(Self {
             folder: folder.to_owned(),
             shard,
             request,
             arithmetic: manifest["arithmetic"].clone(),
             study: Study::read(&manifest),
-            finished: finished && folder.join(TABLE).exists(),
+            finished,
+            manifest,
         })
     }
 }
@@ -72,7 +81,7 @@ impl Part {
 fn expanded(folders: &[PathBuf]) -> Result<Vec<PathBuf>> {
     let mut all = Vec::new();
     for folder in folders {
-        if results::read(folder).is_some() {
+        if manifest::read(folder).is_some() {
             all.push(folder.clone());
             continue;
         }
@@ -96,14 +105,25 @@ fn expanded(folders: &[PathBuf]) -> Result<Vec<PathBuf>> {
 ///
 /// # Errors
 /// [`Error::Io`] (a wrong request) for a shard that is missing, unfinished, given twice or of
-/// another request, and for an `out` that contains other results.
+/// another request, for one with a table that is no longer as it was written, and for an `out` that
+/// contains other results, or to which another process writes. Nothing is written then.
 pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged> {
+    merge_in(folders, out, force, Vec::new()).map(|(merged, _)| merged)
+}
+
+/// As [`merge`]; also returns the folder, where files can be added, pictures in each of `formats`.
+pub(crate) fn merge_in(
+    folders: &[PathBuf],
+    out: &Path,
+    force: bool,
+    formats: Vec<Format>,
+) -> Result<(Merged, Results)> {
     let mut parts = expanded(folders)?.iter().map(|folder| Part::read(folder)).collect::<Result<Vec<_>>>()?;
     parts.sort_by_key(|part| part.shard.index());
     let first = parts.first().ok_or_else(|| Error::invalid("merge", "nothing", "the folders of shards"))?;
     let of = first.shard.of();
     for part in &parts {
-        if let Some(what) = results::differences(Some(&Value::Object(first.request.clone())), &part.request) {
+        if let Some(what) = manifest::differences(Some(&Value::Object(first.request.clone())), &part.request) {
             return Err(wrong(
                 &part.folder,
                 format!("a shard of another request than {}:{what}", first.folder.display()),
@@ -138,33 +158,38 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged> {
         return Err(wrong(out, format!("{} of {of} shards are missing: {shown}{more}", missing.len())));
     }
     let request = first.request.clone();
-    if !force {
-        results::check(out, &request)?;
-    }
-    check_folder(out)?;
     let number = |key: &str| request.get(key).and_then(Value::as_u64).filter(|x| *x > 0);
     let (Some(rows), Some(length)) = (number("rows"), number("rows_of_a_chain")) else {
         return Err(wrong(&first.folder, "its request.json does not say how many rows there are".to_owned()));
     };
     let sampled = request.get("sample_columns").is_some_and(Value::is_array);
-    let tables = tables(&parts, out, rows, length, sampled)?;
-    folder::say(out, &request, &first.study, Shard::WHOLE, true)?;
+    let mut unverified = Vec::new();
+    for part in &parts {
+        if folder::verified(&part.folder, &part.manifest)?.is_empty() {
+            unverified.push(part.folder.clone());
+        }
+    }
+    let mut results = Results::open(out, request.clone(), force, formats)?;
+    folder::tell(&mut results, &first.study, Shard::WHOLE);
+    let tables = tables(&parts, &mut results, rows, length, sampled)?;
+    results.finish()?;
     let differing_arithmetic = parts.iter().any(|part| part.arithmetic != first.arithmetic);
     let Study { title, picture, .. } = first.study.clone();
-    Ok(Merged { rows, shards: parts.len(), tables, request, title, picture, differing_arithmetic })
+    let shards = parts.len();
+    Ok((Merged { rows, shards, tables, request, title, picture, differing_arithmetic, unverified }, results))
 }
 
 /// Lines of one file, each with the number of its row.
 struct Lines {
     path: PathBuf,
-    reader: BufReader<File>,
+    reader: BufReader<Take<File>>,
     line: Vec<u8>,
 }
 
 impl Lines {
     /// Opens the file; the header is the first line.
     fn open(path: PathBuf) -> Result<Self> {
-        let file = File::open(&path).map_err(|error| wrong(&path, error.to_string()))?;
+        let (file, _) = open_regular(&path).map_err(|reason| wrong(&path, reason))?;
         let mut lines = Self { path, reader: BufReader::with_capacity(1 << 16, file), line: Vec::new() };
         lines.next()?;
         Ok(lines)
@@ -183,14 +208,14 @@ impl Lines {
     }
 }
 
-fn tables(parts: &[Part], out: &Path, rows: u64, length: u64, sampled: bool) -> Result<Tables> {
+fn tables(parts: &[Part], results: &mut Results, rows: u64, length: u64, sampled: bool) -> Result<Tables> {
     let failed = |path: &Path, error: &std::io::Error| Error::io(path.display(), error.to_string(), false);
     let open = |name: &str| parts.iter().map(|part| Lines::open(part.folder.join(name))).collect::<Result<Vec<_>>>();
     let folders: Vec<&Path> = parts.iter().map(|part| part.folder.as_path()).collect();
     let mut tables = Tables::default();
     for name in [Some(TABLE), sampled.then_some(SAMPLES)].into_iter().flatten() {
         let mut sources = open(name)?;
-        let mut file = WholeFile::create(&out.join(name))?;
+        let mut file = WholeFile::create(&results.place(name)?)?;
         let header = sources.first().map(|lines| lines.line.clone()).unwrap_or_default();
         let columns = Columns::of(&cells_of(&header));
         let mut joined = if name == TABLE { Joined::of(&cells_of(&header), &folders)? } else { None };
@@ -216,8 +241,12 @@ fn tables(parts: &[Part], out: &Path, rows: u64, length: u64, sampled: bool) -> 
                 return Err(wrong(&lines.path, format!("row {row} is there {found} times")));
             }
         }
+        if let Some(left) = sources.iter().find(|lines| !lines.line.is_empty()) {
+            let line = String::from_utf8_lossy(left.line.split(|&b| b == b',').next().unwrap_or_default()).into_owned();
+            return Err(wrong(&left.path, format!("a line of row {line:?} stands where none belongs")));
+        }
         if let Some(joined) = joined {
-            joined.all.write(out, rows)?;
+            joined.all.write(&results.place(ATTRACTORS)?, rows)?;
         }
         file.finish()?;
     }

@@ -69,6 +69,7 @@ pub use finish::Tables;
 pub(crate) use folder::write_summary;
 pub use follow::Follow;
 pub use measure::{Measure, Scope};
+pub(crate) use merge::merge_in;
 pub use merge::{Merged, merge};
 pub use picture::{Kind, Picture};
 pub use plan::Plan;

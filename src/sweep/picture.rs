@@ -3,7 +3,7 @@
 use super::columns::{Along, Source, of};
 use super::measure::Measure;
 use crate::error::{Error, Result};
-use crate::output::format::Format;
+use crate::output::results::Results;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -138,28 +138,20 @@ impl Picture {
         Self { kind, x: word("x"), y: word("y"), z: word("z"), wall: word("wall") }
     }
 
-    /// Draws the picture of the tables in `folder`, of the request `request`, in each of `formats`,
-    /// and returns the paths, none if the tables contain nothing to draw, and the names of what is
-    /// left out.
+    /// Draws the picture of the tables of `results`, of the request `request`, and returns the
+    /// paths, none if the tables contain nothing to draw, and the names of what is left out.
     ///
     /// # Errors
     /// [`Error::Unknown`] for a column that the tables do not have, [`Error::Io`] if they cannot be
     /// read or the picture cannot be written.
     pub(crate) fn draw(
         &self,
-        folder: &Path,
+        results: &mut Results,
         request: &Map<String, Value>,
         title: &str,
-        formats: &[Format],
     ) -> Result<(Vec<PathBuf>, Vec<String>)> {
-        let Some(drawn) = self.drawn(folder, request, title)? else { return Ok(Default::default()) };
-        let mut paths = Vec::new();
-        for format in formats {
-            let path = folder.join(format!("sweep.{format}"));
-            format.write(&path, &drawn.svg)?;
-            paths.push(path);
-        }
-        Ok((paths, drawn.left_out))
+        let Some(drawn) = self.drawn(results.folder(), request, title)? else { return Ok(Default::default()) };
+        Ok((results.draw("sweep", &drawn.svg)?, drawn.left_out))
     }
 
     /// The picture; `None` if there is nothing to draw.

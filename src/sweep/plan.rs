@@ -8,7 +8,7 @@ use super::request::{Kernel, Stretch, Sweep};
 use super::target::Target;
 use crate::case::{Case, Key, KeyValue, Template};
 use crate::error::{Error, Result};
-use crate::output::format::Format;
+use crate::output::results::Results;
 use crate::scene::{Scene, State};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice::choose;
@@ -161,10 +161,10 @@ impl Plan {
         self.order.len() as u64
     }
 
-    /// Draws its picture from the tables in `folder`, as `sweep.svg`, `sweep.pdf` or `sweep.png`,
+    /// Draws its picture from the tables of `results`, as `sweep.svg`, `sweep.pdf` or `sweep.png`,
     /// and returns the paths, and the names of what it leaves out.
-    pub(crate) fn draw(&self, folder: &Path, formats: &[Format]) -> Result<(Vec<PathBuf>, Vec<String>)> {
-        self.sweep.picture.draw(folder, &self.request(), &self.sweep.title, formats)
+    pub(crate) fn draw(&self, results: &mut Results) -> Result<(Vec<PathBuf>, Vec<String>)> {
+        self.sweep.picture.draw(results, &self.request(), &self.sweep.title)
     }
 
     /// Its picture, as SVG text, from the tables in `folder`, to which [`Plan::run_into`] has

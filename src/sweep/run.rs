@@ -12,7 +12,8 @@ use super::shard::Shard;
 use super::table::TABLE;
 use crate::error::{Error, Result};
 use crate::interrupt::Carried;
-use crate::output::atomic::check_folder;
+use crate::output::format::Format;
+use crate::output::results::Results;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -61,6 +62,9 @@ pub struct Finished {
     pub found: u64,
     /// Number of rows by status.
     pub tables: Tables,
+    /// Which table of earlier results was emptied, shortened, changed or removed, so that the rows
+    /// were computed again.
+    pub damaged: Option<String>,
     /// Wall-clock time of this process, s.
     pub seconds: f64,
     /// Number of threads of this process.
@@ -87,39 +91,66 @@ impl Plan {
 
     /// Runs the sweep into `folder`: `sweep.csv`, `samples.csv` if instants are requested, and
     /// `request.json`. After an interruption at any instant, the same call continues, and ends with
-    /// the same bytes, whatever the number of threads. `progress` is called from time to time.
+    /// the same bytes, whatever the number of threads. Finished tables are read: where one is no
+    /// longer as it was written, all rows are computed again. `progress` is called from time to
+    /// time.
     ///
     /// # Errors
     /// [`Error::Io`] for a folder with results of another request, one that another process is
     /// writing to, and if writing fails.
     pub fn run_into(&self, folder: &Path, manner: Manner, progress: &dyn Fn(Progress)) -> Result<Finished> {
+        self.run_in(folder, manner, Vec::new(), progress, &|_| ()).map(|(finished, _)| finished)
+    }
+
+    /// As [`Plan::run_into`]; also returns the folder, in whose place files can be added, pictures
+    /// in each of `formats`. `told` is called with what the folder holds that is damaged, before
+    /// its rows are computed again.
+    pub(crate) fn run_in(
+        &self,
+        folder: &Path,
+        manner: Manner,
+        formats: Vec<Format>,
+        progress: &dyn Fn(Progress),
+        told: &dyn Fn(&str),
+    ) -> Result<(Finished, Results)> {
         let started = Instant::now();
         let folder = manner.shard.folder(folder);
         let request = folder::of_shard(self.request(), manner.shard);
-        let state = folder::look(&folder, &request, manner.force)?;
-        check_folder(&folder)?;
+        let mut results = Results::open(&folder, request, manner.force, formats)?;
+        folder::tell(&mut results, &Study::of(self)?, manner.shard);
         let all = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = manner.threads.unwrap_or(all).max(1);
         let rows = manner.shard.chains(self.chains) * self.chain_rows();
-        if state == State::Finished {
-            let tables = Tables::read(&folder.join(TABLE))?;
-            let _ = std::fs::remove_file(folder.join(JOURNAL));
-            return Ok(Finished { folder, rows, found: rows, tables, seconds: 0.0, threads });
+        let state = if manner.force { State::Empty } else { folder::state(&folder, rows) };
+        let mut damaged = None;
+        let anew = matches!(state, State::Empty);
+        match state {
+            State::Finished { tables, records } => {
+                // What an interruption after the last row has left.
+                let _ = std::fs::remove_file(folder.join(JOURNAL));
+                results.keep(records);
+                let finished = Finished { folder, rows, found: rows, tables, damaged, seconds: 0.0, threads };
+                return Ok((finished, results));
+            }
+            State::Damaged(what) => {
+                told(&what);
+                damaged = Some(what);
+            }
+            State::Empty | State::Begun => {}
         }
         let place = |row: u64| manner.shard.place(self, row);
-        let journal = Journal::open(&folder, rows, state == State::Empty, place)?;
-        let study = Study::of(self)?;
-        folder::say(&folder, &request, &study, manner.shard, false)?;
+        let journal = Journal::open(&folder, rows, anew, place)?;
+        results.begin(JOURNAL)?;
         let found = journal.done();
         let mut journal = self.fill(journal, manner.shard, threads, &|done| {
             let new = done - found;
             let rate = if new > 0 { new as f64 / started.elapsed().as_secs_f64() } else { 0.0 };
             progress(Progress { done, rows, rate });
         })?;
-        let tables = write_tables(self, &folder, &mut journal, rows)?;
-        folder::say(&folder, &request, &study, manner.shard, true)?;
-        journal.remove();
-        Ok(Finished { folder, rows, found, tables, seconds: started.elapsed().as_secs_f64(), threads })
+        let tables = write_tables(self, &mut results, &mut journal, rows)?;
+        results.finish()?;
+        let seconds = started.elapsed().as_secs_f64();
+        Ok((Finished { folder, rows, found, tables, damaged, seconds, threads }, results))
     }
 
     /// Computes the rows that are not yet in the journal.

@@ -1,7 +1,9 @@
 //! Reads tables line by line.
 
+use crate::case::open_regular;
 use crate::error::{Error, Result};
 use std::fs::File;
+use std::io::Take;
 use std::path::{Path, PathBuf};
 
 /// File names of the table of the rows, and of that of their instants.
@@ -11,7 +13,7 @@ pub(super) const SAMPLES: &str = "samples.csv";
 /// A CSV file with a header.
 pub(super) struct Table {
     path: PathBuf,
-    reader: csv::Reader<File>,
+    reader: csv::Reader<Take<File>>,
     header: csv::StringRecord,
 }
 
@@ -31,7 +33,8 @@ impl Line<'_> {
 
 impl Table {
     pub fn open(path: &Path) -> Result<Self> {
-        let mut reader = csv::Reader::from_path(path).map_err(|error| failed(path, &error))?;
+        let (file, _) = open_regular(path).map_err(|reason| Error::io(path.display(), reason, false))?;
+        let mut reader = csv::Reader::from_reader(file);
         let header = reader.headers().map_err(|error| failed(path, &error))?.clone();
         Ok(Self { path: path.to_owned(), reader, header })
     }

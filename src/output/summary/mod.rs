@@ -3,9 +3,8 @@
 mod case_file;
 mod scene;
 
-use super::atomic::write_whole;
 use super::detail::Detail;
-use super::{json, supports};
+use super::supports;
 use crate::case::{Case, FileRead};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
@@ -20,7 +19,6 @@ use crate::study::verdict::Verdict;
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// All of `summary.json`; every number in SI units.
 #[derive(Debug, Serialize)]
@@ -95,17 +93,9 @@ pub fn case_file(case: &Case) -> Value {
     case_file::case_file(case)
 }
 
-/// Writes the summary of `run` on `case`, and of the `checks` made of it, to `path`.
-///
-/// # Errors
-/// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
-pub fn write(path: &Path, case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -> Result<()> {
-    let document = document(case, run, reasons, checks)?;
-    write_whole(path, json::text(&document).as_bytes())
-}
-
-/// The summary as JSON: what the file holds, and what `run --json` prints. A number that is not
-/// finite is null.
+/// The summary of `run` on `case`, and of the `checks` made of it, as JSON: what the file holds,
+/// and what `run --json` prints, both with what is recorded of the tables beside it. A number that
+/// is not finite is null.
 ///
 /// # Errors
 /// Never in practice: only walls of the trajectory itself are looked up.
