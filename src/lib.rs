@@ -31,6 +31,7 @@ pub mod cli;
 mod contact;
 mod elementary;
 mod error;
+mod finite;
 pub mod flow;
 mod hash;
 mod interrupt;

@@ -6,7 +6,13 @@ use pyo3::prelude::*;
 use signorini::Error;
 
 create_exception!(signorini, RunError, PyRuntimeError, "A run that failed on its way.");
-create_exception!(signorini, DivergedError, RunError, "The state became infinite or NaN.");
+create_exception!(
+    signorini,
+    DivergedError,
+    RunError,
+    "The run is far faster than its start and its loads can make it, or its state became infinite or NaN. ``run`` \
+     holds its rows up to there, if there is one."
+);
 create_exception!(signorini, TooManyEventsError, RunError, "More contact events than the exact scheme follows.");
 create_exception!(signorini, NotSolvedError, RunError, "The equations of a step were not solved.");
 create_exception!(
@@ -24,7 +30,7 @@ pub fn raise(error: Error) -> PyErr {
     let text = error.to_string();
     match &error {
         Error::Io { .. } => PyOSError::new_err(text),
-        Error::NotFinite { .. } => DivergedError::new_err(text),
+        Error::NotFinite { .. } | Error::Diverged { .. } => DivergedError::new_err(text),
         Error::TooManyEvents { .. } => TooManyEventsError::new_err(text),
         Error::Qp { .. } | Error::Newton { .. } => NotSolvedError::new_err(text),
         Error::Refuted { .. } => RefutedError::new_err(text),

@@ -1,6 +1,6 @@
 //! Runs scenes, and raises where the judge refutes the run.
 
-use crate::error::{AccuracyWarning, RefutedError, raise, wrong};
+use crate::error::{AccuracyWarning, DivergedError, RefutedError, raise, wrong};
 use crate::plan::Plan;
 use crate::run::Run;
 use crate::scene::Scene;
@@ -59,7 +59,9 @@ impl Run {
         match refuted {
             None => Ok(made),
             Some(error) => {
-                let error = RefutedError::new_err(error.to_string());
+                let diverged = made.get().run.findings.iter().any(|found| found.refuted == sg::Refuted::Diverged);
+                let text = error.to_string();
+                let error = if diverged { DivergedError::new_err(text) } else { RefutedError::new_err(text) };
                 error.value(py).setattr("run", made)?;
                 Err(error)
             }

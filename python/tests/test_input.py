@@ -198,6 +198,12 @@ def test_a_run_that_fails_is_a_run_error() -> None:
     made = ball(loads=[sg.Load.function(lambda t: 0.0 if t == 0.0 else 1.7e308)], duration=1e6)
     with pytest.raises(sg.DivergedError, match="no longer finite"):
         made.run("moreau-jean", step=1e3)
+    # Four times above its stability limit, 2/sqrt(1e7) s, it keeps the rows up to where it diverged.
+    walls = [sg.Wall.upper("stop", 5e-3, restitution=1.0)]
+    fast = sg.oscillator(1.0, 0.0, 100.0, walls=walls, velocity=1.0, duration=2.0)
+    with pytest.raises(sg.DivergedError, match="stable below a step") as caught:
+        fast.run("penalty:stiffness=1e7,integrator=central-difference", step=2.5e-3)
+    assert 0.0 < caught.value.run.time[-1] < 2.0
     walls = [sg.Wall.lower("floor", 0.0, restitution=1.0), sg.Wall.upper("lid", 1e-12, restitution=1.0)]
     with pytest.raises(sg.TooManyEventsError, match="contact events"):
         ball(walls=walls, velocity=1.0).run("event")

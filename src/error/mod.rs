@@ -82,6 +82,17 @@ pub enum Error {
         /// What is no longer finite.
         what: &'static str,
     },
+    /// The run is far faster than the energy of its start and the work of its loads allow.
+    Diverged {
+        /// Time at which that was seen, s.
+        time: f64,
+        /// Number of steps made.
+        step: u64,
+        /// Its speed over the largest that start and loads can give.
+        ratio: f64,
+        /// The likely cause.
+        cause: String,
+    },
     /// More contact events than the bound allows in a window: the exact scheme gives up instead of
     /// running for ever.
     TooManyEvents {
@@ -234,6 +245,11 @@ impl fmt::Display for Error {
             Self::NotFinite { time, step, what } => {
                 write!(f, "the {what} is no longer finite at t = {time:.4e} s, step {step}: the scheme has diverged")
             }
+            Self::Diverged { time, step, ratio, cause } => write!(
+                f,
+                "the run diverged by t = {time:.4e} s, step {step}: it is {ratio:.1e} times faster than its start \
+                 and its loads can make it; {cause}"
+            ),
             Self::TooManyEvents { time, wall, count, window } => write!(
                 f,
                 "{count} contact events, or steps of the search for them, within {window:.3e} s at wall \

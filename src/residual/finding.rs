@@ -31,6 +31,11 @@ pub enum Refuted {
     Kinematics,
     /// The energy ledger does not close although the scheme conserves energy.
     Energy,
+    /// A residual or a statistic of the run is infinite or not a number.
+    NotFinite,
+    /// The run is more than 1e6 times faster than the energy of its start and the work of its loads
+    /// allow, or its state is no longer finite; it ended there.
+    Diverged,
 }
 
 /// A broken promise: which, by how much, when and where. A run with a finding is wrong; do not use
@@ -54,6 +59,20 @@ pub struct Finding {
     pub wall: Option<String>,
 }
 
+impl Finding {
+    /// The finding that the result named `part` (its keys) of a run up to `time_s` (s) is not
+    /// finite.
+    pub(crate) fn not_finite(part: &str, time_s: f64) -> Self {
+        let reason = format!("{part} is infinite or not a number");
+        Self::of_run(Refuted::NotFinite, f64::MAX, f64::MAX, reason, time_s)
+    }
+
+    /// A finding about the run as a whole.
+    pub(crate) fn of_run(refuted: Refuted, residual: f64, tolerance: f64, reason: String, time_s: f64) -> Self {
+        Self { refuted, residual, tolerance, reason: reason.into(), time_s, wall: None }
+    }
+}
+
 impl fmt::Display for Refuted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -69,12 +88,20 @@ impl fmt::Display for Refuted {
             }
             Self::Kinematics => "displacement and velocities do not belong together",
             Self::Energy => "the energy balance does not close",
+            Self::NotFinite => "a result of the run is not finite",
+            Self::Diverged => {
+                "the run diverged and ended there; its speed, in multiples of the largest that its start and its \
+                 loads can give"
+            }
         })
     }
 }
 
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.refuted == Refuted::NotFinite {
+            return write!(f, "{}: {}", self.refuted, self.reason);
+        }
         write!(f, "{}: {:.1e}", self.refuted, self.residual)?;
         if let Some(wall) = &self.wall {
             write!(f, " at wall {wall:?}")?;

@@ -1,13 +1,16 @@
 //! The loop: a stepper, the judge and the recorder, from the start of a scene to its end.
 
+mod divergence;
 mod finished;
 mod observers;
 mod options;
 
+pub(crate) use divergence::Divergence;
 pub use finished::Run;
 pub use options::{Judged, Judging, Options, Recorded, Recording, Unjudged, Unrecorded};
 
 use crate::error::Result;
+use crate::residual::Finding;
 use crate::scene::{Checked, Scene};
 use crate::scheme::{Method, Scheme, Stepper};
 use observers::Observers;
@@ -43,8 +46,13 @@ const PROGRESS_SHARE: u64 = 8;
 /// # Ok::<(), signorini::Error>(())
 /// ```
 ///
+/// A run that diverges ends there: one that is more than 1e6 times faster than the energy of its
+/// start and the work of its loads allow, or whose state is no longer finite. It keeps its rows and
+/// gets the finding [`Refuted::Diverged`](crate::Refuted::Diverged).
+///
 /// # Errors
-/// [`crate::Error::Invalid`] for an invalid request, and what [`Stepper::step`] reports.
+/// [`crate::Error::Invalid`] for an invalid request, and what [`Stepper::step`] reports;
+/// [`crate::Error::Diverged`] for a run that diverges and is not judged.
 pub fn run<J: Judging, R: Recording>(
     scene: &Scene,
     method: &(impl Copy + Into<Method>),
@@ -73,24 +81,45 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let judge = J::begin(&stepper, grid.step, &start);
     let recorder = R::begin(&stepper, grid.rows, &start, &options.time);
     let mut observers = Observers::<J, R>::new(judge, recorder, &stepper);
+    let mut divergence = Divergence::new(&stepper, grid.step, &start);
     let (mut count, mut report) = (0, 1);
-    loop {
-        let (made, time) = observers.follow(&mut stepper, grid.steps - count.min(grid.steps))?;
+    let diverged = loop {
+        let (made, time) = match observers.follow(&mut stepper, grid.steps - count.min(grid.steps)) {
+            Ok(made) => made,
+            Err(error) => break Some(divergence.overflow(&error).ok_or(error)?),
+        };
         count += made;
+        if let Some(diverged) = divergence.at(time, stepper.velocity()) {
+            break Some(diverged);
+        }
         if count >= report {
             report = count + (count / PROGRESS_SHARE).clamp(1, PROGRESS_STRIDE);
             progress(time);
         }
         let ended = if exact { time >= scene.duration } else { count >= grid.steps };
         if ended {
-            break;
+            break None;
         }
-    }
+    };
     observers.catch_up();
     let Observers { judge, recorder, .. } = observers;
     let from = options.time.statistics_from;
-    let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), (scene, scene.wall_masses()), from);
-    let (residuals, findings) = J::verdict(judge, R::trajectory(&trajectory));
+    // The statistics of a run that diverged refer to the time up to there.
+    let until = diverged.as_ref().map_or(scene.duration, |diverged| diverged.time);
+    let seen = Scene { duration: until, ..Scene::clone(scene) };
+    let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), (&seen, scene.wall_masses()), from);
+    // The rows of a run that diverged end before it does, and do not hold all of its impulses.
+    let recorded = R::trajectory(&trajectory).filter(|_| diverged.is_none());
+    let (residuals, mut findings) = J::verdict(judge, recorded);
+    if let Some(part) = R::not_finite(&statistics).filter(|_| diverged.is_none()) {
+        J::find(&mut findings, Finding::not_finite(&part, scene.duration));
+    }
+    if let Some(diverged) = diverged {
+        if !J::JUDGED {
+            return Err(diverged.error(count));
+        }
+        J::find(&mut findings, diverged.finding());
+    }
     let mut run = Run {
         scheme: method.scheme,
         backend: stepper.backend(),

@@ -2,6 +2,7 @@
 //! recorded.
 
 use crate::error::Result;
+use crate::finite::first_not_finite;
 use crate::residual::{Finding, Judge, Residuals};
 use crate::scene::{Scene, State};
 use crate::scheme::Stepper;
@@ -134,6 +135,11 @@ pub trait Judging: sealed::Sealed + Debug + Copy {
     fn residuals(verdict: &Self::Verdict) -> Option<&Residuals>;
     #[doc(hidden)]
     fn findings(findings: &Self::Findings) -> &[Finding];
+    /// Puts a finding about the run as a whole first.
+    #[doc(hidden)]
+    fn find(findings: &mut Self::Findings, finding: Finding);
+    #[doc(hidden)]
+    const JUDGED: bool;
 }
 
 /// The run is judged step by step.
@@ -184,6 +190,12 @@ impl Judging for Judged {
     fn findings(findings: &Vec<Finding>) -> &[Finding] {
         findings
     }
+
+    fn find(findings: &mut Vec<Finding>, finding: Finding) {
+        findings.insert(0, finding);
+    }
+
+    const JUDGED: bool = true;
 }
 
 impl Judging for Unjudged {
@@ -212,6 +224,10 @@ impl Judging for Unjudged {
     fn findings((): &()) -> &[Finding] {
         &[]
     }
+
+    fn find((): &mut (), _: Finding) {}
+
+    const JUDGED: bool = false;
 }
 
 /// Whether a run is recorded: [`Recorded`] or [`Unrecorded`], no others.
@@ -239,6 +255,9 @@ pub trait Recording: sealed::Sealed + Debug + Copy {
     ) -> (Self::Motion, Self::Statistics);
     #[doc(hidden)]
     fn trajectory(motion: &Self::Motion) -> Option<&Trajectory>;
+    /// The place of a statistic that is not finite.
+    #[doc(hidden)]
+    fn not_finite(statistics: &Self::Statistics) -> Option<String>;
 }
 
 /// Rows, contacts and their statistics are kept.
@@ -287,6 +306,10 @@ impl Recording for Recorded {
     fn trajectory(motion: &Trajectory) -> Option<&Trajectory> {
         Some(motion)
     }
+
+    fn not_finite(statistics: &Statistics) -> Option<String> {
+        first_not_finite(statistics).map(|part| format!("statistics.{part}"))
+    }
 }
 
 impl Recording for Unrecorded {
@@ -306,6 +329,10 @@ impl Recording for Unrecorded {
     }
 
     fn trajectory((): &()) -> Option<&Trajectory> {
+        None
+    }
+
+    fn not_finite((): &()) -> Option<String> {
         None
     }
 }

@@ -285,6 +285,12 @@ impl Stepper {
         State { q: q.to_vec(), v: v.to_vec() }
     }
 
+    /// The velocity reached, m/s, one value per degree of freedom.
+    #[inline]
+    pub(crate) fn velocity(&self) -> &[f64] {
+        self.kernel.motion().state().1
+    }
+
     /// The scene that the scheme computes: for a penalty, with springs in place of rigid walls.
     #[must_use]
     pub fn scene(&self) -> &Scene {

@@ -92,6 +92,7 @@ impl Plan {
                     if outcome.by == By::Event {
                         row.error = "by the scheme event: the lanes do not support this oscillator".to_owned();
                     }
+                    self.check_finite(&mut row);
                 }
                 Err(error) => row.fail(&error),
             }

@@ -1,11 +1,13 @@
 //! One row: builds its case, runs it and computes the measures.
 
+use super::measure::Measure;
 use super::plan::{Plan, Point};
 use super::sample::Sample;
 use super::watch::Watch;
 use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
 use crate::residual::{Finding, Judge};
+use crate::run::Divergence;
 use crate::scene::{Checked, State};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::study::attractor::Attractor;
@@ -28,6 +30,8 @@ pub enum Status {
     TooManyEvents,
     /// The state became infinite or NaN.
     NotFinite,
+    /// It is far faster than its start and its loads allow, and ended there.
+    Diverged,
     /// A step was not solved: the quadratic programme, or Newton's method.
     NotSolved,
     /// The judge found that the scheme violated what it promises.
@@ -47,6 +51,7 @@ impl Status {
             Self::Invalid => "invalid",
             Self::TooManyEvents => "too-many-events",
             Self::NotFinite => "not-finite",
+            Self::Diverged => "diverged",
             Self::NotSolved => "not-solved",
             Self::Refuted => "refuted",
             Self::Failed => "failed",
@@ -68,6 +73,7 @@ impl Status {
         match error {
             Error::TooManyEvents { .. } => Self::TooManyEvents,
             Error::NotFinite { .. } => Self::NotFinite,
+            Error::Diverged { .. } => Self::Diverged,
             Error::Qp { .. } | Error::Newton { .. } => Self::NotSolved,
             Error::Refuted { .. } => Self::Refuted,
             error if error.is_request() => Self::Invalid,
@@ -163,6 +169,7 @@ impl Plan {
                     row.status = Status::Handed;
                     row.error = format!("{} stretches of impacts by moreau-jean", done.handed);
                 }
+                self.check_finite(&mut row);
                 if !done.findings.is_empty() {
                     row.status = Status::Refuted;
                     row.error = done.findings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
@@ -193,6 +200,23 @@ impl Plan {
         self.sweep.measures.iter().map(|measure| measure.columns(&self.base.scene).len()).sum()
     }
 
+    /// Gives a row with a measure that is infinite or not a number the status for that. The
+    /// exponent of a change that an impact without rebound ends is −∞ by definition.
+    pub(super) fn check_finite(&self, row: &mut Row) {
+        let mut values = row.measures.iter();
+        for measure in &self.sweep.measures {
+            let columns = measure.columns(&self.base.scene);
+            let strange =
+                columns.into_iter().zip(values.by_ref()).find(|(_, value)| value.is_some_and(|x| !x.is_finite()));
+            if let (Some((column, _)), false) = (strange, matches!(measure, Measure::Lyapunov | Measure::LyapunovError))
+            {
+                row.status = Status::NotFinite;
+                row.error = format!("the measure {column} is infinite or not a number");
+                return;
+            }
+        }
+    }
+
     fn perform(&self, case: Case, method: Method, judged: bool) -> Result<Done> {
         let scene = &Checked::new(&case.scene)?;
         let mut time = case.time;
@@ -209,6 +233,7 @@ impl Plan {
             let seen = stepper.checked();
             Judge::over(seen.shared(), seen.wall_masses(), stepper.contract(), grid.step, (&start.q, &start.v))
         });
+        let mut divergence = Divergence::new(&stepper, grid.step, &start);
         let mut count = 0;
         loop {
             let step = stepper.step()?;
@@ -217,6 +242,9 @@ impl Plan {
                 judge.see(&step);
             }
             count += 1;
+            if let Some(diverged) = divergence.at(step.end, step.v) {
+                return Err(diverged.error(count));
+            }
             let ended = if exact { step.end >= scene.duration } else { count == grid.steps };
             if ended {
                 break;
@@ -249,4 +277,36 @@ fn sentence(error: &Error) -> String {
         _ => text.lines().map(str::trim).collect(),
     };
     told.join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Status;
+    use crate::case::CaseFile;
+    use crate::sweep::{Axis, Measure, Sweep};
+
+    #[test]
+    fn a_row_with_a_measure_that_is_not_finite_is_not_ok() {
+        let sweep = Sweep::new(CaseFile::embedded("rigid-walls-sine").expect("a case"));
+        let axis = Axis::linear("load.1.harmonic.frequency", 4.0, 5.0, 2).expect("an axis");
+        let sweep = sweep.vary(axis).set("time.end", 0.2).expect("an end");
+        let plan = sweep.measure([Measure::Lyapunov, Measure::ForceRms, Measure::Contacts]).plan().expect("a plan");
+        let sound = plan.rows(1).expect("rows").remove(0);
+        // One exponent, and two walls.
+        assert_eq!((sound.status, sound.measures.len()), (Status::Ok, 5));
+        let with = |index: usize, value: f64| {
+            let mut row = sound.clone();
+            row.measures[index] = Some(value);
+            plan.check_finite(&mut row);
+            row
+        };
+        assert_eq!(with(0, f64::NEG_INFINITY).status, Status::Ok);
+        for (index, column) in [(1, "force_rms_upper_N"), (2, "force_rms_lower_N"), (4, "contacts_lower")] {
+            for value in [f64::NAN, f64::INFINITY] {
+                let row = with(index, value);
+                assert_eq!(row.status, Status::NotFinite);
+                assert!(row.error.contains(column), "{}", row.error);
+            }
+        }
+    }
 }

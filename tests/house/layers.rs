@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 const ROOMS: &[&str] = &[
     "elementary",
     "error",
+    "finite",
     "hash",
     "interrupt",
     "linear",

@@ -192,10 +192,38 @@ fn methods_are_named_as_the_table_prints_them() {
 fn a_failed_method_is_a_row_with_its_reason() {
     let dir = tempfile::tempdir().unwrap();
     let list = "moreau-jean,penalty:stiffness=1e14,integrator=central-difference";
-    let table = done(dir.path(), &["compare", "rigid-walls-sine", "--end", "1", "--schemes", list, "--json"]);
-    let rows = rows(&table);
-    assert!(rows[0]["failure"].is_null());
-    assert!(rows[1]["failure"].as_str().unwrap().contains("diverged"), "{}", rows[1]);
+    let output = signorini(dir.path(), &["compare", "rigid-walls-sine", "--end", "1", "--schemes", list, "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let rows = rows(&text(&output.stdout));
+    assert!(rows[0]["failure"].is_null() && rows[0]["refuted"] == false);
+    assert_eq!(rows[1]["findings"][0]["refuted"], "diverged", "{}", rows[1]);
+    assert_eq!(rows[1]["findings"].as_array().unwrap().len(), 1);
+    // Newton's method fails: there is no run.
+    let list = "moreau-jean,penalty:epsilon=1e-300";
+    let request = ["compare", "rigid-walls-sine", "--end", "1", "--schemes", list, "--json", "--force"];
+    let table = done(dir.path(), &request);
+    let rows = self::rows(&table);
+    assert!(rows[1]["failure"].as_str().unwrap().contains("did not converge"), "{}", rows[1]);
+}
+
+#[test]
+fn a_run_that_diverges_writes_the_rows_up_to_there_and_exits_with_1() {
+    let dir = tempfile::tempdir().unwrap();
+    let scheme = "penalty:stiffness=1e14,integrator=central-difference";
+    let output = signorini(dir.path(), &["run", "rigid-walls-sine", "--end", "1", "--scheme", scheme, "--out", "o"]);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    let said = message.lines().find(|line| line.starts_with("refuted: ")).unwrap();
+    // 2/√(1e14) s is the limit of its step.
+    assert!(said.contains("diverged") && said.contains("2.0e-7 s") && said.contains(scheme), "{message}");
+    let (header, rows) = csv(&dir.path().join("o/trajectory.csv"));
+    let last: f64 = rows.last().unwrap()[0].parse().unwrap();
+    assert!(last > 0.0 && last < 0.2, "{last}");
+    assert!(rows.iter().flatten().all(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite)), "{header:?}");
+    let summary = json(&dir.path().join("o/summary.json"));
+    assert_eq!(summary["refuted"], true);
+    assert_eq!(summary["findings"][0]["refuted"], "diverged");
+    assert!(dir.path().join("o/report.html").exists());
 }
 
 #[test]
@@ -203,7 +231,7 @@ fn a_run_that_fails_exits_with_1_and_leaves_older_results_alone() {
     let dir = tempfile::tempdir().unwrap();
     done(dir.path(), &["run", "rigid-walls-sine", "--end", "0.1", "--out", "o"]);
     let before = fs::read(dir.path().join("o/trajectory.csv")).unwrap();
-    let scheme = "penalty:stiffness=1e14,integrator=central-difference";
+    let scheme = "penalty:epsilon=1e-300";
     let message =
         refused(dir.path(), &["run", "rigid-walls-sine", "--end", "1", "--scheme", scheme, "--out", "o", "--force"], 1);
     assert!(message.contains("t = "), "{message}");
