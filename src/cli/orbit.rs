@@ -4,7 +4,7 @@ use super::request::{Changes, Destination};
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
-use crate::orbit::{Floquet, Kind, Orbit, Problem, Signature, closed_forms, shoot};
+use crate::orbit::{Floquet, Kind, Orbit, Problem, SETTLE, Signature, closed_forms, shoot};
 use crate::output::asked::{asked, with};
 use crate::output::atomic::write_whole;
 use crate::output::json;
@@ -44,7 +44,7 @@ pub struct Args {
     #[command(flatten)]
     changes: Changes,
     /// Forcing periods that are run before the motion is checked for repetition
-    #[arg(long, value_name = "N", default_value_t = 400)]
+    #[arg(long, value_name = "N", default_value_t = SETTLE)]
     settle: u32,
     /// List all orbits of one impact per period of the orbit (or one on each of two mirrored walls)
     /// up to 8 forcing periods, from closed forms; for any number of degrees of freedom

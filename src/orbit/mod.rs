@@ -47,6 +47,7 @@ pub use judge::{Instant, Judged, WallShare};
 pub(crate) use path::path;
 pub use periodic::Orbit;
 pub use problem::Problem;
+pub use settled::SETTLE;
 pub use shooting::{Shot, shoot};
 pub use signature::{Event, Kind, MOST_EVENTS, MOST_PERIODS, Signature};
 pub use strobe::Strobe;

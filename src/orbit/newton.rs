@@ -1,8 +1,9 @@
 //! Newton's method on the equations with explicit times.
 
 use super::equations::{Equations, Scales, Turn};
-use super::periodic::Orbit;
+use super::periodic::{Orbit, REPEATED};
 use super::problem::Problem;
+use super::signature::Signature;
 use crate::error::{Error, Result};
 use nalgebra::{DMatrix, DVector};
 
@@ -22,6 +23,7 @@ impl Problem {
     /// The periodic orbit near `guess`, by Newton's method on the instants and speeds of its
     /// events. It converges from starts from which Newton's method on the map from period to period
     /// does not: from starts with an error of 3 % it also reaches orbits with multipliers of 1e8.
+    /// Where the result repeats a shorter orbit, it is that one.
     ///
     /// The result may pass through a wall ([`Problem::admissible`] says so): the equations do not
     /// look at what happens between the events.
@@ -39,8 +41,17 @@ impl Problem {
         }
         if guess.signature.events.is_empty() {
             self.quiet()?;
-            return Ok(Orbit { forcing_period: self.forcing_period(), ..guess.clone() });
+            let signature = Signature { periods: 1, ..guess.signature.clone() };
+            return Ok(Orbit { signature, forcing_period: self.forcing_period(), ..guess.clone() });
         }
+        let found = self.solved(guess)?;
+        let Some(once) = found.unfolded(self.mirror()).repeated(REPEATED) else { return Ok(found) };
+        let half = once.folded(self.mirror(), REPEATED).filter(|_| found.signature.symmetric);
+        self.solved(&half.unwrap_or(once))
+    }
+
+    /// The solution of the equations near `guess`, which must have events.
+    fn solved(&self, guess: &Orbit) -> Result<Orbit> {
         let scales = Scales::of(self);
         let equations = Equations::new(self, &guess.signature, scales);
         let count = equations.unknowns();

@@ -1,6 +1,6 @@
 //! The periodic orbit on which a run has settled.
 
-use super::periodic::Orbit;
+use super::periodic::{Orbit, REPEATED};
 use super::problem::Problem;
 use super::signature::{Kind, Signature};
 use super::watch::{Passage, Watch, gathered};
@@ -16,15 +16,16 @@ const NEAR: f64 = 1e-3;
 /// How often they must have been repeated.
 const REPEATS: usize = 3;
 
-/// An orbit is symmetric if its second half differs by less than this from the mirror image of the
-/// first.
-const MIRRORED: f64 = 1e-7;
+/// Forcing periods that a run settles before its motion is checked for repetition, unless told
+/// otherwise: 400. Of a multiplier of 0.97, 5e-6 is left after them.
+pub const SETTLE: u32 = 400;
 
 impl Problem {
     /// The periodic orbit on which a run from the scene's initial state settles: `settle` forcing
     /// periods are run by the exact scheme, then as many as are needed to see the events repeat
     /// themselves three times after up to 32 forcing periods. [`Problem::correct`] then corrects
     /// them to rounding. An orbit that is its own mirror image is returned as its half.
+    /// [`SETTLE`] is a usual value of `settle`.
     ///
     /// # Errors
     /// [`Error::NoOrbit`] where the events do not repeat themselves, or no orbit is found near
@@ -99,10 +100,10 @@ impl Problem {
         if orbit.signature.chatters() {
             // An orbit with chatter is run from one release from rest to the next, and is exact
             // already.
-            return Ok(orbit.rotated(0));
+            return Ok(orbit.repeated(REPEATED).unwrap_or(orbit).rotated(0));
         }
         let whole = self.correct(&orbit)?;
-        match whole.folded(self.mirror(), MIRRORED) {
+        match whole.folded(self.mirror(), REPEATED) {
             Some(half) => self.correct(&half),
             None => Ok(whole),
         }

@@ -6,7 +6,7 @@
 //! allowed.
 
 use super::forcing::forcing_period;
-use super::periodic::Orbit;
+use super::periodic::{Orbit, REPEATED};
 use super::signature::{MOST_PERIODS, Signature};
 use super::strobe::{Scales, multipliers, newton_step, state, vector};
 use super::turn::{Look, Turn, run};
@@ -105,8 +105,8 @@ impl Shot {
 
 /// The periodic orbit on which a run of `scene` settles, for any number of degrees of freedom up to
 /// 200: `settle` forcing periods are run by the exact scheme, and the states once a period compared
-/// until they repeat themselves after up to 32 of them. `progress` is called with the share of the
-/// run that is done.
+/// until they repeat themselves after up to 32 of them. [`SETTLE`](super::SETTLE) is a usual value
+/// of `settle`. `progress` is called with the share of the run that is done.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a scene that does not validate or has no forcing period;
@@ -199,7 +199,22 @@ impl Shooting<'_> {
         (1..=LONGEST).find(|&n| count >= (REPEATS + 1) * n && back(n)).map(|n| n as u32)
     }
 
+    /// The orbit of `periods` forcing periods near `start`; where it repeats a shorter one, that
+    /// one.
     fn solve(&self, time: f64, start: State, periods: u32) -> Result<Shot> {
+        let found = self.solved(time, start, periods)?;
+        let x = vector(&found.state.q, &found.state.v);
+        for shorter in (1..periods).filter(|&shorter| periods.is_multiple_of(shorter)) {
+            let span = [found.time, found.time + f64::from(shorter) * self.period];
+            let turn = run(self.scene, self.period, span, &x, Look::Events)?;
+            if self.scales.size(&(&turn.end - &x)) <= REPEATED {
+                return self.solved(found.time, found.state, shorter);
+            }
+        }
+        Ok(found)
+    }
+
+    fn solved(&self, time: f64, start: State, periods: u32) -> Result<Shot> {
         // The time is moved into the first period, so that no digits are lost to a late time.
         let time = time - (time / self.period).floor() * self.period;
         let end = time + f64::from(periods) * self.period;

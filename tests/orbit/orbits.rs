@@ -1,7 +1,8 @@
 //! Periodic orbits against closed forms evaluated with sixty digits, and against the free run.
 
+use signorini::linear::Symmetric;
 use signorini::orbit::{ClosedForm, Event, Kind, Orbit, Problem, Signature, closed_forms, shoot};
-use signorini::{Error, Load, Scene, Scheme, State, Stepper, Wall};
+use signorini::{Error, Load, Scene, Scheme, State, Stepper, Structure, Wall};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// The oscillator of the source at a frequency (Hz) and restitution.
@@ -62,6 +63,66 @@ fn a_settled_run_leads_to_the_symmetric_orbit() {
         near(judged.walls[wall].impulse, sign * 1.8 * orbit.speeds[0], 1e-9);
         assert_eq!(judged.walls[wall].contacts, 1);
     }
+}
+
+/// Under 4 Hz between no second wall: an orbit of two impacts in three forcing periods.
+fn one_sided() -> Scene {
+    Scene::oscillator(1.0, 0.2, 100.0)
+        .with_wall(Wall::upper("stop", 5e-3).with_restitution(0.8))
+        .with_load(Load::harmonic(3.0, 4.0, 0.0))
+}
+
+#[test]
+fn an_orbit_is_the_shortest_that_the_motion_repeats() {
+    let problem = Problem::new(one_sided()).unwrap();
+    // After 200 periods the motion still alternates about the orbit by more than what counts as
+    // repeated, and repeats itself after twice the period of the orbit only.
+    let orbits = [200, 400, 800].map(|settle| problem.settled(settle).unwrap());
+    for orbit in &orbits {
+        assert_eq!((orbit.signature.periods, orbit.signature.written(problem.scene()).as_str()), (3, "SS"));
+        assert_eq!((orbit.phases.len(), orbit.speeds.len()), (2, 2));
+        // The free run comes back after this period, and after no shorter one: its two impacts
+        // differ.
+        assert!(problem.judge(orbit, 10).unwrap().holds());
+        let fast = orbit.speeds.iter().copied().fold(0.0, f64::max);
+        assert!((orbit.speeds[0] - orbit.speeds[1]).abs() > 0.1 * fast);
+        near(fast, orbits[1].speeds.iter().copied().fold(0.0, f64::max), 1e-9);
+    }
+    // The same orbit by shooting, of a body beside which another one moves.
+    let mut both = Scene::structure(Structure {
+        mass: Symmetric::diagonal(&[1.0, 1.0]),
+        damping: Symmetric::diagonal(&[0.2, 2.0]),
+        stiffness: Symmetric::diagonal(&[100.0, 300.0]),
+    });
+    (both.walls, both.loads) = (one_sided().walls, one_sided().loads);
+    let shot = shoot(&both, 200, &|_| ()).unwrap();
+    assert_eq!((shot.periods, shot.orbit.phases.len(), shot.contacts.as_slice()), (3, 2, [2].as_slice()));
+    let fast = |speeds: &[f64]| speeds.iter().copied().fold(0.0, f64::max);
+    near(fast(&shot.orbit.speeds), fast(&orbits[1].speeds), 1e-8);
+}
+
+#[test]
+fn a_start_that_repeats_an_orbit_is_that_orbit() {
+    let problem = Problem::new(source(5.0, 0.8)).unwrap();
+    let half = problem.settled(400).unwrap();
+    assert!(half.signature.symmetric && half.signature.periods == 1);
+    // The whole orbit six times over, and the half three times, each every second time mirrored.
+    let [first, other] = [half.signature.events[0].wall, 1 - half.signature.events[0].wall];
+    let repeated = |count: u32, turn: f64| Orbit {
+        signature: Signature {
+            symmetric: count % 2 == 1,
+            ..Signature::impacts(&[first, other].repeat(6)[..count as usize], (f64::from(count) * turn).round() as u32)
+        },
+        phases: (0..count).map(|k| half.phases[0] + 0.5 * f64::from(k)).collect(),
+        speeds: vec![half.speeds[0]; count as usize],
+        forcing_period: half.forcing_period,
+    };
+    let whole = problem.correct(&repeated(12, 0.5)).unwrap();
+    assert_eq!((whole.signature.periods, whole.phases.len(), whole.signature.symmetric), (1, 2, false));
+    near(whole.speeds[0], half.speeds[0], 1e-12);
+    let mirrored = problem.correct(&repeated(3, 1.0)).unwrap();
+    assert_eq!((mirrored.signature.periods, mirrored.phases.len(), mirrored.signature.symmetric), (1, 1, true));
+    near(mirrored.speeds[0], half.speeds[0], 1e-12);
 }
 
 #[test]

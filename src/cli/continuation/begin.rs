@@ -20,7 +20,7 @@ impl Begin {
     pub(super) fn read(path: &Path, case: &Case, problem: Option<&Problem>) -> Result<Self> {
         match problem {
             Some(problem) => problem.correct(&read(path, problem.scene())?).map(Self::Orbit),
-            None => read_shot(path, &case.scene, case.truncated.is_some()).map(Self::Shot),
+            None => read_shot(path, &case.scene, case.truncated.is_some())?.corrected(&case.scene).map(Self::Shot),
         }
     }
 

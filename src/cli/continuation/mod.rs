@@ -8,8 +8,8 @@ use super::request::{Changes, Destination};
 use super::ui::Ui;
 use crate::case::{CaseFile, KeyValue};
 use crate::error::{Error, Result};
-use crate::orbit::Problem;
 use crate::orbit::branch::{Graph, Request, Switch, graph};
+use crate::orbit::{Problem, SETTLE};
 use crate::output::asked::{asked, with};
 use crate::output::atomic::write_whole;
 use crate::output::branches::{Drawn, ended};
@@ -62,7 +62,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", value_hint = clap::ValueHint::FilePath)]
     from: Option<PathBuf>,
     /// Forcing periods that are run before the motion is checked for repetition
-    #[arg(long, value_name = "N", default_value_t = 400, conflicts_with = "from")]
+    #[arg(long, value_name = "N", default_value_t = SETTLE, conflicts_with = "from")]
     settle: u32,
     /// Which branches that begin at special points are followed: no, stable (beside stable orbits),
     /// all
