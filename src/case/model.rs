@@ -62,6 +62,16 @@ impl Model {
         }
     }
 
+    /// The number of locations of a system of `n` degrees of freedom, held ones included.
+    pub(super) fn places(&self, n: usize) -> usize {
+        match self {
+            Self::Modal(modal) => modal.points.len(),
+            Self::Bar(bar) => bar.elements + 1,
+            Self::Beam(beam) => beam.elements + 1,
+            _ => n,
+        }
+    }
+
     /// Every location of a system of `n` degrees of freedom that can move, with its number or name:
     /// each mass, each degree of freedom of matrices, each node of a bar or beam, each point of
     /// modes.

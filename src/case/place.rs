@@ -4,7 +4,7 @@ use super::builder::Builder;
 use super::model::{Model, Place};
 use super::planes::Planes;
 use super::value::Value;
-use crate::error::{Error, Result, Subject};
+use crate::error::{Error, Part, Result, Subject};
 use crate::scene::Row;
 use std::ops::Range;
 use toml::Spanned;
@@ -17,6 +17,9 @@ pub(super) struct Site {
     pub place: Place,
     pub row: Row,
 }
+
+/// Most walls, and most probes, of a scene; each of them has its own results.
+pub(super) const MOST_PLACES: usize = 4096;
 
 /// Most points of modes that a message lists.
 const MOST_POINTS: usize = 20;
@@ -73,12 +76,21 @@ impl Builder<'_> {
             let title = format!("`at` is missing in {owner}");
             return Err(self.source.error(span, &title, &format!("expected {}", self.takes(load))));
         };
+        let kind = match subject.parts() {
+            [Part::Named(kind, _)] => kind,
+            _ => "place",
+        };
         self.places.push((subject.part("at"), at.span()));
         if let Value::Word(word) = at.get_ref()
             && word == "each"
             && !load
             && self.planes != Planes::Named
         {
+            let count = self.model.places(self.n);
+            if count > MOST_PLACES {
+                let title = format!("{owner} makes {count} {kind}s");
+                return Err(self.source.error(at.span(), &title, &format!("expected at most {MOST_PLACES} in all")));
+            }
             let site = |(i, place): (String, Place)| {
                 let row = self.model.row(&place)?;
                 Ok(Site { suffix: format!("-{i}"), place, row })

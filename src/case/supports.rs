@@ -3,8 +3,9 @@
 use super::builder::Builder;
 use super::file;
 use super::model::{Model, Place};
+use super::place::MOST_PLACES;
 use super::value::{Number, Section, Value};
-use super::walls::{MOST_WALLS, NewWall};
+use super::walls::NewWall;
 use super::written::{Scarred, Support};
 use crate::error::{Error, Result, Subject};
 use crate::scene::{self, Flat, Flats, PlaneRows, Shape};
@@ -88,12 +89,12 @@ impl Builder<'_> {
         (place, first): (&Place, usize),
     ) -> Result<Vec<NewWall>> {
         let walls = flats.walls().map_err(|error| self.at_key(error))?;
-        if first + walls.len() > MOST_WALLS {
+        if first + walls.len() > MOST_PLACES {
             let title = format!("{} makes {} walls", owner.name, first + walls.len());
             return Err(self.source.error(
                 owner.span.clone(),
                 &title,
-                &format!("expected at most {MOST_WALLS} in all"),
+                &format!("expected at most {MOST_PLACES} in all"),
             ));
         }
         let keys = [

@@ -3,16 +3,13 @@
 use super::builder::Builder;
 use super::file;
 use super::model::{Model, Place};
-use super::place::Site;
+use super::place::{MOST_PLACES, Site};
 use super::planes::Planes;
 use super::value::{Number, Section};
 use crate::error::{Error, Result, Subject};
 use crate::scene::{ModalData, Probe, Row, Side, Wall, WallLaw};
 use std::ops::Range;
 use toml::Spanned;
-
-/// Most walls of a scene; each wall of a table has its own results.
-pub(super) const MOST_WALLS: usize = 4096;
 
 /// A wall of the scene, the name of its table with the suffix of its location, and its location.
 pub(super) struct NewWall {
@@ -32,12 +29,12 @@ impl Builder<'_> {
         let mut walls = Vec::new();
         let sites = self.sites((&owner, Subject::wall(&base)), wall.at.as_ref(), span.clone(), false)?;
         let count = first + sites.len() * sides.len();
-        if count > MOST_WALLS {
+        if count > MOST_PLACES {
             let place = wall.at.as_ref().map_or(span.clone(), Spanned::span);
             return Err(self.source.error(
                 place,
                 &format!("{owner} makes {count} walls"),
-                &format!("expected at most {MOST_WALLS} in all"),
+                &format!("expected at most {MOST_PLACES} in all"),
             ));
         }
         for site in sites {
@@ -167,6 +164,10 @@ impl Builder<'_> {
                     self.written.probes.push(place);
                     all.push(Probe { name, at: row });
                 }
+            }
+            if all.len() > MOST_PLACES {
+                let title = format!("{} probes with those of {owner}", all.len());
+                return Err(self.source.error(span, &title, &format!("expected at most {MOST_PLACES} in all")));
             }
         }
         Ok(all)

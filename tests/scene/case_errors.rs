@@ -577,15 +577,30 @@ fn a_wall_of_the_compliance_left_out_takes_no_restitution() {
 }
 
 #[test]
-fn walls_without_number_are_refused() {
-    let text = "[system.chain]\nmasses = 5000\nmass = 1.0\nsprings = 1.0\n[[wall]]\n\
-        name = \"stop\"\nat = \"each\"\nside = \"upper\"\n\
-                position = 1.0\n[time]\nend = 1.0\nstep = 1e-3\n";
-    let said = Case::parse(text, "wrong.toml", "").unwrap_err().to_string();
-    assert!(
-        said.contains("--> wrong.toml:7:6\n") && said.contains("makes 5000 walls") && said.contains("at most 4096"),
-        "{said}"
-    );
+fn walls_and_probes_without_number_are_refused() {
+    let case = |masses: usize, wall: &str, probe: &str| {
+        format!(
+            "[system.chain]\nmasses = {masses}\nmass = 1.0\nsprings = 1.0\n[[wall]]\nname = \"stop\"\n{wall}\n\
+             side = \"upper\"\nposition = 1.0\n[[probe]]\nname = \"p\"\n{probe}\n[time]\nend = 1.0\nstep = 1e-3\n"
+        )
+    };
+    let (each, one) = ("at = \"each\"", "at = { dof = 0 }");
+    // A million places are refused before anything is made of them.
+    for masses in [5000, 1_000_000] {
+        let said = |text: &str| Case::parse(text, "wrong.toml", "").unwrap_err().to_string();
+        let wall = said(&case(masses, each, one));
+        assert!(wall.contains("--> wrong.toml:7:6\n") && wall.contains(&format!("makes {masses} walls")), "{wall}");
+        let probe = said(&case(masses, one, each));
+        assert!(
+            probe.contains("--> wrong.toml:12:6\n") && probe.contains(&format!("makes {masses} probes")),
+            "{probe}"
+        );
+        assert!(wall.contains("at most 4096 in all") && probe.contains("at most 4096 in all"), "{probe}");
+    }
+    let twice = case(3000, one, each).replace("[time]", "[[probe]]\nname = \"q\"\nat = \"each\"\n[time]");
+    let said = Case::parse(&twice, "wrong.toml", "").unwrap_err().to_string();
+    assert!(said.contains("6000 probes with those of probe \"q\"") && said.contains("at most 4096 in all"), "{said}");
+    assert_eq!(Case::parse(&case(4096, each, each), "most.toml", "").unwrap().scene.probes.len(), 4096);
 }
 
 #[test]
