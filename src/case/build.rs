@@ -12,7 +12,7 @@ use super::value::{Number, Section};
 use super::wording::written;
 use super::written::NewLoad;
 use super::{Case, FileRead, PenaltyOptions, StatisticsOptions, TimeOptions, Truncated, Written};
-use crate::error::{Error, Result, Subject};
+use crate::error::{Error, Result, Subject, escaped};
 use crate::scene::{Condensation, Damping, Row, Scene, Shape, State, Structure, Support, System, Wall};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
 use crate::study::truncation::{Start, Whole};
@@ -122,8 +122,8 @@ impl Builder<'_> {
         }
         let mut case = Case {
             name: stem.to_owned(),
-            title: file.title,
-            source: file.source,
+            title: file.title.map(|title| escaped(&title).into_owned()),
+            source: file.source.map(|source| escaped(&source).into_owned()),
             model: self.model.clone(),
             planes: self.planes,
             places,

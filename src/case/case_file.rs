@@ -4,7 +4,7 @@ use super::key::Key;
 use super::key_value::KeyValue;
 use super::text::{MOST_CASE_BYTES, MOST_TABLE_BYTES, read_text};
 use super::{Case, Embedded, build, changes, summary};
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result, escaped, nearest};
 use crate::scene::State;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// ```
 #[derive(Debug, Clone)]
 pub struct CaseFile {
-    /// Its name in messages.
+    /// Its name in messages, without control characters.
     shown: String,
     text: String,
     /// Its values, once some have been changed.
@@ -90,7 +90,7 @@ impl CaseFile {
     }
 
     fn new(text: &str, name: &str, files: Files) -> Self {
-        let (shown, text) = (name.to_owned(), text.to_owned());
+        let (shown, text) = (escaped(name).into_owned(), text.to_owned());
         Self { shown, text, changed: None, changes: Vec::new(), files, read: Arc::default() }
     }
 
@@ -188,7 +188,7 @@ impl CaseFile {
         }
         let shown = format!("{}, changed by {}", self.shown, self.changes.join(", "));
         let text = if self.changed.is_some() { &self.text()? } else { &self.text };
-        let case = build::case(text, &shown, &tables, start)?;
+        let case = build::case(text, &escaped(&shown), &tables, start)?;
         Ok(Case { name: self.name().to_owned(), ..case })
     }
 

@@ -2,7 +2,7 @@
 //! itself, and what would be accepted.
 
 use super::accepted::{accepted, elsewhere};
-use crate::error::{Error, nearest};
+use crate::error::{Error, escaped, nearest};
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -40,8 +40,9 @@ impl Source<'_> {
     /// The same, with a remark below.
     pub fn error_with_note(&self, span: Range<usize>, title: &str, help: &str, note: Option<&str>) -> Error {
         let place = AnnotationKind::Primary.span(self.marked(span));
+        let title = escaped(title);
         let mut report = Level::ERROR
-            .primary_title(shortened(title))
+            .primary_title(shortened(&title))
             .element(Snippet::source(self.text).path(self.name).annotation(place))
             .element(Level::HELP.message(help));
         if let Some(note) = note {

@@ -1,8 +1,9 @@
-//! Output of the tool: data on stdout, messages and progress on stderr.
+//! Output of the tool: data on stdout, messages and progress on stderr; control characters of
+//! names and paths are escaped in both.
 
 use super::pace::Pace;
 use super::watch::Watch;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, escaped_lines};
 use crate::output::json;
 use crate::output::table::Table;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -66,7 +67,7 @@ impl Ui {
     pub fn message(&self, text: &str) {
         if !self.quiet {
             // If stderr is closed, the message is lost.
-            let _ = writeln!(io::stderr(), "{}", wrapped(text, width(&io::stderr())));
+            let _ = writeln!(io::stderr(), "{}", wrapped(&escaped_lines(text), width(&io::stderr())));
         }
     }
 
@@ -101,7 +102,7 @@ impl Ui {
             return Ok(());
         }
         let mut stdout = io::stdout();
-        let written = self.stdout.check().and_then(|()| writeln!(stdout, "{text}"));
+        let written = self.stdout.check().and_then(|()| writeln!(stdout, "{}", escaped_lines(text)));
         match written.and_then(|()| stdout.flush()) {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
                 self.deserted.set(true);
@@ -137,7 +138,7 @@ impl Ui {
 
     /// Prints text on stderr, also with `--quiet`.
     pub fn alarm(&self, text: &str) {
-        let _ = writeln!(io::stderr(), "{}", wrapped(text, width(&io::stderr())));
+        let _ = writeln!(io::stderr(), "{}", wrapped(&escaped_lines(text), width(&io::stderr())));
     }
 
     /// The same while `progress` shows a bar.

@@ -1,9 +1,11 @@
 //! The one error type of the crate.
 
 mod cause;
+mod escape;
 mod subject;
 
 pub use cause::Cause;
+pub(crate) use escape::{escaped, escaped_lines};
 pub use subject::{Part, Subject};
 
 use std::fmt;
@@ -216,65 +218,75 @@ pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str> + Clo
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Invalid { subject, value, expected } => write!(f, "{subject} is {value}; expected {expected}"),
-            Self::Unknown { kind, name, known } if known.is_empty() => {
+        f.write_str(&escaped_lines(&Words(self).to_string()))
+    }
+}
+
+/// The words of an error, with names as they are.
+struct Words<'a>(&'a Error);
+
+impl fmt::Display for Words<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Error::Invalid { subject, value, expected } => write!(f, "{subject} is {value}; expected {expected}"),
+            Error::Unknown { kind, name, known } if known.is_empty() => {
                 write!(f, "no {kind} is named {name:?}: none exists")
             }
-            Self::Unknown { kind, name, known } => {
+            Error::Unknown { kind, name, known } => {
                 write!(f, "no {kind} is named {name:?}; ")?;
                 if let Some(near) = nearest(name, known.iter().map(String::as_str)) {
-                    write!(f, "did you mean {near}? ")?;
+                    write!(f, "did you mean {}? ", escaped(near))?;
                 }
+                let known: Vec<_> = known.iter().map(|name| escaped(name)).collect();
                 write!(f, "there is {}", known.join(", "))
             }
-            Self::Case { report, .. } => f.write_str(report),
-            Self::Io { path, reason, .. } => write!(f, "{path}: {reason}"),
-            Self::Qp { time, step, wall, reason, .. } => {
+            Error::Case { report, .. } => f.write_str(report),
+            Error::Io { path, reason, .. } => write!(f, "{}: {reason}", escaped(path)),
+            Error::Qp { time, step, wall, reason, .. } => {
                 write!(f, "the QP of step {step} at t = {time} s was not solved")?;
                 if let Some(wall) = wall {
                     write!(f, " (wall {wall:?})")?;
                 }
                 write!(f, ": {reason}")
             }
-            Self::Newton { time, step, residual } => write!(
+            Error::Newton { time, step, residual } => write!(
                 f,
                 "Newton's method did not converge in step {step} at t = {time} s (residual {residual:e} N); \
                  a smaller step or a softer penalty would"
             ),
-            Self::NotFinite { time, step, what } => {
+            Error::NotFinite { time, step, what } => {
                 write!(f, "the {what} is no longer finite at t = {time:.4e} s, step {step}: the scheme has diverged")
             }
-            Self::Diverged { time, step, ratio, cause } => write!(
+            Error::Diverged { time, step, ratio, cause } => write!(
                 f,
                 "the run diverged by t = {time:.4e} s, step {step}: it is {ratio:.1e} times faster than its start \
                  and its loads can make it; {cause}"
             ),
-            Self::TooManyEvents { time, wall, count, window } => write!(
+            Error::TooManyEvents { time, wall, count, window } => write!(
                 f,
                 "{count} contact events, or steps of the search for them, within {window:.3e} s at wall \
                  {wall:?}, t = {time:.6} s: more than the exact scheme follows; \
                  a stepping scheme (moreau-jean, paoli-schatzman) does not resolve them one by one"
             ),
-            Self::Inaccurate { tolerance, reached, steps, .. } if reached.is_infinite() => write!(
+            Error::Inaccurate { tolerance, reached, steps, .. } if reached.is_infinite() => write!(
                 f,
                 "an error of {tolerance:e} is out of reach: the coarsest runs that could see the motion take \
                  {steps} steps and more"
             ),
-            Self::Inaccurate { tolerance, reached, quantity, until, steps } => write!(
+            Error::Inaccurate { tolerance, reached, quantity, until, steps } => write!(
                 f,
                 "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
                  the displacement keeps it until t = {until:.6} s"
             ),
-            Self::Stopped => f.write_str("stopped before its end on request"),
-            Self::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),
-            Self::NoOrbit { reason } => write!(f, "no periodic orbit: {reason}"),
-            Self::Truncated { tolerance, reached, quantity, modes } => write!(
+            Error::Stopped => f.write_str("stopped before its end on request"),
+            Error::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),
+            Error::NoOrbit { reason } => write!(f, "no periodic orbit: {reason}"),
+            Error::Truncated { tolerance, reached, quantity, modes } => write!(
                 f,
                 "a truncation within {tolerance:e} was not reached: going to {modes} modes still changed \
                  {reached:.1e} ({quantity})"
             ),
-            Self::Unpredictable { tolerance, reached, horizon, end } => write!(
+            Error::Unpredictable { tolerance, reached, horizon, end } => write!(
                 f,
                 "an error of {tolerance:e} is kept until t = {horizon:.6} s only ({reached:.1e} reached): \
                  rounding grows to a quarter of it soon \

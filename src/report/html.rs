@@ -6,7 +6,7 @@
 //! connection: a script put into the file by others is not run.
 
 use super::column::base64;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, escaped};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
@@ -61,7 +61,7 @@ pub(super) fn file(title: &str, data: &Value) -> Result<String> {
         ("%STYLE_HASH%", hash(STYLE)),
         ("%SCRIPT_HASH%", hash(&script)),
         ("%PROGRAM%", program),
-        ("%TITLE%", in_text(title)),
+        ("%TITLE%", in_text(&escaped(title))),
         ("%STYLE%", STYLE.to_owned()),
         ("%DATA%", data),
         ("%SCRIPT%", script),

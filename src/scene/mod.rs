@@ -251,7 +251,11 @@ impl Scene {
             load.validate(index)?;
             self.check_row(|| Subject::nth("load", index), &load.at)?;
         }
-        for probe in &self.probes {
+        for (index, probe) in self.probes.iter().enumerate() {
+            if probe.name.chars().any(char::is_control) {
+                let key = Subject::nth("probe", index).part("name");
+                return Err(Error::invalid(key, format!("{:?}", probe.name), "no control characters"));
+            }
             self.check_row(|| Subject::probe(&probe.name), &probe.at)?;
         }
         let mut names = HashSet::new();

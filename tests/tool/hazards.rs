@@ -420,3 +420,50 @@ fn forecast(folder: &Path, request: &[&str]) -> String {
     child.wait().unwrap();
     line.unwrap_or_else(|| panic!("{request:?} says nothing"))
 }
+
+/// Control characters that a terminal obeys, other than the end of a line.
+fn obeyed(text: &str) -> Option<char> {
+    text.chars().find(|c| c.is_control() && *c != '\n')
+}
+
+#[test]
+fn control_characters_of_names_are_escaped_wherever_they_are_shown() {
+    let dir = tempfile::tempdir().unwrap();
+    let (out, _) = said(dir.path(), &["new", CASE], 0);
+    assert!(obeyed(&out).is_none());
+    let case = fs::read_to_string(dir.path().join("rigid-walls-sine.toml")).unwrap();
+    let body: String = case.lines().filter(|line| !line.starts_with("title")).map(|line| format!("{line}\n")).collect();
+    let titled = format!("title = \"two\\u001b[31m\\nwalls\\u0000\"\n{body}");
+    let evil = "a\u{1b}[31m\nb.toml";
+    fs::write(dir.path().join(evil), &titled).unwrap();
+    let files = "out/folder";
+    for (args, code) in [
+        (vec!["run", evil, "--end", "0.5", "--out", files], 0),
+        (vec!["explain", evil], 0),
+        (vec!["run", evil, "--end", "0.5", "--json", "--out", files], 0),
+        (vec!["run", "no\u{1b}[31m\nsuch.toml"], 2),
+        (vec!["run", CASE, "--set", "wall.a\u{1b}\n.gap=1"], 2),
+        (vec!["run", CASE, "--scheme", "a\u{1b}\n"], 2),
+        (vec!["run", CASE, "--end", "0.5", "--out", "out/b\u{1b}\nc"], 0),
+    ] {
+        let (out, err) = said(dir.path(), &args, code);
+        assert_eq!(obeyed(&out).or(obeyed(&err)), None, "{args:?}: {out}{err}");
+        assert!(!err.contains("31m\nsuch") && !err.contains("[31m\nb"), "{args:?}: {err}");
+    }
+    for (text, name) in [
+        (titled.replace("\"upper\"", "\"up\\u001b\\n\\u0000\""), "wall 1: name"),
+        (format!("{body}\n\"x\\u001b\\n\\u0000y\" = 1\n"), "unknown key `x"),
+    ] {
+        fs::write(dir.path().join("wrong.toml"), text).unwrap();
+        let (_, err) = said(dir.path(), &["run", "wrong.toml"], 2);
+        assert!(err.contains(name) && obeyed(&err).is_none() && !err.contains("\ny`"), "{err}");
+    }
+    // In the files as on the terminal.
+    for entry in fs::read_dir(dir.path().join(files)).unwrap() {
+        let path = entry.unwrap().path();
+        let written = fs::read_to_string(&path).unwrap();
+        assert_eq!(obeyed(&written.replace('\t', " ")), None, "{}", path.display());
+    }
+    let page = fs::read_to_string(dir.path().join(files).join("report.html")).unwrap();
+    assert!(page.contains("<title>two\\u{1b}[31m\\u{a}walls\\u{0}</title>"));
+}
