@@ -9,6 +9,7 @@
 //! | `scene` | what is drawn: the structure, its walls and loads |
 //! | `cards` | how reliable a run is, in sentences |
 //! | `run`, `compare`, `chart`, `stability`, `sweep`, `orbit`, `branches` | the contents of each kind of page |
+//! | `paths` | absolute paths, which a page does not show |
 //! | `html` | the file itself: escapes, and what it may load (nothing) |
 //! | `page/` | the page's HTML, CSS and JavaScript |
 //!
@@ -24,6 +25,7 @@ mod folder;
 mod html;
 mod motion;
 mod orbit;
+mod paths;
 mod run;
 mod scene;
 mod stability;
@@ -91,5 +93,7 @@ pub fn page(path: &Path, manifest: &Value) -> Result<String> {
     if let Value::Object(contents) = contents {
         data.extend(contents);
     }
-    html::file(&title, &Value::Object(data))
+    let mut data = Value::Object(data);
+    paths::shorten(&mut data);
+    html::file(&title, &data)
 }

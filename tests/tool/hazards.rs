@@ -467,3 +467,36 @@ fn control_characters_of_names_are_escaped_wherever_they_are_shown() {
     let page = fs::read_to_string(dir.path().join(files).join("report.html")).unwrap();
     assert!(page.contains("<title>two\\u{1b}[31m\\u{a}walls\\u{0}</title>"));
 }
+
+#[test]
+fn a_page_that_is_forwarded_names_no_folder_of_the_machine() {
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().canonicalize().unwrap();
+    let whole = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    said(&folder, &["new", "tabulated-pulse"], 0);
+    said(&folder, &["new", CASE], 0);
+    let (pulse, case) = (whole("tabulated-pulse.toml"), whole("rigid-walls-sine.toml"));
+    let quiet = "--no-verdict";
+    let orbit = ["--set", "wall.*.restitution=0.8", "--settle", "50"];
+    let from = ["--set", "wall.*.restitution=0.8"];
+    for args in [
+        vec!["run", &pulse, quiet, "--out", &whole("a")],
+        vec!["compare", &pulse, quiet, "--out", &whole("b")],
+        [vec!["orbit", &case, "--out", &whole("c")], orbit.to_vec()].concat(),
+        [vec!["orbit", &case, "--from", &whole("c/orbit.json"), "--out", &whole("d")], from.to_vec()].concat(),
+        vec!["sweep", &pulse, "--vary", "time.step=1e-4,2e-4", "--measure", "contacts", "--out", &whole("e")],
+        vec!["run", &whole("a/summary.json"), quiet, "--out", &whole("f")],
+    ] {
+        said(&folder, &args, 0);
+    }
+    for name in ["a", "b", "c", "d", "e", "f"] {
+        let page = fs::read_to_string(folder.join(name).join("report.html")).unwrap();
+        assert!(!page.contains(folder.to_str().unwrap()), "{name}");
+    }
+    let page = fs::read_to_string(folder.join("a/report.html")).unwrap();
+    assert!(page.contains("signorini run tabulated-pulse.toml --no-verdict --out a\""));
+    assert!(page.contains(r#""file":"tabulated-pulse.csv""#));
+    // The summary keeps the path, by which the run was repeated from another folder.
+    let summary: Value = serde_json::from_slice(&fs::read(folder.join("f/summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["files"][0]["path"], whole("tabulated-pulse.csv"));
+}

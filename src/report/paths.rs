@@ -1,0 +1,95 @@
+//! Absolute paths, which a page that is forwarded does not show: they name people and machines.
+
+use serde_json::Value;
+use std::path::Path;
+
+/// Takes the folders out of a page's data: in every `command` absolute paths become relative to the
+/// folder of the case, or their last part where they lie elsewhere; of the `files` that a run has
+/// read the path is left out, since `file` is the one relative to the case.
+pub(super) fn shorten(data: &mut Value) {
+    match data {
+        Value::Object(map) => {
+            for (key, value) in map.iter_mut() {
+                match (key.as_str(), value) {
+                    ("command" | "command_line", Value::String(text)) => *text = command(text),
+                    ("files", Value::Array(files)) => {
+                        files.iter_mut().filter_map(Value::as_object_mut).for_each(|file| drop(file.remove("path")));
+                    }
+                    (_, value) => shorten(value),
+                }
+            }
+        }
+        Value::Array(list) => list.iter_mut().for_each(shorten),
+        _ => {}
+    }
+}
+
+/// A command line without absolute paths. Its third word is the case.
+fn command(text: &str) -> String {
+    let words = words(text);
+    let case = words.get(2).and_then(|word| absolute(word)).map_or("", |(_, path)| path);
+    let folder = Path::new(case.trim_end_matches('\'')).parent().and_then(Path::to_str).filter(|dir| !dir.is_empty());
+    let shown = words.iter().map(|word| {
+        let Some((before, path)) = absolute(word) else { return (*word).to_owned() };
+        let within = folder.and_then(|folder| path.strip_prefix(folder)?.strip_prefix(['/', '\\']));
+        let last = || path.trim_end_matches(['/', '\\']).rsplit(['/', '\\']).next().unwrap_or_default();
+        format!("{before}{}", within.unwrap_or_else(last))
+    });
+    shown.collect::<Vec<_>>().join(" ")
+}
+
+/// The absolute path that ends a word of a command, and what stands before it: a quote, or an
+/// option and `=`.
+fn absolute(word: &str) -> Option<(&str, &str)> {
+    let option = if word.trim_start_matches('\'').starts_with('-') { word.find('=').map_or(0, |at| at + 1) } else { 0 };
+    let quote = word.get(option..)?.len() - word.get(option..)?.trim_start_matches('\'').len();
+    let (before, path) = word.split_at_checked(option + quote)?;
+    let bytes = path.as_bytes();
+    let drive = bytes.first().is_some_and(u8::is_ascii_alphabetic)
+        && bytes.get(1) == Some(&b':')
+        && matches!(bytes.get(2), Some(b'/' | b'\\'));
+    (path.starts_with('/') || path.starts_with("\\\\") || drive).then_some((before, path))
+}
+
+/// The words of a command line, quoted as they are.
+fn words(text: &str) -> Vec<&str> {
+    let mut quoted = false;
+    text.split(|c: char| {
+        quoted ^= c == '\'';
+        c == ' ' && !quoted
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{command, shorten};
+    use serde_json::json;
+
+    #[test]
+    fn commands_name_no_folder_of_a_machine() {
+        for (typed, shown) in [
+            ("signorini run case.toml --out out/a", "signorini run case.toml --out out/a"),
+            ("signorini run /home/jane/p/case.toml --out /home/jane/p/out/a", "signorini run case.toml --out out/a"),
+            ("signorini orbit tube --from /tmp/x/orbit.json", "signorini orbit tube --from orbit.json"),
+            ("signorini run case.toml --out=/tmp/x/", "signorini run case.toml --out=x"),
+            ("signorini run '/home/jane doe/p/a b.toml' --force", "signorini run 'a b.toml' --force"),
+            ("signorini run 'C:\\jane\\case.toml' --out 'C:\\jane\\out'", "signorini run 'case.toml' --out 'out'"),
+            ("signorini run a --set 'wall.*.restitution=0.8'", "signorini run a --set 'wall.*.restitution=0.8'"),
+        ] {
+            assert_eq!(command(typed), shown);
+        }
+    }
+
+    #[test]
+    fn files_keep_their_names_relative_to_the_case() {
+        let mut data = json!({ "methods": [{ "summary": {
+            "files": [{ "file": "f.csv", "path": "/home/jane/f.csv", "bytes": 3 }], "unit": "N s/m",
+        } }] });
+        shorten(&mut data);
+        let expected = json!({ "methods": [{ "summary": {
+            "files": [{ "file": "f.csv", "bytes": 3 }], "unit": "N s/m",
+        } }] });
+        assert_eq!(data, expected);
+    }
+}
