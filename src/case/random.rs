@@ -14,6 +14,10 @@ use toml::Spanned;
 /// The largest seed: whole numbers up to it are exact in a file.
 const MOST_SEED: f64 = 9_007_199_254_740_992.0;
 
+/// A random force of more rows than this is worth a word: 17 MB, and a second of computing.
+#[cfg(feature = "cli")]
+const MANY_ROWS: usize = 1 << 20;
+
 /// A random force of the file, its table, and the file of its density.
 pub(super) struct NewRandom {
     pub force: RandomForce,
@@ -125,6 +129,28 @@ impl Case {
     #[must_use]
     pub fn is_random(&self) -> bool {
         self.written.origins.iter().any(|origin| matches!(origin, Origin::Random { .. }))
+    }
+
+    /// The size of each random force that has many rows, in words.
+    #[cfg(feature = "cli")]
+    pub(crate) fn large_random_forces(&self) -> impl Iterator<Item = String> {
+        let made = self.written.origins.iter().zip(&self.whole().loads).enumerate();
+        made.filter_map(|(index, (origin, load))| match (origin, &load.kind) {
+            (Origin::Random { force, .. } | Origin::Second(force), LoadKind::Table(table)) => {
+                let rows = table.time().len();
+                let [_, to] = force.density.band();
+                (rows > MANY_ROWS).then(|| {
+                    format!(
+                        "load {}: random: a table of {rows} rows, {:.0} MB: 16 rows and more in a period of {to:e} Hz, \
+                         up to {} s",
+                        index + 1,
+                        16e-6 * rows as f64,
+                        self.scene.duration
+                    )
+                })
+            }
+            _ => None,
+        })
     }
 
     /// Realisation `number` of the case, from 1: the same case, where the seed of every random load

@@ -172,12 +172,14 @@ impl Changes {
         format!("signorini {command} {}{}", quoted(name), sets.collect::<String>())
     }
 
-    /// The case of that file.
+    /// The case of that file. Says the size of random forces that take time and memory.
     ///
     /// # Errors
     /// As [`Changes::case_file`] and [`CaseFile::case`].
     pub fn case(&self, name: &str, ui: &Ui) -> Result<Case> {
-        self.case_file(name, ui)?.case()
+        let case = self.case_file(name, ui)?.case()?;
+        case.large_random_forces().for_each(|said| ui.message(&said));
+        Ok(case)
     }
 
     /// The same case with another restitution at every rigid wall, checked.

@@ -500,3 +500,25 @@ fn a_page_that_is_forwarded_names_no_folder_of_the_machine() {
     let summary: Value = serde_json::from_slice(&fs::read(folder.join("f/summary.json")).unwrap()).unwrap();
     assert_eq!(summary["files"][0]["path"], whole("tabulated-pulse.csv"));
 }
+
+#[test]
+fn a_random_force_of_many_rows_says_its_size_before_the_run() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = |to: &str| {
+        format!(
+            "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0\n[[wall]]\nname = \"a\"\nside = \
+             \"upper\"\nposition = 1.0\n[[load]]\nrandom = {{ rms = 1.0, from = 1.0, to = {to} }}\n[time]\nend = \
+             1.0\nstep = 1e-3\n"
+        )
+    };
+    let explained = |to: &str, code| {
+        fs::write(dir.path().join("band.toml"), case(to)).unwrap();
+        said(dir.path(), &["explain", "band.toml"], code).1
+    };
+    // 16 rows in a period of the fastest line, and a power of two: 2^21 and two more.
+    let said = explained("1e5", 0);
+    assert!(said.contains("load 1: random: a table of 2097154 rows, 34 MB") && said.contains("1e5 Hz"), "{said}");
+    assert!(!explained("1e3", 0).contains("a table of"));
+    let said = explained("2e6", 2);
+    assert!(said.contains("band is up to 2000000.0 Hz over 1.0 s") && said.contains("at most 2^24 rows"), "{said}");
+}

@@ -137,7 +137,7 @@ impl RandomForce {
 
 impl Density {
     /// The frequencies between which the density is not zero, Hz.
-    fn band(&self) -> [f64; 2] {
+    pub(crate) fn band(&self) -> [f64; 2] {
         match self {
             Self::Flat { from, to, .. } => [*from, *to],
             Self::Points(points) => [points.first(), points.last()].map(|point| point.map_or(0.0, |point| point[0])),
