@@ -48,6 +48,7 @@ pub struct Interrupt(Arc<Inner>);
 struct Inner {
     ask: Box<dyn Fn() -> bool + Send + Sync>,
     stopped: AtomicBool,
+    depth: usize,
 }
 
 impl Interrupt {
@@ -55,7 +56,8 @@ impl Interrupt {
     /// threads of the computation.
     #[must_use]
     pub fn new(ask: impl Fn() -> bool + Send + Sync + 'static) -> Self {
-        Self(Arc::new(Inner { ask: Box::new(ask), stopped: AtomicBool::new(false) }))
+        let depth = Self::current().map_or(0, |around| around.depth() + 1);
+        Self(Arc::new(Inner { ask: Box::new(ask), stopped: AtomicBool::new(false), depth }))
     }
 
     /// Does `work` under this interrupt. Of nested interrupts, only the innermost is called.
@@ -72,6 +74,14 @@ impl Interrupt {
     #[must_use]
     pub fn current() -> Option<Self> {
         CURRENT.with_borrow(Option::clone)
+    }
+
+    /// The number of interrupts around the one that was made, on whatever thread: 0 for one made
+    /// outside of all others. A program whose loads call back into it, and so run scenes within
+    /// runs of scenes, knows by it how deep it is.
+    #[must_use]
+    pub fn depth(&self) -> usize {
+        self.0.depth
     }
 
     /// True once the function has returned true.

@@ -7,7 +7,7 @@ use signorini::study::stability::family::Question;
 use signorini::study::stability::plan::{Grid, Plan};
 use signorini::study::verdict::Verdict;
 use signorini::sweep::{Axis, Manner, Measure, Shard, Sweep};
-use signorini::{Error, Interrupt, Load, Options, Result, Scene, Scheme, Stepper, TimeOptions, Wall, run};
+use signorini::{Chain, Error, Interrupt, Load, Options, Result, Scene, Scheme, Stepper, TimeOptions, Wall, run};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -66,6 +66,29 @@ fn studies_stop() {
     let short = scene();
     let made = run(&short, &MOREAU_JEAN, &Options::with_step(1e-3)).unwrap();
     stops("verdict", || Verdict::of(&long, &MOREAU_JEAN.into(), &made, &time, &mut |_| {}));
+}
+
+#[test]
+fn a_reduction_to_modes_stops() {
+    let masses = vec![1.0; 100_000];
+    let chain = Chain { springs: vec![1e4; masses.len() - 1], masses, grounds: [1e4, 0.0] };
+    let scene = Scene::structure(chain.structure().unwrap());
+    stops("modes", || scene.reduced(400, false));
+}
+
+#[test]
+fn an_interrupt_counts_those_around_it_on_every_thread() {
+    let quiet = || Interrupt::new(|| false);
+    assert_eq!(quiet().depth(), 0);
+    let depths = quiet().over(|| {
+        let inner = quiet();
+        let within = inner.over(|| Ok(quiet().depth()))?;
+        let carried = Interrupt::current();
+        let beside = std::thread::spawn(move || carried.map(|around| around.over(|| Ok(quiet().depth()))));
+        Ok([inner.depth(), within, beside.join().unwrap().unwrap()?])
+    });
+    assert_eq!(depths.unwrap(), [1, 2, 1]);
+    assert_eq!(quiet().depth(), 0);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use super::definite::definite;
 use super::dense::eigen;
 use crate::error::{Error, Result};
+use crate::interrupt::Asking;
 use crate::linear::{Factor, Operator, Symmetric, negative_pivots};
 use crate::scene::Structure;
 use crate::scene::scales::fastest_squared;
@@ -150,7 +151,9 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
     // of them alike. A short run finds that range.
     let mut scout = Basis::new(structure, least).ok_or_else(singular)?;
     let mut left = count + 6 * BLOCK;
+    let mut asking = Asking::here();
     while left > 0 && scout.expand() {
+        asking.pass(scout.images.len() as u64)?;
         left -= 1;
     }
     let (theta, ..) = scout.ritz().ok_or_else(failed)?;
@@ -162,10 +165,12 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
     let mut basis = Basis::new(structure, sigma).ok_or_else(singular)?;
     let most = n.min(4 * count + 200);
     let mut next = (2 * count + 2 * BLOCK).min(most);
+    asking.restart();
     loop {
         let mut grows = true;
         while grows && basis.images.len() < next {
             grows = basis.expand();
+            asking.pass(basis.images.len() as u64)?;
         }
         let (theta, vectors, residuals) = basis.ritz().ok_or_else(failed)?;
         let largest = theta.first().copied().unwrap_or(0.0);
