@@ -37,9 +37,10 @@ const LARGE_TURN: f64 = 0.2;
 /// Maximum number of handed-over stretches with a note each.
 const MOST_HANDED: usize = 5;
 
-pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) -> Vec<String> {
+/// How steps and rows were fitted to the end of the run, and whether there was a contact: what the
+/// results are, and not how far they hold.
+pub(crate) fn remarks<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) -> Vec<String> {
     let mut notes = Vec::new();
-    let asked: Vec<f64> = scene.contact_laws().filter_map(|law| law.restitution()).collect();
     if run.grid.shortened {
         notes.push(format!(
             "the step was shortened to {:e} s so that steps end on the rows and at the end",
@@ -50,6 +51,14 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) 
         let spacing = run.grid.end / run.grid.rows as f64;
         notes.push(format!("the rows are {spacing:e} s apart, closer than asked for, so that the last is at the end"));
     }
+    notes.extend(run.recorded().and_then(|trajectory| approach::untouched(scene, trajectory)));
+    notes
+}
+
+/// What limits the use of the results.
+pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) -> Vec<String> {
+    let mut notes = Vec::new();
+    let asked: Vec<f64> = scene.contact_laws().filter_map(|law| law.restitution()).collect();
     if run.scheme == Scheme::Newmark && !asked.is_empty() {
         notes.push(
             "newmark is for demonstration: its restitution is between 1/3 and 3, depending on the phase of each impact"
@@ -89,7 +98,6 @@ pub(crate) fn notes<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) 
         ));
     }
     notes.extend(of_supports(&run.counters));
-    notes.extend(run.recorded().and_then(|trajectory| approach::untouched(scene, trajectory)));
     notes.extend(setup(scene, &run.scheme, run.grid.step));
     notes
 }

@@ -47,6 +47,9 @@ pub struct Run<J: Judging = Judged, R: Recording = Recorded> {
     pub handed: Vec<Handed>,
     /// Notes that a reader of the results must know, in sentences.
     pub notes: Vec<String>,
+    /// Those of the notes that limit the use of the results: a step that does not resolve a load or
+    /// a mode, energy that the scheme created, a restitution that it does not realise.
+    pub cautions: Vec<String>,
 }
 
 impl<J: Judging, R: Recording> Run<J, R> {

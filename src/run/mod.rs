@@ -133,8 +133,10 @@ pub fn run_with_progress<J: Judging, R: Recording>(
         seconds: started.elapsed().as_secs_f64(),
         handed: stepper.handed().to_vec(),
         notes: Vec::new(),
+        cautions: Vec::new(),
     };
-    run.notes = crate::notes::notes(scene, &run);
+    run.cautions = crate::notes::cautions(scene, &run);
+    run.notes = [crate::notes::remarks(scene, &run), run.cautions.clone()].concat();
     Ok(run)
 }
 

@@ -23,6 +23,21 @@ fn a_scene_in_order_has_no_note() {
 }
 
 #[test]
+fn cautions_are_the_notes_that_limit_the_use_of_results() {
+    let cautions = |scene: &Scene, step: f64| {
+        let run = run(scene, &MOREAU, &Options::with_step(step)).unwrap();
+        assert!(run.notes.ends_with(&run.cautions));
+        (run.notes.len(), run.cautions.len())
+    };
+    assert_eq!(cautions(&scene(), 1e-3), (0, 0));
+    // The step is shortened; there is no contact.
+    let far = Scene::oscillator(1.0, 0.1, 100.0).with_wall(Wall::upper("stop", 1.0)).with_load(Load::constant(1.0));
+    assert_eq!(cautions(&far, 1.7e-3), (2, 0));
+    // And a period of the load takes six steps.
+    assert_eq!(cautions(&far.with_load(Load::harmonic(1.0, 100.0, 0.0)), 1.7e-3), (3, 1));
+}
+
+#[test]
 fn a_table_that_ends_or_begins_inside_the_run_is_said() {
     let table = |time: &[f64], force: &[f64]| Load::table(Table::new(time.to_vec(), force.to_vec()).unwrap());
     let short = scene().with_load(table(&[0.0, 0.5], &[1.0, 2.0]));
