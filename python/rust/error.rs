@@ -22,6 +22,12 @@ create_exception!(
     "The run broke what its scheme promises: do not use its numbers. ``run`` holds it, for inspection, if there is one."
 );
 
+create_exception!(
+    signorini,
+    ResultWarning,
+    PyUserWarning,
+    "A note that concerns the results of a run; ``Run.notes`` has all notes."
+);
 create_exception!(signorini, AccuracyWarning, PyUserWarning, "The accuracy asked for is not kept to the end.");
 
 /// The exception of an error: `ValueError` for a wrong request, `OSError` for a file, `RunError`

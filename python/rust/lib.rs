@@ -34,7 +34,9 @@ mod _core {
     #[pymodule_export]
     use super::case::{Case, load};
     #[pymodule_export]
-    use super::error::{AccuracyWarning, DivergedError, NotSolvedError, RefutedError, RunError, TooManyEventsError};
+    use super::error::{
+        AccuracyWarning, DivergedError, NotSolvedError, RefutedError, ResultWarning, RunError, TooManyEventsError,
+    };
     #[pymodule_export]
     use super::load::Load;
     #[pymodule_export]

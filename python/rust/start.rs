@@ -1,6 +1,6 @@
 //! Runs scenes, and raises where the judge refutes the run.
 
-use crate::error::{AccuracyWarning, DivergedError, RefutedError, raise, wrong};
+use crate::error::{AccuracyWarning, DivergedError, RefutedError, ResultWarning, raise, wrong};
 use crate::plan::Plan;
 use crate::run::Run;
 use crate::scene::Scene;
@@ -55,9 +55,17 @@ impl Run {
     ) -> PyResult<Py<Self>> {
         let py = scene.py();
         let refuted = run.refuted();
+        let cautions: Vec<String> = if refuted.is_none() { run.cautions.clone() } else { Vec::new() };
         let made = Py::new(py, Self { run, time, scene: scene.clone().unbind(), accuracy })?;
         match refuted {
-            None => Ok(made),
+            None => {
+                for note in cautions {
+                    // Names are without NUL.
+                    let text = std::ffi::CString::new(note).unwrap_or_default();
+                    PyErr::warn(py, &py.get_type::<ResultWarning>(), &text, 1)?;
+                }
+                Ok(made)
+            }
             Some(error) => {
                 let diverged = made.get().run.findings.iter().any(|found| found.refuted == sg::Refuted::Diverged);
                 let text = error.to_string();

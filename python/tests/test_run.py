@@ -153,3 +153,45 @@ def test_plots(scene: sg.Scene) -> None:
         lasting = sg.load("elastic-wall").run().plot()
     assert axes[2].get_ylabel() == "contact impulse (N s)"
     assert lasting[2].get_ylabel() == "contact force (N)"
+
+
+def test_notes_that_concern_the_result_are_warnings(scene: sg.Scene) -> None:
+    # A period of the load is 5 steps of 0.04 s.
+    with pytest.warns(sg.ResultWarning) as caught:
+        run = scene.run("moreau-jean", step=0.04)
+    said = [str(warning.message) for warning in caught]
+    assert any("fewer than 10 do not resolve it" in text for text in said)
+    assert said == run.notes and all(warning.filename == __file__ for warning in caught)
+    # That a step was shortened to end at the end concerns the grid only.
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        run = scene.run("moreau-jean", step=1.7e-4)
+    assert len(run.notes) == 1 and "shortened" in run.notes[0]
+    # A refuted run raises, and does not warn besides.
+    assert issubclass(sg.ResultWarning, UserWarning)
+
+
+def test_the_picture_of_a_run_shows_supports_with_whole_legends() -> None:
+    import matplotlib.pyplot as plt
+
+    hole = sg.load("whirl-in-a-hole").scene.replace(duration=0.2).run(step=1e-3)
+    axes = hole.plot()
+    (line,) = axes[2].get_lines()
+    np.testing.assert_allclose(line.get_ydata(), np.hypot(*hole.hole_force("hole")))
+    assert line.get_label() == "hole" and line.get_ydata().max() > 0.0
+    names = [f"a-rather-long-name-of-a-support-{number}" for number in range(3)]
+    walls = [wall for number, name in enumerate(names) for wall in sg.support(name, 1e-3 + 1e-4 * number)]
+    free = sg.oscillator(1.0, 0.2, 100.0, velocity=0.1)
+    made = [hole, free.replace(walls=walls).run("event"), free.run("event")]
+    for run in made:
+        axes = run.plot()
+        figure = axes[0].figure
+        figure.canvas.draw()
+        for ax in axes:
+            legend = ax.get_legend()
+            if legend is not None:
+                box = legend.get_window_extent()
+                assert box.x0 >= 0.0 and box.x1 <= figure.bbox.x1 and box.y1 <= figure.bbox.y1, box
+        # No panel is empty.
+        assert all(ax.lines or ax.collections or ax.texts for ax in axes)
+    plt.close("all")

@@ -169,7 +169,7 @@ impl Plan {
                     row.status = Status::Handed;
                     row.error = format!("{} stretches of impacts by moreau-jean", done.handed);
                 }
-                self.check_finite(&mut row);
+                self.check_finite(row);
                 if !done.findings.is_empty() {
                     row.status = Status::Refuted;
                     row.error = done.findings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");

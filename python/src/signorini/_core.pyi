@@ -16,6 +16,7 @@ __all__ = [
     "NotSolvedError",
     "Rayleigh",
     "RefutedError",
+    "ResultWarning",
     "Run",
     "RunError",
     "Scene",
@@ -58,6 +59,7 @@ class AccuracyWarning(UserWarning): ...
 
 @final
 class Wall:
+class ResultWarning(UserWarning): ...
     @staticmethod
     def upper(
         name: str,
