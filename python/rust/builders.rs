@@ -3,10 +3,20 @@
 use crate::error::{raise, wrong, wrong_type};
 use crate::place::Model;
 use crate::scene::Scene;
+use crate::work::{LARGE, compute_apart};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use signorini as sg;
 use signorini::linear::Symmetric;
+
+/// The matrices of a structure of about `size` degrees of freedom.
+fn built(
+    py: Python<'_>,
+    size: usize,
+    structure: impl FnOnce() -> sg::Result<sg::Structure> + Send + 'static,
+) -> PyResult<sg::Structure> {
+    if size < LARGE { structure().map_err(raise) } else { compute_apart(py, structure) }
+}
 
 #[pyfunction]
 pub fn _oscillator(mass: f64, damping: f64, stiffness: f64) -> PyResult<Scene> {
@@ -16,9 +26,10 @@ pub fn _oscillator(mass: f64, damping: f64, stiffness: f64) -> PyResult<Scene> {
 }
 
 #[pyfunction]
-pub fn _chain(masses: Vec<f64>, springs: Vec<f64>, grounds: (f64, f64)) -> PyResult<Scene> {
+pub fn _chain(py: Python<'_>, masses: Vec<f64>, springs: Vec<f64>, grounds: (f64, f64)) -> PyResult<Scene> {
     let chain = sg::Chain { masses, springs, grounds: [grounds.0, grounds.1] };
-    Ok(Scene::new(sg::Scene::structure(chain.structure().map_err(raise)?), Model::Numbered))
+    let structure = built(py, chain.masses.len(), move || chain.structure())?;
+    Ok(Scene::new(sg::Scene::structure(structure), Model::Numbered))
 }
 
 /// A support of an end: its name, or its stiffnesses.
@@ -46,6 +57,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for End {
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "the dimensions of a bar")]
 pub fn _bar(
+    py: Python<'_>,
     length: f64,
     area: f64,
     youngs_modulus: f64,
@@ -65,12 +77,17 @@ pub fn _bar(
     let mass = if lumped { sg::MassMatrix::Lumped } else { sg::MassMatrix::Consistent };
     let (left, right) = (end("bar: left", left)?, end("bar: right", right)?);
     let bar = sg::Bar { length, area, youngs_modulus, density, elements, left, right, mass };
-    Ok(Scene::new(sg::Scene::structure(bar.structure().map_err(raise)?), Model::Bar(bar)))
+    let structure = built(py, elements, {
+        let bar = bar.clone();
+        move || bar.structure()
+    })?;
+    Ok(Scene::new(sg::Scene::structure(structure), Model::Bar(bar)))
 }
 
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "the dimensions of a tube")]
 pub fn _beam(
+    py: Python<'_>,
     length: f64,
     youngs_modulus: f64,
     density: f64,
@@ -93,7 +110,11 @@ pub fn _beam(
     let (left, right) = (end("beam: left", left)?, end("beam: right", right)?);
     let beam =
         sg::Beam { length, youngs_modulus, density, outer_diameter, inner_diameter, added_mass, elements, left, right };
-    Ok(Scene::new(sg::Scene::structure(beam.structure().map_err(raise)?), Model::Beam(beam)))
+    let structure = built(py, elements, {
+        let beam = beam.clone();
+        move || beam.structure()
+    })?;
+    Ok(Scene::new(sg::Scene::structure(structure), Model::Beam(beam)))
 }
 
 /// Rows, columns and values of a matrix.

@@ -3,7 +3,7 @@
 use crate::error::{raise, wrong};
 use crate::pickle::{Reduced, State, pickled, unpickled};
 use crate::place::Place;
-use crate::work::keep;
+use crate::work::{called_in_run, nested};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -38,6 +38,22 @@ fn load(load: sg::Load, place: Place) -> PyResult<Load> {
 impl Load {
     /// A constant force (N).
     ///
+    /// Parameters
+    /// ----------
+    /// force : float
+    ///     N.
+    /// at : place, optional
+    ///     As in `Wall.upper`.
+    ///
+    /// Returns
+    /// -------
+    /// Load
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For values that make no sense.
+    ///
     /// Examples
     /// --------
     /// >>> import signorini as sg
@@ -50,6 +66,26 @@ impl Load {
     }
 
     /// amplitude · sin(2π frequency t + phase): N, Hz, rad.
+    ///
+    /// Parameters
+    /// ----------
+    /// amplitude : float
+    ///     N.
+    /// frequency : float
+    ///     Hz.
+    /// phase : float
+    ///     rad.
+    /// at : place, optional
+    ///     As in `Wall.upper`.
+    ///
+    /// Returns
+    /// -------
+    /// Load
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For values that make no sense.
     ///
     /// Examples
     /// --------
@@ -65,6 +101,24 @@ impl Load {
 
     /// A blow of ``impulse`` (N s) at ``time`` (s).
     ///
+    /// Parameters
+    /// ----------
+    /// impulse : float
+    ///     N s.
+    /// time : float
+    ///     s.
+    /// at : place, optional
+    ///     As in `Wall.upper`.
+    ///
+    /// Returns
+    /// -------
+    /// Load
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For values that make no sense.
+    ///
     /// Examples
     /// --------
     /// >>> import signorini as sg
@@ -78,6 +132,25 @@ impl Load {
 
     /// A force (N) at increasing times (s): linear between them, zero outside.
     ///
+    /// Parameters
+    /// ----------
+    /// time : sequence of float
+    ///     s, increasing.
+    /// force : sequence of float
+    ///     N, one for each time.
+    /// at : place, optional
+    ///     As in `Wall.upper`.
+    ///
+    /// Returns
+    /// -------
+    /// Load
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For times that do not increase, lists of unequal length, and numbers that are not
+    ///     finite.
+    ///
     /// Examples
     /// --------
     /// >>> import signorini as sg
@@ -89,9 +162,32 @@ impl Load {
         load(sg::Load::table(sg::Table::new(time, force).map_err(raise)?), at)
     }
 
-    /// The force (N) that ``force(time)`` returns, a function of the time in s only: for the
-    /// stepping schemes, which evaluate it at the ends of their steps. The exact scheme refuses it,
-    /// and it cannot be pickled. An exception that it raises ends the run and is passed on.
+    /// The force that a function of the time returns.
+    ///
+    /// It is for the stepping schemes, which evaluate it at the ends of their steps. The exact
+    /// scheme refuses it, and it cannot be pickled. An exception that it raises ends the run and is
+    /// passed on. It may run scenes itself, up to 16 runs within one another.
+    ///
+    /// Parameters
+    /// ----------
+    /// force : callable
+    ///     ``force(time)`` returns the force in N, of the time in s only.
+    /// at : place, optional
+    ///     As in `Wall.upper`.
+    ///
+    /// Returns
+    /// -------
+    /// Load
+    ///
+    /// Raises
+    /// ------
+    /// TypeError
+    ///     For what cannot be called, or does not return a number.
+    /// Exception
+    ///     Whatever the function raises at time 0.
+    /// RecursionError
+    ///     Where the function makes a load of itself, and so on without end; during a run, where
+    ///     more than 16 runs are within one another.
     ///
     /// Examples
     /// --------
@@ -105,17 +201,11 @@ impl Load {
             return Err(PyTypeError::new_err(format!("force is {}; expected a function of the time", force.repr()?)));
         }
         // Evaluated once here, so that an invalid function is refused at once.
-        force.call1((0.0,))?.extract::<f64>()?;
+        nested(|| force.call1((0.0,))?.extract::<f64>())?;
         let force = force.unbind();
-        let at_time = move |t: f64| {
-            Python::attach(|py| {
-                let value = force.bind(py).call1((t,)).and_then(|value| value.extract::<f64>());
-                value.unwrap_or_else(|error| {
-                    keep(error);
-                    f64::NAN
-                })
-            })
-        };
+        let call =
+            move |t: f64| Python::attach(|py| force.bind(py).call1((t,)).and_then(|value| value.extract::<f64>()));
+        let at_time = move |t: f64| called_in_run(|| call(t)).unwrap_or(f64::NAN);
         load(sg::Load::function(at_time), at)
     }
 

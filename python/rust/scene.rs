@@ -9,7 +9,7 @@ use crate::plan::Plan;
 use crate::run::Run;
 use crate::values::{Damping, Values};
 use crate::wall::Wall;
-use crate::work::compute;
+use crate::work::{LARGE, compute, compute_apart};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde::{Deserialize, Serialize};
@@ -133,21 +133,31 @@ impl Scene {
         origin.damping = damping.map(|damping| damping.0).or(origin.damping);
         origin.modes = modes.or(origin.modes);
         origin.static_correction = static_correction.unwrap_or(origin.static_correction);
-        let built = compute(py, || origin.built())?;
+        let built = if n < LARGE {
+            compute(py, || origin.built())?
+        } else {
+            let origin = origin.clone();
+            compute_apart(py, move || origin.built())?
+        };
         let same = origin.damping.is_none() && origin.modes.is_none() && built.initial.q.len() == n;
         Ok(Self { scene: built, model: self.model.clone(), origin: (!same).then(|| Box::new(origin)) })
     }
 
     /// Runs the scene to its end.
     ///
-    /// Parameters ---------- scheme : str, optional A scheme in the words of the command-line tool:
-    /// ``"moreau-jean"``, ``"event"``, ``"penalty:epsilon=1e-9"``,
-    /// ``"moreau-jean:theta=0.6,qp=clarabel"``; chosen if left out. step : float, optional s. Every
-    /// scheme but ``event`` needs one, or ``accuracy``. accuracy : float, optional The error to
-    /// keep, as a share of the gap; scheme and step that keep it are found. An `AccuracyWarning`
-    /// says so where it is not kept to the end. sample : float, optional Time between two recorded
-    /// rows, s; every step, or a thousand rows of ``event``. statistics_from : float Where the
-    /// window of the statistics begins, s.
+    /// Parameters
+    /// ----------
+    /// scheme : str, optional
+    ///     A scheme in the words of the command-line tool: ``"moreau-jean"``, ``"event"``,
+    ///     ``"penalty:epsilon=1e-9"``, ``"moreau-jean:theta=0.6,qp=clarabel"``; chosen if left out.
+    /// step : float, optional
+    ///     s. Every scheme but ``event`` needs one, or ``accuracy``.
+    /// accuracy : float, optional
+    ///     The error to keep, as a share of the gap; scheme and step that keep it are found.
+    /// sample : float, optional
+    ///     Time between two recorded rows, s; every step, or a thousand rows of ``event``.
+    /// statistics_from : float
+    ///     Where the window of the statistics begins, s.
     ///
     /// Returns
     /// -------
@@ -160,6 +170,14 @@ impl Scene {
     /// RunError
     ///     For a run that failed: `DivergedError`, `TooManyEventsError`, `NotSolvedError`, or
     ///     `RefutedError`, whose ``run`` is the run that broke the scheme's promises.
+    ///
+    /// Warns
+    /// -----
+    /// AccuracyWarning
+    ///     Where the accuracy asked for is not kept to the end.
+    /// ResultWarning
+    ///     For each note that concerns the results: a step that does not resolve a load or a mode,
+    ///     energy that the scheme created. `Run.notes` has them too.
     ///
     /// Examples
     /// --------
@@ -233,12 +251,17 @@ impl Scene {
         format!("<Scene: {body}, {walls}, {loads}, {:?} s>", self.scene.duration)
     }
 
-    fn __str__(&self) -> String {
+    fn __str__(&self, py: Python<'_>) -> PyResult<String> {
         use sg::study::choice::{body, loads, walls};
-        let mut lines = body(&self.scene);
-        lines.extend(walls(&self.scene));
-        lines.push(format!("{}, {:?} s", loads(&self.scene), self.scene.duration));
-        lines.join("\n")
+        let scene = self.scene.clone();
+        let lines = move || {
+            let mut lines = body(&scene);
+            lines.extend(walls(&scene));
+            lines.push(format!("{}, {:?} s", loads(&scene), scene.duration));
+            Ok(lines.join("\n"))
+        };
+        // The natural frequencies of a large structure take seconds.
+        if self.degrees_of_freedom() < LARGE { lines().map_err(raise) } else { compute_apart(py, lines) }
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, State<'py>>> {

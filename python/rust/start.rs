@@ -4,7 +4,7 @@ use crate::error::{AccuracyWarning, DivergedError, RefutedError, ResultWarning, 
 use crate::plan::Plan;
 use crate::run::Run;
 use crate::scene::Scene;
-use crate::work::{compute, compute_beside};
+use crate::work::{LARGE, compute, compute_apart, compute_beside};
 use pyo3::prelude::*;
 use signorini as sg;
 use signorini::study::accuracy::{Target, reach};
@@ -13,7 +13,13 @@ impl Run {
     /// Runs `scene`.
     pub fn make(scene: &Bound<'_, Scene>, plan: Plan) -> PyResult<Py<Self>> {
         let inner = &scene.get().scene;
-        let run = compute(scene.py(), || sg::run(inner, &plan.method, &sg::Options::new(plan.time)))?;
+        let options = sg::Options::new(plan.time);
+        let run = if inner.system.degrees_of_freedom() < LARGE {
+            compute(scene.py(), || sg::run(inner, &plan.method, &options))?
+        } else {
+            let inner = inner.clone();
+            compute_apart(scene.py(), move || sg::run(&inner, &plan.method, &options))?
+        };
         Self::judged(scene, run, plan.time, None)
     }
 

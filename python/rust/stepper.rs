@@ -4,7 +4,7 @@ use crate::array::Array;
 use crate::error::{raise, wrong};
 use crate::scene::Scene;
 use crate::values::Values;
-use crate::work::kept;
+use crate::work::{LARGE, compute_apart, kept};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use signorini as sg;
@@ -17,8 +17,14 @@ const INTERVAL: Duration = Duration::from_millis(50);
 
 /// Advances a scene step by step: for co-simulation and control.
 ///
-/// Parameters ---------- scene : Scene scheme : str As in `Scene.run`. step : float s; for
-/// ``event`` the maximum length of a step.
+/// Parameters
+/// ----------
+/// scene : Scene
+///     What is stepped.
+/// scheme : str
+///     As in `Scene.run`.
+/// step : float
+///     s; for ``event`` the maximum length of a step.
 ///
 /// Raises
 /// ------
@@ -92,8 +98,13 @@ impl Stepper {
     #[pyo3(signature = (scene, scheme, step))]
     fn new(py: Python<'_>, scene: &Scene, scheme: &str, step: f64) -> PyResult<Self> {
         let method: sg::Method = scheme.parse().map_err(raise)?;
-        let stepper = py.detach(|| sg::Stepper::new(&scene.scene, &method, step));
-        let stepper = stepper.map_err(|error| kept().unwrap_or_else(|| raise(error)))?;
+        let stepper = if scene.scene.system.degrees_of_freedom() < LARGE {
+            let made = py.detach(|| sg::Stepper::new(&scene.scene, &method, step));
+            made.map_err(|error| kept().unwrap_or_else(|| raise(error)))?
+        } else {
+            let inner = scene.scene.clone();
+            compute_apart(py, move || sg::Stepper::new(&inner, &method, step))?
+        };
         let none = vec![0.0; scene.scene.walls.len()];
         Ok(Self { inner: Mutex::new(Inner { stepper, force: none.clone(), impulse: none }) })
     }
@@ -104,6 +115,11 @@ impl Stepper {
     /// ----------
     /// force : float or array of shape (degrees of freedom,), optional
     ///     An extra force, N, constant over the step.
+    ///
+    /// Returns
+    /// -------
+    /// float
+    ///     The time, s.
     ///
     /// Raises
     /// ------
@@ -132,6 +148,18 @@ impl Stepper {
     /// force : callable, optional
     ///     ``force(time, q, v)`` gives the extra force of each step, N, from the state before it:
     ///     numbers for one degree of freedom, arrays for more.
+    ///
+    /// Returns
+    /// -------
+    /// int
+    ///     The number of steps.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For an end that is not finite, and forces as in `Stepper.step`.
+    /// RunError
+    ///     Where a step fails.
     ///
     /// Examples
     /// --------
@@ -189,6 +217,11 @@ impl Stepper {
     ///     s; for a scheme with a step a multiple of it.
     /// q, v : float or array of shape (degrees of freedom,)
     ///     m, m/s.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a time or a state that the scheme cannot continue from.
     ///
     /// Examples
     /// --------

@@ -1,6 +1,7 @@
 //! Computing without the interpreter's lock, and stopping when a signal such as Ctrl-C arrives.
 
 use crate::error::{RunError, raise};
+use pyo3::exceptions::PyRecursionError;
 use pyo3::prelude::*;
 use signorini::{Interrupt, Result};
 use std::cell::RefCell;
@@ -16,11 +17,35 @@ thread_local! {
     static RAISED: RefCell<Option<PyErr>> = const { RefCell::new(None) };
 }
 
-/// Keeps the first exception of a Python function until the computation that called it has ended.
-pub fn keep(error: PyErr) {
-    RAISED.with_borrow_mut(|raised| {
-        raised.get_or_insert(error);
-    });
+/// The most runs within one another, where the load of a scene is a function that runs a scene.
+/// Each takes some 30 kB of the stack, of which threads have 2 MB.
+const MOST_NESTED: usize = 16;
+
+/// Calls a function of Python's that is a load. What it runs itself counts as nested within the
+/// computation around it, on whatever thread.
+///
+/// # Errors
+/// `RecursionError` where too many runs are nested; those of the call.
+pub fn nested<T>(call: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    // Of every run within another there are two interrupts: that of the run, and this one, which
+    // never stops.
+    let inner = Interrupt::new(|| false);
+    if inner.depth() > 2 * MOST_NESTED {
+        return Err(PyRecursionError::new_err(format!(
+            "more than {MOST_NESTED} runs within one another: the function of a Load.function runs a scene, whose \
+             load runs another, and so on; expected one that ends, or a force computed before the run, as a Load.table"
+        )));
+    }
+    inner.over(|| Ok(call())).unwrap_or_else(|error| Err(raise(error)))
+}
+
+/// The same during a run, which cannot pass an exception on: the first is kept until the run ends,
+/// and from then on nothing is called any more.
+pub fn called_in_run<T>(call: impl FnOnce() -> PyResult<T>) -> Option<T> {
+    if has_raised() {
+        return None;
+    }
+    nested(call).map_err(|error| RAISED.set(Some(error))).ok()
 }
 
 /// The exception kept on this thread.
@@ -93,6 +118,45 @@ pub fn compute_beside<T: Send>(
         }
     })
 }
+
+/// Does `work` on a thread of its own, which is left behind when a signal arrives: work on a large
+/// structure has parts that ask no interrupt, such as the factor of a sparse matrix. What is left
+/// behind ends at the next part that asks, and its result is dropped.
+pub fn compute_apart<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T> + Send + 'static,
+) -> PyResult<T> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&stop);
+    let interrupt = Interrupt::new(move || asked.load(Ordering::Relaxed));
+    let (send, receive) = mpsc::channel();
+    let receive = Mutex::new(receive);
+    let worker = std::thread::Builder::new().spawn(move || {
+        let outcome = interrupt.over(work);
+        // Nobody receives it any more after a signal.
+        let _ = send.send((outcome, kept()));
+    })?;
+    loop {
+        match py.detach(|| receive_within(&receive)) {
+            Ok((_, Some(error))) => return Err(error),
+            Ok((outcome, None)) => return outcome.map_err(raise),
+            Err(mpsc::RecvTimeoutError::Timeout) => {
+                if let Err(signal) = py.check_signals() {
+                    stop.store(true, Ordering::Relaxed);
+                    return Err(signal);
+                }
+            }
+            Err(mpsc::RecvTimeoutError::Disconnected) => {
+                let ended = py.detach(|| worker.join());
+                return Err(RunError::new_err(format!("a defect of this program: {ended:?}")));
+            }
+        }
+    }
+}
+
+/// Degrees of freedom from which work on a scene may take a tenth of a second before its first
+/// step.
+pub const LARGE: usize = 1000;
 
 type Outcome<T> = (Result<T>, Option<PyErr>);
 

@@ -1,8 +1,11 @@
 """Bad input: one clear exception, which says what, the value found, and what would be accepted."""
 
+import functools
 import math
 import pickle
+import re
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -208,3 +211,95 @@ def test_a_run_that_fails_is_a_run_error() -> None:
     with pytest.raises(sg.TooManyEventsError, match="contact events"):
         ball(walls=walls, velocity=1.0).run("event")
     assert issubclass(sg.DivergedError, sg.RunError) and issubclass(sg.RunError, RuntimeError)
+
+
+def nested(run: Callable[[sg.Scene, float], float]) -> sg.Scene:
+    """A scene whose load runs the scene itself, by ``run``, which returns the force."""
+    made: list[sg.Scene] = []
+    load = sg.Load.function(lambda t: run(made[0], t) if made else 0.0)
+    made.append(ball(loads=[load]))
+    return made[0]
+
+
+def many(scene: sg.Scene) -> float:
+    """A run among many, whose error is a text."""
+    error = sg.run_many([scene], "moreau-jean", step=0.1)["error"][0]
+    if error is not None:
+        raise RecursionError(error)
+    return 0.0
+
+
+@pytest.mark.parametrize(
+    "run",
+    [
+        lambda scene, t: scene.run("moreau-jean", step=0.1).displacement[-1],
+        lambda scene, t: sg.compare(scene, ["moreau-jean"], step=0.1).horizon,
+        lambda scene, t: many(scene),
+        lambda scene, t: sg.Stepper(scene, "moreau-jean", 0.1).step(),
+    ],
+)
+@pytest.mark.parametrize("beside", [False, True])
+def test_a_load_that_runs_its_own_scene_is_an_error(run: Callable[[sg.Scene, float], float], beside: bool) -> None:
+    def start() -> None:
+        with pytest.raises(RecursionError, match="16 runs within one another"):
+            nested(run).run("moreau-jean", step=0.1)
+
+    if not beside:
+        start()
+        return
+    # Threads have a smaller stack than the first one.
+    thread = ThreadPoolExecutor(1)
+    thread.submit(start).result()
+
+
+def test_a_load_that_makes_itself_is_an_error() -> None:
+    def force(t: float) -> float:
+        sg.Load.function(force)
+        return 0.0
+
+    with pytest.raises(RecursionError):
+        sg.Load.function(force)
+
+
+def test_a_load_may_run_another_scene() -> None:
+    # The force is the end of another run, some levels deep: 1 N s² on 1 kg over a second from rest.
+    force = sg.Load.constant(1.0)
+
+    def twice_the_end(inner: sg.Scene, t: float) -> float:
+        return 2.0 * float(inner.run("moreau-jean", step=0.5).displacement[-1])
+
+    for _ in range(5):
+        force = sg.Load.function(functools.partial(twice_the_end, ball(loads=[force])))
+    # Each level has the displacement of a constant force of 1 N, ½ m.
+    assert ball(loads=[force]).run("moreau-jean", step=0.5).displacement[-1] == pytest.approx(0.5, rel=1e-12)
+
+
+EVIL = "a\x1b[31m\n\0\x9b"
+
+
+def test_control_characters_of_names_are_shown_escaped(tmp_path: Path) -> None:
+    texts = []
+    for wrong in (
+        lambda: sg.Wall.upper(EVIL, 1.0),
+        lambda: ball(probes={EVIL: None}),
+        lambda: ball(walls=[sg.Wall.upper("a", 1.0)]).run("event").impulse(EVIL),
+        lambda: sg.load("rigid-walls-sine", set={EVIL: 1.0}),
+        lambda: sg.load("rigid-walls-sine", set={f"wall.{EVIL}.position": 1.0}),
+        lambda: sg.load("rigid-walls-sine", set={"wall.upper.position": EVIL}),
+        lambda: ball().run(EVIL),
+        lambda: sg.modal([1.0], {EVIL: [1.0]}, walls=[sg.Wall.upper("a", 1.0, at="b")]),
+        lambda: sg.load(tmp_path / EVIL.replace("\0", "")),
+    ):
+        with pytest.raises((ValueError, OSError)) as caught:
+            wrong()
+        texts.append(str(caught.value))
+    case = tmp_path / EVIL.replace("\0", "")
+    text = sg.load("rigid-walls-sine").text
+    lines = [line for line in text.splitlines() if not line.startswith("title")]
+    case.write_text("\n".join([r'title = "t\u001b\n\u0000"', *lines]), encoding="utf-8")
+    loaded = sg.load(case)
+    texts += [loaded.name, str(loaded.title), repr(loaded), repr(sg.modal([1.0], {EVIL: [1.0]}))]
+    assert loaded.title == "t\\u{1b}\\u{a}\\u{0}"
+    for said in texts:
+        assert not re.search(r"[\x00-\x09\x0b-\x1f\x7f-\x9f]", said), repr(said)
+        assert "31m\n" not in said, repr(said)

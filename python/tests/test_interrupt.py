@@ -16,6 +16,7 @@ import signorini as sg
 PROGRAM = """
 import signal
 import time
+import numpy as np
 import signorini as sg
 
 # A shell starts what runs in its background with this signal ignored.
@@ -49,6 +50,10 @@ CALLS = [
     "sg.Stepper(scene, 'moreau-jean', 1e-4).advance(1e6, lambda t, q, v: 0.0)",
     "sg.sweep(make, sg.grid(restitution=[0.7, 0.8]), 'moreau-jean', step=1e-4)",
     "scene.replace(loads=[sg.Load.function(lambda t: 0.0)]).run('moreau-jean', step=1e-4, sample=1e3)",
+    # A reduction to modes, in seconds of work without a step.
+    "sg.chain(np.ones(200_000), np.full(199_999, 1e4), grounds=(1e4, 0.0), modes=200)",
+    "sg.beam(length=3.0, youngs_modulus=2e11, density=7850.0, outer_diameter=0.02, elements=100_000, duration=1e3,"
+    " walls=[sg.Wall.upper('stop', 1e-3, at=1.0)]).run('moreau-jean', step=1e-4, sample=1.0)",
 ]
 
 
