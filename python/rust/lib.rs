@@ -50,7 +50,7 @@ mod _core {
     #[pymodule_export]
     use super::study::{_bifurcation, _chart, _compare, _stability};
     #[pymodule_export]
-    use super::sweep::{_columns, _run_many};
+    use super::sweep::{_columns, _run_many, _unit};
     #[pymodule_export]
     use super::values::Rayleigh;
     #[pymodule_export]
@@ -59,4 +59,8 @@ mod _core {
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    /// Periods of the load that are run before a motion counts as settled, unless told otherwise.
+    #[pymodule_export]
+    const _SETTLE: u32 = signorini::orbit::SETTLE;
 }

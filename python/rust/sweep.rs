@@ -37,6 +37,12 @@ pub fn _columns(walls: Vec<String>) -> Vec<String> {
     walls.iter().flat_map(|wall| COLUMNS.map(|(name, _)| name.replace("{}", wall))).collect()
 }
 
+/// The unit of the values of a key of the case format, as column names write it.
+#[pyfunction]
+pub fn _unit(key: &str) -> Option<&'static str> {
+    key.parse::<sg::case::Key>().ok().and_then(|key| key.unit())
+}
+
 /// A row of numbers for each scene, and the reason where there is none.
 type Rows<'py> = (Bound<'py, PyArray2<f64>>, Vec<Option<String>>);
 

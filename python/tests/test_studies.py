@@ -104,3 +104,42 @@ def test_an_orbit_is_the_settled_motion() -> None:
         sg.orbit(sg.load("rigid-walls-sine").scene, settle=20)
     with pytest.raises(ValueError, match="degree"):
         sg.orbit(sg.chain([1.0, 1.0], [1.0], walls=[sg.Wall.upper("a", 1.0, at=0)]))
+
+
+def test_studies_have_short_representations() -> None:
+    case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+    assert repr(sg.orbit(case.scene)) == "<Orbit: 2 events in 0.2 s, the period of the load; stable>"
+    key = "load.1.harmonic.frequency"
+    made = sg.bifurcation(case, key, [5.0, 5.1], settle=20, keep=5, follow="up")
+    count = len(made.table["value"])
+    assert repr(made) == f"<Bifurcation: {count} samples over {key} from 5 to 5.1>"
+    chart = sg.chart(case.scene.replace(duration=0.5), ["event"], repeats=1)
+    assert repr(chart) == f"<Chart: {len(chart.table['method'])} points of 1 method>"
+    ball = sg.stability(sg.load("bouncing-ball").scene, finest=0.03, per_decade=2, contacts=4)
+    assert repr(ball).startswith("<Stability: ") and len(repr(ball)) < 60
+
+
+def test_axes_have_names_and_units() -> None:
+    case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+    made = sg.bifurcation(case, "load.1.harmonic.frequency", [5.0], settle=20, keep=5, follow="up")
+    for column, label in [
+        (None, "approach speed (m/s)"),
+        ("impulse_N_s", "impulse (N s)"),
+        ("phase_cycles", "phase (cycles)"),
+        ("time_s", "time (s)"),
+    ]:
+        ax = made.plot(column)
+        assert (ax.get_xlabel(), ax.get_ylabel()) == ("load.1.harmonic.frequency (Hz)", label)
+    plain = sg.bifurcation(case, "wall.upper.restitution", [0.7, 0.8], settle=5, keep=5)
+    assert plain.plot().get_xlabel() == "wall.upper.restitution"
+    with pytest.raises(ValueError, match="no column is named 'speed'; there is value, direction"):
+        made.plot("speed")
+    plt.close("all")
+
+
+def test_an_orbit_is_the_shortest_that_repeats_itself() -> None:
+    stop = sg.Wall.upper("stop", 5e-3, restitution=0.8)
+    one = sg.oscillator(1.0, 0.2, 100.0, walls=[stop], loads=[sg.Load.harmonic(3.0, 4.0)])
+    # The run alternates about this orbit for long; its period is three of the load.
+    for made in (sg.orbit(one, settle=200), sg.orbit(one)):
+        assert made.period == pytest.approx(0.75, rel=1e-12) and made.kinds == ["impact"] * 2

@@ -17,7 +17,7 @@ from ._studies import columns_of
 from ._sweep import Table
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Bifurcation:
     """The motions that runs settle on, over the values of a key: see `bifurcation`."""
 
@@ -28,8 +28,31 @@ class Bifurcation:
     key: str
     """The key that was varied."""
 
+    def __repr__(self) -> str:
+        values = self.table["value"]
+        ends = f" from {values.min():.6g} to {values.max():.6g}" if values.size else ""
+        return f"<Bifurcation: {values.size} samples over {self.key}{ends}>"
+
     def plot(self, column: str | None = None, ax: Any = None) -> Any:
         """Draw a column over the values with matplotlib.
+
+        Parameters
+        ----------
+        column : str, optional
+            Of the table; the approach speed of impacts or the displacement if left out.
+        ax : matplotlib axes, optional
+            Made if left out.
+
+        Returns
+        -------
+        matplotlib axes
+
+        Raises
+        ------
+        ValueError
+            For a column that the table does not have; it lists those there are.
+        ImportError
+            Without matplotlib.
 
         Examples
         --------
@@ -37,10 +60,13 @@ class Bifurcation:
         >>> case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
         >>> made = sg.bifurcation(case, "load.1.harmonic.frequency", [4.8, 5.0], settle=20, keep=5)
         >>> made.plot().get_xlabel()
-        'load.1.harmonic.frequency'
+        'load.1.harmonic.frequency (Hz)'
         """
         impacts = "approach_speed_m_per_s" in self.table
-        return _plot.bifurcation(self, column or ("approach_speed_m_per_s" if impacts else "displacement_m"), ax)
+        column = column or ("approach_speed_m_per_s" if impacts else "displacement_m")
+        if column not in self.table:
+            raise ValueError(f"no column is named {column!r}; there is {', '.join(self.table)}")
+        return _plot.bifurcation(self, column, ax)
 
 
 def bifurcation(
@@ -49,7 +75,7 @@ def bifurcation(
     values: Iterable[float] | npt.NDArray[np.float64],
     *,
     scheme: str = "event",
-    settle: int = 200,
+    settle: int = _core._SETTLE,
     keep: int = 30,
     follow: str = "both",
     samples: str = "impacts",
@@ -68,7 +94,7 @@ def bifurcation(
     scheme : str
         As in `Scene.run`.
     settle, keep : int
-        Periods of the load before the samples, and with samples, at each value.
+        Periods of the load before the samples (400 by default), and with samples, at each value.
     follow : str
         ``"up"``, ``"down"`` or ``"both"``; ``"no"`` starts each value from the case's own start.
     samples : str
@@ -76,10 +102,19 @@ def bifurcation(
     threads : int, optional
         All cores if left out; values that follow one another run on one thread.
 
+    Returns
+    -------
+    Bifurcation
+
     Raises
     ------
     ValueError
         For a wrong request.
+
+    Warns
+    -----
+    RuntimeWarning
+        Where some value has no sound motion; its row says why.
 
     Examples
     --------

@@ -23,6 +23,7 @@ __all__ = [
     "Stepper",
     "TooManyEventsError",
     "Wall",
+    "_SETTLE",
     "__version__",
     "_bar",
     "_beam",
@@ -37,9 +38,11 @@ __all__ = [
     "_oscillator",
     "_run_many",
     "_stability",
+    "_unit",
     "load",
 ]
 __version__: Final[str]
+_SETTLE: Final[int]
 
 _Numbers = float | Sequence[float] | Array
 _Entries = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], Array]
@@ -56,10 +59,10 @@ class RefutedError(RunError):
     run: Run
 
 class AccuracyWarning(UserWarning): ...
+class ResultWarning(UserWarning): ...
 
 @final
 class Wall:
-class ResultWarning(UserWarning): ...
     @staticmethod
     def upper(
         name: str,
@@ -320,6 +323,7 @@ def _bifurcation(
 ) -> list[dict[str, Any]]: ...
 def _orbit(scene: Scene, settle: int, points: int) -> dict[str, Any]: ...
 def _columns(walls: Sequence[str]) -> list[str]: ...
+def _unit(key: str) -> str | None: ...
 def _run_many(
     scenes: Sequence[Scene],
     scheme: str | None,

@@ -13,7 +13,7 @@ from ._core import RunError, Scene
 from ._types import Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Orbit:
     """A periodic orbit, by its events: see `orbit`."""
 
@@ -43,8 +43,30 @@ class Orbit:
     velocity: Array
     """m/s; shape (rows,)."""
 
+    def __repr__(self) -> str:
+        count = len(self.kinds) * (2 if self.symmetric else 1)
+        events = f"{count} event{'' if count == 1 else 's'}"
+        periods = round(self.period / self.forcing_period)
+        of_load = "the period of the load" if periods == 1 else f"{periods} periods of the load"
+        stable = "stable" if self.stable else "unstable"
+        return f"<Orbit: {events} in {self.period:.6g} s, {of_load}; {stable}>"
+
     def plot(self, ax: Any = None) -> Any:
         """Draw velocity over displacement with matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib axes, optional
+            Made if left out.
+
+        Returns
+        -------
+        matplotlib axes
+
+        Raises
+        ------
+        ImportError
+            Without matplotlib.
 
         Examples
         --------
@@ -56,7 +78,7 @@ class Orbit:
         return _plot.orbit(self, ax)
 
 
-def orbit(scene: Scene, *, settle: int = 200, rows: int = 400) -> Orbit:
+def orbit(scene: Scene, *, settle: int = _core._SETTLE, rows: int = 400) -> Orbit:
     """The periodic orbit on which a motion settles, to rounding, with its Floquet multipliers.
 
     Parameters
@@ -64,9 +86,15 @@ def orbit(scene: Scene, *, settle: int = 200, rows: int = 400) -> Orbit:
     scene : Scene
         One degree of freedom between walls, under loads with a common period.
     settle : int
-        Periods of the load that are run, exactly, before events are recorded.
+        Periods of the load that are run, exactly, before the motion is checked for repetition; 400
+        by default, as in ``signorini orbit``.
     rows : int
         Instants of its motion that are kept.
+
+    Returns
+    -------
+    Orbit
+        The shortest that the motion repeats.
 
     Raises
     ------

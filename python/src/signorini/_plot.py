@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._core import _unit
+
 if TYPE_CHECKING:
     from ._bifurcation import Bifurcation
     from ._core import Run
@@ -45,8 +47,36 @@ def _new(rows: int, height: float) -> Any:
 
 
 def _legend(ax: Any) -> None:
-    """A legend above the axes, where no curve is."""
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 0.97), ncols=4, fontsize="small", frameon=False)
+    """A legend above the axes, where no curve is, in as many columns as fit beside one another."""
+    longest = max(len(name) for name in ax.get_legend_handles_labels()[1])
+    # Inches of a handle with its margins, and of a letter.
+    columns = int((_WIDTH - 1.0) / (0.5 + 0.085 * longest))
+    ax.legend(
+        loc="lower left", bbox_to_anchor=(0.0, 0.97), ncols=min(max(columns, 1), 4), fontsize="small", frameon=False
+    )
+
+
+# Units as column names and the case format write them, the longest first.
+_UNITS = (
+    *("N_m_per_rad", "N_s_per_m", "N2_per_Hz", "m3_per_N", "kg_per_m3", "m_per_s", "N_per_m", "kg_per_m", "per_s"),
+    *("cycles", "N_s", "deg", "rad", "Hz", "Pa", "kg", "m2", "m", "s", "N", "W", "J"),
+)
+
+
+def unit(word: str) -> str:
+    """A unit as it is read: ``N_s_per_m`` is N s/m."""
+    over, _, under = word.replace("3", "³").replace("2", "²").partition("per_")
+    over, under = over.rstrip("_").replace("_", " "), under.replace("_", " ")
+    return f"{over or '1'}/{under}" if under else over
+
+
+def label(column: str) -> str:
+    """The name of a column with its unit in brackets: ``time_s`` is time (s)."""
+    for word in _UNITS:
+        name = column.removesuffix(f"_{word}")
+        if name != column:
+            return f"{name.replace('_', ' ')} ({unit(word)})"
+    return column.replace("_", " ")
 
 
 def run(made: Run, axes: Any = None) -> Any:
@@ -67,19 +97,26 @@ def run(made: Run, axes: Any = None) -> Any:
     episodes = made.contacts
     # The force of an impact is not finite: impulses are drawn where all contacts are impacts.
     lasting = bool(np.isfinite(episodes["peak_force"]).any())
-    for number, wall_name in enumerate(made.walls):
+    places = made.walls + made.holes
+    for number, place in enumerate(places):
         colour = COLOURS[1 + number % (len(COLOURS) - 1)]
         if lasting:
-            wall_axes.plot(made.time, made.contact_force(wall_name), color=colour, linewidth=1.0, label=wall_name)
+            # A round support pushes towards its centre, from any side: its force has a size.
+            force = np.hypot(*made.hole_force(place)) if number >= len(made.walls) else made.contact_force(place)
+            dash = DASHES[number // (len(COLOURS) - 1) % len(DASHES)]
+            wall_axes.plot(made.time, force, color=colour, linewidth=1.0, linestyle=dash, label=place)
         else:
-            own = episodes[episodes["wall"] == wall_name]
+            own = episodes[episodes["wall"] == place]
             wall_axes.vlines(own["start"], 0.0, own["impulse"], color=colour, linewidth=1.0)
             marker = MARKERS[number % len(MARKERS)]
-            wall_axes.plot(own["start"], own["impulse"], marker, color=colour, markersize=3, label=wall_name)
+            wall_axes.plot(own["start"], own["impulse"], marker, color=colour, markersize=3, label=place)
     _frame(wall_axes, "time (s)", "contact force (N)" if lasting else "contact impulse (N s)")
+    if not places:
+        wall_axes.text(0.5, 0.5, "no walls or supports", transform=wall_axes.transAxes, ha="center", va="center")
+        wall_axes.set_yticks([])
     if 1 < len(made.probes) <= 8:
         _legend(position)
-    if 0 < len(made.walls) <= 8:
+    if 0 < len(places) <= 8:
         _legend(wall_axes)
     return axes
 
@@ -87,7 +124,7 @@ def run(made: Run, axes: Any = None) -> Any:
 def chart(made: Chart, quantity: str, ax: Any = None) -> Any:
     """Computing time against error: see `Chart.plot`."""
     ax = _new(1, 4.4) if ax is None else ax
-    errors, seconds = made.table[f"{quantity}_error"], made.table["seconds"]
+    errors, seconds = made.errors(quantity), made.table["seconds"]
     for number, method in enumerate(dict.fromkeys(made.table["method"])):
         own = (made.table["method"] == method) & np.isfinite(errors) & (errors > 0.0)
         if own.any():
@@ -138,7 +175,8 @@ def bifurcation(made: Bifurcation, column: str, ax: Any = None) -> Any:
         marker: dict[str, Any] = {"color": COLOURS[number % len(COLOURS)], "linestyle": "none", "marker": "o"}
         marker |= {"markersize": 3.0 - 1.6 * number, "markeredgewidth": 0}
         ax.plot(made.table["value"][own], made.table[column][own], label=direction or None, **marker)
-    _frame(ax, made.key, column)
+    found = _unit(made.key)
+    _frame(ax, made.key if found is None else f"{made.key} ({unit(found)})", label(column))
     if any(made.table["direction"]):
         ax.legend(loc="best", fontsize="small", markerscale=4)
     return ax

@@ -11,6 +11,7 @@ import numpy as np
 from . import _core, _plot
 from ._core import Run, Scene
 from ._sweep import Table
+from ._types import Array
 
 
 def columns_of(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> Table:
@@ -57,10 +58,16 @@ def compare(
 
     Parameters
     ----------
+    scene : Scene
+        What is run.
     methods : sequence of str
         Schemes, as in `Scene.run`.
     step, sample, statistics_from : float
         s, as in `Scene.run`.
+
+    Returns
+    -------
+    Comparison
 
     Raises
     ------
@@ -80,7 +87,7 @@ def compare(
     return Comparison(columns_of(rows, ("method", "failure", "refuted")), runs, findings, horizon)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Chart:
     """Computing time against error: see `chart`."""
 
@@ -92,8 +99,58 @@ class Chart:
     horizon: float
     """Time up to which errors are taken, s."""
 
+    def __repr__(self) -> str:
+        methods = len(set(self.table["method"]))
+        return f"<Chart: {len(self.table['method'])} points of {methods} method{'' if methods == 1 else 's'}>"
+
+    def errors(self, quantity: str) -> Array:
+        """The column of the errors of a quantity.
+
+        Parameters
+        ----------
+        quantity : str
+            ``"displacement"``, ``"impulse"`` or ``"contact_time"``.
+
+        Returns
+        -------
+        numpy.ndarray of shape (points,)
+            Shares; nan where there is none.
+
+        Raises
+        ------
+        ValueError
+            For another quantity.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> scene = sg.load("rigid-walls-sine").scene.replace(duration=0.5)
+        >>> bool(sg.chart(scene, ["event"], repeats=1).errors("impulse")[0] < 1e-9)
+        True
+        """
+        if f"{quantity}_error" not in self.table:
+            raise ValueError(f"quantity is {quantity!r}; expected 'displacement', 'impulse' or 'contact_time'")
+        return self.table[f"{quantity}_error"]
+
     def cheapest(self, error: float, quantity: str = "displacement") -> tuple[str, float, float] | None:
-        """The fastest method and step with at most this error: method, step (s), seconds.
+        """The fastest method and step with at most this error.
+
+        Parameters
+        ----------
+        error : float
+            A share, as in the table.
+        quantity : str
+            ``"displacement"``, ``"impulse"`` or ``"contact_time"``: whose error.
+
+        Returns
+        -------
+        tuple of str, float and float, or None
+            Method, step (s) and computing time (s); None where no point has so small an error.
+
+        Raises
+        ------
+        ValueError
+            For another quantity.
 
         Examples
         --------
@@ -102,7 +159,7 @@ class Chart:
         >>> sg.chart(scene, ["event"], repeats=1).cheapest(1e-12)[0]
         'event'
         """
-        errors, seconds = self.table[f"{quantity}_error"], self.table["seconds"]
+        errors, seconds = self.errors(quantity), self.table["seconds"]
         reached = np.flatnonzero(errors <= error)
         if reached.size == 0:
             return None
@@ -110,7 +167,25 @@ class Chart:
         return self.table["method"][best], float(self.table["step_s"][best]), float(seconds[best])
 
     def plot(self, quantity: str = "displacement", ax: Any = None) -> Any:
-        """Draw it with matplotlib; ``quantity`` is displacement, impulse or contact_time.
+        """Draw it with matplotlib.
+
+        Parameters
+        ----------
+        quantity : str
+            ``"displacement"``, ``"impulse"`` or ``"contact_time"``: whose error.
+        ax : matplotlib axes, optional
+            Made if left out.
+
+        Returns
+        -------
+        matplotlib axes
+
+        Raises
+        ------
+        ValueError
+            For another quantity.
+        ImportError
+            Without matplotlib.
 
         Examples
         --------
@@ -136,6 +211,8 @@ def chart(
 
     Parameters
     ----------
+    scene : Scene
+        What is run.
     methods : sequence of str, optional
         Schemes, as in `Scene.run`; all without a penalty if left out.
     coarsest, finest : float, optional
@@ -146,6 +223,10 @@ def chart(
         Timed runs of each point, of which the fastest counts.
     most_seconds : float
         A run that is expected to take longer is left out, and its row says so.
+
+    Returns
+    -------
+    Chart
 
     Raises
     ------
@@ -165,7 +246,7 @@ def chart(
     return Chart(columns_of(rows, ("method", "kind", "failure")), reference, horizon)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Stability:
     """Where each scheme fails: see `stability`."""
 
@@ -176,8 +257,26 @@ class Stability:
     """One row per scheme at the scene's own parameters: its largest ``safe_step_s`` (nan: there is
     none), and the first failure ``beyond`` it, in words."""
 
+    def __repr__(self) -> str:
+        schemes = len(set(self.table["scheme"]))
+        return f"<Stability: {len(self.table['scheme'])} runs of {schemes} scheme{'' if schemes == 1 else 's'}>"
+
     def plot(self, ax: Any = None) -> Any:
         """Draw the classes with matplotlib, at the scene's own parameters.
+
+        Parameters
+        ----------
+        ax : matplotlib axes, optional
+            Made if left out.
+
+        Returns
+        -------
+        matplotlib axes
+
+        Raises
+        ------
+        ImportError
+            Without matplotlib.
 
         Examples
         --------
@@ -201,12 +300,18 @@ def stability(
 
     Parameters
     ----------
+    scene : Scene
+        What is run.
     finest, coarsest : float, optional
         The range of steps, times the angular frequency of the scene: 1e-4 to 3.2.
     per_decade : float, optional
         Steps tried in each decade.
     contacts : int, optional
         Number of contacts after which the runs end.
+
+    Returns
+    -------
+    Stability
 
     Raises
     ------
