@@ -139,8 +139,26 @@ impl Case {
         self.file.text().map_err(raise)
     }
 
-    /// Runs its scene with the step, the rows and the window of the file, unless others are given;
-    /// else as ``Scene.run``.
+    /// Runs its scene with the step, the rows and the window of the file.
+    ///
+    /// Parameters
+    /// ----------
+    /// scheme, step, accuracy : optional
+    ///     As in `Scene.run`; a step in place of that of the file.
+    ///
+    /// Returns
+    /// -------
+    /// Run
+    ///
+    /// Raises
+    /// ------
+    /// ValueError, RunError
+    ///     As `Scene.run`.
+    ///
+    /// Warns
+    /// -----
+    /// AccuracyWarning, ResultWarning
+    ///     As `Scene.run`.
     ///
     /// Examples
     /// --------

@@ -82,6 +82,18 @@ impl Run {
 
     /// Displacement (m) and velocity (m/s) of a probe, each of shape (rows,).
     ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     Of the probe.
+    ///
+    /// Returns
+    /// -------
+    /// displacement : numpy.ndarray
+    ///     m.
+    /// velocity : numpy.ndarray
+    ///     m/s.
+    ///
     /// Raises
     /// ------
     /// ValueError
@@ -101,6 +113,16 @@ impl Run {
 
     /// Force of a wall on the body, N; shape (rows,). An upper wall pushes down, ≤ 0.
     ///
+    /// Parameters
+    /// ----------
+    /// wall : str
+    ///     Its name.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     N.
+    ///
     /// Raises
     /// ------
     /// ValueError
@@ -117,6 +139,16 @@ impl Run {
     }
 
     /// Impulse of a wall on the body since the row before, N s; shape (rows,).
+    ///
+    /// Parameters
+    /// ----------
+    /// wall : str
+    ///     Its name.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     N s.
     ///
     /// Raises
     /// ------
@@ -135,6 +167,21 @@ impl Run {
 
     /// Impulse of a wall on the body over the whole run, N s.
     ///
+    /// Parameters
+    /// ----------
+    /// wall : str
+    ///     Its name.
+    ///
+    /// Returns
+    /// -------
+    /// float
+    ///     N s.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a name that no wall has; it lists those there are.
+    ///
     /// Examples
     /// --------
     /// >>> import signorini as sg
@@ -152,6 +199,16 @@ impl Run {
 
     /// Force of a round support on the body along y and z, friction included, N; each of shape
     /// (rows,).
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     Of the support.
+    ///
+    /// Returns
+    /// -------
+    /// along_y, along_z : numpy.ndarray
+    ///     N.
     ///
     /// Raises
     /// ------
@@ -173,6 +230,16 @@ impl Run {
 
     /// Impulse of a round support on the body along y and z since the row before, friction
     /// included, N s; each of shape (rows,).
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     Of the support.
+    ///
+    /// Returns
+    /// -------
+    /// along_y, along_z : numpy.ndarray
+    ///     N s.
     ///
     /// Raises
     /// ------
@@ -200,6 +267,16 @@ impl Run {
 
     /// Work of wear at a support from the start to each row, J; shape (rows,). Without friction it
     /// is an upper figure.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     Of the support.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     J.
     ///
     /// Raises
     /// ------
@@ -283,6 +360,16 @@ impl Run {
 
     /// The rows as a pandas DataFrame.
     ///
+    /// Returns
+    /// -------
+    /// pandas.DataFrame
+    ///     The columns of `Run.columns`.
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     Without pandas.
+    ///
     /// Examples
     /// --------
     /// >>> import signorini as sg
@@ -295,6 +382,8 @@ impl Run {
 
     /// Draws displacement, velocity and contact forces or impulses with matplotlib.
     ///
+    /// Of round supports the size of the force or impulse is drawn, friction included.
+    ///
     /// Parameters
     /// ----------
     /// axes : sequence of three matplotlib axes, optional
@@ -303,6 +392,11 @@ impl Run {
     /// Returns
     /// -------
     /// sequence of matplotlib axes
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     Without matplotlib.
     ///
     /// Examples
     /// --------
@@ -316,7 +410,17 @@ impl Run {
     }
 
     /// The refinement verdict: the run with half the step (the exact scheme: with other roundings)
-    /// beside this one. ``text`` says it in a sentence.
+    /// beside this one.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     The changes of displacement, impulses and contacts; ``text`` says them in a sentence.
+    ///
+    /// Raises
+    /// ------
+    /// RunError
+    ///     Where the other run fails.
     ///
     /// Examples
     /// --------

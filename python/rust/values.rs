@@ -25,6 +25,13 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Damping {
 
 /// Rayleigh damping, C = mass · M + stiffness · K (1/s, s).
 ///
+/// Parameters
+/// ----------
+/// mass : float
+///     Factor of M, 1/s.
+/// stiffness : float
+///     Factor of K, s.
+///
 /// Examples
 /// --------
 /// >>> import signorini as sg

@@ -60,10 +60,14 @@ impl Wall {
     ///     Of a rigid wall, 0 to 1; the default is 1.
     /// stiffness, damping : float, optional
     ///     N/m and N s/m of an elastic wall.
-    /// at : optional
+    /// at : place, optional
     ///     The place: a degree of freedom (from 0), on a bar or beam a position in m, on modal
     ///     data the name of a point, or pairs (degree of freedom or point, weight) for a relative
     ///     motion.
+    ///
+    /// Returns
+    /// -------
+    /// Wall
     ///
     /// Raises
     /// ------
@@ -89,7 +93,21 @@ impl Wall {
         wall(sg::Wall::upper(name, position), Law { restitution, stiffness, damping }, at)
     }
 
-    /// A wall below: the displacement may not fall below ``position``; else as `Wall.upper`.
+    /// A wall below: the displacement may not fall below ``position``.
+    ///
+    /// Parameters
+    /// ----------
+    /// name, position, restitution, stiffness, damping, at
+    ///     As in `Wall.upper`.
+    ///
+    /// Returns
+    /// -------
+    /// Wall
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For values that make no sense.
     ///
     /// Examples
     /// --------

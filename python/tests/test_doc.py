@@ -42,3 +42,27 @@ def test_the_example_of_the_package() -> None:
     examples = doctest.DocTestParser().get_doctest(sg.__doc__ or "", {}, "signorini", None, None)
     assert examples.examples
     assert doctest.DocTestRunner(verbose=False).run(examples).failed == 0
+
+
+def lists_of(text: str, section: str) -> list[str]:
+    """The lines of a section of a docstring that name something."""
+    lines = text.splitlines()
+    heads = [i for i, line in enumerate(lines) if line == section and lines[i + 1 : i + 2] == ["-" * len(section)]]
+    if not heads:
+        return []
+    own = lines[heads[0] + 2 :]
+    ends = [i for i, line in enumerate(own) if line and set(line) == {"-"}]
+    return [line for line in own[: ends[0] - 1 if ends else None] if line and not line.startswith(" ")]
+
+
+@pytest.mark.parametrize(
+    "name, thing", [(name, thing) for name, thing, due in public() if due or name in ("Stepper", "Rayleigh")]
+)
+def test_a_docstring_has_the_sections_of_numpydoc(name: str, thing: Any) -> None:
+    text = inspect.getdoc(thing) or ""
+    assert "-------" not in " ".join(line for line in text.splitlines() if set(line) != {"-"}), "a paragraph"
+    named = [word.strip(" *") for line in lists_of(text, "Parameters") for word in line.split(" : ")[0].split(",")]
+    taken = [word for word in inspect.signature(thing).parameters if word != "self"]
+    assert sorted(named) == sorted(taken)
+    assert lists_of(text, "Returns") or inspect.isclass(thing) or name == "Stepper.set_state"
+    assert lists_of(text, "Raises") or name in ("grid", "Rayleigh", "Run.plot")

@@ -48,6 +48,10 @@ def oscillator(mass: float, damping: float, stiffness: float, **scene: Unpack[Sc
     **scene
         Walls, loads and so on: see `Scene.replace`.
 
+    Returns
+    -------
+    Scene
+
     Raises
     ------
     ValueError
@@ -81,6 +85,10 @@ def chain(
         Stiffnesses that hold the first and the last mass, N/m.
     **scene
         Walls, loads and so on, whose places are numbers of masses from 0: see `Scene.replace`.
+
+    Returns
+    -------
+    Scene
 
     Raises
     ------
@@ -123,6 +131,10 @@ def bar(
         Whether the mass of an element sits at its nodes.
     **scene
         Walls, loads and so on, whose places are positions in m from the left: see `Scene.replace`.
+
+    Returns
+    -------
+    Scene
 
     Raises
     ------
@@ -170,6 +182,10 @@ def beam(
     **scene
         Walls, loads and so on, whose places are positions in m from the left: see `Scene.replace`.
 
+    Returns
+    -------
+    Scene
+
     Raises
     ------
     ValueError
@@ -203,6 +219,10 @@ def matrices(
         N s/m; or as in `Scene.replace`.
     **scene
         Walls, loads and so on, whose places are degrees of freedom from 0: see `Scene.replace`.
+
+    Returns
+    -------
+    Scene
 
     Raises
     ------
@@ -255,6 +275,10 @@ def modal(
     **scene
         Walls, loads and so on, whose places are names of points: see `Scene.replace`.
 
+    Returns
+    -------
+    Scene
+
     Raises
     ------
     ValueError
@@ -288,12 +312,23 @@ def support(
     Parameters
     ----------
     name : str
+        Letters, digits, ``-`` and ``_``.
     gap : float
         Distance of each wall from the centre, m; 0 or more.
     at, restitution, stiffness, damping
         As in `Wall.upper`.
     centre : float
         m.
+
+    Returns
+    -------
+    list of Wall
+        The upper one, the lower one.
+
+    Raises
+    ------
+    ValueError
+        For values that make no sense.
 
     Examples
     --------

@@ -37,6 +37,16 @@ _TRIED = 8
 def grid(**axes: Iterable[Any]) -> list[dict[str, Any]]:
     """Every combination of the values of ``axes``, the last axis fastest.
 
+    Parameters
+    ----------
+    **axes : iterable
+        The values of each name.
+
+    Returns
+    -------
+    list of dict
+        A dict of one value for each name, for each combination.
+
     Examples
     --------
     >>> import signorini as sg
