@@ -113,10 +113,17 @@ fn of_supports(counters: &Counters) -> Vec<String> {
             100.0 * turn * turn / 3.0
         ));
     }
+    if counters.wedged_steps > 0 {
+        notes.push(format!(
+            "in {} steps a body was wedged between contacts with friction, so that no impulses give it the rebounds \
+             that their restitution demands: these contacts took a restitution of 0 in those steps",
+            counters.wedged_steps
+        ));
+    }
     if counters.qp_unsettled > 0 {
         notes.push(format!(
-            "in {} steps the contacts found no common state of sticking and slipping, as may happen with much \
-             friction: trust this run only if the judge finds nothing",
+            "in {} steps rounding left the contacts without a common state of sticking and slipping: trust this run \
+             only if the judge finds nothing",
             counters.qp_unsettled
         ));
     }

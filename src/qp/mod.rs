@@ -29,6 +29,9 @@
 //!
 //! [`DiskSolver`] solves programmes with disks |P x − c| ≤ γ beside bounds, as round holes need.
 //!
+//! `coulomb.rs` solves the contacts of a step that rub, which is a complementarity problem and no
+//! programme.
+//!
 //! [`clamp()`] solves the same scalar programme without matrices, for schemes that hold plain
 //! floats.
 
@@ -40,14 +43,17 @@ mod block;
 mod clamp;
 mod clarabel;
 mod condensed;
+mod coulomb;
 mod counters;
 mod crowd;
 mod cycle;
 mod delassus;
+mod dependent;
 mod disks;
 mod elimination;
 mod envelope;
 mod failure;
+mod lemke;
 mod pivoting;
 mod relations;
 mod side;
@@ -56,7 +62,9 @@ mod sums;
 
 pub use backend::Backend;
 pub use clamp::{ScalarRow, clamp};
+pub(crate) use coulomb::{Coulomb, CoulombContact};
 pub use counters::SolverCounters;
+pub(crate) use dependent::solve_dependent;
 pub use disks::{DiskBound, DiskCounters, DiskProblem, DiskSolver};
 pub use failure::Failure;
 pub use solver::Solver;

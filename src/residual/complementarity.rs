@@ -68,10 +68,10 @@ pub(super) fn slack(
 }
 
 /// The speed of rebound of a rigid wall, m/s, from the velocities after the step's blows and after
-/// the step.
-pub(super) fn rebound(wall: &Wall, struck: f64, after: f64) -> f64 {
+/// the step, with the restitution e.
+pub(super) fn rebound(wall: &Wall, e: f64, struck: f64, after: f64) -> f64 {
     let sign = wall.side.sign();
-    let epsilon = if sign * struck <= 0.0 { wall.law.restitution().unwrap_or(0.0) } else { 1.0 };
+    let epsilon = if sign * struck <= 0.0 { e } else { 1.0 };
     sign * (after + epsilon * struck)
 }
 

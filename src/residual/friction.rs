@@ -2,12 +2,15 @@
 //!
 //! With p the normal impulse, f the friction impulse along t and ẇ_t⁺ the sliding velocity at the
 //! end of the step: μp − |f| ≥ 0, and μp + f sign(ẇ_t⁺) is complementary to |ẇ_t⁺|. A body that
-//! slides with another friction than −μp sign(ẇ_t⁺) violates the second by what is missing.
+//! slides with another friction than −μp sign(ẇ_t⁺) violates the second by what is missing. Where
+//! friction leaves no room for a rebound, the wall may have none ([`Friction`]).
 
 use super::Judge;
 use super::pushes::terms;
 use super::supports::Rubs;
 use crate::scene::{Shape, Support, heading};
+#[cfg(doc)]
+use crate::step::Friction;
 use crate::step::Step;
 
 /// A contact with friction in a step.
@@ -22,6 +25,11 @@ pub(super) struct Rub {
 }
 
 impl Judge {
+    /// True if a wall has no restitution in this step: [`Friction`].
+    pub(super) fn gives_up(&self, step: &Step<'_>, wall: usize) -> bool {
+        self.contract.promise.friction.is_some() && step.wedged.contains(&wall)
+    }
+
     /// Checks the friction of one contact.
     pub(super) fn rub(&mut self, step: &Step<'_>, support: &Support, rub: &Rub, rubs: &mut Rubs) {
         let [p, f] = rub.impulse.map(|impulse| impulse / self.h);

@@ -103,7 +103,8 @@ impl Judge {
             return 0.0;
         }
         let normal = ahead.map(|x| x / reach);
-        let bound = |touches| bound(seen.e, (start, rate, normal), touches);
+        let wedged = self.contract.promise.friction.is_some() && step.wedged.contains(&place);
+        let bound = |touches| bound(seen.e, (start, rate, normal), touches).max(if wedged { 0.0 } else { f64::MIN });
         let left = |bound: f64| bound - (normal[0] * after[0] + normal[1] * after[1]);
         // Rounding may decide whether the body touched at the start.
         let distance = start[0].hypot(start[1]);

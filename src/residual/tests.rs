@@ -54,6 +54,7 @@ struct Made {
     force: Vec<f64>,
     friction: Vec<f64>,
     holes: Vec<HoleStep>,
+    wedged: Vec<usize>,
     extra: Vec<f64>,
 }
 
@@ -73,6 +74,7 @@ impl Made {
             force: none.clone(),
             friction: if scene.turns_or_rubs() { none } else { Vec::new() },
             holes: vec![HoleStep::default(); scene.holes().count()],
+            wedged: Vec::new(),
             extra: zero,
         }
     }
@@ -95,6 +97,7 @@ impl Made {
             force: &self.force,
             friction: &self.friction,
             holes: &self.holes,
+            wedged: &self.wedged,
             extra: &self.extra,
             closed: &[],
             path,

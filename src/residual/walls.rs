@@ -137,7 +137,8 @@ impl Judge {
             }
             None => (false, f64::INFINITY),
         };
-        let slack = if reached { rebound(wall, struck, after) } else { 0.0 };
+        let e = wall.law.restitution().filter(|_| !self.gives_up(step, index)).unwrap_or(0.0);
+        let slack = if reached { rebound(wall, e, struck, after) } else { 0.0 };
         if reached {
             self.rebounds.add(slack, pressure);
         }

@@ -147,6 +147,7 @@ impl<S: Space> Frame<S> {
             force: &self.force,
             friction: &[],
             holes: &[],
+            wedged: &[],
             extra: self.extra.as_ref(),
             closed,
             path: if self.one_restitution { Path::OneRestitution } else { Path::Grid },

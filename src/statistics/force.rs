@@ -256,6 +256,7 @@ mod tests {
                 force: &[100.0 * p],
                 friction: &[],
                 holes: &[],
+                wedged: &[],
                 extra: &[0.0],
                 closed: &[],
                 path: Path::Grid,

@@ -46,6 +46,7 @@ fn step<'a>(index: u64, [start, end]: [f64; 2], impulse: &'a [f64], jump: &'a [f
         force: none,
         friction: none,
         holes: &[],
+        wedged: &[],
         extra: none,
         closed: &[],
         path: Path::Grid,

@@ -146,6 +146,7 @@ impl Calm {
             force: &self.zeros,
             friction: &[],
             holes: &[],
+            wedged: &[],
             extra: &[0.0],
             closed: &[],
             path: Path::Grid,

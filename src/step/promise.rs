@@ -90,7 +90,13 @@ pub enum Normal {
     Middle,
 }
 
-/// Coulomb's law at the supports that have friction.
+/// Coulomb's law at the supports that have friction, and what it changes of the law of impact.
+///
+/// Impulses that balance one another, as of a body pushed into a corner of flats of large friction,
+/// may contradict the rebounds that these contacts demand. Then the contacts give up their rebound
+/// for the step, which lists them ([`Step::wedged`]), and ε = 0 in place of their e, also for the
+/// approach that the turning of a normal adds: without rebounds a solution always exists (Anitescu
+/// & Potra 1997, doi:10.1023/A:1008292328909).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Friction {
@@ -109,7 +115,8 @@ pub struct Rigid {
     pub displacement: Option<Bound>,
     /// The impact law on the velocity, 0 ≤ rebound ⟂ |p| ≥ 0 with rebound = ±(ẇ⁺ + ε ẇ) away from
     /// the wall, ε = e if approaching or at rest and 1 if separating, at the walls that are
-    /// reached. A wall that is neither reached nor has a bound gives no force.
+    /// reached; so the impulses never add energy, and ẇ⁺ = −ẇ keeps the law at every wall. Where
+    /// there is friction, ε may be 0 while approaching ([`Friction`]). A wall that is neither reached nor has a bound gives no force.
     pub velocity: Option<Reached>,
 }
 

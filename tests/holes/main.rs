@@ -11,6 +11,7 @@ mod accounts;
 mod beside;
 mod elastic;
 mod event;
+mod flats;
 mod friction;
 mod frictionless;
 mod judge;

@@ -4,7 +4,7 @@ use super::*;
 use crate::residual::friction::Rub;
 use crate::residual::supports::Rubs;
 use crate::scene::{FlatWall, Wall};
-use crate::step::Law;
+use crate::step::{Friction, Law, PromisedForce, Reached, Rigid};
 
 fn none() -> Rubs {
     Rubs { pairs: Pairs::default(), doubts: Doubts::default() }
@@ -83,4 +83,25 @@ fn the_friction_of_flats_is_a_force_of_the_run() {
     judge.rub_flats(&made.step(), &mut rubs);
     // 12 N beside a push of 4 N, which is noted elsewhere: 10 N beyond the cone.
     assert_eq!((judge.force_scale, rubs.pairs.worst(1.0, 1.0)), (12.0, 10.0));
+}
+
+#[test]
+fn a_wall_of_a_wedged_body_owes_no_rebound() {
+    let mut scene = scene(true);
+    scene.walls[0] = Wall::upper("flat", 0.5).with_restitution(0.5);
+    let rigid = Rigid { force: PromisedForce::Mean, displacement: None, velocity: Some(Reached::Ahead(0.5)) };
+    let promise = Promise { rigid, ..Promise::springs(Law::Ends(0.5)) };
+    // It arrives at 2 m/s and stops: 1 m/s of rebound is owed, if it is not given up.
+    let owed = |friction: Option<Friction>, wedged: &[usize]| {
+        let promise = Promise { friction, ..promise };
+        let mut judge = judge(&scene, (Balance::Theta(0.5), promise), 0.25, &[0.5, 0.0]);
+        let (q, before, wedged) = (vec![0.5, 0.0], vec![2.0, 0.0], wedged.to_vec());
+        let made = Made { q, before, impulse: vec![-8.0], wedged, ..Made::rest(&scene, 0.25) };
+        judge.walls_on_grid(&made.step(), false);
+        judge.rebounds.worst(1.0, 1.0)
+    };
+    let law = Some(Friction::EndVelocity);
+    assert_eq!([&[][..], &[0], &[1]].map(|wedged| owed(law, wedged)), [1.0, 0.0, 1.0]);
+    // A scheme that does not promise friction gives up nothing.
+    assert_eq!(owed(None, &[0]), 1.0);
 }

@@ -72,6 +72,7 @@ impl Claim {
             force: &self.force,
             friction: &[],
             holes: &[],
+            wedged: &[],
             extra: &self.extra,
             closed: &[],
             path: Path::Grid,

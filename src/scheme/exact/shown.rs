@@ -83,6 +83,7 @@ impl<S: Space> Shown<S> {
             force: &self.force[..self.walls],
             friction: &self.friction,
             holes: &self.holes,
+            wedged: &[],
             extra: self.extra.as_ref(),
             closed: &self.closed,
             path,

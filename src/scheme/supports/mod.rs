@@ -10,8 +10,9 @@
 //! would bounce along the surface.
 //!
 //! In the cross-section a contact has one tangent, so its law is piecewise linear and has an exact
-//! answer ([`touch`]); sweeps over the contacts and one linear system answer all of them
-//! ([`sweeps`]), on the 2 × 2 blocks of P A⁻¹ Pᵀ, which are constant.
+//! answer ([`touch`]); sweeps over the contacts and one linear system answer all of them, or a
+//! pivoting method ([`sweeps`]), on the 2 × 2 blocks of P A⁻¹ Pᵀ, which are constant. Where no
+//! answer has the rebounds that the contacts demand, they give these up for the step.
 //!
 //! Order 1 through impacts, 2 while sliding with θ = ½. Without friction a step never adds energy.
 //! With friction it may where W couples normal and tangent and e > 0 (Kane & Levinson 1985,
@@ -183,6 +184,7 @@ impl Supports {
     fn let_go(&mut self) {
         self.frame.let_go();
         self.pushes.clear();
+        self.sweeps.wedged.clear();
         self.friction.fill(0.0);
         for hole in &mut self.holes {
             (hole.impulse, hole.friction) = (0.0, 0.0);
@@ -263,7 +265,12 @@ impl Motion for Supports {
     }
 
     fn step(&self, index: u64) -> Step<'_> {
-        Step { friction: &self.friction, holes: &self.holes, ..self.frame.step(index, self.pushes.closed()) }
+        Step {
+            friction: &self.friction,
+            holes: &self.holes,
+            wedged: &self.sweeps.wedged,
+            ..self.frame.step(index, self.pushes.closed())
+        }
     }
 
     fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
@@ -292,6 +299,7 @@ impl Motion for Supports {
     fn count(&self, counters: &mut Counters) {
         counters.qp_solves += self.sweeps.solves;
         counters.qp_unsettled = self.sweeps.unsettled;
+        counters.wedged_steps = self.sweeps.gave_up;
         counters.frozen_steps = self.memory.frozen;
         counters.largest_turn_rad = self.memory.turned;
     }

@@ -4,28 +4,25 @@
 //!
 //! Sweeps start from the impulses of the last step (Jourdan, Alart & Jean 1998,
 //! doi:10.1016/S0045-7825(97)00137-0). Where the linear system does not confirm the states, those
-//! that it suggests are tried before the sweeps go on, as in a semismooth Newton method. Where
-//! contacts without friction still do not settle, as where several press on few degrees of freedom
-//! from nearly opposite sides, the pivoting of [`crate::qp`] answers them.
+//! that it suggests are tried before the sweeps go on, as in a semismooth Newton method. Where the
+//! contacts still do not settle, as where several press on few degrees of freedom from nearly
+//! opposite sides, a pivoting method answers them.
 //!
 //! Without friction the problem is a convex programme, the sweeps descend in its dual and the
 //! answer is its minimiser. With friction it is no minimisation: for large μ answers may be
-//! several, and sweeps may not settle; such steps are counted.
+//! several, or, where rebounds are demanded of a body that is wedged between its contacts, none.
+//! Then those contacts give up their rebound ([`Coulomb`]).
 
 use super::linear::Linear;
 use super::normal::dot;
 use super::places::Places;
 use super::touch::{State, Touch};
 use crate::linear::{Rows, Symmetric};
-use crate::qp::{Backend, Problem, Rhs, Solver};
+use crate::qp::{Backend, Coulomb, CoulombContact, Problem, Rhs, Solver};
 use crate::scene::Row;
 
-/// Most sweeps in a step.
-const MOST_SWEEPS: u32 = 3000;
-
-/// From this sweep on each makes half of the change only, since states that alternate may settle
-/// so; contacts without friction are left to pivoting there.
-const LONG: u32 = 200;
+/// Most sweeps in a step, without and with friction, before a pivoting method takes over.
+const MOST_SWEEPS: [u32; 2] = [200, 30];
 
 /// Sweeps that change no velocity by more than this share of the largest are done.
 const STILL: f64 = 4.0 * f64::EPSILON;
@@ -49,8 +46,12 @@ pub(super) struct Sweeps {
     linear: Linear,
     /// A, and the rows of all places.
     problem: (Symmetric, Rows),
-    /// Steps that met something, and those whose states did not settle.
+    /// Contacts that gave up their rebound in the step.
+    pub wedged: Vec<usize>,
+    /// Steps that met something, those in which contacts gave up their rebound, and those without
+    /// an answer.
     pub solves: u64,
+    pub gave_up: u64,
     pub unsettled: u64,
 }
 
@@ -67,7 +68,9 @@ impl Sweeps {
             impulse: vec![0.0; rows],
             states: Vec::with_capacity(contacts),
             linear: Linear::with_capacity(2 * contacts),
+            wedged: Vec::new(),
             solves: 0,
+            gave_up: 0,
             unsettled: 0,
         }
     }
@@ -90,9 +93,10 @@ impl Sweeps {
             places.add(touch.rows, touch.push(touch.impulse), y);
         }
         let settled = match &mut touches[..] {
-            [touch] => touch.answer(places, y, 1.0).1,
-            _ => self.sweep(places) || self.pivot().is_some(),
+            [touch] => touch.answer(places, y).1,
+            _ => self.sweep(places),
         };
+        let settled = settled || self.pivot().is_some() || self.complement(places).is_some();
         self.unsettled += u64::from(!settled);
         for touch in &self.touches {
             for (row, push) in touch.rows.into_iter().zip(touch.push(touch.impulse)) {
@@ -110,12 +114,11 @@ impl Sweeps {
         let bounds = touches.iter().fold(0.0_f64, |most, touch| most.max(touch.bound.abs()));
         let largest = size(free).max(bounds);
         let mut due = 2;
-        let most_sweeps = if touches.iter().any(|touch| touch.friction > 0.0) { MOST_SWEEPS } else { LONG };
+        let most_sweeps = MOST_SWEEPS[usize::from(touches.iter().any(|touch| touch.friction > 0.0))];
         for sweep in 1..=most_sweeps {
-            let share = if sweep <= LONG { 1.0 } else { 0.5 };
             let (mut moved, mut answered) = (0.0_f64, true);
             for touch in touches.iter_mut() {
-                let (by, found) = touch.answer(places, y, share);
+                let (by, found) = touch.answer(places, y);
                 moved = moved.max(by);
                 answered &= found;
             }
@@ -166,6 +169,38 @@ impl Sweeps {
             touch.impulse = [(-r).max(0.0), 0.0];
             touch.state = if touch.impulse[0] > 0.0 { State::Ahead } else { State::Open };
         }
+        Some(())
+    }
+
+    /// Solves for the impulses of all contacts as a complementarity problem; `None` where rounding
+    /// leaves no answer. So rare that it may allocate.
+    #[cold]
+    fn complement(&mut self, places: &Places) -> Option<()> {
+        let Self { touches, free, wedged, .. } = self;
+        let contact = |touch: &Touch| {
+            let [beyond, along] = Touch { impulse: [0.0; 2], ..*touch }.excess(free);
+            let rebound = if touch.compliance == 0.0 { (-touch.bound).max(0.0) } else { 0.0 };
+            CoulombContact { free: [-beyond, along], friction: touch.friction, rebound }
+        };
+        let directions: Vec<_> = touches
+            .iter()
+            .flat_map(|touch| [touch.push([1.0, 0.0]), touch.push([0.0, 1.0])].map(|along| (touch.rows, along)))
+            .collect();
+        let responses = directions.iter().flat_map(|&to| directions.iter().map(move |&from| places.between(to, from)));
+        let mut responses: Vec<f64> = responses.collect();
+        for (index, touch) in touches.iter().enumerate() {
+            responses[2 * index * (directions.len() + 1)] += touch.compliance;
+        }
+        let contacts = touches.iter().map(contact).collect();
+        let (impulses, gave_up) = Coulomb::new(contacts, responses).solve()?;
+        for (touch, impulse) in touches.iter_mut().zip(impulses) {
+            touch.impulse = impulse;
+        }
+        for &index in &gave_up {
+            touches[index].bound = 0.0;
+        }
+        wedged.extend(gave_up.iter().map(|&index| touches[index].index));
+        self.gave_up += u64::from(!gave_up.is_empty());
         Some(())
     }
 }

@@ -13,7 +13,7 @@
 //! In the plane a contact has one tangent, so the law is piecewise linear, and one of four states
 //! answers it: open (N ≤ 0, no impulse); stick, t·ẇ⁺ = 0; slip either way, f = ∓μp. For large μ and
 //! b ≠ 0 several may: the first in this order is taken. Where rounding leaves none, p is taken
-//! without friction, and the step counts as unsettled.
+//! without friction until a pivoting method takes over.
 
 use super::normal::dot;
 use super::places::Places;
@@ -92,9 +92,9 @@ impl Touch {
     }
 
     /// Answers the contact alone: sets its state and impulse for the velocities `y` of all rows
-    /// under all impulses, and changes `y` accordingly; of the change of its impulse this `share`
-    /// is made. Returns the size of the change, m/s, and whether the law has an answer.
-    pub fn answer(&mut self, places: &Places, y: &mut [f64], share: f64) -> (f64, bool) {
+    /// under all impulses, and changes `y` accordingly. Returns the size of the change, m/s, and
+    /// whether the law has an answer.
+    pub fn answer(&mut self, places: &Places, y: &mut [f64]) -> (f64, bool) {
         let [a, b, c] = self.own;
         let [p, f] = self.impulse;
         let [n, t] = self.excess(y);
@@ -102,8 +102,8 @@ impl Touch {
         let (n, t) = (n + a * p - b * f, t + b * p - c * f);
         let (state, found) = self.alone(n, t);
         self.state = state.unwrap_or(State::Ahead);
-        let change = [share * (found[0] - p), share * (found[1] - f)];
-        self.impulse = if share == 1.0 { found } else { [p + change[0], f + change[1]] };
+        let change = [found[0] - p, found[1] - f];
+        self.impulse = found;
         places.add(self.rows, self.push(change), y);
         (a * change[0].abs() + c * change[1].abs(), state.is_some())
     }
@@ -187,7 +187,7 @@ mod tests {
             let friction = 0.05 * f64::from(k % 9);
             let (places, mut touch) = one(normal, friction);
             let mut y = vec![(1.3 * turn).sin(), (2.1 * turn).cos()];
-            let (_, answered) = touch.answer(&places, &mut y, 1.0);
+            let (_, answered) = touch.answer(&places, &mut y);
             assert!(answered, "{touch:?}");
             let (n, t) = (dot(normal, y.clone().try_into().unwrap()), y[1] * normal[0] - y[0] * normal[1]);
             let [p, f] = touch.impulse;
@@ -199,7 +199,7 @@ mod tests {
             assert!(touch.holds(&y, rounding), "{touch:?}");
             seen[touch.state as usize] += 1;
             // Answered again, nothing changes.
-            assert!(touch.answer(&places, &mut y, 1.0).0 <= rounding);
+            assert!(touch.answer(&places, &mut y).0 <= rounding);
         }
         assert!(seen.iter().all(|&count| count > 50), "{seen:?}");
     }
@@ -212,7 +212,7 @@ mod tests {
             // Velocities without the contact, and an impulse that it may have.
             let mut y = vec![(1.3 * turn).sin(), (2.1 * turn).cos()];
             let (_, mut fresh) = one(touch.normal, touch.friction);
-            fresh.answer(&places, &mut y.clone(), 1.0);
+            fresh.answer(&places, &mut y.clone());
             let rubs = f64::from(u8::from(touch.friction > 0.0));
             touch.impulse = [(0.7 * turn).sin(), rubs * (1.7 * turn).cos()];
             places.add(touch.rows, touch.push(touch.impulse), &mut y);
@@ -227,7 +227,7 @@ mod tests {
         for k in 0..50 {
             let turn = 0.37 * f64::from(k);
             let (places, mut touch) = one([turn.cos(), turn.sin()], 0.4);
-            let (size, _) = touch.answer(&places, &mut [(1.3 * turn).sin(), (2.1 * turn).cos()], 1.0);
+            let (size, _) = touch.answer(&places, &mut [(1.3 * turn).sin(), (2.1 * turn).cos()]);
             let [p, f] = touch.impulse;
             let both = form(touch.normal) * p.abs() + form(touch.tangent) * f.abs();
             // Some roundings of a few m/s.

@@ -33,6 +33,7 @@ impl Shown {
             force: &[0.0],
             friction: &[],
             holes: &[],
+            wedged: &[],
             extra: &[0.0],
             closed: &[],
             path,

@@ -1,5 +1,7 @@
 //! The impulses of several contacts, judged by the law of each.
 
+mod corners;
+
 use super::*;
 use crate::hash::{mix, unit};
 use crate::linear::Factor;
