@@ -3,7 +3,8 @@
 //! With p the normal impulse, f the friction impulse along t and ẇ_t⁺ the sliding velocity at the
 //! end of the step: μp − |f| ≥ 0, and μp + f sign(ẇ_t⁺) is complementary to |ẇ_t⁺|. A body that
 //! slides with another friction than −μp sign(ẇ_t⁺) violates the second by what is missing. Where
-//! friction leaves no room for a rebound, the wall may have none ([`Friction`]).
+//! friction leaves no room for a rebound, or a body comes to rest, the wall may have none
+//! ([`Friction`]).
 
 use super::Judge;
 use super::pushes::terms;
@@ -24,10 +25,19 @@ pub(super) struct Rub {
     pub tangent: [f64; 2],
 }
 
+/// A push and a mass that the scheme computed with other roundings.
+const SAME: f64 = 1.0 + 1e-9;
+
 impl Judge {
-    /// True if a wall has no restitution in this step: [`Friction`].
-    pub(super) fn gives_up(&self, step: &Step<'_>, wall: usize) -> bool {
-        self.contract.promise.friction.is_some() && step.wedged.contains(&wall)
+    /// True if a rigid wall of restitution `e`, which the body approaches with the velocity
+    /// `struck` (m/s), has none in this step: [`Friction`].
+    pub(super) fn gives_up(&self, step: &Step<'_>, wall: usize, e: f64, struck: f64) -> bool {
+        let Some(supports) = self.supports.as_ref().filter(|_| self.contract.promise.friction.is_some()) else {
+            return false;
+        };
+        step.wedged.contains(&wall)
+            || step.resting.contains(&wall)
+                && 2.0 * e * supports.mass[wall] * struck.abs() <= SAME * (1.0 - e) * supports.pushed[wall].abs()
     }
 
     /// Checks the friction of one contact.

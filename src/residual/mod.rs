@@ -189,7 +189,7 @@ impl Judge {
             sums: Sums::new(scene, &q, &v),
             memory: Memory::new(scene, contract, (&q, &v), &load, &held),
             held,
-            supports: Supports::new(scene),
+            supports: Supports::new(scene, masses),
             touch: scene.touching_distance(),
             q,
             load,

@@ -34,6 +34,7 @@ impl Judge {
             self.rub(step, support, &rub, &mut supports.rubs);
         }
         self.rub_flats(step, &mut supports.rubs);
+        supports.pushed.copy_from_slice(step.impulse);
         for support in &scene.supports {
             self.extent.speed = self.extent.speed.max(terms(support, step.velocity_after));
         }

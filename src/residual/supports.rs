@@ -19,6 +19,9 @@ pub(super) struct Supports {
     pub struck: f64,
     pub struck_doubt: Worst,
     pub rubs: Rubs,
+    /// The mass that each wall feels, kg, and its impulse in the step before, N s.
+    pub mass: Vec<f64>,
+    pub pushed: Vec<f64>,
     /// Impulse of each support along y and z, without the normal ones of flats, N s; and the sum of
     /// the magnitudes.
     pub impulse: Vec<[f64; 2]>,
@@ -29,7 +32,8 @@ pub(super) struct Supports {
 
 impl Supports {
     /// `None` for a scene without round holes and friction.
-    pub fn new(scene: &Scene) -> Option<Box<Self>> {
+    /// Walls feel these masses.
+    pub fn new(scene: &Scene, masses: &[f64]) -> Option<Box<Self>> {
         if !scene.turns_or_rubs() {
             return None;
         }
@@ -43,6 +47,8 @@ impl Supports {
             struck: 0.0,
             struck_doubt: Worst::default(),
             rubs: Rubs { pairs: Pairs::default(), doubts: Doubts::default() },
+            mass: masses.iter().copied().take(scene.walls.len()).collect(),
+            pushed: vec![0.0; scene.walls.len()],
             impulse: vec![[0.0; 2]; scene.supports.len()],
             size: vec![0.0; scene.supports.len()],
             recorded: None,

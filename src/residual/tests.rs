@@ -55,6 +55,7 @@ struct Made {
     friction: Vec<f64>,
     holes: Vec<HoleStep>,
     wedged: Vec<usize>,
+    resting: Vec<usize>,
     extra: Vec<f64>,
 }
 
@@ -75,6 +76,7 @@ impl Made {
             friction: if scene.turns_or_rubs() { none } else { Vec::new() },
             holes: vec![HoleStep::default(); scene.holes().count()],
             wedged: Vec::new(),
+            resting: Vec::new(),
             extra: zero,
         }
     }
@@ -98,6 +100,7 @@ impl Made {
             friction: &self.friction,
             holes: &self.holes,
             wedged: &self.wedged,
+            resting: &self.resting,
             extra: &self.extra,
             closed: &[],
             path,

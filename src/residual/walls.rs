@@ -137,7 +137,7 @@ impl Judge {
             }
             None => (false, f64::INFINITY),
         };
-        let e = wall.law.restitution().filter(|_| !self.gives_up(step, index)).unwrap_or(0.0);
+        let e = wall.law.restitution().filter(|&e| !self.gives_up(step, index, e, struck)).unwrap_or(0.0);
         let slack = if reached { rebound(wall, e, struck, after) } else { 0.0 };
         if reached {
             self.rebounds.add(slack, pressure);

@@ -148,6 +148,7 @@ impl<S: Space> Frame<S> {
             friction: &[],
             holes: &[],
             wedged: &[],
+            resting: &[],
             extra: self.extra.as_ref(),
             closed,
             path: if self.one_restitution { Path::OneRestitution } else { Path::Grid },

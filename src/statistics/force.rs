@@ -257,6 +257,7 @@ mod tests {
                 friction: &[],
                 holes: &[],
                 wedged: &[],
+                resting: &[],
                 extra: &[0.0],
                 closed: &[],
                 path: Path::Grid,

@@ -47,6 +47,7 @@ fn step<'a>(index: u64, [start, end]: [f64; 2], impulse: &'a [f64], jump: &'a [f
         friction: none,
         holes: &[],
         wedged: &[],
+        resting: &[],
         extra: none,
         closed: &[],
         path: Path::Grid,

@@ -147,6 +147,7 @@ impl Calm {
             friction: &[],
             holes: &[],
             wedged: &[],
+            resting: &[],
             extra: &[0.0],
             closed: &[],
             path: Path::Grid,

@@ -132,6 +132,8 @@ pub struct Step<'a> {
     /// Walls, and from the number of walls on round holes, that gave up their rebound in the step
     /// since no impulses satisfy Coulomb's law together with it: their ε is 0 ([`Friction`]).
     pub wedged: &'a [usize],
+    /// Walls with friction whose rebounds end within the step: their ε is 0 ([`Friction`]).
+    pub resting: &'a [usize],
     /// Extra force given by the caller, N, as it enters the momentum balance: constant over the
     /// step, or for a staggered scheme, whose balance is centred at `start`, the mean of the last
     /// step's and this one's; length n.

@@ -97,6 +97,11 @@ pub enum Normal {
 /// for the step, which lists them ([`Step::wedged`]), and ε = 0 in place of their e, also for the
 /// approach that the turning of a normal adds: without rebounds a solution always exists (Anitescu
 /// & Potra 1997, doi:10.1023/A:1008292328909).
+///
+/// A wall with friction on which a load presses, and which pushed with p⁻ in the step before, may
+/// have ε = 0 too ([`Step::resting`]) if the approach a at the mass m that the wall feels keeps 2 e
+/// m a ≤ (1 − e) p⁻: the rebounds at e a, e² a, … under that push then all end within the step, and
+/// the body rests. (With the wall's e it would leave and come back step after step.)
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Friction {

@@ -86,22 +86,27 @@ fn the_friction_of_flats_is_a_force_of_the_run() {
 }
 
 #[test]
-fn a_wall_of_a_wedged_body_owes_no_rebound() {
+fn a_wall_of_a_wedged_body_or_of_one_that_comes_to_rest_owes_no_rebound() {
     let mut scene = scene(true);
     scene.walls[0] = Wall::upper("flat", 0.5).with_restitution(0.5);
     let rigid = Rigid { force: PromisedForce::Mean, displacement: None, velocity: Some(Reached::Ahead(0.5)) };
     let promise = Promise { rigid, ..Promise::springs(Law::Ends(0.5)) };
     // It arrives at 2 m/s and stops: 1 m/s of rebound is owed, if it is not given up.
-    let owed = |friction: Option<Friction>, wedged: &[usize]| {
+    let owed = |friction: Option<Friction>, wedged: &[usize], resting: &[usize], pushed: f64| {
         let promise = Promise { friction, ..promise };
         let mut judge = judge(&scene, (Balance::Theta(0.5), promise), 0.25, &[0.5, 0.0]);
-        let (q, before, wedged) = (vec![0.5, 0.0], vec![2.0, 0.0], wedged.to_vec());
-        let made = Made { q, before, impulse: vec![-8.0], wedged, ..Made::rest(&scene, 0.25) };
+        judge.supports.as_mut().expect("friction").pushed[0] = pushed;
+        let (wedged, resting) = (wedged.to_vec(), resting.to_vec());
+        let (q, before) = (vec![0.5, 0.0], vec![2.0, 0.0]);
+        let made = Made { q, before, impulse: vec![-8.0], wedged, resting, ..Made::rest(&scene, 0.25) };
         judge.walls_on_grid(&made.step(), false);
         judge.rebounds.worst(1.0, 1.0)
     };
     let law = Some(Friction::EndVelocity);
-    assert_eq!([&[][..], &[0], &[1]].map(|wedged| owed(law, wedged)), [1.0, 0.0, 1.0]);
+    assert_eq!(owed(law, &[], &[], -100.0), 1.0);
+    assert_eq!((owed(law, &[0], &[], 0.0), owed(law, &[1], &[], 0.0)), (0.0, 1.0));
+    // Rest where 2 e m a = 8 N s is at most ½ of the push before.
+    assert_eq!([-17.0, -15.0, 0.0].map(|pushed| owed(law, &[], &[0], pushed)), [0.0, 1.0, 1.0]);
     // A scheme that does not promise friction gives up nothing.
-    assert_eq!(owed(None, &[0]), 1.0);
+    assert_eq!(owed(None, &[0], &[0], -100.0), 1.0);
 }

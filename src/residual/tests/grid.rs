@@ -73,6 +73,7 @@ impl Claim {
             friction: &[],
             holes: &[],
             wedged: &[],
+            resting: &[],
             extra: &self.extra,
             closed: &[],
             path: Path::Grid,

@@ -84,6 +84,7 @@ impl<S: Space> Shown<S> {
             friction: &self.friction,
             holes: &self.holes,
             wedged: &[],
+            resting: &[],
             extra: self.extra.as_ref(),
             closed: &self.closed,
             path,

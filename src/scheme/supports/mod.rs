@@ -269,6 +269,7 @@ impl Motion for Supports {
             friction: &self.friction,
             holes: &self.holes,
             wedged: &self.sweeps.wedged,
+            resting: &self.reach.resting,
             ..self.frame.step(index, self.pushes.closed())
         }
     }

@@ -1,7 +1,7 @@
 //! The walls and holes that a step reaches, each with its bound.
 //!
 //! Rigid ones are in play if q + ½h v reaches them, with v after the step's blows. The bound on
-//! n·ẇ⁺ is −ε ẇ at a flat, whose normal stays, and that of [`Turning`](crate::step::Turning) at a
+//! n·ẇ⁺ is −ε n·ẇ at a flat, whose normal stays, and that of [`Turning`](crate::step::Turning) at a
 //! hole, whose normal turns. Elastic walls are always in play and yield as in moreau-jean.
 
 use super::super::body::Body;
@@ -11,7 +11,9 @@ use super::normal::{AHEAD, Met, TURNING, dot, meet};
 use super::places::Places;
 use super::points::ContactPoint;
 use super::touch::Touch;
-use crate::scene::{Hole, Scene};
+use crate::scene::{Checked, Hole};
+#[cfg(doc)]
+use crate::step::Friction;
 
 /// A hole.
 #[derive(Debug, Clone, Copy)]
@@ -32,17 +34,28 @@ pub(super) struct Reach {
     rounds: Vec<Round>,
     /// q + ½h v.
     ahead: Vec<f64>,
+    /// The mass that each wall feels, kg.
+    masses: Vec<f64>,
+    /// Walls in play whose rebounds end within the step.
+    pub resting: Vec<usize>,
 }
 
 impl Reach {
-    pub fn new(scene: &Scene, theta: f64, points: Vec<ContactPoint>) -> Self {
+    pub fn new(scene: &Checked, theta: f64, points: Vec<ContactPoint>) -> Self {
         let round = |hole: Hole<'_>| Round {
             centre: hole.support.centre,
             gap: hole.gap,
             restitution: hole.restitution,
             clear: (hole.gap * (1.0 - 2.0 * TURNING.touching)).powi(2),
         };
-        Self { theta, points, rounds: scene.holes().map(round).collect(), ahead: vec![0.0; scene.initial.q.len()] }
+        Self {
+            theta,
+            points,
+            rounds: scene.holes().map(round).collect(),
+            ahead: vec![0.0; scene.initial.q.len()],
+            masses: scene.wall_masses().to_vec(),
+            resting: Vec::with_capacity(scene.walls.len()),
+        }
     }
 
     /// Number of holes.
@@ -52,6 +65,7 @@ impl Reach {
 
     /// Sets how far the step of `h` seconds reaches.
     pub fn look(&mut self, frame: &Frame<Matrices>, h: f64) {
+        self.resting.clear();
         for (ahead, (q, v)) in self.ahead.iter_mut().zip(frame.q.iter().zip(frame.struck())) {
             *ahead = q + AHEAD * h * v;
         }
@@ -59,7 +73,7 @@ impl Reach {
 
     /// A wall, if it is in play; `warm` is its impulse in the last step.
     pub fn wall(
-        &self,
+        &mut self,
         wall: usize,
         (body, frame): (&Body<Matrices>, &Frame<Matrices>),
         places: &Places,
@@ -76,13 +90,28 @@ impl Reach {
             }
             (_, Some(restitution)) if face.depth(body.seen(wall, &self.ahead)) >= -body.touch => {
                 let struck = body.seen(wall, frame.struck());
-                let epsilon = if face.sign * struck <= 0.0 { restitution } else { 1.0 };
-                (face.sign * epsilon * struck, 0.0)
+                let approach = -face.sign * struck;
+                let epsilon = if approach < 0.0 {
+                    1.0
+                } else if self.rests(wall, restitution, approach, warm[0]) {
+                    self.resting.push(wall);
+                    0.0
+                } else {
+                    restitution
+                };
+                (-epsilon * approach, 0.0)
             }
             _ => return None,
         };
         let (contact, law) = ((wall, point.rows), (point.friction, compliance));
         Some(Touch::new(places, contact, (point.normal, bound), law, warm))
+    }
+
+    /// True if the rebounds of a body that arrives at a wall with friction at this speed (m/s) end
+    /// within the step, under the push of the last step, N s: [`Friction`].
+    fn rests(&self, wall: usize, restitution: f64, approach: f64, push: f64) -> bool {
+        let rebounds = 2.0 * restitution * self.masses[wall] * approach;
+        self.points[wall].friction > 0.0 && push > 0.0 && rebounds <= (1.0 - restitution) * push
     }
 
     /// A hole, if it is in play, with its contact at number `index`; `warm` is its impulse in the

@@ -34,6 +34,7 @@ impl Shown {
             friction: &[],
             holes: &[],
             wedged: &[],
+            resting: &[],
             extra: &[0.0],
             closed: &[],
             path,
