@@ -48,7 +48,7 @@ step = 5e-5
 sample = 1e-3
 "#;
 
-fn results(folder: &Path, args: &[&str]) -> PathBuf {
+pub fn results(folder: &Path, args: &[&str]) -> PathBuf {
     let out = folder.join(args.join("-").replace(['/', ' '], "_"));
     let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
     let run = command.args(args).arg("--out").arg(&out).current_dir(folder).output().unwrap();
@@ -57,7 +57,7 @@ fn results(folder: &Path, args: &[&str]) -> PathBuf {
 }
 
 /// Opens the page and expects that it drew itself without an error or a request to anywhere.
-fn opened<'a>(browser: &'a mut Browser, page: &Path) -> Tab<'a> {
+pub fn opened<'a>(browser: &'a mut Browser, page: &Path) -> Tab<'a> {
     let mut tab = browser.open(page);
     tab.until("document.documentElement?.dataset.ready !== undefined");
     assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), "0", "{}", page.display());

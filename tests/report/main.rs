@@ -6,5 +6,7 @@ mod chromium;
 
 #[cfg(all(feature = "cli", unix))]
 mod browser;
+#[cfg(all(feature = "cli", unix))]
+mod drawings;
 #[cfg(feature = "cli")]
 mod text;

@@ -80,7 +80,8 @@ const minus = (text) => text.replace(/-/g, "−");
 
 /** A number to n digits, with powers of ten written out. */
 function digits(x, n = 4) {
-  if (x === null || x === undefined || !Number.isFinite(x)) return "–";
+  if (x === null || x === undefined || Number.isNaN(x)) return "–";
+  if (!Number.isFinite(x)) return x < 0 ? "−∞" : "∞";
   if (x === 0) return "0";
   if (Math.abs(x) < 1e5 && Math.abs(x) >= 1e-3) return minus(String(+x.toPrecision(n)));
   const [mantissa, exponent] = x.toExponential(n - 1).split("e");

@@ -4,7 +4,7 @@
 const BLOCK = 64;
 const coarser = new WeakMap();
 
-/** Least and largest of every block of a series: what is drawn of it where it is dense. */
+/** Least and largest finite value of every block of a series: what is drawn of it where it is dense. */
 function blocksOf(values) {
   if (!coarser.has(values)) {
     const count = Math.ceil(values.length / BLOCK);
@@ -13,6 +13,7 @@ function blocksOf(values) {
       new Float64Array(count).fill(-Infinity),
     ];
     for (let i = 0; i < values.length; i++) {
+      if (!Number.isFinite(values[i])) continue;
       const block = Math.floor(i / BLOCK);
       if (values[i] < least[block]) least[block] = values[i];
       if (values[i] > most[block]) most[block] = values[i];
@@ -54,8 +55,8 @@ function drawLine(ctx, plot, s) {
       const block = k / BLOCK;
       const whole = Number.isInteger(block) && k + BLOCK <= next;
       const [a, b] = whole ? [least[block], most[block]] : [s.y[k], s.y[k]];
-      if (a < lo) lo = a;
-      if (b > hi) hi = b;
+      if (a < lo && a !== -Infinity) lo = a;
+      if (b > hi && b !== Infinity) hi = b;
       k += whole ? BLOCK : 1;
     }
     if (lo <= hi) {
@@ -70,7 +71,7 @@ function drawLine(ctx, plot, s) {
 function drawStems(ctx, plot, s) {
   const from = Math.max(0, before(s.x, plot.X[0]));
   const to = before(s.x, plot.X[1]) + 1;
-  const dense = to - from > (plot.x1 - plot.x0) / 5;
+  const dense = (to - from) * plot.shown.length > (plot.x1 - plot.x0) / 5;
   const zero = plot.sy(0);
   ctx.lineWidth = dense ? 1 : 1.4;
   ctx.globalAlpha = dense ? 0.7 : 1;
@@ -89,6 +90,22 @@ function drawPoints(ctx, plot, s) {
   for (let i = 0; i < s.x.length; i++) {
     if (!Number.isFinite(s.y[i])) continue;
     drawMarker(ctx, s.marker || s.look.marker, plot.sx(s.x[i]), plot.sy(s.y[i]), s.size || 3);
+  }
+}
+
+/** The height of a value; of −∞ and ∞ at the edge of the frame. */
+const edgeOf = (plot, y) =>
+  y === -Infinity ? plot.y1 - 8 : y === Infinity ? plot.y0 + 8 : plot.sy(y);
+
+/** Values of −∞ and ∞, which no axis holds: a triangle and the sign at the edge of the frame. */
+function drawInfinite(ctx, plot, s) {
+  ctx.textAlign = "center";
+  ctx.textBaseline = "middle";
+  for (let i = 0; i < s.x.length; i++) {
+    if (Math.abs(s.y[i]) !== Infinity) continue;
+    const [x, y, below] = [plot.sx(s.x[i]), edgeOf(plot, s.y[i]), s.y[i] < 0];
+    drawMarker(ctx, below ? "down" : "triangle", x, y, 3.4);
+    ctx.fillText(digits(s.y[i]), clamp(x, plot.x0 + 12, plot.x1 - 12), y + (below ? -13 : 13));
   }
 }
 

@@ -9,7 +9,7 @@ class Plot {
    *   range     function that gives [lo, hi] of y; without one, y spans the series
    *   log       [x, y], true for a logarithmic axis
    *   series    list of { kind, x, y, look, hidden() }; kind is line, marked, points, stems,
-   *             orbit, bars or own (with draw(ctx, plot))
+   *             orbit, bars or own (with draw(ctx, plot)); infinite: true shows −∞ and ∞ at the edges
    *   marks     lines at x or y, with side (of a wall) and label
    *   over      function (ctx, plot) that draws what follows the cursor
    *   hover     function (x, [px, py], plot), null when the pointer leaves
@@ -51,8 +51,9 @@ class Plot {
       let [lo, hi] = [Infinity, -Infinity];
       for (const s of this.shown) {
         for (const value of s[axis]) {
-          if (value < lo && (!log || value > 0)) lo = value;
-          if (value > hi && value !== Infinity) hi = value;
+          if (!Number.isFinite(value) || (log && value <= 0)) continue;
+          if (value < lo) lo = value;
+          if (value > hi) hi = value;
         }
       }
       if (!(lo <= hi)) return log ? [0.1, 1] : [-1, 1];
@@ -233,6 +234,7 @@ class Plot {
       drawLine(ctx, this, s);
       ctx.setLineDash([]);
       if (s.kind === "marked") drawPoints(ctx, this, { ...s, size: 3.4, marker: s.look.marker });
+      if (s.infinite) drawInfinite(ctx, this, s);
     }
     ctx.restore();
   }

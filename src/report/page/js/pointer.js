@@ -70,7 +70,7 @@ function tellNearest(plot, points, text) {
     let nearest = 14 ** 2;
     if (at) {
       for (const point of points()) {
-        const distance = (plot.sx(point.x) - at[0]) ** 2 + (plot.sy(point.y) - at[1]) ** 2;
+        const distance = (plot.sx(point.x) - at[0]) ** 2 + (edgeOf(plot, point.y) - at[1]) ** 2;
         if (distance < nearest) [nearest, plot.found] = [distance, point];
       }
     }
@@ -78,7 +78,7 @@ function tellNearest(plot, points, text) {
       plot,
       tip,
       plot.found && text(plot.found),
-      plot.found && [plot.sx(plot.found.x), plot.sy(plot.found.y)],
+      plot.found && [plot.sx(plot.found.x), edgeOf(plot, plot.found.y)],
     );
   };
   plot.over = (ctx) => {
@@ -86,7 +86,7 @@ function tellNearest(plot, points, text) {
     ctx.strokeStyle = ink.c2;
     ctx.lineWidth = 2;
     ctx.beginPath();
-    ctx.arc(plot.sx(plot.found.x), plot.sy(plot.found.y), 8, 0, TURN);
+    ctx.arc(plot.sx(plot.found.x), edgeOf(plot, plot.found.y), 8, 0, TURN);
     ctx.stroke();
   };
 }

@@ -183,7 +183,8 @@ function measureMap(columns, [first, second], measures, tell, pick) {
   };
   const toneOf = (i) => {
     const value = columns[choice.name][i];
-    return Number.isFinite(value)
+    // The tone of −∞ is that of the least number.
+    return !Number.isNaN(value)
       ? rampTone((value - range[0]) / (range[1] - range[0] || 1))
       : [128, 128, 128];
   };
@@ -256,6 +257,7 @@ function measureCurves(columns, axis, measures, tell, pick) {
           look: item.look,
           x: columns[axis],
           y: columns[item.name],
+          infinite: true,
           hidden: () => !item.shown,
         }));
         const y = items.length > 1 ? unit || "Number" : items[0].label;

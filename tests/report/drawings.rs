@@ -1,0 +1,41 @@
+//! What the pages of the report draw, in a real browser: texts, lines and colours.
+use crate::browser::{opened, results};
+use crate::chromium::{Browser, Tab};
+use std::fs;
+
+/// From here on texts and lines are recorded as `drawn`: [kind, style, x, y, text or line width].
+const RECORD: &str = "(() => { const pen = CanvasRenderingContext2D.prototype; globalThis.drawn = []; \
+    const record = (name, style) => { const own = pen[name]; pen[name] = function (...args) { \
+    const [text, x, y] = name === 'fillText' ? args : [this.lineWidth, ...args]; \
+    drawn.push([name, String(this[style]), x, y, text, args]); return own.apply(this, args); }; }; \
+    record('fillText', 'fillStyle'); record('lineTo', 'strokeStyle'); record('rect', 'strokeStyle'); })()";
+
+/// Draws everything anew in the other theme, and gives the texts.
+fn texts(tab: &mut Tab<'_>) -> Vec<String> {
+    tab.evaluate(RECORD);
+    tab.press_button("◐");
+    tab.frame();
+    tab.frame();
+    let texts = tab.evaluate("drawn.filter(([kind]) => kind === 'fillText').map((one) => one[4])");
+    texts.as_array().unwrap().iter().map(|text| text.as_str().unwrap().to_owned()).collect()
+}
+
+/// Walls without restitution make the exponent −∞ in one row; the panel shows the others, and that
+/// row at its edge.
+#[test]
+fn a_row_of_minus_infinity_leaves_the_others_drawn() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let vary = ["--vary", "wall.*.restitution=0:0.8:5", "--scheme", "event", "--settle", "40", "--keep", "100"];
+    let page = results(dir.path(), &[&["sweep", "rigid-walls-sine"], &vary[..], &["--measure", "lyapunov"]].concat());
+    let table = fs::read_to_string(page.with_file_name("sweep.csv")).unwrap();
+    assert_eq!(table.matches("-inf").count(), 1, "{table}");
+    let mut tab = opened(&mut browser, &page);
+    let texts = texts(&mut tab);
+    assert!(texts.iter().any(|text| text == "−∞"), "{texts:?}");
+    // The numbers of the axis: the finite exponents are −16.2 to −2.3 1/s.
+    assert!(texts.iter().any(|text| text == "−10"), "{texts:?}");
+    let cells = "[...document.querySelectorAll('#rows tbody tr:not(.space)')].map((tr) => tr.lastChild.textContent)";
+    assert_eq!(tab.evaluate(cells)[0], "−∞");
+    tab.close();
+}
