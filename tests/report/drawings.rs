@@ -20,6 +20,8 @@ fn texts(tab: &mut Tab<'_>) -> Vec<String> {
     texts.as_array().unwrap().iter().map(|text| text.as_str().unwrap().to_owned()).collect()
 }
 
+const SOFT: [&str; 2] = ["--set", "wall.*.restitution=0.8"];
+
 /// Walls without restitution make the exponent −∞ in one row; the panel shows the others, and that
 /// row at its edge.
 #[test]
@@ -37,5 +39,20 @@ fn a_row_of_minus_infinity_leaves_the_others_drawn() {
     assert!(texts.iter().any(|text| text == "−10"), "{texts:?}");
     let cells = "[...document.querySelectorAll('#rows tbody tr:not(.space)')].map((tr) => tr.lastChild.textContent)";
     assert_eq!(tab.evaluate(cells)[0], "−∞");
+    tab.close();
+}
+
+/// Special points are markers, which the key below names: no text stands over the branches.
+#[test]
+fn no_label_hides_the_branches() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let key = ["--key", "load.1.harmonic.frequency", "--range", "4:5"];
+    let page = results(dir.path(), &[&["continue", "rigid-walls-sine"], &SOFT[..], &key[..]].concat());
+    let mut tab = opened(&mut browser, &page);
+    let texts = texts(&mut tab);
+    assert!(!texts.iter().any(|text| text.contains("symmetry-breaking")), "{texts:?}");
+    let keys = tab.evaluate("document.querySelector('#branches').textContent.includes('symmetry-breaking')");
+    assert_eq!(keys, true);
     tab.close();
 }

@@ -3,7 +3,7 @@
 /** Markers of special points, those of the SVG picture. */
 const SPECIAL_MARKERS = {
   fold: "triangle",
-  "period-doubling": "diamond",
+  "period-doubling": "open-diamond",
   "symmetry-breaking": "ring",
   "neimark-sacker": "disc",
   "grazing-in": "cross",

@@ -39,42 +39,13 @@ function branchPlot(points, choice, select) {
     }
     ctx.setLineDash([]);
   };
+  /** Markers alone: the key below and the pointer name them, and no name hides an orbit. */
   const drawSpecials = (ctx, plot) => {
-    const taken = [];
-    ctx.font = font(0.92);
+    ctx.fillStyle = ctx.strokeStyle = ink.ink;
     for (const i of specials) {
       const [x, y] = [plot.sx(points.value[i]), plot.sy(heightOf(i))];
-      if (!(x >= plot.x0 - 5 && x <= plot.x1 + 5 && Number.isFinite(y))) continue;
-      ctx.fillStyle = ctx.strokeStyle = ink.ink;
-      drawMarker(ctx, specialMarker(points.label(i)), x, y, 4.2);
-      taken.push([x - 6, y, 12]);
-    }
-    for (const i of specials) {
-      const [x, y] = [plot.sx(points.value[i]), plot.sy(heightOf(i))];
-      if (!(x >= plot.x0 && x <= plot.x1 && y >= plot.y0 - 9 && y <= plot.y1 + 9)) continue;
-      const width = ctx.measureText(points.label(i)).width + 8;
-      // Above, below, or beside; where nothing is free the marker alone tells.
-      const places = [
-        [x - width / 2, y - 16],
-        [x - width / 2, y + 16],
-        [x + 10, y],
-        [x - 10 - width, y],
-        [x - width / 2, y - 32],
-      ];
-      const free = places.find(([left, middle]) => {
-        const inside =
-          left >= plot.x0 &&
-          left + width <= plot.x1 &&
-          middle > plot.y0 + 8 &&
-          middle < plot.y1 - 8;
-        return (
-          inside &&
-          !taken.some(([a, b, w]) => left < a + w && a < left + width && Math.abs(b - middle) < 14)
-        );
-      });
-      if (!free) continue;
-      taken.push([...free, width]);
-      drawLabel(ctx, points.label(i), free[0] + 4, free[1]);
+      if (x >= plot.x0 - 5 && x <= plot.x1 + 5 && Number.isFinite(y))
+        drawMarker(ctx, specialMarker(points.label(i)), x, y, 4.2);
     }
   };
   const own = (draw) => ({ kind: "own", look: lookOf(0), x: [], y: [], draw });

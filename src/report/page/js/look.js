@@ -20,6 +20,7 @@ const MARKERS = [
   "ring",
   "open-square",
   "down",
+  "open-diamond",
   "plus",
 ];
 
@@ -62,7 +63,7 @@ const clear = (hex, alpha) =>
     .toString(16)
     .padStart(2, "0");
 
-const OPEN_SHAPES = { ring: "disc", "open-square": "square" };
+const OPEN_SHAPES = { ring: "disc", "open-square": "square", "open-diamond": "diamond" };
 
 /** A marker of radius r in the current colours of the context. */
 function drawMarker(ctx, kind, x, y, r) {
