@@ -15,13 +15,22 @@ pub struct Curve {
     pub(super) marked: bool,
     pub(super) oscillates: bool,
     pub(super) look: Option<usize>,
+    pub(super) colour: Option<usize>,
 }
 
 impl Curve {
     /// A line through `points`, in their order.
     pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let points = points.into_iter().collect();
-        Self { label: label.into(), points, role: Role::Ordinary, marked: false, oscillates: false, look: None }
+        Self {
+            label: label.into(),
+            points,
+            role: Role::Ordinary,
+            marked: false,
+            oscillates: false,
+            look: None,
+            colour: None,
+        }
     }
 
     /// Also draws a marker at every point (at some 200 evenly chosen points where there are more).
@@ -62,6 +71,14 @@ impl Curve {
         self.look = Some(number);
         self
     }
+
+    /// Draws the curve in the colour of the look `number`, with the dashes and the marker of its
+    /// own look: what the colour stands for has it in every figure.
+    #[must_use]
+    pub fn colour(mut self, number: usize) -> Self {
+        self.colour = Some(number);
+        self
+    }
 }
 
 /// Vertical strokes from zero with a marker at their end: impulses.
@@ -72,13 +89,15 @@ pub struct Stems {
     pub(super) points: Vec<(f64, f64)>,
     pub(super) role: Role,
     pub(super) look: Option<usize>,
+    pub(super) colour: Option<usize>,
 }
 
 impl Stems {
     /// One stroke for each of `points`. Forces and impulses have different units: give each its own
     /// panel.
     pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        Self { label: label.into(), points: points.into_iter().collect(), role: Role::Ordinary, look: None }
+        let points = points.into_iter().collect();
+        Self { label: label.into(), points, role: Role::Ordinary, look: None, colour: None }
     }
 
     /// Draws them wide and pale beneath the others, as [`Curve::backdrop`] does.
@@ -92,6 +111,13 @@ impl Stems {
     #[must_use]
     pub fn look(mut self, number: usize) -> Self {
         self.look = Some(number);
+        self
+    }
+
+    /// Draws them in the colour of the look `number`, as [`Curve::colour`] does.
+    #[must_use]
+    pub fn colour(mut self, number: usize) -> Self {
+        self.colour = Some(number);
         self
     }
 }

@@ -66,11 +66,16 @@ pub(super) struct Look {
     pub role: Role,
 }
 
+/// The colour of the look `number`.
+pub(super) fn colour(number: usize) -> &'static str {
+    COLOURS.get(number % COLOURS.len()).copied().unwrap_or_default()
+}
+
 /// The look of label number `number` in a figure; looks repeat after 80.
 pub(super) fn look(number: usize, role: Role, marked: bool) -> Look {
-    let nth = |list: &[&'static str; 8], n: usize| list.get(n % 8).copied().unwrap_or_default();
+    let dash = DASHES.get((number + number / 8) % DASHES.len()).copied().unwrap_or_default();
     let stroke = match role {
-        Role::Ordinary => Stroke { colour: nth(&COLOURS, number), width: 1.2, dash: nth(&DASHES, number + number / 8) },
+        Role::Ordinary => Stroke { colour: colour(number), width: 1.2, dash },
         Role::Backdrop => Stroke::solid("#c4c4c4", 3.6),
         Role::Front => Stroke::solid("#d9d9d9", 7.0),
     };

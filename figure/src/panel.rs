@@ -17,6 +17,8 @@ pub struct Panel {
     pub(super) marks: Vec<Mark>,
     pub(super) outlines: Vec<Vec<(f64, f64)>>,
     pub(super) areas: Vec<Vec<(f64, f64)>>,
+    /// The look whose colour outlines and areas have.
+    pub(super) colour: Option<usize>,
     /// Smallest range that is drawn as such, and the range drawn instead of a smaller one.
     pub(super) still: (f64, f64),
 }
@@ -93,12 +95,19 @@ impl Panel {
         self
     }
 
+    /// Draws outlines and areas in the colour of the look `number`.
+    #[must_use]
+    pub fn colour(mut self, number: usize) -> Self {
+        self.colour = Some(number);
+        self
+    }
+
     /// The labels of the legend, in the order of drawing.
     pub(super) fn entries(&self) -> Vec<Entry<'_>> {
-        let curve = |c: &Curve| (c.role, c.marked, c.look);
+        let curve = |c: &Curve| (c.role, c.marked, (c.look, c.colour));
         let curves = self.curves.iter().map(|c| (c.label.as_str(), curve(c), true));
-        let stems = self.stems.iter().map(|s| (s.label.as_str(), (s.role, true, s.look), false));
-        let entry = |(label, (role, marked, look), line)| Entry { label, role, marked, line, look };
+        let stems = self.stems.iter().map(|s| (s.label.as_str(), (s.role, true, (s.look, s.colour)), false));
+        let entry = |(label, (role, marked, (look, colour)), line)| Entry { label, role, marked, line, look, colour };
         curves.chain(stems).map(entry).collect()
     }
 
@@ -158,6 +167,7 @@ pub(super) struct Entry<'a> {
     /// False for stems, which have no dash pattern.
     pub line: bool,
     pub look: Option<usize>,
+    pub colour: Option<usize>,
 }
 
 /// Grows a range to include the marks, as long as the data keep a fifth of it.

@@ -53,18 +53,18 @@ impl PlotArea<'_> {
     }
 
     /// Fills areas.
-    pub(super) fn draw_areas(&self, canvas: &mut Canvas, areas: &[Vec<(f64, f64)>]) {
+    pub(super) fn draw_areas(&self, canvas: &mut Canvas, areas: &[Vec<(f64, f64)>], colour: &'static str) {
         for corners in areas {
             let corners: Vec<(f64, f64)> = corners.iter().filter_map(|point| self.spot(*point)).collect();
-            canvas.area(&corners, "#c0452a", 0.75);
+            canvas.area(&corners, colour, 0.75);
         }
     }
 
     /// Draws the outlines of what bounds a motion.
-    pub(super) fn draw_outlines(&self, canvas: &mut Canvas, outlines: &[Vec<(f64, f64)>]) {
+    pub(super) fn draw_outlines(&self, canvas: &mut Canvas, outlines: &[Vec<(f64, f64)>], colour: &'static str) {
         let runs: Vec<Vec<(f64, f64)>> =
             outlines.iter().map(|points| points.iter().filter_map(|point| self.spot(*point)).collect()).collect();
-        canvas.path(&runs, Stroke::solid("#555", 1.8));
+        canvas.path(&runs, Stroke::solid(colour, 1.8));
     }
 
     /// Points on the page, from the last one before the frame to the first one after it; all points

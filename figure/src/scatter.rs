@@ -3,7 +3,7 @@
 
 use super::axis::{Axis, Extent, Scale};
 use super::legend::Legend;
-use super::look::{LABEL, Look, Role, TITLE, WIDTH, look};
+use super::look::{LABEL, Look, Role, TITLE, WIDTH, colour, look};
 use super::overlay::{Line, Overlay, Sign};
 use super::plot_area::{PlotArea, draw_axes, draw_grid};
 use super::svg::{Anchor, Canvas, Stroke, Text};
@@ -17,10 +17,9 @@ const DOT: f64 = 1.5;
 const LEFT: f64 = 84.0;
 const RIGHT: f64 = 24.0;
 
-/// Colours of a single group, of the first and the second of two groups, and of cells with points
-/// of both.
+/// Colour of a single group, and of cells with points of both of two groups, which have the colours
+/// of the looks 1 and 2.
 const ALONE: &str = "#000000";
-const COLOURS: [&str; 2] = ["#d55e00", "#0072b2"];
 const BOTH: &str = "#000000";
 /// Colour of a group beneath lines.
 const BENEATH: &str = "#b4b4b4";
@@ -152,7 +151,7 @@ impl Scatter {
         match self.groups.len() {
             0 | 1 if !self.overlay.is_empty() => vec![(1, BENEATH)],
             0 | 1 => vec![(1, ALONE)],
-            _ => vec![(1, COLOURS[0]), (2, COLOURS[1]), (3, BOTH)],
+            _ => vec![(1, colour(1)), (2, colour(2)), (3, BOTH)],
         }
     }
 
@@ -163,8 +162,8 @@ impl Scatter {
             (label, Look { stroke: Stroke::solid(colour, 4.0), ..line })
         };
         let mut entries = vec![
-            entry(first.clone(), COLOURS[0]),
-            entry(second.clone(), COLOURS[1]),
+            entry(first.clone(), colour(1)),
+            entry(second.clone(), colour(2)),
             entry(format!("{first} and {second}"), BOTH),
         ];
         entries.extend(self.overlay.entries());

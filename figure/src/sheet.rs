@@ -3,7 +3,7 @@
 use super::axis::{Axis, Extent, Scale};
 use super::labels;
 use super::legend::Legend;
-use super::look::{LABEL, Look, Role, SMALL, TITLE, WIDTH, look};
+use super::look::{LABEL, Look, Role, SMALL, TITLE, WIDTH, colour, look};
 use super::panel::{Entry, Panel, include_marks};
 use super::plot_area::{PlotArea, draw_axes, draw_grid};
 use super::svg::{Anchor, Canvas, Stroke, Text};
@@ -241,6 +241,7 @@ impl Figure {
         }
         let shown = |entry: Entry<'_>| {
             let mut look = look(entry.look.unwrap_or(0), entry.role, entry.marked);
+            look.stroke.colour = entry.colour.map_or(look.stroke.colour, colour);
             if !entry.line {
                 look.stroke = Stroke::solid(look.stroke.colour, 1.0);
             }
@@ -267,7 +268,8 @@ impl Figure {
             canvas.rect(from, frame.y, (to - from).max(0.0), frame.height, "#ececec");
         }
         draw_grid(canvas, frame);
-        frame.draw_areas(canvas, &panel.areas);
+        let own = panel.colour.map(colour);
+        frame.draw_areas(canvas, &panel.areas, own.unwrap_or("#c0452a"));
         for role in [Role::Front, Role::Backdrop] {
             for curve in panel.curves.iter().filter(|c| c.role == role) {
                 frame.draw_curve(canvas, curve, look(0, role, role == Role::Front), budget);
@@ -277,7 +279,7 @@ impl Figure {
             }
         }
         frame.draw_marks(canvas, &panel.marks);
-        frame.draw_outlines(canvas, &panel.outlines);
+        frame.draw_outlines(canvas, &panel.outlines, own.unwrap_or("#555"));
         for curve in panel.curves.iter().filter(|c| c.role == Role::Ordinary) {
             if let Some(found) = found(&curve.label) {
                 let marker = found.marker.filter(|_| curve.marked);

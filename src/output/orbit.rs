@@ -1,6 +1,7 @@
 //! The orbit of a station that moves in two planes, between the flats around it or in its hole,
 //! with the work of wear by sectors.
 
+use super::colours::Places;
 use super::figure::{Curve, Figure, Panel};
 use super::labelled::Labelled;
 use super::ring::Ring;
@@ -71,6 +72,7 @@ pub(super) fn orbits(
     let remarks = left_out.into_iter().chain(ring).collect();
     let mut figure = Figure::new(title(remarks), "Displacement along y (mm)").square();
     figure = figure.range(MM * (middle - whole), MM * (middle + whole));
+    let places = Places::of(scene);
     for (station, centre) in views {
         let mut panel = Panel::new("Displacement along z (mm)").heading(heading(&station, runs));
         panel = panel.range(MM * (centre[1] - whole), MM * (centre[1] + whole));
@@ -78,6 +80,9 @@ pub(super) fn orbits(
             let points = points(&station, &labelled.run.trajectory, span).map(|[y, z]| (MM * y, MM * z));
             let curve = Curve::new(labelled.label, points).look(labelled.look);
             panel = panel.curve(if labelled.reference { curve.backdrop() } else { curve });
+        }
+        if let Some(ring) = station.rings.first() {
+            panel = panel.colour(places.colour(ring.name(scene)));
         }
         for edge in edges(&station.flats, [middle, centre[1]], whole) {
             panel = panel.outline(edge.map(|[y, z]| (MM * y, MM * z)));

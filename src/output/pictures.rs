@@ -4,10 +4,11 @@
 //! in the figure of forces each place at which walls stand. Where there are more than a page holds,
 //! those with the most contact are drawn, and the title says how many there are.
 
-use super::figure::{Curve, Figure, Mark, Panel, Stems};
+use super::figure::{Curve, Figure, Mark, Panel};
 pub use super::labelled::Labelled;
 use super::motion::{Instant, motion};
 use super::orbit::orbits;
+use super::part::Part;
 use super::places::{Chosen, WallPlace};
 use super::rubbed::Rubbed;
 use super::window::{Span, Window};
@@ -104,11 +105,6 @@ impl Sheet<'_> {
         if labelled.reference { curve.backdrop() } else { curve }
     }
 
-    fn stems(&self, labelled: &Labelled<'_>, points: Vec<(f64, f64)>) -> Stems {
-        let stems = Stems::new(labelled.label, points).look(labelled.look);
-        if labelled.reference { stems.backdrop() } else { stems }
-    }
-
     fn motion(&self, run: &Run, probe: usize, window: &Window) -> Vec<Instant> {
         motion(self.scene, run, probe, window.whole, window.detail(), false)
     }
@@ -185,18 +181,19 @@ impl Sheet<'_> {
             let mut impulse = headed("Contact impulse (N s)", place);
             let (mut forces, mut impulses) = (false, false);
             for labelled in self.runs {
-                let run = labelled.run;
-                let here = run.trajectory.contacts().iter().filter(|c| place.walls.contains(&c.wall));
-                let none = here.clone().next().is_none();
-                let seen = here.filter(|c| self.shows(c));
-                let impacts: Vec<_> = seen.clone().filter(|c| is_impact(c)).map(|c| (c.start, c.impulse)).collect();
-                if seen.clone().any(|c| !is_impact(c)) || none {
-                    force = force.curve(self.curve(labelled, self.force_points(run, place)));
-                    forces = true;
-                }
-                if !impacts.is_empty() {
-                    impulse = impulse.stems(self.stems(labelled, impacts));
-                    impulses = true;
+                let all = labelled.run.trajectory.contacts();
+                let none = !all.iter().any(|c| place.walls.contains(&c.wall));
+                for part in Part::all(self.scene, labelled, &place.walls, self.runs.len() == 1) {
+                    let seen = all.iter().filter(|c| part.walls.contains(&c.wall) && self.shows(c));
+                    let impacts: Vec<_> = seen.clone().filter(|c| is_impact(c)).map(|c| (c.start, c.impulse)).collect();
+                    if none || seen.clone().any(|c| !is_impact(c)) {
+                        force = force.curve(part.curve(self.force_points(labelled.run, &part.walls)));
+                        forces = true;
+                    }
+                    if !impacts.is_empty() {
+                        impulse = impulse.stems(part.stems(impacts));
+                        impulses = true;
+                    }
                 }
             }
             if forces || !impulses {
@@ -214,13 +211,13 @@ impl Sheet<'_> {
         contact.start <= self.span.to && contact.end.is_none_or(|end| end >= self.span.from)
     }
 
-    /// Sum of the forces of a place's walls at the rows, without rigid impacts, plus the peak of
-    /// each contact too short for the rows to show.
-    fn force_points(&self, run: &Run, place: &WallPlace) -> Vec<(f64, f64)> {
+    /// Sum of the forces of `walls` at the rows, without rigid impacts, plus the peak of each
+    /// contact too short for the rows to show.
+    fn force_points(&self, run: &Run, walls: &[usize]) -> Vec<(f64, f64)> {
         let t = &run.trajectory;
         let spacing = t.time().get(1).copied().unwrap_or(0.0);
         let mut points: Vec<(f64, f64)> = t.time().iter().map(|&time| (time, 0.0)).collect();
-        for column in place.walls.iter().filter_map(|&wall| t.contact_forces().get(wall)) {
+        for column in walls.iter().filter_map(|&wall| t.contact_forces().get(wall)) {
             for (point, f) in points.iter_mut().zip(column) {
                 point.1 += f;
             }
@@ -233,7 +230,7 @@ impl Sheet<'_> {
         // In a penalty run the walls are springs, also those that the scene calls rigid.
         let springs = matches!(run.scheme, crate::scheme::Scheme::Penalty { .. });
         let rigid = |c: &Contact| !springs && self.scene.walls.get(c.wall).is_some_and(|w| w.law.is_rigid());
-        let here = |c: &&Contact| place.walls.contains(&c.wall) && self.shows(c);
+        let here = |c: &&Contact| walls.contains(&c.wall) && self.shows(c);
         for c in t.contacts().iter().filter(here) {
             let end = c.end.unwrap_or(self.span.to);
             let sign = self.scene.walls.get(c.wall).map_or(0.0, |w| if w.side == Side::Upper { -1.0 } else { 1.0 });

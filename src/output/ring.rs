@@ -43,6 +43,11 @@ impl Ring {
         there.map(ring).filter(|ring| ring.inside > 0.0).collect()
     }
 
+    /// The name of the support.
+    pub fn name<'a>(&self, scene: &'a Scene) -> &'a str {
+        scene.supports.get(self.index).map_or("", |support| support.name.as_str())
+    }
+
     fn point(&self, degrees: f64, radius: f64) -> [f64; 2] {
         let (sin, cos) = degrees.to_radians().sin_cos();
         [self.centre[0] + radius * cos, self.centre[1] + radius * sin]

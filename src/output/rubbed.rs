@@ -1,5 +1,6 @@
 //! Figures of supports over time: the force of round supports, and the work of wear.
 
+use super::colours::Places;
 use super::figure::{Curve, Figure, Panel};
 use super::labelled::Labelled;
 use super::window::Window;
@@ -69,13 +70,18 @@ impl Rubbed<'_> {
         let left_out = (supports.len() < count).then(|| format!("{} of {count} supports", supports.len()));
         let title = (self.title)(left_out.into_iter().collect());
         let mut figure = self.window.over_time(Figure::new(title, "Time (s)"));
+        let places = Places::of(self.scene);
         for support in supports.iter().filter_map(|(index, _)| Some((*index, self.scene.supports.get(*index)?))) {
             let remark = if support.1.friction == 0.0 { frictionless } else { "" };
             let mut panel = Panel::new(label).heading(format!("{}{remark}", support.1.name));
             for labelled in self.runs {
                 let Some(points) = points(&labelled.run.trajectory, support.0) else { continue };
                 let shown = points.into_iter().filter(|point| self.window.whole.holds(point.0));
-                let curve = Curve::new(labelled.label, shown).look(labelled.look);
+                // Of one run each support has its colour, of several each run its look.
+                let curve = match self.runs {
+                    [_] => Curve::new(support.1.name.as_str(), shown).look(0).colour(places.colour(&support.1.name)),
+                    _ => Curve::new(labelled.label, shown).look(labelled.look),
+                };
                 panel = panel.curve(if labelled.reference { curve.backdrop() } else { curve });
             }
             figure = figure.panel(panel);

@@ -49,6 +49,11 @@ pub(super) fn too_large(folder: &Folder<'_>) -> Result<Option<String>> {
     Ok((count > MOST_CELLS).then(|| format!("its tables have {count} cells; a report holds {MOST_CELLS} at most")))
 }
 
+/// The walls of these names.
+fn names(list: &Value) -> Vec<Value> {
+    list.as_array().into_iter().flatten().map(|name| json!({ "name": name })).collect()
+}
+
 /// What the page of a sweep shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     if let Some(reason) = too_large(folder)? {
@@ -71,6 +76,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "attractors": attractors.map(|attractors| attractors.for_page(Some(&TOLD))),
             "samples": samples.map(|samples| samples.for_page(None)),
             "axes": axes,
+            "walls": names(&request["wall_names"]),
             "scheme": request["methods"][0],
             "kept": kept(folder.path, &table),
             "unjudged": summary["status"]["unjudged"].as_u64().unwrap_or(0),

@@ -24,6 +24,8 @@ pub(super) struct Source<'a> {
     pub random: bool,
     pub columns: Vec<String>,
     pub sample_columns: Vec<String>,
+    /// The names of the walls.
+    pub walls: Vec<String>,
 }
 
 impl<'a> Source<'a> {
@@ -54,6 +56,7 @@ impl<'a> Source<'a> {
             random: request.get("random").is_some_and(|random| !random.is_null()),
             columns: list("columns"),
             sample_columns: list("sample_columns"),
+            walls: list("wall_names"),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::columns::{Along, Source, place_of, place_suffix, short};
 use super::picture::{Drawn, MOST_PANELS, Picture};
 use super::table::{TABLE, Table, label, quantity};
 use crate::error::Result;
+use crate::output::colours::{DOWN, Places, UP};
 use crate::output::figure::{Curve, Figure, Panel, Scale, Scatter};
 
 /// Maximum number of curves in one panel.
@@ -12,8 +13,14 @@ const MOST_CURVES: usize = 8;
 /// Maximum number of groups of points of a random design.
 const MOST_CLOUDS: usize = 2;
 
-/// The points of one curve, with its label.
-type Labelled = (String, Vec<(f64, f64)>);
+/// One curve: what it is of, and its points.
+struct MeasureCurve {
+    label: String,
+    direction: String,
+    /// The wall or probe that its column names.
+    place: String,
+    points: Vec<(f64, f64)>,
+}
 
 impl Picture {
     pub(super) fn line(&self, source: &Source<'_>) -> Result<Option<Drawn>> {
@@ -43,11 +50,11 @@ impl Picture {
             .collect::<Result<_>>()?;
         let most = if source.random { MOST_CLOUDS } else { MOST_CURVES };
         // By panel, then by column and group of rows: points.
-        let mut curves: Vec<Vec<Labelled>> = vec![Vec::new(); groups.len()];
+        let mut curves: Vec<Vec<MeasureCurve>> = groups.iter().map(|_| Vec::new()).collect();
         table.each(|row| {
             let Some(at) = row.number(own) else { return };
-            let mut words: Vec<String> =
-                direction.map(|index| row.text(index).to_owned()).into_iter().filter(|d| !d.is_empty()).collect();
+            let direction = direction.map(|index| row.text(index).to_owned()).unwrap_or_default();
+            let mut words: Vec<String> = (!direction.is_empty()).then(|| direction.clone()).into_iter().collect();
             if !source.random {
                 words.extend(
                     others
@@ -59,12 +66,16 @@ impl Picture {
             for ((curves, columns), (measure, names)) in curves.iter_mut().zip(&wanted).zip(&groups) {
                 for (&index, name) in columns.iter().zip(names) {
                     let place = place_of(name, measure);
-                    let label = [(!place.is_empty()).then_some(place), (!words.is_empty()).then(|| words.join(", "))];
+                    let label =
+                        [(!place.is_empty()).then(|| place.clone()), (!words.is_empty()).then(|| words.join(", "))];
                     let label = label.into_iter().flatten().collect::<Vec<_>>().join(": ");
                     let point = (at, row.number(index).unwrap_or(f64::NAN));
-                    match curves.iter().position(|(known, _)| *known == label) {
-                        Some(known) => curves[known].1.push(point),
-                        None if curves.len() < most => curves.push((label, vec![point])),
+                    match curves.iter().position(|known| known.label == label) {
+                        Some(known) => curves[known].points.push(point),
+                        None if curves.len() < most => {
+                            let direction = direction.clone();
+                            curves.push(MeasureCurve { label, direction, place, points: vec![point] });
+                        }
                         None => {
                             let name = format!("{measure} {label}");
                             if !left_out.contains(&name) {
@@ -91,10 +102,14 @@ impl Picture {
                 .first()
                 .map_or_else(|| measure.clone(), |column| label(&column.replace(&place_suffix(column, measure), "")));
             let mut panel = Panel::new(unit);
-            for (label, mut points) in curves {
+            for (MeasureCurve { label, mut points, .. }, colour) in coloured(curves, source) {
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
                 let few = points.len() <= 60;
                 let curve = Curve::new(label, points);
+                let curve = match colour {
+                    Some((look, colour)) => curve.look(look).colour(colour),
+                    None => curve,
+                };
                 panel = panel.curve(if few { curve.marked() } else { curve });
             }
             figure = figure.panel(panel);
@@ -103,11 +118,34 @@ impl Picture {
     }
 }
 
+/// The curves of a panel, each with its look and the look of its colour: of rows up and down those
+/// of the direction, else that of the wall; `None` of a curve of neither.
+fn coloured(curves: Vec<MeasureCurve>, source: &Source<'_>) -> Vec<(MeasureCurve, Option<(usize, usize)>)> {
+    let both = ["up", "down"].iter().all(|way| curves.iter().any(|curve| curve.direction == *way));
+    let walls: Vec<String> = source.walls.iter().map(|name| name.replace('-', "_")).collect();
+    let places = Places::new(source.walls.iter().map(String::as_str), []);
+    let mut seen: Vec<usize> = Vec::new();
+    let mut colour = |curve: &MeasureCurve| {
+        let colour = if both {
+            if curve.direction == "down" { DOWN } else { UP }
+        } else {
+            let wall = walls.iter().position(|wall| *wall == curve.place)?;
+            places.colour(source.walls.get(wall)?)
+        };
+        // Curves of one colour differ in dashes and markers.
+        let look = seen.iter().filter(|other| **other == colour).count();
+        seen.push(colour);
+        Some((look, colour))
+    };
+    let looks: Vec<_> = curves.iter().map(&mut colour).collect();
+    curves.into_iter().zip(looks).collect()
+}
+
 /// A measure over one coordinate of the points of a random design.
-fn cloud(title: &str, x: &Along, groups: &[(String, Vec<String>)], curves: &[Vec<Labelled>]) -> Option<String> {
+fn cloud(title: &str, x: &Along, groups: &[(String, Vec<String>)], curves: &[Vec<MeasureCurve>]) -> Option<String> {
     let (curves, (measure, columns)) = (curves.first()?, groups.first()?);
-    let labels: Vec<&str> = curves.iter().map(|(label, _)| label.as_str()).collect();
-    let points = || curves.iter().flat_map(|(_, points)| points).filter(|p| p.0.is_finite() && p.1.is_finite());
+    let labels: Vec<&str> = curves.iter().map(|curve| curve.label.as_str()).collect();
+    let points = || curves.iter().flat_map(|curve| &curve.points).filter(|p| p.0.is_finite() && p.1.is_finite());
     let extent = |pick: fn(&(f64, f64)) -> f64| {
         points().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
     };
@@ -117,8 +155,8 @@ fn cloud(title: &str, x: &Along, groups: &[(String, Vec<String>)], curves: &[Vec
     let x_label = label(&x.column);
     let mut scatter =
         Scatter::new(title, (&x_label, x.scale, extent(|p| p.0)), (&y_label, Scale::Linear, extent(|p| p.1)), &labels);
-    for (group, (_, points)) in curves.iter().enumerate() {
-        points.iter().for_each(|(x, y)| scatter.add(group, *x, *y));
+    for (group, curve) in curves.iter().enumerate() {
+        curve.points.iter().for_each(|(x, y)| scatter.add(group, *x, *y));
     }
     Some(scatter.to_svg())
 }

@@ -1,6 +1,7 @@
 //! What the pages of the report draw, in a real browser: texts, lines and colours.
 use crate::browser::{opened, results};
 use crate::chromium::{Browser, Tab};
+use std::collections::BTreeMap;
 use std::fs;
 
 /// From here on texts and lines are recorded as `drawn`: [kind, style, x, y, text or line width].
@@ -18,6 +19,21 @@ fn texts(tab: &mut Tab<'_>) -> Vec<String> {
     tab.frame();
     let texts = tab.evaluate("drawn.filter(([kind]) => kind === 'fillText').map((one) => one[4])");
     texts.as_array().unwrap().iter().map(|text| text.as_str().unwrap().to_owned()).collect()
+}
+
+/// The colours of a key by its names.
+fn key(tab: &mut Tab<'_>, place: &str) -> BTreeMap<String, String> {
+    let list = format!(
+        "[...document.querySelectorAll('{place} .key')].filter((key) => key.querySelector('.swatch')).map((key) => \
+         [key.textContent, key.querySelector('.swatch').style.background])"
+    );
+    serde_json::from_value::<Vec<(String, String)>>(tab.evaluate(&list)).unwrap().into_iter().collect()
+}
+
+/// `#0072b2` as `rgb(0, 114, 178)`.
+fn rgb(hex: &str) -> String {
+    let part = |at: usize| u8::from_str_radix(&hex[at..at + 2], 16).unwrap();
+    format!("rgb({}, {}, {})", part(1), part(3), part(5))
 }
 
 const SOFT: [&str; 2] = ["--set", "wall.*.restitution=0.8"];
@@ -39,6 +55,24 @@ fn a_row_of_minus_infinity_leaves_the_others_drawn() {
     assert!(texts.iter().any(|text| text == "−10"), "{texts:?}");
     let cells = "[...document.querySelectorAll('#rows tbody tr:not(.space)')].map((tr) => tr.lastChild.textContent)";
     assert_eq!(tab.evaluate(cells)[0], "−∞");
+    tab.close();
+}
+
+/// Two walls: forces and impulses of one run have the colours of their walls, in the figure and on
+/// the page.
+#[test]
+fn walls_have_the_same_colours_on_the_page_and_in_the_figures() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let page = results(dir.path(), &["run", "elastic-wall", "--end", "1", "--no-verdict"]);
+    let svg = fs::read_to_string(page.with_file_name("contact-force.svg")).unwrap();
+    let (upper, lower) = ("#0072b2", "#d55e00");
+    assert!(svg.contains(upper) && svg.contains(lower) && svg.contains(">upper<") && svg.contains(">lower<"));
+    let mut tab = opened(&mut browser, &page);
+    let expected = BTreeMap::from([("upper".to_owned(), rgb(upper)), ("lower".to_owned(), rgb(lower))]);
+    for place in ["#motion", "#contacts"] {
+        assert_eq!(key(&mut tab, place), expected, "{place}");
+    }
     tab.close();
 }
 

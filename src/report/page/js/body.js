@@ -153,7 +153,7 @@ function bodyStage() {
         ctx.fillRect(Math.min(x, x + out * 15), y0, 15, y1 - y0);
         upright(x, y0, y1, 2.4, ink.wall);
         ctx.globalAlpha = fresh;
-        if (fresh > 0) upright(x, y0, y1, 2.4 + 5 * Math.sqrt(share), ink.c2);
+        if (fresh > 0) upright(x, y0, y1, 2.4 + 5 * Math.sqrt(share), placeColour(wall.name));
         ctx.globalAlpha = 1;
       }
     }
@@ -163,7 +163,8 @@ function bodyStage() {
     ctx.textBaseline = "alphabetic";
     ctx.fillText(label, clamp(X(wall.position) + out * (half + 6), 60, w - 60), top - 18);
     ctx.globalAlpha = fresh;
-    if (fresh > 0) drawArrow(ctx, x, top + 37, -out * (14 + 60 * share), 0, ink.c2, 2.6);
+    if (fresh > 0)
+      drawArrow(ctx, x, top + 37, -out * (14 + 60 * share), 0, placeColour(wall.name), 2.6);
     ctx.globalAlpha = 1;
   };
 

@@ -110,10 +110,10 @@ const GROUPS = 8;
 function histogramOf(columns, rows, wallOf) {
   const one = runs.length === 1;
   const groups = one
-    ? meetingPlaces().slice(0, GROUPS).map((name, n) => ({
+    ? PLACES.slice(0, GROUPS).map((name) => ({
         name,
-        has: (row) => wallOf(row) === name,
-        colour: () => wallColour(n),
+        has: (row) => placeOf(wallOf(row)) === name,
+        colour: () => placeColour(name),
       }))
     : runs.slice(0, GROUPS).map((run) => ({
         name: run.label,
@@ -154,10 +154,7 @@ function histogramOf(columns, rows, wallOf) {
   let shown = columns.find((column) => column.name.startsWith("impulse"));
   show(shown);
   toggled.push(() => show(shown));
-  const more =
-    one && DATA.scene.walls.length > GROUPS
-      ? `and ${DATA.scene.walls.length - GROUPS} walls more`
-      : null;
+  const more = one && PLACES.length > GROUPS ? `and ${PLACES.length - GROUPS} places more` : null;
   return {
     show,
     box: el(

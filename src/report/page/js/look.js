@@ -50,8 +50,24 @@ function lookOf(n, reference = false) {
   };
 }
 
-/** The colour of the n-th wall. */
-const wallColour = (n) => ink["c" + [1, 2, 3, 5, 4, 6, 7, 0][n % 8]];
+/** The support that the wall of that name is a flat of, or the wall itself. */
+const placeOf = (wall) => wall.replace(/-flat-\d+$/, "");
+
+/** The names of walls and supports, whose colours follow one another as in the SVG figures. */
+const PLACES = (() => {
+  const { walls = [], supports = [] } =
+    DATA.scene || DATA.sweep || DATA.orbit || DATA.continue || {};
+  // The walls of one orbit have their names as `wall`.
+  return [...new Set([...walls, ...supports].map(({ name, wall }) => placeOf(name ?? wall)))];
+})();
+const PLACE_COLOURS = [1, 2, 3, 5, 4, 6, 7, 0];
+
+/** The colour of the wall or support of that name, one in all drawings; a flat's is its support's. */
+const placeColour = (name) =>
+  ink["c" + PLACE_COLOURS[Math.max(0, PLACES.indexOf(placeOf(name))) % PLACE_COLOURS.length]];
+
+/** The colour of the rows of a sweep along rising (up) or falling (down) values. */
+const directionColour = (direction) => (direction === "down" ? ink.c2 : ink.c1);
 
 const isDark = () => root.dataset.theme === "dark";
 const font = (share = 1) => `${share * (printing ? 10 : 12)}px ${ink.text}`;

@@ -182,15 +182,14 @@ function orbitPlots(shown) {
 
 /** A mark at each event, in the colour of its wall; those of the mirror half are pale. */
 function drawEvents(ctx, plot, shown, length) {
-  const { events, walls, T, Q } = shown.orbit;
-  const numbers = new Map(walls.map((wall, i) => [wall.name, i]));
+  const { events, T, Q } = shown.orbit;
   if (!T.length) return;
   for (const event of events) {
     const turns = shown.orbit.periods;
     // An instant of the motion: it begins with an event, and repeats itself.
     const phase = T[0] + ((((event.phase - T[0]) % turns) + turns) % turns);
     const i = clamp(before(T, phase + 1e-6), 0, T.length - 1);
-    ctx.fillStyle = ctx.strokeStyle = wallColour(numbers.get(event.wall) || 0);
+    ctx.fillStyle = ctx.strokeStyle = placeColour(event.wall);
     drawMarker(
       ctx,
       event.kind === "impact" ? "disc" : "open-square",

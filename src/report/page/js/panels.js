@@ -116,18 +116,25 @@ function motionPlot(index, key, several) {
 
 /** Impulses of impacts as stems, or null without one. */
 function impulsePlot() {
-  const series = runs.map((run) => {
-    const { peak, start, impulse, count } = run.contacts;
-    const impacts = Array.from({ length: count }, (_, k) => k).filter((k) => Number.isNaN(peak[k]));
+  const names = meetingPlaces();
+  // Of one run those of each place in its colour, of several those of each run in that of the run.
+  const places = runs.length > 1 ? [null] : PLACES;
+  const stems = (run, place) => {
+    const { peak, start, impulse, wall, count } = run.contacts;
+    const here = (k) => place === null || (names[wall[k]] && placeOf(names[wall[k]]) === place);
+    const all = Array.from({ length: count }, (_, k) => k);
+    const impacts = all.filter((k) => Number.isNaN(peak[k]) && here(k));
     return {
       kind: "stems",
       look: run.look,
+      colour: place === null ? null : () => placeColour(place),
       marker: run.reference ? "ring" : "disc",
       hidden: () => !run.shown,
       x: impacts.map((k) => start[k]),
       y: impacts.map((k) => impulse[k]),
     };
-  });
+  };
+  const series = runs.flatMap((run) => places.map((place) => stems(run, place)));
   if (!series.some((s) => s.x.length)) return null;
   const range = () =>
     padded(
@@ -151,7 +158,7 @@ function forcePlot() {
   const series = runs.flatMap((run) =>
     run.forces.map((force) => ({
       look: { ...run.look, dash: [] },
-      colour: runs.length > 1 ? null : () => wallColour(force.wall),
+      colour: runs.length > 1 ? null : () => placeColour(DATA.scene.walls[force.wall].name),
       x: force.T,
       y: force.F,
       hidden: () => !run.shown,
@@ -274,13 +281,13 @@ function motionSection() {
     key("0"),
     " zoom",
   );
-  const forceKeys =
-    lead.forces.length && runs.length === 1 && lead.forces.length < 9
+  const contactKeys =
+    lead.contacts.count && runs.length === 1 && PLACES.length <= PLACE_COLOURS.length
       ? el(
           "div",
           { class: "bar" },
-          "Contact force: ",
-          lead.forces.map((f) => swatch(DATA.scene.walls[f.wall].name, () => wallColour(f.wall))),
+          "Contacts: ",
+          PLACES.map((name) => swatch(name, () => placeColour(name))),
         )
       : null;
   section(
@@ -291,7 +298,7 @@ function motionSection() {
     several ? el("div", { class: "controls" }, chips(choices, show)) : null,
     all.map((plot) => plot.box),
     overview(lead.probes[0]),
-    forceKeys,
+    contactKeys,
     el("div", { class: "bar controls" }, jumps, help),
   );
 }

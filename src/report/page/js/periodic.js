@@ -116,7 +116,7 @@ function orbitForces(over) {
   // The colour of a wall is that of its contacts.
   const items = forces.map(({ wall }) => ({
     label: ORBIT.orbit.walls[wall].name,
-    look: { ...lookOf(wall), colour: () => wallColour(wall) },
+    look: { ...lookOf(wall), colour: () => placeColour(ORBIT.orbit.walls[wall].name) },
     shown: true,
   }));
   const plot = new Plot({

@@ -178,7 +178,7 @@ function contactPhases(index) {
       run,
       wall,
       marker: run.reference ? "ring" : n % 2 ? "open-square" : "disc",
-      colour: runs.length > 1 ? null : () => wallColour(n),
+      colour: runs.length > 1 ? null : () => placeColour(DATA.scene.walls[wall].name),
       hidden: () => !run.shown,
     })),
   );

@@ -8,9 +8,9 @@ function planesStage() {
   const { supports, walls, loads, kind } = DATA.scene;
   const planes = lead.shape ? [0, 1].map((plane) => stationsOf(plane)) : null;
   const watched = supports
-    .map((support, i) => ({
+    .map((support) => ({
       support,
-      colour: () => ink["c" + ((i + 3) % 8)],
+      colour: () => placeColour(support.name),
       pair: watching(support.name),
     }))
     .map((one) => ({ ...one, of: struckPlaces(one.support) }));
@@ -80,7 +80,7 @@ function planesStage() {
   };
 
   /** The arrow of a support's force at the point (y, z), m, towards the inside. */
-  const drawPush = (ctx, { support, of }, [y, z], X, Y, struck) => {
+  const drawPush = (ctx, { support, of, colour }, [y, z], X, Y, struck) => {
     for (const { index, direction } of of) {
       const [fresh, share] = struck[index];
       if (!(fresh > 0)) continue;
@@ -89,7 +89,7 @@ function planesStage() {
       if (!(n > 0)) continue;
       const long = 16 + 54 * share;
       ctx.globalAlpha = fresh;
-      drawArrow(ctx, X(y), Y(z), (-ny / n) * long, (nz / n) * long, ink.c2, 2.6);
+      drawArrow(ctx, X(y), Y(z), (-ny / n) * long, (nz / n) * long, colour(), 2.6);
       ctx.globalAlpha = 1;
     }
   };
@@ -229,7 +229,7 @@ function planesStage() {
       if (fresh > 0) {
         ctx.globalAlpha = fresh;
         const k = nearest(x);
-        dot(ctx, X(x), Y(stations.at(t)[k]), 4 + 4 * Math.sqrt(share), ink.c2);
+        dot(ctx, X(x), Y(stations.at(t)[k]), 4 + 4 * Math.sqrt(share), colour());
         ctx.globalAlpha = 1;
       }
     }

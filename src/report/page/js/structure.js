@@ -65,8 +65,9 @@ function structureStage() {
     edge(2.4, ink.wall);
     if (!(fresh > 0)) return;
     ctx.globalAlpha = fresh;
-    edge(2.4 + 5 * Math.sqrt(share), ink.c2);
-    drawArrow(ctx, x + out * Math.min(8, wide / 2), y, 0, -out * (16 + 70 * share), ink.c2, 2.6);
+    const colour = placeColour(wall.name);
+    edge(2.4 + 5 * Math.sqrt(share), colour);
+    drawArrow(ctx, x + out * Math.min(8, wide / 2), y, 0, -out * (16 + 70 * share), colour, 2.6);
     ctx.globalAlpha = 1;
   };
 

@@ -50,10 +50,10 @@ function supportPlot({ support, worn, pair: [y, z] }) {
   const scale = (plot) => (plot.x1 - plot.x0) / (plot.X[1] - plot.X[0]);
   function drawEdge(ctx, plot) {
     const [X, Y] = [(y) => plot.sx(y * factor), (z) => plot.sy(z * factor)];
-    drawOutline(ctx, support, X, Y, factor * scale(plot), ink.wall);
+    drawOutline(ctx, support, X, Y, factor * scale(plot), placeColour(support.name));
     const [cx, cy] = [X(centre[0]), Y(centre[1])];
     if (!(most > 0)) return;
-    ctx.fillStyle = clear(ink.c2, 0.65);
+    ctx.fillStyle = clear(placeColour(support.name), 0.65);
     for (const sector of worn.sectors) {
       const [from, to] = [sector.from_deg, sector.to_deg].map((deg) => (-deg * TURN) / 360);
       const inner = RING[0] * reach * factor * scale(plot);
@@ -87,7 +87,7 @@ function supportPlot({ support, worn, pair: [y, z] }) {
   plot.over = (ctx) => {
     if (!lead.shown) return;
     const [w, u] = [y, z].map((probe) => at(probe)(now()));
-    ctx.fillStyle = ink.c2;
+    ctx.fillStyle = placeColour(support.name);
     ctx.strokeStyle = ink.paper;
     ctx.lineWidth = 1.5;
     ctx.beginPath();

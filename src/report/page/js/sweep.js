@@ -97,6 +97,18 @@ function sweepSection() {
   );
 }
 
+/** True where rows of both directions are among those of a sweep. */
+const bothDirections = (directions) =>
+  Boolean(directions) && ["up", "down"].every((one) => directions.includes(one));
+
+/** The key of the colours of directions. */
+const directionKeys = () =>
+  el(
+    "span",
+    {},
+    ["up", "down"].map((one) => swatch(one, () => directionColour(one))),
+  );
+
 /** Instants of every row over the axis: a bifurcation diagram. */
 function samplesPlot(table, samples, axisColumns, pick) {
   const names = samples.names.filter(
@@ -113,7 +125,7 @@ function samplesPlot(table, samples, axisColumns, pick) {
     const size = at.length > 2e4 ? 1 : 1.6;
     for (let i = 0; i < at.length; i++) {
       if (at[i] === undefined || !Number.isFinite(y[i])) continue;
-      ctx.fillStyle = directions && directions[at[i]] === "down" ? ink.c2 : ink.c1;
+      ctx.fillStyle = directionColour(directions && directions[at[i]]);
       ctx.fillRect(plot.sx(axis[at[i]]) - size / 2, plot.sy(y[i]) - size / 2, size, size);
     }
   };
@@ -122,7 +134,7 @@ function samplesPlot(table, samples, axisColumns, pick) {
     y: " ",
     height: 460,
     alt: "Instants of every row",
-    view: new View(...extent(axis)),
+    view: new View(...padded(extent(axis), 0.02)),
     series: [{ kind: "own", look: lookOf(0), draw: dot }],
   });
   const fill = () => {
@@ -139,15 +151,6 @@ function samplesPlot(table, samples, axisColumns, pick) {
       if (Math.abs(axis[i] - x) < Math.abs(axis[nearest] - x)) nearest = i;
     pick(nearest);
   };
-  const keys =
-    directions && directions.includes("down")
-      ? el(
-          "span",
-          {},
-          swatch("up", () => ink.c1),
-          swatch("down", () => ink.c2),
-        )
-      : null;
   return el(
     "div",
     {},
@@ -155,7 +158,7 @@ function samplesPlot(table, samples, axisColumns, pick) {
       "div",
       { class: "bar controls" },
       columnChoice("Quantity", names, choice, fill),
-      keys,
+      bothDirections(directions) ? directionKeys() : null,
       el("span", { class: "right help" }, "drag to zoom · double click for all"),
     ),
     plot.box,
@@ -238,49 +241,67 @@ function measureMap(columns, [first, second], measures, tell, pick) {
   );
 }
 
+/** The place that a column of a measure is about, by its name; undefined where it is about none. */
+const placeOfColumn = (column) =>
+  PLACES.find((place) => `${column}_`.includes(`_${place.replace(/-/g, "_")}_`));
+
+/** Markers of rising and falling values. */
+const DIRECTION_MARKERS = { up: "triangle", down: "down" };
+
 /** Measures over one axis, those of one unit in one plot. */
 function measureCurves(columns, axis, measures, tell, pick) {
   const unitOf = (name) => (/\((.*)\)$/.exec(columnLabel(name)) || ["", ""])[1];
   const units = [...new Set(measures.map(unitOf))];
   const rows = Array.from(columns[axis], (_, i) => i);
+  // Up and down are curves of their own colours; else a measure of a place has the place's colour.
+  const directions = bothDirections(columns.direction) ? ["up", "down"] : [undefined];
+  const itemOf = (name, n) => {
+    const place = placeOfColumn(name);
+    const own = lookOf(n);
+    const colour =
+      directions.length > 1 ? () => ink.ink : place ? () => placeColour(place) : own.colour;
+    return { label: columnLabel(name), look: { ...own, colour }, shown: n < 6, name };
+  };
+  const curve = (item, direction) => {
+    const along = rows.filter((i) => !direction || columns.direction[i] === direction);
+    return {
+      kind: rows.length > 120 ? "line" : "marked",
+      look: { ...item.look, marker: DIRECTION_MARKERS[direction] || item.look.marker },
+      colour: direction && (() => directionColour(direction)),
+      infinite: true,
+      rows: along,
+      x: along.map((i) => columns[axis][i]),
+      y: along.map((i) => columns[item.name][i]),
+      hidden: () => !item.shown,
+    };
+  };
+  const plotsOf = (unit) => {
+    const items = measures.filter((name) => unitOf(name) === unit).map(itemOf);
+    const series = items.flatMap((item) => directions.map((direction) => curve(item, direction)));
+    const y = items.length > 1 ? unit || "Number" : items[0].label;
+    const plot = new Plot({
+      x: columnLabel(axis),
+      y,
+      height: 300,
+      alt: `${y} over ${columnLabel(axis)}`,
+      series,
+    });
+    const points = () =>
+      series
+        .filter((s) => !s.hidden())
+        .flatMap((s) => s.rows.map((i, k) => ({ x: s.x[k], y: s.y[k], i })));
+    tellNearest(plot, points, ({ i }) => tell(i));
+    plot.click = () => plot.found && pick(plot.found.i);
+    const redraw = () => {
+      plot.dirty = true;
+      refresh();
+    };
+    return [items.length > 1 ? chips(items, redraw) : null, plot.box];
+  };
   return el(
     "div",
     {},
-    units
-      .map((unit) => {
-        const items = measures
-          .filter((name) => unitOf(name) === unit)
-          .map((name, n) => ({ label: columnLabel(name), look: lookOf(n), shown: n < 6, name }));
-        // Up and down are one curve, drawn in the order of the rows.
-        const series = items.map((item) => ({
-          kind: rows.length > 120 ? "line" : "marked",
-          look: item.look,
-          x: columns[axis],
-          y: columns[item.name],
-          infinite: true,
-          hidden: () => !item.shown,
-        }));
-        const y = items.length > 1 ? unit || "Number" : items[0].label;
-        const plot = new Plot({
-          x: columnLabel(axis),
-          y,
-          height: 300,
-          alt: `${y} over ${columnLabel(axis)}`,
-          series,
-        });
-        const points = () =>
-          series
-            .filter((s) => !s.hidden())
-            .flatMap((s) => rows.map((i) => ({ x: s.x[i], y: s.y[i], i })));
-        tellNearest(plot, points, ({ i }) => tell(i));
-        plot.click = () => plot.found && pick(plot.found.i);
-        const redraw = () => {
-          plot.dirty = true;
-          refresh();
-        };
-        return [items.length > 1 ? chips(items, redraw) : null, plot.box];
-      })
-      .flat()
-      .filter((node) => node),
+    directions.length > 1 ? el("div", { class: "bar" }, directionKeys()) : null,
+    units.flatMap(plotsOf),
   );
 }
