@@ -1,6 +1,7 @@
 //! What the pages of the report draw, in a real browser: texts, lines and colours.
 use crate::browser::{opened, results};
 use crate::chromium::{Browser, Tab};
+use serde_json::json;
 use std::collections::BTreeMap;
 use std::fs;
 
@@ -56,6 +57,39 @@ fn a_row_of_minus_infinity_leaves_the_others_drawn() {
     let cells = "[...document.querySelectorAll('#rows tbody tr:not(.space)')].map((tr) => tr.lastChild.textContent)";
     assert_eq!(tab.evaluate(cells)[0], "−∞");
     tab.close();
+}
+
+/// The measures that were asked for come before the instants; up and down have the colours of the
+/// SVG figures in both.
+#[test]
+fn a_sweep_opens_on_its_measures_and_has_the_colours_of_its_figure() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let sweep = ["sweep", "rigid-walls-sine", "--scheme", "event", "--settle", "20", "--keep", "5"];
+    let vary = ["--vary", "load.1.harmonic.frequency=4:5:5", "--follow", "both", "--measure", "approach_speed_max"];
+    let measured = [&sweep[..], &vary[..], &SOFT[..]].concat();
+    let page = results(dir.path(), &[&measured[..], &["--samples", "periods"]].concat());
+    let mut tab = opened(&mut browser, &page);
+    let plots = "[...document.querySelectorAll('#sweep .plot canvas[role=img]')].map((plot) => plot.ariaLabel)";
+    assert_eq!(tab.evaluate(plots), json!(["m/s over Frequency (Hz)", "Instants of every row"]));
+    let (up, down) = (rgb("#0072b2"), rgb("#d55e00"));
+    let keys = key(&mut tab, "#sweep");
+    assert_eq!(keys, BTreeMap::from([("up".to_owned(), up), ("down".to_owned(), down)]));
+    tab.close();
+    // The instants in the figure: up first, then down, then where both are.
+    let strokes = |svg: &str| -> Vec<String> {
+        let dots = svg.split("<path").filter(|path| path.contains(r#"stroke-width="1.5""#));
+        dots.filter_map(|path| Some(path.split_once(r#"stroke=""#)?.1.get(..7)?.to_owned())).collect()
+    };
+    let svg = fs::read_to_string(page.with_file_name("sweep.svg")).unwrap();
+    assert_eq!(strokes(&svg)[..2], ["#0072b2", "#d55e00"]);
+    // The measures in the figure: no curve has any other colour.
+    let page = results(dir.path(), &measured);
+    let svg = fs::read_to_string(page.with_file_name("sweep.svg")).unwrap();
+    let curves: std::collections::BTreeSet<&str> =
+        svg.split(r#"stroke-width="1.2""#).filter_map(|part| part.rsplit_once(r##"stroke="#"##)?.1.get(..6)).collect();
+    assert!(curves.contains("0072b2") && curves.contains("d55e00"), "{curves:?}");
+    assert!(svg.contains(">upper: up<") && svg.contains(">lower: down<"));
 }
 
 /// Two walls: forces and impulses of one run have the colours of their walls, in the figure and on

@@ -51,8 +51,8 @@ function sweepSection() {
     command.hidden = false;
     if (kept.has(row)) open(`rows/${row}/report.html`);
   };
+  // First the measures, which are there only where they were asked for.
   const content = [];
-  if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns, pick));
   const basins = attractors && numeric("attractor") && axisColumns.length > 1;
   if (basins) content.push(basinMap(columns, axisColumns, attractors, tell, pick));
   if (measures.length && axisColumns.length && !basins) {
@@ -62,6 +62,7 @@ function sweepSection() {
         : measureCurves(columns, axisColumns[0], measures, tell, pick),
     );
   }
+  if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns, pick));
   const rows = Array.from({ length: table.count }, (_, i) => i);
   const saved = () =>
     save(
