@@ -92,6 +92,104 @@ fn a_sweep_opens_on_its_measures_and_has_the_colours_of_its_figure() {
     assert!(svg.contains(">upper: up<") && svg.contains(">lower: down<"));
 }
 
+/// A tube in four supports, three of them round.
+const FOUR: &str = r#"
+[system]
+planes = 2
+modes = 8
+[system.beam]
+length = 3.0
+youngs_modulus = 200e9
+density = 7850.0
+outer_diameter = 19.05e-3
+inner_diameter = 15.75e-3
+elements = 40
+left = "pinned"
+right = "pinned"
+[system.damping]
+ratio = 0.01
+[[support]]
+name = "baffle-1"
+at = { position = 0.6 }
+shape = "round"
+gap = 0.2e-3
+restitution = 0.5
+friction = 0.2
+[[support]]
+name = "baffle-2"
+at = { position = 1.2 }
+shape = "round"
+gap = 0.25e-3
+restitution = 0.5
+friction = 0.2
+[[support]]
+name = "antivibration-bars"
+at = { position = 1.8 }
+shape = "flats"
+sides = 4
+gap = 0.3e-3
+restitution = 0.5
+friction = 0.2
+[[support]]
+name = "top-plate"
+at = { position = 2.4 }
+shape = "round"
+gap = 0.35e-3
+restitution = 0.5
+friction = 0.2
+[[load]]
+at = { position = 0.3 }
+direction = "both"
+random = { rms = 20.0, from = 1.0, to = 100.0, seed = 1 }
+[[load]]
+at = { position = 2.7 }
+direction = "both"
+random = { rms = 20.0, from = 1.0, to = 100.0, seed = 3 }
+[time]
+end = 0.3
+step = 5e-5
+sample = 5e-4
+"#;
+
+/// All supports are named, each with one colour on the whole page and in the figures, and the tube
+/// stays within the view along its axis.
+#[test]
+fn every_support_is_shown_in_its_colour_and_the_tube_within_its_frame() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("four.toml"), FOUR).unwrap();
+    let page = results(dir.path(), &["run", "four.toml", "--no-verdict"]);
+    let mut tab = opened(&mut browser, &page);
+    let names = ["antivibration-bars", "baffle-1", "baffle-2", "top-plate"];
+    let colours = ["#0072b2", "#d55e00", "#56b4e9", "#e69f00"];
+    let expected: BTreeMap<String, String> = names.map(str::to_owned).into_iter().zip(colours.map(rgb)).collect();
+    for place in [".stage", "#motion", "#contacts"] {
+        assert_eq!(key(&mut tab, place), expected, "{place}");
+    }
+    for figure in ["orbit.svg", "wear-work.svg"] {
+        let svg = fs::read_to_string(page.with_file_name(figure)).unwrap();
+        for colour in colours {
+            assert!(svg.contains(colour), "{figure} has no {colour}");
+        }
+    }
+    let texts = texts(&mut tab);
+    assert!(texts.iter().any(|text| text.contains("gaps 200 µm to 350 µm")), "{texts:?}");
+    // The tube in the view along the axis is the line of width 2 in its colour, within the square.
+    let outside = "(() => { const style = getComputedStyle(document.documentElement).getPropertyValue('--body'); \
+        let box, count = 0, out = 0; for (const [kind, colour, x, y, width, args] of drawn) { \
+        if (kind === 'rect' && args[2] === args[3]) box = args; \
+        if (kind !== 'lineTo' || colour !== style.trim() || width !== 2) continue; count++; \
+        if (x < box[0] || x > box[0] + box[2] || y < box[1] || y > box[1] + box[3]) out++; } \
+        return [count > 0, out]; })()";
+    for _ in 0..20 {
+        assert_eq!(tab.evaluate(outside), json!([true, 0]));
+        tab.evaluate("drawn.length = 0");
+        tab.key("ArrowRight");
+        tab.frame();
+    }
+    tab.close();
+}
+
 /// Two walls: forces and impulses of one run have the colours of their walls, in the figure and on
 /// the page.
 #[test]

@@ -25,6 +25,8 @@ function planesStage() {
     ...supports.map(({ reach, centre }) => reach + Math.hypot(...centre)),
     supports.length ? 0 : 1.1 * most,
   );
+  /** What the view along the axis holds: the supports, and the structure wherever it goes. */
+  const held = Math.max(reach, most);
   const memory = glance() * 0.14;
   const force = largestForce(loads) || 1;
 
@@ -96,7 +98,7 @@ function planesStage() {
 
   /** Along the axis, in the square of that size. */
   const drawAxial = (ctx, left, top, size, t, struck) => {
-    const scale = (0.5 * size - 14) / reach;
+    const scale = (0.5 * size - 14) / held;
     const [cx, cy] = [left + size / 2, top + size / 2];
     const X = (y) => cx + scale * y;
     const Y = (z) => cy - scale * z;
@@ -150,22 +152,6 @@ function planesStage() {
     ctx.fillText("y", left + size - 2, cy - 5);
     ctx.textAlign = "left";
     ctx.fillText("z", cx + 5, top + 10);
-  };
-
-  /** Names of the supports under the colours of their outlines. */
-  const drawNames = (ctx, left, y, width) => {
-    let x = left;
-    ctx.textAlign = "left";
-    ctx.textBaseline = "alphabetic";
-    for (const { support, colour } of watched) {
-      const wide = ctx.measureText(support.name).width;
-      if (x + wide + 14 > left + width) break;
-      ctx.fillStyle = colour();
-      ctx.fillRect(x, y - 8, 8, 8);
-      ctx.fillStyle = ink.soft;
-      ctx.fillText(support.name, x + 12, y);
-      x += wide + 28;
-    }
   };
 
   /** From the side: the displacement along y (plane 0) or z (1) along the structure. */
@@ -255,37 +241,36 @@ function planesStage() {
   const paint = (ctx, w, h, t) => {
     const struck = struckAt(t, memory);
     const beside = planes && w >= SIDE_BY_SIDE;
-    const foot = 20;
-    const size = beside
-      ? Math.min(h - 18 - foot, 0.42 * w)
-      : Math.min(planes ? 0.5 * h : h - 40, w - 20);
+    const size = beside ? Math.min(h - 24, 0.42 * w) : Math.min(planes ? 0.5 * h : h - 24, w - 20);
     const left = beside ? 8 : (w - size) / 2;
     drawAxial(ctx, left, 18, size, t, struck);
     ctx.fillStyle = ink.soft;
     ctx.textAlign = "left";
     ctx.textBaseline = "alphabetic";
-    const scale = supports.length
-      ? `gaps ${[...new Set(supports.flatMap(({ gaps }) => gaps.map((gap) => prefixed(gap, "m", 3))))].slice(0, 3).join(", ")}`
-      : `up to ${prefixed(most, "m", 3)}`;
+    const ends = extent(supports.flatMap(({ gaps }) => gaps)) || [0, most];
+    const [least, largest] = ends.map((gap) => prefixed(gap, "m", 3));
+    const scale = !supports.length
+      ? `up to ${largest}`
+      : least === largest
+        ? `gaps ${least}`
+        : `gaps ${least} to ${largest}`;
     ctx.fillText(
       `along the axis, ${scale}; trails: the last ${prefixed(glance(), "s", 2)}`,
       8,
       12,
       w - 16,
     );
-    drawNames(ctx, left, 18 + size + 14, beside ? size : w - left - 8);
     if (!planes) return;
-    const from = beside ? 18 : 18 + size + foot;
+    const from = beside ? 18 : 22 + size;
     const each = (h - from - (beside ? 4 : 2)) / 2;
     const [x, wide] = beside ? [left + size + 16, w - left - size - 24] : [4, w - 8];
     drawSide(ctx, 0, [x, from, wide, each], t, struck);
     drawSide(ctx, 1, [x, from + each, wide, each], t, struck);
   };
-  return new Stage(
-    planes ? 420 : 322,
-    "The structure in its supports, along its axis and from the side",
-    paint,
-  );
+  const alt = "The structure in its supports, along its axis and from the side";
+  const stage = new Stage(planes ? 400 : 322, alt, paint);
+  stage.keys = watched.map(({ support, colour }) => swatch(support.name, colour));
+  return stage;
 }
 
 /** Where contacts at a support are counted: its hole, or its flats with their outward normals. */

@@ -124,6 +124,7 @@ function heroSection() {
     "div",
     { class: "stage" },
     drawing.box,
+    drawing.keys && drawing.keys.length ? el("div", { class: "bar" }, drawing.keys) : null,
     el("div", { class: "bar controls" }, steps, slow, clock),
   );
   page.append(el("div", { class: "hero" }, stage, cardList()));
