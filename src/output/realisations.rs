@@ -16,6 +16,12 @@ pub const FILE: &str = "realisations.csv";
 const MOST_ROWS: usize = 24;
 const MOST_LINES: usize = 4;
 
+/// The title of what shows the first of `count` realisations alone, and not their means.
+#[must_use]
+pub(crate) fn titled(title: &str, count: u64) -> String {
+    if count > 1 { format!("{title}: draw 1 of {count}") } else { title.to_owned() }
+}
+
 /// Writes one row for each realisation and place: the number of the realisation, the place, its
 /// measures, and how many findings of the judge refute the realisation. Cells of measures that a
 /// place does not have are empty.

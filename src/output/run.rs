@@ -7,7 +7,7 @@ use super::record::TABLES;
 use super::results::Results;
 use super::summary::{self, Checks, Reasons};
 use super::table::Table;
-use super::{Span, csv, json, supports};
+use super::{Span, csv, json, realisations, supports};
 use crate::case::Case;
 use crate::error::Result;
 use crate::qp::Backend;
@@ -54,7 +54,8 @@ pub fn write(
     supports::write(|name| results.place(&named(name)), case, run)?;
     let label = method.to_string();
     let runs = [Labelled { label: &label, run, reference: false, look: picture.look }];
-    let title = case.title.as_deref().unwrap_or(&case.name);
+    let draws = checks.realisations.map_or(1, |study| study.count as u64);
+    let title = &realisations::titled(case.title.as_deref().unwrap_or(&case.name), draws);
     let sheet = Sheet { title, scene: &case.scene, runs: &runs, span: picture.span };
     for (name, svg) in sheet.figures()? {
         results.draw(&named(name), &svg)?;

@@ -5,6 +5,7 @@ use super::folder::Folder;
 use super::motion::motion;
 use super::scene::{period, scene};
 use crate::error::Result;
+use crate::output::realisations;
 use serde_json::{Value, json};
 
 /// What the page of a run shows.
@@ -16,6 +17,15 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let mut page = of_scene(&summary);
     page["facts"] = facts(&summary);
     page["notes"] = notes(&summary, &run);
+    let draws = summary["realisations"]["count"].as_u64().filter(|count| *count > 1);
+    if let (Some(count), Some(title)) = (draws, page["title"].as_str().or(folder.manifest["request"]["case"].as_str()))
+    {
+        page["title"] = json!(realisations::titled(title, count));
+        let subtitle = page["subtitle"].as_str().unwrap_or_default();
+        let means =
+            format!("all drawings and numbers are of draw 1; means over {count}: Realisations, realisations.csv");
+        page["subtitle"] = json!(if subtitle.is_empty() { means } else { format!("{subtitle} · {means}") });
+    }
     page["runs"] = json!([run]);
     Ok(page)
 }

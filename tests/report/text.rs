@@ -481,3 +481,18 @@ fn curves_have_the_colours_of_the_figures() {
         assert!(colour.starts_with('#') && svg.contains(&format!("\"{colour}\"")), "{n}: {colour}");
     }
 }
+
+/// A run with several realisations shows the first alone, and says so in its titles.
+#[test]
+fn one_of_several_realisations_is_called_so() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = ["run", "tube-round-supports", "--end", "0.1", "--no-verdict", "--set", "time.statistics_from=0"];
+    for (seeds, called) in [("1", false), ("2", true)] {
+        said(dir.path(), &[&run[..], &["--seeds", seeds, "--out", seeds]].concat(), 0);
+        let page = data(&fs::read_to_string(dir.path().join(seeds).join("report.html")).unwrap());
+        assert_eq!(page["title"].as_str().unwrap().ends_with(": draw 1 of 2"), called, "{}", page["title"]);
+        assert_eq!(page["subtitle"].as_str().unwrap().contains("means over 2"), called, "{}", page["subtitle"]);
+        let svg = fs::read_to_string(dir.path().join(seeds).join("displacement.svg")).unwrap();
+        assert_eq!(svg.contains("draw 1 of 2"), called);
+    }
+}
