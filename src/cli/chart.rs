@@ -7,15 +7,13 @@ use super::{request, values};
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::asked::{asked, with};
+use crate::output::cheapest::{cheapest, conclusion, rows, table};
 use crate::output::document;
 use crate::output::results::Results;
 use crate::output::summary;
-use crate::output::table::Table;
 use crate::output::work_precision as output;
-use crate::study::work_precision::{
-    Effort, Kind, Outcome, Peer, Quantity, Series, Steps, WorkPrecision, every_method, read, study,
-};
-use serde_json::{Value, json};
+use crate::study::work_precision::{Effort, Outcome, Peer, Series, Steps, WorkPrecision, every_method, read, study};
+use serde_json::json;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -32,9 +30,6 @@ Each error is dimensionless, and a column of work-precision.csv:
   contact time   largest shift of a contact over the duration, and contacts missing or spurious
 Times are of stepping alone: the best of several, in turn, warm. The file of --with has the columns
 program,method,error_over_gap,seconds; benches/peers makes one.";
-
-/// The errors for which the table names the cheapest methods.
-const TOLERANCES: [(f64, &str); 5] = [(0.1, "10 %"), (1e-2, "1 %"), (1e-3, "0.1 %"), (1e-6, "1e-6"), (1e-9, "1e-9")];
 
 /// Chart accuracy against speed: every method over a range of steps
 #[derive(Debug, clap::Args)]
@@ -112,14 +107,19 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     write(&mut results, &case, &chart, &peers)?;
     results.tell("case_file", summary::case_file(&case));
     results.tell("remarks", json!(case.notes()));
+    let best = cheapest(&chart, &peers);
+    let conclusion = conclusion(&case.scene, &chart, &peers, &best);
+    results.tell("conclusion", json!(conclusion));
+    results.tell("cheapest", rows(&best));
     super::run::finish(&mut results, "", !request.place.no_report, ui)?;
     if ui.json() {
         let mut document = document::chart(&case, &chart);
-        document["cheapest"] = cheapest(&chart, &peers).iter().map(Best::document).collect();
+        document["conclusion"] = json!(conclusion);
+        document["cheapest"] = rows(&best);
         ui.document(&super::run::with_folder(document, &results))?;
     } else {
-        let header = ["error within", "kind", "cheapest method", "step (s)", "time (s)"];
-        ui.table(&Table::new(&header, worth_reading(&cheapest(&chart, &peers))), "work-precision.csv")?;
+        ui.table(&table(&best), "work-precision.csv")?;
+        ui.message(&conclusion);
     }
     report(&case, &chart, ui);
     refuted.verdict()
@@ -198,112 +198,6 @@ fn write(results: &mut Results, case: &Case, chart: &WorkPrecision, peers: &[Pee
         results.draw(name, &svg)?;
     }
     Ok(())
-}
-
-/// The table: for each error and tolerance the cheapest method of each kind, and of the other
-/// programs. The terminal shows the exact scheme once, and of the other kinds tolerances down to
-/// the first that they do not reach; `--json` has all rows.
-fn cheapest(chart: &WorkPrecision, peers: &[Peer]) -> Vec<Best> {
-    let mut rows = Vec::new();
-    for quantity in Quantity::ALL {
-        for kind in Kind::ALL.into_iter().filter(|k| chart.series.iter().any(|s| Kind::of(&s.method.scheme) == *k)) {
-            for (tolerance, name) in TOLERANCES {
-                let best = chart.cheapest(kind, quantity, tolerance);
-                rows.push(Best {
-                    quantity,
-                    tolerance,
-                    within: name,
-                    kind: kind.name(),
-                    exact: kind == Kind::Exact,
-                    method: best.map(|(series, step, m)| Cheapest {
-                        name: series.method.to_string(),
-                        short: output::label(&series.method),
-                        step,
-                        seconds: m.seconds,
-                        reached: quantity.of(&m.errors).unwrap_or(f64::NAN),
-                    }),
-                });
-            }
-        }
-    }
-    for (tolerance, within) in TOLERANCES.into_iter().filter(|_| !peers.is_empty()) {
-        let reached = peers.iter().filter(|p| p.error <= tolerance);
-        let best = reached.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
-        let method = best.map(|p| Cheapest {
-            name: p.label(),
-            short: p.label(),
-            step: None,
-            seconds: p.seconds,
-            reached: p.error,
-        });
-        let quantity = Quantity::Displacement;
-        rows.push(Best { quantity, tolerance, within, kind: "other program", exact: false, method });
-    }
-    rows
-}
-
-/// A row of the table.
-struct Best {
-    quantity: Quantity,
-    tolerance: f64,
-    within: &'static str,
-    kind: &'static str,
-    exact: bool,
-    method: Option<Cheapest>,
-}
-
-/// The method that reaches a tolerance in the least time.
-struct Cheapest {
-    name: String,
-    short: String,
-    step: Option<f64>,
-    seconds: f64,
-    reached: f64,
-}
-
-impl Best {
-    fn document(&self) -> Value {
-        let method = self.method.as_ref();
-        json!({
-            "error": self.quantity.name(),
-            "tolerance": self.tolerance,
-            "kind": self.kind,
-            "method": method.map(|m| &m.name),
-            "step_s": method.and_then(|m| m.step),
-            "seconds": method.map(|m| m.seconds),
-            "reached": method.map(|m| m.reached),
-        })
-    }
-
-    /// The row for the terminal; for the exact scheme it shows the error that it has.
-    fn line(&self) -> Vec<String> {
-        let within = match &self.method {
-            Some(method) if self.exact => format!("{:.0e}", method.reached),
-            _ => self.within.to_owned(),
-        };
-        let mut line = vec![format!("{} {within}", self.quantity.name()), self.kind.to_owned()];
-        match &self.method {
-            Some(m) => line.extend([
-                m.short.clone(),
-                m.step.map_or_else(|| "-".into(), |h| format!("{h:.1e}")),
-                format!("{:.1e}", m.seconds),
-            ]),
-            None => line.extend(["none of the steps tried".into(), "-".into(), "-".into()]),
-        }
-        line
-    }
-}
-
-/// The rows for the terminal: for each error and kind those that are reached, and the first that is
-/// not; for the exact scheme one row.
-fn worth_reading(rows: &[Best]) -> Vec<Vec<String>> {
-    let mut lines: Vec<Vec<String>> = Vec::new();
-    for group in rows.chunk_by(|a, b| a.quantity == b.quantity && a.kind == b.kind) {
-        let reached = group.iter().take_while(|row| row.method.is_some()).count();
-        let most = if group.iter().any(|row| row.exact) { 1 } else { reached + 1 };
-        lines.extend(group.iter().take(most).map(Best::line));
-    }
-    lines
 }
 
 fn report(case: &Case, chart: &WorkPrecision, ui: &Ui) {

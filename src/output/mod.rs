@@ -24,6 +24,7 @@
 //! | [`table`] | tables for people, as wide as the terminal |
 //! | [`pictures`] | the figures of one or several runs |
 //! | [`stability`] | tables and maps of a stability study |
+//! | `cheapest` | the cheapest methods of a chart, and its conclusion |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
 //! | [`shape`] | `shape.csv`: the displacement of the whole structure, for a drawing |
@@ -33,6 +34,7 @@ pub mod asked;
 pub mod atomic;
 pub mod beneath;
 pub mod branches;
+pub(crate) mod cheapest;
 pub(crate) mod colours;
 pub mod compare;
 pub mod csv;

@@ -3,6 +3,8 @@
 use super::folder::Folder;
 use super::run::case_text;
 use crate::error::Result;
+use crate::output::work_precision::label;
+use crate::scheme::Method;
 use serde_json::{Value, json};
 
 /// The columns that the page draws or shows as text.
@@ -21,6 +23,11 @@ const SHOWN: [&str; 12] = [
     "remark",
 ];
 
+/// The short name of a method; that of another program is its own.
+fn short(method: &str) -> String {
+    method.parse::<Method>().map_or_else(|_| method.to_owned(), |method| label(&method))
+}
+
 /// What the page of a chart shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let table = folder.cells("work-precision.csv")?;
@@ -28,9 +35,16 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     for name in ["seconds", "displacement_error_over_gap"] {
         table.column(name)?;
     }
+    let rows = folder.manifest["cheapest"].as_array().map_or(&[][..], Vec::as_slice);
+    let cheapest: Vec<&Value> = rows.iter().filter(|row| row["shown"] == true).collect();
     Ok(json!({
         "subtitle": "accuracy against speed",
-        "chart": { "table": table.for_page(Some(&SHOWN)) },
+        "chart": {
+            "table": table.for_page(Some(&SHOWN)),
+            "labels": (0..table.rows.len()).map(|row| short(table.text(row, "method"))).collect::<Vec<_>>(),
+            "conclusion": folder.manifest["conclusion"],
+            "cheapest": cheapest,
+        },
         "case": case_text(&folder.manifest["case_file"]),
         "notes": folder.manifest["remarks"],
     }))

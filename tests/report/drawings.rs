@@ -1,7 +1,7 @@
 //! What the pages of the report draw, in a real browser: texts, lines and colours.
 use crate::browser::{opened, results};
 use crate::chromium::{Browser, Tab};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
 
@@ -220,5 +220,37 @@ fn no_label_hides_the_branches() {
     assert!(!texts.iter().any(|text| text.contains("symmetry-breaking")), "{texts:?}");
     let keys = tab.evaluate("document.querySelector('#branches').textContent.includes('symmetry-breaking')");
     assert_eq!(keys, true);
+    tab.close();
+}
+
+/// The page of a chart says its conclusion before its picture, whose curves carry their names.
+#[test]
+fn a_chart_has_its_conclusion_above_its_named_curves() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let schemes = ["--schemes", "event,moreau-jean,generalized-alpha,penalty:epsilon=1e-9"];
+    let few = ["--end", "1", "--levels", "6", "--repeats", "1"];
+    let page = results(dir.path(), &[&["chart", "rigid-walls-sine"], &schemes[..], &few[..]].concat());
+    let mut tab = opened(&mut browser, &page);
+    let conclusion = tab.evaluate("document.querySelector('#work .conclusion').textContent");
+    assert!(conclusion.as_str().unwrap().starts_with("For 1 % of the gap: event "), "{conclusion}");
+    let order = "[...document.querySelectorAll('#work .conclusion, #work table, #work .plot')].map((one) => \
+        one.className || one.tagName)";
+    assert_eq!(tab.evaluate(order), json!(["conclusion", "TABLE", "plot"]));
+    assert_eq!(tab.evaluate("document.querySelectorAll('#work .chip').length"), 0);
+    let texts = texts(&mut tab);
+    for name in ["event", "moreau-jean", "generalized-alpha", "ε = 1e-9"] {
+        assert!(texts.iter().any(|text| text.contains(name)), "{name}: {texts:?}");
+    }
+    // The exact scheme's error of some 1e-14 is named at the edge; the axis is that of the others.
+    assert!(texts.iter().any(|text| text.starts_with("◂ event (")), "{texts:?}");
+    for beyond in ["10⁻¹²", "10⁻¹⁴", "10"] {
+        assert!(!texts.iter().any(|text| text == beyond), "{beyond}: {texts:?}");
+    }
+    // The table follows the error that is drawn.
+    let first = "document.querySelector('#work tbody tr:not(.space) td').textContent";
+    let (displacement, _) = (tab.evaluate(first), tab.press_button("Impulse"));
+    assert_ne!(tab.evaluate(first), displacement);
+    assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), Value::from("0"));
     tab.close();
 }

@@ -482,6 +482,34 @@ fn curves_have_the_colours_of_the_figures() {
     }
 }
 
+/// The conclusion of a chart is that of its table: told in the terminal, in the JSON and on the
+/// page.
+#[test]
+fn a_chart_says_what_one_percent_costs() {
+    let dir = tempfile::tempdir().unwrap();
+    let schemes = ["--schemes", "event,moreau-jean,penalty:epsilon=1e-9"];
+    let chart = [&["chart", CASE, "--end", "0.5", "--levels", "3", "--repeats", "1", "--out", "c"], &schemes[..]];
+    let told = said(dir.path(), &chart.concat(), 0);
+    let page = fs::read_to_string(dir.path().join("c/report.html")).unwrap();
+    let chart = &data(&page)["chart"];
+    let conclusion = chart["conclusion"].as_str().unwrap();
+    assert!(told.lines().any(|line| line == conclusion), "{conclusion}: {told}");
+    // No step brings a penalty of 1e-9 to 1 %: the error of its finest, rounded down to two digits.
+    let rows = fs::read_to_string(dir.path().join("c/work-precision.csv")).unwrap();
+    let errors = rows.lines().filter(|row| row.starts_with("penalty")).filter_map(|row| row.split(',').nth(4));
+    let least = errors.filter_map(|error| error.parse::<f64>().ok()).last().unwrap();
+    let told_least = conclusion.split_once("penalty stays above ").unwrap().1.split(' ').next().unwrap();
+    let told_least = 1e-2 * told_least.parse::<f64>().unwrap();
+    assert!(told_least <= least * (1.0 + 1e-12) && told_least > 0.9 * least, "{told_least} {least}");
+    // The cheapest exact run is the only one.
+    let event: f64 = rows.lines().nth(1).unwrap().split(',').nth(2).unwrap().parse().unwrap();
+    let exact = chart["cheapest"].as_array().unwrap().iter().find(|row| row["kind"] == "exact").unwrap();
+    assert_eq!(exact["seconds"].as_f64(), Some(event));
+    // Made anew from the folder, the page is the same.
+    said(dir.path(), &["report", "c"], 0);
+    assert_eq!(fs::read_to_string(dir.path().join("c/report.html")).unwrap(), page);
+}
+
 /// A run with several realisations shows the first alone, and says so in its titles.
 #[test]
 fn one_of_several_realisations_is_called_so() {
