@@ -473,3 +473,40 @@ fn what_is_not_exact_is_refused_by_name() {
     assert!(stepper.set_state(0.1, &inside).is_ok());
     assert!(stepper.step().is_ok());
 }
+
+/// A free mass of 1 kg pushed along y from the centre of a hole.
+fn pushed(gap: f64, e: f64, force: f64, stiffness: f64) -> Scene {
+    with(isotropic(1.0, 0.0, stiffness), hole("hole", body(), gap, e, 0.0))
+        .with_load(load(Load::constant(force), Row::dof(0)))
+        .with_duration(1.0)
+}
+
+#[test]
+fn bounces_against_a_push_are_followed_until_their_height_is_1e_minus_12_of_the_gap() {
+    // Without a spring the impact of number k has the speed v eᵏ and the flight after it the height
+    // γ e²ᵏ⁺²: those of 1e-12 γ and less are the tail, whose first impact ends the bounces.
+    for e in [0.2, 0.5, 0.7, 0.8] {
+        let run = made(&pushed(1e-3, e, 10.0, 0.0), 100.0);
+        let contacts = run.trajectory.contacts();
+        let tail = (0.5 * 1e-12_f64.ln() / f64::ln(e)).ceil() as usize;
+        assert_eq!(contacts.len(), tail, "{e}");
+        let speed = (2.0 * 10.0 * 1e-3_f64).sqrt();
+        for (k, contact) in contacts.iter().enumerate() {
+            let share = e.powi(k as i32);
+            // The height is known to rounding of the gap: the later, the fewer digits are left.
+            let left = 1e-15 / (share * share);
+            assert!(near(contact.approach_speed, speed * share, 1e-12 + left), "{e}, {k}: {contact:?}");
+        }
+    }
+}
+
+#[test]
+fn a_push_that_ends_in_rest_is_accused_at_no_restitution_force_or_gap() {
+    for share in 1..20 {
+        for force in [0.1, 1.0, 10.0] {
+            for gap in [1e-4, 1e-3, 1e-2] {
+                made(&pushed(gap, 0.05 * f64::from(share), force, 1.0), 20.0);
+            }
+        }
+    }
+}

@@ -57,6 +57,13 @@ const ROUND_TRUNCATION: f64 = 2e-17;
 /// again with a shorter one.
 const MOST_BEND: f64 = 16.0;
 
+/// The largest term of the motion at a round hole over a stretch, in γ: the structure may cross the
+/// hole within it.
+const MOST_TRAVEL: f64 = 2.0;
+
+/// A stretch is not cut below this share of the time at which it starts: it would not end later.
+const SHORTEST: f64 = 16.0 * f64::EPSILON;
+
 impl Series {
     /// A series of length 0, to be filled by [`Series::begin`].
     pub(crate) fn new(body: &SeriesBody) -> Self {
@@ -131,6 +138,7 @@ impl Series {
         } else {
             self.check();
         }
+        self.stay_near();
         for held in hold.rows() {
             let w = &mut self.seen[held.row * TERMS..(held.row + 1) * TERMS];
             w.fill(0.0);
@@ -248,19 +256,40 @@ impl Series {
         for slot in slots {
             see(&|k| self.forces[slot * TERMS + k].abs(), top - 2);
         }
-        if share < 1.0 {
-            let mut power = 1.0;
-            for k in 0..self.terms {
-                self.motion[k * n..(k + 1) * n].iter_mut().for_each(|a| *a *= power);
-                self.seen.iter_mut().skip(k).step_by(TERMS).for_each(|c| *c *= power);
-                self.forces.iter_mut().skip(k).step_by(TERMS).for_each(|c| *c *= power);
-                self.circles.iter_mut().for_each(|circle| circle.scale(k, power));
-                power *= share;
-            }
-            self.unit *= share;
-            self.end = self.end.min(self.start + self.unit);
-        }
+        self.scale(share);
         self.rate = self.rate.max(RADIANS / self.unit);
+    }
+
+    /// Cuts the stretch to where no term of the motion at a hole exceeds [`MOST_TRAVEL`] of its
+    /// gap: the gap polynomial (γ² − |w|²)/2γ has the rounding error of its largest value, which
+    /// far behind the hole is that of |w|²/2γ.
+    fn stay_near(&mut self) {
+        let mut share = 1.0_f64;
+        for circle in &self.circles {
+            let most = MOST_TRAVEL * circle.radius;
+            for k in (1..self.terms).filter(|&k| circle.size(k) > most) {
+                share = share.min((most / circle.size(k)).powf(1.0 / k as f64));
+            }
+        }
+        self.scale(share.max(SHORTEST * self.start / self.unit));
+    }
+
+    /// Makes this share of the unit the new one, and ends the stretch there; 1 or more changes
+    /// nothing.
+    fn scale(&mut self, share: f64) {
+        if share >= 1.0 {
+            return;
+        }
+        let (n, mut power) = (self.n, 1.0);
+        for k in 0..self.terms {
+            self.motion[k * n..(k + 1) * n].iter_mut().for_each(|a| *a *= power);
+            self.seen.iter_mut().skip(k).step_by(TERMS).for_each(|c| *c *= power);
+            self.forces.iter_mut().skip(k).step_by(TERMS).for_each(|c| *c *= power);
+            self.circles.iter_mut().for_each(|circle| circle.scale(k, power));
+            power *= share;
+        }
+        self.unit *= share;
+        self.end = self.end.min(self.start + self.unit);
     }
 
     /// Computes the gaps to the circles that do not hold.
