@@ -43,7 +43,9 @@ impl Judge {
 
     /// True if a hole is closed after the step: touched there, or pushing.
     pub(super) fn closes_hole(&self, step: &Step<'_>) -> bool {
-        let Some(Turning { normal: Normal::Middle, touching, .. }) = self.contract.promise.round else { return false };
+        let Some(Turning { normal: Normal::Middle(_), touching, .. }) = self.contract.promise.round else {
+            return false;
+        };
         self.scene.holes().zip(step.holes).any(|(hole, did)| {
             let [y, z] = hole.support.offset(step.q);
             did.impulse != 0.0 || y.hypot(z) >= hole.gap * (1.0 - 2.0 * touching)

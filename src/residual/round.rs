@@ -80,7 +80,7 @@ impl Judge {
         let end = support.offset(step.q);
         let ahead = [0, 1].map(|i: usize| match turning.normal {
             Normal::Ahead(part) => start[i] + part * self.h * rate[i],
-            Normal::Middle => start[i] + end[i],
+            Normal::Middle(_) => start[i] + end[i],
         });
         let reach = ahead[0].hypot(ahead[1]);
         let speeds = terms(support, step.velocity_before)
@@ -89,10 +89,11 @@ impl Judge {
         let centre = support.centre[0].abs() + support.centre[1].abs();
         let size = terms(support, &self.q) + terms(support, step.q) + centre + gap + self.h * speeds;
         let place_noise = self.rounding.of(size);
-        let far = if turning.normal == Normal::Middle { end[0].hypot(end[1]) } else { reach };
+        let middle = matches!(turning.normal, Normal::Middle(_));
+        let far = if middle { end[0].hypot(end[1]) } else { reach };
         let way = far - gap * (1.0 - turning.touching);
         // Of a bound on the displacement, rounding is as large as the solver's tolerance.
-        let closes = turning.normal == Normal::Middle && did.impulse != 0.0;
+        let closes = middle && did.impulse != 0.0;
         let (reached, edge) = (way >= 0.0 || closes, way.abs() <= place_noise + turning.touching * gap);
         if !reached && !edge {
             self.law_error = self.law_error.max(force);
@@ -103,13 +104,24 @@ impl Judge {
             // Rounding decides whether the hole is in reach: either is accepted.
             return 0.0;
         }
+        let crosses = match turning.normal {
+            Normal::Middle(share) => {
+                let apart = |at: [f64; 2], r: f64| (did.normal[0] - at[0] / r).hypot(did.normal[1] - at[1] / r);
+                let inside = reach - 2.0 * share * gap;
+                // Rounding may decide: then the hole's own normal says which it was.
+                if inside.abs() <= place_noise { apart(end, far) < apart(ahead, reach) } else { inside < 0.0 }
+            }
+            Normal::Ahead(_) => false,
+        };
+        let (ahead, reach) = if crosses { (end, far) } else { (ahead, reach) };
         let normal = ahead.map(|x| x / reach);
         let wedged = self.contract.promise.friction.is_some() && step.wedged.contains(&place);
         let bound = |touches| bound(seen.e, (start, rate, normal), touches).max(if wedged { 0.0 } else { f64::MIN });
         let left = |bound: f64| bound - (normal[0] * after[0] + normal[1] * after[1]);
         // Rounding may decide whether the body touched at the start.
         let distance = start[0].hypot(start[1]);
-        let brim = distance - gap * (1.0 - sagitta(&turning, gap, rate, self.h));
+        let inside = gap * (1.0 - sagitta(&turning, gap, rate, self.h));
+        let brim = if crosses { -inside } else { distance - inside };
         let mut slack = left(bound(brim >= 0.0));
         if brim.abs() <= place_noise {
             let other = left(bound(brim < 0.0));

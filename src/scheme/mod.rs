@@ -129,7 +129,7 @@ impl Scheme {
                 let mut promise = rigid(Some(Bound::End), Some(Reached::Closed), Law::Depth(1.0));
                 promise.elastic.force = PromisedForce::Trapezoid;
                 promise.hole = Some(Bound::End);
-                promise.round = Some(Turning { normal: Normal::Middle, ..supports::TURNING });
+                promise.round = Some(Turning { normal: Normal::Middle(supports::CROSSING), ..supports::TURNING });
                 (generalized_alpha(rho), promise, 0.5)
             }
             Self::Penalty { integrator, .. } => match integrator {

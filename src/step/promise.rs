@@ -86,8 +86,10 @@ pub enum Normal {
     /// in play are the holes with |ŵ| ≥ γ(1 − `touching`).
     Ahead(f64),
     /// n along w + w⁺, in the middle of the step; in play are the holes with |w⁺| ≥ γ(1 −
-    /// `touching`), under a bound on the displacement.
-    Middle,
+    /// `touching`), under a bound on the displacement. Where that middle (w + w⁺)/2 is nearer to
+    /// the centre than this share of γ, it says nothing of the normal: the body crosses the hole
+    /// within the step, and arrives at w⁺ with all of its approach, n = w⁺/|w⁺| and a_r = a.
+    Middle(f64),
 }
 
 /// Coulomb's law at the supports that have friction, and what it changes of the law of impact.

@@ -288,3 +288,32 @@ fn generalized_alpha_presses_a_body_round_a_hole_with_the_exact_force() {
     // Order 2: 2.4e-4 and 2.4e-6.
     assert!(coarse < 3e-4 && fine < 3e-6, "{coarse:e} {fine:e}");
 }
+
+#[test]
+fn a_body_that_crosses_the_hole_in_a_step_rebounds_as_between_two_walls() {
+    // On a diameter, from one side to the other within a step: the middle of the step is the
+    // centre, to rounding or exactly.
+    let h = 0.02;
+    for degrees in [0.0, 35.0, 90.0, 215.0] {
+        for e in [0.0, 0.4, 1.0] {
+            for speed in [0.1, 0.35, 2.0] {
+                let [c, s] = heading(degrees);
+                let line = Scene::oscillator(1.0, 0.0, 2300.0)
+                    .with_wall(Wall::upper("upper", 7e-4).with_restitution(e))
+                    .with_wall(Wall::lower("lower", -7e-4).with_restitution(e))
+                    .with_initial(&[0.0], &[speed]);
+                let round = with(isotropic(1.0, 0.0, 2300.0), hole("hole", body(), 7e-4, e, 0.0))
+                    .with_initial(&[0.0; 2], &[speed * c, speed * s]);
+                let mut beside = Stepper::new(&line, &ALPHA, h).unwrap();
+                follow(&round, &ALPHA, h, 50, |step| {
+                    let other = beside.step().unwrap();
+                    let [w, v] = [step.q, step.v].map(|x| c * x[0] + s * x[1]);
+                    // Roundings of the gap, and over h of the velocity; 50 steps add them up.
+                    let what = format!("{degrees}°, e = {e}, {speed} m/s, t = {}", step.end);
+                    assert!((w - other.q[0]).abs() < 1e-15, "{what}: {w} for {}", other.q[0]);
+                    assert!((v - other.v[0]).abs() < 1e-13 * speed, "{what}: {v} for {}", other.v[0]);
+                });
+            }
+        }
+    }
+}

@@ -12,7 +12,7 @@ fn rule() -> (Balance, Promise) {
     promise.elastic.force = PromisedForce::Trapezoid;
     (promise.rigid.displacement, promise.rigid.velocity) = (Some(Bound::End), Some(Reached::Closed));
     let touching = 1e-6;
-    promise.round = Some(Turning { normal: Normal::Middle, touching, sagitta: 0.0, deepest: 0.0 });
+    promise.round = Some(Turning { normal: Normal::Middle(0.5), touching, sagitta: 0.0, deepest: 0.0 });
     promise.hole = Some(Bound::End);
     (Balance::GeneralizedAlpha { alpha_m: 0.0, alpha_f: 0.0, beta: 0.25, gamma: 0.5 }, promise)
 }

@@ -5,7 +5,7 @@ use crate::step::{Bound, Law, Normal, Turning};
 
 /// The bound alone, and with an impact law on holes that are touched within this share of the gap.
 fn bounds(touching: Option<f64>) -> (Balance, Promise) {
-    let turning = |touching| Turning { normal: Normal::Middle, touching, sagitta: 0.0, deepest: 0.0 };
+    let turning = |touching| Turning { normal: Normal::Middle(0.5), touching, sagitta: 0.0, deepest: 0.0 };
     let promise = Promise { hole: Some(Bound::End), round: touching.map(turning), ..Promise::springs(Law::Ends(0.5)) };
     (Balance::Theta(1.0), promise)
 }

@@ -4,11 +4,12 @@
 //! The displacement is corrected so that every hole holds it, |w⁺| ≤ γ. Of the holes that are then
 //! closed, the velocity obeys the law of [`Turning`](crate::step::Turning) with the normal n in the
 //! middle of w and w⁺: what arrives rebounds by e, what only the turning of the normal adds is
-//! reflected. With n at w⁺ a body that slides would lose speed as in implicit-euler.
+//! reflected. With n at w⁺ a body that slides would lose speed as in implicit-euler; only where the
+//! step crosses the hole, so that the middle says nothing of the normal, it is taken there.
 
 use super::super::chung_hulbert::ChungHulbert;
 use super::super::matrices::Matrices;
-use super::super::supports::split;
+use super::super::supports::meet_middle;
 use super::bounds::Bounds;
 use super::held::Held;
 use crate::error::Result;
@@ -190,12 +191,10 @@ impl Alpha {
             }
             self.closed = true;
             let (start, end) = (self.start[hole], held.offset(hole, &held.frame.q));
-            let middle = [start[0] + end[0], start[1] + end[1]];
-            let size = middle[0].hypot(middle[1]);
-            let normal = if size > 0.0 { middle.map(|w| w / size) } else { end.map(|w| w / held.rounds[hole].gap) };
             let struck = held.seen(hole, held.frame.struck());
             let (gap, e) = (held.rounds[hole].gap, held.rounds[hole].law.restitution().unwrap_or(0.0));
-            let met = split((gap, e), start, struck, normal, h);
+            let met = meet_middle((gap, e), [start, end], struck, h);
+            let normal = met.normal;
             let [vy, vz] = held.seen(hole, &held.frame.v);
             let hi = met.bound - (normal[0] * vy + normal[1] * vz);
             self.rate.bind_hole(hole, DiskBound::Strip { normal, lo: f64::NEG_INFINITY, hi });

@@ -33,7 +33,7 @@ mod reach;
 mod sweeps;
 mod touch;
 
-pub(super) use normal::{TURNING, meet, split};
+pub(super) use normal::{CROSSING, TURNING, meet, meet_middle};
 
 use super::Counters;
 use super::body::Body;

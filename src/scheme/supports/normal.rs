@@ -10,6 +10,10 @@ pub(in crate::scheme) const TURNING: Turning =
 /// Where in the step moreau-jean takes the normal.
 pub(in crate::scheme) const AHEAD: f64 = 0.5;
 
+/// With the middle of a step nearer to the centre than this share of γ, the body crosses the hole:
+/// it moves by more than 120° round the circle, or arrives from the other side.
+pub(in crate::scheme) const CROSSING: f64 = 0.5;
+
 /// A hole in play.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::scheme) struct Met {
@@ -36,8 +40,21 @@ pub(in crate::scheme) fn meet((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2],
     Some(split((gap, e), w, rate, ahead.map(|x| x / reach), h))
 }
 
+/// The state of a closed hole with the normal in the middle between `w` and `end` (m), or at `end`
+/// where the body crosses the hole.
+pub(in crate::scheme) fn meet_middle((gap, e): (f64, f64), [w, end]: [[f64; 2]; 2], rate: [f64; 2], h: f64) -> Met {
+    let middle = [0.5 * (w[0] + end[0]), 0.5 * (w[1] + end[1])];
+    let size = norm(middle);
+    if size >= CROSSING * gap {
+        return split((gap, e), w, rate, middle.map(|x| x / size), h);
+    }
+    // All of its approach arrives, as from the centre.
+    let reach = norm(end);
+    split((gap, e), [0.0; 2], rate, end.map(|x| x / reach), h)
+}
+
 /// The split of the approach along this normal.
-pub(in crate::scheme) fn split((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], normal: [f64; 2], h: f64) -> Met {
+fn split((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], normal: [f64; 2], h: f64) -> Met {
     let a = dot(normal, rate);
     let turn = h * (normal[0] * rate[1] - normal[1] * rate[0]).abs() / gap;
     if a <= 0.0 {
