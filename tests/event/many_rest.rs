@@ -247,3 +247,40 @@ fn whatever_starts_on_its_walls_keeps_to_them() {
     println!("{met} of {cases} runs met a wall, {handed} handed a stretch over");
     assert!(2 * met > cases && 100 * handed <= cases, "{met} {handed} {cases}");
 }
+
+#[test]
+fn impacts_at_two_walls_in_turn_accumulate_to_rest_at_both() {
+    // A floor at x₀ = 0 with e = 0.9, and x₀ − ½x₁ ≤ 0 with e = 0, along which the body flies to the
+    // floor. An impact at the floor with the speed u gives 0.9 u there and 1.9 u towards the side,
+    // whose impact takes 1.9 u/W₁₁ = 1.52 u from the floor's row: the next one has 0.62 u. Each
+    // flight is of the order of the square of the one before, so that few are resolved before the
+    // speeds are small; but all of them end in rest at both walls. From there forces that press on
+    // neither take the body away: x₀ = ½ f₀ τ², ẋ₀ = f₀ τ, and likewise x₁.
+    for forces in [[2.0, 10.0], [0.5, 3.0], [7.0, 20.0]] {
+        let free = || Symmetric::zeros(2);
+        let side = Row::new(vec![(0, 1.0), (1, -0.5)]);
+        let scene = scene(Symmetric::diagonal(&[1.0; 2]), free(), free())
+            .with_wall(at(Wall::lower("floor", 0.0).with_restitution(0.9), Row::dof(0)))
+            .with_wall(at(Wall::upper("side", 0.0).with_restitution(0.0), side))
+            .with_load(on(Load::constant(forces[0]), 0))
+            .with_load(on(Load::constant(forces[1]), 1))
+            .with_initial(&[1e-3, 2e-3], &[-0.5, -1.0])
+            .with_duration(0.5);
+        let mut stepper = Stepper::new(&scene, &Scheme::Event, 0.1).unwrap();
+        let start = stepper.state();
+        let mut judge = Judge::new(&scene, stepper.contract(), 0.1, &start.q, &start.v);
+        while stepper.time() < scene.duration {
+            judge.see(&stepper.step().unwrap());
+        }
+        assert!(judge.findings().is_empty() && stepper.handed().is_empty(), "{:?}", judge.findings());
+        let end = stepper.state();
+        let since = end.v[0] / forces[0];
+        // The floor is reached after 2 ms and some 1e-5 s, and what follows is over soon.
+        assert!(since > 0.4975 && since < 0.498, "{forces:?}: {since}");
+        // Some hundred units in the last place of what the body has moved.
+        let near = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-12;
+        assert!(near(end.v[1], forces[1] * since), "{forces:?}: {end:?}");
+        assert!(near(end.q[0], 0.5 * forces[0] * since * since), "{forces:?}: {end:?}");
+        assert!(near(end.q[1], 0.5 * forces[1] * since * since), "{forces:?}: {end:?}");
+    }
+}

@@ -37,7 +37,7 @@ const THETA: f64 = 0.5;
 
 impl StructureEvent {
     /// The length of a stretch in which events are counted, s.
-    fn crowd_window(&self) -> f64 {
+    pub(super) fn crowd_window(&self) -> f64 {
         let rate = self.series.rate();
         let longest = LONGEST * self.clock.duration;
         if rate > 0.0 { longest.min(2.0 / rate) } else { longest }

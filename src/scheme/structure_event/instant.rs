@@ -227,6 +227,7 @@ impl StructureEvent {
         let (place, sign) = (self.places[s.row], SIGNS[side]);
         let (e, arrived) = (place.restitution[side], s.sign * sign * s.arrived);
         let impulse = sign * s.push[side] / place.strikers[side] as f64;
+        self.places[s.row].struck = self.time;
         let mut jump = std::mem::take(&mut self.shown.jump);
         self.each_wall(s.row, sign, |b, wall, closed, time| {
             if b.phase == Phase::Rigid(e) {

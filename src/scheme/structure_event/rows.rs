@@ -24,6 +24,8 @@ pub(super) struct WallRow {
     /// The furthest that the row has moved on a stretch so far, m: the scale for the height of a
     /// flight.
     pub travel: f64,
+    /// The time of its last impact, s.
+    pub struck: f64,
     /// What has been decided at this instant about the leading coefficients of each side's gap.
     pub gap_zeros: [Option<Zeros>; 2],
     /// The same for the force that holds the row.
@@ -40,6 +42,7 @@ impl WallRow {
             strikers: [0; 2],
             held: 0.0,
             travel: 0.0,
+            struck: f64::NEG_INFINITY,
             gap_zeros: [None; 2],
             force_zeros: None,
         };
@@ -70,6 +73,7 @@ impl WallRow {
             strikers: [0, 1],
             held: 0.0,
             travel: 0.0,
+            struck: f64::NEG_INFINITY,
             gap_zeros: [None; 2],
             force_zeros: None,
         }
