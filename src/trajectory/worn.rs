@@ -49,7 +49,7 @@ impl Worn {
             if let Some(sum) = work.get_mut(rub.support) {
                 *sum += rub.work;
             }
-            let fresh = ContactWear { angle: rub.angle, work: 0.0, sliding: 0.0 };
+            let fresh = ContactWear { angle: rub.began, work: 0.0, sliding: 0.0 };
             if rub.manner == Manner::Instant {
                 jumps.push((rub.contact, ContactWear { work: rub.work, ..fresh }));
             } else if let Some(open) = open.get_mut(rub.contact) {

@@ -46,6 +46,8 @@ pub(crate) struct Rub {
     /// means over a piece in which the normal turns.
     pub angle: f64,
     pub normal: [f64; 2],
+    /// The angle at its start, degrees.
+    pub began: f64,
     /// Magnitude of the normal impulse, and the friction impulse along t, N s.
     pub impulse: f64,
     pub friction: f64,
@@ -128,6 +130,7 @@ impl Rubs {
                     manner: if contact.is_rigid() { Manner::Unresolved } else { Manner::Lasting },
                     angle: push.angle,
                     normal: push.normal,
+                    began: push.angle,
                     impulse: push.impulse,
                     friction: push.friction,
                     work: 0.0,
@@ -175,7 +178,7 @@ impl Contact {
             Self::Hole { hole, .. } => {
                 let done = step.holes.get(hole).filter(|done| done.impulse != 0.0)?;
                 let [y, z] = done.normal;
-                let angle = z.atan2(y).to_degrees().rem_euclid(360.0) % 360.0;
+                let angle = degrees([y, z]);
                 Some((walls + hole, Push { angle, normal: [y, z], impulse: done.impulse, friction: done.friction }))
             }
         }
@@ -273,12 +276,11 @@ fn around(
         parts([from, to], count, |a, b| {
             let mut sum = Slid::default();
             sliding.add(a, b, &mut sum);
-            let ([y, z], _) = series.at_hole(hole, 0.5 * (a + b));
+            let [began, angle] = [a, 0.5 * (a + b)].map(|t| degrees(series.at_hole(hole, t).0));
             // Over so short a piece the impulse vector is nearly p n; this is its magnitude p.
             let push = series.hole_impulse(hole, a, b);
             let normal = if sum.impulse > 0.0 { push.map(|push| -push / sum.impulse) } else { blank.normal };
-            let angle = z.atan2(y).to_degrees().rem_euclid(360.0) % 360.0;
-            each(&Rub { time: std::mem::take(&mut time), angle, normal, ..lasting(blank, &sum) });
+            each(&Rub { time: std::mem::take(&mut time), angle, began, normal, ..lasting(blank, &sum) });
         });
     }
     if to >= step.end {
@@ -287,6 +289,11 @@ fn around(
             if step.end > step.start { speed(step.end) } else { section.along(blank.normal, step.velocity_before) };
         knock(step, section, (jump, left), blank, each);
     }
+}
+
+/// The angle of a vector (y, z), degrees from +y towards +z, from 0 to below 360.
+fn degrees([y, z]: [f64; 2]) -> f64 {
+    z.atan2(y).to_degrees().rem_euclid(360.0) % 360.0
 }
 
 /// Calls `each` for `count` equal parts of a piece of time.

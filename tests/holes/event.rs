@@ -510,3 +510,11 @@ fn a_push_that_ends_in_rest_is_accused_at_no_restitution_force_or_gap() {
         }
     }
 }
+
+#[test]
+fn a_slide_begins_where_the_body_stands() {
+    let run = made(&pendulum().with_duration(0.05), 10.0);
+    let wear = run.trajectory.contact_wear()[0].expect("a contact in the hole");
+    // An angle of some units in the last place.
+    assert!((wear.angle - 60.0).abs() < 1e-12, "{}", wear.angle);
+}
