@@ -91,7 +91,11 @@ impl Window {
         self.tangent[0].hypot(self.tangent[1] / self.rate)
     }
 
+    /// Begins the window at the displacement `q` (m), and the change anew if a rest has made it 0.
     fn begin(&mut self, q: f64) {
+        if self.size() == 0.0 {
+            self.tangent = [1.0, self.rate];
+        }
         self.walls = [AtWall::default(); 2];
         self.extent = [q; 2];
         self.began = self.size().ln();

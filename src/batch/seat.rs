@@ -144,17 +144,25 @@ impl<S: Simd, const W: usize> Group<S, W> {
                 now.put(slot, start.get(slot));
             }
         }
-        // The change of the initial state: equal parts of displacement and velocity.
-        a.tangent[0].put(slot, 1.0);
-        a.tangent[1].put(slot, REACH);
         a.high.put(slot, k.upper.get(slot));
         a.low.put(slot, k.lower.get(slot));
         a.share.put(slot, 1.0);
         self.tally.recent.put(slot, 0.0);
+        self.vary(slot);
     }
 
-    /// Begins the window of this lane.
+    /// Begins the change of the initial state: equal parts of displacement and velocity.
+    fn vary(&mut self, slot: usize) {
+        let [du, dw] = &mut self.state.tangent;
+        du.put(slot, 1.0);
+        dw.put(slot, REACH);
+    }
+
+    /// Begins the window of this lane, and the change anew if a rest has made it 0.
     fn begin(&mut self, slot: usize) {
+        if self.size(slot) == 0.0 {
+            self.vary(slot);
+        }
         let tally = &mut self.tally;
         let all = [&mut tally.impacts, &mut tally.impulse, &mut tally.largest];
         all.into_iter().flatten().for_each(|x| x.put(slot, 0.0));

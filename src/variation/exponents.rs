@@ -31,13 +31,15 @@ pub struct Exponent {
 /// As many changes of the start as exponents are asked for are propagated along the run
 /// ([`Variation`]). After each step they are made orthogonal and scaled to size 1 (Benettin et al.
 /// 1980, doi:10.1007/BF02128236); the mean of the logarithms of the factors are the exponents, the
-/// largest first. Before the window the changes turn into the directions that grow most. The size
+/// largest first. Before the window the changes turn into the directions that grow most; one that a
+/// rest there has made 0 begins anew with the window. The size
 /// is √(|δq|² + |δq̇/ω|²) with ω the fastest circular frequency of structure and loads; for a long
 /// window the exponents do not depend on this definition.
 ///
 /// For one degree of freedom with rigid walls flows shrink areas by exp(−c t/m), and impacts by e².
 /// So the two exponents add up to −c/m + 2 Σ ν ln e, with ν the impacts per second on each wall. A
-/// run that rests on a wall no longer depends on its start, and has the exponent −∞. On a periodic
+/// run that rests on a wall in the window no longer depends on its state at the window's start, and
+/// has the exponent −∞. On a periodic
 /// motion the running mean oscillates about ln|μ|/T, with μ a Floquet multiplier and T the period,
 /// and the amplitude decreases like 1/t.
 #[derive(Debug)]
@@ -49,6 +51,8 @@ pub struct Exponents {
     count: usize,
     omega: f64,
     window: [f64; 2],
+    /// True once a step of the window has been seen.
+    begun: bool,
     blocks: Vec<Block>,
     /// Factors of the last step.
     factors: Vec<f64>,
@@ -84,9 +88,7 @@ impl Exponents {
         });
         let own = scene.system.frequencies()[1];
         let omega = Some(fastest.fold(own, f64::max)).filter(|omega| *omega > 0.0).unwrap_or(1.0 / (to - from));
-        // Linearly independent directions with a component along every entry of the state.
-        let mut changes: Vec<f64> =
-            (0..size * count).map(|i| (1.0 + 0.618_033_988_75 * i as f64).fract() - 0.3).collect();
+        let mut changes: Vec<f64> = (0..size * count).map(direction).collect();
         let mut factors = vec![1.0; count];
         orthogonalise(&mut changes, size, &mut factors);
         Ok(Self {
@@ -95,6 +97,7 @@ impl Exponents {
             count,
             omega,
             window: [from, to],
+            begun: false,
             blocks: vec![Block { length: 0.0, logs: vec![0.0; count] }; BLOCKS],
             factors,
         })
@@ -111,6 +114,10 @@ impl Exponents {
             return Ok(());
         }
         let (size, omega) = (2 * self.variation.degrees_of_freedom(), self.omega);
+        if step.start >= from && !self.begun {
+            self.begun = true;
+            self.renew(size);
+        }
         let scale = |changes: &mut [f64], by: f64| {
             for change in changes.chunks_exact_mut(size) {
                 change[size / 2..].iter_mut().for_each(|v| *v *= by);
@@ -129,6 +136,21 @@ impl Exponents {
             }
         }
         Ok(())
+    }
+
+    /// Begins anew the changes that a rest before the window has made 0: the exponents are those of
+    /// the window.
+    fn renew(&mut self, size: usize) {
+        let mut any = false;
+        for (k, change) in self.changes.chunks_exact_mut(size).enumerate() {
+            if change.iter().all(|x| *x == 0.0) {
+                change.iter_mut().enumerate().for_each(|(i, x)| *x = direction(k * size + i));
+                any = true;
+            }
+        }
+        if any {
+            orthogonalise(&mut self.changes, size, &mut self.factors);
+        }
     }
 
     /// The largest exponent.
@@ -155,6 +177,12 @@ impl Exponents {
         };
         Exponent { per_s, error_per_s: (seen.len() > 1 && per_s.is_finite()).then(|| error(seen.len() as f64)) }
     }
+}
+
+/// Entry `i` of all changes one after the other, at the start: linearly independent directions with
+/// a component along every entry of the state.
+fn direction(i: usize) -> f64 {
+    (1.0 + 0.618_033_988_75 * i as f64).fract() - 0.3
 }
 
 /// Makes changes of `size` entries each orthogonal to those before them, and scales them to 1 by

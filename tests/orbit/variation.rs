@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 use signorini::linear::Symmetric;
 use signorini::variation::{Exponents, NoDerivative, OscillatorVariation, Product, saltation};
-use signorini::{Load, Path, Row, Scene, Scheme, State, Stepper, Structure, Wall};
+use signorini::{Load, Path, Row, Scene, Scheme, State, Stepper, Structure, Table, Wall};
 
 /// Numbers from a fixed sequence, in [0, 1).
 struct Draw(u64);
@@ -471,4 +471,32 @@ fn what_makes_no_exponents_is_refused() {
     assert!(text(3, [0.0, 1.0]).contains("from 1 to 2"));
     assert!(text(1, [1.0, 1.0]).contains("two times"));
     assert!(OscillatorVariation::new(&two_masses(0.5)).is_err());
+}
+
+#[test]
+fn a_rest_before_the_window_does_not_end_the_growth_in_it() {
+    // The body lies on the stop under 3 N until the load turns round; then it bounces between stop
+    // and spring.
+    let scene = source(0.8, 5.0);
+    let mut held = scene.clone();
+    let from = 40.0;
+    held.loads.push(Load::table(Table::new(vec![0.0, 20.0], vec![1e2, 1e2]).unwrap()));
+    let of = |scene: &Scene| {
+        let mut stepper = Stepper::new(scene, &Scheme::Event, 0.2).unwrap();
+        let mut exponents = Exponents::new(scene, 2, [from, 200.0]).unwrap();
+        let mut rests = false;
+        while stepper.time() < 200.0 * (1.0 - 1e-12) {
+            let step = stepper.step().unwrap();
+            exponents.see(&step).unwrap();
+            rests |= step.end < from && step.v == [0.0];
+        }
+        (exponents.all(), rests)
+    };
+    let ((free, false), (after, true)) = (of(&scene), of(&held)) else { panic!("one of them rests") };
+    // Both end on the same orbit, with (ln det)/2T = −2.33 /s each; they reach it by other ways.
+    let known = -2.331_435_513_142_098;
+    for both in [free, after] {
+        assert!((both[0].per_s + both[1].per_s - 2.0 * known).abs() < 0.01 * known.abs(), "{both:?}");
+        assert!((both[0].per_s - known).abs() < 0.1, "{both:?}");
+    }
 }
