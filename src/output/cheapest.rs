@@ -125,7 +125,7 @@ fn least(chart: &WorkPrecision, peers: &[Peer], kind: &str) -> Option<f64> {
 /// A share as a percentage of two digits, rounded down: what has this share is not below it.
 fn percent(x: f64) -> String {
     let percent = 100.0 * x;
-    if !(percent > 0.0) {
+    if percent <= 0.0 {
         return "0 %".to_owned();
     }
     let unit = 10_f64.powf(percent.log10().floor() - 1.0);

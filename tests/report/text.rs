@@ -497,7 +497,7 @@ fn a_chart_says_what_one_percent_costs() {
     // No step brings a penalty of 1e-9 to 1 %: the error of its finest, rounded down to two digits.
     let rows = fs::read_to_string(dir.path().join("c/work-precision.csv")).unwrap();
     let errors = rows.lines().filter(|row| row.starts_with("penalty")).filter_map(|row| row.split(',').nth(4));
-    let least = errors.filter_map(|error| error.parse::<f64>().ok()).last().unwrap();
+    let least = errors.filter_map(|error| error.parse::<f64>().ok()).next_back().unwrap();
     let told_least = conclusion.split_once("penalty stays above ").unwrap().1.split(' ').next().unwrap();
     let told_least = 1e-2 * told_least.parse::<f64>().unwrap();
     assert!(told_least <= least * (1.0 + 1e-12) && told_least > 0.9 * least, "{told_least} {least}");
