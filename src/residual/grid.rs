@@ -59,6 +59,7 @@ impl Judge {
         self.energy.see_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
         if beyond {
             self.energy.displace(&self.scene, &self.matrices, h, step);
+            self.sums.displace(&self.matrices, &self.blows.beyond, &mut self.scratch.mean_q);
         }
         self.doubt_balance(worst);
         self.doubt_path(path);

@@ -1,5 +1,6 @@
 //! Sums over steps, for the check of a whole run's momentum.
 
+use super::matrices::{Matrices, Part};
 use super::most::most;
 use super::moves::Moves;
 use super::scratch::Scratch;
@@ -102,6 +103,14 @@ impl Sums {
             place[i] += 0.5 * h * (q0[i] + q1[i]);
             load[i] += 0.5 * h * (load_start[i] + load_end[i]) + h * extra[i];
         }
+    }
+
+    /// Adds the change of the structure's own force by the displacement `beyond` (m) that blows add
+    /// to a step's rule: the ends of the step and of the next contain it, and the mean force of
+    /// neither need do so. `work` has the length of `beyond`.
+    pub fn displace(&mut self, matrices: &Matrices, beyond: &[f64], work: &mut [f64]) {
+        matrices.product(Part::Stiffness, 1.0, beyond, work);
+        self.forces.iter_mut().zip(work).for_each(|(force, change)| force.changes += change.abs());
     }
 
     /// Adds n steps of one degree of freedom without extra force, after the first.
