@@ -1,7 +1,7 @@
 //! When a run has diverged.
 //!
-//! The energy of M q̈ + C q̇ + K q = f + r, that of the motion and of the springs, the structure's and
-//! the walls', changes by the work of the loads, less what damping and impacts take, or plus what
+//! The energy of M q̈ + C q̇ + K q = f + r, that of the motion and of the springs of structure and
+//! walls, changes by the work of the loads, less what damping and impacts take, or plus what
 //! negative damping of at most γ = max(−Cᵢᵢ/Mᵢᵢ, 0) adds. With ‖f‖² = fᵀM⁻¹f and Cauchy–Schwarz:
 //!
 //! dE/dt ≤ q̇ᵀf + γ q̇ᵀM q̇ ≤ √(2E) ‖f‖ + 2γE, so
@@ -122,7 +122,8 @@ impl Divergence {
                     self.h
                 )
             }
-            scheme => format!("{scheme} gains energy here with a step of {:.1e} s; a smaller one may not", self.h),
+            Scheme::Event => "its loads or its start are beyond what numbers can hold".to_owned(),
+            scheme => format!("a step of {:.1e} s may be too large for {scheme}", self.h),
         }
     }
 }

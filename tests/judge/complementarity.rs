@@ -53,7 +53,7 @@ fn complementarity_holds_to_1e_12_with_the_clamp_at_every_step_of_every_scheme()
             for step in [1e-2, 1e-3, 1e-4] {
                 let run = run(&scene, &by(scheme, Backend::Clamp), &options(step)).expect("a run");
                 let (what, r) = (format!("{scheme}, {name}, h = {step}"), run.residuals);
-                // Newmark gains energy at every impact, without limit between a rigid and an elastic wall.
+                // Newmark gains energy at impacts, without limit at a rigid and an elastic wall.
                 let kept = |found: &&Finding| !(scheme == Scheme::Newmark && found.refuted == Refuted::Diverged);
                 assert_eq!(run.findings.iter().find(kept), None, "{what}");
                 // Rounding of positions leaves some 1e-15 of the scales.

@@ -183,7 +183,7 @@ fn no_run_is_accused_at_scales_far_from_one() {
                         for scheme in schemes(100.0 * stiffness) {
                             let what = format!("{scheme}, {mass} kg, {stiffness} N/m, {gap} m, e = {e}, {periods}");
                             match judged(&scene, &scheme, h, 300, |_, _| {}) {
-                                // Beyond its stability limit the energy of central-difference overflows.
+                                // Beyond its stability limit the energy overflows.
                                 Ok(findings) if explicit(&scheme) && overflows(&findings) => continue,
                                 Ok(findings) => assert_eq!(findings, [], "{what}"),
                                 Err(Error::NotFinite { .. } | Error::Newton { .. }) => continue,

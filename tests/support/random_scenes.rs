@@ -1,6 +1,6 @@
 //! Random scenes of every kind, in ordinary units and in wild ones: one degree of freedom, masses
-//! between walls on rows of several, bodies in two planes in holes and between flats, under loads of
-//! every kind, from starts at rest, on a wall and fast.
+//! between walls on rows of several, bodies in two planes in holes and between flats, under loads
+//! of every kind, from starts at rest, on a wall and fast.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use crate::random_structures::{self, Draws};
