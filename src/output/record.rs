@@ -79,7 +79,7 @@ impl Record {
             let help = "the command that wrote it writes it again";
             Error::io(path.display(), format!("{found}, where {written}\nhelp: {help}"), true)
         };
-        let (file, length) = open_regular(path).map_err(|reason| damaged(reason))?;
+        let (file, length) = open_regular(path).map_err(&damaged)?;
         if length == 0 && self.bytes > 0 {
             return Err(damaged("is empty".to_owned()));
         }

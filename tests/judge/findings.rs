@@ -326,16 +326,12 @@ fn a_refuted_run_is_an_error_for_whoever_measures_others_by_it() {
 #[test]
 fn the_summary_says_that_a_run_was_refuted_and_by_what() {
     use signorini::case::Embedded;
-    use signorini::output::summary::{Checks, Reasons, write};
+    use signorini::output::summary::{Checks, Reasons, document};
     let mut case = Embedded::named("rigid-walls-sine").and_then(Embedded::case).expect("a case");
     case.scene.duration = 0.2;
     let mut run = signorini::run(&case.scene, &MOREAU_JEAN, &signorini::Options::with_step(STEP)).expect("a run");
-    let path = std::env::temp_dir().join(format!("signorini-findings-{}.json", std::process::id()));
     let reasons = Reasons { scheme: String::new(), qp: String::new() };
-    let read = |run: &signorini::Run| -> serde_json::Value {
-        write(&path, &case, run, &reasons, Checks::default()).expect("written");
-        serde_json::from_str(&std::fs::read_to_string(&path).expect("readable")).expect("JSON")
-    };
+    let read = |run: &signorini::Run| document(&case, run, &reasons, Checks::default()).expect("a document");
     let kept = read(&run);
     assert_eq!((&kept["refuted"], kept["findings"].as_array().map(Vec::len)), (&serde_json::json!(false), Some(0)));
     run.findings = judged(&case.scene, &MOREAU_JEAN, STEP, 200, |_, a| a.impulse.iter_mut().for_each(|p| *p *= 1.01))
@@ -344,7 +340,6 @@ fn the_summary_says_that_a_run_was_refuted_and_by_what() {
     assert_eq!(broken["refuted"], serde_json::json!(true));
     assert_eq!(broken["findings"][0]["refuted"], serde_json::json!("momentum_balance"));
     assert!(broken["findings"][0]["residual"].as_f64().expect("a number") > 1e-3);
-    std::fs::remove_file(&path).expect("its own");
 }
 
 /// A promise is made of parts, and one that no scheme of the crate makes is judged like any other:
