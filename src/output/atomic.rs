@@ -103,8 +103,8 @@ impl WholeFile {
         &self.path
     }
 
-    /// Writes the file onto the disk and renames it into its place, so that after a power failure
-    /// no empty file has its name. [`sync_folder`] makes the rename itself last.
+    /// Writes the file onto the disk, unless it is staged, and renames it into its place, so that
+    /// after a power failure no empty file has its name. [`sync_folder`] makes the rename itself last.
     ///
     /// # Errors
     /// [`Error::Io`] when the write or the rename fails; the temporary file is then removed, and an
@@ -112,7 +112,9 @@ impl WholeFile {
     pub fn finish(mut self) -> Result<()> {
         if let Some(writer) = self.writer.take() {
             let file = writer.into_inner().map_err(|e| failure(&self.path, e.into_error(), false))?;
-            file.sync_all().map_err(|e| failure(&self.path, e, false))?;
+            if !self.path.components().any(|part| part.as_os_str() == STAGE) {
+                file.sync_all().map_err(|e| failure(&self.path, e, false))?;
+            }
         }
         fs::rename(&self.partial.path, &self.path).map_err(|e| failure(&self.path, e, false))?;
         self.partial.kept = true;
@@ -128,6 +130,30 @@ impl Write for WholeFile {
     fn flush(&mut self) -> io::Result<()> {
         self.writer.as_mut().map_or(Ok(()), BufWriter::flush)
     }
+}
+
+/// The folder, within one of results, of files that are not yet in their places: they are staged.
+pub(crate) const STAGE: &str = ".signorini.partial";
+
+/// Most files that are written onto the disk at once.
+const AT_ONCE: usize = 16;
+
+/// Writes the files at `paths` onto the disk, several at once: a file system puts what it is asked
+/// at once into one write.
+///
+/// # Errors
+/// [`Error::Io`] where the disk fails.
+pub(crate) fn sync_files(paths: &[PathBuf]) -> Result<()> {
+    let sync = |path: &PathBuf| File::open(path).and_then(|file| file.sync_all()).map_err(|e| failure(path, e, false));
+    for part in paths.chunks(AT_ONCE) {
+        let synced: Vec<Result<()>> = std::thread::scope(|scope| {
+            let threads: Vec<_> = part.iter().map(|path| (path, scope.spawn(move || sync(path)))).collect();
+            let lost = |path: &Path| Err(failure(path, io::ErrorKind::Other.into(), false));
+            threads.into_iter().map(|(path, thread)| thread.join().unwrap_or_else(|_| lost(path))).collect()
+        });
+        synced.into_iter().collect::<Result<()>>()?;
+    }
+    Ok(())
 }
 
 /// The end of the names of temporary files.

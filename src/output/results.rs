@@ -8,7 +8,10 @@
 //! results as they were. One amidst it leaves a manifest that says so, and the same request
 //! replaces everything that it lists.
 
-use super::atomic::{check_folder, remove_abandoned, sync_folder};
+#[cfg(test)]
+mod tests;
+
+use super::atomic::{STAGE, check_folder, remove_abandoned, sync_files, sync_folder};
 use super::format::Format;
 use super::lock::Lock;
 use super::manifest::{self, UNFINISHED};
@@ -19,9 +22,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::time::SystemTime;
-
-/// The folder, within that of the results, of files that are not yet in their places.
-const STAGE: &str = ".signorini.partial";
 
 /// A folder of results that is being written.
 #[derive(Debug)]
@@ -42,6 +42,8 @@ pub struct Results {
     told: Map<String, Value>,
     /// The file from which this request goes on after an interruption.
     journal: Option<String>,
+    /// Folders in which folders were made that lead to this one.
+    entered: Vec<PathBuf>,
     _stage: Stage,
     _lock: Lock,
 }
@@ -92,6 +94,8 @@ impl Results {
     pub fn open(folder: &Path, request: Map<String, Value>, force: bool, formats: Vec<Format>) -> Result<Self> {
         let check = || if force { Ok(()) } else { manifest::check(folder, &request) };
         check()?;
+        let absent = folder.ancestors().take_while(|ancestor| !ancestor.as_os_str().is_empty() && !ancestor.exists());
+        let entered = absent.filter_map(Path::parent).map(Path::to_owned).collect();
         check_folder(folder)?;
         let lock = Lock::take(folder)?;
         // Another process may have been at work in between.
@@ -113,6 +117,7 @@ impl Results {
             tables: BTreeMap::new(),
             told: Map::new(),
             journal: None,
+            entered,
             _stage: Stage::of(folder),
             _lock: lock,
         })
@@ -226,7 +231,8 @@ impl Results {
         let mut manifest = self.manifest();
         manifest["files"] = json!(files);
         manifest[UNFINISHED] = json!(true);
-        manifest::write(&self.folder, &manifest)
+        manifest::write(&self.folder, &manifest)?;
+        self.entered.iter().try_for_each(|folder| sync_folder(folder))
     }
 
     /// Takes over the results of this request in the folder, as they are: those of the tables
@@ -246,6 +252,8 @@ impl Results {
     /// [`Error::Io`] where a file cannot be moved or the manifest cannot be written.
     pub fn finish(&mut self) -> Result<Option<String>> {
         self.record()?;
+        let staged: Vec<PathBuf> = self.files.iter().skip(self.placed).map(|name| self.staged(name)).collect();
+        sync_files(&staged)?;
         if !self.finished {
             self.write_unfinished()?;
         }
@@ -260,7 +268,8 @@ impl Results {
             fs::rename(self.staged(name), &place).map_err(|error| failure(&place, error))?;
             folders.insert(folder);
         }
-        folders.iter().try_for_each(|folder| sync_folder(folder))?;
+        // The folder itself is written with the manifest.
+        folders.iter().filter(|folder| **folder != self.folder).try_for_each(|folder| sync_folder(folder))?;
         self.placed = self.files.len();
         let before = self.before.take();
         if let Some(before) = &before {
@@ -303,66 +312,4 @@ impl Results {
 
 fn failure(path: &Path, error: std::io::Error) -> Error {
     Error::io(path.display(), error.to_string(), false).caused_by(error)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::atomic::write_whole;
-    use super::super::manifest::MANIFEST;
-    use super::*;
-
-    fn request(end: f64) -> Map<String, Value> {
-        let value = json!({ "command": "run", "end_s": end, "walls_fingerprint": format!("{end}") });
-        value.as_object().cloned().unwrap_or_default()
-    }
-
-    fn fill(folder: &Path, end: f64, force: bool, name: &str) -> Result<Option<String>> {
-        let mut results = Results::open(folder, request(end), force, Vec::new())?;
-        let path = results.place(name)?;
-        write_whole(&path, b"1")?;
-        results.finish()
-    }
-
-    #[test]
-    fn results_of_another_request_stay_unless_forced() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path();
-        assert_eq!(fill(path, 10.0, false, "method/summary.json").unwrap(), None);
-        let refused = fill(path, 1.0, false, "other.csv").unwrap_err();
-        assert!(refused.is_request());
-        let text = refused.to_string();
-        for words in ["made 20", "end_s: 10 there, 1 asked", "another walls", "--force", "--out"] {
-            assert!(text.contains(words), "{words}: {text}");
-        }
-        assert!(path.join("method/summary.json").exists());
-        // The same request replaces, and says what.
-        let replaced = fill(path, 10.0, false, "method/summary.json").unwrap();
-        assert!(replaced.is_some_and(|text| text.contains("made 20")));
-        // Forced, nothing of the other request is left beside the new files.
-        fill(path, 1.0, true, "other.csv").unwrap();
-        assert!(path.join("other.csv").exists() && !path.join("method").exists());
-    }
-
-    #[test]
-    fn results_without_a_manifest_are_those_of_an_unknown_request() {
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("summary.json"), "{}").unwrap();
-        assert!(fill(folder.path(), 1.0, false, "a.csv").unwrap_err().to_string().contains("summary.json"));
-        fs::write(folder.path().join(MANIFEST), "no JSON").unwrap();
-        assert!(fill(folder.path(), 1.0, false, "a.csv").is_err());
-        assert!(fill(folder.path(), 1.0, true, "a.csv").unwrap().is_some());
-    }
-
-    #[test]
-    fn a_manifest_takes_nothing_away_outside_its_folder() {
-        let root = tempfile::tempdir().unwrap();
-        let folder = root.path().join("results");
-        let precious = root.path().join("precious");
-        fs::create_dir(&folder).unwrap();
-        fs::write(&precious, "1").unwrap();
-        let files = json!({ "files": ["../precious", precious.display().to_string(), "", "."] });
-        fs::write(folder.join(MANIFEST), files.to_string()).unwrap();
-        fill(&folder, 1.0, true, "a.csv").unwrap();
-        assert!(precious.exists() && folder.join("a.csv").exists());
-    }
 }
