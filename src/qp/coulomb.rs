@@ -93,8 +93,8 @@ impl Coulomb {
         Self { contacts, response, scale }
     }
 
-    /// Solves for p and f of each contact, and lists the contacts that gave up their rebound. `None`
-    /// where rounding leaves no answer.
+    /// Solves for p and f of each contact, and lists the contacts that gave up their rebound.
+    /// `None` where rounding leaves no answer.
     pub fn solve(mut self) -> Option<(Vec<[f64; 2]>, Vec<usize>)> {
         let mut wedged = Vec::new();
         if !self.contacts.iter().all(|contact| contact.free.iter().all(|u| u.is_finite())) {

@@ -7,8 +7,8 @@
 //! driven to zero by exchanging one basic unknown for another; of the rows that block an exchange,
 //! the one that is least in the lexicographic order leaves, so that no basis returns where several
 //! block at once. The method ends in a solution or in a ray: a direction z̃ ≥ 0 in which w stays
-//! ≥ 0 and complementary. For a copositive M a ray proves that q·z̃ < 0 with M z̃ ≥ 0 and z̃·M z̃ = 0,
-//! of which there is none if every such z̃ has q·z̃ ≥ 0.
+//! ≥ 0 and complementary. For a copositive M a ray has q·z̃ < 0, M z̃ ≥ 0 and z̃·M z̃ = 0: there is
+//! none if every z̃ ≥ 0 with the latter two has q·z̃ ≥ 0.
 
 /// A number in the tableau below this, relative to the largest of its column, is rounding.
 const PIVOT: f64 = 1e-11;

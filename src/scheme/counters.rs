@@ -17,8 +17,8 @@ pub struct Counters {
     pub pivots: u64,
     /// Programmes in which pivoting found no solution, and which Clarabel solved.
     pub qp_fallbacks: u64,
-    /// Steps in which rounding left the contacts of round holes and friction without a common state:
-    /// their forces are those of the last sweep.
+    /// Steps in which rounding left the contacts of round holes and friction without a common
+    /// state: their forces are those of the last sweep.
     pub qp_unsettled: u64,
     /// Steps in which contacts of a wedged body gave up their rebound, since no impulses satisfy
     /// Coulomb's law together with it.

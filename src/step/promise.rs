@@ -123,7 +123,8 @@ pub struct Rigid {
     /// The impact law on the velocity, 0 ≤ rebound ⟂ |p| ≥ 0 with rebound = ±(ẇ⁺ + ε ẇ) away from
     /// the wall, ε = e if approaching or at rest and 1 if separating, at the walls that are
     /// reached; so the impulses never add energy, and ẇ⁺ = −ẇ keeps the law at every wall. Where
-    /// there is friction, ε may be 0 while approaching ([`Friction`]). A wall that is neither reached nor has a bound gives no force.
+    /// there is friction, ε may be 0 while approaching ([`Friction`]). A wall that is neither
+    /// reached nor has a bound gives no force.
     pub velocity: Option<Reached>,
 }
 
