@@ -17,8 +17,7 @@ fn driven(sides: usize, direction: f64, friction: f64) -> Scene {
 
 #[test]
 fn no_scene_with_friction_on_flats_is_refuted() {
-    // All 180 with SIGNORINI_CASES=180; 119 of them were refuted where sweeps alone solved them,
-    // among them number 61.
+    // All 180 with SIGNORINI_CASES=180. Number 61 has steps that sweeps alone do not settle.
     let (share, mut counted) = (cases(30_usize).clamp(1, 180), [0; 2]);
     for number in 0..180 {
         if number * 7 % 180 >= share && number != 61 {
