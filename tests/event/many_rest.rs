@@ -250,8 +250,8 @@ fn whatever_starts_on_its_walls_keeps_to_them() {
 
 #[test]
 fn impacts_at_two_walls_in_turn_accumulate_to_rest_at_both() {
-    // A floor at x₀ = 0 with e = 0.9, and x₀ − ½x₁ ≤ 0 with e = 0, along which the body flies to the
-    // floor. An impact at the floor with the speed u gives 0.9 u there and 1.9 u towards the side,
+    // A floor at x₀ = 0 with e = 0.9, and x₀ − ½x₁ ≤ 0 with e = 0, along which the body flies to
+    // the floor. An impact at the floor with the speed u gives 0.9 u there and 1.9 u towards the side,
     // whose impact takes 1.9 u/W₁₁ = 1.52 u from the floor's row: the next one has 0.62 u. Each
     // flight is of the order of the square of the one before, so that few are resolved before the
     // speeds are small; but all of them end in rest at both walls. From there forces that press on
