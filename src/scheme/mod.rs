@@ -12,6 +12,7 @@
 //! | `newton.rs` | walls with force laws: semismooth Newton on their forces |
 //! | `staggered.rs` | shared by schemes whose velocity is half a step behind |
 //! | `supports/`, `disks/`, `pushes.rs` | scenes with round holes and friction, and their contact episodes |
+//! | `jumps.rs` | jumps of loads within a step |
 //! | `frame.rs` | the state, and the results of a step |
 //! | `motion.rs`, `kernel.rs`, `stepper.rs` | the trait of all motions, the choice of one, and the public type |
 
@@ -31,6 +32,7 @@ mod frame;
 mod generalized_alpha;
 mod grid;
 mod handed;
+mod jumps;
 mod kernel;
 mod line;
 mod matrices;

@@ -1,5 +1,6 @@
 //! The stepper: one public type over all schemes.
 
+use super::jumps::Jumps;
 use super::kernel::Kernel;
 use super::{Handed, Method, Scheme};
 use crate::error::{Error, Result, Subject};
@@ -48,6 +49,9 @@ pub struct Stepper {
     before: (u64, u64),
     asking: Asking,
     kernel: Kernel,
+    jumps: Option<Box<Jumps>>,
+    /// The number of the next step in which a load jumps.
+    due: u64,
 }
 
 impl Stepper {
@@ -75,7 +79,12 @@ impl Stepper {
         let kernel = Kernel::new(&scene, Method { scheme, backend }, step)?;
         let backend = kernel.motion().backend().unwrap_or(backend);
         let contract = scheme.contract();
-        Ok(Self { scene, scheme, contract, step, backend, index: 0, before: (0, 0), asking: Asking::here(), kernel })
+        let jumps = Jumps::new(&scene, contract.balance, step).map(Box::new);
+        let (before, asking) = ((0, 0), Asking::here());
+        let mut stepper =
+            Self { scene, scheme, contract, step, backend, index: 0, before, asking, kernel, jumps, due: 0 };
+        stepper.due = stepper.due_from(0);
+        Ok(stepper)
     }
 
     /// Advances by one step.
@@ -118,9 +127,34 @@ impl Stepper {
     fn advance(&mut self, extra: Option<&[f64]>) -> Result<Step<'_>> {
         let index = self.index;
         self.asking.pass(index)?;
-        self.kernel.advance(index, extra)?;
-        self.index += 1;
+        self.make(extra)?;
         Ok(self.kernel.step(index))
+    }
+
+    /// Makes one step.
+    #[inline(always)]
+    fn make(&mut self, extra: Option<&[f64]>) -> Result<()> {
+        if self.index == self.due {
+            self.make_due(extra)?;
+        } else {
+            self.kernel.advance(self.index, extra)?;
+        }
+        self.index += 1;
+        Ok(())
+    }
+
+    /// The first step from number `index` on in which a load jumps; the largest number if none does.
+    fn due_from(&self, index: u64) -> u64 {
+        self.jumps.as_ref().map_or(u64::MAX, |jumps| jumps.due(index))
+    }
+
+    /// Makes one step in which a load jumps. Not inlined: most steps have none.
+    #[inline(never)]
+    fn make_due(&mut self, extra: Option<&[f64]>) -> Result<()> {
+        let Some(jumps) = &mut self.jumps else { return self.kernel.advance(self.index, extra) };
+        self.kernel.advance(self.index, Some(jumps.force(self.index, extra)))?;
+        self.due = self.due_from(self.index + 1);
+        Ok(())
     }
 
     /// Advances by up to `most` steps, at least by one, and stops after the first in which a wall
@@ -149,14 +183,13 @@ impl Stepper {
         loop {
             self.asking.pass(self.index)?;
             // The interrupt is asked between two loops.
-            let until = end.min(self.index.saturating_add(GLIDE));
+            let until = end.min(self.index.saturating_add(GLIDE)).min(self.due);
             self.index = self.kernel.glide(self.index, until, None)?;
             if self.index == end {
                 break;
             }
-            if self.index < until {
-                self.kernel.advance(self.index, None)?;
-                self.index += 1;
+            if self.index < until || self.index == self.due {
+                self.make(None)?;
                 let step = self.kernel.step(self.index - 1);
                 let pushed = |p: &f64| *p != 0.0;
                 let met = step.impulse.iter().any(pushed) || step.holes.iter().any(|hole| hole.impulse != 0.0);
@@ -173,7 +206,7 @@ impl Stepper {
     pub(crate) fn glide_into(&mut self, calm: &mut Calm, most: u64) -> Result<u64> {
         self.asking.pass(self.index)?;
         let from = self.index;
-        let until = from.saturating_add(most.min(calm.begin(from, self.kernel.motion().end())));
+        let until = from.saturating_add(most.min(calm.begin(from, self.kernel.motion().end()))).min(self.due);
         self.index = self.kernel.glide(from, until, Some(calm))?;
         Ok(self.index - from)
     }
@@ -246,6 +279,7 @@ impl Stepper {
         let (made, from) = self.before;
         self.before = (made + (self.index - from), index);
         self.index = index;
+        self.due = self.due_from(index);
         self.asking.restart();
         Ok(())
     }

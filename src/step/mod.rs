@@ -134,9 +134,10 @@ pub struct Step<'a> {
     pub wedged: &'a [usize],
     /// Walls with friction whose rebounds end within the step: their ε is 0 ([`Friction`]).
     pub resting: &'a [usize],
-    /// Extra force given by the caller, N, as it enters the momentum balance: constant over the
-    /// step, or for a staggered scheme, whose balance is centred at `start`, the mean of the last
-    /// step's and this one's; length n.
+    /// Extra force given by the caller, and what a load that jumps within the step lacks of its
+    /// impulse, N, as they enter the momentum balance: constant over the step, or for a staggered
+    /// scheme, whose balance is centred at `start`, the mean of the last step's and this one's;
+    /// length n.
     pub extra: &'a [f64],
     /// Contact episodes that ended in this step.
     pub closed: &'a [Contact],
