@@ -1,4 +1,7 @@
-//! Blows, that is loads of no duration, within a step on a grid.
+//! Blows, that is loads of no duration, within a step.
+
+use crate::linear::Factor;
+use crate::scene::{Scene, System};
 
 /// What the blows of a step do; vectors over degrees of freedom, zero in scenes without blows.
 #[derive(Debug, Clone)]
@@ -20,5 +23,15 @@ impl Blows {
     pub fn new(n: usize) -> Self {
         let zero = || vec![0.0; n];
         Self { impulse: zero(), struck: zero(), beyond: zero(), arrived: zero(), felt: zero() }
+    }
+}
+
+/// M⁻¹x in place: the velocities (m/s) that the impulses x (N s) give.
+pub(super) fn divide(scene: &Scene, mass: Option<&mut Factor>, x: &mut [f64]) {
+    if let Some(mass) = mass {
+        mass.solve(x);
+    }
+    if let System::Oscillator(o) = &scene.system {
+        x.iter_mut().for_each(|x| *x /= o.mass);
     }
 }

@@ -1,8 +1,9 @@
 //! Checks of a step that predicts and then corrects: [`Balance::GeneralizedAlpha`].
 
+use super::Judge;
+use super::blows::divide;
 use super::memory::{Memory, smooth};
 use super::moves::Moves;
-use super::{Judge, divide};
 use crate::scene::Wall;
 use crate::step::{Balance, Step};
 

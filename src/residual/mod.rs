@@ -44,7 +44,7 @@ pub use residuals::Residuals;
 
 use crate::linear::Factor;
 use crate::scene::{Forcing, GridForcing, Loads, Scene, System};
-use crate::step::{Balance, Contract, Path, Step};
+use crate::step::{Contract, Path, Step};
 use beyond::{Doubts, Rounding, Worst};
 use blows::Blows;
 use complementarity::Pairs;
@@ -249,14 +249,7 @@ impl Judge {
         }
         // Without blows these vectors stay zero.
         if self.loads.has_blows() {
-            let struck = match self.contract.balance {
-                Balance::Staggered(_) => self.loads.blow_about(step.index, self.h, &mut self.blows.impulse),
-                _ => self.loads.blow(step.start, step.end, &mut self.blows.impulse),
-            };
-            self.blows.struck.copy_from_slice(&self.blows.impulse);
-            if struck {
-                divide(&self.scene, self.mass.as_mut(), &mut self.blows.struck);
-            }
+            self.take_blows(step);
         }
         match step.path {
             Path::Grid if self.memory.is_some() => self.see_apart(step, |judge| judge.see_corrected(step)),
@@ -300,16 +293,6 @@ impl Judge {
     /// The scale of speeds of rebound, m/s.
     fn rebound_scale(&self) -> f64 {
         self.extent.speed.max(self.energy.gap_scale / self.scene.duration)
-    }
-}
-
-/// M⁻¹x in place: the velocities (m/s) that the impulses x (N s) give.
-fn divide(scene: &Scene, mass: Option<&mut Factor>, x: &mut [f64]) {
-    if let Some(mass) = mass {
-        mass.solve(x);
-    }
-    if let System::Oscillator(o) = &scene.system {
-        x.iter_mut().for_each(|x| *x /= o.mass);
     }
 }
 

@@ -1,9 +1,10 @@
 //! Checks of steps on a grid with blows.
 
+use super::Judge;
+use super::blows::divide;
 use super::pushes::pushes;
-use super::{Judge, divide};
 use crate::scene::{Scene, Wall};
-use crate::step::{Balance, Bound, Promise, Step};
+use crate::step::{Balance, Bound, Path, Promise, Step};
 
 /// True if the blows, which give the velocity `given`, drive the body into a rigid wall that pushes
 /// in this step, under a promise by which blow and answer take effect together. Under a bound on
@@ -16,6 +17,38 @@ fn answered(scene: &Scene, promise: Promise, impulse: &[f64], given: &[f64]) -> 
 }
 
 impl Judge {
+    /// Sets the blows of a step. Exact motion has them at the ends of its steps: the momentum of
+    /// one strictly inside is open.
+    pub(super) fn take_blows(&mut self, step: &Step<'_>) {
+        let struck = match (step.path, self.contract.balance) {
+            (Path::Exact(_) | Path::Series(_), _) => {
+                let last = step.end.next_down().max(step.start);
+                if self.loads.blow(step.start, last, &mut self.blows.impulse) {
+                    self.miss_blow(step);
+                }
+                self.loads.blow(last, step.end, &mut self.blows.impulse)
+            }
+            (_, Balance::Staggered(_)) => self.loads.blow_about(step.index, self.h, &mut self.blows.impulse),
+            _ => self.loads.blow(step.start, step.end, &mut self.blows.impulse),
+        };
+        self.blows.struck.copy_from_slice(&self.blows.impulse);
+        if struck {
+            divide(&self.scene, self.mass.as_mut(), &mut self.blows.struck);
+        }
+    }
+
+    /// Counts blows that no step took as open momentum, by the force that gives it over the step.
+    #[cold]
+    fn miss_blow(&mut self, step: &Step<'_>) {
+        let span = step.end - step.start;
+        for (impulse, weight) in self.blows.impulse.iter().zip(&self.weights.root_mass) {
+            let force = impulse.abs() / span;
+            self.balance = self.balance.max(force);
+            self.normal_balance = self.normal_balance.max(force / weight);
+            self.doubts.balance.see(force / weight, step.end, None);
+        }
+    }
+
     /// Computes the displacement that the blows of the step add to that of the rule (`beyond`), and
     /// the step's displacement without it (`arrived`). Returns whether they add any; if not,
     /// `arrived` is not to be read.

@@ -304,3 +304,20 @@ fn a_spring_that_does_not_push_at_all_is_measured_by_its_stiffness() {
     let (small, _) = worth(1e-6);
     assert!((small / law - 1.0).abs() < 1e-9, "{small}, {law}");
 }
+
+#[test]
+fn a_blow_strictly_inside_a_stretch_of_exact_motion_is_open_momentum() {
+    // The run takes the blow of 0.3 N s at 0.5 s, where a stretch ends; the judge's scene has it at
+    // 0.4 s, inside of that stretch.
+    let line = Scene::oscillator(1.0, 0.0, 4.0).with_initial(&[0.1], &[0.2]);
+    let planes = line.clone().with_wall(Wall { at: signorini::Row::new(vec![(0, 0.5)]), ..Wall::upper("far", 50.0) });
+    for scene in [line, planes] {
+        let with = |time: f64| scene.clone().with_load(Load::impulse(0.3, time));
+        for (judged, inside) in [(0.5, false), (0.4, true)] {
+            let given = (&with(0.5), &with(judged));
+            let (findings, _) = judge(given, &Scheme::Event, (0.25, 8, 0.0), |_, _| {});
+            let accused = findings.iter().any(|finding| finding.refuted == Refuted::MomentumBalance);
+            assert_eq!(accused, inside, "{findings:?}");
+        }
+    }
+}
