@@ -154,6 +154,31 @@ def test_a_folder_keeps_rows_of_equal_scenes_only(tmp_path: Path, whole: sg.Tabl
     assert count() == len(POINTS) + 4
 
 
+def test_a_damaged_file_of_rows_is_named_and_an_abandoned_one_removed(tmp_path: Path) -> None:
+    points = POINTS[:3]
+    table = sg.sweep(cluster.make, points, "event", folder=tmp_path)
+    abandoned, fresh = tmp_path / "killed.part", tmp_path / "written-now.part"
+    for part in (abandoned, fresh):
+        part.write_bytes(b"half")
+    os.utime(abandoned, (0.0, 0.0))
+    path = next(tmp_path.glob("*.npz"))
+    whole = path.read_bytes()
+    # A changed digit in the middle, half a file, an empty one, no archive, and a pipe, which has no end.
+    changed = bytearray(whole)
+    changed[len(whole) // 2] ^= 1
+    for damaged in (bytes(changed), whole[: len(whole) // 2], b"", b"no archive"):
+        path.write_bytes(damaged)
+        with pytest.raises(OSError, match=path.name):
+            sg.sweep(cluster.make, points, "event", folder=tmp_path)
+    path.unlink()
+    os.mkfifo(path)
+    with pytest.raises(OSError, match=f"{path.name}.*not a regular file"):
+        sg.sweep(cluster.make, points, "event", folder=tmp_path)
+    path.unlink()
+    assert_same(sg.sweep(cluster.make, points, "event", folder=tmp_path), table)
+    assert not abandoned.exists() and fresh.exists()
+
+
 def test_a_folder_that_has_all_rows_gives_the_table_without_a_run(
     tmp_path: Path, whole: sg.Table, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -5,7 +5,10 @@ from __future__ import annotations
 import hashlib
 import os
 import pickle
+import time
 import uuid
+import zipfile
+import zlib
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +20,10 @@ if TYPE_CHECKING:
     from ._core import Scene
 
 _DIGEST = 16
+
+#: A file under its temporary name is written in far less than this, s; an older one is what a killed
+#: process left.
+_ABANDONED = 3600.0
 
 
 class Store:
@@ -38,6 +45,7 @@ class Store:
             return
         self.count = len(points)
         self.folder.mkdir(parents=True, exist_ok=True)
+        self._remove_abandoned()
         # Threads change no number.
         how = repr(options[:4]).encode()
         self.digests = [_digest(make, point, how) for point in points]
@@ -48,10 +56,10 @@ class Store:
             return list(range(self.count))
         found: dict[bytes, tuple[npt.NDArray[np.float64], str]] = {}
         for path in sorted(self.folder.glob("*.npz")):
-            with np.load(path) as rows:
-                if rows["values"].shape[1:] == (self.width,):
-                    keys = [key.tobytes() for key in rows["digests"]]
-                    found.update(zip(keys, zip(rows["values"], rows["errors"].tolist(), strict=True), strict=True))
+            digests, stored, texts = _read(path)
+            if stored.shape[1:] == (self.width,):
+                keys = [key.tobytes() for key in digests]
+                found.update(zip(keys, zip(stored, texts, strict=True), strict=True))
         missing = []
         for index, digest in enumerate(self.digests):
             if digest in found:
@@ -73,6 +81,45 @@ class Store:
             file.flush()
             os.fsync(file.fileno())
         part.replace(path)
+        _sync_folder(self.folder)
+
+    def _remove_abandoned(self) -> None:
+        """Removes what processes that were killed left under temporary names."""
+        if self.folder is None:
+            return
+        for part in self.folder.glob("*.part"):
+            try:
+                if time.time() - part.stat().st_mtime > _ABANDONED:
+                    part.unlink()
+            except OSError:
+                # Another process removed it first.
+                continue
+
+
+def _read(path: Path) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.float64], list[str]]:
+    """Digests, values and errors of the rows in a file; zip's checksums tell whether it is as written."""
+    try:
+        if not path.is_file():
+            raise ValueError("not a regular file")
+        with np.load(path) as rows:
+            digests, values, texts = rows["digests"], rows["values"], rows["errors"].tolist()
+        if not len(digests) == len(values) == len(texts):
+            raise ValueError("its arrays differ in length")
+    except (OSError, EOFError, KeyError, ValueError, zipfile.BadZipFile, zlib.error) as error:
+        text = f"{path}: not the rows that a sweep wrote there ({error}); without the file they are computed again"
+        raise OSError(text) from error
+    return digests, values, texts
+
+
+def _sync_folder(folder: Path) -> None:
+    """Writes the names in a folder onto the disk, where the system can."""
+    if os.name != "posix":
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
 
 
 def _digest(make: Callable[..., Scene], point: Mapping[str, Any], how: bytes) -> bytes:
