@@ -16,6 +16,7 @@ mod struck;
 use super::*;
 use crate::linear::Symmetric;
 use crate::scene::{PlaneRows, Row, Shape, Structure, Support, WallLaw};
+use crate::step::Balance;
 use crate::step::{Conserves, HoleStep, Promise, Tolerances};
 
 /// A body with these masses (kg) in two planes, dashpots (N s/m) and no springs.

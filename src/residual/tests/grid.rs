@@ -12,7 +12,7 @@ mod walls;
 
 use super::super::*;
 use crate::scene::{Load, Structure, Table, Wall};
-use crate::step::{Bound, Conserves, Elastic, Law, Promise, PromisedForce, Reached, Rigid, Tolerances};
+use crate::step::{Balance, Bound, Conserves, Elastic, Law, Promise, PromisedForce, Reached, Rigid, Tolerances};
 
 /// The time step, s.
 const H: f64 = 0.125;
