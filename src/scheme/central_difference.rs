@@ -86,6 +86,10 @@ impl<S: Space> Rule<S> for CentralDifference<S> {
         self.staggered.restart(scene, &mut self.body, time, frame)
     }
 
+    fn carried(&mut self) -> [Option<(&mut S::Vector, i32)>; 2] {
+        [Some((&mut self.staggered.v, 1)), None]
+    }
+
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, staggered, b, .. } = self;
         let h = body.h;

@@ -101,6 +101,11 @@ impl<S: Space> ChungHulbert<S> {
         wall
     }
 
+    /// The accelerations and forces that it carries, as in `Rule::carried`.
+    pub fn carried(&mut self) -> [Option<(&mut S::Vector, i32)>; 2] {
+        [Some((&mut self.a, 2)), Some((&mut self.force, 2))]
+    }
+
     /// Computes q̂, v̂, f⁺ and `past`, the terms of the last step.
     #[inline]
     pub fn predict(&mut self, body: &mut Body<S>, frame: &mut Frame<S>) {

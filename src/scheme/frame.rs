@@ -5,6 +5,9 @@ use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Path, Step};
 
+/// Factor by which what a rule carries may exceed the state in [`Frame::flush`].
+const LOOSE: f64 = 1e10;
+
 /// The state and the results of a step, which a scheme reads and writes, and which is lent out as a
 /// [`Step`]. Vectors over degrees of freedom have n entries, those over walls one entry per wall.
 #[derive(Debug)]
@@ -116,6 +119,20 @@ impl<S: Space> Frame<S> {
     #[inline]
     pub fn struck(&self) -> &S::Vector {
         if self.blown { &self.struck } else { &self.before }
+    }
+
+    /// Sets to 0 each degree of freedom whose displacement and velocity times h are below `tiny`
+    /// (m), and what the rule has `carried` is as small, up to a factor for masses and damping.
+    pub fn flush(&mut self, tiny: f64, h: f64, mut carried: [Option<(&mut S::Vector, i32)>; 2]) {
+        let far = |x: f64, power: i32| x.abs() * h.powi(power) >= LOOSE * tiny;
+        for (i, (q, v)) in self.q.as_mut().iter_mut().zip(self.v.as_mut()).enumerate() {
+            let moves = q.abs() >= tiny || v.abs() * h >= tiny;
+            if moves || carried.iter().flatten().any(|(x, power)| far(x.as_ref()[i], *power)) {
+                continue;
+            }
+            (*q, *v) = (0.0, 0.0);
+            carried.iter_mut().flatten().for_each(|(x, _)| x.as_mut()[i] = 0.0);
+        }
     }
 
     /// An error if the state is not finite.

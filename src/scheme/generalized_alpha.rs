@@ -237,6 +237,10 @@ impl<S: Space> Rule<S> for GeneralizedAlpha<S> {
         Ok(())
     }
 
+    fn carried(&mut self) -> [Option<(&mut S::Vector, i32)>; 2] {
+        self.rule.carried()
+    }
+
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         frame.begin(step, self.body.h);
         frame.before.clone_from(&frame.v);

@@ -96,6 +96,10 @@ impl<S: Space> Motion for Grid<S> {
         self.glide(step, until, calm)
     }
 
+    fn flush(&mut self, tiny: f64) {
+        self.frame.flush(tiny, self.h, self.rule.carried());
+    }
+
     fn step(&self, index: u64) -> Step<'_> {
         self.step(index)
     }

@@ -158,6 +158,14 @@ impl Kernel {
         }
     }
 
+    /// As [`Motion::flush`].
+    pub fn flush(&mut self, tiny: f64) {
+        match self {
+            Self::Line(grid) => grid.flush(tiny),
+            Self::Other(motion) => motion.flush(tiny),
+        }
+    }
+
     /// As [`Motion::step`]. Inlined, so that the compiler leaves out the fields that a caller does
     /// not read.
     #[inline(always)]

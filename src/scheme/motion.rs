@@ -19,6 +19,10 @@ pub(super) trait Motion: Debug + Send {
         Ok(step)
     }
 
+    /// Sets to 0 each degree of freedom that moves by less than `tiny` (m) within a step and is as
+    /// near to 0. Exact motion, whose steps end at events, has no need of it.
+    fn flush(&mut self, _tiny: f64) {}
+
     /// The last step, whose number is `index`.
     fn step(&self, index: u64) -> Step<'_>;
 

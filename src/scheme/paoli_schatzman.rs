@@ -146,6 +146,10 @@ impl<S: Space> Rule<S> for PaoliSchatzman<S> {
         self.staggered.restart(scene, &mut self.body, time, frame)
     }
 
+    fn carried(&mut self) -> [Option<(&mut S::Vector, i32)>; 2] {
+        [Some((&mut self.staggered.v, 1)), None]
+    }
+
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, staggered, b, mean, .. } = self;
         let h = body.h;

@@ -122,6 +122,11 @@ impl<S: Space> Rule<S> for Position<S> {
         Ok(())
     }
 
+    fn carried(&mut self) -> [Option<(&mut S::Vector, i32)>; 2] {
+        // With θ = 1 the force at the start of a step does not enter it, and is not kept.
+        [(self.theta < 1.0).then_some((&mut self.force, 2)), None]
+    }
+
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, theta, force, b, .. } = self;
         let (h, theta) = (body.h, *theta);

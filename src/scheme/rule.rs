@@ -28,6 +28,13 @@ pub(super) trait Rule<S: Space>: Debug + Send {
         Ok(step)
     }
 
+    /// What the rule carries from step to step beside the state and decays with it, each with the
+    /// power of h by which it is compared with a length: 1 for a velocity, 2 for an acceleration or
+    /// a force.
+    fn carried(&mut self) -> [Option<(&mut S::Vector, i32)>; 2] {
+        [None, None]
+    }
+
     /// Adds the work that the rule has done.
     fn count(&self, counters: &mut Counters);
 

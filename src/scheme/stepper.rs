@@ -11,8 +11,13 @@ use crate::scheme::Counters;
 use crate::step::{Calm, Contact, Contract, Step};
 use crate::time::MOST_STEPS;
 
-/// Maximum number of steps in one loop without contact.
-const GLIDE: u64 = 1 << 12;
+/// Number of steps in a block, a power of 2: the longest loop without contact.
+const BLOCK: u64 = 1 << 12;
+
+/// A free motion that decays would need denormal numbers in the end, with which a step takes some
+/// thirty times as long. At the end of each block of steps what is below this share of the gap
+/// scale becomes 0.
+const TINY: f64 = 1e-290;
 
 /// Advances a scene step by step.
 ///
@@ -50,7 +55,7 @@ pub struct Stepper {
     asking: Asking,
     kernel: Kernel,
     jumps: Option<Box<Jumps>>,
-    /// The number of the next step in which a load jumps.
+    /// The number of the next step in which a load jumps or with which a block ends.
     due: u64,
 }
 
@@ -143,17 +148,26 @@ impl Stepper {
         Ok(())
     }
 
-    /// The first step from number `index` on in which a load jumps; the largest number if none does.
+    /// The first step from number `index` on in which a load jumps or with which a block ends.
     fn due_from(&self, index: u64) -> u64 {
-        self.jumps.as_ref().map_or(u64::MAX, |jumps| jumps.due(index))
+        let last = index | (BLOCK - 1);
+        self.jumps.as_ref().map_or(last, |jumps| jumps.due(index).min(last))
     }
 
-    /// Makes one step in which a load jumps. Not inlined: most steps have none.
+    /// Makes one step in which a load jumps or with which a block ends. Not inlined: few do.
     #[inline(never)]
     fn make_due(&mut self, extra: Option<&[f64]>) -> Result<()> {
-        let Some(jumps) = &mut self.jumps else { return self.kernel.advance(self.index, extra) };
-        self.kernel.advance(self.index, Some(jumps.force(self.index, extra)))?;
-        self.due = self.due_from(self.index + 1);
+        let index = self.index;
+        match &mut self.jumps {
+            Some(jumps) if jumps.due(index) == index => {
+                self.kernel.advance(index, Some(jumps.force(index, extra)))?;
+            }
+            _ => self.kernel.advance(index, extra)?,
+        }
+        if index & (BLOCK - 1) == BLOCK - 1 {
+            self.kernel.flush(TINY * self.scene.gap_scale());
+        }
+        self.due = self.due_from(index + 1);
         Ok(())
     }
 
@@ -183,7 +197,7 @@ impl Stepper {
         loop {
             self.asking.pass(self.index)?;
             // The interrupt is asked between two loops.
-            let until = end.min(self.index.saturating_add(GLIDE)).min(self.due);
+            let until = end.min(self.due);
             self.index = self.kernel.glide(self.index, until, None)?;
             if self.index == end {
                 break;

@@ -62,6 +62,11 @@ impl Alpha {
             (0..held.body.walls.len()).any(stands) || (0..held.rounds.len()).any(|hole| held.touches(hole, q));
     }
 
+    /// What the rule carries, as in `Rule::carried`.
+    pub fn carried(&mut self) -> [Option<(&mut Vec<f64>, i32)>; 2] {
+        self.rule.carried()
+    }
+
     /// Makes a step.
     pub fn advance(&mut self, step: u64, held: &mut Held) -> Result<()> {
         held.frame.before.clone_from(&held.frame.v);

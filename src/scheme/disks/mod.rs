@@ -138,6 +138,11 @@ impl Motion for Disks {
         Ok(())
     }
 
+    fn flush(&mut self, tiny: f64) {
+        let carried = if let Rule::Alpha(rule) = &mut self.rule { rule.carried() } else { [None, None] };
+        self.held.frame.flush(tiny, self.held.body.h, carried);
+    }
+
     fn step(&self, index: u64) -> Step<'_> {
         let Held { frame, holes, friction, .. } = &self.held;
         Step { friction, holes, ..frame.step(index, self.pushes.closed()) }

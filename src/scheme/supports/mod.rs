@@ -264,6 +264,10 @@ impl Motion for Supports {
         Ok(())
     }
 
+    fn flush(&mut self, tiny: f64) {
+        self.frame.flush(tiny, self.body.h, [None, None]);
+    }
+
     fn step(&self, index: u64) -> Step<'_> {
         Step {
             friction: &self.friction,
