@@ -163,6 +163,10 @@ impl Judge {
                 self.doubt_law(index, pressure.abs(), 0.0);
             }
         }
-        reached && promise.velocity == Some(Reached::Closed)
+        // A wall at which the walls' correction of the displacement left the body is closed, also
+        // where the displacement is so large that its rounding error exceeds the touching distance.
+        let wall = &self.scene.walls[index];
+        promise.velocity == Some(Reached::Closed)
+            && (reached || way - self.touch <= self.rounding.of(self.size(step, wall, &seen)))
     }
 }

@@ -2,7 +2,7 @@
 
 use signorini::linear::Symmetric;
 use signorini::residual::{Judge, Residuals};
-use signorini::{Finding, Load, Refuted, Row, Scene, Scheme, Step, Stepper, Structure, Wall};
+use signorini::{Finding, Load, Options, Refuted, Row, Scene, Scheme, Step, Stepper, Structure, Wall, run};
 
 /// Two bodies of different mass that do not touch each other, each on its own spring, N/m.
 fn bodies(masses: [f64; 2], springs: [f64; 2]) -> Scene {
@@ -137,5 +137,21 @@ fn a_spring_that_is_off_is_wrong_by_its_share_of_the_force() {
         let (findings, _) = judge((&pad(k), &pad(k * (1.0 + share))), (0.05, 10), |_, _| {});
         let law = of_kind(&findings, Refuted::WallLaw);
         assert!((law.residual - 0.01).abs() < 2e-4 && law.wall.as_deref() == Some("pad"), "{law:?}");
+    }
+}
+
+#[test]
+fn bodies_that_travel_far_together_are_not_accused_for_the_rounding_of_their_places() {
+    // Two free bodies pressed together for 2 km: the rounding of their distance is 1e-13 m, and a
+    // wall counts as touched within 1e-15 m.
+    let mut pair = pushed(pushed(bodies([1.0, 2.0], [0.0, 0.0]), 0, 9.0), 1, 3.0).with_duration(30.0);
+    let between = Row::new(vec![(0, 1.0), (1, -1.0)]);
+    pair.walls.push(Wall { at: between, ..Wall::upper("between", 1e-3).with_restitution(0.3) });
+    let others = [Scheme::PaoliSchatzman, Scheme::ImplicitEuler, Scheme::MoreauJean { theta: 0.5 }];
+    for scheme in others.into_iter().chain([0.0, 0.4, 0.8, 1.0].map(|rho| Scheme::GeneralizedAlpha { rho })) {
+        let run = run(&pair, &scheme, &Options::with_step(0.05)).expect("a run");
+        assert_eq!(run.findings, [], "{scheme}");
+        // Together they have 4 m/s².
+        assert!((run.state.q[1] / 1800.0 - 1.0).abs() < 1e-2, "{scheme}: {:?}", run.state);
     }
 }
