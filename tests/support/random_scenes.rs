@@ -44,7 +44,7 @@ pub fn random_scene(seed: u64, units: Units) -> Drawn {
     let fastest = fastest(&scene.system);
     // 3 to 300 steps in a period of the fastest vibration; a free body takes that of 10 Hz.
     let step = if fastest > 0.0 { TAU / fastest } else { 0.1 } / 10_f64.powf(draws.between(0.5, 2.5));
-    let steps = if draws.chance(0.05) { 2000 } else { 40 + draws.below(260) };
+    let steps = if draws.chance(0.01) { 2000 } else { 40 + draws.below(260) };
     scene.duration = step * steps as f64;
     load(draws, &mut scene, step);
     start(draws, &mut scene);
