@@ -3,7 +3,7 @@
 use super::options::{Judged, Judging, Recorded, Recording};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::residual::{Finding, Residuals};
+use crate::residual::{Finding, Refuted, Residuals};
 use crate::scene::State;
 use crate::scheme::{Counters, Handed, Scheme};
 use crate::time::TimeGrid;
@@ -71,9 +71,17 @@ impl<J: Judging, R: Recording> Run<J, R> {
     /// The run, unless the judge has findings: for callers that use it as a reference for others.
     ///
     /// # Errors
-    /// [`Error::Refuted`].
+    /// [`Error::Refuted`]; [`Error::Diverged`] for a run that diverged, which a study of steps that
+    /// are too large expects.
     pub fn unrefuted(self) -> Result<Self> {
-        self.refuted().map_or(Ok(self), Err)
+        self.diverged().or_else(|| self.refuted()).map_or(Ok(self), Err)
+    }
+
+    /// [`Error::Diverged`] for a run that diverged.
+    fn diverged(&self) -> Option<Error> {
+        let found = J::findings(&self.findings).iter().find(|found| found.refuted == Refuted::Diverged)?;
+        let (time, step) = (found.time_s, self.counters.steps);
+        Some(Error::Diverged { time, step, ratio: found.residual, cause: found.reason.to_string() })
     }
 
     /// The recorded motion, if the run was recorded: for code that takes runs of any kind.
