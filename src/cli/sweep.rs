@@ -288,8 +288,8 @@ fn without_page(folder: &Path, reason: &str) -> String {
     )
 }
 
-/// Adds the report on the sweep to its `results`, unless its tables are too large for one; true if it
-/// was written.
+/// Adds the report on the sweep to its `results`, unless its tables are too large for one; true if
+/// it was written.
 fn write_report(results: &mut Results, ui: &Ui) -> Result<bool> {
     let manifest = results.manifest();
     if let Some(reason) = report::too_large(results.folder(), &manifest)? {

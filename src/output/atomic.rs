@@ -104,7 +104,8 @@ impl WholeFile {
     }
 
     /// Writes the file onto the disk, unless it is staged, and renames it into its place, so that
-    /// after a power failure no empty file has its name. [`sync_folder`] makes the rename itself last.
+    /// after a power failure no empty file has its name. [`sync_folder`] makes the rename itself
+    /// last.
     ///
     /// # Errors
     /// [`Error::Io`] when the write or the rename fails; the temporary file is then removed, and an

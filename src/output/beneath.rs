@@ -32,7 +32,7 @@ pub fn read(path: &Path, column: &str) -> Result<Vec<(f64, f64)>> {
     if !path.is_file() {
         return Err(Error::io(
             path.display(),
-            "no regular file; expected the sweep.csv of `signorini sweep`".to_owned(),
+            "not a regular file; expected the sweep.csv of `signorini sweep`".to_owned(),
             true,
         ));
     }

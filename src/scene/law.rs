@@ -78,8 +78,8 @@ impl WallLaw {
         }
     }
 
-    /// ΔU/Δs between the depths `s0` and `s1` (m), the mean of |r| on the way, N, and its derivative
-    /// with respect to `s1`, N/m; without division by zero. Contact lasts at one of both at least.
+    /// ΔU/Δs between the depths `s0` and `s1` (m), the mean of |r| on the way, N, and its
+    /// derivative with respect to `s1`, N/m; without division by zero. One of both is above 0.
     pub(crate) fn mean_force(&self, s0: f64, s1: f64) -> (f64, f64) {
         if s0 <= 0.0 {
             let slope = self.energy(s1) / (s1 - s0);

@@ -287,7 +287,7 @@ mod tests {
 
     #[test]
     fn a_row_with_a_measure_that_is_not_finite_is_not_ok() {
-        let sweep = Sweep::new(CaseFile::embedded("rigid-walls-sine").expect("a case"));
+        let sweep = Sweep::new(CaseFile::embedded("rigid-walls-sine").expect("a case")).by("event");
         let axis = Axis::linear("load.1.harmonic.frequency", 4.0, 5.0, 2).expect("an axis");
         let sweep = sweep.vary(axis).set("time.end", 0.2).expect("an end");
         let plan = sweep.measure([Measure::Lyapunov, Measure::ForceRms, Measure::Contacts]).plan().expect("a plan");

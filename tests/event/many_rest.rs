@@ -251,11 +251,11 @@ fn whatever_starts_on_its_walls_keeps_to_them() {
 #[test]
 fn impacts_at_two_walls_in_turn_accumulate_to_rest_at_both() {
     // A floor at x₀ = 0 with e = 0.9, and x₀ − ½x₁ ≤ 0 with e = 0, along which the body flies to
-    // the floor. An impact at the floor with the speed u gives 0.9 u there and 1.9 u towards the side,
-    // whose impact takes 1.9 u/W₁₁ = 1.52 u from the floor's row: the next one has 0.62 u. Each
-    // flight is of the order of the square of the one before, so that few are resolved before the
-    // speeds are small; but all of them end in rest at both walls. From there forces that press on
-    // neither take the body away: x₀ = ½ f₀ τ², ẋ₀ = f₀ τ, and likewise x₁.
+    // the floor. An impact at the floor with the speed u gives 0.9 u there and 1.9 u towards the
+    // side, whose impact takes 1.9 u/W₁₁ = 1.52 u from the floor's row: the next one has 0.62 u.
+    // Each flight is of the order of the square of the one before, so that few are resolved before
+    // the speeds are small; but all of them end in rest at both walls. From there forces that press
+    // on neither take the body away: x₀ = ½ f₀ τ², ẋ₀ = f₀ τ, and likewise x₁.
     for forces in [[2.0, 10.0], [0.5, 3.0], [7.0, 20.0]] {
         let free = || Symmetric::zeros(2);
         let side = Row::new(vec![(0, 1.0), (1, -0.5)]);

@@ -125,7 +125,7 @@ fn a_path_of_the_wrong_kind_is_refused_with_what_was_expected() {
         (&["run", "linear-sine", "--out", "file/within"], "file is a file, where a folder is expected"),
         (&merge("file"), "expected a shard of a sweep, or a folder that holds shards"),
         (&merge("nowhere"), "expected a shard of a sweep, or a folder that holds shards"),
-        (&orbit, "not a regular file; expected the orbit.json of `signorini orbit`"),
+        (&orbit, "a folder, not a file; expected the orbit.json of `signorini orbit`"),
         (&[&branches[..], &["--over", "folder"]].concat(), "expected the sweep.csv of `signorini sweep`"),
         (&["chart", "rigid-walls-sine", "--with", "folder"], "expected a CSV file with the columns program"),
     ] {

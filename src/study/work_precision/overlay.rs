@@ -35,7 +35,7 @@ pub fn read(path: &Path) -> Result<Vec<Peer>> {
     let failed = |e: csv::Error| Error::io(path.display(), e.to_string(), true).caused_by(e);
     if !path.is_file() {
         let expected =
-            "no regular file; expected a CSV file with the columns program, method, error_over_gap and seconds";
+            "not a regular file; expected a CSV file with the columns program, method, error_over_gap and seconds";
         return Err(Error::io(shown, expected.to_owned(), true));
     }
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(failed)?;
