@@ -3,10 +3,10 @@
 //!
 //! One process at a time writes into a folder. Files are first written into a folder of their own
 //! within it, onto the disk; only when all are there do they take the places of earlier results,
-//! and then [`MANIFEST`](manifest::MANIFEST) says what was asked, when it was done, which files
-//! belong to it, and what is recorded of each table. An interruption before that leaves the earlier
-//! results as they were. One amidst it leaves a manifest that says so, and the same request
-//! replaces everything that it lists.
+//! and then `request.json` says what was asked, when it was done, which files belong to it, and
+//! what is recorded of each table. An interruption before that leaves the earlier results as they
+//! were. One amidst it leaves a manifest that says so, and the same request replaces everything
+//! that it lists.
 
 #[cfg(test)]
 mod tests;
