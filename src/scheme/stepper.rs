@@ -57,6 +57,8 @@ pub struct Stepper {
     jumps: Option<Box<Jumps>>,
     /// The number of the next step in which a load jumps or with which a block ends.
     due: u64,
+    /// What becomes 0 at the end of a block, m.
+    tiny: f64,
 }
 
 impl Stepper {
@@ -86,8 +88,9 @@ impl Stepper {
         let contract = scheme.contract();
         let jumps = Jumps::new(&scene, contract.balance, step).map(Box::new);
         let (before, asking) = ((0, 0), Asking::here());
+        let tiny = TINY * scene.gap_scale();
         let mut stepper =
-            Self { scene, scheme, contract, step, backend, index: 0, before, asking, kernel, jumps, due: 0 };
+            Self { scene, scheme, contract, step, backend, index: 0, before, asking, kernel, jumps, due: 0, tiny };
         stepper.due = stepper.due_from(0);
         Ok(stepper)
     }
@@ -165,7 +168,7 @@ impl Stepper {
             _ => self.kernel.advance(index, extra)?,
         }
         if index & (BLOCK - 1) == BLOCK - 1 {
-            self.kernel.flush(TINY * self.scene.gap_scale());
+            self.kernel.flush(self.tiny);
         }
         self.due = self.due_from(index + 1);
         Ok(())

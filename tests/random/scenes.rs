@@ -34,9 +34,10 @@ fn gains_energy(scene: &Scene, scheme: &Scheme, step: f64) -> bool {
         || matches!(scheme, Scheme::Newmark | Scheme::Penalty { integrator: CentralDifference | Trapezoidal, .. })
 }
 
-/// Scenes of a kind in which a scheme is known to fail now and then: penalties of several degrees of
-/// freedom on stiff springs, whose step is made with the forces of the law at the displacement found
-/// rather than with those by which it was found, so that rounding may move a body across a face.
+/// Scenes of a kind in which a scheme is known to fail now and then: penalties of several degrees
+/// of freedom on stiff springs, whose step is made with the forces of the law at the displacement
+/// found rather than with those by which it was found, so that rounding may move a body across a
+/// face.
 fn is_known(scene: &Scene, scheme: &Scheme) -> bool {
     matches!(scheme, Scheme::Penalty { .. }) && scene.initial.q.len() > 1
 }
