@@ -101,8 +101,11 @@ def _read(path: Path) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.float64], l
     try:
         if not path.is_file():
             raise ValueError("not a regular file")
-        with np.load(path) as rows:
-            digests, values, texts = rows["digests"], rows["values"], rows["errors"].tolist()
+        # Opened here, since NumPy leaves open what it cannot read.
+        with path.open("rb") as file, zipfile.ZipFile(file):
+            file.seek(0)
+            with np.load(file) as rows:
+                digests, values, texts = rows["digests"], rows["values"], rows["errors"].tolist()
         if not len(digests) == len(values) == len(texts):
             raise ValueError("its arrays differ in length")
     except (OSError, EOFError, KeyError, ValueError, zipfile.BadZipFile, zlib.error) as error:
